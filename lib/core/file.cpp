@@ -1,0 +1,86 @@
+#include "core/file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <system_error>
+#include <utility>
+
+#include "core/error.h"
+
+namespace sonarsim {
+
+namespace {
+
+class Descriptor {
+  public:
+    Descriptor(const std::filesystem::path& path, int flags)
+        : fd_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {}
+    ~Descriptor() {
+        if (fd_ >= 0) ::close(fd_);
+    }
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
+
+    int get() const { return fd_; }
+    /// Closes and reports what close() says: some file systems report a full disk only here.
+    bool close() { return ::close(std::exchange(fd_, -1)) == 0; }
+
+  private:
+    int fd_;
+};
+
+std::string reason() { return std::generic_category().message(errno); }
+
+[[noreturn]] void fail_to_write(const std::filesystem::path& path) {
+    throw std::system_error(errno, std::generic_category(), "cannot write " + path.string());
+}
+
+}  // namespace
+
+std::string read_file(const std::filesystem::path& path, std::size_t limit) {
+    const Location where{path.string()};
+    Descriptor file(path, O_RDONLY | O_NONBLOCK);
+    if (file.get() < 0) throw InputError(where, "cannot open: " + reason());
+    struct stat status {};
+    if (::fstat(file.get(), &status) != 0) throw InputError(where, "cannot read: " + reason());
+    if (!S_ISREG(status.st_mode)) throw InputError(where, "is not a regular file");
+    const auto size = static_cast<std::size_t>(status.st_size);
+    if (size > limit) {
+        throw InputError(where, "is " + std::to_string(size) + " bytes long; at most " +
+                                    std::to_string(limit) + " are read");
+    }
+    std::string bytes(size, '\0');
+    std::size_t done = 0;
+    while (done < size) {
+        const ssize_t got = ::read(file.get(), bytes.data() + done, size - done);
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0) throw InputError(where, "cannot read: " + reason());
+        if (got == 0) break;
+        done += static_cast<std::size_t>(got);
+    }
+    bytes.resize(done);
+    return bytes;
+}
+
+std::filesystem::path temporary_name(const std::filesystem::path& path) {
+    return path.parent_path() / ("." + path.filename().string() + ".part");
+}
+
+void write_file(const std::filesystem::path& path, std::string_view bytes) {
+    const std::filesystem::path part = temporary_name(path);
+    Descriptor file(part, O_WRONLY | O_CREAT | O_TRUNC);
+    if (file.get() < 0) fail_to_write(part);
+    while (!bytes.empty()) {
+        const ssize_t put = ::write(file.get(), bytes.data(), bytes.size());
+        if (put < 0 && errno == EINTR) continue;
+        if (put < 0) fail_to_write(part);
+        bytes.remove_prefix(static_cast<std::size_t>(put));
+    }
+    if (!file.close()) fail_to_write(part);
+    if (::rename(part.c_str(), path.c_str()) != 0) fail_to_write(path);
+}
+
+}  // namespace sonarsim

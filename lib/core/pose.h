@@ -1,0 +1,24 @@
+#pragma once
+
+#include <Eigen/Geometry>
+
+namespace sonarsim {
+
+/// A rigid transform. A variable of this type is named T_to_from and takes coordinates of the
+/// frame `from` to the frame `to`: p_to = rotation * p_from + translation (metres).
+struct Pose {
+    Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();  ///< unit
+    Eigen::Vector3d translation = Eigen::Vector3d::Zero();         ///< m
+};
+
+/// T_a_c = T_a_b * T_b_c.
+inline Pose operator*(const Pose& T_a_b, const Pose& T_b_c) {
+    return {(T_a_b.rotation * T_b_c.rotation).normalized(),
+            T_a_b.rotation * T_b_c.translation + T_a_b.translation};
+}
+
+/// The rotation of roll about x, then pitch about y, then yaw about z, all about fixed axes:
+/// R = Rz(yaw) Ry(pitch) Rx(roll). Radians. With z up, positive pitch turns the bow down.
+Eigen::Quaterniond rotation_from_rpy(double roll, double pitch, double yaw);
+
+}  // namespace sonarsim

@@ -1,0 +1,113 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace sonarsim {
+
+// Every default of a mission stands here. Names carry the unit and are the YAML keys, too.
+
+struct WaterConfig {
+    double density_kg_m3 = 997.0;
+    double sound_speed_m_s = 1480.0;
+};
+
+struct SceneConfig {
+    std::filesystem::path file;       ///< .gltf or .glb
+    std::filesystem::path materials;  ///< CSV
+};
+
+/// Where a sonar sits on the vehicle, relative to the default mount of its kind.
+struct MountConfig {
+    std::array<double, 3> translation_m{};  ///< vehicle frame
+    std::array<double, 3> rpy_deg{};        ///< roll, pitch, yaw; applied after the default mount
+};
+
+/// The random terms of the sonar equations; zero switches a term off.
+struct NoiseConfig {
+    double range_lambda_m = 0.0;  ///< mean of the exponential range noise [7]
+    double scatterer_m = 0.02;    ///< edge of the cells that share one draw of the range noise
+    double add_sigma = 0.0;       ///< Rayleigh scale of the additive noise [11]
+    double mult_sigma = 0.0;      ///< standard deviation of the multiplicative noise [13]
+    bool scale_with_range = true;  ///< additive noise grows with r^2 and the lobe [10]
+    double lobe_sigma_deg = 0.0;   ///< width of that lobe; 0 means azimuth_deg / 8
+};
+
+enum class SonarKind { imaging };
+
+struct SonarConfig {
+    std::string name;  ///< the key below `sensors`
+    SonarKind kind = SonarKind::imaging;
+    MountConfig mount;
+    int every = 1;  ///< pings at every n-th pose
+    double azimuth_deg = 120.0;   ///< full angle
+    double elevation_deg = 20.0;  ///< full angle
+    double range_min_m = 0.1;
+    double range_max_m = 10.0;
+    int range_bins = 512;
+    int azimuth_bins = 512;
+    NoiseConfig noise;
+};
+
+/// Poses from a file, either taken as they are or interpolated at `rate_hz`.
+struct FileTrajectoryConfig {
+    std::filesystem::path file;  ///< .csv or TUM .txt/.tum
+    double rate_hz = 0.0;        ///< 0: one ping per pose of the file
+};
+
+struct WaypointConfig {
+    std::array<double, 3> position_m{};
+    std::array<double, 3> rpy_deg{};
+};
+
+/// Straight legs from waypoint to waypoint at constant speed.
+struct WaypointTrajectoryConfig {
+    std::vector<WaypointConfig> waypoints;
+    double speed_m_s = 1.0;
+    double rate_hz = 10.0;
+};
+
+/// Parallel lines over a rectangle, flown to and fro at constant height.
+struct LawnmowerTrajectoryConfig {
+    std::array<double, 2> area_min_m{};  ///< x, y
+    std::array<double, 2> area_max_m{};
+    double z_m = 0.0;           ///< world height of the vehicle
+    double heading_deg = 0.0;   ///< direction of the first line
+    double line_spacing_m = 5.0;
+    double speed_m_s = 1.0;
+    double rate_hz = 10.0;
+};
+
+using TrajectoryConfig =
+    std::variant<FileTrajectoryConfig, WaypointTrajectoryConfig, LawnmowerTrajectoryConfig>;
+
+struct AccuracyConfig {
+    double relative_l1 = 0.03;  ///< error goal of the noise-free image
+};
+
+struct OutputConfig {
+    std::filesystem::path folder;
+    bool polar = true;  ///< float32 .npy
+    bool image = true;  ///< 16-bit polar PNG
+    bool fan = true;    ///< 8-bit Cartesian PNG
+    bool meta = true;   ///< JSON per ping
+    int fan_width_px = 0;  ///< 0: twice the number of range bins, at most 1024
+    double full_scale = 1.0;  ///< intensity that becomes white
+};
+
+struct Mission {
+    std::string name;
+    std::uint64_t seed = 0;
+    WaterConfig water;
+    SceneConfig scene;
+    TrajectoryConfig trajectory;
+    std::vector<SonarConfig> sensors;  ///< in the order of the file
+    AccuracyConfig accuracy;
+    OutputConfig output;
+};
+
+}  // namespace sonarsim

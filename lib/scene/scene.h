@@ -1,0 +1,48 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace sonarsim {
+
+struct Water {
+    double density_kg_m3 = 997.0;
+    double sound_speed_m_s = 1480.0;
+};
+
+struct Material {
+    std::string name;
+    double density_kg_m3 = 0.0;
+    double sound_speed_m_s = 0.0;
+    float reflection = 0.0F;  ///< power reflection coefficient at normal incidence [4]
+};
+
+/// [4-5]: ((z - z_w) / (z + z_w))^2 with z = rho c.
+double power_reflection(double density_kg_m3, double sound_speed_m_s, const Water& water);
+
+/// What was left out of the scene while it was read, and why.
+struct SceneRejects {
+    std::uint64_t degenerate_triangles = 0;  ///< no area
+    std::uint64_t non_finite_triangles = 0;  ///< a vertex is NaN or infinite
+};
+
+/// The world as triangles, immutable once read. World frame: right-handed, z up, metres.
+/// Vertices are floats relative to `origin`, which lies near the scene's centre, so that
+/// UTM-sized coordinates lose nothing: p_world = origin + p.
+struct Scene {
+    Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+    std::vector<Eigen::Vector3f> vertices;
+    std::vector<std::array<std::uint32_t, 3>> triangles;   ///< indices into `vertices`
+    std::vector<std::uint32_t> triangle_material;          ///< index into `materials`
+    std::vector<std::uint32_t> triangle_instance;          ///< index into `instances`
+    std::vector<Material> materials;                       ///< those that the scene uses
+    std::vector<std::string> instances;                    ///< node names
+    Eigen::Vector3d bounds_min = Eigen::Vector3d::Zero();  ///< world frame
+    Eigen::Vector3d bounds_max = Eigen::Vector3d::Zero();
+    SceneRejects rejects;
+};
+
+}  // namespace sonarsim

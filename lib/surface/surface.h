@@ -1,0 +1,74 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/pose.h"
+
+namespace sonarsim {
+
+/// What a sonar looks at, in the sensor frame: x along the boresight, azimuth = atan2(y, x),
+/// elevation = asin(z / r).
+struct View {
+    double azimuth_rad = 0.0;    ///< full angle, centred on the boresight
+    double elevation_rad = 0.0;  ///< full angle
+    double range_min_m = 0.0;
+    double range_max_m = 0.0;
+    int range_bins = 0;
+    int beams = 0;             ///< azimuth bins; beam 0 is the most negative azimuth (starboard)
+    double relative_l1 = 0.0;  ///< error goal of the noise-free image
+
+    double bin_m() const { return (range_max_m - range_min_m) / range_bins; }
+};
+
+/// A piece of visible surface: a flat parallelogram that stands for `area_m2` of the scene.
+struct Sample {
+    Eigen::Vector3f position;  ///< centre, sensor frame, m
+    Eigen::Vector3f edge_u;    ///< half an edge of the footprint, sensor frame, m
+    Eigen::Vector3f edge_v;    ///< half the other edge
+    Eigen::Vector3f normal;    ///< unit, turned to face the sonar
+    float area_m2;
+    std::uint32_t material;  ///< index into Scene::materials
+    std::uint32_t instance;  ///< index into Scene::instances
+};
+
+/// What a ping sees, sorted by beam. No footprint crosses from one beam into another.
+struct Samples {
+    std::vector<Sample> items;
+    std::vector<std::uint32_t> beam_begin;  ///< beams + 1 offsets into `items`
+
+    std::span<const Sample> beam(int j) const {
+        return {items.data() + beam_begin[j], items.data() + beam_begin[j + 1]};
+    }
+};
+
+struct Ray {
+    Eigen::Vector3f origin;     ///< sensor frame, m
+    Eigen::Vector3f direction;  ///< unit
+};
+
+struct Hit {
+    float distance_m;  ///< along the ray; infinite when nothing is met
+    Eigen::Vector3f normal;  ///< unit, turned to face the ray's origin
+    std::uint32_t material;
+    std::uint32_t instance;
+};
+
+/// What a sonar can see of a scene. Engines are immutable to their callers: any number of threads
+/// may look at once, and what a call returns depends on its arguments alone.
+class Surface {
+  public:
+    virtual ~Surface() = default;
+
+    /// Fills `samples` with all surface that `view` sees from `T_world_sensor`, whether the range
+    /// suits the view or not.
+    virtual void look(const View& view, const Pose& T_world_sensor, Samples& samples) const = 0;
+
+    /// The first surface that each ray meets. `hits` has the length of `rays`.
+    virtual void hit(const Pose& T_world_sensor, std::span<const Ray> rays,
+                     std::span<Hit> hits) const = 0;
+};
+
+}  // namespace sonarsim
