@@ -1,0 +1,102 @@
+#include "core/csv.h"
+
+#include <utility>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "core/text.h"
+
+namespace sonarsim {
+
+namespace {
+
+constexpr std::size_t max_columns = 1024;
+
+/// A quoted field that starts at `line[at]`; leaves `at` behind the closing quote.
+std::string read_quoted(std::string_view line, std::size_t& at, const Location& where) {
+    std::string field;
+    for (++at; at < line.size(); ++at) {
+        if (line[at] != '"') {
+            field += line[at];
+        } else if (line.substr(at).starts_with("\"\"")) {
+            field += line[at++];
+        } else {
+            ++at;
+            return field;
+        }
+    }
+    throw InputError(where, "a quoted field is not closed on its line");
+}
+
+std::vector<std::string> split_fields(std::string_view line, const Location& where) {
+    std::vector<std::string> fields;
+    std::size_t at = 0;
+    while (true) {
+        if (fields.size() == max_columns) {
+            throw InputError(where, "more than " + std::to_string(max_columns) + " fields");
+        }
+        const std::size_t start = line.find_first_not_of(" \t", at);
+        if (start != std::string_view::npos && line[start] == '"') {
+            at = start;
+            std::string field = read_quoted(line, at, where);
+            const std::size_t next = line.find(',', at);
+            if (!trim(line.substr(at, next - at)).empty()) {
+                throw InputError(where, "text after the closing quote of field '" + field + "'");
+            }
+            fields.emplace_back(trim(field));
+            at = next;
+        } else {
+            const std::size_t next = line.find(',', at);
+            const std::string_view field = trim(line.substr(at, next - at));
+            if (field.find('"') != std::string_view::npos) {
+                throw InputError(where, "a quote inside of a field that does not start with one: " +
+                                            std::string(field));
+            }
+            fields.emplace_back(field);
+            at = next;
+        }
+        if (at == std::string_view::npos) return fields;
+        ++at;
+    }
+}
+
+}  // namespace
+
+CsvTable parse_csv(std::string_view text, const std::string& file_name) {
+    CsvTable table;
+    table.file = file_name;
+    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+    if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+    if (text.find('\0') != std::string_view::npos) {
+        throw InputError(Location{file_name}, "holds a zero byte; expected CSV as UTF-8 text");
+    }
+    for (int number = 1; !text.empty(); ++number) {
+        const std::size_t end = text.find('\n');
+        const std::string_view line = trim(text.substr(0, end));
+        text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+        if (line.empty() || line.front() == '#') continue;
+
+        const Location where{file_name, number};
+        CsvRow row{number, split_fields(line, where)};
+        if (table.header.fields.empty()) {
+            table.header = std::move(row);
+            continue;
+        }
+        if (row.fields.size() != table.header.fields.size()) {
+            throw InputError(where, std::to_string(row.fields.size()) + " fields, but the header " +
+                                        "in line " + std::to_string(table.header.line) + " has " +
+                                        std::to_string(table.header.fields.size()));
+        }
+        table.rows.push_back(std::move(row));
+    }
+    if (table.header.fields.empty()) {
+        throw InputError(Location{file_name}, "is empty; expected a header line");
+    }
+    return table;
+}
+
+CsvTable read_csv(const std::filesystem::path& path, std::size_t limit_bytes) {
+    return parse_csv(read_file(path, limit_bytes), path.string());
+}
+
+}  // namespace sonarsim

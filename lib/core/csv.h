@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sonarsim {
+
+struct CsvRow {
+    int line = 0;                     ///< in the file, from 1
+    std::vector<std::string> fields;  ///< blanks around them removed, quotes taken off
+};
+
+struct CsvTable {
+    std::string file;
+    CsvRow header;             ///< the first row that is not a comment
+    std::vector<CsvRow> rows;  ///< each with as many fields as the header
+};
+
+/// Reads comma-separated text. Lines that start with '#' and blank lines are skipped; a byte order
+/// mark and CRLF line ends are tolerated. A field may be quoted ("a, b"; "" is one quote), but may
+/// not span lines. InputError with file:line when there is no header, when a row has a field count
+/// other than the header's, when a quote is out of place, when there are more than 1024 columns,
+/// or when the text is binary.
+CsvTable parse_csv(std::string_view text, const std::string& file_name);
+
+/// parse_csv of a file of at most `limit_bytes`.
+CsvTable read_csv(const std::filesystem::path& path, std::size_t limit_bytes);
+
+}  // namespace sonarsim
