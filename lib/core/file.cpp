@@ -32,7 +32,9 @@ class Descriptor {
     int fd_;
 };
 
-std::string reason() { return std::generic_category().message(errno); }
+std::string reason() {
+    return std::generic_category().message(errno);
+}
 
 [[noreturn]] void fail_to_write(const std::filesystem::path& path) {
     throw std::system_error(errno, std::generic_category(), "cannot write " + path.string());

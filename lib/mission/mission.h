@@ -29,10 +29,10 @@ struct MountConfig {
 
 /// The random terms of the sonar equations; zero switches a term off.
 struct NoiseConfig {
-    double range_lambda_m = 0.0;  ///< mean of the exponential range noise [7]
-    double scatterer_m = 0.02;    ///< edge of the cells that share one draw of the range noise
-    double add_sigma = 0.0;       ///< Rayleigh scale of the additive noise [11]
-    double mult_sigma = 0.0;      ///< standard deviation of the multiplicative noise [13]
+    double range_lambda_m = 0.0;   ///< mean of the exponential range noise [7]
+    double scatterer_m = 0.02;     ///< edge of the cells that share one draw of the range noise
+    double add_sigma = 0.0;        ///< Rayleigh scale of the additive noise [11]
+    double mult_sigma = 0.0;       ///< standard deviation of the multiplicative noise [13]
     bool scale_with_range = true;  ///< additive noise grows with r^2 and the lobe [10]
     double lobe_sigma_deg = 0.0;   ///< width of that lobe; 0 means azimuth_deg / 8
 };
@@ -43,7 +43,7 @@ struct SonarConfig {
     std::string name;  ///< the key below `sensors`
     SonarKind kind = SonarKind::imaging;
     MountConfig mount;
-    int every = 1;  ///< pings at every n-th pose
+    int every = 1;                ///< pings at every n-th pose
     double azimuth_deg = 120.0;   ///< full angle
     double elevation_deg = 20.0;  ///< full angle
     double range_min_m = 0.1;
@@ -75,8 +75,8 @@ struct WaypointTrajectoryConfig {
 struct LawnmowerTrajectoryConfig {
     std::array<double, 2> area_min_m{};  ///< x, y
     std::array<double, 2> area_max_m{};
-    double z_m = 0.0;           ///< world height of the vehicle
-    double heading_deg = 0.0;   ///< direction of the first line
+    double z_m = 0.0;          ///< world height of the vehicle
+    double heading_deg = 0.0;  ///< direction of the first line
     double line_spacing_m = 5.0;
     double speed_m_s = 1.0;
     double rate_hz = 10.0;
@@ -91,11 +91,11 @@ struct AccuracyConfig {
 
 struct OutputConfig {
     std::filesystem::path folder;
-    bool polar = true;  ///< float32 .npy
-    bool image = true;  ///< 16-bit polar PNG
-    bool fan = true;    ///< 8-bit Cartesian PNG
-    bool meta = true;   ///< JSON per ping
-    int fan_width_px = 0;  ///< 0: twice the number of range bins, at most 1024
+    bool polar = true;        ///< float32 .npy
+    bool image = true;        ///< 16-bit polar PNG
+    bool fan = true;          ///< 8-bit Cartesian PNG
+    bool meta = true;         ///< JSON per ping
+    int fan_width_px = 0;     ///< 0: twice the number of range bins, at most 1024
     double full_scale = 1.0;  ///< intensity that becomes white
 };
 

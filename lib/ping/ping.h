@@ -7,11 +7,11 @@ namespace sonarsim {
 
 /// What a ping counted on its way, for the metadata.
 struct PingCounts {
-    std::uint64_t samples = 0;           ///< pieces of surface seen
-    std::uint64_t echoes = 0;            ///< footprints that were added into bins
-    std::uint64_t out_of_range = 0;      ///< of these, dropped: wholly outside the range
-    std::uint64_t occupied_bins = 0;     ///< bins that saw surface
-    std::uint64_t negative_pixels = 0;   ///< set to 0 after the pixel noise
+    std::uint64_t samples = 0;          ///< pieces of surface seen
+    std::uint64_t echoes = 0;           ///< footprints that were added into bins
+    std::uint64_t out_of_range = 0;     ///< of these, dropped: wholly outside the range
+    std::uint64_t occupied_bins = 0;    ///< bins that saw surface
+    std::uint64_t negative_pixels = 0;  ///< set to 0 after the pixel noise
 };
 
 /// Seconds spent in the stages of a ping.

@@ -50,7 +50,7 @@ struct Ray {
 };
 
 struct Hit {
-    float distance_m;  ///< along the ray; infinite when nothing is met
+    float distance_m;        ///< along the ray; infinite when nothing is met
     Eigen::Vector3f normal;  ///< unit, turned to face the ray's origin
     std::uint32_t material;
     std::uint32_t instance;

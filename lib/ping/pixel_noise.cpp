@@ -1,0 +1,73 @@
+#include "ping/pixel_noise.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/elementary.h"
+
+namespace sonarsim {
+
+namespace {
+
+constexpr std::size_t pairs_per_block = 128;
+
+using Lane = std::array<float, pairs_per_block>;
+
+/// Unit draws for as many pairs of pixels as a block holds.
+struct Draws {
+    std::array<Lane, 2> normal;
+    std::array<Lane, 2> rayleigh;
+};
+
+/// One Philox block serves two pixels: two Rayleigh draws by inversion, sqrt(-2 ln u), and two
+/// normal ones by Box and Muller.
+void draw(std::uint32_t row, std::uint32_t first_pair, PhiloxKey key, Draws& draws) {
+    for (std::uint32_t k = 0; k < pairs_per_block; ++k) {
+        const PhiloxBlock block = philox({first_pair + k, row, 0, 0}, key);
+        draws.rayleigh[0][k] = std::sqrt(-2.0F * natural_log(unit_float(block.x0)));
+        draws.rayleigh[1][k] = std::sqrt(-2.0F * natural_log(unit_float(block.x1)));
+        const float radius = std::sqrt(-2.0F * natural_log(unit_float(block.x2)));
+        const SinCosFloat angle =
+            sincos_small(static_cast<float>(2.0 * pi) * (unit_float(block.x3) - 0.5F));
+        draws.normal[0][k] = radius * angle.cos;
+        draws.normal[1][k] = radius * angle.sin;
+    }
+}
+
+int apply(std::span<float> pixels, const PixelNoise& noise, float range_scale, const float* lobe,
+          const Lane& normal, const Lane& rayleigh) {
+    int negative = 0;
+    for (std::size_t k = 0; k < pixels.size(); ++k) {
+        const float value = pixels[k] * (noise.gain + noise.mult_sigma * normal[k]) +
+                            range_scale * lobe[k] * noise.add_sigma * rayleigh[k];
+        negative += value < 0.0F ? 1 : 0;
+        pixels[k] = value < 0.0F ? 0.0F : value;
+    }
+    return negative;
+}
+
+}  // namespace
+
+std::uint64_t add_pixel_noise(std::span<float> image, const PixelNoise& noise, PhiloxKey key) {
+    const std::size_t columns = noise.lobe_scale.size();
+    std::uint64_t negative = 0;
+    Draws draws;
+    for (std::size_t row = 0; row < noise.range_scale.size(); ++row) {
+        const std::span<float> line = image.subspan(row * columns, columns);
+        for (std::size_t begin = 0; begin < columns; begin += 2 * pairs_per_block) {
+            draw(static_cast<std::uint32_t>(row), static_cast<std::uint32_t>(begin / 2), key,
+                 draws);
+            for (std::size_t lane = 0; lane < 2; ++lane) {
+                const std::size_t from = std::min(begin + lane * pairs_per_block, columns);
+                const std::size_t to = std::min(from + pairs_per_block, columns);
+                negative +=
+                    apply(line.subspan(from, to - from), noise, noise.range_scale[row],
+                          noise.lobe_scale.data() + from, draws.normal[lane], draws.rayleigh[lane]);
+            }
+        }
+    }
+    return negative;
+}
+
+}  // namespace sonarsim

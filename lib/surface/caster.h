@@ -1,0 +1,50 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace sonarsim {
+
+/// What is needed of a triangle once a ray has met it; 32 bytes, half a cache line.
+struct Facet {
+    Eigen::Vector3f vertex;  ///< one of its corners, scene-local, m
+    std::uint32_t material;
+    Eigen::Vector3f normal;  ///< unit
+    std::uint32_t instance;
+};
+
+/// Embree behind one question: which triangle does a ray meet first? Distances are not Embree's
+/// (its reciprocals differ between makers of processors) but come from the facet's plane.
+class Caster {
+  public:
+    static constexpr std::uint32_t nothing = 0xFFFFFFFFU;
+
+    /// Builds the tree over `scene`, which must outlive the caster.
+    explicit Caster(const Scene& scene);
+    ~Caster();
+    Caster(const Caster&) = delete;
+    Caster& operator=(const Caster&) = delete;
+
+    /// Rays from one point: `facets[i]` is what direction i meets within `reach_m`, or `nothing`.
+    /// Neighbours in the list should be neighbours in space. Scene-local frame.
+    void cast(const Eigen::Vector3f& origin, std::span<const Eigen::Vector3f> directions,
+              float reach_m, std::span<std::uint32_t> facets) const;
+
+    /// Rays from many points.
+    void cast(std::span<const Eigen::Vector3f> origins, std::span<const Eigen::Vector3f> directions,
+              std::span<std::uint32_t> facets) const;
+
+    const Facet& facet(std::uint32_t index) const { return facets_[index]; }
+
+  private:
+    struct Embree;
+    std::unique_ptr<Embree> embree_;
+    std::vector<Facet> facets_;
+};
+
+}  // namespace sonarsim
