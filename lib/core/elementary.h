@@ -94,7 +94,8 @@ inline float natural_log(float x) {
     const float m = std::bit_cast<float>(bits - exponent * (1 << 23));
     const float s = (m - 1.0F) / (m + 1.0F);
     const float s2 = s * s;
-    const float series = 1.0F + s2 * (1.0F / 3 + s2 * (1.0F / 5 + s2 * (1.0F / 7 + s2 / 9)));
+    const float series =
+        1.0F + s2 * (1.0F / 3 + s2 * (1.0F / 5 + s2 * (1.0F / 7 + s2 * (1.0F / 9))));
     return 2.0F * s * series + static_cast<float>(exponent) * 0.69314718056F;
 }
 
@@ -107,15 +108,13 @@ struct SinCosFloat {
 /// the half angle, doubled once.
 inline SinCosFloat sincos_small(float x) {
     const float y = 0.5F * x;
-    const float y2 = y * y;
-    const float s =
-        y * (1.0F -
-             y2 / 6 * (1.0F - y2 / 20 * (1.0F - y2 / 42 * (1.0F - y2 / 72 * (1.0F - y2 / 110)))));
-    const float c =
-        1.0F -
-        y2 / 2 *
-            (1.0F -
-             y2 / 12 * (1.0F - y2 / 30 * (1.0F - y2 / 56 * (1.0F - y2 / 90 * (1.0F - y2 / 132)))));
+    const float t = y * y;
+    constexpr float s3 = -1.0F / 6, s5 = 1.0F / 120, s7 = -1.0F / 5040, s9 = 1.0F / 362880,
+                    s11 = -1.0F / 39916800;
+    constexpr float c2 = -1.0F / 2, c4 = 1.0F / 24, c6 = -1.0F / 720, c8 = 1.0F / 40320,
+                    c10 = -1.0F / 3628800, c12 = 1.0F / 479001600;
+    const float s = y * (1.0F + t * (s3 + t * (s5 + t * (s7 + t * (s9 + t * s11)))));
+    const float c = 1.0F + t * (c2 + t * (c4 + t * (c6 + t * (c8 + t * (c10 + t * c12)))));
     return {2.0F * s * c, 1.0F - 2.0F * s * s};
 }
 

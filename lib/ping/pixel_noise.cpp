@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "core/elementary.h"
 
@@ -23,13 +24,16 @@ struct Draws {
 /// One Philox block serves two pixels: two Rayleigh draws by inversion, sqrt(-2 ln u), and two
 /// normal ones by Box and Muller.
 void draw(std::uint32_t row, std::uint32_t first_pair, PhiloxKey key, Draws& draws) {
-    for (std::uint32_t k = 0; k < pairs_per_block; ++k) {
-        const PhiloxBlock block = philox({first_pair + k, row, 0, 0}, key);
-        draws.rayleigh[0][k] = std::sqrt(-2.0F * natural_log(unit_float(block.x0)));
-        draws.rayleigh[1][k] = std::sqrt(-2.0F * natural_log(unit_float(block.x1)));
-        const float radius = std::sqrt(-2.0F * natural_log(unit_float(block.x2)));
+    std::array<std::uint32_t, pairs_per_block> x0, x1, x2{}, x3{};
+    std::iota(x0.begin(), x0.end(), first_pair);
+    x1.fill(row);
+    philox_batch(x0.data(), x1.data(), x2.data(), x3.data(), pairs_per_block, key);
+    for (std::size_t k = 0; k < pairs_per_block; ++k) {
+        draws.rayleigh[0][k] = std::sqrt(-2.0F * natural_log(unit_float(x0[k])));
+        draws.rayleigh[1][k] = std::sqrt(-2.0F * natural_log(unit_float(x1[k])));
+        const float radius = std::sqrt(-2.0F * natural_log(unit_float(x2[k])));
         const SinCosFloat angle =
-            sincos_small(static_cast<float>(2.0 * pi) * (unit_float(block.x3) - 0.5F));
+            sincos_small(static_cast<float>(2.0 * pi) * (unit_float(x3[k]) - 0.5F));
         draws.normal[0][k] = radius * angle.cos;
         draws.normal[1][k] = radius * angle.sin;
     }

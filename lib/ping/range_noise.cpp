@@ -1,27 +1,39 @@
 #include "ping/range_noise.h"
 
+#include <algorithm>
+#include <array>
+
 #include "core/elementary.h"
 
 namespace sonarsim {
 
+namespace {
+
+constexpr std::size_t block = 128;
+
+}  // namespace
+
 void add_range_noise(Echoes& echoes, float lambda_m, bool fades, PhiloxKey key) {
-    const std::size_t count = echoes.size();
-    const std::int32_t* const x = echoes.cell_x.data();
-    const std::int32_t* const y = echoes.cell_y.data();
-    const std::int32_t* const z = echoes.cell_z.data();
-    float* const range = echoes.range_m.data();
-    float* const intensity = echoes.intensity.data();
+    std::array<std::uint32_t, block> x{};
+    std::array<std::uint32_t, block> y{};
+    std::array<std::uint32_t, block> z{};
+    std::array<std::uint32_t, block> last{};
     const float keep = fades ? 0.0F : 1.0F;
-#pragma GCC ivdep
-    for (std::size_t k = 0; k < count; ++k) {
-        const PhiloxBlock block =
-            philox({static_cast<std::uint32_t>(x[k]), static_cast<std::uint32_t>(y[k]),
-                    static_cast<std::uint32_t>(z[k]), 0},
-                   key);
-        const float u = unit_float(block.x0);
-        range[k] -= lambda_m * natural_log(u);
-        // w = -lambda ln u, so that exp(-w / lambda) is u itself.
-        intensity[k] *= keep + (1.0F - keep) * u;
+    for (std::size_t begin = 0; begin < echoes.size(); begin += block) {
+        const std::size_t count = std::min(block, echoes.size() - begin);
+        std::copy_n(echoes.cell_x.begin() + begin, count, x.begin());
+        std::copy_n(echoes.cell_y.begin() + begin, count, y.begin());
+        std::copy_n(echoes.cell_z.begin() + begin, count, z.begin());
+        last.fill(0);
+        philox_batch(x.data(), y.data(), z.data(), last.data(), (count + 7) / 8 * 8, key);
+        float* const range = echoes.range_m.data() + begin;
+        float* const intensity = echoes.intensity.data() + begin;
+        for (std::size_t k = 0; k < count; ++k) {
+            // w = -lambda ln u, so that exp(-w / lambda) is u itself.
+            const float u = unit_float(x[k]);
+            range[k] -= lambda_m * natural_log(u);
+            intensity[k] *= keep + (1.0F - keep) * u;
+        }
     }
 }
 
