@@ -40,6 +40,18 @@ std::string reason() {
     throw std::system_error(errno, std::generic_category(), "cannot write " + path.string());
 }
 
+void write_bytes(const std::filesystem::path& path, std::string_view bytes) {
+    Descriptor file(path, O_WRONLY | O_CREAT | O_TRUNC);
+    if (file.get() < 0) fail_to_write(path);
+    while (!bytes.empty()) {
+        const ssize_t put = ::write(file.get(), bytes.data(), bytes.size());
+        if (put < 0 && errno == EINTR) continue;
+        if (put < 0) fail_to_write(path);
+        bytes.remove_prefix(static_cast<std::size_t>(put));
+    }
+    if (!file.close()) fail_to_write(path);
+}
+
 }  // namespace
 
 std::string read_file(const std::filesystem::path& path, std::size_t limit) {
@@ -73,16 +85,13 @@ std::filesystem::path temporary_name(const std::filesystem::path& path) {
 
 void write_file(const std::filesystem::path& path, std::string_view bytes) {
     const std::filesystem::path part = temporary_name(path);
-    Descriptor file(part, O_WRONLY | O_CREAT | O_TRUNC);
-    if (file.get() < 0) fail_to_write(part);
-    while (!bytes.empty()) {
-        const ssize_t put = ::write(file.get(), bytes.data(), bytes.size());
-        if (put < 0 && errno == EINTR) continue;
-        if (put < 0) fail_to_write(part);
-        bytes.remove_prefix(static_cast<std::size_t>(put));
+    try {
+        write_bytes(part, bytes);
+        if (::rename(part.c_str(), path.c_str()) != 0) fail_to_write(path);
+    } catch (...) {
+        ::unlink(part.c_str());
+        throw;
     }
-    if (!file.close()) fail_to_write(part);
-    if (::rename(part.c_str(), path.c_str()) != 0) fail_to_write(path);
 }
 
 }  // namespace sonarsim

@@ -13,7 +13,7 @@ namespace sonarsim {
 std::string read_file(const std::filesystem::path& path, std::size_t limit);
 
 /// Writes to a temporary name beside `path` and renames it: a reader sees the old file or the
-/// whole new one. std::system_error when the disk does not take it.
+/// whole new one. std::system_error when the disk does not take it; no temporary file is left then.
 void write_file(const std::filesystem::path& path, std::string_view bytes);
 
 /// The name that a file bears until it is whole: a hidden sibling of `path`, so that a rename

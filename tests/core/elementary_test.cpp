@@ -1,0 +1,86 @@
+#include "core/elementary.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace sonarsim;
+
+// The C library's functions in long double serve as the truth here.
+
+TEST_SUITE("core") {
+    TEST_CASE("elementary: sine and cosine are off by less than 1e-15") {
+        double worst = 0.0;
+        const auto probe = [&](double x) {
+            const SinCos result = sincos(x);
+            worst = std::max(worst,
+                             static_cast<double>(std::fabs(result.sin - std::sin((long double)x))));
+            worst = std::max(worst,
+                             static_cast<double>(std::fabs(result.cos - std::cos((long double)x))));
+        };
+        for (int i = -20000; i <= 20000; ++i)
+            probe(i * 0.001);
+        // Up to the 1e5 rad that are promised; 4.99 keeps the steps off any multiple of pi.
+        for (int i = -20000; i <= 20000; ++i)
+            probe(i * 4.99);
+        // Where the reduction changes quadrant, and one step of double to either side.
+        for (int k = -1000; k <= 1000; ++k) {
+            const double x = k * (pi / 4.0);
+            probe(x);
+            probe(std::nextafter(x, 1e9));
+            probe(std::nextafter(x, -1e9));
+        }
+        CHECK(worst < 1e-15);
+        CHECK(sincos(0.0).sin == 0.0);
+        CHECK(sincos(0.0).cos == 1.0);
+    }
+
+    TEST_CASE("elementary: arctan2 is off by less than 1e-15 all around") {
+        double worst = 0.0;
+        for (int i = 0; i < 40000; ++i) {
+            const double angle = i * (2.0 * pi / 40000.0);
+            for (const double r : {1e-300, 1e-3, 1.0, 7.3, 1e300}) {
+                const double y = r * std::sin(angle);
+                const double x = r * std::cos(angle);
+                const long double truth = std::atan2((long double)y, (long double)x);
+                worst = std::max(worst, static_cast<double>(std::fabs(arctan2(y, x) - truth)));
+            }
+        }
+        CHECK(worst < 1e-15);
+    }
+
+    TEST_CASE("elementary: arctan2 on the axes, the diagonals and at the origin") {
+        CHECK(arctan2(0.0, 1.0) == 0.0);
+        CHECK(arctan2(1.0, 0.0) == doctest::Approx(pi / 2).epsilon(1e-15));
+        CHECK(arctan2(-1.0, 0.0) == doctest::Approx(-pi / 2).epsilon(1e-15));
+        // The cut runs along the negative x axis: a zero's sign says on which side of it.
+        CHECK(arctan2(0.0, -1.0) == doctest::Approx(pi).epsilon(1e-15));
+        CHECK(arctan2(-0.0, -1.0) == doctest::Approx(-pi).epsilon(1e-15));
+        CHECK(std::signbit(arctan2(-0.0, 1.0)));
+        CHECK_FALSE(std::signbit(arctan2(0.0, 1.0)));
+        CHECK(arctan2(1.0, 1.0) == doctest::Approx(pi / 4).epsilon(1e-15));
+        CHECK(arctan2(1.0, -1.0) == doctest::Approx(3 * pi / 4).epsilon(1e-15));
+        CHECK(arctan2(-1.0, -1.0) == doctest::Approx(-3 * pi / 4).epsilon(1e-15));
+        CHECK(arctan2(-1.0, 1.0) == doctest::Approx(-pi / 4).epsilon(1e-15));
+        for (const double y : {0.0, -0.0}) {
+            for (const double x : {0.0, -0.0})
+                CHECK(arctan2(y, x) == 0.0);
+        }
+        // What a bin's edge test relies on: never beyond [-pi, pi].
+        CHECK(arctan2(1e-300, -1.0) <= pi);
+        CHECK(arctan2(-1e-300, -1.0) >= -pi);
+    }
+
+    TEST_CASE("elementary: arcsin and arccos are off by less than 1e-15") {
+        double worst = 0.0;
+        for (int i = -10000; i <= 10000; ++i) {
+            const double x = i / 10000.0;
+            worst = std::max(worst,
+                             static_cast<double>(std::fabs(arcsin(x) - std::asin((long double)x))));
+            worst = std::max(worst,
+                             static_cast<double>(std::fabs(arccos(x) - std::acos((long double)x))));
+        }
+        CHECK(worst < 1e-15);
+    }
+}

@@ -1,0 +1,61 @@
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <string_view>
+
+#include "core/error.h"
+#include "trajectory/files.h"
+#include "trajectory/interpolate.h"
+
+// The first byte chooses the reader: 't' for TUM, anything else for CSV. What a reader accepts must
+// keep the promises of Trajectory and survive writing, reading and resampling.
+
+using namespace sonarsim;
+
+namespace {
+
+void require(bool holds) {
+    if (!holds) std::abort();
+}
+
+void check_promises(const Trajectory& poses) {
+    require(!poses.empty());
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+        require(std::isfinite(poses[i].t_s));
+        require(i == 0 || poses[i].t_s > poses[i - 1].t_s);
+        require(poses[i].T_world_vehicle.translation.allFinite());
+        require(std::fabs(poses[i].T_world_vehicle.rotation.norm() - 1.0) < 1e-14);
+    }
+}
+
+void check_round_trip(const Trajectory& poses) {
+    const std::string written = write_tum(poses);
+    const Trajectory again = parse_tum(written, "again.tum");
+    require(again.size() == poses.size() && write_tum(again) == written);
+}
+
+void check_resampling(const Trajectory& poses) {
+    const double duration = poses.back().t_s - poses.front().t_s;
+    try {
+        check_promises(resample(poses, duration > 0.0 ? 7.0 / duration : 1.0));
+    } catch (const InputError&) {
+        // Times that lie too close together for the rate are refused.
+    }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    if (size == 0) return 0;
+    const std::string_view text(reinterpret_cast<const char*>(data) + 1, size - 1);
+    Trajectory poses;
+    try {
+        poses = data[0] == 't' ? parse_tum(text, "in.tum") : parse_csv_trajectory(text, "in.csv");
+    } catch (const InputError&) {
+        return 0;
+    }
+    check_promises(poses);
+    check_round_trip(poses);
+    check_resampling(poses);
+    return 0;
+}

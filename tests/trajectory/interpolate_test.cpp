@@ -1,0 +1,153 @@
+#include "trajectory/interpolate.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "core/error.h"
+#include "core/units.h"
+
+using namespace sonarsim;
+
+namespace {
+
+Eigen::Quaterniond yawed(double yaw_deg) {
+    return rotation_from_rpy(0, 0, radians(yaw_deg));
+}
+
+/// The angle of the rotation that takes one attitude to the other, degrees.
+double angle_between(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b) {
+    const double w = std::min(1.0, std::abs(a.coeffs().dot(b.coeffs())));
+    return degrees(2.0 * std::acos(w));
+}
+
+/// How far apart two attitudes are, q and -q being the same one; good for tiny differences.
+double distance(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b) {
+    return std::min((a.coeffs() - b.coeffs()).norm(), (a.coeffs() + b.coeffs()).norm());
+}
+
+Trajectory two_poses(double t0, double t1) {
+    return {{t0, {yawed(0), {0, 0, 0}}}, {t1, {yawed(90), {10, -20, 30}}}};
+}
+
+}  // namespace
+
+TEST_SUITE("trajectory") {
+    TEST_CASE("slerp turns at a constant rate") {
+        for (const double turn : {1e-5, 1.0, 90.0, 170.0, 179.9}) {
+            CAPTURE(turn);
+            for (const double f : {0.0, 0.1, 0.5, 0.75, 1.0}) {
+                CAPTURE(f);
+                CHECK(distance(slerp(yawed(20), yawed(20 + turn), f), yawed(20 + f * turn)) <
+                      1e-15);
+            }
+        }
+    }
+
+    TEST_CASE("slerp takes the shorter arc, whatever the signs of the quaternions") {
+        // 350 -> 10 degrees runs over 0, not over 180.
+        CHECK(distance(slerp(yawed(350), yawed(10), 0.5), yawed(0)) < 1e-15);
+        const Eigen::Quaterniond minus(-yawed(90).coeffs());
+        CHECK(distance(slerp(yawed(0), minus, 0.5), yawed(45)) < 1e-15);
+        CHECK(angle_between(slerp(yawed(-170), yawed(170), 0.25), yawed(-175)) < 1e-6);
+    }
+
+    TEST_CASE("slerp of equal and opposite quaternions stays put and is unit") {
+        const Eigen::Quaterniond q = rotation_from_rpy(0.3, -0.4, 2.0);
+        const Eigen::Quaterniond minus(-q.coeffs());
+        for (const double f : {0.0, 0.3, 1.0}) {
+            CHECK(distance(slerp(q, q, f), q) < 1e-15);
+            CHECK(distance(slerp(q, minus, f), q) < 1e-15);
+        }
+        const Eigen::Quaterniond half_turn = slerp(yawed(0), yawed(180), 0.5);
+        CHECK(std::abs(half_turn.norm() - 1.0) < 1e-15);
+        CHECK(angle_between(half_turn, yawed(0)) == doctest::Approx(90));
+    }
+
+    TEST_CASE("slerp agrees with Eigen's on general rotations") {
+        for (int i = 0; i < 200; ++i) {
+            const Eigen::Quaterniond a = rotation_from_rpy(0.1 * i, -0.2 * i, 0.3 * i);
+            const Eigen::Quaterniond b = rotation_from_rpy(0.5 * i, 0.7 * i, -1.1 * i);
+            CHECK(distance(slerp(a, b, 0.37), a.slerp(0.37, b)) < 1e-14);
+        }
+    }
+
+    TEST_CASE("interpolate: linear position, slerp attitude, own poses at own times") {
+        const Trajectory poses = two_poses(100.0, 104.0);
+        const TimedPose quarter = interpolate(poses, 101.0);
+        CHECK(quarter.t_s == 101.0);
+        CHECK(quarter.T_world_vehicle.translation == Eigen::Vector3d(2.5, -5, 7.5));
+        CHECK(distance(quarter.T_world_vehicle.rotation, yawed(22.5)) < 1e-15);
+        for (const TimedPose& pose : poses) {
+            const TimedPose same = interpolate(poses, pose.t_s);
+            CHECK(same.T_world_vehicle.translation == pose.T_world_vehicle.translation);
+            CHECK(same.T_world_vehicle.rotation.coeffs() == pose.T_world_vehicle.rotation.coeffs());
+        }
+    }
+
+    TEST_CASE("interpolate does not reach beyond the trajectory") {
+        const Trajectory poses = two_poses(100.0, 104.0);
+        CHECK_THROWS_WITH_AS(interpolate(poses, 99.5),
+                             "no pose at 99.5 s: the trajectory runs from 100 to 104 s",
+                             InputError);
+        CHECK_THROWS_AS(interpolate(poses, 104.5), InputError);
+        CHECK_THROWS_AS(interpolate(poses, std::numeric_limits<double>::quiet_NaN()), InputError);
+        CHECK_THROWS_WITH_AS(interpolate({}, 0.0), "a trajectory needs at least one pose",
+                             InputError);
+    }
+
+    TEST_CASE("resample: times are t0 + k / rate, not a running sum") {
+        const Trajectory poses = resample(two_poses(1.0, 101.0), 10.0);
+        REQUIRE(poses.size() == 1001);
+        for (std::size_t k = 0; k < poses.size(); ++k) {
+            CHECK(poses[k].t_s == 1.0 + static_cast<double>(k) / 10.0);
+        }
+        CHECK(poses[500].T_world_vehicle.translation == Eigen::Vector3d(5, -10, 15));
+        CHECK(distance(poses[500].T_world_vehicle.rotation, yawed(45)) < 1e-15);
+    }
+
+    TEST_CASE("resample: the last pose counts when it lies on the grid") {
+        CHECK(resample(two_poses(0.0, 1.0), 10.0).size() == 11);
+        CHECK(resample(two_poses(0.0, 0.95), 10.0).size() == 10);
+        CHECK(resample(two_poses(0.0, 1.05), 10.0).size() == 11);
+        // 0.3 is less than 3 * 0.1 in doubles, and 2e-10 s short of the grid is on it; 2e-9 is not.
+        CHECK(resample(two_poses(0.0, 0.3), 10.0).size() == 4);
+        CHECK(resample(two_poses(0.0, 1.0 - 2e-10), 10.0).size() == 11);
+        CHECK(resample(two_poses(0.0, 1.0 - 2e-9), 10.0).size() == 10);
+        // Times since 1970 are only good to 2.4e-7 s; the pose at the end is the last one itself.
+        const Trajectory epoch = resample(two_poses(1700000000.1, 1700000000.4), 10.0);
+        REQUIRE(epoch.size() == 4);
+        CHECK(
+            epoch.back().T_world_vehicle.translation.isApprox(Eigen::Vector3d(10, -20, 30), 1e-6));
+    }
+
+    TEST_CASE("resample: a rate below one per trajectory, and a single pose") {
+        CHECK(resample(two_poses(0.0, 1.0), 0.5).size() == 1);
+        const Trajectory one{{5.0, {yawed(30), {1, 2, 3}}}};
+        const Trajectory poses = resample(one, 10.0);
+        REQUIRE(poses.size() == 1);
+        CHECK(poses[0].t_s == 5.0);
+        CHECK(poses[0].T_world_vehicle.rotation.coeffs() == yawed(30).coeffs());
+    }
+
+    TEST_CASE("resample refuses bad rates and too many poses") {
+        const Trajectory poses = two_poses(0.0, 1e6);
+        for (const double rate : {0.0, -1.0, std::numeric_limits<double>::infinity(),
+                                  std::numeric_limits<double>::quiet_NaN()}) {
+            CHECK_THROWS_AS(resample(poses, rate), InputError);
+        }
+        CHECK_THROWS_WITH_AS(resample(poses, -1.0), "rate_hz must be a number above 0, not -1",
+                             InputError);
+        CHECK_THROWS_WITH_AS(
+            resample(poses, 1000.0),
+            "rate_hz of 1000 gives 1000000001 poses over 1e+06 s; at most 10000000 are allowed",
+            InputError);
+        // At 1.7e9 s neighbouring doubles are 2.4e-7 s apart: 10 MHz would repeat times.
+        CHECK_THROWS_WITH_AS(resample(two_poses(1.7e9, 1.7e9 + 0.5), 1e7),
+                             "rate_hz of 1e+07 is too high: near 1700000000.5 s the times of its "
+                             "poses cannot be told apart",
+                             InputError);
+        CHECK_THROWS_AS(resample({}, 1.0), InputError);
+    }
+}

@@ -1,0 +1,228 @@
+#include "trajectory/patterns.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "core/error.h"
+#include "core/units.h"
+
+using namespace sonarsim;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+namespace {
+
+Waypoint at(double x, double y, double z, double yaw_deg = 0.0) {
+    return {{x, y, z}, rotation_from_rpy(0, 0, radians(yaw_deg))};
+}
+
+Vector3d position(const TimedPose& pose) {
+    return pose.T_world_vehicle.translation;
+}
+
+/// The heading of the bow, degrees in (-180, 180].
+double heading(const TimedPose& pose) {
+    const Vector3d bow = pose.T_world_vehicle.rotation * Vector3d::UnitX();
+    return degrees(std::atan2(bow.y(), bow.x()));
+}
+
+/// The angle from b to a, degrees in [-180, 180].
+double turn(double a, double b) {
+    return std::remainder(a - b, 360.0);
+}
+
+/// Lines of a survey over 40 x 20 m at 1 m/s and 10 Hz.
+Lawnmower survey(double heading_deg, double spacing) {
+    return {{-10, 5}, {30, 25}, 3.0, heading_deg, spacing, 1.0, 10.0};
+}
+
+}  // namespace
+
+TEST_SUITE("trajectory") {
+    TEST_CASE("waypoints: constant speed along straight legs") {
+        // 3-4-5: 5 m, then 10 m down; at 2 m/s they take 2.5 s and 5 s.
+        const std::vector<Waypoint> points{at(0, 0, 0), at(3, 4, 0), at(3, 4, -10)};
+        const Trajectory poses = follow_waypoints(points, 2.0, 4.0);
+        REQUIRE(poses.size() == 31);
+        CHECK(poses.front().t_s == 0.0);
+        CHECK(poses.back().t_s == 7.5);
+        CHECK((position(poses[5]) - Vector3d(1.5, 2, 0)).norm() < 1e-14);
+        CHECK((position(poses[10]) - Vector3d(3, 4, 0)).norm() < 1e-14);
+        CHECK((position(poses[20]) - Vector3d(3, 4, -5)).norm() < 1e-14);
+        for (std::size_t k = 1; k < poses.size(); ++k) {
+            CHECK((position(poses[k]) - position(poses[k - 1])).norm() ==
+                  doctest::Approx(0.5).epsilon(1e-12));
+        }
+    }
+
+    TEST_CASE("waypoints: the attitude turns along the leg") {
+        const std::vector<Waypoint> points{at(0, 0, 0, 0), at(10, 0, 0, 90), at(20, 0, 0, 90)};
+        const Trajectory poses = follow_waypoints(points, 1.0, 1.0);
+        REQUIRE(poses.size() == 21);
+        CHECK(heading(poses[5]) == doctest::Approx(45));
+        CHECK(heading(poses[10]) == doctest::Approx(90));
+        CHECK(heading(poses[15]) == doctest::Approx(90));
+    }
+
+    TEST_CASE("waypoints: one is one pose; none, none apart and nonsense are errors") {
+        CHECK(follow_waypoints(std::vector<Waypoint>{at(1, 2, 3)}, 1.0, 10.0).size() == 1);
+        CHECK_THROWS_WITH_AS(follow_waypoints({}, 1.0, 10.0),
+                             "a trajectory needs at least one pose", InputError);
+        const std::vector<Waypoint> on_the_spot{at(0, 0, 0), at(1, 0, 0), at(1, 0, 0, 90)};
+        CHECK_THROWS_WITH_AS(follow_waypoints(on_the_spot, 1.0, 10.0),
+                             "waypoint 3 stands where the one before it does: a leg needs a length "
+                             "(turn along a leg, not on the spot)",
+                             InputError);
+
+        const double nan = std::numeric_limits<double>::quiet_NaN();
+        const std::vector<Waypoint> points{at(0, 0, 0), at(1, 0, 0)};
+        for (const double speed : {0.0, -1.0, nan, std::numeric_limits<double>::infinity()}) {
+            CHECK_THROWS_AS(follow_waypoints(points, speed, 10.0), InputError);
+        }
+        CHECK_THROWS_WITH_AS(follow_waypoints(points, -1.0, 10.0),
+                             "speed_m_s must be a number above 0, not -1", InputError);
+        CHECK_THROWS_AS(follow_waypoints(points, 1.0, 0.0), InputError);
+        CHECK_THROWS_WITH_AS(
+            follow_waypoints(std::vector<Waypoint>{at(0, 0, 0), at(0, nan, 0)}, 1.0, 10.0),
+            "position_m of waypoint 2 must be between -1e+09 and 1e+09, not nan", InputError);
+        CHECK_THROWS_WITH_AS(
+            follow_waypoints(std::vector<Waypoint>{{{0, 0, 0}, {2, 0, 0, 0}}}, 1.0, 10.0),
+            "the attitude of waypoint 1 is not a unit quaternion", InputError);
+        // A kilometre at a micrometre a second is 1e9 s.
+        CHECK_THROWS_AS(
+            follow_waypoints(std::vector<Waypoint>{at(0, 0, 0), at(1000, 0, 0)}, 1e-6, 10.0),
+            InputError);
+    }
+
+    TEST_CASE("lawnmower along x: lines, steps, headings and times") {
+        // 20 m across in strips of 5 m: lines at y = 7.5, 12.5, 17.5, 22.5, each 40 m long.
+        // At 1 m/s: 4 * 40 s + 3 * 5 s = 175 s, at 10 Hz 1751 poses.
+        const Trajectory poses = lawnmower(survey(0.0, 5.0));
+        REQUIRE(poses.size() == 1751);
+        CHECK((position(poses[0]) - Vector3d(-10, 7.5, 3)).norm() < 1e-12);
+        CHECK((position(poses[400]) - Vector3d(30, 7.5, 3)).norm() < 1e-12);
+        CHECK((position(poses[450]) - Vector3d(30, 12.5, 3)).norm() < 1e-12);
+        CHECK((position(poses[850]) - Vector3d(-10, 12.5, 3)).norm() < 1e-12);
+        CHECK((position(poses[1750]) - Vector3d(-10, 22.5, 3)).norm() < 1e-12);
+        CHECK(heading(poses[200]) == doctest::Approx(0).epsilon(1e-12));
+        CHECK(std::abs(turn(heading(poses[650]), 180)) < 1e-9);
+        CHECK(heading(poses[1100]) == doctest::Approx(0).epsilon(1e-12));
+        // Half-way through a step the bow points to where the survey goes: +y. The first turn is
+        // to port, the second to starboard.
+        CHECK(heading(poses[425]) == doctest::Approx(90));
+        CHECK(heading(poses[410]) == doctest::Approx(36));
+        CHECK(heading(poses[875]) == doctest::Approx(90));
+        CHECK(heading(poses[860]) == doctest::Approx(144));
+    }
+
+    TEST_CASE("lawnmower: strips that do not fit exactly get equal margins") {
+        // 20 m in strips of 8 m: three, at 15 - 8, 15 and 15 + 8.
+        const Trajectory poses = lawnmower(survey(0.0, 8.0));
+        CHECK(position(poses.front()).y() == doctest::Approx(7));
+        CHECK(position(poses.back()).y() == doctest::Approx(23));
+        // One strip wider than the area: one line along its middle, 40 s.
+        const Trajectory one = lawnmower(survey(0.0, 50.0));
+        CHECK(one.size() == 401);
+        CHECK(position(one.front()).y() == doctest::Approx(15));
+        // 2.1 / 0.7 is a little more than 3 in doubles; that must not make four strips. Three
+        // lines of 10 m and two steps of 0.7 m take 31.4 s.
+        const Lawnmower exact{{0, 0}, {10, 2.1}, 0.0, 0.0, 0.7, 1.0, 10.0};
+        CHECK(lawnmower(exact).size() == 315);
+    }
+
+    TEST_CASE("lawnmower along y: the first line lies furthest to starboard") {
+        const Trajectory poses = lawnmower(survey(90.0, 10.0));
+        // Heading +y, starboard is +x: 40 m in four strips, the first at x = 25, from y = 5.
+        CHECK((position(poses.front()) - Vector3d(25, 5, 3)).norm() < 1e-9);
+        CHECK(heading(poses.front()) == doctest::Approx(90));
+        CHECK((position(poses[200]) - Vector3d(25, 25, 3)).norm() < 1e-9);
+        CHECK((position(poses[300]) - Vector3d(15, 25, 3)).norm() < 1e-9);
+        CHECK(std::abs(turn(heading(poses[250]), 180)) < 1e-6);
+    }
+
+    TEST_CASE("lawnmower: whatever the heading, swaths of the line spacing cover the rectangle") {
+        for (const double degrees_of_line : {0.0, 17.0, 45.0, 90.0, 133.0, -60.0, 180.0, 359.0}) {
+            CAPTURE(degrees_of_line);
+            Lawnmower plan = survey(degrees_of_line, 4.0);
+            plan.rate_hz = 20.0;
+            const Trajectory poses = lawnmower(plan);
+            const Vector2d bow(std::cos(radians(degrees_of_line)),
+                               std::sin(radians(degrees_of_line)));
+            const Vector2d port(-bow.y(), bow.x());
+            std::size_t holes = 0;
+            for (double x = plan.area_min_m.x(); x <= plan.area_max_m.x(); x += 1.0) {
+                for (double y = plan.area_min_m.y(); y <= plan.area_max_m.y(); y += 1.0) {
+                    // Covered when some pose on a line passes abeam within half the spacing; the
+                    // poses are 5 cm apart.
+                    holes += std::none_of(poses.begin(), poses.end(), [&](const TimedPose& pose) {
+                        const Vector2d off = Vector2d(x, y) - position(pose).head<2>();
+                        const double yaw = turn(heading(pose), degrees_of_line);
+                        const bool on_line =
+                            std::abs(yaw) < 1e-6 || std::abs(std::abs(yaw) - 180) < 1e-6;
+                        return on_line && std::abs(off.dot(bow)) < 0.051 &&
+                               std::abs(off.dot(port)) < 2.0 + 1e-9;
+                    });
+                }
+            }
+            CHECK(holes == 0);
+            // Steps are flown at the same speed. A pose that skips a corner comes a little nearer.
+            for (std::size_t k = 1; k < poses.size(); ++k) {
+                const double step = (position(poses[k]) - position(poses[k - 1])).norm();
+                REQUIRE(step < 0.05 + 1e-9);
+            }
+        }
+    }
+
+    TEST_CASE("lawnmower: a rotated line is no longer than its strip needs") {
+        // A square of side s = 10 at 45 degrees is sqrt(2) s across. In one strip the line runs
+        // from corner to corner; in two, each as far as the widest part of its half, the diagonal.
+        Lawnmower plan{{0, 0}, {10, 10}, 0.0, 45.0, 20.0, 1.0, 100.0};
+        const double diagonal = 10.0 * std::sqrt(2.0);
+        Trajectory poses = lawnmower(plan);
+        CHECK(poses.back().t_s == doctest::Approx(diagonal).epsilon(1e-3));
+        CHECK((position(poses.front()) - Vector3d(0, 0, 0)).norm() < 1e-9);
+        // In four strips of d / 4: the outer ones reach d / 2 (the width at their inner edge), the
+        // inner ones d. The steps between an outer and an inner line shift by d / 4 both ways.
+        plan.line_spacing_m = diagonal / 4.0;
+        poses = lawnmower(plan);
+        const double step = diagonal / 4.0;
+        const double expected =
+            2 * (diagonal / 2) + 2 * diagonal + 2 * std::hypot(step, step) + step;
+        CHECK(poses.back().t_s == doctest::Approx(expected).epsilon(1e-3));
+    }
+
+    TEST_CASE("lawnmower refuses what cannot be flown") {
+        const double nan = std::numeric_limits<double>::quiet_NaN();
+        const auto error = [](const Lawnmower& plan) -> std::string {
+            try {
+                lawnmower(plan);
+            } catch (const InputError& refused) {
+                return refused.what();
+            }
+            return "no error";
+        };
+        Lawnmower plan = survey(0.0, 5.0);
+        plan.area_max_m.y() = plan.area_min_m.y();
+        CHECK(error(plan) == "area_max_m must be greater than area_min_m in x and in y");
+        plan.area_max_m.y() = nan;
+        CHECK(error(plan) == "area_max_m must be between -1e+09 and 1e+09, not nan");
+        plan = survey(0.0, 5.0);
+        plan.z_m = nan;
+        CHECK(error(plan) == "z_m must be between -1e+09 and 1e+09, not nan");
+        CHECK(error(survey(361.0, 5.0)) == "heading_deg must be between -360 and 360, not 361");
+        CHECK(error(survey(0.0, 0.0)) == "line_spacing_m must be a number above 0, not 0");
+        CHECK(error(survey(0.0, 1e-9)) ==
+              "line_spacing_m of 1e-09 gives 2e+10 lines; at most 100000 are allowed");
+        plan = survey(0.0, 5.0);
+        plan.speed_m_s = -2.0;
+        CHECK(error(plan) == "speed_m_s must be a number above 0, not -2");
+        plan = survey(0.0, 5.0);
+        plan.rate_hz = 1e5;
+        CHECK(error(plan) ==
+              "rate_hz of 1e+05 gives 17500001 poses over 175 s; at most 10000000 are allowed");
+    }
+}
