@@ -14,17 +14,23 @@ namespace sonarsim {
 struct WaterConfig {
     double density_kg_m3 = 997.0;
     double sound_speed_m_s = 1480.0;
+
+    bool operator==(const WaterConfig&) const = default;
 };
 
 struct SceneConfig {
     std::filesystem::path file;       ///< .gltf or .glb
     std::filesystem::path materials;  ///< CSV
+
+    bool operator==(const SceneConfig&) const = default;
 };
 
 /// Where a sonar sits on the vehicle, relative to the default mount of its kind.
 struct MountConfig {
     std::array<double, 3> translation_m{};  ///< vehicle frame
     std::array<double, 3> rpy_deg{};        ///< roll, pitch, yaw; applied after the default mount
+
+    bool operator==(const MountConfig&) const = default;
 };
 
 /// The random terms of the sonar equations; zero switches a term off.
@@ -35,6 +41,8 @@ struct NoiseConfig {
     double mult_sigma = 0.0;       ///< standard deviation of the multiplicative noise [13]
     bool scale_with_range = true;  ///< additive noise grows with r^2 and the lobe [10]
     double lobe_sigma_deg = 0.0;   ///< width of that lobe; 0 means azimuth_deg / 8
+
+    bool operator==(const NoiseConfig&) const = default;
 };
 
 enum class SonarKind { imaging };
@@ -51,17 +59,23 @@ struct SonarConfig {
     int range_bins = 512;
     int azimuth_bins = 512;
     NoiseConfig noise;
+
+    bool operator==(const SonarConfig&) const = default;
 };
 
 /// Poses from a file, either taken as they are or interpolated at `rate_hz`.
 struct FileTrajectoryConfig {
     std::filesystem::path file;  ///< .csv or TUM .txt/.tum
     double rate_hz = 0.0;        ///< 0: one ping per pose of the file
+
+    bool operator==(const FileTrajectoryConfig&) const = default;
 };
 
 struct WaypointConfig {
     std::array<double, 3> position_m{};
     std::array<double, 3> rpy_deg{};
+
+    bool operator==(const WaypointConfig&) const = default;
 };
 
 /// Straight legs from waypoint to waypoint at constant speed.
@@ -69,6 +83,8 @@ struct WaypointTrajectoryConfig {
     std::vector<WaypointConfig> waypoints;
     double speed_m_s = 1.0;
     double rate_hz = 10.0;
+
+    bool operator==(const WaypointTrajectoryConfig&) const = default;
 };
 
 /// Parallel lines over a rectangle, flown to and fro at constant height.
@@ -80,6 +96,8 @@ struct LawnmowerTrajectoryConfig {
     double line_spacing_m = 5.0;
     double speed_m_s = 1.0;
     double rate_hz = 10.0;
+
+    bool operator==(const LawnmowerTrajectoryConfig&) const = default;
 };
 
 using TrajectoryConfig =
@@ -87,6 +105,8 @@ using TrajectoryConfig =
 
 struct AccuracyConfig {
     double relative_l1 = 0.03;  ///< error goal of the noise-free image
+
+    bool operator==(const AccuracyConfig&) const = default;
 };
 
 struct OutputConfig {
@@ -97,6 +117,8 @@ struct OutputConfig {
     bool meta = true;         ///< JSON per ping
     int fan_width_px = 0;     ///< 0: twice the number of range bins, at most 1024
     double full_scale = 1.0;  ///< intensity that becomes white
+
+    bool operator==(const OutputConfig&) const = default;
 };
 
 struct Mission {
@@ -108,6 +130,8 @@ struct Mission {
     std::vector<SonarConfig> sensors;  ///< in the order of the file
     AccuracyConfig accuracy;
     OutputConfig output;
+
+    bool operator==(const Mission&) const = default;
 };
 
 }  // namespace sonarsim

@@ -1,0 +1,250 @@
+#include "mission/document.h"
+
+#include <yaml-cpp/eventhandler.h>
+#include <yaml-cpp/exceptions.h>
+#include <yaml-cpp/parser.h>
+
+#include <algorithm>
+#include <set>
+#include <sstream>
+#include <utility>
+
+namespace sonarsim {
+
+namespace {
+
+constexpr std::size_t deepest = 16;
+constexpr std::size_t most_nodes = 100'000;
+
+bool is_control(char byte) {
+    const auto value = static_cast<unsigned char>(byte);
+    return value < 0x20 || value == 0x7f;
+}
+
+/// Length of the well-formed UTF-8 character that `text` starts with; 0 when it is none.
+std::size_t utf8_length(std::string_view text) {
+    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+    const unsigned lead = byte(0);
+    if (lead < 0x80) return 1;
+    const std::size_t length = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : 2;
+    if (lead < 0xc2 || lead > 0xf4 || text.size() < length) return 0;
+    for (std::size_t i = 1; i < length; ++i) {
+        if ((byte(i) & 0xc0U) != 0x80) return 0;
+    }
+    const unsigned second = byte(1);
+    const bool overlong = (lead == 0xe0 && second < 0xa0) || (lead == 0xf0 && second < 0x90);
+    const bool surrogate = lead == 0xed && second >= 0xa0;
+    const bool beyond_unicode = lead == 0xf4 && second >= 0x90;
+    return overlong || surrogate || beyond_unicode ? 0 : length;
+}
+
+/// yaml-cpp takes the byte 4 for the end of the file and guesses at other encodings, so neither
+/// may reach it.
+void check_characters(std::string_view text, YamlPlace place, Lines lines) {
+    int line = 1;
+    std::size_t line_start = 0;
+    for (std::size_t i = 0; i < text.size();) {
+        const std::size_t length = utf8_length(text.substr(i));
+        const char c = text[i];
+        const bool blank = c == '\t' || c == '\n' || c == '\r';
+        if (length == 0 || (is_control(c) && !blank)) {
+            if (lines == Lines::counted) {
+                place.line = line;
+                place.column = static_cast<int>(i - line_start) + 1;
+            }
+            throw InputError(place.location(),
+                             length == 0 ? "is not UTF-8 text" : "control character in the text");
+        }
+        i += length;
+        if (c == '\n') {
+            ++line;
+            line_start = i;
+        }
+    }
+}
+
+/// Builds the tree from the parser's events and stops the parser at the first thing that a mission
+/// may not hold, before its recursion or its memory can grow.
+class Builder : public YAML::EventHandler {
+  public:
+    Builder(std::shared_ptr<const std::string> source, Lines lines)
+        : source_(std::move(source)), lines_(lines) {
+        root_.place = place(YAML::Mark{});
+    }
+
+    YamlNode take() { return std::move(root_); }
+
+    YamlPlace place(const YAML::Mark& mark) const {
+        if (lines_ == Lines::none) return {source_, 0, 0};
+        return {source_, mark.line + 1, mark.column + 1};
+    }
+
+    void OnDocumentStart(const YAML::Mark& mark) override {
+        if (std::exchange(started_, true)) fail(mark, "a second YAML document; only one is read");
+    }
+    void OnDocumentEnd() override {}
+
+    void OnNull(const YAML::Mark& mark, YAML::anchor_t) override {
+        add(node_at(mark, YamlNode::Kind::empty));
+    }
+
+    void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override {
+        fail(mark, "aliases (*name) are not supported; write the value out");
+    }
+
+    void OnAnchor(const YAML::Mark& mark, const std::string&) override {
+        fail(mark, "anchors (&name) are not supported; write the value out");
+    }
+
+    void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t,
+                  const std::string& value) override {
+        check_tag(mark, tag);
+        YamlNode scalar = node_at(mark, YamlNode::Kind::scalar);
+        scalar.quoted = tag == "!";
+        scalar.text = value;
+        add(std::move(scalar));
+    }
+
+    void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t,
+                         YAML::EmitterStyle::value) override {
+        open(mark, tag, YamlNode::Kind::list);
+    }
+    void OnSequenceEnd() override { close(); }
+
+    void OnMapStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t,
+                    YAML::EmitterStyle::value) override {
+        open(mark, tag, YamlNode::Kind::map);
+    }
+    void OnMapEnd() override { close(); }
+
+  private:
+    /// A list or map whose end has not come yet.
+    struct Open {
+        YamlNode node;
+        std::set<std::string> keys;  ///< all so far
+        YamlNode key;                ///< the one whose value comes next
+        bool key_comes_next = false;
+    };
+
+    [[noreturn]] void fail(const YAML::Mark& mark, const std::string& what) const {
+        throw InputError(place(mark).location(), what);
+    }
+
+    YamlNode node_at(const YAML::Mark& mark, YamlNode::Kind kind) const {
+        YamlNode node;
+        node.kind = kind;
+        node.place = place(mark);
+        return node;
+    }
+
+    void check_tag(const YAML::Mark& mark, const std::string& tag) const {
+        if (tag != "?" && tag != "!" && !tag.empty()) fail(mark, "tags (!name) are not supported");
+    }
+
+    void open(const YAML::Mark& mark, const std::string& tag, YamlNode::Kind kind) {
+        check_tag(mark, tag);
+        if (open_.size() == deepest) {
+            fail(mark, "nested deeper than " + std::to_string(deepest) + " levels");
+        }
+        if (!open_.empty() && open_.back().key_comes_next) {
+            // The parser takes a bracket that is never closed for the start of a key.
+            fail(mark, "a bracket is not closed, or a list or map stands where a key must");
+        }
+        Open& begun = open_.emplace_back();
+        begun.node = node_at(mark, kind);
+        begun.key_comes_next = kind == YamlNode::Kind::map;
+    }
+
+    void close() {
+        YamlNode node = std::move(open_.back().node);
+        open_.pop_back();
+        add(std::move(node));
+    }
+
+    void add(YamlNode node) {
+        if (++count_ > most_nodes) {
+            throw InputError(node.place.location(),
+                             "more than " + std::to_string(most_nodes) +
+                                 " values; long trajectories belong into a file of their own");
+        }
+        if (open_.empty()) {
+            root_ = std::move(node);
+            return;
+        }
+        Open& parent = open_.back();
+        if (parent.key_comes_next) {
+            add_key(parent, std::move(node));
+            return;
+        }
+        if (parent.node.kind == YamlNode::Kind::map) {
+            node.key = std::move(parent.key.text);
+            node.key_place = std::move(parent.key.place);
+            parent.key_comes_next = true;
+        }
+        parent.node.items.push_back(std::move(node));
+    }
+
+    static void add_key(Open& parent, YamlNode key) {
+        if (key.kind != YamlNode::Kind::scalar) {
+            throw InputError(key.place.location(), "a key must be text");
+        }
+        if (!parent.keys.insert(key.text).second) {
+            std::string first;
+            const YamlNode* earlier = parent.node.find(key.text);
+            if (earlier->key_place.line > 0) {
+                first = "; first in line " + std::to_string(earlier->key_place.line);
+            }
+            throw InputError(key.place.location(), "duplicate key " + in_quotes(key.text) + first);
+        }
+        parent.key = std::move(key);
+        parent.key_comes_next = false;
+    }
+
+    std::shared_ptr<const std::string> source_;
+    Lines lines_;
+    bool started_ = false;
+    std::size_t count_ = 0;
+    std::vector<Open> open_;
+    YamlNode root_;
+};
+
+}  // namespace
+
+const YamlNode* YamlNode::find(std::string_view wanted) const {
+    const auto found = std::ranges::find(items, wanted, &YamlNode::key);
+    return kind == Kind::map && found != items.end() ? &*found : nullptr;
+}
+
+YamlNode* YamlNode::find(std::string_view wanted) {
+    return const_cast<YamlNode*>(std::as_const(*this).find(wanted));
+}
+
+YamlNode read_document(std::string_view text, const std::string& source, Lines lines) {
+    Builder builder(std::make_shared<const std::string>(source), lines);
+    check_characters(text, builder.place(YAML::Mark{}), lines);
+    try {
+        std::istringstream stream{std::string(text)};
+        YAML::Parser parser(stream);
+        while (parser.HandleNextDocument(builder)) {
+        }
+    } catch (const YAML::Exception& error) {
+        throw InputError(builder.place(error.mark).location(), "not valid YAML: " + error.msg);
+    }
+    return builder.take();
+}
+
+std::string shown(std::string_view text, std::size_t longest) {
+    const bool cut = text.size() > longest;
+    std::size_t end = cut ? longest : text.size();
+    while (cut && end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0U) == 0x80)
+        --end;
+    std::string out(text.substr(0, end));
+    std::ranges::replace_if(out, is_control, '?');
+    return cut ? out + "..." : out;
+}
+
+std::string in_quotes(std::string_view text) {
+    return "'" + shown(text, 60) + "'";
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/error.h"
+
+namespace sonarsim {
+
+/// Where a node was written. Nodes share the name of their source.
+struct YamlPlace {
+    std::shared_ptr<const std::string> source;
+    int line = 0;
+    int column = 0;
+
+    Location location() const { return {*source, line, column}; }
+};
+
+/// A piece of a YAML document: what was written, not yet what it means, and where.
+struct YamlNode {
+    enum class Kind { empty, scalar, list, map };
+
+    Kind kind = Kind::empty;
+    bool quoted = false;   ///< a scalar in quotes, which is text and never a number
+    bool implied = false;  ///< a map that only the path of an override calls for
+    YamlPlace place;
+    std::string text;             ///< of a scalar
+    std::vector<YamlNode> items;  ///< of a list or a map, in the order of the file
+    std::string key;              ///< of an item of a map
+    YamlPlace key_place;
+
+    /// The item of a map, or nullptr.
+    const YamlNode* find(std::string_view wanted) const;
+    YamlNode* find(std::string_view wanted);
+};
+
+/// Whether the nodes of a document remember their lines: those of a command line do not.
+enum class Lines { counted, none };
+
+/// Reads one YAML document. It may hold maps, lists and scalars, at most 16 deep and 100,000 in
+/// all; anchors, aliases, tags, duplicate keys, keys that are not text, control characters, bytes
+/// that are not UTF-8 and further documents are InputErrors. An empty document is an empty node.
+YamlNode read_document(std::string_view text, const std::string& source,
+                       Lines lines = Lines::counted);
+
+/// `text` in single quotes for a message: cut when long, control characters masked.
+std::string in_quotes(std::string_view text);
+
+/// `text` for a message, as `in_quotes` but without the quotes and up to `longest` bytes.
+std::string shown(std::string_view text, std::size_t longest);
+
+}  // namespace sonarsim

@@ -1,0 +1,39 @@
+#pragma once
+
+namespace sonarsim {
+
+/// The values that a number of a mission may take.
+struct Limits {
+    double low;
+    double high;
+    bool low_allowed = true;
+};
+
+/// Beyond anything in the sea. Squares and products of such numbers still are finite, and a count
+/// up to it fits an int.
+inline constexpr double largest_number = 1e9;
+
+constexpr Limits at_least(double low) {
+    return {low, largest_number};
+}
+constexpr Limits above(double low) {
+    return {low, largest_number, false};
+}
+constexpr Limits between(double low, double high) {
+    return {low, high};
+}
+inline constexpr Limits any_number{-largest_number, largest_number};
+inline constexpr Limits any_angle_deg{-360.0, 360.0};
+
+/// Whether a key may be left out, so that its default holds.
+enum class Presence { optional, required };
+inline constexpr Presence required = Presence::required;
+
+/// A value that is chosen by name.
+template <class T>
+struct Choice {
+    const char* name;
+    T value;
+};
+
+}  // namespace sonarsim

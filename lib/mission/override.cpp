@@ -1,0 +1,74 @@
+#include "mission/override.h"
+
+#include <algorithm>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "core/text.h"
+
+namespace sonarsim {
+
+namespace {
+
+constexpr std::size_t longest_path = 16;
+
+std::vector<std::string> split_path(std::string_view path, const Location& where) {
+    std::vector<std::string> keys;
+    for (std::size_t start = 0; start <= path.size();) {
+        const std::size_t end = std::min(path.find('.', start), path.size());
+        keys.emplace_back(path.substr(start, end - start));
+        if (keys.back().empty() || keys.size() > longest_path) {
+            throw InputError(where, "write --set key=value or --set section.key=value");
+        }
+        start = end + 1;
+    }
+    return keys;
+}
+
+/// The item of `node` that `key` names. In a map it is made when it is missing.
+YamlNode& descend(YamlNode& node, const std::string& key, const YamlPlace& place) {
+    if (node.kind == YamlNode::Kind::list) {
+        const std::optional<std::uint64_t> index = parse_unsigned(key);
+        if (!index || *index >= node.items.size()) {
+            throw InputError(place.location(), "no item " + in_quotes(key) + "; the list has " +
+                                                   std::to_string(node.items.size()) +
+                                                   ", counted from 0");
+        }
+        return node.items[*index];
+    }
+    if (node.kind == YamlNode::Kind::scalar) {
+        throw InputError(place.location(), "there is no key " + in_quotes(key) +
+                                               " below the single value " + in_quotes(node.text));
+    }
+    node.kind = YamlNode::Kind::map;
+    if (YamlNode* found = node.find(key)) return *found;
+    YamlNode& made = node.items.emplace_back();
+    made.implied = true;
+    made.place = place;
+    made.key = key;
+    made.key_place = place;
+    return made;
+}
+
+}  // namespace
+
+void apply_override(YamlNode& root, const std::string& setting) {
+    const std::string source = "--set " + shown(setting, 120);
+    const Location where{source};
+    const std::size_t equals = setting.find('=');
+    if (equals == std::string::npos) {
+        throw InputError(where, "write --set key=value or --set section.key=value");
+    }
+    YamlNode value =
+        read_document(std::string_view(setting).substr(equals + 1), source, Lines::none);
+    YamlNode* node = &root;
+    for (const std::string& key : split_path(std::string_view(setting).substr(0, equals), where)) {
+        node = &descend(*node, key, value.place);
+    }
+    value.key = std::move(node->key);
+    value.key_place = std::move(node->key_place);
+    *node = std::move(value);
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+#include "mission/document.h"
+
+namespace sonarsim {
+
+/// Applies one `--set a.b.c=value` to the document of a mission. The path goes by keys, and by
+/// index (from 0) into lists; sections that the document lacks are made, list items are not. The
+/// value is YAML and replaces what was there, whole sections included. What it sets stands at the
+/// place "--set a.b.c=value", so that every later check names the override. InputError when the
+/// path or the value cannot be read, or when the path runs through something that is no section.
+void apply_override(YamlNode& root, const std::string& setting);
+
+}  // namespace sonarsim

@@ -1,0 +1,40 @@
+#include "mission/parse.h"
+
+#include "core/file.h"
+#include "mission/override.h"
+#include "mission/reader.h"
+#include "mission/schema.h"
+
+namespace sonarsim {
+
+namespace {
+
+constexpr std::size_t largest_file = std::size_t{1} << 20;
+
+}  // namespace
+
+Mission load_mission(const std::filesystem::path& file, std::span<const std::string> overrides) {
+    return parse_mission(read_file(file, largest_file), file.string(), file.parent_path(),
+                         overrides);
+}
+
+Mission parse_mission(std::string_view text, const std::string& file_name,
+                      const std::filesystem::path& base_folder,
+                      std::span<const std::string> overrides) {
+    if (text.size() > largest_file) throw InputError({file_name}, "is larger than 1 MiB");
+    YamlNode root = read_document(text, file_name);
+    for (const std::string& setting : overrides)
+        apply_override(root, setting);
+
+    Mission mission;
+    mission.name = std::filesystem::path(file_name).stem().string();
+    MissionReader reader(root, "mission", base_folder);
+    describe(reader, mission);
+    reader.finish();
+    if (mission.output.folder.empty()) {
+        mission.output.folder = std::filesystem::absolute("out") / mission.name;
+    }
+    return mission;
+}
+
+}  // namespace sonarsim

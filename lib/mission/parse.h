@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "mission/mission.h"
+
+namespace sonarsim {
+
+/// Reads and checks a mission, at most 1 MiB of strict YAML. Paths become absolute and normalised;
+/// relative ones start at the folder of the mission file. A mission without a name bears that of
+/// its file; one without an output folder writes to out/<name> below the current directory.
+/// `overrides` are settings "a.b.c=value" that replace or add keys, the last one winning, under the
+/// same checks and with the same meaning. InputError with file:line:column, or with the override,
+/// for whatever is not exactly right.
+Mission load_mission(const std::filesystem::path& file, std::span<const std::string> overrides);
+
+/// The same for a mission in memory. `file_name` is used in messages and for the default name.
+Mission parse_mission(std::string_view text, const std::string& file_name,
+                      const std::filesystem::path& base_folder,
+                      std::span<const std::string> overrides);
+
+}  // namespace sonarsim

@@ -1,0 +1,245 @@
+#include "mission/reader.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "core/text.h"
+
+namespace sonarsim {
+
+namespace {
+
+[[noreturn]] void refuse(const YamlNode& node, const std::string& what) {
+    throw InputError(node.place.location(), what);
+}
+
+/// What stands in the file, for "must be ..., not ...".
+std::string found(const YamlNode& node) {
+    switch (node.kind) {
+        case YamlNode::Kind::empty:
+            return "nothing";
+        case YamlNode::Kind::list:
+            return "a list";
+        case YamlNode::Kind::map:
+            return "a section of keys";
+        case YamlNode::Kind::scalar:
+            break;
+    }
+    return node.quoted ? "the quoted text " + in_quotes(node.text) : in_quotes(node.text);
+}
+
+[[noreturn]] void refuse_type(const YamlNode& node, const std::string& key,
+                              const std::string& wanted) {
+    refuse(node, "'" + key + "' must be " + wanted + ", not " + found(node));
+}
+
+void check_limits(const YamlNode& node, const char* key, double value, const Limits& limits) {
+    const bool too_low = limits.low_allowed ? value < limits.low : value <= limits.low;
+    if (!too_low && value <= limits.high) return;
+    std::string wanted = "at most " + number_text(limits.high);
+    if (too_low) wanted = (limits.low_allowed ? "at least " : "above ") + number_text(limits.low);
+    refuse_type(node, key, wanted);
+}
+
+bool is_plain(const YamlNode& node) {
+    return node.kind == YamlNode::Kind::scalar && !node.quoted;
+}
+
+double read_number(const YamlNode& node, const char* key, const Limits& limits) {
+    const std::optional<double> value = is_plain(node) ? parse_number(node.text) : std::nullopt;
+    if (!value || !std::isfinite(*value)) refuse_type(node, key, "a finite number");
+    check_limits(node, key, *value, limits);
+    return *value;
+}
+
+std::string read_text(const YamlNode& node, const char* key) {
+    if (node.kind != YamlNode::Kind::scalar) refuse_type(node, key, "text");
+    if (node.text.empty()) refuse(node, "'" + std::string(key) + "' must not be empty");
+    const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
+    if (std::ranges::any_of(node.text, is_control)) {
+        refuse(node, "'" + std::string(key) + "' must not hold control characters");
+    }
+    return node.text;
+}
+
+std::string listed(const std::vector<std::string>& names) {
+    std::string out;
+    for (const std::string& name : names)
+        out += (out.empty() ? "" : ", ") + name;
+    return out;
+}
+
+bool is_name(std::string_view text) {
+    constexpr std::string_view allowed =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
+    return !text.empty() && text.size() <= 64 &&
+           text.find_first_not_of(allowed) == std::string_view::npos;
+}
+
+}  // namespace
+
+MissionReader::MissionReader(const YamlNode& node, std::string name,
+                             const std::filesystem::path& base_folder)
+    : node_(node), name_(std::move(name)), base_folder_(base_folder) {
+    if (node.kind != YamlNode::Kind::map) refuse_type(node, name_, "a section of keys");
+}
+
+const YamlNode* MissionReader::find(const char* key, Presence presence) {
+    known_.emplace_back(key);
+    const YamlNode* found_node = node_.find(key);
+    if (found_node == nullptr && presence == Presence::required) {
+        // The key may be there, but misspelt.
+        for (const YamlNode& item : node_.items) {
+            const std::vector<std::string> candidate{key};
+            const std::string hint = did_you_mean(item.key, candidate);
+            if (hint.empty()) continue;
+            throw InputError(item.key_place.location(),
+                             "unknown key " + in_quotes(item.key) + hint);
+        }
+        refuse(node_, "'" + name_ + "' lacks the key '" + key + "'");
+    }
+    return found_node;
+}
+
+void MissionReader::number(const char* key, double& value, const Limits& limits,
+                           Presence presence) {
+    if (const YamlNode* node = find(key, presence)) value = read_number(*node, key, limits);
+}
+
+void MissionReader::integer(const char* key, int& value, const Limits& limits) {
+    const YamlNode* node = find(key, Presence::optional);
+    if (node == nullptr) return;
+    const std::optional<std::int64_t> number =
+        is_plain(*node) ? parse_integer(node->text) : std::nullopt;
+    if (!number) refuse_type(*node, key, "a whole number");
+    check_limits(*node, key, static_cast<double>(*number), limits);
+    value = static_cast<int>(*number);
+}
+
+void MissionReader::integer(const char* key, std::uint64_t& value) {
+    const YamlNode* node = find(key, Presence::optional);
+    if (node == nullptr) return;
+    const std::optional<std::uint64_t> number =
+        is_plain(*node) ? parse_unsigned(node->text) : std::nullopt;
+    if (!number) refuse_type(*node, key, "a whole number from 0 to 2^64 - 1");
+    value = *number;
+}
+
+void MissionReader::flag(const char* key, bool& value) {
+    const YamlNode* node = find(key, Presence::optional);
+    if (node == nullptr) return;
+    const bool yes = is_plain(*node) && node->text == "true";
+    if (!yes && !(is_plain(*node) && node->text == "false")) {
+        refuse_type(*node, key, "true or false");
+    }
+    value = yes;
+}
+
+void MissionReader::text(const char* key, std::string& value) {
+    if (const YamlNode* node = find(key, Presence::optional)) value = read_text(*node, key);
+}
+
+void MissionReader::path(const char* key, std::filesystem::path& value, Presence presence) {
+    const YamlNode* node = find(key, presence);
+    if (node == nullptr) return;
+    value = std::filesystem::absolute(base_folder_ / read_text(*node, key)).lexically_normal();
+}
+
+void MissionReader::read_list(const YamlNode& node, const char* key, double* values,
+                              std::size_t count, const Limits& limits) const {
+    const std::string wanted = "a list of " + std::to_string(count) + " numbers";
+    if (node.kind != YamlNode::Kind::list) refuse_type(node, key, wanted);
+    if (node.items.size() != count) {
+        refuse_type(node, key, wanted + " (it has " + std::to_string(node.items.size()) + ")");
+    }
+    for (std::size_t i = 0; i < count; ++i)
+        values[i] = read_number(node.items[i], key, limits);
+}
+
+std::size_t MissionReader::index_of(const YamlNode& node, const char* key,
+                                    const std::vector<std::string>& names) {
+    if (!is_plain(node)) refuse_type(node, key, "one of: " + listed(names));
+    const auto name = std::ranges::find(names, node.text);
+    if (name == names.end()) {
+        refuse(node, "unknown " + std::string(key) + " " + in_quotes(node.text) +
+                         did_you_mean(node.text, names) + "; known: " + listed(names));
+    }
+    return static_cast<std::size_t>(name - names.begin());
+}
+
+std::size_t MissionReader::index_of_present(const std::vector<std::string>& keys) const {
+    std::vector<std::string> present;
+    std::string hint;
+    for (const YamlNode& item : node_.items) {
+        if (std::ranges::find(keys, item.key) != keys.end()) present.push_back(item.key);
+        if (hint.empty()) hint = did_you_mean(item.key, keys);
+    }
+    if (present.empty()) {
+        refuse(node_, "'" + name_ + "' needs one of the keys: " + listed(keys) + hint);
+    }
+    if (present.size() > 1) {
+        throw InputError(node_.find(present[1])->key_place.location(),
+                         "'" + name_ + "' takes one of the keys: " + listed(keys) + "; here are " +
+                             listed(present));
+    }
+    return static_cast<std::size_t>(std::ranges::find(keys, present[0]) - keys.begin());
+}
+
+const std::vector<YamlNode>& MissionReader::list_items(const char* key, std::size_t fewest) {
+    const YamlNode& node = *find(key, Presence::required);
+    if (node.kind != YamlNode::Kind::list) refuse_type(node, key, "a list");
+    if (node.items.size() < fewest) {
+        refuse(node, "'" + std::string(key) + "' must have at least " + std::to_string(fewest) +
+                         " items, not " + std::to_string(node.items.size()));
+    }
+    return node.items;
+}
+
+const std::vector<YamlNode>& MissionReader::named_items(const char* key) {
+    const YamlNode& node = *find(key, Presence::required);
+    if (node.kind != YamlNode::Kind::map) refuse_type(node, key, "a section of names");
+    if (node.items.empty()) refuse(node, "'" + std::string(key) + "' must not be empty");
+    std::vector<std::string> names;
+    for (const YamlNode& item : node.items) {
+        if (item.implied) {
+            refuse(item, "there is no " + in_quotes(item.key) + " in '" + key + "'" +
+                             did_you_mean(item.key, names));
+        }
+        if (!is_name(item.key)) {
+            throw InputError(
+                item.key_place.location(),
+                "the name " + in_quotes(item.key) + " must be 1 to 64 letters, digits, '_' or '-'");
+        }
+        names.push_back(item.key);
+    }
+    return node.items;
+}
+
+void MissionReader::require(bool holds, std::initializer_list<const char*> keys,
+                            const char* message) const {
+    if (holds) return;
+    const YamlNode* last = nullptr;
+    // An override, which has no line, was written after all of the file.
+    const auto after = [](const YamlPlace& a, const YamlPlace& b) {
+        if (a.line == 0 || b.line == 0) return a.line == 0;
+        return std::pair(a.line, a.column) > std::pair(b.line, b.column);
+    };
+    for (const char* key : keys) {
+        const YamlNode* node = node_.find(key);
+        if (node != nullptr && (last == nullptr || after(node->place, last->place))) last = node;
+    }
+    refuse(last != nullptr ? *last : node_, message);
+}
+
+void MissionReader::finish() const {
+    for (const YamlNode& item : node_.items) {
+        if (std::ranges::find(known_, item.key) != known_.end()) continue;
+        const std::string hint = did_you_mean(item.key, known_);
+        throw InputError(item.key_place.location(),
+                         "unknown key " + in_quotes(item.key) +
+                             (hint.empty() ? "; known here: " + listed(known_) : hint));
+    }
+}
+
+}  // namespace sonarsim

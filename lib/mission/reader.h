@@ -1,0 +1,116 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "mission/document.h"
+#include "mission/limits.h"
+
+namespace sonarsim {
+
+/// The visitor that fills a section of a mission from YAML. A key that the document leaves out
+/// keeps its value. Whatever is not exactly right is an InputError at the place of the fault.
+class MissionReader {
+  public:
+    /// `name` is what messages call the section. Relative paths start at `base_folder`.
+    MissionReader(const YamlNode& node, std::string name, const std::filesystem::path& base_folder);
+
+    void number(const char* key, double& value, const Limits& limits,
+                Presence presence = Presence::optional);
+    void integer(const char* key, int& value, const Limits& limits);
+    void integer(const char* key, std::uint64_t& value);
+    void flag(const char* key, bool& value);
+    void text(const char* key, std::string& value);
+    void path(const char* key, std::filesystem::path& value,
+              Presence presence = Presence::optional);
+
+    template <std::size_t N>
+    void numbers(const char* key, std::array<double, N>& values, const Limits& limits,
+                 Presence presence = Presence::optional) {
+        if (const YamlNode* node = find(key, presence))
+            read_list(*node, key, values.data(), N, limits);
+    }
+
+    template <class T, std::size_t N>
+    void choice(const char* key, T& value, const std::array<Choice<T>, N>& choices,
+                Presence presence = Presence::optional) {
+        std::vector<std::string> names;
+        names.reserve(N);
+        for (const Choice<T>& one : choices)
+            names.emplace_back(one.name);
+        if (const YamlNode* node = find(key, presence)) {
+            value = choices[index_of(*node, key, names)].value;
+        }
+    }
+
+    template <class T>
+    void section(const char* key, T& value, Presence presence = Presence::optional) {
+        if (const YamlNode* node = find(key, presence)) read(*node, key, value);
+    }
+
+    /// A list of sections, at least `fewest` of them.
+    template <class T>
+    void list(const char* key, std::vector<T>& values, std::size_t fewest) {
+        for (const YamlNode& item : list_items(key, fewest)) {
+            std::string item_name = key + ("." + std::to_string(values.size()));
+            read(item, std::move(item_name), values.emplace_back());
+        }
+    }
+
+    /// A map from names to sections, at least one of them. The elements keep their `name`.
+    template <class T>
+    void named(const char* key, std::vector<T>& values) {
+        for (const YamlNode& item : named_items(key)) {
+            T& value = values.emplace_back();
+            value.name = item.key;
+            read(item, item.key, value);
+        }
+    }
+
+    /// Chooses the alternative of `value` by the one key of `keys` that is present.
+    template <class... T>
+    void one_of(std::variant<T...>& value, const std::array<const char*, sizeof...(T)>& keys) {
+        const std::size_t chosen = index_of_present({keys.begin(), keys.end()});
+        [&]<std::size_t... I>(std::index_sequence<I...>) {
+            ((chosen == I ? void(value.template emplace<I>()) : void()), ...);
+        }
+        (std::index_sequence_for<T...>{});
+    }
+
+    /// A check across several keys. A failure is reported where the last-written of `keys` stands.
+    void require(bool holds, std::initializer_list<const char*> keys, const char* message) const;
+
+    /// To be called when all keys are read: what then is left over is unknown.
+    void finish() const;
+
+  private:
+    template <class T>
+    void read(const YamlNode& node, std::string name, T& value) {
+        MissionReader reader(node, std::move(name), base_folder_);
+        describe(reader, value);
+        reader.finish();
+    }
+
+    const YamlNode* find(const char* key, Presence presence);
+    void read_list(const YamlNode& node, const char* key, double* values, std::size_t count,
+                   const Limits& limits) const;
+    static std::size_t index_of(const YamlNode& node, const char* key,
+                                const std::vector<std::string>& names);
+    std::size_t index_of_present(const std::vector<std::string>& keys) const;
+    const std::vector<YamlNode>& list_items(const char* key, std::size_t fewest);
+    const std::vector<YamlNode>& named_items(const char* key);
+
+    const YamlNode& node_;
+    std::string name_;
+    const std::filesystem::path& base_folder_;
+    std::vector<std::string> known_;
+};
+
+}  // namespace sonarsim

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "mission/limits.h"
+
+namespace sonarsim {
+
+/// The visitor that turns a mission into YAML, every value of it. It checks nothing.
+class MissionWriter {
+  public:
+    const std::string& yaml() const { return yaml_; }
+
+    void number(const char* key, double value, const Limits&, Presence = Presence::optional);
+    void integer(const char* key, int value, const Limits&);
+    void integer(const char* key, std::uint64_t value);
+    void flag(const char* key, bool value);
+    void text(const char* key, std::string_view value);
+    void path(const char* key, const std::filesystem::path& value, Presence = Presence::optional);
+
+    template <std::size_t N>
+    void numbers(const char* key, const std::array<double, N>& values, const Limits&,
+                 Presence = Presence::optional) {
+        write_list(key, values.data(), N);
+    }
+
+    template <class T, std::size_t N>
+    void choice(const char* key, const T& value, const std::array<Choice<T>, N>& choices,
+                Presence = Presence::optional) {
+        for (const Choice<T>& one : choices) {
+            if (one.value == value) line(key, one.name);
+        }
+    }
+
+    template <class T>
+    void section(std::string_view key, T& value, Presence = Presence::optional) {
+        line(key, "");
+        indent_ += 2;
+        describe(*this, value);
+        indent_ -= 2;
+    }
+
+    template <class T>
+    void list(const char* key, std::vector<T>& values, std::size_t) {
+        line(key, "");
+        indent_ += 4;
+        for (T& value : values) {
+            item_ = true;
+            describe(*this, value);
+        }
+        indent_ -= 4;
+    }
+
+    template <class T>
+    void named(const char* key, std::vector<T>& values) {
+        line(key, "");
+        indent_ += 2;
+        for (T& value : values)
+            section(scalar_text(value.name), value);
+        indent_ -= 2;
+    }
+
+    template <class... T>
+    void one_of(const std::variant<T...>&, const std::array<const char*, sizeof...(T)>&) const {}
+
+    void require(bool, std::initializer_list<const char*>, const char*) const {}
+
+  private:
+    static std::string scalar_text(std::string_view text);
+    void write_list(const char* key, const double* values, std::size_t count);
+    void line(std::string_view key, std::string_view value);
+
+    std::string yaml_;
+    std::size_t indent_ = 0;
+    bool item_ = false;  ///< the next line begins an item of a list
+};
+
+}  // namespace sonarsim

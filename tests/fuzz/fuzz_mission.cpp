@@ -1,0 +1,33 @@
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/error.h"
+#include "mission/parse.h"
+#include "mission/resolved.h"
+
+// The input is a mission, followed by lines "--set ..." after the first zero byte, if any. Whatever
+// is accepted must survive the way through the resolved mission.
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    using namespace sonarsim;
+    const std::string_view input(reinterpret_cast<const char*>(data), size);
+    const std::size_t end = std::min(input.find('\0'), size);
+    std::vector<std::string> overrides;
+    for (std::size_t start = end + 1; start < size;) {
+        const std::size_t stop = std::min(input.find('\n', start), size);
+        overrides.emplace_back(input.substr(start, stop - start));
+        start = stop + 1;
+    }
+    try {
+        const Mission mission = parse_mission(input.substr(0, end), "f.yaml", "/base", overrides);
+        const std::string resolved = resolved_yaml(mission);
+        if (parse_mission(resolved, "f.yaml", "/other", {}) != mission) std::abort();
+    } catch (const InputError&) {
+    }
+    return 0;
+}

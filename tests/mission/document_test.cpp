@@ -1,0 +1,126 @@
+#include "mission/document.h"
+
+#include "mission/fixtures.h"
+
+namespace sonarsim {
+
+namespace {
+
+std::string repeated(const std::string& piece, std::size_t bytes) {
+    std::string out;
+    while (out.size() + piece.size() <= bytes)
+        out += piece;
+    return out;
+}
+
+const std::string bracket = "a bracket is not closed, or a list or map stands where a key must";
+
+}  // namespace
+
+TEST_SUITE_BEGIN("mission");
+
+TEST_CASE("nodes know their kind and their place") {
+    const YamlNode root = read_document("a: 1\nb:\n  - 'x'\n  - {c: }\n", "f.yaml");
+    CHECK(root.kind == YamlNode::Kind::map);
+    REQUIRE(root.items.size() == 2);
+    CHECK(root.items[0].key == "a");
+    CHECK(root.items[0].text == "1");
+    CHECK(!root.items[0].quoted);
+    CHECK(root.items[0].key_place.location().text() == "f.yaml:1:1");
+    CHECK(root.items[0].place.location().text() == "f.yaml:1:4");
+    const YamlNode& list = *root.find("b");
+    CHECK(list.kind == YamlNode::Kind::list);
+    CHECK(list.items[0].quoted);
+    CHECK(list.items[0].place.location().text() == "f.yaml:3:5");
+    CHECK(list.items[1].find("c")->kind == YamlNode::Kind::empty);
+    CHECK(list.items[1].find("d") == nullptr);
+    CHECK(list.find("b") == nullptr);
+}
+
+TEST_CASE("duplicate keys") {
+    CHECK(refusal("seed: 1\nname: x\nseed: 2\n") ==
+          "m.yaml:3:1: duplicate key 'seed'; first in line 1");
+    CHECK(refusal("{seed: 1, \"seed\": 2}\n") ==
+          "m.yaml:1:11: duplicate key 'seed'; first in line 1");
+    CHECK(refusal("sensors:\n  a: {}\n  a: {}\n") ==
+          "m.yaml:3:3: duplicate key 'a'; first in line 2");
+}
+
+TEST_CASE("what YAML can do and a mission may not") {
+    CHECK(refusal("a: &x 1\nb: *x\n") ==
+          "m.yaml:1:4: anchors (&name) are not supported; write the value out");
+    CHECK(refusal("a: &x [&y [1], *y]\n") ==
+          "m.yaml:1:4: anchors (&name) are not supported; write the value out");
+    CHECK(refusal("a: *x\n").starts_with("m.yaml:1:4: not valid YAML: "));
+    CHECK(refusal("a: !!str 1\n") == "m.yaml:1:4: tags (!name) are not supported");
+    CHECK(refusal("a: !mine {}\n") == "m.yaml:1:4: tags (!name) are not supported");
+    CHECK(refusal("? [a]\n: 1\n") == "m.yaml:1:3: " + bracket);
+    CHECK(refusal("{{a: 1}: 1}\n") == "m.yaml:1:2: " + bracket);
+    CHECK(refusal("~: 1\n") == "m.yaml:1:1: a key must be text");
+    CHECK(refusal(": 1\n") == "m.yaml:1:1: a key must be text");
+    CHECK(refusal(smallest_mission + "---\nseed: 1\n")
+              .starts_with("m.yaml:6:1: a second YAML document"));
+    CHECK(refusal("---\n" + smallest_mission + "...\n") == "");
+    CHECK(refusal("\xef\xbb\xbf" + smallest_mission) == "");  // a byte order mark is no fault
+}
+
+TEST_CASE("malformed YAML names its line") {
+    CHECK(refusal("seed: 1\nname: [1, 2\n").starts_with("m.yaml:3:1: not valid YAML: "));
+    CHECK(refusal("seed: 1\n name: 2\n").starts_with("m.yaml:2:"));
+    CHECK(refusal("seed: \"abc\n").starts_with("m.yaml:"));
+    CHECK(refusal("\tseed: 1\n").starts_with("m.yaml:1:"));
+    CHECK(refusal("a: }\n").starts_with("m.yaml:1:"));
+}
+
+TEST_CASE("text that is not UTF-8 or holds control characters") {
+    CHECK(refusal("seed: 1\nname: a\x80\n") == "m.yaml:2:8: is not UTF-8 text");
+    CHECK(refusal("\xff\xfes\0e\0") == "m.yaml:1:1: is not UTF-8 text");
+    CHECK(refusal("name: \xc0\xaf\n") == "m.yaml:1:7: is not UTF-8 text");          // overlong '/'
+    CHECK(refusal("name: \xed\xa0\x80\n") == "m.yaml:1:7: is not UTF-8 text");      // a surrogate
+    CHECK(refusal("name: \xf4\x90\x80\x80\n") == "m.yaml:1:7: is not UTF-8 text");  // > U+10FFFF
+    CHECK(refusal("name: \xe4\xbd") == "m.yaml:1:7: is not UTF-8 text");            // cut off
+    // yaml-cpp would end the file here and render without what follows.
+    CHECK(refusal(smallest_mission + "\x04seed: 5\n") ==
+          "m.yaml:6:1: control character in the text");
+    CHECK(refusal(std::string("seed: 1\n\0", 9)) == "m.yaml:2:1: control character in the text");
+    std::string windows;
+    for (const char c : smallest_mission)
+        windows += c == '\n' ? std::string("\r\n") : std::string(1, c);
+    CHECK(parse(windows) == parse(smallest_mission));
+}
+
+TEST_CASE("depth and size end early, whatever the text nests") {
+    const std::size_t bytes = std::size_t{1} << 17;
+    for (const char* piece :
+         {"[",     "{",       "- ",    "? ",  "{a: ",       "[a: ",      "!a ", "&a ", "? - ",
+          "- ? ",  ": ",      "a: ",   "[,",  "{,",         "- - \n",    "\"",  "'",   "|",
+          ">",     "#",       "%",     "[\n", "]",          "}",         "*a ", "\\",  "\"\\x",
+          "---\n", "--- |\n", "a:\n ", "a\n", "{a\n",       "[?",        "[:",  "{?",  "{:",
+          "\n",    " ",       "\r",    "\t",  "%TAG ! a\n", "a: 'b\n\n", "'\n"}) {
+        CAPTURE(piece);
+        CHECK(refusal(repeated(piece, bytes)) != "");
+        CHECK(refusal(smallest_mission + "water: " + repeated(piece, bytes - 200)) != "");
+    }
+
+    CHECK(refusal(std::string(100'000, '[')) == "m.yaml:1:1: " + bracket);
+    CHECK(refusal(std::string(17, '[') + std::string(17, ']')) ==
+          "m.yaml:1:17: nested deeper than 16 levels");
+    CHECK(refusal(std::string(16, '[') + std::string(16, ']')).find("nested") == std::string::npos);
+    std::string deep;
+    for (int i = 0; i < 20; ++i)
+        deep += std::string(i, ' ') + "a:\n";
+    CHECK(refusal(deep) == "m.yaml:17:17: nested deeper than 16 levels");
+    CHECK(refusal("a: [" + repeated("0,", 300'000) + "]\n")
+              .find("more than 100000 values; long trajectories") != std::string::npos);
+}
+
+TEST_CASE("messages stay short and printable") {
+    CHECK(in_quotes("a\nb\x1b") == "'a?b?'");
+    CHECK(shown("abcdef", 6) == "abcdef");
+    CHECK(shown("abcdefg", 6) == "abcdef...");
+    CHECK(shown("abc\xc3\xa4", 4) == "abc...");  // no half character
+}
+
+TEST_SUITE_END();
+
+}  // namespace sonarsim

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <doctest/doctest.h>
+
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "mission/parse.h"
+
+namespace sonarsim {
+
+/// The shortest mission that is valid, in five lines. A test adds what it is about.
+inline const std::string smallest_mission =
+    "scene: {file: a.glb, materials: a.csv}\n"
+    "trajectory: {file: a.tum}\n"
+    "sensors:\n"
+    "  fls:\n"
+    "    kind: imaging\n";
+
+inline Mission parse(const std::string& text, const std::vector<std::string>& overrides = {}) {
+    return parse_mission(text, "m.yaml", "/base", overrides);
+}
+
+/// The message of the InputError that reading `text` ends in; "" when it does not.
+inline std::string refusal(const std::string& text,
+                           const std::vector<std::string>& overrides = {}) {
+    try {
+        parse(text, overrides);
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+}  // namespace sonarsim

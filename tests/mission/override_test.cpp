@@ -1,0 +1,101 @@
+#include "mission/override.h"
+
+#include "mission/fixtures.h"
+
+namespace sonarsim {
+
+namespace {
+
+std::string set_refusal(const std::string& setting) {
+    return refusal(smallest_mission, {setting});
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("mission");
+
+TEST_CASE("an override replaces a key or adds one, the last one winning") {
+    const std::string text = smallest_mission + "    every: 5\nseed: 1\n";
+    const Mission mission =
+        parse(text, {"seed=7", "sensors.fls.every=2", "sensors.fls.noise.add_sigma=0.2",
+                     "sensors.fls.mount.translation_m=[1, 2, 3]", "output.fan=false",
+                     "scene.file=../other.glb", "seed=8"});
+    CHECK(mission.seed == 8);
+    CHECK(mission.sensors[0].every == 2);
+    CHECK(mission.sensors[0].noise.add_sigma == 0.2);
+    CHECK(mission.sensors[0].mount.translation_m == std::array{1.0, 2.0, 3.0});
+    CHECK(!mission.output.fan);
+    CHECK(mission.scene.file == "/other.glb");  // from the mission's folder, as in the file
+    CHECK(mission.water == WaterConfig{});
+}
+
+TEST_CASE("an override reaches into lists and replaces whole sections") {
+    const Mission mission =
+        parse(smallest_mission,
+              {"trajectory={waypoints: [{position_m: [0, 0, 0]}, {position_m: [1, 0, 0]}]}",
+               "trajectory.waypoints.1.position_m.2=-4", "trajectory.speed_m_s=2",
+               "sensors.aft={kind: imaging, every: 3}", "water={density_kg_m3: 1025}"});
+    const auto& waypoints = std::get<WaypointTrajectoryConfig>(mission.trajectory);
+    CHECK(waypoints.waypoints.at(1).position_m == std::array{1.0, 0.0, -4.0});
+    CHECK(waypoints.speed_m_s == 2.0);
+    REQUIRE(mission.sensors.size() == 2);
+    CHECK(mission.sensors[1].name == "aft");
+    CHECK(mission.sensors[1].every == 3);
+    CHECK(mission.water.density_kg_m3 == 1025.0);
+}
+
+TEST_CASE("an override is checked like the file and named in the message") {
+    CHECK(set_refusal("sensors.fls.noise.add_sigm=0.2") ==
+          "--set sensors.fls.noise.add_sigm=0.2: unknown key 'add_sigm' (did you mean "
+          "'add_sigma'?)");
+    CHECK(set_refusal("sensors.fls.nois.add_sigma=0.2") ==
+          "--set sensors.fls.nois.add_sigma=0.2: unknown key 'nois' (did you mean 'noise'?)");
+    CHECK(set_refusal("sensors.fsl.noise.add_sigma=0.2") ==
+          "--set sensors.fsl.noise.add_sigma=0.2: there is no 'fsl' in 'sensors'");
+    CHECK(set_refusal("sensors.flss.every=2") ==
+          "--set sensors.flss.every=2: there is no 'flss' in 'sensors' (did you mean 'fls'?)");
+    CHECK(set_refusal("sensors.fls.noise.add_sigma=-1") ==
+          "--set sensors.fls.noise.add_sigma=-1: 'add_sigma' must be at least 0, not '-1'");
+    CHECK(set_refusal("seed=") ==
+          "--set seed=: 'seed' must be a whole number from 0 to 2^64 - 1, not nothing");
+    CHECK(set_refusal("output.fan=on") ==
+          "--set output.fan=on: 'fan' must be true or false, not 'on'");
+    CHECK(set_refusal("sensors.fls.range_max_m=0.05") ==
+          "--set sensors.fls.range_max_m=0.05: range_min_m must be below range_max_m");
+    CHECK(set_refusal("trajectory.lawnmower={}") ==
+          "--set trajectory.lawnmower={}: 'trajectory' takes one of the keys: file, waypoints, "
+          "lawnmower; here are file, lawnmower");
+    CHECK(set_refusal("water={density_kg_m3: 1, density_kg_m3: 2}") ==
+          "--set water={density_kg_m3: 1, density_kg_m3: 2}: duplicate key 'density_kg_m3'");
+    // An unknown key of the file stays the file's.
+    CHECK(refusal(smallest_mission + "sead: 1\n", {"sead=2"}) ==
+          "m.yaml:6:1: unknown key 'sead' (did you mean 'seed'?)");
+}
+
+TEST_CASE("an override that cannot be read") {
+    const std::string usage = ": write --set key=value or --set section.key=value";
+    for (const char* setting : {"seed", "", "=5", ".seed=5", "seed.=5", "a..b=5",
+                                "a.b.c.d.e.f.g.h.i.j.k.l.m.n.o.p.q=1"}) {
+        CHECK(set_refusal(setting) == "--set " + std::string(setting) + usage);
+    }
+    CHECK(
+        set_refusal("seed.x=5") ==
+        "--set seed.x=5: 'seed' must be a whole number from 0 to 2^64 - 1, not a section of keys");
+    CHECK(set_refusal("scene.file.x=5") ==
+          "--set scene.file.x=5: there is no key 'x' below the single value 'a.glb'");
+    CHECK(set_refusal("seed=]").starts_with("--set seed=]: not valid YAML: "));
+    CHECK(set_refusal("name=\xff").ends_with(": is not UTF-8 text"));
+    CHECK(set_refusal("name=&a b") ==
+          "--set name=&a b: anchors (&name) are not supported; write the value out");
+    const std::string list = smallest_mission + "    mount: {rpy_deg: [1, 2, 3]}\n";
+    CHECK(refusal(list, {"sensors.fls.mount.rpy_deg.3=1"}) ==
+          "--set sensors.fls.mount.rpy_deg.3=1: no item '3'; the list has 3, counted from 0");
+    CHECK(refusal(list, {"sensors.fls.mount.rpy_deg.x=1"}) ==
+          "--set sensors.fls.mount.rpy_deg.x=1: no item 'x'; the list has 3, counted from 0");
+    CHECK(parse(list, {"sensors.fls.mount.rpy_deg.0=9"}).sensors[0].mount.rpy_deg[0] == 9.0);
+    CHECK(set_refusal("name=" + std::string(5000, '/')).size() < 300);
+}
+
+TEST_SUITE_END();
+
+}  // namespace sonarsim

@@ -1,0 +1,124 @@
+#include "mission/resolved.h"
+
+#include "mission/fixtures.h"
+
+namespace sonarsim {
+
+namespace {
+
+/// A mission in which nothing has its default and every number needs all its digits.
+Mission unusual_mission() {
+    Mission mission;
+    mission.name = "näme \"with\" \\ quotes: # {";
+    mission.seed = 18446744073709551615U;
+    mission.water = {1025.1, 1500.0 / 7.0};
+    mission.scene = {"/s p/a'\".glb", "/m/ü.csv"};
+    mission.trajectory =
+        LawnmowerTrajectoryConfig{{-1.0 / 3.0, 2}, {4, 5e6}, -6.5, 45, 3, 0.1, 1e3};
+    SonarConfig sonar{"null",
+                      SonarKind::imaging,
+                      {{1e-7, -2, 0.1}, {-4, 5, 0.2 + 0.1}},
+                      7,
+                      59.5,
+                      12.25,
+                      0.3,
+                      1.0 / 0.07,
+                      33,
+                      44,
+                      {0.041, 0.013, 1e-300, 0.151, false, 3.5}};
+    mission.sensors = {sonar, sonar};
+    mission.sensors[1].name = "-";
+    mission.accuracy = {0.0123};
+    mission.output = {"/o", false, false, false, false, 99, 0.125};
+    return mission;
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("mission");
+
+TEST_CASE("the resolved mission reads back as the same mission") {
+    Mission mission = unusual_mission();
+    CHECK(parse(resolved_yaml(mission)) == mission);
+    mission.trajectory = FileTrajectoryConfig{"/t/poses.csv", 2.5};
+    CHECK(parse(resolved_yaml(mission)) == mission);
+    mission.trajectory = WaypointTrajectoryConfig{
+        {{{1, 2, 3}, {4, 5, 6}}, {{-1, 0.1, 1e-9}, {7, -8, 9}}}, 3.25, 0.5};
+    CHECK(parse(resolved_yaml(mission)) == mission);
+    const Mission defaults = parse(smallest_mission);
+    CHECK(parse(resolved_yaml(defaults)) == defaults);
+}
+
+TEST_CASE("the resolved mission shows every default") {
+    const std::string text = resolved_yaml(parse(smallest_mission, {"output.folder=/o"}));
+    CHECK(text == R"(name: "m"
+seed: 0
+water:
+  density_kg_m3: 997
+  sound_speed_m_s: 1480
+scene:
+  file: "/base/a.glb"
+  materials: "/base/a.csv"
+trajectory:
+  file: "/base/a.tum"
+  rate_hz: 0
+sensors:
+  "fls":
+    kind: imaging
+    mount:
+      translation_m: [0, 0, 0]
+      rpy_deg: [0, 0, 0]
+    every: 1
+    azimuth_deg: 120
+    elevation_deg: 20
+    range_min_m: 0.1
+    range_max_m: 10
+    range_bins: 512
+    azimuth_bins: 512
+    noise:
+      range_lambda_m: 0
+      scatterer_m: 0.02
+      add_sigma: 0
+      mult_sigma: 0
+      scale_with_range: true
+      lobe_sigma_deg: 0
+accuracy:
+  relative_l1: 0.03
+output:
+  folder: "/o"
+  polar: true
+  image: true
+  fan: true
+  meta: true
+  fan_width_px: 0
+  full_scale: 1
+)");
+}
+
+TEST_CASE("the hash knows what is rendered, not where it lies") {
+    const std::string hash = mission_hash(parse(smallest_mission));
+    CHECK(hash.size() == 32);
+    CHECK(hash.find_first_not_of("0123456789abcdef") == std::string::npos);
+    const auto with = [](const std::string& setting) {
+        return mission_hash(parse(smallest_mission, {setting}));
+    };
+    CHECK(with("output.folder=/elsewhere") == hash);
+    CHECK(with("water.density_kg_m3=997.0") == hash);  // the default, written out
+    CHECK(mission_hash(parse_mission(smallest_mission, "m.yaml", "/other/place", {})) == hash);
+
+    CHECK(with("seed=1") != hash);
+    CHECK(with("scene.file=b.glb") != hash);
+    CHECK(with("scene.materials=other/a.csv") != hash);
+    CHECK(with("trajectory.file=other/a.tum") != hash);
+    CHECK(with("sensors.fls.noise.add_sigma=1e-300") != hash);
+    CHECK(with("output.fan=false") != hash);
+}
+
+TEST_CASE("FNV-1a with its published values") {
+    CHECK(fnv1a_128("") == "6c62272e07bb014262b821756295c58d");
+    CHECK(fnv1a_128("a") == "d228cb696f1a8caf78912b704e4a8964");
+}
+
+TEST_SUITE_END();
+
+}  // namespace sonarsim
