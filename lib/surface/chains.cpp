@@ -43,6 +43,7 @@ struct Node {
     std::uint32_t facet = Caster::nothing;
     std::uint32_t material = 0;
     int next = no_node;  ///< the next node up in elevation
+    bool joined = true;  ///< this node and the next lie on one surface, as far as is known
 
     bool missed() const { return facet == Caster::nothing; }
     float range_m() const { return height_m / cosine; }
@@ -56,6 +57,30 @@ struct Chain {
     float elevation_min;
     float elevation_max;
     int first;
+    bool whole;  ///< as wide as the beam, and as high as the view
+};
+
+/// A point of the surface on a given ray.
+struct Point {
+    float range_m = 0.0F;
+    float cosine = 0.0F;  ///< of incidence
+};
+
+/// Where two cells of a chain meet: one point where the surface goes on, two where it does not.
+struct Border {
+    Eigen::Vector3f direction;
+    float elevation;
+    Point below;
+    Point above;
+    bool joined;
+};
+
+/// The part of a chain that a node stands for.
+struct Cell {
+    Border from;
+    Border to;
+    float half_width;  ///< in azimuth, rad
+    bool alone;        ///< the surface may end beside the chain
 };
 
 /// Two neighbours on a chain that do not lie on one surface.
@@ -80,7 +105,7 @@ class Chains {
         const double width = view_.azimuth_rad / view_.beams;
         for (int j = 0; j < view_.beams; ++j) {
             const double azimuth = -0.5 * view_.azimuth_rad + (j + 0.5) * width;
-            add_chain(j, azimuth, 0.5 * width, 0, sampling_.chain);
+            add_chain(j, azimuth, 0.5 * width, 0, sampling_.chain, true);
         }
         cast_new_nodes();
     }
@@ -106,7 +131,8 @@ class Chains {
                 while (i < n && row[i])
                     ++i;
                 for (const int side : {-1, 1}) {
-                    add_chain(j, azimuth + side * width / thirds, 0.5 * width / thirds, first, i);
+                    add_chain(j, azimuth + side * width / thirds, 0.5 * width / thirds, first, i,
+                              false);
                 }
             }
         }
@@ -161,10 +187,10 @@ class Chains {
         return -0.5 * view_.elevation_rad + (i + 0.5) * view_.elevation_rad / sampling_.chain;
     }
 
-    void add_chain(int beam, double azimuth, double half_width, int begin, int end) {
+    void add_chain(int beam, double azimuth, double half_width, int begin, int end, bool whole) {
         const int first = static_cast<int>(nodes_.size());
         chains_.push_back({beam, static_cast<float>(half_width), turn(azimuth),
-                           bottom_ + begin * step_, bottom_ + end * step_, first});
+                           bottom_ + begin * step_, bottom_ + end * step_, first, whole});
         for (int i = begin; i < end; ++i) {
             add_node(chains_.back().azimuth, elevations_[i], static_cast<float>(lattice(i)));
             nodes_.back().next = i + 1 < end ? static_cast<int>(nodes_.size()) : no_node;
@@ -203,8 +229,9 @@ class Chains {
         cast_ = nodes_.size();
     }
 
-    void note_gap(const Gap& gap, std::vector<Gap>& gaps) const {
-        if (disagree(nodes_[gap.below], nodes_[gap.above])) gaps.push_back(gap);
+    void note_gap(const Gap& gap, std::vector<Gap>& gaps) {
+        nodes_[gap.below].joined = !disagree(nodes_[gap.below], nodes_[gap.above]);
+        if (!nodes_[gap.below].joined) gaps.push_back(gap);
     }
 
     /// Whether two rays met what cannot be taken for one smooth surface of one material.
@@ -228,20 +255,41 @@ class Chains {
     }
 
     void collect(const Chain& chain, std::vector<Sample>& items) const {
-        const bool whole = chain.half_width * 2.0F * view_.beams > 0.75F * view_.azimuth_rad;
-        float from = chain.elevation_min;
+        Cell cell{};
+        cell.from = border(chain, no_node, chain.first);
         for (int i = chain.first; i != no_node; i = nodes_[i].next) {
             const Node& node = nodes_[i];
-            const float to = node.next == no_node
-                                 ? chain.elevation_max
-                                 : 0.5F * (node.elevation + nodes_[node.next].elevation);
+            cell.to = border(chain, i, node.next);
             if (!node.missed()) {
-                float half_width = chain.half_width;
-                if (whole && is_split(chain.beam, node.elevation)) half_width /= thirds;
-                items.push_back(piece(node, chain.azimuth, half_width, from, to));
+                const bool split = is_split(chain.beam, node.elevation);
+                cell.half_width =
+                    chain.whole && split ? chain.half_width / thirds : chain.half_width;
+                cell.alone = split || !cell.from.joined || !cell.to.joined;
+                items.push_back(piece(node, chain.azimuth, cell));
             }
-            from = to;
+            cell.from = cell.to;
         }
+    }
+
+    /// Where the cells of two neighbours meet, or where a chain ends.
+    Border border(const Chain& chain, int below, int above) const {
+        Border out{};
+        const Node* const a = below == no_node ? nullptr : &nodes_[below];
+        const Node* const b = above == no_node ? nullptr : &nodes_[above];
+        out.elevation = !a   ? chain.elevation_min
+                        : !b ? chain.elevation_max
+                             : 0.5F * (a->elevation + b->elevation);
+        out.direction = direction(chain.azimuth, turn_small(out.elevation));
+        out.joined = a && b ? a->joined : chain.whole;
+        if (a && !a->missed()) out.below = on_plane(*a, out.direction, out.joined);
+        if (b && !b->missed()) out.above = on_plane(*b, out.direction, out.joined);
+        if (a && b && out.joined && !a->missed() && !b->missed()) {
+            // Half way between the two planes lies the smooth surface that they are facets of.
+            const Point middle{0.5F * (out.below.range_m + out.above.range_m),
+                               0.5F * (out.below.cosine + out.above.cosine)};
+            out.below = out.above = middle;
+        }
+        return out;
     }
 
     bool is_split(int beam, float elevation) const {
@@ -250,34 +298,42 @@ class Chains {
         return split_[static_cast<std::size_t>(beam) * sampling_.chain + i] != 0;
     }
 
-    /// The part of the node's plane between two elevations, `half_width` to either side.
-    Sample piece(const Node& node, Turn azimuth, float half_width, float from, float to) const {
-        const Turn side = turn_small(half_width);
+    /// The surface in a node's cell, as a parallelogram.
+    Sample piece(const Node& node, Turn azimuth, const Cell& cell) const {
+        const Turn side = turn_small(cell.half_width);
         const Turn left{azimuth.sin * side.cos + azimuth.cos * side.sin,
                         azimuth.cos * side.cos - azimuth.sin * side.sin};
         const Turn right{azimuth.sin * side.cos - azimuth.cos * side.sin,
                          azimuth.cos * side.cos + azimuth.sin * side.sin};
-        const Turn middle = turn_small(0.5F * (from + to));
-        const Eigen::Vector3f low = on_plane(node, direction(azimuth, turn_small(from)));
-        const Eigen::Vector3f high = on_plane(node, direction(azimuth, turn_small(to)));
-        const Eigen::Vector3f port = on_plane(node, direction(left, middle));
-        const Eigen::Vector3f starboard = on_plane(node, direction(right, middle));
+        const Turn middle = turn_small(0.5F * (cell.from.elevation + cell.to.elevation));
+        const Eigen::Vector3f port_ray = direction(left, middle);
+        const Eigen::Vector3f starboard_ray = direction(right, middle);
+        const Eigen::Vector3f port = port_ray * on_plane(node, port_ray, !cell.alone).range_m;
+        const Eigen::Vector3f starboard =
+            starboard_ray * on_plane(node, starboard_ray, !cell.alone).range_m;
+        const Eigen::Vector3f low = cell.from.direction * cell.from.above.range_m;
+        const Eigen::Vector3f high = cell.to.direction * cell.to.below.range_m;
         Sample sample;
         sample.position = 0.5F * (low + high);
         sample.edge_u = 0.5F * (port - starboard);
         sample.edge_v = 0.5F * (high - low);
         sample.normal = node.normal;
+        sample.cosine = 0.5F * (cell.from.above.cosine + cell.to.below.cosine);
+        sample.cosine_v = 0.5F * (cell.to.below.cosine - cell.from.above.cosine);
         sample.area_m2 = 4.0F * sample.edge_u.cross(sample.edge_v).norm();
         sample.material = node.material;
         sample.instance = caster_.facet(node.facet).instance;
         return sample;
     }
 
-    /// Where a direction meets the node's plane. Towards a plane's horizon the range is held to
-    /// twice the node's: beyond that, no ray has said that the plane goes on.
-    static Eigen::Vector3f on_plane(const Node& node, const Eigen::Vector3f& direction) {
+    /// Where a direction meets the node's plane. Where the surface goes on, the range is held to
+    /// twice the node's, short of the plane's horizon; where it ends before the next ray, a plane
+    /// seen at grazing incidence would run far out over the edge, so the range stays put.
+    Point on_plane(const Node& node, const Eigen::Vector3f& direction, bool goes_on) const {
         const float cosine = std::max(-node.normal.dot(direction), 0.5F * node.cosine);
-        return direction * (node.height_m / cosine);
+        const float range = node.range_m();
+        const float slack = goes_on ? range : sampling_.tolerance_m;
+        return {std::clamp(node.height_m / cosine, range - slack, range + slack), cosine};
     }
 
     const Caster& caster_;
@@ -298,11 +354,20 @@ class Chains {
 }  // namespace
 
 Sampling sampling_for(const View& view) {
-    Sampling sampling;
+    // Measured: these meet 3 % with a margin on every scene of the report. From there the density
+    // follows the goal: rays and bisections grow as the error shrinks.
+    const double scale = view.relative_l1 / 0.03;
+    const double per_beam = 0.625 / std::sqrt(scale);
     const double beam = view.azimuth_rad / view.beams;
+    Sampling sampling;
     sampling.chain =
-        std::clamp(static_cast<int>(std::ceil(view.elevation_rad / beam / 1.6)), 4, 1024);
-    sampling.tolerance_m = static_cast<float>(view.bin_m());
+        static_cast<int>(std::clamp(std::ceil(view.elevation_rad / beam * per_beam), 4.0, 4096.0));
+    sampling.levels = 3;
+    for (double s = scale; s < 0.6 && sampling.levels < 8; s *= 2.0)
+        ++sampling.levels;
+    const auto slack = static_cast<float>(std::clamp(scale, 0.1, 2.0));
+    sampling.tolerance_m = slack * static_cast<float>(view.bin_m());
+    sampling.tolerance_cosine = 0.1F * slack;
     return sampling;
 }
 

@@ -1,0 +1,70 @@
+#include "core/random.h"
+
+#include <Random123/philox.h>
+#include <doctest/doctest.h>
+
+#include <array>
+#include <set>
+
+using namespace sonarsim;
+
+TEST_SUITE_BEGIN("core");
+
+TEST_CASE("philox is the function of Random123") {
+    r123::Philox4x32 reference;
+    for (std::uint32_t i = 0; i < 1000; ++i) {
+        const PhiloxBlock c{i, i * 2654435761U, ~i, i << 7};
+        const PhiloxKey key{i * 40503U, 0x12345678U ^ i};
+        const auto want = reference({{c.x0, c.x1, c.x2, c.x3}}, {{key.k0, key.k1}});
+        const PhiloxBlock got = philox(c, key);
+        CHECK(got.x0 == want[0]);
+        CHECK(got.x1 == want[1]);
+        CHECK(got.x2 == want[2]);
+        CHECK(got.x3 == want[3]);
+    }
+}
+
+TEST_CASE("a batch gives what one call at a time gives") {
+    constexpr std::size_t n = 64;
+    std::array<std::uint32_t, n> x0, x1, x2, x3;
+    for (std::uint32_t k = 0; k < n; ++k) {
+        x0[k] = k;
+        x1[k] = 7 * k;
+        x2[k] = ~k;
+        x3[k] = k << 20;
+    }
+    const auto a = x0, b = x1, c = x2, d = x3;
+    const PhiloxKey key{0xdeadbeefU, 0xcafef00dU};
+    philox_batch(x0.data(), x1.data(), x2.data(), x3.data(), n, key);
+    for (std::size_t k = 0; k < n; ++k) {
+        const PhiloxBlock want = philox({a[k], b[k], c[k], d[k]}, key);
+        CHECK(x0[k] == want.x0);
+        CHECK(x1[k] == want.x1);
+        CHECK(x2[k] == want.x2);
+        CHECK(x3[k] == want.x3);
+    }
+}
+
+TEST_CASE("unit floats stay inside (0, 1)") {
+    CHECK(unit_float(0) > 0.0F);
+    CHECK(unit_float(0xFFFFFFFFU) < 1.0F);
+}
+
+TEST_CASE("every seed, sensor, ping and stream has a key of its own") {
+    std::set<std::pair<std::uint32_t, std::uint32_t>> keys;
+    std::size_t count = 0;
+    for (std::uint64_t seed : {0ULL, 1ULL, 1ULL << 32}) {
+        for (std::uint32_t sensor : {0U, 1U, 77U}) {
+            for (std::uint32_t ping = 0; ping < 1000; ++ping) {
+                for (const Stream s : {Stream::range_noise, Stream::pixel_noise}) {
+                    const PhiloxKey key = stream_key(seed, sensor, ping, s);
+                    keys.insert({key.k0, key.k1});
+                    ++count;
+                }
+            }
+        }
+    }
+    CHECK(keys.size() == count);
+}
+
+TEST_SUITE_END();

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <vector>
+
+namespace sonarsim::test {
+
+/// Two-sided p-value of the Kolmogorov-Smirnov test of `draws` against a continuous distribution.
+/// The asymptotic law 2 sum (-1)^(k-1) exp(-2 k^2 t^2) with Stephens' correction of t for n.
+inline double ks_p_value(std::vector<double> draws, const std::function<double(double)>& cdf) {
+    std::sort(draws.begin(), draws.end());
+    const auto n = static_cast<double>(draws.size());
+    double distance = 0.0;
+    for (std::size_t i = 0; i < draws.size(); ++i) {
+        const double f = cdf(draws[i]);
+        distance = std::max(
+            {distance, (static_cast<double>(i) + 1.0) / n - f, f - static_cast<double>(i) / n});
+    }
+    const double t = distance * (std::sqrt(n) + 0.12 + 0.11 / std::sqrt(n));
+    double p = 0.0;
+    for (int k = 1; k <= 100; ++k) {
+        p += (k % 2 ? 2.0 : -2.0) * std::exp(-2.0 * k * k * t * t);
+    }
+    return std::clamp(p, 0.0, 1.0);
+}
+
+/// The level at which each of `tests` independent tests is held so that all of them together
+/// reject a true hypothesis once in a thousand (Sidak).
+inline double sidak(int tests) {
+    return 1.0 - std::pow(1.0 - 1e-3, 1.0 / tests);
+}
+
+inline double mean(const std::vector<double>& x) {
+    double sum = 0.0;
+    for (const double v : x)
+        sum += v;
+    return sum / static_cast<double>(x.size());
+}
+
+inline double standard_error(const std::vector<double>& x) {
+    const double m = mean(x);
+    double square = 0.0;
+    for (const double v : x)
+        square += (v - m) * (v - m);
+    const auto n = static_cast<double>(x.size());
+    return std::sqrt(square / (n - 1.0) / n);
+}
+
+}  // namespace sonarsim::test
