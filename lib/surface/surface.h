@@ -6,22 +6,9 @@
 #include <vector>
 
 #include "core/pose.h"
+#include "surface/view.h"
 
 namespace sonarsim {
-
-/// What a sonar looks at, in the sensor frame: x along the boresight, azimuth = atan2(y, x),
-/// elevation = asin(z / r).
-struct View {
-    double azimuth_rad = 0.0;    ///< full angle, centred on the boresight
-    double elevation_rad = 0.0;  ///< full angle
-    double range_min_m = 0.0;
-    double range_max_m = 0.0;
-    int range_bins = 0;
-    int beams = 0;             ///< azimuth bins; beam 0 is the most negative azimuth (starboard)
-    double relative_l1 = 0.0;  ///< error goal of the noise-free image
-
-    double bin_m() const { return (range_max_m - range_min_m) / range_bins; }
-};
 
 /// A piece of visible surface: a flat parallelogram that stands for `area_m2` of the scene.
 struct Sample {

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace sonarsim {
+
+/// How a view is divided into beams.
+enum class ViewShape {
+    fan,    ///< equal beams of azimuth; beam 0 is the most negative azimuth (starboard)
+    sides,  ///< beam 0 is starboard (azimuth < 0), beam 1 port (azimuth >= 0)
+    cone    ///< one beam, round the boresight
+};
+
+/// What a sonar looks at, in the sensor frame: x along the boresight, azimuth = atan2(y, x),
+/// elevation = asin(z / r).
+struct View {
+    double azimuth_rad = 0.0;    ///< full angle, centred on the boresight; of a cone its full angle
+    double elevation_rad = 0.0;  ///< full angle; of a cone the same
+    double range_min_m = 0.0;
+    double range_max_m = 0.0;
+    int range_bins = 0;
+    int beams = 0;
+    double relative_l1 = 0.0;  ///< error goal of the noise-free image
+    ViewShape shape = ViewShape::fan;
+
+    double bin_m() const { return (range_max_m - range_min_m) / range_bins; }
+};
+
+/// The beam that a point of the sensor frame lies in, or -1 outside the field of view. Intervals
+/// are half-open in azimuth and elevation.
+int beam_of(const View& view, const Eigen::Vector3f& point);
+
+}  // namespace sonarsim
