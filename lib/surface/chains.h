@@ -1,9 +1,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
+#include <vector>
 
+#include "surface/angles.h"
 #include "surface/caster.h"
-#include "surface/surface.h"
+#include "surface/view.h"
 
 namespace sonarsim {
 
@@ -15,9 +18,10 @@ struct LocalPose {
 
 /// How densely a view is sampled.
 struct Sampling {
-    int chain = 32;                 ///< rays in elevation per beam before refinement
-    int levels = 3;                 ///< bisections where neighbours in elevation disagree
-    bool split_beams = true;        ///< beams whose neighbours disagree are seen in thirds
+    int columns = 1;                ///< per beam (of a fan), per side, or round the cone
+    int chain = 32;                 ///< rays along a column before refinement
+    int levels = 3;                 ///< bisections where neighbours along a column disagree
+    bool split = true;              ///< columns whose neighbours disagree are seen in thirds
     float tolerance_m = 0.0F;       ///< by how much a neighbour's plane may miss a range
     float tolerance_cosine = 0.1F;  ///< by how much the cosines of incidence may differ
 };
@@ -25,10 +29,47 @@ struct Sampling {
 /// The density that meets the view's error goal, by the figures of the speed-against-error report.
 Sampling sampling_for(const View& view);
 
-/// Sees the view as chains of rays: in each beam a chain of rays in elevation, bisected where two
-/// neighbours do not lie on one surface. Every ray stands for the part of its beam that is nearer
-/// to it than to its neighbours, as a flat piece of the facet that it met.
-void sample_chains(const Caster& caster, const View& view, const LocalPose& pose,
-                   const Sampling& sampling, Samples& samples);
+/// A ray and the plane of what it met, in the sensor frame.
+struct ChainNode {
+    static constexpr int none = -1;
+
+    Eigen::Vector3f direction;
+    float along;                                       ///< angle, rad
+    Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< towards the sensor
+    float height_m = 0.0F;                             ///< of the sensor above the plane
+    float cosine = 0.0F;                               ///< of incidence
+    std::uint32_t facet = Caster::nothing;
+    std::uint32_t material = 0;
+    int next = none;     ///< the next node along the chain
+    bool joined = true;  ///< this node and the next lie on one surface, as far as is known
+
+    bool missed() const { return facet == Caster::nothing; }
+    float range_m() const { return height_m / cosine; }
+};
+
+/// A chain of nodes that sweeps a strip of a beam.
+struct Chain {
+    int beam;
+    float half_width;  ///< across, rad
+    Turn across;       ///< of the chain's rays
+    float along_min;
+    float along_max;
+    int first;   ///< node
+    bool whole;  ///< a whole column, not a third over part of it
+};
+
+/// All that was seen of a view. The first chains are the columns in order, each with
+/// `Sampling::chain` nodes in a row; the thirds of columns follow, sorted by beam.
+struct Chains {
+    std::vector<ChainNode> nodes;
+    std::vector<Chain> chains;
+    std::vector<std::uint8_t> split;  ///< [columns, Sampling::chain]: seen in thirds
+    std::size_t columns = 0;
+};
+
+/// Sees the view as chains of rays: along each column a chain, bisected where two neighbours do
+/// not lie on one surface; where neighbouring columns disagree, thirds of them as well.
+Chains cast_chains(const Caster& caster, const View& view, const LocalPose& pose,
+                   const Sampling& sampling);
 
 }  // namespace sonarsim

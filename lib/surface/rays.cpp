@@ -6,6 +6,7 @@
 
 #include "core/elementary.h"
 #include "surface/caster.h"
+#include "surface/chain_samples.h"
 #include "surface/chains.h"
 
 namespace sonarsim {
@@ -17,7 +18,9 @@ class RaysSurface final : public Surface {
     explicit RaysSurface(const Scene& scene) : origin_(scene.origin), caster_(scene) {}
 
     void look(const View& view, const Pose& T_world_sensor, Samples& samples) const override {
-        sample_chains(caster_, view, local(T_world_sensor), sampling_for(view), samples);
+        const Sampling sampling = sampling_for(view);
+        const Chains chains = cast_chains(caster_, view, local(T_world_sensor), sampling);
+        chain_samples(caster_, view, sampling, chains, samples);
     }
 
     void hit(const Pose& T_world_sensor, std::span<const Ray> rays,
