@@ -16,8 +16,8 @@ struct Reference {
     int range_bins = 0;
     int beams = 0;
     std::vector<float> intensity;  ///< [range_bins, beams], noise-free, before pixel noise
-    double moved = 1.0;  ///< relative L1 by which the last doubling of the rays moved the image
-    double rays_per_bin = 0.0;  ///< rays that echoed, per occupied bin
+    double moved = 1.0;            ///< relative L1 by which doubling the rays last moved the image
+    double rays_per_bin = 0.0;     ///< rays that echoed, per occupied bin
 };
 
 struct ReferenceGoal {
