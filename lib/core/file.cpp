@@ -80,7 +80,8 @@ std::string read_file(const std::filesystem::path& path, std::size_t limit) {
 }
 
 std::filesystem::path temporary_name(const std::filesystem::path& path) {
-    return path.parent_path() / ("." + path.filename().string() + ".part");
+    return path.parent_path() /
+           ("." + path.filename().string() + "." + std::to_string(::getpid()) + ".part");
 }
 
 void write_file(const std::filesystem::path& path, std::string_view bytes) {

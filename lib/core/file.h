@@ -17,7 +17,8 @@ std::string read_file(const std::filesystem::path& path, std::size_t limit);
 void write_file(const std::filesystem::path& path, std::string_view bytes);
 
 /// The name that a file bears until it is whole: a hidden sibling of `path`, so that a rename
-/// stays within one file system.
+/// stays within one file system, ".<name>.<process>.part", so that two processes may write the
+/// same file.
 std::filesystem::path temporary_name(const std::filesystem::path& path);
 
 }  // namespace sonarsim

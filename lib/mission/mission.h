@@ -115,7 +115,7 @@ struct OutputConfig {
     bool image = true;        ///< 16-bit polar PNG
     bool fan = true;          ///< 8-bit Cartesian PNG
     bool meta = true;         ///< JSON per ping
-    int fan_width_px = 0;     ///< 0: twice the number of range bins, at most 1024
+    int fan_width_px = 0;     ///< 0: one pixel per range bin, at most 1024
     double full_scale = 1.0;  ///< intensity that becomes white
 
     bool operator==(const OutputConfig&) const = default;

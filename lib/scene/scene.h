@@ -27,6 +27,7 @@ double power_reflection(double density_kg_m3, double sound_speed_m_s, const Wate
 struct SceneRejects {
     std::uint64_t degenerate_triangles = 0;  ///< no area
     std::uint64_t non_finite_triangles = 0;  ///< a vertex is NaN or infinite
+    std::uint64_t skipped_primitives = 0;    ///< points and lines: no surface to echo
 };
 
 /// The world as triangles, immutable once read. World frame: right-handed, z up, metres.

@@ -1,0 +1,76 @@
+#include "logging.h"
+
+#include <spdlog/fmt/chrono.h>
+#include <spdlog/pattern_formatter.h>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+namespace sonarsim {
+
+namespace {
+
+std::string_view view(const spdlog::string_view_t& text) {
+    return {text.data(), text.size()};
+}
+
+class JsonFormatter : public spdlog::formatter {
+  public:
+    void format(const spdlog::details::log_msg& message, spdlog::memory_buf_t& out) override {
+        const auto now = std::chrono::floor<std::chrono::milliseconds>(message.time);
+        nlohmann::ordered_json line;
+        line["time"] = fmt::format("{:%Y-%m-%dT%H:%M:%S}.{:03}Z", fmt::gmtime(now),
+                                   now.time_since_epoch().count() % 1000);
+        line["level"] = view(spdlog::level::to_string_view(message.level));
+        line["message"] = view(message.payload);
+        const std::string text = json_line(line);
+        out.append(text.data(), text.data() + text.size());
+    }
+    std::unique_ptr<spdlog::formatter> clone() const override {
+        return std::make_unique<JsonFormatter>();
+    }
+};
+
+}  // namespace
+
+void add_log_options(CLI::App& command, LogOptions& options) {
+    command.add_option("--log-level", options.level, "trace, debug, info, warning or error")
+        ->check(CLI::IsMember({"trace", "debug", "info", "warning", "error"}))
+        ->capture_default_str();
+    command.add_flag("-q,--quiet", options.quiet, "Only warnings and errors");
+    command.add_flag("--json", options.json,
+                     "Log lines on stderr and the result on stdout as JSON");
+}
+
+void start_logging(const LogOptions& options) {
+    auto logger = spdlog::stderr_color_mt("sonarsim");
+    if (options.json) {
+        logger->set_formatter(std::make_unique<JsonFormatter>());
+    } else {
+        // On a terminal a message takes the place of the progress line.
+        const std::string clear = ::isatty(STDERR_FILENO) ? "\r\x1b[K" : "";
+        logger->set_pattern(clear + "%^%l%$: %v");
+    }
+    logger->set_level(options.quiet ? spdlog::level::warn : spdlog::level::from_str(options.level));
+    spdlog::set_default_logger(std::move(logger));
+}
+
+void warn_about(const SceneRejects& rejects) {
+    const auto warn = [](std::uint64_t count, const char* what) {
+        if (count > 0) spdlog::warn("the scene has {} {}; they are left out", count, what);
+    };
+    warn(rejects.degenerate_triangles, "triangles without area");
+    warn(rejects.non_finite_triangles, "triangles with a vertex that is NaN or infinite");
+    warn(rejects.skipped_primitives, "primitives of points or lines");
+}
+
+std::string json_line(const nlohmann::ordered_json& json) {
+    return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "scene/scene.h"
+
+namespace sonarsim {
+
+struct LogOptions {
+    std::string level = "info";
+    bool quiet = false;  ///< warnings and errors only
+    bool json = false;   ///< one JSON object per line
+};
+
+/// Adds --log-level, --quiet and --json to a subcommand.
+void add_log_options(CLI::App& command, LogOptions& options);
+
+/// Sends spdlog's default logger to stderr, as text or as JSON.
+void start_logging(const LogOptions& options);
+
+/// Warns of what was left out of a scene.
+void warn_about(const SceneRejects& rejects);
+
+/// JSON on one line, with the line feed. What is no UTF-8 (a file name may be any bytes) becomes
+/// U+FFFD.
+std::string json_line(const nlohmann::ordered_json& json);
+
+}  // namespace sonarsim

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "mission/mission.h"
+
+namespace sonarsim {
+
+/// What render and validate share: the mission and what changes it.
+struct MissionOptions {
+    std::filesystem::path file;
+    std::vector<std::string> settings;
+    std::string seed;
+    std::filesystem::path out;
+};
+
+void add_mission_options(CLI::App& command, MissionOptions& options);
+
+/// The mission with --set, --seed and --out applied, in this order. InputError as load_mission.
+Mission load(const MissionOptions& options);
+
+}  // namespace sonarsim

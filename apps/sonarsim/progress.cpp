@@ -1,0 +1,34 @@
+#include "progress.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <cstdio>
+
+namespace sonarsim {
+
+std::string duration_text(double seconds) {
+    const auto whole = static_cast<std::int64_t>(seconds + 0.5);
+    if (whole < 60) return fmt::format("{} s", whole);
+    if (whole < 3600) return fmt::format("{} min {} s", whole / 60, whole % 60);
+    return fmt::format("{} h {} min", whole / 3600, whole % 3600 / 60);
+}
+
+ProgressLine::ProgressLine(bool visible)
+    : visible_(visible), start_(Clock::now()), next_(start_ + std::chrono::milliseconds(300)) {}
+
+ProgressLine::~ProgressLine() {
+    if (visible_) std::fputs("\r\x1b[K", stderr);
+}
+
+void ProgressLine::show(std::uint64_t done, std::uint64_t total) {
+    const Clock::time_point now = Clock::now();
+    if (!visible_ || now < next_ || done == 0) return;
+    next_ = now + std::chrono::milliseconds(100);
+    const double rate =
+        static_cast<double>(done) / std::chrono::duration<double>(now - start_).count();
+    fmt::print(stderr, "\r\x1b[K{} of {} pings, {:.0f} pings/s, {} left", done, total, rate,
+               duration_text(static_cast<double>(total - done) / rate));
+    std::fflush(stderr);
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,144 @@
+#include <spdlog/fmt/fmt.h>
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "commands.h"
+#include "core/text.h"
+#include "dataset/job.h"
+#include "logging.h"
+#include "mission_options.h"
+#include "progress.h"
+#include "signals.h"
+
+namespace sonarsim {
+
+namespace {
+
+struct RenderArguments {
+    MissionOptions mission;
+    RenderOptions render;
+    bool no_files = false;
+    LogOptions log;
+};
+
+/// "2/4" on the command line, where shards count from 1.
+void parse_shard(const std::string& text, RenderOptions& options) {
+    const std::size_t slash = text.find('/');
+    const auto shard = parse_integer(text.substr(0, slash));
+    const auto shards =
+        slash == std::string::npos ? std::nullopt : parse_integer(text.substr(slash + 1));
+    if (!shard || !shards || *shard < 1 || *shard > *shards || *shards > 1'000'000) {
+        throw CLI::ValidationError("--shard", "'" + text + "' is not of the form 1/4 to 4/4");
+    }
+    options.shard = static_cast<int>(*shard - 1);
+    options.shards = static_cast<int>(*shards);
+}
+
+double pings_per_s(const RenderSummary& summary) {
+    return summary.seconds > 0.0 ? static_cast<double>(summary.pings) / summary.seconds : 0.0;
+}
+
+void print_table(const RenderSummary& summary) {
+    const std::pair<const char*, double> stages[] = {{"trace", summary.stages.trace},
+                                                     {"accumulate", summary.stages.accumulate},
+                                                     {"noise", summary.stages.noise},
+                                                     {"encode", summary.encode_seconds},
+                                                     {"write", summary.write_seconds}};
+    double sum = 0.0;
+    for (const auto& stage : stages)
+        sum += stage.second;
+    fmt::print("pings       {:>8}\npings/s     {:>8.0f}\n", summary.pings, pings_per_s(summary));
+    for (const auto& [name, seconds] : stages) {
+        fmt::print("{:<12}{:>6.1f} %\n", name, sum > 0.0 ? 100.0 * seconds / sum : 0.0);
+    }
+}
+
+void print_json(const RenderSummary& summary) {
+    nlohmann::ordered_json json;
+    json["pings"] = summary.pings;
+    json["skipped"] = summary.skipped;
+    json["complete"] = summary.complete;
+    json["seconds"] = summary.seconds;
+    json["pings_per_s"] = pings_per_s(summary);
+    json["thread_seconds"] = {{"trace", summary.stages.trace},
+                              {"accumulate", summary.stages.accumulate},
+                              {"noise", summary.stages.noise},
+                              {"encode", summary.encode_seconds},
+                              {"write", summary.write_seconds}};
+    json["samples"] = summary.counts.samples;
+    json["echoes"] = summary.counts.echoes;
+    json["clipped_pixels"] = summary.clipped_pixels;
+    fmt::print("{}", json_line(json));
+}
+
+/// What the table does not say.
+void comment(const RenderSummary& summary, const Mission& mission, bool files) {
+    const std::string folder = mission.output.folder.string();
+    if (files && summary.complete) {
+        spdlog::info("{}: complete; {} of its pings were there already", folder, summary.skipped);
+    } else if (files && !summary.stopped) {
+        spdlog::info("{}: the pings of other shards are still missing", folder);
+    }
+    if (summary.pings > 0 && summary.counts.echoes == 0) {
+        spdlog::warn("no sonar saw any surface within its range and field of view");
+    }
+    if (summary.clipped_pixels > 0) {
+        spdlog::warn("{} pixels are above output.full_scale ({}) and white in the PNG files",
+                     summary.clipped_pixels, mission.output.full_scale);
+    }
+}
+
+int render(RenderArguments arguments) {
+    start_logging(arguments.log);
+    arguments.render.files = !arguments.no_files;
+    const std::atomic<bool>& stop = stop_on_signal();
+    const Mission mission = load(arguments.mission);
+    const Assembly assembly = assemble(mission);
+    warn_about(assembly.scene.rejects);
+    spdlog::info("{}: {} triangles, {} poses", mission.name, assembly.scene.triangles.size(),
+                 assembly.trajectory.size());
+    const bool quiet = arguments.log.quiet;
+    RenderSummary summary;
+    {
+        ProgressLine line(!quiet && !arguments.log.json && ::isatty(STDERR_FILENO) == 1);
+        summary = run_job(
+            mission, assembly, arguments.render,
+            [&](std::uint64_t done, std::uint64_t total) { line.show(done, total); }, stop);
+    }
+    comment(summary, mission, arguments.render.files);
+    if (!quiet) arguments.log.json ? print_json(summary) : print_table(summary);
+    if (!summary.stopped) return exit_done;
+    spdlog::warn(
+        "stopped after {} pings; what is written is whole, and the same command run again "
+        "goes on from there",
+        summary.pings);
+    return exit_signal + signal_received();
+}
+
+}  // namespace
+
+void add_render(CLI::App& app, int& exit_code) {
+    CLI::App& command = *app.add_subcommand(
+        "render", "Renders a mission into its dataset, or goes on with an interrupted one");
+    auto arguments = std::make_shared<RenderArguments>();
+    add_mission_options(command, arguments->mission);
+    command
+        .add_option("-j,--threads", arguments->render.threads, "Threads (default: one per core)")
+        ->check(CLI::Range(1, 1024))
+        ->type_name("N");
+    command
+        .add_option_function<std::string>(
+            "--shard", [arguments](const auto& text) { parse_shard(text, arguments->render); },
+            "Renders the I-th of N parts, counted from 1")
+        ->type_name("I/N");
+    command.add_flag("--overwrite", arguments->render.overwrite,
+                     "Begins anew where the output folder holds something else");
+    command.add_flag("--no-files", arguments->no_files, "Writes nothing, to measure the speed");
+    add_log_options(command, arguments->log);
+    command.callback([arguments, &exit_code] { exit_code = render(*arguments); });
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,145 @@
+#include <spdlog/fmt/fmt.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <numeric>
+#include <system_error>
+
+#include "commands.h"
+#include "dataset/folder.h"
+#include "dataset/metadata.h"
+#include "logging.h"
+#include "mission_options.h"
+#include "product/fan.h"
+
+namespace sonarsim {
+
+namespace {
+
+struct ValidateArguments {
+    MissionOptions mission;
+    bool overwrite = false;
+    LogOptions log;
+};
+
+/// The folder may not be there yet: what counts is the nearest one above it that is.
+void check_writable(std::filesystem::path folder) {
+    while (!std::filesystem::exists(folder) && folder.has_relative_path())
+        folder = folder.parent_path();
+    if (::access(folder.c_str(), W_OK | X_OK) != 0) {
+        throw std::system_error(errno, std::generic_category(),
+                                "cannot write to " + folder.string());
+    }
+}
+
+/// The most that the files of a ping take: noise hardly compresses, so PNG files count in full.
+double bytes_per_ping(const Sonar& sonar, const OutputConfig& output) {
+    const double bins = static_cast<double>(sonar.config.range_bins) * sonar.config.azimuth_bins;
+    const FanFrame fan = fan_frame(sonar, output.fan_width_px);
+    return (output.polar ? 128.0 + 4.0 * bins : 0.0) + (output.image ? 100.0 + 2.0 * bins : 0.0) +
+           (output.fan ? 100.0 + static_cast<double>(fan.width) * fan.height : 0.0) +
+           (output.meta ? 1500.0 : 0.0);
+}
+
+/// What a mission comes to.
+struct Findings {
+    const Mission& mission;
+    const Assembly& assembly;
+    std::filesystem::path folder;
+    const char* state;
+    std::vector<std::size_t> pings;  ///< per sonar
+    double bytes = 0.0;
+
+    std::size_t all_pings() const { return std::reduce(pings.begin(), pings.end()); }
+};
+
+const char* state_text(FolderState state) {
+    switch (state) {
+        case FolderState::fresh:
+            return "new";
+        case FolderState::unfinished:
+            return "unfinished";
+        case FolderState::complete:
+            return "complete";
+    }
+    return "";
+}
+
+nlohmann::ordered_json json_of(const Findings& f) {
+    nlohmann::ordered_json sensors = nlohmann::ordered_json::object();
+    for (std::size_t i = 0; i < f.pings.size(); ++i) {
+        sensors[f.assembly.sonars[i].config.name] = {{"pings", f.pings[i]}};
+    }
+    return {{"mission", f.mission.name},
+            {"triangles", f.assembly.scene.triangles.size()},
+            {"poses", f.assembly.trajectory.size()},
+            {"sensors", sensors},
+            {"pings", f.all_pings()},
+            {"folder", f.folder.string()},
+            {"folder_state", f.state},
+            {"bytes_at_most", f.bytes}};
+}
+
+std::string text_of(const Findings& f) {
+    const Scene& scene = f.assembly.scene;
+    const Trajectory& trajectory = f.assembly.trajectory;
+    const Eigen::Vector3d extent = scene.bounds_max - scene.bounds_min;
+    const auto line = [](std::string_view head, const std::string& rest) {
+        return fmt::format("{:<12}{}\n", head, rest);
+    };
+    std::string text = line("mission", f.mission.name);
+    text += line("scene", fmt::format("{} triangles, {} materials, {} instances, "
+                                      "{:.1f} x {:.1f} x {:.1f} m",
+                                      scene.triangles.size(), scene.materials.size(),
+                                      scene.instances.size(), extent.x(), extent.y(), extent.z()));
+    text += line("trajectory", fmt::format("{} poses, {:.1f} s", trajectory.size(),
+                                           trajectory.back().t_s - trajectory.front().t_s));
+    for (std::size_t i = 0; i < f.pings.size(); ++i) {
+        const SonarConfig& sensor = f.assembly.sonars[i].config;
+        text += line(sensor.name, fmt::format("{} x {} bins, {} pings", sensor.range_bins,
+                                              sensor.azimuth_bins, f.pings[i]));
+    }
+    text +=
+        line("dataset", fmt::format("{} pings, at most {:.1f} MB", f.all_pings(), 1e-6 * f.bytes));
+    return text + line("folder", fmt::format("{} ({})", f.folder.string(), f.state));
+}
+
+int validate(const ValidateArguments& arguments) {
+    start_logging(arguments.log);
+    const Mission mission = load(arguments.mission);
+    const Assembly assembly = assemble(mission);
+    warn_about(assembly.scene.rejects);
+    const std::size_t poses = assembly.trajectory.size();
+    const Layout layout = make_layout(mission, poses);
+    const FolderState state =
+        arguments.overwrite ? FolderState::fresh
+                            : inspect_folder(layout, describe_dataset(mission, assembly, layout));
+    check_writable(layout.folder);
+
+    Findings findings{mission, assembly, layout.folder, state_text(state), {}, 0.0};
+    for (const Sonar& sonar : assembly.sonars) {
+        const std::size_t pings = (poses + sonar.config.every - 1) / sonar.config.every;
+        findings.pings.push_back(pings);
+        findings.bytes += static_cast<double>(pings) * bytes_per_ping(sonar, mission.output);
+    }
+    if (!arguments.log.quiet) {
+        fmt::print("{}", arguments.log.json ? json_line(json_of(findings)) : text_of(findings));
+    }
+    return exit_done;
+}
+
+}  // namespace
+
+void add_validate(CLI::App& app, int& exit_code) {
+    CLI::App& command =
+        *app.add_subcommand("validate", "Checks a mission and all it names; renders nothing");
+    auto arguments = std::make_shared<ValidateArguments>();
+    add_mission_options(command, arguments->mission);
+    command.add_flag("--overwrite", arguments->overwrite, "Allow any output folder, as in render");
+    add_log_options(command, arguments->log);
+    command.callback([arguments, &exit_code] { exit_code = validate(*arguments); });
+}
+
+}  // namespace sonarsim

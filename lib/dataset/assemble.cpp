@@ -1,0 +1,73 @@
+#include "dataset/assemble.h"
+
+#include <variant>
+
+#include "core/text.h"
+#include "core/units.h"
+#include "mission/resolved.h"
+#include "scene/gltf.h"
+#include "trajectory/files.h"
+#include "trajectory/interpolate.h"
+#include "trajectory/patterns.h"
+
+namespace sonarsim {
+
+namespace {
+
+Trajectory poses_of(const FileTrajectoryConfig& config) {
+    Trajectory poses = read_trajectory(config.file);
+    return config.rate_hz > 0.0 ? resample(poses, config.rate_hz) : poses;
+}
+
+Trajectory poses_of(const WaypointTrajectoryConfig& config) {
+    std::vector<Waypoint> waypoints;
+    for (const WaypointConfig& waypoint : config.waypoints) {
+        const auto& [roll, pitch, yaw] = waypoint.rpy_deg;
+        waypoints.push_back({Eigen::Vector3d(waypoint.position_m.data()),
+                             rotation_from_rpy(radians(roll), radians(pitch), radians(yaw))});
+    }
+    return follow_waypoints(waypoints, config.speed_m_s, config.rate_hz);
+}
+
+Trajectory poses_of(const LawnmowerTrajectoryConfig& config) {
+    return lawnmower({Eigen::Vector2d(config.area_min_m.data()),
+                      Eigen::Vector2d(config.area_max_m.data()), config.z_m, config.heading_deg,
+                      config.line_spacing_m, config.speed_m_s, config.rate_hz});
+}
+
+template <class T>
+std::string hash_of(const std::vector<T>& values) {
+    return fnv1a_128({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)});
+}
+
+}  // namespace
+
+Assembly assemble(const Mission& mission) {
+    Assembly assembly;
+    assembly.trajectory =
+        std::visit([](const auto& config) { return poses_of(config); }, mission.trajectory);
+    for (const SonarConfig& sensor : mission.sensors) {
+        assembly.sonars.push_back(make_sonar(sensor, mission.accuracy));
+    }
+    assembly.scene = load_scene(mission.scene.file, mission.scene.materials,
+                                {mission.water.density_kg_m3, mission.water.sound_speed_m_s});
+    return assembly;
+}
+
+std::string inputs_hash(const Assembly& assembly) {
+    const Scene& scene = assembly.scene;
+    std::string text = hash_of(scene.vertices) + hash_of(scene.triangles) +
+                       hash_of(scene.triangle_material) + hash_of(scene.triangle_instance);
+    for (const double x : {scene.origin.x(), scene.origin.y(), scene.origin.z()}) {
+        text += " " + number_text(x);
+    }
+    for (const Material& material : scene.materials) {
+        text += "\n" + material.name + "\n" + number_text(material.density_kg_m3) + " " +
+                number_text(material.sound_speed_m_s);
+    }
+    for (const std::string& instance : scene.instances)
+        text += "\n" + instance;
+    return fnv1a_128(text + "\n" + write_tum(assembly.trajectory));
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mission/mission.h"
+#include "scene/scene.h"
+#include "sonar/sonar.h"
+#include "trajectory/trajectory.h"
+
+namespace sonarsim {
+
+/// All that a mission names, read, checked and ready to render.
+struct Assembly {
+    Scene scene;
+    Trajectory trajectory;
+    std::vector<Sonar> sonars;  ///< in the order of Mission::sensors
+};
+
+/// Reads the files of a mission and works out its poses. Writes nothing. InputError for whatever
+/// is wrong with them.
+Assembly assemble(const Mission& mission);
+
+/// 32 hexadecimal digits that differ when the scene, its materials or the poses differ: a mission
+/// names its files, this stands for what was in them.
+std::string inputs_hash(const Assembly& assembly);
+
+}  // namespace sonarsim

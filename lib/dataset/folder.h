@@ -1,0 +1,43 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "dataset/layout.h"
+
+namespace sonarsim {
+
+enum class FolderState {
+    fresh,       ///< holds nothing yet
+    unfinished,  ///< holds a part of this very dataset
+    complete,    ///< says that it holds all of it
+};
+
+/// What the output folder holds, seen from the dataset that `description` (dataset.json) stands
+/// for. InputError when it holds something else: other files, or a dataset of another mission, of
+/// other input files or of another version of the program.
+FolderState inspect_folder(const Layout& layout, const nlohmann::ordered_json& description);
+
+/// Removes what a dataset consists of, whichever sensors it has; anything else stays.
+void remove_dataset(const std::filesystem::path& folder);
+
+/// The text of the files that stand beside the pings.
+struct CommonFiles {
+    nlohmann::ordered_json description;  ///< dataset.json
+    std::string mission;                 ///< mission.resolved.yaml
+    std::string trajectory;              ///< trajectory.tum
+};
+
+/// Makes the folder ready for pings: subfolders and common files, dataset.json first and with
+/// `complete` set to false. std::system_error when the disk does not take them.
+void begin_dataset(const Layout& layout, const CommonFiles& files);
+
+/// Removes the temporary files that an interrupted run left of the pings in `todo` (sorted), and of
+/// the common files when no other shard may be at work (`alone`).
+void remove_leftovers(const Layout& layout, const std::vector<PingId>& todo, bool alone);
+
+/// Writes dataset.json with `complete` set to true.
+void finish_dataset(const Layout& layout, const nlohmann::ordered_json& description);
+
+}  // namespace sonarsim

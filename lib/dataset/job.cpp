@@ -1,0 +1,197 @@
+#include "dataset/job.h"
+
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+#include <tbb/parallel_pipeline.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <vector>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "dataset/folder.h"
+#include "dataset/metadata.h"
+#include "dataset/ping_files.h"
+#include "mission/resolved.h"
+#include "product/fan.h"
+#include "surface/rays.h"
+#include "trajectory/files.h"
+
+namespace sonarsim {
+
+namespace {
+
+double seconds_now() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
+        .count();
+}
+
+/// What one ping left behind besides its files.
+struct PingReport {
+    PingCounts counts;
+    PingSeconds seconds;
+    double encode_seconds = 0.0;
+    double write_seconds = 0.0;
+    std::uint64_t clipped_pixels = 0;
+};
+
+void add(RenderSummary& summary, const PingReport& report) {
+    ++summary.pings;
+    summary.stages.trace += report.seconds.trace;
+    summary.stages.accumulate += report.seconds.accumulate;
+    summary.stages.noise += report.seconds.noise;
+    summary.encode_seconds += report.encode_seconds;
+    summary.write_seconds += report.write_seconds;
+    summary.counts.samples += report.counts.samples;
+    summary.counts.echoes += report.counts.echoes;
+    summary.counts.out_of_range += report.counts.out_of_range;
+    summary.counts.occupied_bins += report.counts.occupied_bins;
+    summary.counts.negative_pixels += report.counts.negative_pixels;
+    summary.clipped_pixels += report.clipped_pixels;
+}
+
+void check(const RenderOptions& options) {
+    if (options.threads < 0) throw InputError("the number of threads must not be negative");
+    if (options.shards < 1 || options.shard < 0 || options.shard >= options.shards) {
+        throw InputError("a shard must be one of 0 to shards - 1");
+    }
+    if (options.overwrite && options.shards > 1) {
+        throw InputError(
+            "one shard must not overwrite what another writes: remove the folder instead");
+    }
+}
+
+/// Which pings a run renders.
+struct Plan {
+    std::vector<PingId> todo;
+    std::vector<PingId> others;  ///< those of other shards
+    std::uint64_t skipped = 0;   ///< of this shard, with all their files
+};
+
+/// `present` tells where files may be already; null where there are none.
+Plan make_plan(const std::vector<PingId>& all, const RenderOptions& options,
+               const Layout* present) {
+    Plan plan;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        if (static_cast<int>(i % options.shards) != options.shard) {
+            plan.others.push_back(all[i]);
+        } else if (present != nullptr && present->has(all[i])) {
+            ++plan.skipped;
+        } else {
+            plan.todo.push_back(all[i]);
+        }
+    }
+    return plan;
+}
+
+/// Renders one ping and writes its files, if any.
+using Work = std::function<PingReport(const PingId&)>;
+
+/// Does the work for each ping, several at a time. At most twice as many pings as threads are in
+/// memory.
+void stream_pings(const std::vector<PingId>& todo, int threads, const Work& work,
+                  const ProgressCallback& progress, const std::atomic<bool>& stop,
+                  RenderSummary& summary) {
+    std::size_t next = 0;
+    const auto feed = [&](tbb::flow_control& flow) -> std::size_t {
+        if (next == todo.size() || stop) {
+            flow.stop();
+            return next;
+        }
+        return next++;
+    };
+    const auto finish = [&](const PingReport& report) {
+        add(summary, report);
+        if (progress) progress(summary.pings, todo.size());
+    };
+    const double start = seconds_now();
+    tbb::parallel_pipeline(
+        2 * static_cast<std::size_t>(threads),
+        tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order, feed) &
+            tbb::make_filter<std::size_t, PingReport>(
+                tbb::filter_mode::parallel, [&](std::size_t i) { return work(todo[i]); }) &
+            tbb::make_filter<PingReport, void>(tbb::filter_mode::serial_in_order, finish));
+    summary.seconds = seconds_now() - start;
+    summary.stopped = summary.pings < todo.size();
+}
+
+/// Renders `todo`. Without a layout nothing is written.
+void render(const Mission& mission, const Assembly& assembly, const std::vector<PingId>& todo,
+            const Layout* layout, int threads, const ProgressCallback& progress,
+            const std::atomic<bool>& stop, RenderSummary& summary) {
+    const std::unique_ptr<Surface> surface = make_rays_surface(assembly.scene);
+    std::vector<FanMap> fans;
+    if (layout != nullptr && mission.output.fan) {
+        for (const Sonar& sonar : assembly.sonars) {
+            fans.push_back(make_fan_map(sonar, mission.output.fan_width_px));
+        }
+    }
+    const auto work = [&](const PingId& id) {
+        const Ping ping =
+            render_ping(assembly.sonars[id.sensor], assembly.scene, *surface,
+                        assembly.trajectory[id.pose].T_world_vehicle, {mission.seed, id.pose});
+        PingReport report{ping.counts, ping.seconds};
+        if (layout == nullptr) return report;
+        const double start = seconds_now();
+        const PingFiles encoded = encode_ping(mission, assembly, *layout, fans, id, ping);
+        const double encoded_at = seconds_now();
+        for (const auto& [kind, bytes] : encoded.files)
+            write_file(layout->file(id, kind), bytes);
+        report.encode_seconds = encoded_at - start;
+        report.write_seconds = seconds_now() - encoded_at;
+        report.clipped_pixels = encoded.clipped_pixels;
+        return report;
+    };
+    stream_pings(todo, threads, work, progress, stop, summary);
+}
+
+}  // namespace
+
+RenderSummary run_job(const Mission& mission, const Assembly& assembly,
+                      const RenderOptions& options, const ProgressCallback& progress,
+                      const std::atomic<bool>& stop) {
+    check(options);
+    const int threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    tbb::task_arena arena(threads);
+    const std::vector<PingId> all = list_pings(mission, assembly.trajectory.size());
+    RenderSummary summary;
+    const auto render_all = [&](const std::vector<PingId>& todo, const Layout* layout) {
+        arena.execute(
+            [&] { render(mission, assembly, todo, layout, threads, progress, stop, summary); });
+    };
+    if (!options.files) {
+        render_all(make_plan(all, options, nullptr).todo, nullptr);
+        return summary;
+    }
+
+    const Layout layout = make_layout(mission, assembly.trajectory.size());
+    const CommonFiles common{describe_dataset(mission, assembly, layout), resolved_yaml(mission),
+                             write_tum(assembly.trajectory)};
+    if (options.overwrite) remove_dataset(layout.folder);
+    const FolderState state =
+        options.overwrite ? FolderState::fresh : inspect_folder(layout, common.description);
+    const Plan plan = make_plan(all, options, state == FolderState::fresh ? nullptr : &layout);
+    summary.skipped = plan.skipped;
+    summary.complete = state == FolderState::complete && plan.todo.empty();
+    if (summary.complete) return summary;
+
+    begin_dataset(layout, common);
+    if (state != FolderState::fresh) remove_leftovers(layout, plan.todo, options.shards == 1);
+    render_all(plan.todo, &layout);
+    summary.complete =
+        !summary.stopped &&
+        std::ranges::all_of(plan.others, [&](const PingId& ping) { return layout.has(ping); });
+    if (summary.complete) finish_dataset(layout, common.description);
+    return summary;
+}
+
+RenderSummary run_job(const Mission& mission, const RenderOptions& options,
+                      const ProgressCallback& progress, const std::atomic<bool>& stop) {
+    return run_job(mission, assemble(mission), options, progress, stop);
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,105 @@
+#include "dataset/metadata.h"
+
+#include "mission/resolved.h"
+#include "product/fan.h"
+
+namespace sonarsim {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const char* kind_name(SonarKind kind) {
+    switch (kind) {
+        case SonarKind::imaging:
+            return "imaging";
+    }
+    return "";
+}
+
+Json describe_pose(const Pose& pose) {
+    const Eigen::Vector3d& p = pose.translation;
+    const Eigen::Quaterniond& q = pose.rotation;
+    return {{"position_m", {p.x(), p.y(), p.z()}},
+            {"quaternion_xyzw", {q.x(), q.y(), q.z(), q.w()}}};
+}
+
+Json describe_sensor(const Sonar& sonar, std::size_t poses, const Mission& mission,
+                     const Layout& layout) {
+    const SonarConfig& config = sonar.config;
+    Json json = {{"name", config.name},
+                 {"kind", kind_name(config.kind)},
+                 {"settings", "mission.resolved.yaml#/sensors/" + config.name},
+                 {"stream", sonar.settings.stream},
+                 {"every", config.every},
+                 {"pings", (poses + config.every - 1) / config.every},
+                 {"T_vehicle_sensor", describe_pose(sonar.T_vehicle_sensor)},
+                 {"full_scale", mission.output.full_scale}};
+    Json files = Json::object();
+    for (const FileKind kind : layout.kinds) {
+        files[std::string(name_of(kind))] = config.name + "/" + std::string(name_of(kind)) + "/%0" +
+                                            std::to_string(layout.digits) + "d" +
+                                            std::string(extension_of(kind));
+    }
+    json["files"] = std::move(files);
+    if (mission.output.fan) {
+        const FanFrame fan = fan_frame(sonar, mission.output.fan_width_px);
+        json["fan"] = {{"width_px", fan.width},
+                       {"height_px", fan.height},
+                       {"pixel_m", fan.pixel_m},
+                       {"apex_px", {0.5 * fan.width, config.range_max_m / fan.pixel_m}}};
+    }
+    json["range_edges_m"] = sonar.range_edges_m;
+    json["azimuth_edges_rad"] = sonar.azimuth_edges_rad;
+    return json;
+}
+
+}  // namespace
+
+Json describe_dataset(const Mission& mission, const Assembly& assembly, const Layout& layout) {
+    Json json = {{"format", dataset_format},
+                 {"format_version", dataset_format_version},
+                 {"program_version", SONARSIM_VERSION},
+                 {"complete", false},
+                 {"mission", mission.name},
+                 {"mission_hash", mission_hash(mission)},
+                 {"inputs_hash", inputs_hash(assembly)},
+                 {"seed", mission.seed},
+                 {"poses", assembly.trajectory.size()}};
+    Json sensors = Json::array();
+    for (const Sonar& sonar : assembly.sonars) {
+        sensors.push_back(describe_sensor(sonar, assembly.trajectory.size(), mission, layout));
+    }
+    json["sensors"] = std::move(sensors);
+    return json;
+}
+
+Json describe_ping(const Mission& mission, const Assembly& assembly, const PingId& id,
+                   const PingCounts& counts, std::uint64_t clipped_pixels) {
+    const Sonar& sonar = assembly.sonars[id.sensor];
+    const TimedPose& pose = assembly.trajectory[id.pose];
+    const Pose T_world_sensor = pose.T_world_vehicle * sonar.T_vehicle_sensor;
+    return {
+        {"sensor", sonar.config.name},
+        {"settings", "mission.resolved.yaml#/sensors/" + sonar.config.name},
+        {"ping", id.pose},
+        {"time_s", pose.t_s},
+        {"T_world_vehicle", describe_pose(pose.T_world_vehicle)},
+        {"T_world_sensor", describe_pose(T_world_sensor)},
+        {"random", {{"seed", mission.seed}, {"stream", sonar.settings.stream}, {"ping", id.pose}}},
+        {"full_scale", mission.output.full_scale},
+        {"clipped_pixels", clipped_pixels},
+        {"counts",
+         {{"samples", counts.samples},
+          {"echoes", counts.echoes},
+          {"out_of_range", counts.out_of_range},
+          {"occupied_bins", counts.occupied_bins},
+          {"negative_pixels", counts.negative_pixels}}}};
+}
+
+std::string json_text(const Json& json) {
+    // A mission's name may be any bytes; what is no UTF-8 becomes U+FFFD.
+    return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "dataset/assemble.h"
+#include "dataset/layout.h"
+#include "mission/mission.h"
+#include "ping/ping.h"
+#include "product/fan.h"
+
+namespace sonarsim {
+
+/// The files of one ping in memory, in the order in which they are to be written.
+struct PingFiles {
+    std::vector<std::pair<FileKind, std::string>> files;
+    std::uint64_t clipped_pixels = 0;  ///< intensities above full_scale; white in the images
+};
+
+/// Encodes a ping into the kinds of file that `layout` asks for. `fans` holds one map per sonar;
+/// it may be empty when no fan is asked for.
+PingFiles encode_ping(const Mission& mission, const Assembly& assembly, const Layout& layout,
+                      const std::vector<FanMap>& fans, const PingId& id, const Ping& ping);
+
+}  // namespace sonarsim

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+
+#include "scene/scene.h"
+
+namespace sonarsim {
+
+/// Reads a .gltf or .glb file (told apart by content) with the materials of a CSV.
+///
+/// World frame: (x, y, z)_world = (x, -z, y)_gltf, node transforms composed in double precision.
+/// Read is the file's default scene, else its first, else all root nodes. A triangle's material is
+/// `extras.sonar.material` of its node or the nearest ancestor that has one, else of its glTF
+/// material, else that material's name. Its instance is its node's name; a node without one is
+/// "node<index>", and a name that is taken gets "_2", "_3", ... Animated nodes and morph targets
+/// stay at rest. `origin` is the centre of the bounding box rounded to a multiple of g, the
+/// smallest power of ten that holds the scene's largest extent (at least 1 m), so that a scene
+/// moved by multiples of g keeps its local coordinates bit by bit.
+///
+/// InputError for what is no valid glTF 2.0, for compressed or skinned meshes, unknown required
+/// extensions, buffers outside of the file's folder, primitives without material, and materials
+/// that the CSV lacks. Points, lines, degenerate and non-finite triangles are dropped and counted
+/// in `rejects`; a scene may end up empty.
+Scene load_scene(const std::filesystem::path& gltf, const std::filesystem::path& materials_csv,
+                 const Water& water);
+
+/// The same without a CSV: materials have a name alone, "(no material)" where the file names none.
+Scene load_scene_geometry(const std::filesystem::path& gltf);
+
+}  // namespace sonarsim

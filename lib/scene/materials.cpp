@@ -1,0 +1,93 @@
+#include "scene/materials.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "core/csv.h"
+#include "core/error.h"
+#include "core/text.h"
+
+namespace sonarsim {
+
+namespace {
+
+constexpr std::size_t max_file_bytes = 1 << 24;
+
+void check_header(const CsvTable& csv) {
+    const std::vector<std::string> ours{"material", "density_kg_m3", "sound_speed_m_s"};
+    const std::vector<std::string> holoocean{"Material", "Density kg/m^3", "Speed of Sound m/s"};
+    if (csv.header.fields == ours || csv.header.fields == holoocean) return;
+    throw InputError(Location{csv.file, csv.header.line},
+                     "expected the header 'material,density_kg_m3,sound_speed_m_s' or "
+                     "'Material, Density kg/m^3, Speed of Sound m/s'");
+}
+
+double positive_number(const std::string& text, const char* quantity, const Location& where) {
+    const auto value = parse_number(text);
+    if (!value) throw InputError(where, std::string(quantity) + " '" + text + "' is not a number");
+    if (!(std::isfinite(*value) && *value > 0.0)) {
+        throw InputError(
+            where, std::string(quantity) + " is " + text + "; expected a finite number above zero");
+    }
+    return *value;
+}
+
+MaterialTable to_materials(const CsvTable& csv) {
+    check_header(csv);
+    MaterialTable table;
+    table.file = csv.file;
+    std::map<std::string, int> line_of;
+    for (const CsvRow& row : csv.rows) {
+        const Location where{csv.file, row.line};
+        Material material;
+        material.name = row.fields[0];
+        if (material.name.empty()) throw InputError(where, "the material has no name");
+        const auto [known, is_new] = line_of.emplace(material.name, row.line);
+        if (!is_new) {
+            throw InputError(where, "material '" + material.name + "' stands in line " +
+                                        std::to_string(known->second) + " already");
+        }
+        material.density_kg_m3 = positive_number(row.fields[1], "density", where);
+        material.sound_speed_m_s = positive_number(row.fields[2], "sound speed", where);
+        table.materials.push_back(std::move(material));
+    }
+    return table;
+}
+
+}  // namespace
+
+MaterialTable read_materials(const std::filesystem::path& path) {
+    return to_materials(read_csv(path, max_file_bytes));
+}
+
+MaterialTable parse_materials(std::string_view text, const std::string& file_name) {
+    return to_materials(parse_csv(text, file_name));
+}
+
+void resolve_materials(Scene& scene, const MaterialTable& table, const Water& water) {
+    std::map<std::string, const Material*> by_name;
+    std::vector<std::string> names;
+    for (const Material& material : table.materials) {
+        by_name.emplace(material.name, &material);
+        names.push_back(material.name);
+    }
+    std::string missing;
+    for (Material& material : scene.materials) {
+        const auto found = by_name.find(material.name);
+        if (found == by_name.end()) {
+            missing += missing.empty() ? "" : ", ";
+            missing += "'" + material.name + "'" + did_you_mean(material.name, names);
+            continue;
+        }
+        material = *found->second;
+        material.reflection = static_cast<float>(
+            power_reflection(material.density_kg_m3, material.sound_speed_m_s, water));
+    }
+    if (!missing.empty()) {
+        throw InputError(Location{table.file}, "lacks materials of the scene: " + missing);
+    }
+}
+
+}  // namespace sonarsim

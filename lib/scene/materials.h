@@ -1,0 +1,29 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace sonarsim {
+
+/// The materials of a CSV file, in its order. `reflection` is 0: it depends on the water.
+struct MaterialTable {
+    std::string file;
+    std::vector<Material> materials;
+};
+
+/// Reads `material,density_kg_m3,sound_speed_m_s`, or HoloOcean's own header
+/// `Material, Density kg/m^3, Speed of Sound m/s`. InputError with file:line for any other header,
+/// for a wrong number of fields, for a density or speed that is not a finite number above zero,
+/// and for a material that stands there twice.
+MaterialTable read_materials(const std::filesystem::path& path);
+MaterialTable parse_materials(std::string_view text, const std::string& file_name);
+
+/// Gives every material of the scene its density, sound speed and reflection in `water`.
+/// InputError that lists every name which the table lacks.
+void resolve_materials(Scene& scene, const MaterialTable& table, const Water& water);
+
+}  // namespace sonarsim

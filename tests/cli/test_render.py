@@ -1,0 +1,256 @@
+"""What a render leaves behind: the same bytes whatever the threads, shards and interruptions."""
+import json
+import os
+import pty
+import resource
+import shutil
+import signal
+import subprocess
+import time
+import unittest
+
+from sandbox import SONARSIM, Sandbox, digest, path_csv
+
+
+class Render(Sandbox):
+    def test_dataset(self):
+        result = self.assert_renders()
+        self.assertIn("pings/s", result.stdout)
+        dataset = self.dataset()
+        self.assertIs(dataset["complete"], True)
+        self.assertEqual(dataset["seed"], 7)
+        for name in ("mission.resolved.yaml", "trajectory.tum"):
+            self.assertTrue((self.out / name).is_file(), name)
+        for product, suffix in (("polar", "npy"), ("image", "png"), ("fan", "png"),
+                                ("meta", "json")):
+            names = sorted(p.name for p in (self.out / "fls" / product).iterdir())
+            self.assertEqual(names, [f"{i:06}.{suffix}" for i in range(6)])
+
+    def test_polar_is_numpy(self):
+        self.assert_renders()
+        data = (self.out / "fls/polar/000000.npy").read_bytes()
+        self.assertEqual(data[:8], b"\x93NUMPY\x01\x00")
+        header = data[10:10 + int.from_bytes(data[8:10], "little")].decode()
+        self.assertIn("'descr': '<f4'", header)
+        self.assertIn("'shape': (48, 32)", header)
+        self.assertEqual(len(data), 10 + len(header) + 48 * 32 * 4)
+
+    def test_out_option_and_no_files(self):
+        self.assert_renders("--out", "elsewhere")
+        self.assertTrue((self.folder / "elsewhere/dataset.json").is_file())
+        self.assert_renders("--no-files")
+        self.assertFalse(self.out.exists())
+
+    def test_resolved_mission_renders_the_same_pings(self):
+        self.assert_renders()
+        result = self.run_sonarsim("render", "out/mission.resolved.yaml", "--out",
+                                   self.folder / "again")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(digest(self.out / "fls"), digest(self.folder / "again/fls"))
+
+    def test_quiet_says_nothing(self):
+        result = self.assert_renders("--quiet")
+        self.assertEqual((result.stdout, result.stderr), ("", ""))
+
+    def test_json(self):
+        result = self.assert_renders("--json")
+        lines = [json.loads(line) for line in result.stderr.splitlines()]
+        self.assertTrue(lines)
+        for line in lines:
+            self.assertEqual(set(line), {"time", "level", "message"})
+        summary = json.loads(result.stdout)
+        self.assertEqual(summary["pings"], 6)
+        (self.folder / "box.gltf").unlink()
+        result = self.run_sonarsim("validate", "mission.yaml", "--json")
+        self.assertEqual(result.returncode, 2)
+        self.assertEqual(json.loads(result.stderr.splitlines()[-1])["level"], "error")
+
+    def test_validate_writes_nothing(self):
+        before = digest(self.folder)
+        result = self.run_sonarsim("validate", "mission.yaml")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(digest(self.folder), before)
+        for fragment in ("6 poses", "6 pings", "12 triangles", "fls"):
+            self.assertIn(fragment, result.stdout)
+
+    def test_inspect(self):
+        result = self.run_sonarsim("inspect", "box.gltf")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("Concrete", result.stdout)
+        self.assertIn("walls", result.stdout)
+        result = self.run_sonarsim("inspect", "box.gltf", "--json")
+        scene = json.loads(result.stdout)
+        self.assertEqual(scene["triangles"], 12)
+        # Half-extents 2, 1.5, 2 in glTF axes; (x, y, z)_world = (x, -z, y)_gltf.
+        self.assertEqual(scene["bounds_min_m"], [-2, -2, -1.5])
+        self.assertEqual(scene["bounds_max_m"], [2, 2, 1.5])
+        self.assert_refused(self.run_sonarsim("inspect", "none.glb"), "none.glb")
+
+
+class SameBytes(Sandbox):
+    def render_anew(self, *arguments):
+        """Always to the same folder, whose name stands in the resolved mission."""
+        shutil.rmtree(self.out, ignore_errors=True)
+        self.assert_renders(*arguments)
+        return digest(self.out)
+
+    def assert_polar(self, assertion, one, other):
+        names = [name for name in one if name.startswith("fls/polar")]
+        self.assertEqual(len(names), 6)
+        for name in names:
+            assertion(one[name], other[name], name)
+
+    def test_threads(self):
+        self.assertEqual(self.render_anew("-j1"), self.render_anew("-j2"))
+
+    def test_seed(self):
+        seven = self.render_anew()
+        eight = self.render_anew("--seed", "8")
+        self.assert_polar(self.assertNotEqual, seven, eight)
+        self.assertEqual(self.render_anew("--set", "seed=8"), eight)
+
+    def test_without_noise_the_seed_does_not_matter(self):
+        off = [argument for key in ("add_sigma", "mult_sigma", "range_lambda_m")
+               for argument in ("--set", f"sensors.fls.noise.{key}=0")]
+        self.assert_polar(self.assertEqual, self.render_anew(*off),
+                          self.render_anew("--seed", "8", *off))
+
+    def test_shards(self):
+        whole = self.render_anew()
+        shutil.rmtree(self.out)
+        self.assert_renders("--shard", "1/2")
+        self.assertIs(self.dataset()["complete"], False)
+        self.assertEqual(len(list((self.out / "fls/polar").iterdir())), 3)
+        self.assert_renders("--shard", "2/2")
+        self.assertEqual(digest(self.out), whole)
+
+    def test_shards_in_folders_that_are_merged(self):
+        whole = self.render_anew()
+        self.render_anew("--shard", "1/2")
+        self.out.rename(self.folder / "first")
+        self.render_anew("--shard", "2/2")
+        shutil.copytree(self.folder / "first", self.out, dirs_exist_ok=True)
+        self.assert_renders()
+        self.assertEqual(digest(self.out), whole)
+
+    def test_resume(self):
+        whole = self.render_anew()
+        self.render_anew("--shard", "1/2")
+        kept = self.out / "fls/polar/000000.npy"
+        before = kept.stat().st_mtime_ns
+        result = self.assert_renders("--json")
+        self.assertEqual(json.loads(result.stdout)["pings"], 3)
+        self.assertEqual(json.loads(result.stdout)["skipped"], 3)
+        self.assertEqual(digest(self.out), whole)
+        self.assertEqual(kept.stat().st_mtime_ns, before, "what was done is not done again")
+        result = self.assert_renders("--json")
+        self.assertEqual(json.loads(result.stdout)["pings"], 0)
+
+
+class Interrupted(Sandbox):
+    POSES = 3000
+
+    def interrupt(self, number):
+        """Starts a long render anew and sends it a signal once pings appear."""
+        shutil.rmtree(self.out, ignore_errors=True)
+        with subprocess.Popen([SONARSIM, "render", "mission.yaml"], cwd=self.folder, text=True,
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+            deadline = time.monotonic() + 60
+            while not list(self.out.glob("fls/meta/*.json")):
+                if time.monotonic() > deadline or process.poll() is not None:
+                    process.kill()
+                    self.fail("no ping appeared")
+                time.sleep(0.01)
+            process.send_signal(number)
+            _, stderr = process.communicate(timeout=60)
+        return process.returncode, stderr
+
+    def test_a_signal_leaves_what_was_written_intact(self):
+        self.write("path.csv", path_csv(self.POSES))
+        for number, code in ((signal.SIGTERM, 143), (signal.SIGINT, 130)):
+            with self.subTest(signal=number):
+                returned, stderr = self.interrupt(number)
+                self.assertEqual(returned, code, stderr)
+                self.assertIn("run again", stderr, "the message says how to go on")
+                self.assertIs(self.dataset()["complete"], False)
+                self.check_files()
+        self.assert_renders()
+        resumed = digest(self.out)
+        self.assertIs(self.dataset()["complete"], True)
+        shutil.rmtree(self.out)
+        self.assert_renders()
+        self.assertEqual(digest(self.out), resumed)
+
+    def check_files(self):
+        polar = list((self.out / "fls/polar").iterdir())
+        self.assertLess(len(polar), self.POSES)
+        self.assertEqual({p.stat().st_size for p in polar}, {128 + 48 * 32 * 4})
+        for path in self.out.rglob("*"):
+            self.assertFalse(path.name.endswith(".part"), path)
+            if path.suffix == ".json":
+                json.loads(path.read_text())
+            elif path.suffix == ".png":
+                self.assertEqual(path.read_bytes()[-8:-4], b"IEND", path)
+
+
+class Terminal(Sandbox):
+    POSES = 6000
+
+    def test_progress_line(self):
+        self.write("path.csv", path_csv(self.POSES))
+        ours, theirs = pty.openpty()
+        with subprocess.Popen([SONARSIM, "render", "mission.yaml", "--no-files"], cwd=self.folder,
+                              stdout=subprocess.DEVNULL, stderr=theirs) as process:
+            os.close(theirs)
+            shown = b""
+            try:
+                while piece := os.read(ours, 4096):
+                    shown += piece
+            except OSError:  # so ends a terminal whose other side is closed
+                pass
+        os.close(ours)
+        self.assertEqual(process.returncode, 0)
+        self.assertRegex(shown.decode(), rf"[0-9]+ of {self.POSES} pings, [0-9]+ pings/s, .* left")
+
+
+class Machine(Sandbox):
+    def test_a_full_disk_exits_1(self):
+        def small_files():
+            resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096))
+
+        # Python ignores SIGXFSZ; handed on, a write beyond the limit fails as on a full disk.
+        result = self.render(preexec_fn=small_files, restore_signals=False)
+        self.assertEqual(result.returncode, 1, result.stderr)
+        self.assertIn("cannot write", result.stderr)
+        self.assertFalse((self.out / "fls/polar/000000.npy").exists())
+        self.assert_renders()
+
+    def test_out_of_memory_exits_1(self):
+        def little_memory():
+            resource.setrlimit(resource.RLIMIT_AS, (1_500_000_000, 1_500_000_000))
+
+        if subprocess.run([SONARSIM, "--version"], preexec_fn=little_memory, capture_output=True,
+                          check=False).returncode != 0:
+            self.skipTest("a program under a sanitizer cannot be held to so little memory")
+        largest = ("--set", "sensors.fls.range_bins=8192", "--set", "sensors.fls.azimuth_bins=8192")
+        result = self.render("-j1", *largest, preexec_fn=little_memory)
+        self.assertEqual(result.returncode, 1, result.stderr)
+        self.assertIn("out of memory", result.stderr)
+
+    def test_read_only_folder(self):
+        self.out.mkdir()
+        self.out.chmod(0o555)
+        self.folder.chmod(0o755)
+        options = {"user": 65534} if os.getuid() == 0 else {}
+        try:
+            subprocess.run([SONARSIM, "--version"], check=True, capture_output=True, **options)
+        except (OSError, subprocess.CalledProcessError):
+            self.skipTest("root writes everywhere, and nobody cannot run the program here")
+        result = self.render(**options)
+        self.assertEqual(result.returncode, 1, result.stderr)
+        self.assertIn("out", result.stderr)
+        self.assertIn("Permission denied", result.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,107 @@
+#include "dataset/folder.h"
+
+#include <doctest/doctest.h>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "dataset/job.h"
+#include "support/small_mission.h"
+#include "support/temporary_folder.h"
+
+using namespace sonarsim;
+using namespace sonarsim::test;
+namespace fs = std::filesystem;
+
+namespace {
+
+RenderSummary run(const Mission& mission, int poses, bool overwrite) {
+    return run_job(mission, small_assembly(mission, poses), {.overwrite = overwrite}, {},
+                   std::atomic<bool>(false));
+}
+
+void check_refused(const Mission& mission, int poses, const std::string& what) {
+    const auto before = contents(mission.output.folder);
+    const std::string message = mission.output.folder.string() + ": " + what +
+                                "; choose another output.folder, or replace it with --overwrite";
+    CHECK_THROWS_WITH_AS(run(mission, poses, false), message.c_str(), InputError);
+    CHECK(contents(mission.output.folder) == before);
+}
+
+/// Replaces text in a file.
+void edit(const fs::path& path, const std::string& from, const std::string& to) {
+    std::string text = read_file(path, 1 << 20);
+    REQUIRE(text.find(from) != std::string::npos);
+    write_file(path, text.replace(text.find(from), from.size(), to));
+}
+
+}  // namespace
+
+TEST_SUITE("dataset") {
+    TEST_CASE("folder: an empty folder and one with a crash's first breath are fresh") {
+        const TemporaryFolder temporary;
+        const Mission mission = small_mission(temporary.path);
+        write_file(temporary.path / ".dataset.json.77.part", "{");
+        CHECK(run(mission, 2, false).complete);
+    }
+
+    TEST_CASE("folder: what is no dataset is never overwritten unasked") {
+        const TemporaryFolder temporary;
+        const Mission mission = small_mission(temporary.path / "out");
+        fs::create_directory(mission.output.folder);
+        write_file(mission.output.folder / "thesis.tex", "five years");
+        check_refused(mission, 2, "holds files that are no sonarsim dataset");
+        for (const char* json :
+             {"", "{", "[]", "3", "{}", R"({"format": "other"})", R"({"format": 3})"}) {
+            write_file(mission.output.folder / "dataset.json", json);
+            check_refused(mission, 2, "holds a dataset.json that is not sonarsim's");
+        }
+        CHECK(run(mission, 2, true).complete);
+        CHECK(read_file(mission.output.folder / "thesis.tex", 100) == "five years");
+    }
+
+    TEST_CASE("folder: a file in its place is refused, overwrite or not") {
+        const TemporaryFolder temporary;
+        const Mission mission = small_mission(temporary.path / "out");
+        write_file(mission.output.folder, "a file");
+        for (const bool overwrite : {false, true}) {
+            CHECK_THROWS_WITH_AS(run(mission, 2, overwrite),
+                                 (mission.output.folder.string() + ": is not a folder").c_str(),
+                                 InputError);
+        }
+    }
+
+    TEST_CASE("folder: another mission's dataset is refused, and says why") {
+        const TemporaryFolder temporary;
+        Mission mission = small_mission(temporary.path / "out");
+        run(mission, 4, false);
+        check_refused(mission, 5,
+                      "holds a dataset of this mission made from other scene, material or "
+                      "trajectory files");
+        ++mission.seed;
+        check_refused(mission, 4, "holds the dataset of another mission");
+        --mission.seed;
+        edit(mission.output.folder / "dataset.json", "\"program_version\": \"",
+             "\"program_version\": \"9");
+        check_refused(mission, 4,
+                      "holds a dataset of this mission made by another version of sonarsim");
+    }
+
+    TEST_CASE("folder: overwrite replaces a whole dataset and nothing else") {
+        const TemporaryFolder temporary;
+        Mission mission = small_mission(temporary.path / "out");
+        const fs::path& out = mission.output.folder;
+        mission.sensors[1].name = "gone";
+        run(mission, 8, false);
+        write_file(out / "notes.txt", "mine");
+        write_file(out / "gone/meta/notes.txt", "mine");
+        write_file(out / "front/polar/.000007.npy.5.part", "half");
+        mission.sensors[1].name = "left";
+        CHECK(run(mission, 3, true).complete);
+        const auto files = contents(out);
+        CHECK(files.size() == 3 + 4 * 4 + 2);  // front at 0, 1, 2 and left at 0; the notes
+        CHECK(files.contains("notes.txt"));
+        CHECK(files.contains("gone/meta/notes.txt"));
+        CHECK_FALSE(fs::exists(out / "gone/fan"));
+        CHECK_FALSE(files.contains("front/polar/000007.npy"));
+    }
+}

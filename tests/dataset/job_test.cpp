@@ -1,0 +1,302 @@
+#include "dataset/job.h"
+
+#include <OpenImageIO/imageio.h>
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <system_error>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "dataset/npy.h"
+#include "mission/resolved.h"
+#include "product/fan.h"
+#include "support/small_mission.h"
+#include "support/temporary_folder.h"
+#include "surface/rays.h"
+#include "trajectory/files.h"
+
+using namespace sonarsim;
+using namespace sonarsim::test;
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+namespace {
+
+constexpr int poses = 7;  // front pings at all of them, left at 0, 3 and 6: ten pings
+constexpr int pings = 10;
+
+RenderSummary run(const Mission& mission, const RenderOptions& options = {}) {
+    return run_job(mission, small_assembly(mission, poses), options, {}, std::atomic<bool>(false));
+}
+
+/// Renders until `count` pings are done, then asks to stop.
+RenderSummary run_until(const Mission& mission, std::uint64_t count) {
+    std::atomic<bool> stop = false;
+    const auto progress = [&](std::uint64_t done, std::uint64_t) { stop = done >= count; };
+    return run_job(mission, small_assembly(mission, poses), {.threads = 1}, progress, stop);
+}
+
+bool is_complete(const fs::path& folder) {
+    return Json::parse(read_file(folder / "dataset.json", 1 << 20)).at("complete");
+}
+
+/// The files of a dataset without the one that names its folder.
+std::map<std::string, std::string> dataset(const fs::path& folder) {
+    auto files = contents(folder);
+    CHECK(files.erase("mission.resolved.yaml") == 1);
+    return files;
+}
+
+/// What a whole render of the small mission gives.
+std::map<std::string, std::string> whole_dataset() {
+    const TemporaryFolder folder;
+    run(small_mission(folder.path / "out"));
+    return dataset(folder.path / "out");
+}
+
+std::vector<std::uint16_t> read_pixels(const fs::path& path) {
+    const auto in = OIIO::ImageInput::open(path.string());
+    REQUIRE(in);
+    std::vector<std::uint16_t> pixels(in->spec().image_pixels());
+    // 8-bit grey g is read as 257 g.
+    REQUIRE(in->read_image(0, 0, 0, 1, OIIO::TypeDesc::UINT16, pixels.data()));
+    return pixels;
+}
+
+}  // namespace
+
+TEST_SUITE("dataset") {
+    TEST_CASE("job: a render writes every file, and they agree with each other") {
+        const TemporaryFolder temporary;
+        const fs::path out = temporary.path / "deep" / "out";
+        const Mission mission = small_mission(out);
+        const Assembly assembly = small_assembly(mission, poses);
+        const RenderSummary summary = run(mission);
+        CHECK(summary.pings == pings);
+        CHECK(summary.skipped == 0);
+        CHECK(summary.complete);
+        CHECK_FALSE(summary.stopped);
+        CHECK(summary.seconds > 0.0);
+        CHECK(summary.encode_seconds > 0.0);
+        CHECK(summary.write_seconds > 0.0);
+        CHECK(summary.counts.samples > 0);
+        CHECK(contents(out).size() == 3 + pings * 4);
+        CHECK(read_file(out / "mission.resolved.yaml", 1 << 20) == resolved_yaml(mission));
+        CHECK(read_file(out / "trajectory.tum", 1 << 20) == write_tum(assembly.trajectory));
+
+        const auto surface = make_rays_surface(assembly.scene);
+        std::uint64_t clipped_pixels = 0;
+        for (const std::uint32_t pose : {0U, 3U, 6U}) {
+            for (std::size_t i = 0; i < 2; ++i) {
+                const Sonar& sonar = assembly.sonars[i];
+                const fs::path sensor = out / sonar.config.name;
+                const std::string number = "00000" + std::to_string(pose);
+                Ping ping =
+                    render_ping(sonar, assembly.scene, *surface,
+                                assembly.trajectory[pose].T_world_vehicle, {mission.seed, pose});
+                const Matrix matrix = read_npy(sensor / "polar" / (number + ".npy"));
+                CHECK(matrix.rows == 48);
+                CHECK(matrix.columns == 32);
+                CHECK(matrix.values == ping.intensity);
+                const auto image = read_pixels(sensor / "image" / (number + ".png"));
+                REQUIRE(image.size() == matrix.values.size());
+                std::uint64_t clipped = 0;
+                for (std::size_t k = 0; k < image.size(); ++k) {
+                    const double grey = 65535.0 * std::min(1.0, matrix.values[k] / 0.5);
+                    REQUIRE(std::fabs(image[k] - grey) < 0.51);
+                    if (matrix.values[k] > 0.5F) ++clipped;
+                }
+                const auto fan = render_fan(make_fan_map(sonar, 0), ping, 0.5);
+                const auto shown = read_pixels(sensor / "fan" / (number + ".png"));
+                CHECK(std::ranges::equal(shown, fan, {}, {}, [](int grey) { return 257 * grey; }));
+                const Json meta =
+                    Json::parse(read_file(sensor / "meta" / (number + ".json"), 1 << 20));
+                CHECK(meta.at("clipped_pixels") == clipped);
+                CHECK(meta.at("counts").at("samples") == ping.counts.samples);
+            }
+        }
+        for (const auto& [name, bytes] : contents(out)) {
+            if (name.find("/meta/") == std::string::npos) continue;
+            clipped_pixels += Json::parse(bytes).at("clipped_pixels").get<std::uint64_t>();
+        }
+        CHECK(clipped_pixels > 0);
+        CHECK(summary.clipped_pixels == clipped_pixels);
+    }
+
+    TEST_CASE("job: output chooses what is written") {
+        const TemporaryFolder temporary;
+        Mission mission = small_mission(temporary.path / "out");
+        mission.output.polar = mission.output.image = mission.output.meta = false;
+        run(mission);
+        CHECK(contents(temporary.path / "out").size() == 3 + pings);
+        CHECK(fs::exists(temporary.path / "out/left/fan/000006.png"));
+        CHECK_FALSE(fs::exists(temporary.path / "out/left/polar"));
+    }
+
+    TEST_CASE("job: without files nothing is written") {
+        const TemporaryFolder temporary;
+        const RenderSummary summary = run(small_mission(temporary.path / "out"), {.files = false});
+        CHECK(summary.pings == pings);
+        CHECK(summary.encode_seconds == 0.0);
+        CHECK_FALSE(fs::exists(temporary.path / "out"));
+    }
+
+    TEST_CASE("job: progress counts up to the total") {
+        const TemporaryFolder temporary;
+        const Mission mission = small_mission(temporary.path / "out");
+        std::vector<std::uint64_t> seen;
+        run_job(
+            mission, small_assembly(mission, poses), {.threads = 3},
+            [&](std::uint64_t done, std::uint64_t total) {
+                CHECK(total == pings);
+                seen.push_back(done);
+            },
+            std::atomic<bool>(false));
+        CHECK(seen == std::vector<std::uint64_t>{1, 2, 3, 4, 5, 6, 7, 8, 9, 10});
+    }
+
+    TEST_CASE("job: the bytes depend neither on threads nor on interruptions") {
+        const auto whole = whole_dataset();
+        const TemporaryFolder temporary;
+        for (const int threads : {1, 2, 5}) {
+            const fs::path out = temporary.path / std::to_string(threads);
+            run(small_mission(out), {.threads = threads});
+            CHECK(dataset(out) == whole);
+        }
+        const fs::path out = temporary.path / "interrupted";
+        const Mission mission = small_mission(out);
+        const RenderSummary first = run_until(mission, 4);
+        CHECK(first.stopped);
+        CHECK_FALSE(first.complete);
+        CHECK(first.pings >= 4);
+        CHECK(first.pings < pings);
+        CHECK_FALSE(is_complete(out));
+        CHECK(contents(out).size() == 3 + first.pings * 4);
+        const RenderSummary second = run(mission);
+        CHECK(second.skipped == first.pings);
+        CHECK(second.pings == pings - first.pings);
+        CHECK(second.complete);
+        CHECK(dataset(out) == whole);
+    }
+
+    TEST_CASE("job: a stop before the first ping leaves a folder that can be resumed") {
+        const TemporaryFolder temporary;
+        const Mission mission = small_mission(temporary.path / "out");
+        const RenderSummary none =
+            run_job(mission, small_assembly(mission, poses), {}, {}, std::atomic<bool>(true));
+        CHECK(none.stopped);
+        CHECK(none.pings == 0);
+        CHECK_FALSE(is_complete(temporary.path / "out"));
+        CHECK(run(mission).complete);
+        CHECK(dataset(temporary.path / "out") == whole_dataset());
+    }
+
+    TEST_CASE("job: what a crash left behind is put right") {
+        const TemporaryFolder temporary;
+        const fs::path out = temporary.path / "out";
+        const Mission mission = small_mission(out);
+        run_until(mission, 6);
+        fs::remove(out / "front/polar/000001.npy");
+        write_file(out / "front/polar/.000001.npy.123.part", "half");
+        write_file(out / "left/meta/.000006.json.123.part", "half");
+        write_file(out / ".dataset.json.123.part", "half");
+        CHECK(run(mission).complete);
+        CHECK(dataset(out) == whole_dataset());
+    }
+
+    TEST_CASE("job: a finished dataset is left alone, a gap in it is filled") {
+        const TemporaryFolder temporary;
+        const fs::path out = temporary.path / "out";
+        const Mission mission = small_mission(out);
+        run(mission);
+        const auto before = fs::last_write_time(out / "dataset.json");
+        const RenderSummary again = run(mission);
+        CHECK(again.pings == 0);
+        CHECK(again.skipped == pings);
+        CHECK(again.complete);
+        CHECK(fs::last_write_time(out / "dataset.json") == before);
+
+        fs::remove(out / "left/fan/000003.png");
+        const RenderSummary filled = run(mission);
+        CHECK(filled.pings == 1);
+        CHECK(filled.complete);
+        CHECK(dataset(out) == whole_dataset());
+    }
+
+    TEST_CASE("job: shards share a folder, and the last one completes it") {
+        const TemporaryFolder temporary;
+        const fs::path out = temporary.path / "out";
+        const Mission mission = small_mission(out);
+        // Ten pings: 0, 3, 6, 9 then 1, 4, 7 then 2, 5, 8.
+        const RenderSummary third = run(mission, {.shard = 2, .shards = 3});
+        CHECK(third.pings == 3);
+        CHECK_FALSE(third.complete);
+        CHECK_FALSE(is_complete(out));
+        // A shard leaves the temporary files of another one that may be at work.
+        write_file(out / "front/polar/.000001.npy.123.part", "at work");  // index 2, shard 2
+        write_file(out / "front/polar/.000000.npy.123.part", "stale");    // index 0, shard 0
+        CHECK(run(mission, {.shard = 0, .shards = 3}).pings == 4);
+        CHECK(fs::exists(out / "front/polar/.000001.npy.123.part"));
+        CHECK_FALSE(fs::exists(out / "front/polar/.000000.npy.123.part"));
+        fs::remove(out / "front/polar/.000001.npy.123.part");
+        const RenderSummary last = run(mission, {.shard = 1, .shards = 3});
+        CHECK(last.complete);
+        CHECK(is_complete(out));
+        CHECK(dataset(out) == whole_dataset());
+    }
+
+    TEST_CASE("job: shards in folders of their own are merged, and one more run completes them") {
+        const TemporaryFolder temporary;
+        const fs::path merged = temporary.path / "merged";
+        for (int shard = 0; shard < 2; ++shard) {
+            const fs::path out = temporary.path / std::to_string(shard);
+            CHECK_FALSE(run(small_mission(out), {.shard = shard, .shards = 2}).complete);
+            fs::copy(out, merged,
+                     fs::copy_options::recursive | fs::copy_options::overwrite_existing);
+        }
+        CHECK_FALSE(is_complete(merged));
+        const RenderSummary summary = run(small_mission(merged));
+        CHECK(summary.pings == 0);
+        CHECK(summary.complete);
+        CHECK(dataset(merged) == whole_dataset());
+    }
+
+    TEST_CASE("job: more shards than pings leave some with nothing to do") {
+        const TemporaryFolder temporary;
+        const RenderSummary idle =
+            run(small_mission(temporary.path / "out"), {.shard = 11, .shards = 12});
+        CHECK(idle.pings == 0);
+        CHECK_FALSE(idle.complete);
+        CHECK_FALSE(idle.stopped);
+    }
+
+    TEST_CASE("job: options that make no sense are refused") {
+        const TemporaryFolder temporary;
+        const Mission mission = small_mission(temporary.path / "out");
+        CHECK_THROWS_AS(run(mission, {.threads = -1}), InputError);
+        CHECK_THROWS_AS(run(mission, {.shard = 2, .shards = 2}), InputError);
+        CHECK_THROWS_AS(run(mission, {.shard = -1, .shards = 2}), InputError);
+        CHECK_THROWS_AS(run(mission, {.shard = 0, .shards = 0}), InputError);
+        CHECK_THROWS_AS(run(mission, {.shard = 0, .shards = 2, .overwrite = true}), InputError);
+        CHECK_FALSE(fs::exists(temporary.path / "out"));
+    }
+
+    TEST_CASE("job: a file that cannot be written ends the run with the reason") {
+        const TemporaryFolder temporary;
+        const fs::path out = temporary.path / "out";
+        const Mission mission = small_mission(out);
+        run_until(mission, 1);
+        fs::create_directories(out / "front/fan/000006.png");  // a folder bears the file's name
+        CHECK_THROWS_AS(run(mission), std::system_error);
+        CHECK_FALSE(is_complete(out));
+        for (const auto& [name, bytes] : contents(out)) {
+            CHECK(name.find(".part") == std::string::npos);
+        }
+        fs::remove(out / "front/fan/000006.png");
+        CHECK(run(mission).complete);
+        CHECK(dataset(out) == whole_dataset());
+    }
+}

@@ -1,0 +1,119 @@
+#include "dataset/metadata.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "core/units.h"
+#include "mission/resolved.h"
+#include "support/small_mission.h"
+
+using namespace sonarsim;
+using namespace sonarsim::test;
+using Json = nlohmann::ordered_json;
+
+TEST_SUITE("dataset") {
+    TEST_CASE("metadata: dataset.json tells what the files are and where every bin lies") {
+        const Mission mission = small_mission("out");
+        const Assembly assembly = small_assembly(mission, 7);
+        const Json json =
+            Json::parse(json_text(describe_dataset(mission, assembly, make_layout(mission, 7))));
+        CHECK(json.at("format") == "sonarsim dataset");
+        CHECK(json.at("format_version") == 1);
+        CHECK(json.at("program_version") == SONARSIM_VERSION);
+        CHECK(json.at("complete") == false);
+        CHECK(json.at("mission") == "small");
+        CHECK(json.at("mission_hash") == mission_hash(mission));
+        CHECK(json.at("seed").get<std::uint64_t>() == 18446744073709551615U);
+        CHECK(json.at("poses") == 7);
+        REQUIRE(json.at("sensors").size() == 2);
+        const Json& left = json.at("sensors")[1];
+        CHECK(left.at("name") == "left");
+        CHECK(left.at("kind") == "imaging");
+        CHECK(left.at("every") == 3);
+        CHECK(left.at("pings") == 3);
+        CHECK(left.at("files").at("polar") == "left/polar/%06d.npy");
+        CHECK(left.at("files").at("meta") == "left/meta/%06d.json");
+        const std::vector<double> ranges = left.at("range_edges_m");
+        const std::vector<double> azimuths = left.at("azimuth_edges_rad");
+        CHECK(ranges == assembly.sonars[1].range_edges_m);
+        CHECK(azimuths == assembly.sonars[1].azimuth_edges_rad);
+        CHECK(ranges.size() == 49);
+        CHECK(ranges.front() == 0.1);
+        CHECK(ranges.back() == 10.0);
+        CHECK(azimuths.front() == doctest::Approx(-radians(30)));
+        // The mount of the left sonar is turned by 90 degrees about z: q = (0, 0, sin 45, cos 45).
+        const std::vector<double> q = left.at("T_vehicle_sensor").at("quaternion_xyzw");
+        CHECK(q[2] == doctest::Approx(std::sqrt(0.5)));
+        CHECK(q[3] == doctest::Approx(std::sqrt(0.5)));
+        // The apex of a 60 degree fan: the middle of the lower edge.
+        const Json& fan = left.at("fan");
+        CHECK(fan.at("apex_px")[0] == 0.5 * fan.at("width_px").get<double>());
+        CHECK(fan.at("apex_px")[1].get<double>() ==
+              doctest::Approx(fan.at("height_px").get<double>()));
+    }
+
+    TEST_CASE("metadata: a ping tells when, from where and with which draws it was made") {
+        const Mission mission = small_mission("out");
+        Assembly assembly = small_assembly(mission, 7);
+        // The vehicle at (1, 2, 3), turned by 90 degrees to port: its bow, and with it the sonar
+        // half a metre ahead, points along the world's y.
+        assembly.trajectory[3].T_world_vehicle = {rotation_from_rpy(0, 0, 0.5 * pi),
+                                                  Eigen::Vector3d(1, 2, 3)};
+        PingCounts counts;
+        counts.samples = 11;
+        counts.negative_pixels = 12;
+        const Json json =
+            Json::parse(json_text(describe_ping(mission, assembly, {3, 0}, counts, 13)));
+        CHECK(json.at("sensor") == "front");
+        CHECK(json.at("settings") == "mission.resolved.yaml#/sensors/front");
+        CHECK(json.at("ping") == 3);
+        CHECK(json.at("time_s") == doctest::Approx(0.3));
+        const std::vector<double> vehicle = json.at("T_world_vehicle").at("position_m");
+        CHECK(vehicle == std::vector<double>{1, 2, 3});
+        const std::vector<double> sensor = json.at("T_world_sensor").at("position_m");
+        CHECK(sensor[0] == doctest::Approx(1.0));
+        CHECK(sensor[1] == doctest::Approx(2.5));
+        CHECK(sensor[2] == doctest::Approx(3.0));
+        const std::vector<double> q = json.at("T_world_sensor").at("quaternion_xyzw");
+        CHECK(q[2] == doctest::Approx(std::sqrt(0.5)));
+        CHECK(q[3] == doctest::Approx(std::sqrt(0.5)));
+        CHECK(json.at("random").at("seed").get<std::uint64_t>() == 18446744073709551615U);
+        CHECK(json.at("random").at("stream") == assembly.sonars[0].settings.stream);
+        CHECK(json.at("random").at("ping") == 3);
+        CHECK(json.at("full_scale") == 0.5);
+        CHECK(json.at("clipped_pixels") == 13);
+        CHECK(json.at("counts").at("samples") == 11);
+        CHECK(json.at("counts").at("negative_pixels") == 12);
+    }
+
+    TEST_CASE("metadata: numbers are the shortest that read back, names may be any bytes") {
+        CHECK(json_text({{"x", 0.1}}) == "{\n \"x\": 0.1\n}\n");
+        CHECK(json_text({{"x", 1.0 / 3.0}}) == "{\n \"x\": 0.3333333333333333\n}\n");
+        CHECK(json_text({{"x", "a\xff"}}) == "{\n \"x\": \"a\xef\xbf\xbd\"\n}\n");
+    }
+
+    TEST_CASE("metadata: the inputs' hash tells scenes, materials and poses apart") {
+        const Mission mission = small_mission("out");
+        const Assembly assembly = small_assembly(mission, 7);
+        const std::string hash = inputs_hash(assembly);
+        CHECK(hash.size() == 32);
+        CHECK(inputs_hash(assembly) == hash);
+        const auto changed = [&](auto change) {
+            Assembly other = assembly;
+            change(other);
+            return inputs_hash(other) != hash;
+        };
+        CHECK(changed([](Assembly& a) { a.scene.vertices[0].x() += 1e-3F; }));
+        CHECK(changed([](Assembly& a) { a.scene.origin.x() += 1e-3; }));
+        CHECK(changed(
+            [](Assembly& a) { std::swap(a.scene.triangles[0][0], a.scene.triangles[0][1]); }));
+        CHECK(changed([](Assembly& a) { ++a.scene.triangle_material[0]; }));
+        CHECK(changed([](Assembly& a) { ++a.scene.triangle_instance[0]; }));
+        CHECK(changed([](Assembly& a) { a.scene.materials[0].density_kg_m3 += 1.0; }));
+        CHECK(changed([](Assembly& a) { a.scene.materials[0].sound_speed_m_s += 1.0; }));
+        CHECK(changed([](Assembly& a) { a.scene.instances[0] += "x"; }));
+        CHECK(changed([](Assembly& a) { a.trajectory[6].t_s += 1e-6; }));
+        CHECK(changed([](Assembly& a) { a.trajectory.pop_back(); }));
+    }
+}

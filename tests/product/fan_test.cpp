@@ -1,0 +1,268 @@
+#include "product/fan.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "core/units.h"
+
+using namespace sonarsim;
+
+namespace {
+
+Sonar sonar_of(double azimuth_deg, double range_min_m, int range_bins, int beams) {
+    SonarConfig config;
+    config.name = "test";
+    config.azimuth_deg = azimuth_deg;
+    config.range_min_m = range_min_m;
+    config.range_max_m = 10.0;
+    config.range_bins = range_bins;
+    config.azimuth_bins = beams;
+    return make_sonar(config, {});
+}
+
+Ping uniform_ping(const Sonar& sonar, float intensity) {
+    Ping ping;
+    ping.range_bins = sonar.config.range_bins;
+    ping.beams = sonar.config.azimuth_bins;
+    ping.intensity.assign(static_cast<std::size_t>(ping.range_bins) * ping.beams, intensity);
+    return ping;
+}
+
+/// Grey back to a share of full scale.
+double share(std::uint8_t grey) {
+    return grey / 255.0 * (grey / 255.0);
+}
+
+struct Point {
+    double x;
+    double y;
+};
+
+/// Where the polar point lies in the image, in pixels from the upper left corner: x to the right,
+/// and so to starboard; y downwards.
+Point place(const FanFrame& frame, double range_m, double azimuth_rad) {
+    return {0.5 * frame.width - range_m * std::sin(azimuth_rad) / frame.pixel_m,
+            (10.0 - range_m * std::cos(azimuth_rad)) / frame.pixel_m};
+}
+
+/// The polar coordinates of a pixel's centre.
+struct Polar {
+    double range_m;
+    double azimuth_rad;
+};
+Polar polar(const FanFrame& frame, std::size_t index) {
+    const double column = static_cast<double>(index % frame.width) + 0.5;
+    const double row = static_cast<double>(index / frame.width) + 0.5;
+    const double ahead = 10.0 - row * frame.pixel_m;
+    const double left = (0.5 * frame.width - column) * frame.pixel_m;
+    return {std::hypot(ahead, left), std::atan2(left, ahead)};
+}
+
+/// How far inside the sector (positive) or outside of it (negative) a pixel's centre lies, in px.
+double depth(const Sonar& sonar, const FanFrame& frame, std::size_t index) {
+    const Polar p = polar(frame, index);
+    const double aside = 0.5 * radians(sonar.config.azimuth_deg) - std::fabs(p.azimuth_rad);
+    // The distance from the edge's line while its foot lies on the edge, else from the apex.
+    const double beside =
+        std::fabs(aside) < 0.5 * pi ? p.range_m * std::sin(aside) : std::copysign(p.range_m, aside);
+    const double radial =
+        std::min(p.range_m - sonar.config.range_min_m, sonar.config.range_max_m - p.range_m);
+    const double edge = sonar.config.azimuth_deg < 360.0 ? std::min(radial, beside) : radial;
+    return edge / frame.pixel_m;
+}
+
+}  // namespace
+
+TEST_SUITE("product") {
+    TEST_CASE("fan: the frame fits the sector") {
+        // 60 degrees: the chord is 2 * 10 m * sin 30 = 10 m, as wide as the sector is high.
+        const FanFrame narrow = fan_frame(sonar_of(60, 0, 512, 256), 1024);
+        CHECK(narrow.width == 1024);
+        CHECK(narrow.height == 1024);
+        CHECK(narrow.pixel_m == doctest::Approx(10.0 / 1024));
+        // 120 degrees: 2 * 10 m * sin 60 = 17.32 m wide, 10 m high; 1000 / 1.732 = 577.4.
+        const FanFrame usual = fan_frame(sonar_of(120, 0, 512, 256), 1000);
+        CHECK(usual.height == 578);
+        // 240 degrees: 20 m wide; 10 m ahead and 10 m * cos 60 = 5 m behind.
+        const FanFrame wide = fan_frame(sonar_of(240, 0, 512, 256), 1000);
+        CHECK(wide.height == 750);
+        const FanFrame circle = fan_frame(sonar_of(360, 0, 512, 256), 1000);
+        CHECK(circle.height == 1000);
+        // Two degrees: never higher than twice the width, however slim the sector.
+        const FanFrame slim = fan_frame(sonar_of(2, 0, 512, 8), 100);
+        CHECK(slim.width == 100);
+        CHECK(slim.height == 200);
+    }
+
+    TEST_CASE("fan: by default a pixel is a range bin, and no image is wider than 1024") {
+        const FanFrame tank = fan_frame(sonar_of(60, 0, 512, 256), 0);
+        CHECK(tank.width == 512);
+        CHECK(tank.height == 512);
+        const FanFrame slim = fan_frame(sonar_of(2, 0, 512, 8), 0);
+        CHECK(slim.width == 256);
+        CHECK(slim.height == 512);
+        CHECK(fan_frame(sonar_of(120, 0, 4096, 8), 0).width == 1024);
+    }
+
+    TEST_CASE("fan: a bright bin lies where an operator expects it, port on the left") {
+        for (const double azimuth_deg : {40.0, 120.0, 250.0, 360.0}) {
+            const Sonar sonar = sonar_of(azimuth_deg, 0.5, 100, 60);
+            const FanMap map = make_fan_map(sonar, 700);
+            for (const int range_bin : {5, 50, 99}) {
+                for (const int beam : {0, 17, 30, 59}) {
+                    Ping ping = uniform_ping(sonar, 0.0F);
+                    ping.intensity[static_cast<std::size_t>(range_bin) * ping.beams + beam] = 1.0F;
+                    const std::vector<std::uint8_t> image = render_fan(map, ping, 1.0);
+                    double x = 0.0;
+                    double y = 0.0;
+                    double sum = 0.0;
+                    for (std::size_t i = 0; i < image.size(); ++i) {
+                        const double weight = share(image[i]);
+                        x += weight * (static_cast<double>(i % map.frame.width) + 0.5);
+                        y += weight * (static_cast<double>(i / map.frame.width) + 0.5);
+                        sum += weight;
+                    }
+                    REQUIRE(sum > 0.0);
+                    const double r0 = sonar.range_edges_m[range_bin];
+                    const double r1 = sonar.range_edges_m[range_bin + 1];
+                    const double a0 = sonar.azimuth_edges_rad[beam];
+                    const double a1 = sonar.azimuth_edges_rad[beam + 1];
+                    // The centroid of an annular sector lies 2/3 (r1^3 - r0^3) / (r1^2 - r0^2) *
+                    // sinc(half the angle) from the apex; its area is (a1 - a0)(r1^2 - r0^2) / 2.
+                    const double half = 0.5 * (a1 - a0);
+                    const double r = 2.0 / 3.0 * (r1 * r1 * r1 - r0 * r0 * r0) /
+                                     (r1 * r1 - r0 * r0) * std::sin(half) / half;
+                    const Point expected = place(map.frame, r, 0.5 * (a0 + a1));
+                    CAPTURE(azimuth_deg);
+                    CAPTURE(range_bin);
+                    CAPTURE(beam);
+                    CHECK(std::fabs(x / sum - expected.x) < 0.25);
+                    CHECK(std::fabs(y / sum - expected.y) < 0.25);
+                    const double area = half * (r1 * r1 - r0 * r0);
+                    const double pixels = area / (map.frame.pixel_m * map.frame.pixel_m);
+                    CHECK(sum == doctest::Approx(pixels).epsilon(0.05 + 0.5 / pixels));
+                }
+            }
+        }
+        // Said once without formulas: the last beam is port, and port is on the left.
+        const Sonar sonar = sonar_of(120, 0, 10, 2);
+        Ping ping = uniform_ping(sonar, 0.0F);
+        for (int i = 0; i < ping.range_bins; ++i)
+            ping.intensity[2 * i + 1] = 1.0F;
+        const FanMap map = make_fan_map(sonar, 100);
+        const std::vector<std::uint8_t> image = render_fan(map, ping, 1.0);
+        const std::size_t middle = static_cast<std::size_t>(map.frame.height / 2) * 100;
+        CHECK(image[middle + 40] == 255);
+        CHECK(image[middle + 60] == 0);
+    }
+
+    TEST_CASE("fan: a uniform ping gives a uniform fan with smooth edges and a black surround") {
+        // 255 sqrt(0.25) = 127.5, which rounds to 128. Bins larger and smaller than a pixel.
+        for (const double azimuth_deg : {1.0, 60.0, 120.0, 180.0, 250.0, 359.0, 360.0}) {
+            for (const int width : {97, 700}) {
+                const Sonar sonar = sonar_of(azimuth_deg, 0.7, 512, 300);
+                const FanMap map = make_fan_map(sonar, width);
+                const auto image = render_fan(map, uniform_ping(sonar, 0.25F), 1.0);
+                REQUIRE(image.size() ==
+                        static_cast<std::size_t>(map.frame.width) * map.frame.height);
+                std::size_t uneven = 0;
+                std::size_t lit_outside = 0;
+                double area = 0.0;
+                for (std::size_t i = 0; i < image.size(); ++i) {
+                    // Half a pixel's diagonal is 0.71 px.
+                    const double inside = depth(sonar, map.frame, i);
+                    if (inside > 0.72 && image[i] != 128) ++uneven;
+                    if (inside < -0.72 && image[i] != 0) ++lit_outside;
+                    area += share(image[i]) / share(128);
+                }
+                CAPTURE(azimuth_deg);
+                CAPTURE(width);
+                CHECK(uneven == 0);
+                CHECK(lit_outside == 0);
+                const double sector_m2 = 0.5 * radians(azimuth_deg) * (10.0 * 10.0 - 0.7 * 0.7);
+                const double sector_px = sector_m2 / (map.frame.pixel_m * map.frame.pixel_m);
+                CHECK(area == doctest::Approx(sector_px).epsilon(azimuth_deg > 1.0 ? 0.002 : 0.05));
+            }
+        }
+    }
+
+    TEST_CASE("fan: edges are anti-aliased") {
+        const Sonar sonar = sonar_of(120, 0, 64, 64);
+        const FanMap map = make_fan_map(sonar, 400);
+        const auto image = render_fan(map, uniform_ping(sonar, 1.0F), 1.0);
+        // Along the arc, coverage is the depth of the pixel's centre plus a half, to within the
+        // 16 points' 1/16 and what the slope adds.
+        double worst = 0.0;
+        int partial = 0;
+        for (std::size_t i = 0; i < image.size(); ++i) {
+            const double inside = depth(sonar, map.frame, i);
+            if (std::fabs(inside) > 2.0 || polar(map.frame, i).range_m < 9.0) continue;
+            if (std::fabs(polar(map.frame, i).azimuth_rad) > radians(55)) continue;
+            const double expected = std::clamp(inside + 0.5, 0.0, 1.0);
+            worst = std::max(worst, std::fabs(share(image[i]) - expected));
+            if (image[i] > 0 && image[i] < 255) ++partial;
+        }
+        CHECK(worst < 0.2);
+        CHECK(partial > 300);
+    }
+
+    TEST_CASE("fan: energy is kept") {
+        // sum over pixels = sum over bins of intensity times area, both in pixels. 16 points per
+        // pixel of independent bins: the statistical error is far below 0.5 %.
+        std::mt19937 random(7);
+        for (const int width : {200, 900}) {
+            const Sonar sonar = sonar_of(120, 0.1, 256, 256);
+            Ping ping = uniform_ping(sonar, 0.0F);
+            for (float& value : ping.intensity)
+                value = static_cast<float>(random() >> 8) * 0x1p-24F;
+            const FanMap map = make_fan_map(sonar, width);
+            double expected = 0.0;
+            for (int i = 0; i < ping.range_bins; ++i) {
+                const double r0 = sonar.range_edges_m[i];
+                const double r1 = sonar.range_edges_m[i + 1];
+                const double area = 0.5 * radians(120) / ping.beams * (r1 * r1 - r0 * r0);
+                for (int j = 0; j < ping.beams; ++j)
+                    expected += ping.at(i, j) * area;
+            }
+            expected /= map.frame.pixel_m * map.frame.pixel_m;
+            double sum = 0.0;
+            for (const std::uint8_t grey : render_fan(map, ping, 1.0))
+                sum += share(grey);
+            CHECK(sum == doctest::Approx(expected).epsilon(0.005));
+        }
+    }
+
+    TEST_CASE("fan: bins much smaller than a pixel are averaged, not picked") {
+        // Every other beam is lit; 20 to 60 px from the apex, 3 to 10 beams share a pixel. Picking
+        // would give black and white, averaging gives half.
+        const Sonar sonar = sonar_of(120, 0, 512, 512);
+        Ping ping = uniform_ping(sonar, 0.0F);
+        for (std::size_t i = 0; i < ping.intensity.size(); i += 2)
+            ping.intensity[i] = 1.0F;
+        const FanMap map = make_fan_map(sonar, 900);
+        const auto image = render_fan(map, ping, 1.0);
+        for (std::size_t i = 0; i < image.size(); ++i) {
+            const double range_px = polar(map.frame, i).range_m / map.frame.pixel_m;
+            if (range_px < 20.0 || range_px > 60.0 || depth(sonar, map.frame, i) < 1.0) continue;
+            REQUIRE(std::fabs(share(image[i]) - 0.5) < 0.2);
+        }
+    }
+
+    TEST_CASE("fan: full scale is white, more is white, nothing is black") {
+        const Sonar sonar = sonar_of(90, 0, 16, 16);
+        const FanMap map = make_fan_map(sonar, 64);
+        const std::size_t centre = static_cast<std::size_t>(map.frame.height / 2) * 64 + 32;
+        const auto grey = [&](float intensity, double full_scale) {
+            return render_fan(map, uniform_ping(sonar, intensity), full_scale)[centre];
+        };
+        CHECK(grey(0.0F, 1.0) == 0);
+        CHECK(grey(1.0F, 1.0) == 255);
+        CHECK(grey(7.0F, 1.0) == 255);
+        CHECK(grey(2.5F, 10.0) == 128);
+        CHECK(grey(0.01F, 1.0) == 26);  // 25.5 rounds up
+        CHECK(grey(INFINITY, 1.0) == 255);
+    }
+}

@@ -1,0 +1,86 @@
+#include "scene/materials.h"
+
+#include <doctest/doctest.h>
+
+#include "core/error.h"
+
+using namespace sonarsim;
+
+namespace {
+
+const std::string header = "material,density_kg_m3,sound_speed_m_s\n";
+
+void check_error(const std::string& text, const std::string& message) {
+    CHECK_THROWS_WITH_AS(parse_materials(text, "m.csv"), message.c_str(), InputError);
+}
+
+Scene scene_of(const std::vector<std::string>& names) {
+    Scene scene;
+    for (const std::string& name : names)
+        scene.materials.push_back({name, 0.0, 0.0, 0.0F});
+    return scene;
+}
+
+}  // namespace
+
+TEST_SUITE("scene") {
+    TEST_CASE("materials: our header") {
+        const MaterialTable table =
+            parse_materials(header + "steel,7850,5900\nwood,700,3.3e3\n", "m.csv");
+        REQUIRE(table.materials.size() == 2);
+        CHECK(table.file == "m.csv");
+        CHECK(table.materials[0].name == "steel");
+        CHECK(table.materials[0].density_kg_m3 == 7850.0);
+        CHECK(table.materials[1].sound_speed_m_s == 3300.0);
+    }
+
+    TEST_CASE("materials: HoloOcean's header, byte order mark, CRLF, comments") {
+        const MaterialTable table = parse_materials(
+            "\xEF\xBB\xBF"
+            "Material, Density kg/m^3, Speed of Sound m/s\r\n# note\r\n\r\nsteel, 7850, 5900\r\n",
+            "m.csv");
+        REQUIRE(table.materials.size() == 1);
+        CHECK(table.materials[0].name == "steel");
+        CHECK(table.materials[0].sound_speed_m_s == 5900.0);
+    }
+
+    TEST_CASE("materials: what is wrong is said with file and line") {
+        check_error("name,density,speed\n",
+                    "m.csv:1: expected the header 'material,density_kg_m3,sound_speed_m_s' or "
+                    "'Material, Density kg/m^3, Speed of Sound m/s'");
+        check_error(header + "steel,7850\n", "m.csv:2: 2 fields, but the header in line 1 has 3");
+        check_error(header + "steel,heavy,5900\n", "m.csv:2: density 'heavy' is not a number");
+        check_error(header + "steel,7850,\n", "m.csv:2: sound speed '' is not a number");
+        check_error(header + "steel,0,5900\n",
+                    "m.csv:2: density is 0; expected a finite number above zero");
+        check_error(header + "steel,7850,-5900\n",
+                    "m.csv:2: sound speed is -5900; expected a finite number above zero");
+        check_error(header + "steel,nan,5900\n",
+                    "m.csv:2: density is nan; expected a finite number above zero");
+        check_error(header + "steel,7850,inf\n",
+                    "m.csv:2: sound speed is inf; expected a finite number above zero");
+        check_error(header + "a,1,1\n\nb,1,1\na,2,2\n",
+                    "m.csv:5: material 'a' stands in line 2 already");
+        check_error(header + ",1,1\n", "m.csv:2: the material has no name");
+    }
+
+    TEST_CASE("materials: reflection against water") {
+        const MaterialTable table = parse_materials(header + "steel,7850,5900\n", "m.csv");
+        Scene scene = scene_of({"steel"});
+        resolve_materials(scene, table, Water{1000.0, 1500.0});
+        // z = 7850 * 5900 = 46.315e6, z_w = 1.5e6: ((46.315 - 1.5) / (46.315 + 1.5))^2 = 0.878453.
+        CHECK(scene.materials[0].reflection == doctest::Approx(0.878453).epsilon(1e-6));
+        CHECK(scene.materials[0].density_kg_m3 == 7850.0);
+    }
+
+    TEST_CASE("materials: every missing name is listed") {
+        const MaterialTable table =
+            parse_materials(header + "steel,7850,5900\nsand,1900,1650\n", "m.csv");
+        Scene scene = scene_of({"steal", "sand", "Material.001"});
+        CHECK_THROWS_WITH_AS(
+            resolve_materials(scene, table, Water{}),
+            "m.csv: lacks materials of the scene: 'steal' (did you mean 'steel'?), "
+            "'Material.001'",
+            InputError);
+    }
+}
