@@ -10,12 +10,17 @@ void BinSums::clear(int bins) {
 }
 
 std::uint64_t accumulate(const Echoes& echoes, const RangeBins& bins, BinSums& sums) {
+    return accumulate(echoes, 0, echoes.size(), bins, sums);
+}
+
+std::uint64_t accumulate(const Echoes& echoes, std::size_t begin, std::size_t end,
+                         const RangeBins& bins, BinSums& sums) {
     const float per_bin = 1.0F / bins.bin_m;
     const auto count = static_cast<float>(bins.count);
     // An echo without depth still needs a width to be divided by.
     constexpr float thinnest = 1e-3F;
     std::uint64_t outside = 0;
-    for (std::size_t k = 0; k < echoes.size(); ++k) {
+    for (std::size_t k = begin; k < end; ++k) {
         const float centre = (echoes.range_m[k] - bins.min_m) * per_bin;
         const float half = std::max(echoes.half_m[k] * per_bin, thinnest);
         const float low = std::max(centre - half, 0.0F);

@@ -27,6 +27,10 @@ struct BinSums {
 /// lies outside the range is dropped. Returns how many echoes lay outside as a whole.
 std::uint64_t accumulate(const Echoes& echoes, const RangeBins& bins, BinSums& sums);
 
+/// The same for the echoes [begin, end).
+std::uint64_t accumulate(const Echoes& echoes, std::size_t begin, std::size_t end,
+                         const RangeBins& bins, BinSums& sums);
+
 /// [9]: the area-weighted mean of each bin, 0 where it saw no surface. Returns the occupied bins.
 std::uint64_t mean_of_bins(const BinSums& sums, std::span<float> intensity);
 

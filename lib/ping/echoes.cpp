@@ -66,11 +66,15 @@ void Echoes::resize(std::size_t count, bool cells) {
     }
 }
 
+CellFrame::CellFrame(const ScattererLattice& lattice) {
+    const float per_cell = lattice.exists() ? 1.0F / lattice.edge_m : 0.0F;
+    rotation = per_cell * lattice.R_world_sensor;
+    base = per_cell * lattice.sensor + lattice_offset;
+}
+
 void direct_echoes(std::span<const Sample> samples, std::span<const Material> materials,
                    float bin_m, const ScattererLattice& lattice, Echoes& echoes) {
-    const float per_cell = lattice.exists() ? 1.0F / lattice.edge_m : 0.0F;
-    const Eigen::Matrix3f to_cells = per_cell * lattice.R_world_sensor;
-    const Eigen::Vector3f base_cell = per_cell * lattice.sensor + lattice_offset;
+    const CellFrame cells(lattice);
     std::size_t end = 0;
     for (const Sample& sample : samples) {
         const float range = sample.position.norm();
@@ -91,8 +95,8 @@ void direct_echoes(std::span<const Sample> samples, std::span<const Material> ma
         for (int a = 0; a < pieces.u; ++a) {
             const Eigen::Vector3f row =
                 sample.position + ((a + 0.5F) * u_step - 1.0F) * sample.edge_u;
-            const Eigen::Vector3f cell_row = to_cells * row + base_cell;
-            const Eigen::Vector3f cell_edge = to_cells * sample.edge_v;
+            const Eigen::Vector3f cell_row = cells.rotation * row + cells.base;
+            const Eigen::Vector3f cell_edge = cells.rotation * sample.edge_v;
             for (int b = 0; b < pieces.v; ++b, ++k) {
                 const float t = (static_cast<float>(b) + 0.5F) * v_step - 1.0F;
                 const float x = row.x() + t * sample.edge_v.x();

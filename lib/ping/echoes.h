@@ -31,6 +31,14 @@ struct ScattererLattice {
     bool exists() const { return edge_m > 0.0F; }
 };
 
+/// From the sensor frame to the cells of a lattice.
+struct CellFrame {
+    explicit CellFrame(const ScattererLattice& lattice);
+
+    Eigen::Matrix3f rotation;  ///< cells per metre
+    Eigen::Vector3f base;      ///< the sensor, in cells
+};
+
 /// Turns the samples of a beam into echoes, I = R (v . n) [6]. A sample whose footprint covers
 /// more than its bins or its scatterer cells can tell apart is cut into pieces: in range the box
 /// over [range - half, range + half] stands for each of them.

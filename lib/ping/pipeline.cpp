@@ -6,6 +6,7 @@
 
 #include "ping/accumulate.h"
 #include "ping/echoes.h"
+#include "ping/multipath_echoes.h"
 #include "ping/range_noise.h"
 
 namespace sonarsim {
@@ -53,12 +54,16 @@ void transpose(const std::vector<float>& by_beam, Ping& ping) {
 Ping run_pipeline(const PingSettings& settings, const Scene& scene, const Surface& surface,
                   const Pose& T_world_sensor, const PingKey& key) {
     const View& view = settings.view;
-    const RangeNoise& range_noise = settings.range_noise;
+    const Streaks& streaks = settings.streaks;
     const RangeBins bins{static_cast<float>(view.range_min_m), static_cast<float>(view.bin_m()),
                          view.range_bins};
-    const ScattererLattice lattice = lattice_for(range_noise, scene, T_world_sensor);
+    const ScattererLattice lattice = lattice_for(settings.range_noise, scene, T_world_sensor);
     const auto stream = [&](Stream s) {
         return stream_key(key.seed, settings.stream, key.ping, s);
+    };
+    const auto add_noise = [&](Echoes& to, Stream s) {
+        if (!lattice.exists()) return;
+        add_range_noise(to, settings.range_noise.lambda_m, settings.range_noise.fades, stream(s));
     };
     Ping ping{view.range_bins, view.beams, {}, {}, {}};
     ping.intensity.resize(static_cast<std::size_t>(view.range_bins) * view.beams);
@@ -69,27 +74,45 @@ Ping run_pipeline(const PingSettings& settings, const Scene& scene, const Surfac
     ping.counts.samples = samples.items.size();
     ping.seconds.trace = watch.lap();
 
+    std::vector<Bounce> bounces;
+    if (settings.multipath.on) {
+        bounces = find_bounces(settings.multipath, view, samples, scene.materials, surface,
+                               T_world_sensor, ping.counts.multipath);
+    }
+    ping.seconds.multipath = watch.lap();
+
+    MultipathEchoes bounced = multipath_echoes(bounces, samples, view, lattice);
+    add_noise(bounced.echoes, Stream::multipath_range_noise);
     std::vector<float> by_beam(ping.intensity.size());
+    RowAreas areas(bins.count);
     Echoes echoes;
     BinSums sums;
+    const auto add_direct = [&](std::span<const Sample> from, BinSums& to) {
+        direct_echoes(from, scene.materials, bins.bin_m, lattice, echoes);
+        add_noise(echoes, Stream::range_noise);
+        return accumulate(echoes, bins, to);
+    };
     for (int j = 0; j < view.beams; ++j) {
         sums.clear(bins.count);
-        direct_echoes(samples.beam(j), scene.materials, bins.bin_m, lattice, echoes);
-        if (lattice.exists()) {
-            add_range_noise(echoes, range_noise.lambda_m, range_noise.fades,
-                            stream(Stream::range_noise));
-        }
+        ping.counts.out_of_range += add_direct(samples.beam(j), sums);
         ping.counts.echoes += echoes.size();
-        ping.counts.out_of_range += accumulate(echoes, bins, sums);
+        if (streaks.exist()) {
+            areas.add(sums);
+            add_direct(at_normal_incidence(samples.beam(j), streaks.least_cosine), areas.normal);
+        }
+        ping.counts.out_of_range += accumulate(bounced.echoes, bounced.beam_begin[j],
+                                               bounced.beam_begin[j + 1], bins, sums);
         const std::size_t column = static_cast<std::size_t>(j) * bins.count;
         ping.counts.occupied_bins +=
             mean_of_bins(sums, std::span(by_beam).subspan(column, bins.count));
     }
+    ping.counts.echoes += bounced.echoes.size();
     transpose(by_beam, ping);
     ping.seconds.accumulate = watch.lap();
 
     ping.counts.negative_pixels =
         add_pixel_noise(ping.intensity, settings.pixel_noise, stream(Stream::pixel_noise));
+    if (streaks.exist()) ping.counts.streak_rows = add_streaks(ping.intensity, areas, streaks);
     ping.seconds.noise = watch.lap();
     return ping;
 }

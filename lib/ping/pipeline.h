@@ -3,8 +3,10 @@
 #include <cstdint>
 
 #include "core/pose.h"
+#include "ping/multipath.h"
 #include "ping/ping.h"
 #include "ping/pixel_noise.h"
+#include "ping/streaks.h"
 #include "scene/scene.h"
 #include "surface/surface.h"
 
@@ -20,8 +22,10 @@ struct RangeNoise {
 /// What the pipeline needs to know of a sonar.
 struct PingSettings {
     View view;
+    Multipath multipath;
     RangeNoise range_noise;
     PixelNoise pixel_noise;
+    Streaks streaks;
     std::uint32_t stream = 0;  ///< names the sonar in every random draw
 };
 

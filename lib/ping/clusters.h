@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "surface/surface.h"
+
+namespace sonarsim {
+
+/// How far apart the samples of a cluster may lie.
+struct ClusterLimits {
+    int epsilon_bins = 0;       ///< in range, beam and elevation; 0: every sample by itself
+    float delta_cosine = 1.0F;  ///< least cosine between normals
+};
+
+/// Samples grouped so that one ray may stand for all of a group.
+struct Clusters {
+    std::vector<std::uint32_t> members;  ///< indices of samples, cluster after cluster
+    std::vector<std::uint32_t> begin;    ///< clusters + 1 offsets into `members`
+
+    std::size_t size() const { return begin.empty() ? 0 : begin.size() - 1; }
+    std::span<const std::uint32_t> of(std::size_t cluster) const {
+        return {members.data() + begin[cluster], members.data() + begin[cluster + 1]};
+    }
+};
+
+/// Groups the samples within the view's range. The bins of range, beam and elevation are cut into
+/// tiles of `epsilon_bins` each; samples of one tile, whose normals lie within delta of those of
+/// the group's first, form a group. The paper's double loop over all leaves (Algorithm 1, lines 9
+/// to 15) makes balls instead of tiles, and its time is quadratic; here it is linear.
+Clusters cluster_samples(const View& view, const Samples& samples, const ClusterLimits& limits);
+
+}  // namespace sonarsim

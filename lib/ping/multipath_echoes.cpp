@@ -1,0 +1,116 @@
+#include "ping/multipath_echoes.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sonarsim {
+
+namespace {
+
+// Of a footprint in beams, and of its scatterer cells in a bin: more pieces change nothing that
+// can be seen.
+constexpr float most_beams = 64.0F;
+constexpr float pieces_per_bin = 16.0F;
+
+/// A part of a bounce that lies in one beam and in one scatterer cell.
+struct Piece {
+    std::uint32_t beam;
+    float range_m;
+    float half_m;
+    float weight;
+    float intensity;
+    std::int32_t cell_x, cell_y, cell_z;
+};
+
+int pieces(float extent, float most) {
+    return static_cast<int>(std::ceil(std::clamp(extent, 1.0F, most)));
+}
+
+/// Cuts a bounce until no piece is wider than a beam, nor, with range noise, than a cell.
+void cut(const Bounce& b, const Sample& sample, const View& view, const ScattererLattice& lattice,
+         const CellFrame& cells, std::vector<Piece>& out) {
+    const auto bin_m = static_cast<float>(view.bin_m());
+    const auto beams = static_cast<float>(view.beams);
+    float u = 2.0F * std::fabs(b.beam_u);
+    float v = 2.0F * std::fabs(b.beam_v);
+    if (lattice.exists()) {
+        const float bins =
+            (2.0F + 2.0F * (std::fabs(b.range_u) + std::fabs(b.range_v)) / bin_m) * (1.0F + u + v);
+        float cells_u = std::max(2.0F * sample.edge_u.norm() / lattice.edge_m, 1.0F);
+        float cells_v = std::max(2.0F * sample.edge_v.norm() / lattice.edge_m, 1.0F);
+        const float excess = cells_u * cells_v / (pieces_per_bin * bins);
+        const float shrink = excess > 1.0F ? 1.0F / std::sqrt(excess) : 1.0F;
+        u = std::max(u, cells_u * shrink);
+        v = std::max(v, cells_v * shrink);
+    }
+    const int n_u = pieces(u, most_beams);
+    const int n_v = pieces(v, most_beams);
+    const float step_u = 1.0F / static_cast<float>(n_u);
+    const float step_v = 1.0F / static_cast<float>(n_v);
+    Piece piece{};
+    // A box of the variance of the two edges' boxes together.
+    piece.half_m = std::sqrt(b.range_u * b.range_u * step_u * step_u +
+                             b.range_v * b.range_v * step_v * step_v);
+    piece.weight = sample.area_m2 * step_u * step_v;
+    piece.intensity = b.intensity;
+    const Eigen::Vector3f centre = cells.rotation * sample.position + cells.base;
+    const Eigen::Vector3f cell_u = cells.rotation * sample.edge_u;
+    const Eigen::Vector3f cell_v = cells.rotation * sample.edge_v;
+    std::size_t k = out.size();
+    out.resize(k + static_cast<std::size_t>(n_u) * n_v);
+    for (int i = 0; i < n_u; ++i) {
+        const float s = (2.0F * static_cast<float>(i) + 1.0F) * step_u - 1.0F;
+        const Eigen::Vector3f row = centre + s * cell_u;
+        for (int j = 0; j < n_v; ++j) {
+            const float t = (2.0F * static_cast<float>(j) + 1.0F) * step_v - 1.0F;
+            const float beam = b.beam + s * b.beam_u + t * b.beam_v;
+            if (!(beam >= 0.0F && beam < beams)) continue;
+            piece.beam = static_cast<std::uint32_t>(beam);
+            piece.range_m = b.range_m + s * b.range_u + t * b.range_v;
+            piece.cell_x = static_cast<std::int32_t>(std::floor(row.x() + t * cell_v.x()));
+            piece.cell_y = static_cast<std::int32_t>(std::floor(row.y() + t * cell_v.y()));
+            piece.cell_z = static_cast<std::int32_t>(std::floor(row.z() + t * cell_v.z()));
+            out[k++] = piece;
+        }
+    }
+    out.resize(k);
+}
+
+/// Counting sort.
+MultipathEchoes sorted_by_beam(const std::vector<Piece>& pieces, int beams, bool cells) {
+    MultipathEchoes out;
+    out.beam_begin.assign(beams + 1, 0);
+    for (const Piece& piece : pieces)
+        ++out.beam_begin[piece.beam + 1];
+    for (int j = 0; j < beams; ++j)
+        out.beam_begin[j + 1] += out.beam_begin[j];
+    std::vector<std::uint32_t> next(out.beam_begin.begin(), out.beam_begin.end() - 1);
+    out.echoes.resize(pieces.size(), cells);
+    for (const Piece& piece : pieces) {
+        const std::uint32_t k = next[piece.beam]++;
+        out.echoes.range_m[k] = piece.range_m;
+        out.echoes.half_m[k] = piece.half_m;
+        out.echoes.weight[k] = piece.weight;
+        out.echoes.intensity[k] = piece.intensity;
+        if (cells) {
+            out.echoes.cell_x[k] = piece.cell_x;
+            out.echoes.cell_y[k] = piece.cell_y;
+            out.echoes.cell_z[k] = piece.cell_z;
+        }
+    }
+    return out;
+}
+
+}  // namespace
+
+MultipathEchoes multipath_echoes(std::span<const Bounce> bounces, const Samples& samples,
+                                 const View& view, const ScattererLattice& lattice) {
+    std::vector<Piece> pieces;
+    pieces.reserve(16 * bounces.size());
+    const CellFrame cells(lattice);
+    for (const Bounce& b : bounces)
+        cut(b, samples.items[b.sample], view, lattice, cells, pieces);
+    return sorted_by_beam(pieces, view.beams, lattice.exists());
+}
+
+}  // namespace sonarsim

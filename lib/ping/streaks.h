@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "ping/accumulate.h"
+#include "surface/surface.h"
+
+namespace sonarsim {
+
+enum class StreakMode { none, add, reduce };
+
+/// [14-15] for one sonar.
+struct Streaks {
+    StreakMode mode = StreakMode::none;
+    float threshold = 0.0F;     ///< zeta, a share of area
+    float least_cosine = 1.0F;  ///< of the angle between v and n that counts as normal incidence
+
+    bool exist() const { return mode != StreakMode::none; }
+};
+
+/// How much surface answers in each range row of all beams, and how much of it at normal incidence.
+struct RowAreas {
+    std::vector<float> all;  ///< m^2
+    BinSums normal;          ///< its weights are the areas
+
+    explicit RowAreas(int rows);
+    void add(const BinSums& beam);
+};
+
+/// The samples that are seen at normal incidence.
+std::vector<Sample> at_normal_incidence(std::span<const Sample> samples, float least_cosine);
+
+/// Where the share at normal incidence reaches the threshold, the row I of `image` [rows, columns]
+/// becomes 1 - (1 - I)^2 (add) or I^2 (reduce); I is clamped to [0, 1] first, beyond which the
+/// former would turn around. Returns how many rows changed.
+std::uint64_t add_streaks(std::span<float> image, const RowAreas& areas, const Streaks& streaks);
+
+}  // namespace sonarsim
