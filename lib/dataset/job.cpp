@@ -41,6 +41,7 @@ struct PingReport {
 void add(RenderSummary& summary, const PingReport& report) {
     ++summary.pings;
     summary.stages.trace += report.seconds.trace;
+    summary.stages.multipath += report.seconds.multipath;
     summary.stages.accumulate += report.seconds.accumulate;
     summary.stages.noise += report.seconds.noise;
     summary.encode_seconds += report.encode_seconds;
@@ -122,6 +123,7 @@ void stream_pings(const std::vector<PingId>& todo, int threads, const Work& work
 void render(const Mission& mission, const Assembly& assembly, const std::vector<PingId>& todo,
             const Layout* layout, int threads, const ProgressCallback& progress,
             const std::atomic<bool>& stop, RenderSummary& summary) {
+    if (todo.empty()) return;
     const std::unique_ptr<Surface> surface = make_rays_surface(assembly.scene);
     std::vector<FanMap> fans;
     if (layout != nullptr && mission.output.fan) {

@@ -9,14 +9,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-const char* kind_name(SonarKind kind) {
-    switch (kind) {
-        case SonarKind::imaging:
-            return "imaging";
-    }
-    return "";
-}
-
 Json describe_pose(const Pose& pose) {
     const Eigen::Vector3d& p = pose.translation;
     const Eigen::Quaterniond& q = pose.rotation;
@@ -28,7 +20,7 @@ Json describe_sensor(const Sonar& sonar, std::size_t poses, const Mission& missi
                      const Layout& layout) {
     const SonarConfig& config = sonar.config;
     Json json = {{"name", config.name},
-                 {"kind", kind_name(config.kind)},
+                 {"kind", name_of(config.kind)},
                  {"settings", "mission.resolved.yaml#/sensors/" + config.name},
                  {"stream", sonar.settings.stream},
                  {"every", config.every},
@@ -94,7 +86,19 @@ Json describe_ping(const Mission& mission, const Assembly& assembly, const PingI
           {"echoes", counts.echoes},
           {"out_of_range", counts.out_of_range},
           {"occupied_bins", counts.occupied_bins},
-          {"negative_pixels", counts.negative_pixels}}}};
+          {"negative_pixels", counts.negative_pixels},
+          {"streak_rows", counts.streak_rows},
+          {"multipath",
+           {{"samples", counts.multipath.samples},
+            {"clusters", counts.multipath.clusters},
+            {"rays", counts.multipath.rays},
+            {"bounces", counts.multipath.bounces},
+            {"missed", counts.multipath.missed},
+            {"edge_on", counts.multipath.edge_on},
+            {"behind", counts.multipath.behind},
+            {"outside", counts.multipath.outside},
+            {"turned_away", counts.multipath.turned_away},
+            {"hidden", counts.multipath.hidden}}}}}};
 }
 
 std::string json_text(const Json& json) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -45,23 +46,54 @@ struct NoiseConfig {
     bool operator==(const NoiseConfig&) const = default;
 };
 
-enum class SonarKind { imaging };
+enum class MultipathMethod { none, cluster, exact };
+
+/// Echoes by way of a second surface [1-3]. Off unless a mission asks: they take half as long again
+/// as the rest of a ping.
+struct MultipathConfig {
+    MultipathMethod method = MultipathMethod::none;
+    int epsilon_bins = 5;     ///< size of a cluster in range, beam and elevation
+    double delta_deg = 15.0;  ///< angle between normals within a cluster
+
+    bool operator==(const MultipathConfig&) const = default;
+};
+
+enum class StreakMode { none, add, reduce };
+
+/// Azimuth streaks [14-15].
+struct StreaksConfig {
+    StreakMode mode = StreakMode::none;
+    double threshold = 0.08;  ///< share of a range row's echoes, by area, at normal incidence
+    double angle_deg = 8.0;   ///< what counts as normal incidence
+
+    bool operator==(const StreaksConfig&) const = default;
+};
+
+enum class SonarKind { imaging, profiling, sidescan, echosounder };
 
 struct SonarConfig {
     std::string name;  ///< the key below `sensors`
     SonarKind kind = SonarKind::imaging;
     MountConfig mount;
     int every = 1;                ///< pings at every n-th pose
-    double azimuth_deg = 120.0;   ///< full angle
-    double elevation_deg = 20.0;  ///< full angle
+    double azimuth_deg = 120.0;   ///< full angle; of an echosounder that of its cone
+    double elevation_deg = 20.0;  ///< full angle; not of an echosounder
     double range_min_m = 0.1;
     double range_max_m = 10.0;
     int range_bins = 512;
-    int azimuth_bins = 512;
+    int azimuth_bins = 512;  ///< of imaging and profiling
+    MultipathConfig multipath;
     NoiseConfig noise;
+    StreaksConfig streaks;
 
     bool operator==(const SonarConfig&) const = default;
 };
+
+/// The kind's name in a mission.
+std::string_view name_of(SonarKind kind);
+
+/// A sonar of this kind as it is where the mission says nothing else.
+SonarConfig default_sonar(SonarKind kind);
 
 /// Poses from a file, either taken as they are or interpolated at `rate_hz`.
 struct FileTrajectoryConfig {
@@ -115,6 +147,7 @@ struct OutputConfig {
     bool image = true;        ///< 16-bit polar PNG
     bool fan = true;          ///< 8-bit Cartesian PNG
     bool meta = true;         ///< JSON per ping
+    bool stages = false;      ///< 8-bit PNG of five fans, one term of the model after the other
     int fan_width_px = 0;     ///< 0: one pixel per range bin, at most 1024
     double full_scale = 1.0;  ///< intensity that becomes white
 

@@ -50,6 +50,14 @@ class MissionReader {
         }
     }
 
+    /// What the keys that are left out keep, once it is known what kind of thing `value` is.
+    template <class T, class Make>
+    void start_from(T& value, Make make) {
+        std::string name = std::move(value.name);
+        value = make();
+        value.name = std::move(name);
+    }
+
     template <class T>
     void section(const char* key, T& value, Presence presence = Presence::optional) {
         if (const YamlNode* node = find(key, presence)) read(*node, key, value);

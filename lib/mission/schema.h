@@ -13,7 +13,18 @@
 
 namespace sonarsim {
 
-inline constexpr std::array sonar_kinds{Choice<SonarKind>{"imaging", SonarKind::imaging}};
+inline constexpr std::array sonar_kinds{Choice<SonarKind>{"imaging", SonarKind::imaging},
+                                        Choice<SonarKind>{"profiling", SonarKind::profiling},
+                                        Choice<SonarKind>{"sidescan", SonarKind::sidescan},
+                                        Choice<SonarKind>{"echosounder", SonarKind::echosounder}};
+
+inline constexpr std::array multipath_methods{
+    Choice<MultipathMethod>{"none", MultipathMethod::none},
+    Choice<MultipathMethod>{"cluster", MultipathMethod::cluster},
+    Choice<MultipathMethod>{"exact", MultipathMethod::exact}};
+inline constexpr std::array streak_modes{Choice<StreakMode>{"none", StreakMode::none},
+                                         Choice<StreakMode>{"add", StreakMode::add},
+                                         Choice<StreakMode>{"reduce", StreakMode::reduce}};
 
 /// Fit for the name of a folder that holds nothing but one mission.
 inline bool is_folder_name(std::string_view name) {
@@ -52,18 +63,42 @@ void describe(Visitor& v, NoiseConfig& c) {
 }
 
 template <class Visitor>
+void describe(Visitor& v, MultipathConfig& c) {
+    v.choice("method", c.method, multipath_methods);
+    v.integer("epsilon_bins", c.epsilon_bins, between(0, 8192));
+    v.number("delta_deg", c.delta_deg, between(0, 180));
+}
+
+template <class Visitor>
+void describe(Visitor& v, StreaksConfig& c) {
+    v.choice("mode", c.mode, streak_modes);
+    v.number("threshold", c.threshold, between(0, 1));
+    v.number("angle_deg", c.angle_deg, between(0, 90));
+}
+
+template <class Visitor>
 void describe(Visitor& v, SonarConfig& c) {
     v.choice("kind", c.kind, sonar_kinds, required);
+    v.start_from(c, [&] { return default_sonar(c.kind); });
+    const bool fan = c.kind == SonarKind::imaging || c.kind == SonarKind::profiling;
     v.section("mount", c.mount);
     v.integer("every", c.every, at_least(1));
-    v.number("azimuth_deg", c.azimuth_deg, between(1e-3, 360));
-    v.number("elevation_deg", c.elevation_deg, between(1e-3, 180));
+    if (c.kind == SonarKind::echosounder) {
+        v.number("opening_deg", c.azimuth_deg, between(1e-3, 180));
+    } else {
+        v.number("azimuth_deg", c.azimuth_deg, between(1e-3, 360));
+        v.number("elevation_deg", c.elevation_deg, between(1e-3, 180));
+    }
     v.number("range_min_m", c.range_min_m, at_least(0));
     v.number("range_max_m", c.range_max_m, above(0));
     // 8192 x 8192 bins are 2^26, the largest image that is rendered.
     v.integer("range_bins", c.range_bins, between(1, 8192));
-    v.integer("azimuth_bins", c.azimuth_bins, between(1, 8192));
+    if (fan) v.integer("azimuth_bins", c.azimuth_bins, between(1, 8192));
+    v.section("multipath", c.multipath);
     v.section("noise", c.noise);
+    v.section("streaks", c.streaks);
+    v.require(c.kind != SonarKind::sidescan || c.noise.range_lambda_m == 0.0, {"noise"},
+              "a side-scan sonar has no range noise: range_lambda_m must be 0");
     v.require(c.range_min_m < c.range_max_m, {"range_min_m", "range_max_m"},
               "range_min_m must be below range_max_m");
     v.require((c.range_max_m - c.range_min_m) / c.range_bins > 1e-6,
@@ -125,6 +160,7 @@ void describe(Visitor& v, OutputConfig& c) {
     v.flag("image", c.image);
     v.flag("fan", c.fan);
     v.flag("meta", c.meta);
+    v.flag("stages", c.stages);
     v.integer("fan_width_px", c.fan_width_px, between(0, 8192));
     v.number("full_scale", c.full_scale, above(0));
 }

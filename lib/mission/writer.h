@@ -70,6 +70,9 @@ class MissionWriter {
     template <class... T>
     void one_of(const std::variant<T...>&, const std::array<const char*, sizeof...(T)>&) const {}
 
+    template <class T, class Make>
+    void start_from(const T&, Make) const {}
+
     void require(bool, std::initializer_list<const char*>, const char*) const {}
 
   private:

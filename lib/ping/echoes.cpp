@@ -1,6 +1,7 @@
 #include "ping/echoes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace sonarsim {
@@ -24,6 +25,18 @@ struct Cut {
 // are 2.5 % off and the average is right; on a plane, where v . n = H / r, that is a twentieth of
 // r.
 constexpr float finest_change = 0.02F;
+
+constexpr int lanes = 8;
+
+using Lanes = std::array<float, lanes>;
+
+/// One coordinate of the cells at c + s u + t v.
+void cells_along(float c, float u, float v, const Lanes& s, const Lanes& t,
+                 std::int32_t* __restrict out) {
+    for (int lane = 0; lane < lanes; ++lane) {
+        out[lane] = static_cast<std::int32_t>(std::floor(c + s[lane] * u + t[lane] * v));
+    }
+}
 
 /// How many pieces a footprint is cut into along its two edges.
 Cut cut(const Sample& sample, float slope_u, float slope_v, float bin_m, float cell_m) {
@@ -88,35 +101,48 @@ void direct_echoes(std::span<const Sample> samples, std::span<const Material> ma
                                     slope_v / static_cast<float>(pieces.v));
         const float weight = sample.area_m2 / static_cast<float>(pieces.u * pieces.v);
         const float reflection = materials[sample.material].reflection;
-        const std::size_t begin = end;
-        end += static_cast<std::size_t>(pieces.u) * pieces.v;
-        if (end > echoes.size()) echoes.resize(2 * end, lattice.exists());
-        std::size_t k = begin;
-        for (int a = 0; a < pieces.u; ++a) {
-            const Eigen::Vector3f row =
-                sample.position + ((a + 0.5F) * u_step - 1.0F) * sample.edge_u;
-            const Eigen::Vector3f cell_row = cells.rotation * row + cells.base;
-            const Eigen::Vector3f cell_edge = cells.rotation * sample.edge_v;
-            for (int b = 0; b < pieces.v; ++b, ++k) {
-                const float t = (static_cast<float>(b) + 0.5F) * v_step - 1.0F;
-                const float x = row.x() + t * sample.edge_v.x();
-                const float y = row.y() + t * sample.edge_v.y();
-                const float z = row.z() + t * sample.edge_v.z();
-                const float r = std::sqrt(x * x + y * y + z * z);
-                echoes.range_m[k] = r;
-                echoes.half_m[k] = half;
-                echoes.weight[k] = weight;
-                echoes.intensity[k] = reflection * (sample.cosine + t * sample.cosine_v);
-                if (lattice.exists()) {
-                    echoes.cell_x[k] =
-                        static_cast<std::int32_t>(std::floor(cell_row.x() + t * cell_edge.x()));
-                    echoes.cell_y[k] =
-                        static_cast<std::int32_t>(std::floor(cell_row.y() + t * cell_edge.y()));
-                    echoes.cell_z[k] =
-                        static_cast<std::int32_t>(std::floor(cell_row.z() + t * cell_edge.z()));
-                }
-            }
+        const float cosine = sample.cosine;
+        const float cosine_v = sample.cosine_v;
+        const Eigen::Vector3f centre = sample.position;
+        const Eigen::Vector3f edge_u = sample.edge_u;
+        const Eigen::Vector3f edge_v = sample.edge_v;
+        const float per_row = 1.0F / static_cast<float>(pieces.v);
+        const Eigen::Vector3f cell = cells.rotation * sample.position + cells.base;
+        const Eigen::Vector3f cell_u = cells.rotation * sample.edge_u;
+        const Eigen::Vector3f cell_v = cells.rotation * sample.edge_v;
+        const int count = pieces.u * pieces.v;
+        if (end + count + lanes > echoes.size()) {
+            echoes.resize(2 * (end + count + lanes), lattice.exists());
         }
+        // Whole vectors are written; what lies beyond the last piece is overwritten by the next
+        // sample.
+        for (int first = 0; first < count; first += lanes) {
+            const std::size_t to = end + first;
+            Lanes s;
+            Lanes t;
+            for (int lane = 0; lane < lanes; ++lane) {
+                const float k = static_cast<float>(first + lane);
+                const float row = std::floor((k + 0.5F) * per_row);
+                s[lane] = (row + 0.5F) * u_step - 1.0F;
+                t[lane] = (k - row * static_cast<float>(pieces.v) + 0.5F) * v_step - 1.0F;
+            }
+            float* const __restrict range_m = echoes.range_m.data() + to;
+            float* const __restrict intensity = echoes.intensity.data() + to;
+            for (int lane = 0; lane < lanes; ++lane) {
+                const float x = centre.x() + s[lane] * edge_u.x() + t[lane] * edge_v.x();
+                const float y = centre.y() + s[lane] * edge_u.y() + t[lane] * edge_v.y();
+                const float z = centre.z() + s[lane] * edge_u.z() + t[lane] * edge_v.z();
+                range_m[lane] = std::sqrt(x * x + y * y + z * z);
+                intensity[lane] = reflection * (cosine + t[lane] * cosine_v);
+            }
+            std::fill_n(echoes.half_m.data() + to, lanes, half);
+            std::fill_n(echoes.weight.data() + to, lanes, weight);
+            if (!lattice.exists()) continue;
+            cells_along(cell.x(), cell_u.x(), cell_v.x(), s, t, echoes.cell_x.data() + to);
+            cells_along(cell.y(), cell_u.y(), cell_v.y(), s, t, echoes.cell_y.data() + to);
+            cells_along(cell.z(), cell_u.z(), cell_v.z(), s, t, echoes.cell_z.data() + to);
+        }
+        end += count;
     }
     echoes.resize(end, lattice.exists());
 }

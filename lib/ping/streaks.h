@@ -4,12 +4,11 @@
 #include <span>
 #include <vector>
 
+#include "mission/mission.h"
 #include "ping/accumulate.h"
 #include "surface/surface.h"
 
 namespace sonarsim {
-
-enum class StreakMode { none, add, reduce };
 
 /// [14-15] for one sonar.
 struct Streaks {

@@ -51,8 +51,9 @@ std::uint64_t for_each_piece(const tinygltf::Model& model, const std::vector<Pla
         const tinygltf::Mesh& mesh = model.meshes[mesh_index];
         const std::string name =
             mesh.name.empty() ? std::to_string(mesh_index) : "'" + mesh.name + "'";
+        const std::string prefix = file + ": mesh " + name + " primitive ";
         for (std::size_t k = 0; k < mesh.primitives.size(); ++k) {
-            const std::string where = file + ": mesh " + name + " primitive " + std::to_string(k);
+            const std::string where = prefix + std::to_string(k);
             const auto source = open_triangles(model, mesh.primitives[k], where);
             work += piece_cost;
             if (source) work += source->count + source->positions.sparse_at.size();
@@ -121,7 +122,7 @@ std::string material_name(const tinygltf::Model& model, const Piece& piece, Name
                              " does not exist");
         }
         const tinygltf::Material& material = model.materials[index];
-        const std::string own = sonar_material(material.extras);
+        std::string own = sonar_material(material.extras);
         if (!own.empty()) return own;
         if (!material.name.empty()) return material.name;
     }

@@ -1,6 +1,5 @@
 #include "scene/materials.h"
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <utility>

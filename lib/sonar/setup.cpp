@@ -30,26 +30,57 @@ std::uint32_t stream_of(std::string_view sensor_name) {
     return hash;
 }
 
-PixelNoise pixel_noise(const SonarConfig& config, double gain,
-                       std::span<const double> range_edges_m,
-                       std::span<const double> azimuth_edges_rad) {
+Sonar common_sonar(const SonarConfig& config, const AccuracyConfig& accuracy, ViewShape shape,
+                   int beams, double gain) {
     const NoiseConfig& noise = config.noise;
-    PixelNoise out{static_cast<float>(gain), static_cast<float>(noise.add_sigma),
-                   static_cast<float>(noise.mult_sigma),
-                   std::vector<float>(range_edges_m.size() - 1, 1.0F),
-                   std::vector<float>(azimuth_edges_rad.size() - 1, 1.0F)};
-    if (!noise.scale_with_range) return out;
-    for (std::size_t i = 0; i < out.range_scale.size(); ++i) {
-        const double r = 0.5 * (range_edges_m[i] + range_edges_m[i + 1]) / config.range_max_m;
-        out.range_scale[i] = static_cast<float>(r * r);
+    Sonar sonar;
+    sonar.config = config;
+    sonar.range_edges_m = edges(config.range_min_m, config.range_max_m, config.range_bins);
+    PingSettings& settings = sonar.settings;
+    settings.stream = stream_of(config.name);
+    settings.view = {radians(config.azimuth_deg), radians(config.elevation_deg),
+                     config.range_min_m,          config.range_max_m,
+                     config.range_bins,           beams,
+                     accuracy.relative_l1,        shape};
+    const bool exact = config.multipath.method == MultipathMethod::exact;
+    settings.multipath = {config.multipath.method != MultipathMethod::none,
+                          {exact ? 0 : config.multipath.epsilon_bins,
+                           static_cast<float>(sincos(radians(config.multipath.delta_deg)).cos)}};
+    settings.streaks = {config.streaks.mode, static_cast<float>(config.streaks.threshold),
+                        static_cast<float>(sincos(radians(config.streaks.angle_deg)).cos)};
+    settings.range_noise = {static_cast<float>(noise.range_lambda_m),
+                            static_cast<float>(noise.scatterer_m), true};
+    settings.pixel_noise = {static_cast<float>(gain), static_cast<float>(noise.add_sigma),
+                            static_cast<float>(noise.mult_sigma),
+                            std::vector<float>(config.range_bins, 1.0F),
+                            std::vector<float>(beams, 1.0F)};
+    if (noise.scale_with_range) {
+        for (int i = 0; i < config.range_bins; ++i) {
+            const double middle = 0.5 * (sonar.range_edges_m[i] + sonar.range_edges_m[i + 1]);
+            const double r = middle / config.range_max_m;
+            settings.pixel_noise.range_scale[i] = static_cast<float>(r * r);
+        }
     }
-    const double sigma =
-        radians(noise.lobe_sigma_deg > 0.0 ? noise.lobe_sigma_deg : config.azimuth_deg / 8.0);
-    for (std::size_t j = 0; j < out.lobe_scale.size(); ++j) {
-        const double phi = 0.5 * (azimuth_edges_rad[j] + azimuth_edges_rad[j + 1]) / sigma;
-        out.lobe_scale[j] = static_cast<float>(1.0 + 0.5 * exponential(-0.5 * phi * phi));
+    return sonar;
+}
+
+void add_azimuth(Sonar& sonar) {
+    const SonarConfig& config = sonar.config;
+    const double half = 0.5 * sonar.settings.view.azimuth_rad;
+    sonar.azimuth_edges_rad = edges(-half, half, sonar.settings.view.beams);
+    if (!config.noise.scale_with_range) return;
+    const double sigma = radians(config.noise.lobe_sigma_deg > 0.0 ? config.noise.lobe_sigma_deg
+                                                                   : config.azimuth_deg / 8.0);
+    for (int j = 0; j < sonar.settings.view.beams; ++j) {
+        const double phi =
+            0.5 * (sonar.azimuth_edges_rad[j] + sonar.azimuth_edges_rad[j + 1]) / sigma;
+        sonar.settings.pixel_noise.lobe_scale[j] =
+            static_cast<float>(1.0 + 0.5 * exponential(-0.5 * phi * phi));
     }
-    return out;
+}
+
+Pose looking_down() {
+    return {rotation_from_rpy(0.0, 0.5 * pi, 0.0), Eigen::Vector3d::Zero()};
 }
 
 }  // namespace sonarsim

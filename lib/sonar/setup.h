@@ -1,13 +1,12 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <string_view>
 #include <vector>
 
 #include "core/pose.h"
 #include "mission/mission.h"
-#include "ping/pixel_noise.h"
+#include "sonar/sonar.h"
 
 namespace sonarsim {
 
@@ -24,9 +23,17 @@ Pose mounted(const MountConfig& mount, const Pose& T_vehicle_default);
 /// sensor to a mission changes no draw.
 std::uint32_t stream_of(std::string_view sensor_name);
 
-/// [10-13]. `gain` is the m of I (m + w_m).
-PixelNoise pixel_noise(const SonarConfig& config, double gain,
-                       std::span<const double> range_edges_m,
-                       std::span<const double> azimuth_edges_rad);
+/// The view, the noise and the range edges of a sonar, by its configuration. `gain` is the m of
+/// I (m + w_m) [12]. Lobe factors are 1.
+Sonar common_sonar(const SonarConfig& config, const AccuracyConfig& accuracy, ViewShape shape,
+                   int beams, double gain);
+
+/// The lobe of [10] over the beams of a fan, 1 + 0.5 exp(-phi^2 / (2 sigma^2)), if the mission
+/// wants it, and the azimuth edges.
+void add_azimuth(Sonar& sonar);
+
+/// The mount of the sonars that look down: x along the vehicle's -z, z along its x, so that
+/// azimuth runs from starboard (-) to port (+).
+Pose looking_down();
 
 }  // namespace sonarsim

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "core/pose.h"
@@ -14,10 +15,16 @@ struct Sonar {
     Pose T_vehicle_sensor;
     PingSettings settings;
     std::vector<double> range_edges_m;      ///< range_bins + 1
-    std::vector<double> azimuth_edges_rad;  ///< beams + 1, from starboard (-) to port (+)
+    std::vector<double> azimuth_edges_rad;  ///< of a fan: beams + 1, from starboard (-) to port (+)
 };
 
 Sonar make_sonar(const SonarConfig& config, const AccuracyConfig& accuracy);
+
+/// One ping with one term of the model after the other, as in the paper's Fig. 5(d): direct echoes,
+/// plus multipath, plus range noise, plus pixel noise, plus streaks. The last is the ping itself. A
+/// term that the sonar does not use changes nothing.
+std::array<Ping, 5> render_stages(const Sonar& sonar, const Scene& scene, const Surface& surface,
+                                  const Pose& T_world_vehicle, const PingKey& key);
 
 Ping render_ping(const Sonar& sonar, const Scene& scene, const Surface& surface,
                  const Pose& T_world_vehicle, const PingKey& key);

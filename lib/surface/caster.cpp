@@ -129,7 +129,7 @@ void Caster::cast(std::span<const Eigen::Vector3f> origins,
                   std::span<const Eigen::Vector3f> directions,
                   std::span<std::uint32_t> facets) const {
     trace(
-        embree_->tree, RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT,
+        embree_->tree, RTC_INTERSECT_CONTEXT_FLAG_COHERENT,
         [&](std::size_t i) -> const Eigen::Vector3f& { return origins[i]; }, directions,
         std::numeric_limits<float>::infinity(), facets);
 }

@@ -35,7 +35,8 @@ class Caster {
     void cast(const Eigen::Vector3f& origin, std::span<const Eigen::Vector3f> directions,
               float reach_m, std::span<std::uint32_t> facets) const;
 
-    /// Rays from many points.
+    /// Rays from many points. Neighbours should be neighbours in space here, too: what a surface
+    /// mirrors stays together.
     void cast(std::span<const Eigen::Vector3f> origins, std::span<const Eigen::Vector3f> directions,
               std::span<std::uint32_t> facets) const;
 

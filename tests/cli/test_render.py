@@ -148,7 +148,7 @@ class SameBytes(Sandbox):
 
 
 class Interrupted(Sandbox):
-    POSES = 3000
+    POSES = 1500
 
     def interrupt(self, number):
         """Starts a long render anew and sends it a signal once pings appear."""
@@ -194,7 +194,7 @@ class Interrupted(Sandbox):
 
 
 class Terminal(Sandbox):
-    POSES = 6000
+    POSES = 4000
 
     def test_progress_line(self):
         self.write("path.csv", path_csv(self.POSES))

@@ -60,6 +60,24 @@ TEST_CASE("the kind of a sonar") {
           "m.yaml:3:21: 'kind' must be one of: imaging, not a list");
 }
 
+TEST_CASE("multipath and streaks") {
+    const Mission mission =
+        parse(smallest_mission +
+              "    multipath: {method: cluster, epsilon_bins: 3, delta_deg: 30}\n"
+              "    streaks: {mode: reduce, threshold: 0.2, angle_deg: 5}\n");
+    CHECK(mission.sensors[0].multipath == MultipathConfig{MultipathMethod::cluster, 3, 30.0});
+    CHECK(mission.sensors[0].streaks == StreaksConfig{StreakMode::reduce, 0.2, 5.0});
+    CHECK(refusal(smallest_mission + "    multipath: {method: clusters}\n") ==
+          "m.yaml:6:25: unknown method 'clusters' (did you mean 'cluster'?); known: none, cluster, "
+          "exact");
+    CHECK(refusal(smallest_mission + "    streaks: {mode: subtract}\n") ==
+          "m.yaml:6:21: unknown mode 'subtract'; known: none, add, reduce");
+    CHECK(refusal(smallest_mission + "    multipath: {epsilon_bins: -1}\n")
+              .starts_with("m.yaml:6:31: 'epsilon_bins' must be"));
+    CHECK(refusal(smallest_mission + "    streaks: {threshold: 8}\n")
+              .starts_with("m.yaml:6:26: 'threshold' must be"));
+}
+
 TEST_CASE("sensor names are folder names") {
     const std::string before = "scene: {file: a, materials: b}\ntrajectory: {file: c}\nsensors: {";
     for (const std::string& name : {std::string("a.b"), std::string("../x"), std::string("a b"),

@@ -25,11 +25,13 @@ Mission unusual_mission() {
                       1.0 / 0.07,
                       33,
                       44,
-                      {0.041, 0.013, 1e-300, 0.151, false, 3.5}};
+                      {MultipathMethod::exact, 7, 0.1},
+                      {0.041, 0.013, 1e-300, 0.151, false, 3.5},
+                      {StreakMode::reduce, 0.3, 1.25}};
     mission.sensors = {sonar, sonar};
     mission.sensors[1].name = "-";
     mission.accuracy = {0.0123};
-    mission.output = {"/o", false, false, false, false, 99, 0.125};
+    mission.output = {"/o", false, false, false, false, true, 99, 0.125};
     return mission;
 }
 
@@ -75,6 +77,10 @@ sensors:
     range_max_m: 10
     range_bins: 512
     azimuth_bins: 512
+    multipath:
+      method: none
+      epsilon_bins: 5
+      delta_deg: 15
     noise:
       range_lambda_m: 0
       scatterer_m: 0.02
@@ -82,6 +88,10 @@ sensors:
       mult_sigma: 0
       scale_with_range: true
       lobe_sigma_deg: 0
+    streaks:
+      mode: none
+      threshold: 0.08
+      angle_deg: 8
 accuracy:
   relative_l1: 0.03
 output:
@@ -90,6 +100,7 @@ output:
   image: true
   fan: true
   meta: true
+  stages: false
   fan_width_px: 0
   full_scale: 1
 )");

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <doctest/doctest.h>
 #include <unistd.h>
 
 #include <array>
@@ -166,6 +167,12 @@ inline std::string load_error(const GltfBuilder& gltf) {
 /// Corner `k` of triangle `i` in the world frame.
 inline Eigen::Vector3d world_corner(const Scene& scene, std::size_t i, std::size_t k) {
     return scene.origin + scene.vertices[scene.triangles[i][k]].cast<double>();
+}
+
+inline void check_point(const Eigen::Vector3d& p, double x, double y, double z,
+                        double tolerance = 1e-6) {
+    CAPTURE(p.transpose());
+    CHECK((p - Eigen::Vector3d(x, y, z)).cwiseAbs().maxCoeff() <= tolerance);
 }
 
 }  // namespace sonarsim

@@ -59,7 +59,7 @@ TEST_SUITE("scene") {
         CHECK(load_error(gltf.text()) ==
               "x.glb: buffers[0]: has no uri, and only the first buffer of a .glb with a BIN chunk "
               "may lack it");
-        gltf.document["buffers"] = {json::object()};
+        gltf.document["buffers"] = json::array({json::object()});
         CHECK(load_error(gltf) == "x.glb: buffers[0]: byteLength is missing");
         gltf.document["buffers"] = {{{"byteLength", 0}}};
         CHECK(load_error(gltf) != "");

@@ -55,7 +55,5 @@ TEST_SUITE("scene") {
         const auto read = std::count_if(outcome.begin(), outcome.end(),
                                         [](const auto& entry) { return entry.second.empty(); });
         MESSAGE(outcome.size() << " files, " << read << " read");
-        for (const auto& [name, error] : outcome)
-            INFO(name << ": " << error);
     }
 }

@@ -1,0 +1,74 @@
+"""Value noise of our own: the same numbers in every version of Python."""
+import math
+
+
+def lattice(i, j, k, seed):
+    """A number in [-1, 1) that belongs to a lattice point."""
+    h = (i * 0x9E3779B1 ^ j * 0x85EBCA77 ^ k * 0xC2B2AE3D ^ seed * 0x27D4EB2F) & 0xFFFFFFFF
+    h = ((h ^ (h >> 15)) * 0x2C1B3C6D) & 0xFFFFFFFF
+    h = ((h ^ (h >> 12)) * 0x297A2D39) & 0xFFFFFFFF
+    return (h ^ (h >> 15)) / 2147483648.0 - 1.0
+
+
+class Noise2:
+    """Smooth noise over the plane, one octave, in [-1, 1]; lattice points `spacing` apart."""
+
+    def __init__(self, spacing, seed):
+        self.spacing = spacing
+        self.seed = seed
+        self.known = {}
+
+    def corner(self, i, j):
+        value = self.known.get((i, j))
+        if value is None:
+            value = self.known[i, j] = lattice(i, j, 0, self.seed)
+        return value
+
+    def __call__(self, x, y):
+        x /= self.spacing
+        y /= self.spacing
+        i, j = math.floor(x), math.floor(y)
+        u, v = x - i, y - j
+        u *= u * (3 - 2 * u)
+        v *= v * (3 - 2 * v)
+        low = self.corner(i, j) * (1 - u) + self.corner(i + 1, j) * u
+        high = self.corner(i, j + 1) * (1 - u) + self.corner(i + 1, j + 1) * u
+        return low * (1 - v) + high * v
+
+
+class Relief:
+    """Octaves of noise, each half as wide and half as high as the one before."""
+
+    def __init__(self, spacing, amplitude, octaves, seed):
+        self.octaves = [(amplitude / 2**n, Noise2(spacing / 2**n, seed + n))
+                        for n in range(octaves)]
+
+    def __call__(self, x, y):
+        return sum(amplitude * noise(x, y) for amplitude, noise in self.octaves)
+
+
+def noise3(p, spacing, seed):
+    """Smooth noise in space, in [-1, 1]."""
+    cell = [math.floor(c / spacing) for c in p]
+    weight = [c / spacing - i for c, i in zip(p, cell)]
+    weight = [w * w * (3 - 2 * w) for w in weight]
+    total = 0.0
+    for corner in range(8):
+        offset = [corner & 1, corner >> 1 & 1, corner >> 2]
+        share = 1.0
+        for w, o in zip(weight, offset):
+            share *= w if o else 1 - w
+        total += share * lattice(*(i + o for i, o in zip(cell, offset)), seed)
+    return total
+
+
+class Draws:
+    """Uniform random numbers in [low, high), one after the other."""
+
+    def __init__(self, seed):
+        self.seed = seed
+        self.count = 0
+
+    def __call__(self, low, high):
+        self.count += 1
+        return low + (high - low) * (lattice(self.count, 1, 2, self.seed) + 1) / 2

@@ -1,0 +1,119 @@
+"""Shapes to add to a part. All coordinates are world coordinates in metres, z up."""
+import math
+
+
+def circle(n):
+    """Cosine and sine at n equal steps around."""
+    return [(math.cos(2 * math.pi * k / n), math.sin(2 * math.pi * k / n)) for k in range(n)]
+
+
+def add_quad(part, a, b, c, d):
+    part.add_quad(*(part.add_vertex(*p) for p in (a, b, c, d)))
+
+
+def add_box(part, centre, size, yaw_deg=0.0):
+    """A box of `size` around `centre`, turned about z."""
+    cosine, sine = math.cos(math.radians(yaw_deg)), math.sin(math.radians(yaw_deg))
+    corners = []
+    for dz in (-0.5, 0.5):
+        for dx, dy in ((-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)):
+            x, y = dx * size[0], dy * size[1]
+            corners.append(part.add_vertex(centre[0] + cosine * x - sine * y,
+                                           centre[1] + sine * x + cosine * y,
+                                           centre[2] + dz * size[2]))
+    for a, b, c, d in ((3, 2, 1, 0), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6),
+                       (3, 0, 4, 7)):
+        part.add_quad(corners[a], corners[b], corners[c], corners[d])
+
+
+def frame_along(axis):
+    """Two unit vectors perpendicular to `axis` and to each other."""
+    length = math.sqrt(sum(c * c for c in axis))
+    z = [c / length for c in axis]
+    helper = (1.0, 0.0, 0.0) if abs(z[0]) < 0.9 else (0.0, 1.0, 0.0)
+    along = sum(h * c for h, c in zip(helper, z))
+    x = [h - along * c for h, c in zip(helper, z)]
+    length = math.sqrt(sum(c * c for c in x))
+    x = [c / length for c in x]
+    return x, [z[1] * x[2] - z[2] * x[1], z[2] * x[0] - z[0] * x[2], z[0] * x[1] - z[1] * x[0]]
+
+
+def add_cylinder(part, start, end, radius, sides):
+    """A closed cylinder between two points."""
+    u, v = frame_along([b - a for a, b in zip(start, end)])
+    rings = []
+    for foot in (start, end):
+        rings.append([part.add_vertex(*(foot[k] + radius * (c * u[k] + s * v[k])
+                                        for k in range(3))) for c, s in circle(sides)])
+    tops = [part.add_vertex(*start), part.add_vertex(*end)]
+    for k in range(sides):
+        n = (k + 1) % sides
+        part.add_quad(rings[0][k], rings[0][n], rings[1][n], rings[1][k])
+        part.add_triangle(tops[0], rings[0][n], rings[0][k])
+        part.add_triangle(tops[1], rings[1][k], rings[1][n])
+
+
+def add_torus(part, centre, ring_radius, tube_radius, around, across):
+    """A torus that lies flat, its axis along z."""
+    rings = [[part.add_vertex(centre[0] + c * (ring_radius + tube_radius * p),
+                              centre[1] + s * (ring_radius + tube_radius * p),
+                              centre[2] + tube_radius * q) for p, q in circle(across)]
+             for c, s in circle(around)]
+    for i in range(around):
+        a, b = rings[i], rings[(i + 1) % around]
+        for j in range(across):
+            k = (j + 1) % across
+            part.add_quad(a[j], b[j], b[k], a[k])
+
+
+def icosphere(levels):
+    """Unit vectors and triangles of an icosahedron whose faces are quartered `levels` times."""
+    t = (1 + math.sqrt(5)) / 2
+    points = [(-1, t, 0), (1, t, 0), (-1, -t, 0), (1, -t, 0), (0, -1, t), (0, 1, t),
+              (0, -1, -t), (0, 1, -t), (t, 0, -1), (t, 0, 1), (-t, 0, -1), (-t, 0, 1)]
+    faces = [(0, 11, 5), (0, 5, 1), (0, 1, 7), (0, 7, 10), (0, 10, 11), (1, 5, 9), (5, 11, 4),
+             (11, 10, 2), (10, 7, 6), (7, 1, 8), (3, 9, 4), (3, 4, 2), (3, 2, 6), (3, 6, 8),
+             (3, 8, 9), (4, 9, 5), (2, 4, 11), (6, 2, 10), (8, 6, 7), (9, 8, 1)]
+    for _ in range(levels):
+        middles = {}
+
+        def middle(a, b):
+            key = (min(a, b), max(a, b))
+            if key not in middles:
+                middles[key] = len(points)
+                points.append(tuple((p + q) / 2 for p, q in zip(points[a], points[b])))
+            return middles[key]
+
+        quartered = []
+        for a, b, c in faces:
+            ab, bc, ca = middle(a, b), middle(b, c), middle(c, a)
+            quartered += [(a, ab, ca), (b, bc, ab), (c, ca, bc), (ab, bc, ca)]
+        faces = quartered
+    lengths = [math.sqrt(sum(c * c for c in p)) for p in points]
+    return [tuple(c / n for c in p) for p, n in zip(points, lengths)], faces
+
+
+def add_sphere(part, centre, radii, levels, bumps=lambda direction: 1.0):
+    """An ellipsoid; `bumps` scales its radius by direction."""
+    points, faces = icosphere(levels)
+    first = len(part.vertices) // 3
+    for p in points:
+        scale = bumps(p)
+        part.add_vertex(*(centre[k] + radii[k] * scale * p[k] for k in range(3)))
+    for a, b, c in faces:
+        part.add_triangle(first + a, first + b, first + c)
+
+
+def add_grid(part, xs, ys, height, material_of=None):
+    """The surface z = height(x, y) over a grid, two triangles per cell. `material_of` chooses the
+    material of a cell by the height of its corner."""
+    columns = len(xs)
+    first = len(part.vertices) // 3
+    for y in ys:
+        for x in xs:
+            part.add_vertex(x, y, height(x, y))
+    for j in range(len(ys) - 1):
+        row = first + j * columns
+        for i in range(row, row + columns - 1):
+            material = material_of(part.vertices[3 * i + 1]) if material_of else None
+            part.add_quad(i, i + 1, i + 1 + columns, i + columns, material)

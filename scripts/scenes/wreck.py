@@ -1,0 +1,93 @@
+"""A broken steel hull with ribs, lying over on a rippled bottom."""
+import math
+
+from .boulders import boulders
+from .glb import Part
+from .noise import Relief, noise3
+from .shapes import add_cylinder, add_grid
+
+HALF = 30.0                             # of the bottom
+LENGTH, BEAM, DEPTH = 34.0, 8.0, 4.5    # of the hull
+LIST = math.radians(18)                 # how far it lies over
+SUNK = 0.8                              # of the keel below z = 0
+
+
+def bottom(relief):
+    def height(x, y):
+        bend = 0.8 * math.sin(0.2 * x)
+        return relief(x, y) + 0.05 * math.sin(2 * math.pi * (y + bend) / 0.9)
+    return height
+
+
+def half_breadth(u, v):
+    """Of the hull at u along it (-1 stern, 1 bow) and v up it (0 keel, 1 deck), in metres."""
+    along = max(0.0, 1 - abs(u) ** (3.5 if u < 0 else 2.2))
+    return BEAM / 2 * along * min(1.0, v) ** (0.35 + 0.35 * abs(u))
+
+
+def hull_point(u, v, side, inset=0.0):
+    """In the world, the hull lying over to port."""
+    y = side * max(0.0, half_breadth(u, v) - inset)
+    z = DEPTH * v + 1.2 * v * max(0.0, u) ** 3
+    return (LENGTH / 2 * u, y * math.cos(LIST) - z * math.sin(LIST),
+            y * math.sin(LIST) + z * math.cos(LIST) - SUNK)
+
+
+def plating():
+    """Both sides, with holes where rust has gone through."""
+    part = Part("hull", "steel")
+    along, up = 160, 28
+    for side in (-1, 1):
+        rows = [[part.add_vertex(*hull_point(2 * i / along - 1, j / up, side))
+                 for i in range(along + 1)] for j in range(up + 1)]
+        for j in range(up):
+            for i in range(along):
+                rust = noise3((i / 14, j / 7, 5.0 * side), 1.0, 31)
+                broken = rust - 0.25 * (j / up) > 0.28 or abs(i / along - 0.36) < 0.025
+                if not broken:
+                    part.add_quad(rows[j][i], rows[j][i + 1], rows[j + 1][i + 1], rows[j + 1][i])
+    return part
+
+
+def ribs():
+    part = Part("ribs", "steel")
+    steps = 10
+    for k in range(1, 24):
+        u = 2 * k / 24 - 1
+        for side in (-1, 1):
+            points = [hull_point(u, (j + 0.2) / (steps + 0.2), side, 0.08)
+                      for j in range(steps + 1)]
+            for a, b in zip(points, points[1:]):
+                if math.dist(a, b) > 0.01:
+                    add_cylinder(part, a, b, 0.07, 6)
+        if k % 3:
+            add_cylinder(part, hull_point(u, 0.96, -1, 0.08), hull_point(u, 0.96, 1, 0.08), 0.08, 8)
+    return part
+
+
+def keel():
+    part = Part("keel", "steel")
+    add_cylinder(part, hull_point(-0.98, 0, 1), hull_point(0.98, 0, 1), 0.15, 12)
+    return part
+
+
+def boiler():
+    part = Part("boiler", "steel")
+    add_cylinder(part, (-6.0, -1.6, 1.2), (-2.2, -1.4, 1.3), 1.2, 40)
+    return part
+
+
+def mast():
+    part = Part("mast", "wood")
+    add_cylinder(part, (5.0, -4.5, 1.5), (12.0, -15.0, 0.2), 0.18, 16)
+    return part
+
+
+def build():
+    height = bottom(Relief(18.0, 0.2, 4, 11))
+    floor = Part("floor", "sand")
+    cells = 260
+    axis = [2 * HALF * k / cells - HALF for k in range(cells + 1)]
+    add_grid(floor, axis, axis, height)
+    return ([floor, plating(), ribs(), keel(), boiler(), mast()]
+            + boulders(30, HALF, 0.2, 1.0, height, 300))

@@ -1,0 +1,129 @@
+#include "dataset/assemble.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "core/units.h"
+#include "dataset/job.h"
+#include "mission/parse.h"
+#include "support/small_mission.h"
+#include "support/temporary_folder.h"
+
+using namespace sonarsim;
+using namespace sonarsim::test;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A mission on disk: a concrete wall of 20 x 20 m that stands across x = 5 m.
+struct MissionOnDisk {
+    TemporaryFolder folder;
+
+    MissionOnDisk() {
+        // World (x, y, z) is glTF (x, z, -y): the wall lies in glTF's plane x = 5.
+        const std::vector<float> corners{5, -10, -10, 5, 10, -10, 5, 10, 10, 5, -10, 10};
+        const std::vector<std::uint16_t> order{0, 1, 2, 0, 2, 3};
+        write_file(folder.path / "wall.bin",
+                   std::string(reinterpret_cast<const char*>(corners.data()), 48) +
+                       std::string(reinterpret_cast<const char*>(order.data()), 12));
+        const nlohmann::json gltf = {
+            {"asset", {{"version", "2.0"}}},
+            {"scene", 0},
+            {"scenes", {{{"nodes", {0}}}}},
+            {"nodes", {{{"mesh", 0}, {"name", "wall"}}}},
+            {"meshes",
+             {{{"primitives",
+                {{{"attributes", {{"POSITION", 0}}}, {"indices", 1}, {"material", 0}}}}}}},
+            {"materials", {{{"name", "concrete"}}}},
+            {"accessors",
+             {{{"bufferView", 0},
+               {"componentType", 5126},
+               {"count", 4},
+               {"type", "VEC3"},
+               {"min", {5, -10, -10}},
+               {"max", {5, 10, 10}}},
+              {{"bufferView", 1}, {"componentType", 5123}, {"count", 6}, {"type", "SCALAR"}}}},
+            {"bufferViews",
+             {{{"buffer", 0}, {"byteOffset", 0}, {"byteLength", 48}},
+              {{"buffer", 0}, {"byteOffset", 48}, {"byteLength", 12}}}},
+            {"buffers", {{{"byteLength", 60}, {"uri", "wall.bin"}}}}};
+        write_file(folder.path / "wall.gltf", gltf.dump());
+        write_file(folder.path / "materials.csv",
+                   "material,density_kg_m3,sound_speed_m_s\nconcrete,2400,3100\n");
+        write_file(folder.path / "poses.csv",
+                   "t_s,x_m,y_m,z_m,qx,qy,qz,qw\n0,0,0,0,0,0,0,1\n1,1,0,0,0,0,0,1\n");
+    }
+
+    Mission load(const std::string& trajectory) const {
+        return parse_mission(
+            "scene: {file: wall.gltf, materials: materials.csv}\ntrajectory: " + trajectory +
+                "\nsensors:\n  fls: {kind: imaging, range_bins: 100, "
+                "azimuth_bins: 8, azimuth_deg: 20, elevation_deg: 10}\n"
+                "output: {folder: out}\n",
+            "mission.yaml", folder.path, {});
+    }
+};
+
+}  // namespace
+
+TEST_SUITE("dataset") {
+    TEST_CASE("assemble: a mission's files become a scene, poses and sonars") {
+        const MissionOnDisk disk;
+        const Assembly assembly = assemble(disk.load("{file: poses.csv}"));
+        CHECK(assembly.scene.triangles.size() == 2);
+        CHECK(assembly.scene.instances == std::vector<std::string>{"wall"});
+        REQUIRE(assembly.sonars.size() == 1);
+        CHECK(assembly.sonars[0].config.name == "fls");
+        REQUIRE(assembly.trajectory.size() == 2);
+        CHECK(assembly.trajectory[1].T_world_vehicle.translation.x() == 1.0);
+    }
+
+    TEST_CASE("assemble: every kind of trajectory") {
+        const MissionOnDisk disk;
+        // 1 s at 10 Hz: 11 poses.
+        CHECK(assemble(disk.load("{file: poses.csv, rate_hz: 10}")).trajectory.size() == 11);
+        // 4 m at 2 m/s and 5 Hz: 2 s, 11 poses, from heading 0 to 90 degrees.
+        const Trajectory legs =
+            assemble(disk.load("{waypoints: [{position_m: [0, 0, 1]}, {position_m: [4, 0, 1], "
+                               "rpy_deg: [0, 0, 90]}], speed_m_s: 2, rate_hz: 5}"))
+                .trajectory;
+        REQUIRE(legs.size() == 11);
+        CHECK(legs[5].T_world_vehicle.translation.isApprox(Eigen::Vector3d(2, 0, 1)));
+        const Eigen::Vector3d bow = legs.back().T_world_vehicle.rotation * Eigen::Vector3d::UnitX();
+        CHECK((bow - Eigen::Vector3d::UnitY()).norm() < 1e-9);
+        const Trajectory survey =
+            assemble(disk.load("{lawnmower: {area_min_m: [0, 0], area_max_m: [10, 10], z_m: 3, "
+                               "line_spacing_m: 5, speed_m_s: 1, rate_hz: 1}}"))
+                .trajectory;
+        // Two lines of 10 m and the way between them of 5 m: 25 s.
+        CHECK(survey.size() == 26);
+        CHECK(survey.front().T_world_vehicle.translation.z() == doctest::Approx(3.0));
+    }
+
+    TEST_CASE("assemble: what is wrong with a file is told") {
+        const MissionOnDisk disk;
+        const Mission mission = disk.load("{file: poses.csv}");
+        write_file(disk.folder.path / "materials.csv",
+                   "material,density_kg_m3,sound_speed_m_s\nsteel,7700,5050\n");
+        CHECK_THROWS_AS(assemble(mission), InputError);
+        fs::remove(disk.folder.path / "poses.csv");
+        CHECK_THROWS_AS(assemble(mission), InputError);
+    }
+
+    TEST_CASE("assemble: from files to a dataset, and again after a file has changed") {
+        const MissionOnDisk disk;
+        const Mission mission = disk.load("{file: poses.csv}");
+        const std::atomic<bool> stop = false;
+        CHECK(run_job(mission, {}, {}, stop).pings == 2);
+        CHECK(fs::exists(disk.folder.path / "out/fls/fan/000001.png"));
+        CHECK(run_job(mission, {}, {}, stop).pings == 0);
+        write_file(disk.folder.path / "materials.csv",
+                   "material,density_kg_m3,sound_speed_m_s\nconcrete,2401,3100\n");
+        CHECK_THROWS_AS(run_job(mission, {}, {}, stop), InputError);
+        CHECK(run_job(mission, {.overwrite = true}, {}, stop).pings == 2);
+    }
+}
