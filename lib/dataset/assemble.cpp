@@ -6,6 +6,8 @@
 #include "core/units.h"
 #include "mission/resolved.h"
 #include "scene/gltf.h"
+#include "surface/octree.h"
+#include "surface/rays.h"
 #include "trajectory/files.h"
 #include "trajectory/interpolate.h"
 #include "trajectory/patterns.h"
@@ -52,6 +54,13 @@ Assembly assemble(const Mission& mission) {
     assembly.scene = load_scene(mission.scene.file, mission.scene.materials,
                                 {mission.water.density_kg_m3, mission.water.sound_speed_m_s});
     return assembly;
+}
+
+std::unique_ptr<Surface> make_surface(const Scene& scene, EngineKind engine,
+                                      const OctreeConfig& octree) {
+    if (engine != EngineKind::octree) return make_rays_surface(scene);
+    return make_octree_surface(
+        scene, {octree.leaf_m, static_cast<std::size_t>(octree.memory_mb), octree.literal});
 }
 
 std::string inputs_hash(const Assembly& assembly) {

@@ -17,7 +17,6 @@
 #include "dataset/ping_files.h"
 #include "mission/resolved.h"
 #include "product/fan.h"
-#include "surface/rays.h"
 #include "trajectory/files.h"
 
 namespace sonarsim {
@@ -124,7 +123,8 @@ void render(const Mission& mission, const Assembly& assembly, const std::vector<
             const Layout* layout, int threads, const ProgressCallback& progress,
             const std::atomic<bool>& stop, RenderSummary& summary) {
     if (todo.empty()) return;
-    const std::unique_ptr<Surface> surface = make_rays_surface(assembly.scene);
+    const std::unique_ptr<Surface> surface =
+        make_surface(assembly.scene, mission.engine, mission.octree);
     std::vector<FanMap> fans;
     if (layout != nullptr && mission.output.fan) {
         for (const Sonar& sonar : assembly.sonars) {

@@ -141,6 +141,17 @@ struct AccuracyConfig {
     bool operator==(const AccuracyConfig&) const = default;
 };
 
+/// What a sonar's view of the scene is found with.
+enum class EngineKind { automatic, rays, octree };
+
+struct OctreeConfig {
+    double leaf_m = 0.0;   ///< edge of the leaves; 0: what the bins of the sonar call for
+    int memory_mb = 512;   ///< above this, what has not been seen for longest is dropped
+    bool literal = false;  ///< the paper to the letter, as a baseline
+
+    bool operator==(const OctreeConfig&) const = default;
+};
+
 struct OutputConfig {
     std::filesystem::path folder;
     bool polar = true;        ///< float32 .npy
@@ -162,6 +173,8 @@ struct Mission {
     TrajectoryConfig trajectory;
     std::vector<SonarConfig> sensors;  ///< in the order of the file
     AccuracyConfig accuracy;
+    EngineKind engine = EngineKind::automatic;
+    OctreeConfig octree;
     OutputConfig output;
 
     bool operator==(const Mission&) const = default;

@@ -107,6 +107,18 @@ void MissionReader::number(const char* key, double& value, const Limits& limits,
     if (const YamlNode* node = find(key, presence)) value = read_number(*node, key, limits);
 }
 
+void MissionReader::number_or_auto(const char* key, double& value, const Limits& limits) {
+    const YamlNode* node = find(key, Presence::optional);
+    if (node == nullptr) return;
+    if (is_plain(*node) && node->text == "auto") {
+        value = 0.0;
+        return;
+    }
+    const bool is_number = is_plain(*node) && parse_number(node->text);
+    if (!is_number) refuse_type(*node, key, "auto or a number");
+    value = read_number(*node, key, limits);
+}
+
 void MissionReader::integer(const char* key, int& value, const Limits& limits) {
     const YamlNode* node = find(key, Presence::optional);
     if (node == nullptr) return;

@@ -24,6 +24,8 @@ class MissionReader {
 
     void number(const char* key, double& value, const Limits& limits,
                 Presence presence = Presence::optional);
+    /// 0 stands for `auto`.
+    void number_or_auto(const char* key, double& value, const Limits& limits);
     void integer(const char* key, int& value, const Limits& limits);
     void integer(const char* key, std::uint64_t& value);
     void flag(const char* key, bool& value);

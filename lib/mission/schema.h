@@ -25,6 +25,9 @@ inline constexpr std::array multipath_methods{
 inline constexpr std::array streak_modes{Choice<StreakMode>{"none", StreakMode::none},
                                          Choice<StreakMode>{"add", StreakMode::add},
                                          Choice<StreakMode>{"reduce", StreakMode::reduce}};
+inline constexpr std::array engine_kinds{Choice<EngineKind>{"auto", EngineKind::automatic},
+                                         Choice<EngineKind>{"rays", EngineKind::rays},
+                                         Choice<EngineKind>{"octree", EngineKind::octree}};
 
 /// Fit for the name of a folder that holds nothing but one mission.
 inline bool is_folder_name(std::string_view name) {
@@ -154,6 +157,14 @@ void describe(Visitor& v, AccuracyConfig& c) {
 }
 
 template <class Visitor>
+void describe(Visitor& v, OctreeConfig& c) {
+    // Leaves below a millimetre are finer than any sonar's bins.
+    v.number_or_auto("leaf_m", c.leaf_m, between(1e-3, 1e3));
+    v.integer("memory_mb", c.memory_mb, between(1, 1e6));
+    v.flag("literal", c.literal);
+}
+
+template <class Visitor>
 void describe(Visitor& v, OutputConfig& c) {
     v.path("folder", c.folder);
     v.flag("polar", c.polar);
@@ -176,6 +187,8 @@ void describe(Visitor& v, Mission& c) {
     v.section("trajectory", c.trajectory, required);
     v.named("sensors", c.sensors);
     v.section("accuracy", c.accuracy);
+    v.choice("engine", c.engine, engine_kinds);
+    v.section("octree", c.octree);
     v.section("output", c.output);
 }
 

@@ -8,6 +8,10 @@ void MissionWriter::number(const char* key, double value, const Limits&, Presenc
     line(key, number_text(value));
 }
 
+void MissionWriter::number_or_auto(const char* key, double value, const Limits&) {
+    line(key, value == 0.0 ? "auto" : number_text(value));
+}
+
 void MissionWriter::integer(const char* key, int value, const Limits&) {
     line(key, std::to_string(value));
 }

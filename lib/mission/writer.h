@@ -19,6 +19,7 @@ class MissionWriter {
     const std::string& yaml() const { return yaml_; }
 
     void number(const char* key, double value, const Limits&, Presence = Presence::optional);
+    void number_or_auto(const char* key, double value, const Limits&);
     void integer(const char* key, int value, const Limits&);
     void integer(const char* key, std::uint64_t value);
     void flag(const char* key, bool value);

@@ -54,7 +54,7 @@ Border border(const Context& context, const Chain& chain, int below, int above) 
     Border out{};
     out.along = !a ? chain.along_min : !b ? chain.along_max : 0.5F * (a->along + b->along);
     out.direction = direction(context.shape, chain.across, turn_small(out.along));
-    // A column ends with the view, where the surface most likely goes on; a third of one ends
+    // A column ends with the view, where the surface most likely goes on; a margin of one ends
     // where its neighbours begin to agree.
     out.joined = a && b ? a->joined : chain.whole;
     const float slack = context.sampling.tolerance_m;
@@ -93,7 +93,7 @@ Sample piece(const Context& context, const ChainNode& node, Turn across, const C
     return sample;
 }
 
-/// Adds the samples of one chain. `split` tells which of a column's cells are seen in thirds.
+/// Adds the samples of one chain. `split` tells which of a column's cells are seen in strips.
 void collect(const Context& context, const Chain& chain, const std::uint8_t* split,
              std::vector<Sample>& items) {
     const int n = context.sampling.chain;
@@ -105,9 +105,10 @@ void collect(const Context& context, const Chain& chain, const std::uint8_t* spl
         cell.to = border(context, chain, i, node.next);
         if (!node.missed()) {
             const int at = static_cast<int>((node.along - chain.along_min) * per_cell);
-            const bool thirds = !chain.whole || split[std::clamp(at, 0, n - 1)];
-            cell.half_width = chain.whole && thirds ? chain.half_width / 3.0F : chain.half_width;
-            cell.alone = thirds || !cell.from.joined || !cell.to.joined;
+            const bool strip = !chain.whole || split[std::clamp(at, 0, n - 1)];
+            cell.half_width =
+                chain.half_width * (chain.whole && strip ? 1.0F - 2.0F * margin : 1.0F);
+            cell.alone = strip || !cell.from.joined || !cell.to.joined;
             items.push_back(piece(context, node, chain.across, cell));
         }
         cell.from = cell.to;
@@ -123,14 +124,14 @@ void chain_samples(const Caster& caster, const View& view, const Sampling& sampl
     samples.items.reserve(chains.nodes.size());
     samples.beam_begin.assign(view.beams + 1, 0);
     std::size_t column = 0;
-    std::size_t third = chains.columns;
+    std::size_t strip = chains.columns;
     for (int j = 0; j < view.beams; ++j) {
         for (; column < chains.columns && chains.chains[column].beam == j; ++column) {
             collect(context, chains.chains[column], chains.split.data() + column * sampling.chain,
                     samples.items);
         }
-        for (; third < chains.chains.size() && chains.chains[third].beam == j; ++third) {
-            collect(context, chains.chains[third], nullptr, samples.items);
+        for (; strip < chains.chains.size() && chains.chains[strip].beam == j; ++strip) {
+            collect(context, chains.chains[strip], nullptr, samples.items);
         }
         samples.beam_begin[j + 1] = static_cast<std::uint32_t>(samples.items.size());
     }

@@ -9,6 +9,12 @@ namespace sonarsim {
 
 namespace {
 
+// At grazing incidence the cosine is the intensity, and what counts is its relative error. Below
+// this the surface is too dark to matter.
+constexpr float least_cosine = 0.02F;
+
+constexpr double widest_column = 0.0088;  // rad
+
 /// Two neighbours on a chain that do not lie on one surface.
 struct Gap {
     int chain;
@@ -37,7 +43,7 @@ class ChainCaster {
         cast_new_nodes();
     }
 
-    /// Replaces each column by thirds over the part where it and a neighbour disagree.
+    /// Splits each column into strips over the part where it and a neighbour disagree.
     void split_columns() {
         const int n = sampling_.chain;
         out_.split.assign(out_.columns * n, 0);
@@ -58,9 +64,10 @@ class ChainCaster {
                 const int first = i;
                 while (i < n && row[i])
                     ++i;
-                const double third = columns_[c].width / 3.0;
-                for (const double side : {-third, third}) {
-                    add_chain(columns_[c], columns_[c].across + side, 0.5 * third, first, i, false);
+                const double half = 0.5 * columns_[c].width;
+                for (const double side : {-1.0, 1.0}) {
+                    add_chain(columns_[c], columns_[c].across + side * (1.0 - margin) * half,
+                              margin * half, first, i, false);
                 }
             }
         }
@@ -173,10 +180,11 @@ class ChainCaster {
         const float range_a = a.range_m();
         const float range_b = b.range_m();
         if (range_a > reach && range_b > reach) return false;
-        const float slack = sampling_.tolerance_m + 0.1F * std::fabs(range_a - range_b);
+        const float slack = sampling_.tolerance_m + 0.01F * std::fabs(range_a - range_b);
         return std::fabs(a.height_m - range_b * cosine_ab) > slack * cosine_ab ||
                std::fabs(b.height_m - range_a * cosine_ba) > slack * cosine_ba ||
-               std::fabs(cosine_ab - b.cosine) > sampling_.tolerance_cosine;
+               std::fabs(cosine_ab - b.cosine) >
+                   sampling_.tolerance_cosine * std::max(b.cosine, least_cosine);
     }
 
     const Caster& caster_;
@@ -203,7 +211,13 @@ Sampling sampling_for(const View& view) {
     Sampling sampling;
     switch (view.shape) {
         case ViewShape::fan:
-            sampling.chain = rays(0.625 * view.elevation_rad * view.beams / view.azimuth_rad, 4.0);
+            // The error of a fan falls as the spacing of its rays does, up and across: a beam wider
+            // than the usual half degree takes more than one column.
+            sampling.columns = static_cast<int>(
+                std::clamp(std::ceil(view.azimuth_rad / view.beams / widest_column), 1.0, 64.0));
+            sampling.chain = rays(0.8 * density * view.elevation_rad * view.beams *
+                                      sampling.columns / view.azimuth_rad,
+                                  4.0);
             break;
         case ViewShape::sides:
             sampling.columns = rays(2.0, 1.0);
@@ -219,7 +233,7 @@ Sampling sampling_for(const View& view) {
         ++sampling.levels;
     const auto slack = static_cast<float>(std::clamp(scale, 0.1, 2.0));
     sampling.tolerance_m = slack * static_cast<float>(view.bin_m());
-    sampling.tolerance_cosine = 0.1F * slack;
+    sampling.tolerance_cosine = 0.07F * slack;
     return sampling;
 }
 

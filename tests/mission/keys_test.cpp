@@ -53,11 +53,30 @@ TEST_CASE("sections that are none") {
 TEST_CASE("the kind of a sonar") {
     const std::string before =
         "scene: {file: a, materials: b}\ntrajectory: {file: c}\nsensors: {x: {kind: ";
+    const std::string known = "imaging, profiling, sidescan, echosounder";
     CHECK(refusal(before + "imagin}}\n") ==
-          "m.yaml:3:21: unknown kind 'imagin' (did you mean 'imaging'?); known: imaging");
-    CHECK(refusal(before + "radar}}\n") == "m.yaml:3:21: unknown kind 'radar'; known: imaging");
+          "m.yaml:3:21: unknown kind 'imagin' (did you mean 'imaging'?); known: " + known);
+    CHECK(refusal(before + "radar}}\n") == "m.yaml:3:21: unknown kind 'radar'; known: " + known);
     CHECK(refusal(before + "[imaging]}}\n") ==
-          "m.yaml:3:21: 'kind' must be one of: imaging, not a list");
+          "m.yaml:3:21: 'kind' must be one of: " + known + ", not a list");
+}
+
+TEST_CASE("each kind of sonar has defaults and keys of its own") {
+    const std::string before =
+        "scene: {file: a, materials: b}\ntrajectory: {file: c}\nsensors: {x: {kind: ";
+    const SonarConfig sidescan = parse(before + "sidescan, range_max_m: 50}}\n").sensors[0];
+    CHECK(sidescan.name == "x");
+    CHECK(sidescan.azimuth_deg == 170.0);
+    CHECK(sidescan.elevation_deg == 0.25);
+    CHECK(sidescan.range_max_m == 50.0);
+    CHECK(parse(before + "profiling}}\n").sensors[0].azimuth_bins == 480);
+    CHECK(parse(before + "echosounder, opening_deg: 20}}\n").sensors[0].azimuth_deg == 20.0);
+    CHECK(refusal(before + "echosounder, elevation_deg: 20}}\n").find("unknown key") !=
+          std::string::npos);
+    CHECK(refusal(before + "sidescan, azimuth_bins: 20}}\n").find("unknown key") !=
+          std::string::npos);
+    CHECK(refusal(before + "sidescan, noise: {range_lambda_m: 0.1}}}\n").find("no range noise") !=
+          std::string::npos);
 }
 
 TEST_CASE("multipath and streaks") {
@@ -76,6 +95,25 @@ TEST_CASE("multipath and streaks") {
               .starts_with("m.yaml:6:31: 'epsilon_bins' must be"));
     CHECK(refusal(smallest_mission + "    streaks: {threshold: 8}\n")
               .starts_with("m.yaml:6:26: 'threshold' must be"));
+}
+
+TEST_CASE("the engine and its octree") {
+    CHECK(parse(smallest_mission).engine == EngineKind::automatic);
+    CHECK(parse(smallest_mission + "engine: rays\n").engine == EngineKind::rays);
+    CHECK(refusal(smallest_mission + "engine: octre\n") ==
+          "m.yaml:6:9: unknown engine 'octre' (did you mean 'octree'?); known: auto, rays, octree");
+    CHECK(parse(smallest_mission + "octree: {leaf_m: auto}\n").octree == OctreeConfig{});
+    CHECK(parse(smallest_mission + "octree: {leaf_m: 0.02}\n").octree.leaf_m == 0.02);
+    CHECK(refusal(smallest_mission + "octree: {leaf_m: fine}\n") ==
+          "m.yaml:6:18: 'leaf_m' must be auto or a number, not 'fine'");
+    CHECK(refusal(smallest_mission + "octree: {leaf_m: \"auto\"}\n") ==
+          "m.yaml:6:18: 'leaf_m' must be auto or a number, not the quoted text 'auto'");
+    CHECK(refusal(smallest_mission + "octree: {leaf_m: 0}\n") ==
+          "m.yaml:6:18: 'leaf_m' must be at least 0.001, not '0'");
+    CHECK(refusal(smallest_mission + "octree: {leaf_m: nan}\n") ==
+          "m.yaml:6:18: 'leaf_m' must be a finite number, not 'nan'");
+    CHECK(refusal(smallest_mission + "octree: {memory_mb: 0}\n") ==
+          "m.yaml:6:21: 'memory_mb' must be at least 1, not '0'");
 }
 
 TEST_CASE("sensor names are folder names") {

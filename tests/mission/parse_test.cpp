@@ -61,6 +61,8 @@ sensors:
   2:
     kind: imaging
 accuracy: {relative_l1: 0.1}
+engine: octree
+octree: {leaf_m: 0.05, memory_mb: 100, literal: true}
 output:
   folder: ../o
   polar: false
@@ -90,6 +92,8 @@ output:
                                             {0.04, 0.01, 0.08, 0.15, false, 7}});
     CHECK(mission.sensors[1].name == "2");
     CHECK(mission.accuracy == AccuracyConfig{0.1});
+    CHECK(mission.engine == EngineKind::octree);
+    CHECK(mission.octree == OctreeConfig{0.05, 100, true});
     CHECK(mission.output == OutputConfig{"/o", false, false, false, false, 300, 0.25});
 }
 

@@ -31,6 +31,8 @@ Mission unusual_mission() {
     mission.sensors = {sonar, sonar};
     mission.sensors[1].name = "-";
     mission.accuracy = {0.0123};
+    mission.engine = EngineKind::octree;
+    mission.octree = {0.0234, 77, true};
     mission.output = {"/o", false, false, false, false, true, 99, 0.125};
     return mission;
 }
@@ -94,6 +96,11 @@ sensors:
       angle_deg: 8
 accuracy:
   relative_l1: 0.03
+engine: auto
+octree:
+  leaf_m: auto
+  memory_mb: 512
+  literal: false
 output:
   folder: "/o"
   polar: true

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace sonarsim {
+
+// A font of capitals, digits and a few signs on a 5 x 7 grid, for labels in raster images.
+
+inline constexpr int glyph_columns = 5;
+inline constexpr int glyph_rows = 7;
+inline constexpr int glyph_step = 6;  ///< from one letter to the next, pixels
+
+/// Rows from top to bottom; of each, bit 4 is the leftmost pixel.
+using Glyph = std::array<std::uint8_t, glyph_rows>;
+
+/// Blank for what the font lacks; small letters are capitals.
+const Glyph& glyph_of(char letter);
+
+}  // namespace sonarsim

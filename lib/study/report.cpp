@@ -1,0 +1,282 @@
+#include "study/report.h"
+
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <memory>
+
+#include "study/fit.h"
+#include "study/image_error.h"
+#include "study/reference.h"
+
+namespace sonarsim {
+
+namespace {
+
+double seconds_now() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
+        .count();
+}
+
+/// The times of one setting at one pose, over all rounds; milliseconds.
+struct PoseTimes {
+    std::vector<double> ping, trace, accumulate, noise, bare;
+};
+
+/// A sonar with a setting, on its way through the rounds.
+struct Trial {
+    Sonar noisy;
+    const Surface* surface = nullptr;
+    std::vector<PoseTimes> poses;
+    std::vector<double> pings_per_s;
+};
+
+/// What all trials share.
+struct Bench {
+    const Scene& scene;
+    const Caster& caster;
+    std::vector<Pose> poses;
+    std::vector<std::uint32_t> indices;  ///< of the poses on the trajectory
+    std::uint64_t seed;
+    int threads;
+    int rounds;
+
+    Ping ping(const Sonar& sonar, const Surface& surface, std::size_t p) const {
+        return render_ping(sonar, scene, surface, poses[p], {seed, indices[p]});
+    }
+};
+
+/// Milliseconds of bare Embree: rays from the sensor to every sample, in the order of the samples.
+double bare_ms(const Bench& bench, const Sonar& sonar, const Surface& surface, std::size_t p) {
+    const Pose T_world_sensor = bench.poses[p] * sonar.T_vehicle_sensor;
+    Samples samples;
+    surface.look(sonar.settings.view, T_world_sensor, samples);
+    const Eigen::Matrix3f R = T_world_sensor.rotation.toRotationMatrix().cast<float>();
+    const Eigen::Vector3f origin = (T_world_sensor.translation - bench.scene.origin).cast<float>();
+    std::vector<Eigen::Vector3f> directions(samples.items.size());
+    std::vector<std::uint32_t> facets(samples.items.size());
+    for (std::size_t i = 0; i < directions.size(); ++i) {
+        directions[i] = R * samples.items[i].position.normalized();
+    }
+    const auto reach = static_cast<float>(sonar.settings.view.range_max_m) * 1.01F;
+    const double start = seconds_now();
+    bench.caster.cast(origin, directions, reach, facets);
+    return 1e3 * (seconds_now() - start);
+}
+
+/// One visit of a round: a ping to warm the caches after the other settings, then the ones that
+/// count. A slow setting needs neither.
+void visit(const Bench& bench, Trial& trial, std::size_t p) {
+    constexpr double slow_ms = 100.0;
+    constexpr int repeats = 3;
+    PoseTimes& times = trial.poses[p];
+    const auto timed = [&] {
+        const double start = seconds_now();
+        const Ping ping = bench.ping(trial.noisy, *trial.surface, p);
+        const double ms = 1e3 * (seconds_now() - start);
+        return std::pair{ms, ping.seconds};
+    };
+    auto [ms, stages] = timed();
+    const int count = ms > slow_ms ? 1 : repeats;
+    for (int k = 0; k < count; ++k) {
+        if (count > 1) std::tie(ms, stages) = timed();
+        times.ping.push_back(ms);
+        times.trace.push_back(1e3 * stages.trace);
+        times.accumulate.push_back(1e3 * stages.accumulate);
+        times.noise.push_back(1e3 * stages.noise);
+    }
+    times.bare.push_back(bare_ms(bench, trial.noisy, *trial.surface, p));
+}
+
+/// Pings per second with all threads at work for about a quarter of a second.
+double rate(const Bench& bench, const Trial& trial) {
+    const double ms = trial.poses[0].ping.back();
+    const int count =
+        std::clamp(static_cast<int>(250.0 * bench.threads / ms), 2 * bench.threads, 2000);
+    const double start = seconds_now();
+    tbb::parallel_for(0, count, [&](int k) {
+        bench.ping(trial.noisy, *trial.surface, static_cast<std::size_t>(k) % bench.poses.size());
+    });
+    return count / (seconds_now() - start);
+}
+
+/// The truth at each pose.
+std::vector<Reference> cast_references(const Bench& bench, const Sonar& sonar,
+                                       const ReportOptions& options) {
+    std::vector<Reference> references(bench.poses.size());
+    tbb::parallel_for(std::size_t{0}, references.size(), [&](std::size_t p) {
+        references[p] = cast_reference(bench.caster, bench.scene, sonar.settings.view,
+                                       bench.poses[p] * sonar.T_vehicle_sensor,
+                                       {options.reference_moved, 64.0, options.reference_rays});
+    });
+    return references;
+}
+
+ReferenceQuality quality(const std::string& sensor, const std::vector<Reference>& references) {
+    std::vector<double> moved;
+    std::vector<double> rays;
+    for (const Reference& reference : references) {
+        moved.push_back(reference.moved);
+        rays.push_back(reference.rays_per_bin);
+    }
+    return {sensor, spread_of(moved), spread_of(rays)};
+}
+
+void measure_errors(const Bench& bench, const Trial& trial,
+                    const std::vector<Reference>& references, ReportRow& row) {
+    const Sonar clean = without_noise(trial.noisy);
+    const std::size_t poses = references.size();
+    std::vector<double> l1(poses);
+    std::vector<double> l2(poses);
+    std::vector<double> miss(poses);
+    std::vector<double> invented(poses);
+    std::vector<double> samples(poses);
+    tbb::parallel_for(std::size_t{0}, poses, [&](std::size_t p) {
+        const Ping ping = bench.ping(clean, *trial.surface, p);
+        const ImageError error = image_error(ping.intensity, references[p].intensity);
+        l1[p] = error.relative_l1;
+        l2[p] = error.relative_l2;
+        miss[p] = error.miss_rate;
+        invented[p] = error.false_rate;
+        samples[p] = static_cast<double>(ping.counts.samples);
+    });
+    row.relative_l1 = spread_of(l1);
+    row.relative_l2 = spread_of(l2);
+    row.miss_rate = spread_of(miss);
+    row.false_rate = spread_of(invented);
+    row.samples_per_ping = spread_of(samples);
+}
+
+void summarise_times(const Trial& trial, ReportRow& row) {
+    const auto over_poses = [&](std::vector<double> PoseTimes::*stage) {
+        std::vector<double> medians;
+        for (const PoseTimes& times : trial.poses)
+            medians.push_back(spread_of_times(times.*stage).centre);
+        return spread_of_times(medians);
+    };
+    row.ms_per_ping = over_poses(&PoseTimes::ping);
+    row.ms_trace = over_poses(&PoseTimes::trace).centre;
+    row.ms_accumulate = over_poses(&PoseTimes::accumulate).centre;
+    row.ms_noise = over_poses(&PoseTimes::noise).centre;
+    row.ms_bare = over_poses(&PoseTimes::bare).centre;
+    row.pings_per_s = spread_of_times(trial.pings_per_s).centre;
+}
+
+void mark_front(std::vector<ReportRow>& rows, const std::string& sensor) {
+    std::vector<ReportRow*> own;
+    std::vector<double> cost;
+    std::vector<double> error;
+    for (ReportRow& row : rows) {
+        if (row.sensor != sensor) continue;
+        own.push_back(&row);
+        cost.push_back(row.ms_per_ping.centre);
+        error.push_back(row.relative_l1.centre);
+    }
+    const std::vector<bool> front = pareto_front(cost, error);
+    for (std::size_t i = 0; i < own.size(); ++i)
+        own[i]->on_front = front[i];
+}
+
+/// All settings on one sonar.
+void report_sonar(const Bench& bench, std::size_t index, const Assembly& assembly,
+                  std::span<const Setting> ladder,
+                  const std::vector<std::shared_ptr<const Surface>>& surfaces,
+                  std::span<const ColdStart> cold, const ReportOptions& options,
+                  const ReportProgress& progress, Report& report) {
+    const Sonar& sonar = assembly.sonars[index];
+    const std::string& name = sonar.config.name;
+    progress(name + ": casting the reference");
+    const std::vector<Reference> references = cast_references(bench, sonar, options);
+    report.references.push_back(quality(name, references));
+
+    std::vector<Trial> trials;
+    std::vector<ReportRow> rows;
+    for (std::size_t s = 0; s < ladder.size(); ++s) {
+        progress(name + ": " + ladder[s].engine + " " + ladder[s].name + ", error");
+        trials.push_back({with_setting(sonar, ladder[s]),
+                          surfaces[s].get(),
+                          std::vector<PoseTimes>(bench.poses.size()),
+                          {}});
+        ReportRow& row = rows.emplace_back();
+        row.sensor = name;
+        row.setting = ladder[s];
+        if (!cold.empty()) row.cold = cold[s * assembly.sonars.size() + index];
+        measure_errors(bench, trials.back(), references, row);
+    }
+    for (int round = 0; round < bench.rounds; ++round) {
+        progress(name + ": timing, round " + std::to_string(round + 1) + " of " +
+                 std::to_string(bench.rounds));
+        for (std::size_t p = 0; p < bench.poses.size(); ++p) {
+            for (Trial& trial : trials)
+                visit(bench, trial, p);
+        }
+        for (Trial& trial : trials)
+            trial.pings_per_s.push_back(rate(bench, trial));
+    }
+    for (std::size_t s = 0; s < rows.size(); ++s)
+        summarise_times(trials[s], rows[s]);
+    mark_front(rows, name);
+    report.rows.insert(report.rows.end(), rows.begin(), rows.end());
+}
+
+}  // namespace
+
+Sonar without_noise(Sonar sonar) {
+    sonar.settings.range_noise.lambda_m = 0.0F;
+    sonar.settings.pixel_noise.gain = 1.0F;
+    sonar.settings.pixel_noise.add_sigma = 0.0F;
+    sonar.settings.pixel_noise.mult_sigma = 0.0F;
+    return sonar;
+}
+
+Sonar with_setting(const Sonar& sonar, const Setting& setting) {
+    Sonar out = sonar;
+    out.settings.view.relative_l1 = setting.relative_l1;
+    return out;
+}
+
+Report make_report(const Mission& mission, const Assembly& assembly,
+                   std::span<const Setting> ladder, std::span<const ColdStart> cold,
+                   const ReportOptions& options, const ReportProgress& progress) {
+    const int threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    tbb::task_arena arena(threads);
+    Report report{mission.name,
+                  assembly.scene.triangles.size(),
+                  0,
+                  threads,
+                  mission.accuracy.relative_l1,
+                  0.0,
+                  {},
+                  {},
+                  {}};
+    ::getloadavg(&report.load, 1);
+    arena.execute([&] {
+        const Caster caster(assembly.scene);
+        Bench bench{assembly.scene, caster, {}, {}, mission.seed, threads, options.rounds};
+        for (const std::size_t pose : spread_poses(assembly.trajectory.size(), options.poses)) {
+            bench.poses.push_back(assembly.trajectory[pose].T_world_vehicle);
+            bench.indices.push_back(static_cast<std::uint32_t>(pose));
+        }
+        report.poses = static_cast<int>(bench.poses.size());
+        std::shared_ptr<const Surface> rays;  // one tree serves every error goal
+        std::vector<std::shared_ptr<const Surface>> surfaces;
+        for (const Setting& setting : ladder) {
+            const bool again = setting.kind == EngineKind::rays && rays;
+            surfaces.push_back(again ? rays
+                                     : make_surface(assembly.scene, setting.kind, setting.octree));
+            if (setting.kind == EngineKind::rays) rays = surfaces.back();
+        }
+        for (std::size_t i = 0; i < assembly.sonars.size(); ++i) {
+            report_sonar(bench, i, assembly, ladder, surfaces, cold, options, progress, report);
+        }
+    });
+    return report;
+}
+
+}  // namespace sonarsim

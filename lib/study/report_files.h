@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+#include "study/report.h"
+
+namespace sonarsim {
+
+/// The report as JSON: `rows` with one object per sonar and setting, `stages`, `reference`,
+/// `growth`. Ends with a line feed.
+std::string report_json(const Report& report);
+
+/// The rows as CSV with a header; the spreads as columns *_min and *_max.
+std::string report_csv(const Report& report);
+
+}  // namespace sonarsim

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace sonarsim {
+
+/// A figure over several poses.
+struct Spread {
+    double centre = 0.0;  ///< the median of a time, the mean of anything else
+    double min = 0.0;
+    double max = 0.0;
+};
+
+/// The median, and the extremes. All zero for no values.
+Spread spread_of_times(std::vector<double> values);
+/// The mean, and the extremes. All zero for no values.
+Spread spread_of(const std::vector<double>& values);
+
+/// `count` indices into a trajectory, evenly spaced from its first pose to its last; all of them
+/// when it has fewer.
+std::vector<std::size_t> spread_poses(std::size_t poses, int count);
+
+}  // namespace sonarsim

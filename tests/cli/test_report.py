@@ -1,0 +1,61 @@
+"""The report of speed against error, from the command line."""
+import csv
+import json
+import unittest
+import xml.etree.ElementTree
+
+from sandbox import Sandbox
+
+ROW = {"sensor", "engine", "setting", "ms_per_ping", "pings_per_s", "relative_l1", "relative_l2",
+       "miss_rate", "false_rate", "samples_per_ping", "build_s", "first_ping_s", "peak_memory_mb"}
+
+
+class Report(Sandbox):
+    def test_quick(self):
+        result = self.run_sonarsim("report", "mission.yaml", "--quick", "--out", "report", "--json",
+                                   "elsewhere.json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("engine: auto takes", result.stdout)
+        self.assertIn("reference:", result.stdout)
+        report = json.loads((self.folder / "elsewhere.json").read_text())
+        self.assertEqual(report, json.loads((self.folder / "report/report.json").read_text()))
+        engines = {row["engine"] for row in report["rows"]}
+        self.assertEqual(engines, {"rays", "octree", "literal"})
+        for row in report["rows"]:
+            self.assertEqual(set(row), ROW | {"spread"})
+            self.assertGreater(row["ms_per_ping"], 0)
+            self.assertGreater(row["pings_per_s"], 0)
+            self.assertGreater(row["first_ping_s"], row["build_s"])
+            # A process with a scene of twelve triangles needs some MiB, not some GiB.
+            self.assertGreater(row["peak_memory_mb"], 1)
+            self.assertLess(row["peak_memory_mb"], 1000)
+        # Inside a plain box the rays have no trouble.
+        finest = [r for r in report["rows"] if r["setting"] == "relative_l1=0.01"]
+        self.assertLess(finest[0]["relative_l1"], 0.05)
+
+        with open(self.folder / "report/report.csv", newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual(len(rows), len(report["rows"]))
+        self.assertLessEqual(ROW, set(rows[0]))
+        xml.etree.ElementTree.parse(self.folder / "report/error_fls.svg")
+        self.assertEqual((self.folder / "report/error_fls.png").read_bytes()[:4], b"\x89PNG")
+
+    def test_scale(self):
+        result = self.run_sonarsim("report", "mission.yaml", "--quick", "--scale", "--quiet",
+                                   "--most-triangles", "800", "--json", "report.json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        growth = json.loads((self.folder / "report.json").read_text())["growth"]
+        self.assertEqual({(g["engine"], g["along"]) for g in growth},
+                         {(e, a) for e in ("rays", "octree") for a in ("detail", "area")})
+        for g in growth:
+            expected = [12, 48, 192, 768] if g["along"] == "detail" else [12, 108, 300]
+            self.assertEqual(g["triangles"], expected)
+            self.assertLess(abs(g["exponent"]), 1)
+
+    def test_bad_input(self):
+        self.assert_refused(self.run_sonarsim("report", "none.yaml"), "none.yaml")
+        self.assertEqual(self.run_sonarsim("report", "mission.yaml", "--poses", "0").returncode, 2)
+
+
+if __name__ == "__main__":
+    unittest.main()
