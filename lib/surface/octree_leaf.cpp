@@ -122,7 +122,8 @@ LeafFacet FacetArrays::at(std::uint32_t i) const {
     const auto vector = [&](int k) {
         return Eigen::Vector3f(values[k][i], values[k + 1][i], values[k + 2][i]);
     };
-    return {vector(0), vector(3), vector(6), vector(9), values[12][i], values[13][i], triangle[i]};
+    return {vector(centre),  vector(normal),       vector(edge_u), vector(edge_v),
+            values[area][i], values[thickness][i], triangle[i]};
 }
 
 void FacetArrays::shrink_to_fit() {

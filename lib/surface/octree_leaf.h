@@ -25,6 +25,8 @@ struct LeafFacet {
 
 /// Facets side by side, so that loops over them vectorise.
 struct FacetArrays {
+    static constexpr int centre = 0, normal = 3, edge_u = 6, edge_v = 9, area = 12, thickness = 13;
+
     std::array<std::vector<float>, 14> values;  ///< the floats of LeafFacet, in its order
     std::vector<std::uint32_t> triangle;
 

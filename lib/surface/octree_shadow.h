@@ -84,8 +84,9 @@ class AngularCells {
 
 template <class Put>
 void AngularCells::pieces(const SeenFacet& seen, Put put) const {
-    const int first = std::max(static_cast<int>(seen.beam - seen.half_beams), 0);
-    const int last = std::min(static_cast<int>(seen.beam + seen.half_beams), beams_ - 1);
+    const auto most = static_cast<float>(beams_ - 1);
+    const int first = static_cast<int>(std::clamp(seen.beam - seen.half_beams, 0.0F, most));
+    const int last = static_cast<int>(std::clamp(seen.beam + seen.half_beams, 0.0F, most));
     const bool open = is_open(seen);
     SeenPiece part;
     for (int beam = first; beam <= last; ++beam) {

@@ -239,7 +239,7 @@ OctreeStatistics Octree::statistics() const {
         out.facets += level.facets.size();
         if (!finest) return;
         out.leaves += level.nodes.size() - 1;
-        for (const float area : level.facets.values[12])
+        for (const float area : level.facets.values[FacetArrays::area])
             out.leaf_area_m2 += static_cast<double>(area);
     };
     for (const TopNode& node : top_) {
