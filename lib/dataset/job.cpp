@@ -6,6 +6,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <memory>
 #include <vector>
@@ -126,19 +127,24 @@ void render(const Mission& mission, const Assembly& assembly, const std::vector<
     const std::unique_ptr<Surface> surface =
         make_surface(assembly.scene, mission.engine, mission.octree);
     std::vector<FanMap> fans;
-    if (layout != nullptr && mission.output.fan) {
+    if (layout != nullptr && (mission.output.fan || mission.output.stages)) {
         for (const Sonar& sonar : assembly.sonars) {
             fans.push_back(make_fan_map(sonar, mission.output.fan_width_px));
         }
     }
     const auto work = [&](const PingId& id) {
-        const Ping ping =
-            render_ping(assembly.sonars[id.sensor], assembly.scene, *surface,
-                        assembly.trajectory[id.pose].T_world_vehicle, {mission.seed, id.pose});
+        const Sonar& sonar = assembly.sonars[id.sensor];
+        const Pose& T_world_vehicle = assembly.trajectory[id.pose].T_world_vehicle;
+        const PingKey key{mission.seed, id.pose};
+        const Ping ping = render_ping(sonar, assembly.scene, *surface, T_world_vehicle, key);
         PingReport report{ping.counts, ping.seconds};
         if (layout == nullptr) return report;
         const double start = seconds_now();
-        const PingFiles encoded = encode_ping(mission, assembly, *layout, fans, id, ping);
+        std::array<Ping, 5> stages;
+        if (mission.output.stages) {
+            stages = render_stages(sonar, assembly.scene, *surface, T_world_vehicle, key);
+        }
+        const PingFiles encoded = encode_ping(mission, assembly, *layout, fans, id, ping, stages);
         const double encoded_at = seconds_now();
         for (const auto& [kind, bytes] : encoded.files)
             write_file(layout->file(id, kind), bytes);

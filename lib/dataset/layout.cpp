@@ -14,6 +14,8 @@ std::string_view name_of(FileKind kind) {
             return "image";
         case FileKind::fan:
             return "fan";
+        case FileKind::stages:
+            return "stages";
         case FileKind::meta:
             return "meta";
     }
@@ -26,6 +28,7 @@ std::string_view extension_of(FileKind kind) {
             return ".npy";
         case FileKind::image:
         case FileKind::fan:
+        case FileKind::stages:
             return ".png";
         case FileKind::meta:
             return ".json";
@@ -63,10 +66,12 @@ Layout make_layout(const Mission& mission, std::size_t poses) {
     if (output.polar) layout.kinds.push_back(FileKind::polar);
     if (output.image) layout.kinds.push_back(FileKind::image);
     if (output.fan) layout.kinds.push_back(FileKind::fan);
+    if (output.stages) layout.kinds.push_back(FileKind::stages);
     if (output.meta) layout.kinds.push_back(FileKind::meta);
     if (layout.kinds.empty()) {
         throw InputError("mission '" + mission.name +
-                         "' writes nothing: set one of output.polar, image, fan or meta to true");
+                         "' writes nothing: set one of output.polar, image, fan, stages or "
+                         "meta to true");
     }
     const std::size_t last = poses > 0 ? poses - 1 : 0;
     layout.digits = std::max(6, static_cast<int>(std::to_string(last).size()));

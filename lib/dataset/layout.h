@@ -17,6 +17,7 @@
 //     OUT/<sensor>/polar/NNNNNN.npy   float32 [range, azimuth]: intensity as simulated
 //     OUT/<sensor>/image/NNNNNN.png   the same in 16 bits: 65535 intensity / full_scale
 //     OUT/<sensor>/fan/NNNNNN.png     8 bits, as an operator sees it
+//     OUT/<sensor>/stages/NNNNNN.png  8 bits, five fans: direct, and term after term of the model
 //     OUT/<sensor>/meta/NNNNNN.json   time, poses, seed, counts
 //
 // NNNNNN is the index of the pose on the trajectory, in six digits or as many as the last one
@@ -24,9 +25,9 @@
 
 namespace sonarsim {
 
-enum class FileKind { polar, image, fan, meta };
+enum class FileKind { polar, image, fan, stages, meta };
 inline constexpr FileKind file_kinds[] = {FileKind::polar, FileKind::image, FileKind::fan,
-                                          FileKind::meta};
+                                          FileKind::stages, FileKind::meta};
 
 /// The name of the kind's folder, and what its files end in (with the dot).
 std::string_view name_of(FileKind kind);

@@ -6,6 +6,7 @@
 #include "dataset/metadata.h"
 #include "dataset/npy.h"
 #include "dataset/png.h"
+#include "product/panels.h"
 
 namespace sonarsim {
 
@@ -25,7 +26,8 @@ std::vector<std::uint16_t> grey_16(const std::vector<float>& intensity, double f
 }  // namespace
 
 PingFiles encode_ping(const Mission& mission, const Assembly& assembly, const Layout& layout,
-                      const std::vector<FanMap>& fans, const PingId& id, const Ping& ping) {
+                      const std::vector<FanMap>& fans, const PingId& id, const Ping& ping,
+                      std::span<const Ping> stages) {
     const double full_scale = mission.output.full_scale;
     const auto white = static_cast<float>(full_scale);
     PingFiles out;
@@ -39,6 +41,12 @@ PingFiles encode_ping(const Mission& mission, const Assembly& assembly, const La
             case FileKind::fan: {
                 const FanMap& map = fans[id.sensor];
                 return png_bytes(render_fan(map, ping, full_scale), map.frame.width,
+                                 map.frame.height);
+            }
+            case FileKind::stages: {
+                const FanMap& map = fans[id.sensor];
+                return png_bytes(render_panels(map, stages, full_scale),
+                                 map.frame.width * static_cast<int>(stages.size()),
                                  map.frame.height);
             }
             case FileKind::meta:

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,8 +21,10 @@ struct PingFiles {
 };
 
 /// Encodes a ping into the kinds of file that `layout` asks for. `fans` holds one map per sonar;
-/// it may be empty when no fan is asked for.
+/// it may be empty when neither fans nor stages are asked for. `stages` are those of
+/// render_stages(), or nothing when they are not asked for.
 PingFiles encode_ping(const Mission& mission, const Assembly& assembly, const Layout& layout,
-                      const std::vector<FanMap>& fans, const PingId& id, const Ping& ping);
+                      const std::vector<FanMap>& fans, const PingId& id, const Ping& ping,
+                      std::span<const Ping> stages = {});
 
 }  // namespace sonarsim

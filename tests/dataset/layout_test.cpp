@@ -29,8 +29,8 @@ TEST_SUITE("dataset") {
         CHECK(make_layout(mission, 1).kinds == std::vector{FileKind::image, FileKind::meta});
         mission.output.image = mission.output.meta = false;
         CHECK_THROWS_WITH_AS(make_layout(mission, 1),
-                             "mission 'small' writes nothing: set one of output.polar, image, fan "
-                             "or meta to true",
+                             "mission 'small' writes nothing: set one of output.polar, image, fan, "
+                             "stages or meta to true",
                              InputError);
     }
 
