@@ -89,12 +89,14 @@ output:
                                             8,
                                             100,
                                             50,
-                                            {0.04, 0.01, 0.08, 0.15, false, 7}});
+                                            {},
+                                            {0.04, 0.01, 0.08, 0.15, false, 7},
+                                            {}});
     CHECK(mission.sensors[1].name == "2");
     CHECK(mission.accuracy == AccuracyConfig{0.1});
     CHECK(mission.engine == EngineKind::octree);
     CHECK(mission.octree == OctreeConfig{0.05, 100, true});
-    CHECK(mission.output == OutputConfig{"/o", false, false, false, false, 300, 0.25});
+    CHECK(mission.output == OutputConfig{"/o", false, false, false, false, false, 300, 0.25});
 }
 
 TEST_CASE("waypoints") {

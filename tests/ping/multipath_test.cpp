@@ -419,6 +419,8 @@ TEST_CASE("multipath off is without cost and without trace") {
 TEST_CASE("a footprint wider than a beam lights every beam that it covers") {
     Samples samples;
     Sample sample{};
+    sample.position = sample.normal = Eigen::Vector3f::UnitX();
+    sample.edge_u = sample.edge_v = Eigen::Vector3f::Zero();
     sample.area_m2 = 2.0F;
     samples.items.push_back(sample);
     View view = fan(60.0, 12.0);
