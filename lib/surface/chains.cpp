@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace sonarsim {
@@ -40,7 +41,7 @@ class ChainCaster {
         for (const Column& column : columns_) {
             add_chain(column, column.across, 0.5 * column.width, 0, sampling_.chain, true);
         }
-        cast_new_nodes();
+        cast_nodes(in_tiles());
     }
 
     /// Splits each column into strips over the part where it and a neighbour disagree.
@@ -76,12 +77,15 @@ class ChainCaster {
 
     void bisect() {
         std::vector<Gap> gaps;
-        for (int c = 0; c < static_cast<int>(out_.chains.size()); ++c) {
-            int below = out_.chains[c].first;
-            for (int above = out_.nodes[below].next; above != ChainNode::none;
-                 above = out_.nodes[above].next) {
-                note_gap({c, below, above}, gaps);
-                below = above;
+        const auto note_above = [&](int chain, int below) {
+            const int above = out_.nodes[below].next;
+            if (above != ChainNode::none) note_gap({chain, below, above}, gaps);
+        };
+        for (const int node : in_tiles())
+            note_above(node / sampling_.chain, node);
+        for (std::size_t c = out_.columns; c < out_.chains.size(); ++c) {
+            for (int i = out_.chains[c].first; i != ChainNode::none; i = out_.nodes[i].next) {
+                note_above(static_cast<int>(c), i);
             }
         }
         std::vector<Gap> halves;
@@ -132,19 +136,46 @@ class ChainCaster {
         out_.nodes.push_back({direction(view_.shape, across, along), angle});
     }
 
+    /// The nodes of the columns in tiles of columns x nodes, each of which fills a packet: rays
+    /// that leave close together walk the tree together, twice as fast as in chains.
+    std::vector<int> in_tiles() const {
+        constexpr int side = 4;
+        const int columns = static_cast<int>(out_.columns);
+        const int n = sampling_.chain;
+        std::vector<int> order;
+        order.reserve(static_cast<std::size_t>(columns) * n);
+        for (int c0 = 0; c0 < columns; c0 += side) {
+            for (int i0 = 0; i0 < n; i0 += side) {
+                for (int i = i0; i < std::min(i0 + side, n); ++i) {
+                    for (int c = c0; c < std::min(c0 + side, columns); ++c) {
+                        order.push_back(c * n + i);
+                    }
+                }
+            }
+        }
+        return order;
+    }
+
     void cast_new_nodes() {
-        const std::size_t count = out_.nodes.size() - cast_;
+        std::vector<int> order(out_.nodes.size() - cast_);
+        std::iota(order.begin(), order.end(), static_cast<int>(cast_));
+        cast_nodes(order);
+    }
+
+    /// Casts the nodes that have not been cast, in the given order.
+    void cast_nodes(const std::vector<int>& order) {
+        const std::size_t count = order.size();
         directions_.resize(count);
         facets_.resize(count);
         for (std::size_t i = 0; i < count; ++i) {
-            directions_[i] = pose_.rotation * out_.nodes[cast_ + i].direction;
+            directions_[i] = pose_.rotation * out_.nodes[order[i]].direction;
         }
         // What lies beyond the range can neither echo nor hide what does.
         caster_.cast(pose_.position, directions_, static_cast<float>(view_.range_max_m) * 1.01F,
                      facets_);
         const Eigen::Matrix3f R_sensor_local = pose_.rotation.transpose();
         for (std::size_t i = 0; i < count; ++i) {
-            ChainNode& node = out_.nodes[cast_ + i];
+            ChainNode& node = out_.nodes[order[i]];
             node.facet = facets_[i];
             if (node.missed()) continue;
             const Facet& facet = caster_.facet(node.facet);
@@ -180,7 +211,8 @@ class ChainCaster {
         const float range_a = a.range_m();
         const float range_b = b.range_m();
         if (range_a > reach && range_b > reach) return false;
-        const float slack = sampling_.tolerance_m + 0.01F * std::fabs(range_a - range_b);
+        const float slack =
+            sampling_.tolerance_m + sampling_.tolerance_slope * std::fabs(range_a - range_b);
         return std::fabs(a.height_m - range_b * cosine_ab) > slack * cosine_ab ||
                std::fabs(b.height_m - range_a * cosine_ba) > slack * cosine_ba ||
                std::fabs(cosine_ab - b.cosine) >

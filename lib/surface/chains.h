@@ -27,6 +27,7 @@ struct Sampling {
     int chain = 32;                  ///< rays along a column before refinement
     int levels = 3;                  ///< bisections where neighbours along a column disagree
     bool split = true;               ///< columns whose neighbours disagree are seen in strips
+    float tolerance_slope = 0.01F;  ///< to which comes this share of the step in range
     float tolerance_m = 0.0F;        ///< by how much a neighbour's plane may miss a range
     float tolerance_cosine = 0.07F;  ///< by which share of itself a cosine of incidence may be off
 };
