@@ -12,7 +12,7 @@ namespace sonarsim {
 
 namespace {
 
-constexpr int packet = 16;
+constexpr int packet = 8;
 
 /// The normal from edges in double: in float, a needle's cross product is mostly cancellation.
 Facet make_facet(const Scene& scene, std::size_t triangle) {
@@ -32,7 +32,7 @@ void trace(RTCScene tree, RTCIntersectContextFlags flags, OriginOf origin_of,
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     context.flags = flags;
-    alignas(64) RTCRayHit16 rays;
+    alignas(64) RTCRayHit8 rays;
     alignas(64) int valid[packet];
     for (int k = 0; k < packet; ++k) {
         rays.ray.tnear[k] = 0.0F;
@@ -59,7 +59,7 @@ void trace(RTCScene tree, RTCIntersectContextFlags flags, OriginOf origin_of,
             rays.hit.primID[k] = Caster::nothing;
             valid[k] = k < count ? -1 : 0;
         }
-        rtcIntersect16(valid, tree, &context, &rays);
+        rtcIntersect8(valid, tree, &context, &rays);
         std::copy_n(rays.hit.primID, count, facets.begin() + static_cast<std::ptrdiff_t>(first));
     }
 }

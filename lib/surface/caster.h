@@ -42,6 +42,11 @@ class Caster {
 
     const Facet& facet(std::uint32_t index) const { return facets_[index]; }
 
+    /// Fetches a facet that is soon asked for; `nothing` is allowed.
+    void prefetch(std::uint32_t index) const {
+        if (index != nothing) __builtin_prefetch(&facets_[index]);
+    }
+
   private:
     struct Embree;
     std::unique_ptr<Embree> embree_;

@@ -89,7 +89,7 @@ Sample piece(const Context& context, const ChainNode& node, Turn across, const C
     sample.cosine_v = 0.5F * (high.cosine - low.cosine);
     sample.area_m2 = 4.0F * sample.edge_u.cross(sample.edge_v).norm();
     sample.material = node.material;
-    sample.instance = context.caster.facet(node.facet).instance;
+    sample.instance = node.instance;
     return sample;
 }
 

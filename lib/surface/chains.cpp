@@ -38,6 +38,8 @@ class ChainCaster {
     }
 
     void cast_columns() {
+        // Room for the strips and the bisections, so that the nodes are seldom moved.
+        out_.nodes.reserve(4 * columns_.size() * sampling_.chain);
         for (const Column& column : columns_) {
             add_chain(column, column.across, 0.5 * column.width, 0, sampling_.chain, true);
         }
@@ -175,6 +177,9 @@ class ChainCaster {
                      facets_);
         const Eigen::Matrix3f R_sensor_local = pose_.rotation.transpose();
         for (std::size_t i = 0; i < count; ++i) {
+            // The facets of a large scene lie in main memory, all over the place.
+            constexpr std::size_t ahead = 16;
+            if (i + ahead < count) caster_.prefetch(facets_[i + ahead]);
             ChainNode& node = out_.nodes[order[i]];
             node.facet = facets_[i];
             if (node.missed()) continue;
@@ -185,6 +190,7 @@ class ChainCaster {
             node.height_m = side * height;
             node.cosine = -node.normal.dot(node.direction);
             node.material = facet.material;
+            node.instance = facet.instance;
             // A plane seen edge-on to within rounding has no range and reflects nothing.
             if (!(node.cosine > 1e-7F)) node.facet = Caster::nothing;
         }
@@ -265,7 +271,7 @@ Sampling sampling_for(const View& view) {
         ++sampling.levels;
     const auto slack = static_cast<float>(std::clamp(scale, 0.1, 2.0));
     sampling.tolerance_m = slack * static_cast<float>(view.bin_m());
-    sampling.tolerance_cosine = 0.07F * slack;
+    sampling.tolerance_cosine = 0.09F * slack;
     return sampling;
 }
 

@@ -27,7 +27,7 @@ struct Sampling {
     int chain = 32;                  ///< rays along a column before refinement
     int levels = 3;                  ///< bisections where neighbours along a column disagree
     bool split = true;               ///< columns whose neighbours disagree are seen in strips
-    float tolerance_slope = 0.01F;  ///< to which comes this share of the step in range
+    float tolerance_slope = 0.03F;   ///< to which comes this share of the step in range
     float tolerance_m = 0.0F;        ///< by how much a neighbour's plane may miss a range
     float tolerance_cosine = 0.07F;  ///< by which share of itself a cosine of incidence may be off
 };
@@ -46,6 +46,7 @@ struct ChainNode {
     float cosine = 0.0F;                               ///< of incidence
     std::uint32_t facet = Caster::nothing;
     std::uint32_t material = 0;
+    std::uint32_t instance = 0;
     int next = none;     ///< the next node along the chain
     bool joined = true;  ///< this node and the next lie on one surface, as far as is known
 
