@@ -50,6 +50,20 @@ std::vector<fs::path> temporary_files(const fs::path& folder) {
     return found;
 }
 
+/// Removes the files of a sensor that hold all of its pings, whichever kind of sonar it is.
+void remove_series(const fs::path& sensor) {
+    for (const fs::directory_entry& file : fs::directory_iterator(sensor)) {
+        const std::string name = final_name(file);
+        for (const SonarKind kind :
+             {SonarKind::profiling, SonarKind::sidescan, SonarKind::echosounder}) {
+            const SeriesFiles& series = series_files(kind);
+            const bool ours = name == series.record ||
+                              std::ranges::find(series.products, name) != series.products.end();
+            if (ours && file.is_regular_file()) fs::remove(file);
+        }
+    }
+}
+
 void require_folder(const fs::path& path) {
     if (!fs::is_directory(path)) throw InputError({path.string()}, "is not a folder");
 }
@@ -113,6 +127,7 @@ void remove_dataset(const fs::path& folder) {
             }
             if (fs::is_empty(files)) fs::remove(files);
         }
+        remove_series(sensor.path());
         if (fs::is_empty(sensor)) fs::remove(sensor);
     }
     for (const char* name : {trajectory_name, mission_name, description_name}) {
@@ -126,7 +141,7 @@ void begin_dataset(const Layout& layout, const CommonFiles& files) {
     write_file(layout.folder / mission_name, files.mission);
     write_file(layout.folder / trajectory_name, files.trajectory);
     for (std::size_t sensor = 0; sensor < layout.sensors.size(); ++sensor) {
-        for (const FileKind kind : layout.kinds) {
+        for (const FileKind kind : layout.sensors[sensor].kinds) {
             fs::create_directories(layout.kind_folder(sensor, kind));
         }
     }
@@ -137,7 +152,10 @@ void remove_leftovers(const Layout& layout, const std::vector<PingId>& todo, boo
         if (alone) fs::remove(file);
     }
     for (std::uint32_t sensor = 0; sensor < layout.sensors.size(); ++sensor) {
-        for (const FileKind kind : layout.kinds) {
+        for (const fs::path& file : temporary_files(layout.series_file(sensor, ""))) {
+            if (alone) fs::remove(file);
+        }
+        for (const FileKind kind : layout.sensors[sensor].kinds) {
             for (const fs::path& file : temporary_files(layout.kind_folder(sensor, kind))) {
                 const auto pose = ping_number(final_name(file), extension_of(kind));
                 if (!pose || *pose > UINT32_MAX) continue;

@@ -9,13 +9,16 @@
 #include <array>
 #include <chrono>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "core/error.h"
 #include "core/file.h"
 #include "dataset/folder.h"
+#include "dataset/measure.h"
 #include "dataset/metadata.h"
 #include "dataset/ping_files.h"
+#include "dataset/products.h"
 #include "mission/resolved.h"
 #include "product/fan.h"
 #include "trajectory/files.h"
@@ -72,14 +75,16 @@ struct Plan {
     std::uint64_t skipped = 0;   ///< of this shard, with all their files
 };
 
-/// `present` tells where files may be already; null where there are none.
+/// Whether a ping is there already.
+using IsThere = std::function<bool(const PingId&)>;
+
 Plan make_plan(const std::vector<PingId>& all, const RenderOptions& options,
-               const Layout* present) {
+               const IsThere& is_there) {
     Plan plan;
     for (std::size_t i = 0; i < all.size(); ++i) {
         if (static_cast<int>(i % options.shards) != options.shard) {
             plan.others.push_back(all[i]);
-        } else if (present != nullptr && present->has(all[i])) {
+        } else if (is_there(all[i])) {
             ++plan.skipped;
         } else {
             plan.todo.push_back(all[i]);
@@ -119,38 +124,61 @@ void stream_pings(const std::vector<PingId>& todo, int threads, const Work& work
     summary.stopped = summary.pings < todo.size();
 }
 
-/// Renders `todo`. Without a layout nothing is written.
+/// Where a run writes to.
+struct Destination {
+    const Layout& layout;
+    const RecordFiles& records;
+};
+
+/// What the pings of a run have in common.
+struct Workshop {
+    const Mission& mission;
+    const Assembly& assembly;
+    const Surface& surface;
+};
+
+/// Writes the files of a ping: its record first, then the others, its metadata last.
+void write_ping(const Workshop& shop, const Destination& to, const std::vector<FanMap>& fans,
+                const PingId& id, const Ping& ping, PingReport& report) {
+    const auto& [mission, assembly, surface] = shop;
+    const Sonar& sonar = assembly.sonars[id.sensor];
+    const Pose& T_world_vehicle = assembly.trajectory[id.pose].T_world_vehicle;
+    const double start = seconds_now();
+    const Measurement measurement = measure(sonar, surface, T_world_vehicle, ping);
+    std::array<Ping, 5> stages;
+    if (to.layout.sensors[id.sensor].writes(FileKind::stages)) {
+        stages =
+            render_stages(sonar, assembly.scene, surface, T_world_vehicle, {mission.seed, id.pose});
+    }
+    const PingFiles encoded =
+        encode_ping(mission, assembly, to.layout, fans, id, ping, measurement.summary, stages);
+    const double encoded_at = seconds_now();
+    if (to.records[id.sensor]) {
+        to.records[id.sensor]->write(to.layout.record_of(id),
+                                     std::as_bytes(std::span(measurement.record)));
+    }
+    for (const auto& [kind, bytes] : encoded.files)
+        write_file(to.layout.file(id, kind), bytes);
+    report.encode_seconds = encoded_at - start;
+    report.write_seconds = seconds_now() - encoded_at;
+    report.clipped_pixels = encoded.clipped_pixels;
+}
+
+/// Renders `todo`. Without a destination nothing is written.
 void render(const Mission& mission, const Assembly& assembly, const std::vector<PingId>& todo,
-            const Layout* layout, int threads, const ProgressCallback& progress,
+            const Destination* to, int threads, const ProgressCallback& progress,
             const std::atomic<bool>& stop, RenderSummary& summary) {
     if (todo.empty()) return;
     const std::unique_ptr<Surface> surface =
         make_surface(assembly.scene, mission.engine, mission.octree);
-    std::vector<FanMap> fans;
-    if (layout != nullptr && (mission.output.fan || mission.output.stages)) {
-        for (const Sonar& sonar : assembly.sonars) {
-            fans.push_back(make_fan_map(sonar, mission.output.fan_width_px));
-        }
-    }
+    const std::vector<FanMap> fans =
+        to ? make_fan_maps(mission, assembly, to->layout) : std::vector<FanMap>();
     const auto work = [&](const PingId& id) {
-        const Sonar& sonar = assembly.sonars[id.sensor];
-        const Pose& T_world_vehicle = assembly.trajectory[id.pose].T_world_vehicle;
-        const PingKey key{mission.seed, id.pose};
-        const Ping ping = render_ping(sonar, assembly.scene, *surface, T_world_vehicle, key);
+        const Ping ping =
+            render_ping(assembly.sonars[id.sensor], assembly.scene, *surface,
+                        assembly.trajectory[id.pose].T_world_vehicle, {mission.seed, id.pose});
         PingReport report{ping.counts, ping.seconds};
-        if (layout == nullptr) return report;
-        const double start = seconds_now();
-        std::array<Ping, 5> stages;
-        if (mission.output.stages) {
-            stages = render_stages(sonar, assembly.scene, *surface, T_world_vehicle, key);
-        }
-        const PingFiles encoded = encode_ping(mission, assembly, *layout, fans, id, ping, stages);
-        const double encoded_at = seconds_now();
-        for (const auto& [kind, bytes] : encoded.files)
-            write_file(layout->file(id, kind), bytes);
-        report.encode_seconds = encoded_at - start;
-        report.write_seconds = seconds_now() - encoded_at;
-        report.clipped_pixels = encoded.clipped_pixels;
+        if (to) write_ping({mission, assembly, *surface}, *to, fans, id, ping, report);
         return report;
     };
     stream_pings(todo, threads, work, progress, stop, summary);
@@ -167,12 +195,13 @@ RenderSummary run_job(const Mission& mission, const Assembly& assembly,
     tbb::task_arena arena(threads);
     const std::vector<PingId> all = list_pings(mission, assembly.trajectory.size());
     RenderSummary summary;
-    const auto render_all = [&](const std::vector<PingId>& todo, const Layout* layout) {
+    const auto render_all = [&](const std::vector<PingId>& todo, const Destination* to) {
         arena.execute(
-            [&] { render(mission, assembly, todo, layout, threads, progress, stop, summary); });
+            [&] { render(mission, assembly, todo, to, threads, progress, stop, summary); });
     };
+    const auto none = [](const PingId&) { return false; };
     if (!options.files) {
-        render_all(make_plan(all, options, nullptr).todo, nullptr);
+        render_all(make_plan(all, options, none).todo, nullptr);
         return summary;
     }
 
@@ -182,18 +211,28 @@ RenderSummary run_job(const Mission& mission, const Assembly& assembly,
     if (options.overwrite) remove_dataset(layout.folder);
     const FolderState state =
         options.overwrite ? FolderState::fresh : inspect_folder(layout, common.description);
-    const Plan plan = make_plan(all, options, state == FolderState::fresh ? nullptr : &layout);
+    const bool fresh = state == FolderState::fresh;
+    if (fresh) begin_dataset(layout, common);
+    const RecordFiles records = open_records(assembly, layout);
+    const auto is_there = [&](const PingId& id) {
+        const auto& record = records[id.sensor];
+        return layout.has(id) && (!record || record->is_written(layout.record_of(id)));
+    };
+    const Plan plan = make_plan(all, options, fresh ? IsThere(none) : IsThere(is_there));
     summary.skipped = plan.skipped;
-    summary.complete = state == FolderState::complete && plan.todo.empty();
+    summary.complete = state == FolderState::complete && plan.todo.empty() && layout.has_products();
     if (summary.complete) return summary;
 
-    begin_dataset(layout, common);
-    if (state != FolderState::fresh) remove_leftovers(layout, plan.todo, options.shards == 1);
-    render_all(plan.todo, &layout);
-    summary.complete =
-        !summary.stopped &&
-        std::ranges::all_of(plan.others, [&](const PingId& ping) { return layout.has(ping); });
-    if (summary.complete) finish_dataset(layout, common.description);
+    if (!fresh) {
+        begin_dataset(layout, common);
+        remove_leftovers(layout, plan.todo, options.shards == 1);
+    }
+    const Destination to{layout, records};
+    render_all(plan.todo, &to);
+    summary.complete = !summary.stopped && std::ranges::all_of(plan.others, is_there);
+    if (!summary.complete) return summary;
+    write_products(mission, assembly, layout, records);
+    finish_dataset(layout, common.description);
     return summary;
 }
 

@@ -16,25 +16,45 @@ Json describe_pose(const Pose& pose) {
             {"quaternion_xyzw", {q.x(), q.y(), q.z(), q.w()}}};
 }
 
-Json describe_sensor(const Sonar& sonar, std::size_t poses, const Mission& mission,
-                     const Layout& layout) {
+/// How the axes of a sensor's records run, in the order of the indices.
+Json record_axes(SonarKind kind) {
+    switch (kind) {
+        case SonarKind::sidescan:
+            return {"ping", "port from range_max to range_min, then starboard back"};
+        case SonarKind::echosounder:
+            return {"range", "ping"};
+        default:
+            return {"ping", "beam", "range_m, x_m, y_m, z_m, quality"};
+    }
+}
+
+Json describe_sensor(const Sonar& sonar, const Mission& mission, const Layout& layout,
+                     const SensorLayout& own) {
     const SonarConfig& config = sonar.config;
     Json json = {{"name", config.name},
                  {"kind", name_of(config.kind)},
                  {"settings", "mission.resolved.yaml#/sensors/" + config.name},
                  {"stream", sonar.settings.stream},
                  {"every", config.every},
-                 {"pings", (poses + config.every - 1) / config.every},
+                 {"pings", own.pings},
                  {"T_vehicle_sensor", describe_pose(sonar.T_vehicle_sensor)},
                  {"full_scale", mission.output.full_scale}};
     Json files = Json::object();
-    for (const FileKind kind : layout.kinds) {
+    for (const FileKind kind : own.kinds) {
         files[std::string(name_of(kind))] = config.name + "/" + std::string(name_of(kind)) + "/%0" +
                                             std::to_string(layout.digits) + "d" +
                                             std::string(extension_of(kind));
     }
     json["files"] = std::move(files);
-    if (mission.output.fan) {
+    if (!own.series.record.empty()) {
+        Json products = Json::array();
+        for (const std::string& name : own.series.products)
+            products.push_back(config.name + "/" + name);
+        json["records"] = {{"file", config.name + "/" + own.series.record},
+                           {"axes", record_axes(config.kind)}};
+        json["products"] = std::move(products);
+    }
+    if (own.writes(FileKind::fan)) {
         const FanFrame fan = fan_frame(sonar, mission.output.fan_width_px);
         json["fan"] = {{"width_px", fan.width},
                        {"height_px", fan.height},
@@ -42,7 +62,7 @@ Json describe_sensor(const Sonar& sonar, std::size_t poses, const Mission& missi
                        {"apex_px", {0.5 * fan.width, config.range_max_m / fan.pixel_m}}};
     }
     json["range_edges_m"] = sonar.range_edges_m;
-    json["azimuth_edges_rad"] = sonar.azimuth_edges_rad;
+    if (!sonar.azimuth_edges_rad.empty()) json["azimuth_edges_rad"] = sonar.azimuth_edges_rad;
     return json;
 }
 
@@ -59,19 +79,19 @@ Json describe_dataset(const Mission& mission, const Assembly& assembly, const La
                  {"seed", mission.seed},
                  {"poses", assembly.trajectory.size()}};
     Json sensors = Json::array();
-    for (const Sonar& sonar : assembly.sonars) {
-        sensors.push_back(describe_sensor(sonar, assembly.trajectory.size(), mission, layout));
+    for (std::size_t i = 0; i < assembly.sonars.size(); ++i) {
+        sensors.push_back(describe_sensor(assembly.sonars[i], mission, layout, layout.sensors[i]));
     }
     json["sensors"] = std::move(sensors);
     return json;
 }
 
 Json describe_ping(const Mission& mission, const Assembly& assembly, const PingId& id,
-                   const PingCounts& counts, std::uint64_t clipped_pixels) {
+                   const PingCounts& counts, std::uint64_t clipped_pixels, const Json& measured) {
     const Sonar& sonar = assembly.sonars[id.sensor];
     const TimedPose& pose = assembly.trajectory[id.pose];
     const Pose T_world_sensor = pose.T_world_vehicle * sonar.T_vehicle_sensor;
-    return {
+    Json json = {
         {"sensor", sonar.config.name},
         {"settings", "mission.resolved.yaml#/sensors/" + sonar.config.name},
         {"ping", id.pose},
@@ -99,6 +119,8 @@ Json describe_ping(const Mission& mission, const Assembly& assembly, const PingI
             {"outside", counts.multipath.outside},
             {"turned_away", counts.multipath.turned_away},
             {"hidden", counts.multipath.hidden}}}}}};
+    if (!measured.is_null()) json["measured"] = measured;
+    return json;
 }
 
 std::string json_text(const Json& json) {

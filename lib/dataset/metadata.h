@@ -19,10 +19,12 @@ inline constexpr int dataset_format_version = 1;
 nlohmann::ordered_json describe_dataset(const Mission& mission, const Assembly& assembly,
                                         const Layout& layout);
 
-/// The metadata of one ping. Positions in metres; quaternions as x, y, z, w.
+/// The metadata of one ping; `measured` as measure() sums it up, null for none. Positions in
+/// metres; quaternions as x, y, z, w.
 nlohmann::ordered_json describe_ping(const Mission& mission, const Assembly& assembly,
                                      const PingId& id, const PingCounts& counts,
-                                     std::uint64_t clipped_pixels);
+                                     std::uint64_t clipped_pixels,
+                                     const nlohmann::ordered_json& measured = {});
 
 /// JSON as it is written: indented, with a line feed at the end.
 std::string json_text(const nlohmann::ordered_json& json);

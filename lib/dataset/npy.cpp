@@ -19,18 +19,6 @@ constexpr std::size_t alignment = 64;
 constexpr std::size_t preamble = 10;  // magic, version, length of the header
 constexpr std::size_t largest_file = std::size_t{1} << 30;
 
-std::string header(std::size_t rows, std::size_t columns) {
-    std::string text = "{'descr': '<f4', 'fortran_order': False, 'shape': (" +
-                       std::to_string(rows) + ", " + std::to_string(columns) + "), }";
-    const std::size_t used = preamble + text.size() + 1;
-    text.append((alignment - used % alignment) % alignment, ' ');
-    text += '\n';
-    std::string out("\x93NUMPY\x01\x00", 8);
-    out += static_cast<char>(text.size() & 0xff);
-    out += static_cast<char>(text.size() >> 8);
-    return out + text;
-}
-
 /// The number that stands in `text` after `mark` and before the next `end`.
 std::size_t number_between(const std::string& text, const std::string& mark, char end) {
     const std::size_t at = text.find(mark);
@@ -43,8 +31,25 @@ std::size_t number_between(const std::string& text, const std::string& mark, cha
 
 }  // namespace
 
+std::string npy_header(const NpyFormat& format) {
+    std::string text = "{'descr': '" + format.type +
+                       "', 'fortran_order': " + (format.fortran_order ? "True" : "False") +
+                       ", 'shape': (";
+    for (const std::size_t length : format.shape)
+        text += std::to_string(length) + ", ";
+    text.resize(text.size() - 2);
+    text += "), }";
+    const std::size_t used = preamble + text.size() + 1;
+    text.append((alignment - used % alignment) % alignment, ' ');
+    text += '\n';
+    std::string out("\x93NUMPY\x01\x00", 8);
+    out += static_cast<char>(text.size() & 0xff);
+    out += static_cast<char>(text.size() >> 8);
+    return out + text;
+}
+
 std::string npy_bytes(std::span<const float> values, std::size_t rows, std::size_t columns) {
-    const std::string head = header(rows, columns);
+    const std::string head = npy_header({"<f4", {rows, columns}});
     std::string bytes(head.size() + values.size_bytes(), '\0');
     std::memcpy(bytes.data(), head.data(), head.size());
     std::memcpy(bytes.data() + head.size(), values.data(), values.size_bytes());
@@ -57,7 +62,7 @@ Matrix read_npy(const std::filesystem::path& path) {
     Matrix matrix;
     matrix.rows = number_between(start, "'shape': (", ',');
     matrix.columns = number_between(start, "'shape': (" + std::to_string(matrix.rows) + ", ", ')');
-    const std::string head = header(matrix.rows, matrix.columns);
+    const std::string head = npy_header({"<f4", {matrix.rows, matrix.columns}});
     const std::size_t cells = (bytes.size() - std::min(head.size(), bytes.size())) / sizeof(float);
     if (!bytes.starts_with(head) || matrix.columns == 0 || cells / matrix.columns != matrix.rows ||
         bytes.size() != head.size() + matrix.rows * matrix.columns * sizeof(float)) {

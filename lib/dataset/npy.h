@@ -15,6 +15,16 @@ struct Matrix {
     std::vector<float> values;  ///< [rows, columns]
 };
 
+/// What the data of a NumPy file are.
+struct NpyFormat {
+    std::string type;                ///< "<f4" or "<f8"
+    std::vector<std::size_t> shape;  ///< two dimensions or more
+    bool fortran_order = false;      ///< the first index runs fastest
+};
+
+/// What stands before the data, format 1.0; its length is a multiple of 64 bytes.
+std::string npy_header(const NpyFormat& format);
+
 /// A float32 matrix as a NumPy file, format 1.0, little endian, C order; the data begin at a
 /// multiple of 64 bytes.
 std::string npy_bytes(std::span<const float> values, std::size_t rows, std::size_t columns);

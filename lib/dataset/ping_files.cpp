@@ -10,10 +10,7 @@
 
 namespace sonarsim {
 
-namespace {
-
-/// round(65535 intensity / full_scale), white above full_scale.
-std::vector<std::uint16_t> grey_16(const std::vector<float>& intensity, double full_scale) {
+std::vector<std::uint16_t> grey_16(std::span<const float> intensity, double full_scale) {
     const float scale = static_cast<float>(65535.0 / full_scale);
     std::vector<std::uint16_t> grey(intensity.size());
     for (std::size_t i = 0; i < grey.size(); ++i) {
@@ -23,11 +20,20 @@ std::vector<std::uint16_t> grey_16(const std::vector<float>& intensity, double f
     return grey;
 }
 
-}  // namespace
+std::vector<FanMap> make_fan_maps(const Mission& mission, const Assembly& assembly,
+                                  const Layout& layout) {
+    std::vector<FanMap> fans(assembly.sonars.size());
+    for (std::size_t i = 0; i < fans.size(); ++i) {
+        const SensorLayout& files = layout.sensors[i];
+        if (files.writes(FileKind::fan) || files.writes(FileKind::stages))
+            fans[i] = make_fan_map(assembly.sonars[i], mission.output.fan_width_px);
+    }
+    return fans;
+}
 
 PingFiles encode_ping(const Mission& mission, const Assembly& assembly, const Layout& layout,
                       const std::vector<FanMap>& fans, const PingId& id, const Ping& ping,
-                      std::span<const Ping> stages) {
+                      const nlohmann::ordered_json& measured, std::span<const Ping> stages) {
     const double full_scale = mission.output.full_scale;
     const auto white = static_cast<float>(full_scale);
     PingFiles out;
@@ -50,12 +56,12 @@ PingFiles encode_ping(const Mission& mission, const Assembly& assembly, const La
                                  map.frame.height);
             }
             case FileKind::meta:
-                return json_text(
-                    describe_ping(mission, assembly, id, ping.counts, out.clipped_pixels));
+                return json_text(describe_ping(mission, assembly, id, ping.counts,
+                                               out.clipped_pixels, measured));
         }
         return std::string();
     };
-    for (const FileKind kind : layout.kinds)
+    for (const FileKind kind : layout.sensors[id.sensor].kinds)
         out.files.emplace_back(kind, encode(kind));
     return out;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <nlohmann/json.hpp>
 #include <span>
 #include <string>
 #include <utility>
@@ -20,11 +21,19 @@ struct PingFiles {
     std::uint64_t clipped_pixels = 0;  ///< intensities above full_scale; white in the images
 };
 
-/// Encodes a ping into the kinds of file that `layout` asks for. `fans` holds one map per sonar;
-/// it may be empty when neither fans nor stages are asked for. `stages` are those of
+/// round(65535 intensity / full_scale), white above full_scale.
+std::vector<std::uint16_t> grey_16(std::span<const float> intensity, double full_scale);
+
+/// One map per sonar; empty where neither fans nor stages are asked for.
+std::vector<FanMap> make_fan_maps(const Mission& mission, const Assembly& assembly,
+                                  const Layout& layout);
+
+/// Encodes a ping into the kinds of file that `layout` asks for. `fans` are those of
+/// make_fan_maps(). `measured` goes into the metadata. `stages` are those of
 /// render_stages(), or nothing when they are not asked for.
 PingFiles encode_ping(const Mission& mission, const Assembly& assembly, const Layout& layout,
                       const std::vector<FanMap>& fans, const PingId& id, const Ping& ping,
+                      const nlohmann::ordered_json& measured = {},
                       std::span<const Ping> stages = {});
 
 }  // namespace sonarsim

@@ -162,6 +162,12 @@ struct OutputConfig {
     int fan_width_px = 0;     ///< 0: one pixel per range bin, at most 1024
     double full_scale = 1.0;  ///< intensity that becomes white
 
+    // What is made of all pings of a sonar together.
+    bool waterfall = true;           ///< of side-scan
+    bool echogram = true;            ///< of echosounders
+    bool soundings = true;           ///< of profiling sonars, and the map made of them
+    double bathymetry_cell_m = 0.0;  ///< 0: by the number of soundings
+
     bool operator==(const OutputConfig&) const = default;
 };
 

@@ -174,6 +174,10 @@ void describe(Visitor& v, OutputConfig& c) {
     v.flag("stages", c.stages);
     v.integer("fan_width_px", c.fan_width_px, between(0, 8192));
     v.number("full_scale", c.full_scale, above(0));
+    v.flag("waterfall", c.waterfall);
+    v.flag("echogram", c.echogram);
+    v.flag("soundings", c.soundings);
+    v.number("bathymetry_cell_m", c.bathymetry_cell_m, at_least(0));
 }
 
 template <class Visitor>

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "product/glyphs.h"
 #include "study/drawing.h"
-#include "study/glyphs.h"
 
 namespace sonarsim {
 

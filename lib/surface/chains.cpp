@@ -255,15 +255,18 @@ Sampling sampling_for(const View& view) {
                 std::clamp(std::ceil(view.azimuth_rad / view.beams / widest_column), 1.0, 64.0));
             sampling.chain = rays(0.8 * density * view.elevation_rad * view.beams *
                                       sampling.columns / view.azimuth_rad,
-                                  4.0);
+                                  8.0);
             break;
         case ViewShape::sides:
-            sampling.columns = rays(2.0, 1.0);
-            sampling.chain = rays(0.25 * view.range_bins, 64.0);
+            // A side is one row of bins: with no other beam to average out what one misses, a ray
+            // to a bin and a few columns for the shapes of shadows.
+            sampling.columns = rays(4.0, 2.0);
+            sampling.chain = rays(1.0 * view.range_bins, 64.0);
             break;
         case ViewShape::cone:
-            sampling.columns = rays(24.0, 8.0);
-            sampling.chain = rays(12.0, 4.0);
+            // All of a cone is one column of bins; a small object may be alone in its own.
+            sampling.columns = rays(72.0, 8.0);
+            sampling.chain = rays(48.0, 4.0);
             break;
     }
     sampling.levels = 3;

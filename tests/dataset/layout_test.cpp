@@ -9,6 +9,7 @@
 
 using namespace sonarsim;
 using sonarsim::test::small_mission;
+using sonarsim::test::survey_mission;
 using sonarsim::test::TemporaryFolder;
 
 TEST_SUITE("dataset") {
@@ -26,12 +27,40 @@ TEST_SUITE("dataset") {
     TEST_CASE("layout: output chooses the files, and there must be some") {
         Mission mission = small_mission("out");
         mission.output.polar = mission.output.fan = false;
-        CHECK(make_layout(mission, 1).kinds == std::vector{FileKind::image, FileKind::meta});
+        CHECK(make_layout(mission, 1).sensors[1].kinds ==
+              std::vector{FileKind::image, FileKind::meta});
         mission.output.image = mission.output.meta = false;
         CHECK_THROWS_WITH_AS(make_layout(mission, 1),
-                             "mission 'small' writes nothing: set one of output.polar, image, fan, "
-                             "stages or meta to true",
+                             "mission 'small' writes nothing of sensor 'front': set one of "
+                             "output.polar, image, fan, stages or meta to true",
                              InputError);
+    }
+
+    TEST_CASE("layout: side-scan and echosounders have metadata per ping and no image") {
+        Mission mission = survey_mission("out");
+        const Layout layout = make_layout(mission, 7);
+        REQUIRE(layout.sensors.size() == 4);
+        CHECK(layout.sensors[0].series.record.empty());
+        CHECK(layout.sensors[1].kinds ==
+              std::vector{FileKind::polar, FileKind::image, FileKind::fan, FileKind::meta});
+        CHECK(layout.sensors[2].kinds == std::vector{FileKind::meta});
+        CHECK(layout.sensors[3].kinds == std::vector{FileKind::meta});
+        CHECK(layout.series_file(1, layout.sensors[1].series.record) == "out/mbes/soundings.npy");
+        CHECK(layout.series_file(2, layout.sensors[2].series.record) == "out/sss/waterfall.npy");
+        CHECK(layout.series_file(3, layout.sensors[3].series.record) == "out/sounder/echogram.npy");
+        // The sounder pings at poses 0, 2, 4 and 6.
+        CHECK(layout.sensors[3].pings == 4);
+        CHECK(layout.record_of({6, 3}) == 3);
+        // Without its meta file nothing would say that a ping is done.
+        mission.output.meta = false;
+        CHECK(make_layout(mission, 7).sensors[2].kinds == std::vector{FileKind::meta});
+        mission.output.waterfall = false;
+        CHECK_THROWS_WITH_AS(make_layout(mission, 7),
+                             "mission 'survey' writes nothing of sensor 'sss': set one of "
+                             "output.meta, waterfall or echogram to true",
+                             InputError);
+        mission.output.meta = true;
+        CHECK(make_layout(mission, 7).sensors[2].series.record.empty());
     }
 
     TEST_CASE("layout: a sensor with `every: 3` pings at poses 0, 3, 6, ...") {

@@ -280,12 +280,18 @@ TEST_CASE("load_mission reads a file and refuses what is none") {
     CHECK(refusal(std::string((1U << 20) + 1, '#')) == "m.yaml: is larger than 1 MiB");
 }
 
-TEST_CASE("the example mission is valid") {
+TEST_CASE("the example missions are valid") {
     const std::filesystem::path root = SONARSIM_SOURCE_DIR;
     const Mission mission = load_mission(root / "configs/tank_imaging.yaml", {});
     CHECK(mission.name == "tank_imaging");
     CHECK(mission.scene.file == root / "scenes/tank.glb");
     CHECK(mission.sensors.at(0).range_bins == 512);
+    for (const char* name : {"seafloor_bathymetry", "seafloor_sidescan", "tank_echosounder"}) {
+        const std::filesystem::path file = root / "configs" / (std::string(name) + ".yaml");
+        CHECK(load_mission(file, {}).name == name);
+        CHECK(load_mission(file, {}).sensors.size() == 1);
+    }
+    CHECK(load_mission(root / "configs/survey.yaml", {}).sensors.size() == 4);
 }
 
 TEST_SUITE_END();

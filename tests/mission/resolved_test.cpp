@@ -33,7 +33,8 @@ Mission unusual_mission() {
     mission.accuracy = {0.0123};
     mission.engine = EngineKind::octree;
     mission.octree = {0.0234, 77, true};
-    mission.output = {"/o", false, false, false, false, true, 99, 0.125};
+    mission.output = {"/o", false, false, false, false, true,
+                      99,   0.125, false, false, false, 0.375};
     return mission;
 }
 
@@ -110,6 +111,10 @@ output:
   stages: false
   fan_width_px: 0
   full_scale: 1
+  waterfall: true
+  echogram: true
+  soundings: true
+  bathymetry_cell_m: 0
 )");
 }
 

@@ -29,6 +29,34 @@ Mission small_mission(const std::filesystem::path& output_folder) {
     return mission;
 }
 
+Mission survey_mission(const std::filesystem::path& output_folder) {
+    Mission mission = small_mission(output_folder);
+    SonarConfig front = mission.sensors[0];
+    SonarConfig mbes = default_sonar(SonarKind::profiling);
+    mbes.name = "mbes";
+    mbes.range_min_m = 0.3;
+    mbes.range_max_m = 4.0;
+    mbes.range_bins = 80;
+    mbes.azimuth_bins = 40;
+    mbes.noise = {.range_lambda_m = 0.02, .add_sigma = 0.01, .mult_sigma = 0.1};
+    SonarConfig sss = default_sonar(SonarKind::sidescan);
+    sss.name = "sss";
+    sss.range_min_m = 0.3;
+    sss.range_max_m = 5.0;
+    sss.range_bins = 90;
+    sss.noise = {.add_sigma = 0.01, .mult_sigma = 0.1};
+    SonarConfig sounder = default_sonar(SonarKind::echosounder);
+    sounder.name = "sounder";
+    sounder.every = 2;
+    sounder.range_min_m = 0.3;
+    sounder.range_max_m = 3.0;
+    sounder.range_bins = 60;
+    sounder.noise = {.range_lambda_m = 0.02, .add_sigma = 0.01, .mult_sigma = 0.1};
+    mission.name = "survey";
+    mission.sensors = {front, mbes, sss, sounder};
+    return mission;
+}
+
 Assembly small_assembly(const Mission& mission, int poses) {
     Assembly assembly;
     assembly.scene = tank();

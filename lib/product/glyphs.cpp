@@ -1,4 +1,4 @@
-#include "study/glyphs.h"
+#include "product/glyphs.h"
 
 #include <string_view>
 

@@ -1,0 +1,40 @@
+#include "dataset/folded_records.h"
+
+#include <algorithm>
+#include <span>
+
+#include "dataset/products.h"
+#include "product/gain.h"
+
+namespace sonarsim {
+
+FoldedRecords::FoldedRecords(const RecordFile& records)
+    : records_(records),
+      fold_(std::max<std::size_t>(1,
+                                  (records.records() + most_picture_rows - 1) / most_picture_rows)),
+      rows_((records.records() + fold_ - 1) / fold_),
+      record_(records.record_bytes() / sizeof(float)),
+      mean_(record_.size()) {}
+
+const std::vector<float>& FoldedRecords::row(std::size_t k) {
+    const std::size_t first = k * fold_;
+    const std::size_t last = std::min(first + fold_, records_.records());
+    std::ranges::fill(mean_, 0.0F);
+    for (std::size_t i = first; i < last; ++i) {
+        records_.read(i, std::as_writable_bytes(std::span(record_)));
+        for (std::size_t x = 0; x < mean_.size(); ++x)
+            mean_[x] += record_[x];
+    }
+    for (float& value : mean_)
+        value /= static_cast<float>(last - first);
+    return mean_;
+}
+
+double white_of(FoldedRecords& records) {
+    Gain gain;
+    for (std::size_t k = 0; k < records.rows(); ++k)
+        gain.add(records.row(k));
+    return gain.white();
+}
+
+}  // namespace sonarsim

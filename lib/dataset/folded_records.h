@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "dataset/record_file.h"
+
+namespace sonarsim {
+
+/// The float32 records of a file as the rows of a picture: each the mean of as many pings as it
+/// takes to have at most `most_picture_rows`.
+class FoldedRecords {
+  public:
+    explicit FoldedRecords(const RecordFile& records);
+
+    std::size_t rows() const { return rows_; }
+    /// Row k; valid until the next call.
+    const std::vector<float>& row(std::size_t k);
+
+  private:
+    const RecordFile& records_;
+    std::size_t fold_;
+    std::size_t rows_;
+    std::vector<float> record_;
+    std::vector<float> mean_;
+};
+
+/// The intensity that a picture for the eye shows brightest.
+double white_of(FoldedRecords& records);
+
+}  // namespace sonarsim

@@ -1,0 +1,99 @@
+#include "dataset/record_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+#include <vector>
+
+namespace sonarsim {
+
+namespace {
+
+[[noreturn]] void fail(const std::filesystem::path& path, const char* what) {
+    throw std::system_error(errno, std::generic_category(), what + (" " + path.string()));
+}
+
+/// Writes or reads all of `size` bytes at `offset`; pread() and pwrite() may do it in parts.
+template <class Transfer, class Byte>
+bool transfer_all(Transfer transfer, int fd, Byte* bytes, std::size_t size, std::uint64_t offset) {
+    while (size > 0) {
+        const ssize_t done = transfer(fd, bytes, size, static_cast<off_t>(offset));
+        if (done < 0 && errno == EINTR) continue;
+        if (done == 0) errno = EIO;
+        if (done <= 0) return false;
+        bytes += done;
+        size -= static_cast<std::size_t>(done);
+        offset += static_cast<std::uint64_t>(done);
+    }
+    return true;
+}
+
+}  // namespace
+
+RecordFile::RecordFile(const std::filesystem::path& path, const NpyFormat& format,
+                       std::size_t records)
+    : path_(path), records_(records), record_bytes_(format.type == "<f8" ? 8 : 4) {
+    for (const std::size_t length : format.shape)
+        record_bytes_ *= length;
+    record_bytes_ /= std::max<std::size_t>(records, 1);
+    const std::string header = npy_header(format);
+    header_bytes_ = header.size();
+    std::filesystem::create_directories(path.parent_path());
+    fd_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (fd_ < 0) fail(path, "cannot open");
+    // No temporary name and no truncation: two shards that begin at once make the same file, and
+    // neither can take away what the other has written into it.
+    struct stat status {};
+    std::string found(header.size(), '\0');
+    const bool whole = ::fstat(fd_, &status) == 0 &&
+                       static_cast<std::uint64_t>(status.st_size) == offset(records) &&
+                       transfer_all(::pread, fd_, found.data(), found.size(), 0) && found == header;
+    const bool ready = whole || (transfer_all(::pwrite, fd_, header.data(), header.size(), 0) &&
+                                 ::ftruncate(fd_, static_cast<off_t>(offset(records))) == 0);
+    if (ready) return;
+    const int reason = errno;
+    ::close(fd_);
+    errno = reason;
+    fail(path, "cannot write");
+}
+
+RecordFile::~RecordFile() {
+    ::close(fd_);
+}
+
+void RecordFile::write(std::size_t record, std::span<const std::byte> bytes) const {
+    if (record >= records_ || bytes.size() != record_bytes_) {
+        throw std::logic_error("a record does not fit " + path_.string());
+    }
+    if (!transfer_all(::pwrite, fd_, bytes.data(), bytes.size(), offset(record))) {
+        fail(path_, "cannot write");
+    }
+}
+
+void RecordFile::read(std::size_t record, std::span<std::byte> bytes) const {
+    if (!transfer_all(::pread, fd_, bytes.data(), bytes.size(), offset(record))) {
+        fail(path_, "cannot read");
+    }
+}
+
+bool RecordFile::is_written(std::size_t record) const {
+    std::byte part[4096];
+    for (std::size_t done = 0; done < record_bytes_; done += sizeof part) {
+        const std::size_t size = std::min(sizeof part, record_bytes_ - done);
+        if (!transfer_all(::pread, fd_, part, size, offset(record) + done)) {
+            fail(path_, "cannot read");
+        }
+        if (std::any_of(part, part + size, [](std::byte b) { return b != std::byte{0}; })) {
+            return true;
+        }
+    }
+    return false;
+}
+
+}  // namespace sonarsim

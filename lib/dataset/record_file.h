@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+
+#include "dataset/npy.h"
+
+namespace sonarsim {
+
+/// A NumPy file of equal records, one per ping, that is filled while the mission runs, by any
+/// thread and any process in any order. From the beginning it has its full length, and records that
+/// are not written yet are zero; the file system gives those no room.
+class RecordFile {
+  public:
+    /// Opens the file, or makes it and the folders above. The data of `format` are `records`
+    /// records of equal size. std::system_error when the disk does not allow it.
+    RecordFile(const std::filesystem::path& path, const NpyFormat& format, std::size_t records);
+    ~RecordFile();
+    RecordFile(const RecordFile&) = delete;
+    RecordFile& operator=(const RecordFile&) = delete;
+
+    std::size_t records() const { return records_; }
+    std::size_t record_bytes() const { return record_bytes_; }
+
+    /// std::system_error when the disk does not take it.
+    void write(std::size_t record, std::span<const std::byte> bytes) const;
+    /// Fills `bytes` from the beginning of the record on; it may go on into the next ones.
+    void read(std::size_t record, std::span<std::byte> bytes) const;
+    /// Whether any byte of the record differs from zero.
+    bool is_written(std::size_t record) const;
+
+  private:
+    std::uint64_t offset(std::size_t record) const {
+        return header_bytes_ + record * record_bytes_;
+    }
+
+    std::filesystem::path path_;
+    std::size_t records_;
+    std::size_t record_bytes_;
+    std::size_t header_bytes_;
+    int fd_;
+};
+
+}  // namespace sonarsim

@@ -1,0 +1,138 @@
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <nlohmann/json.hpp>
+
+#include "core/file.h"
+#include "dataset/image_file.h"
+#include "dataset/measure.h"
+#include "dataset/metadata.h"
+#include "dataset/products.h"
+#include "dataset/whole_file.h"
+#include "product/bathymetry.h"
+
+namespace sonarsim {
+
+namespace {
+
+struct RecordedSounding {
+    std::size_t pose;
+    std::size_t beam;
+    double range_m;
+    Eigen::Vector3d position;
+    double quality;
+};
+
+/// Every sounding, ping by ping and beam by beam; dark beams are left out.
+void for_each_sounding(const SoundingSource& source,
+                       const std::function<void(const RecordedSounding&)>& visit) {
+    std::vector<double> fields(source.beams * sounding_fields);
+    for (std::size_t k = 0; k < source.records.records(); ++k) {
+        source.records.read(k, std::as_writable_bytes(std::span(fields)));
+        for (std::size_t beam = 0; beam < source.beams; ++beam) {
+            const double* const f = fields.data() + beam * sounding_fields;
+            if (std::isnan(f[0])) continue;
+            visit({k * source.every, beam, f[0], {f[1], f[2], f[3]}, f[4]});
+        }
+    }
+}
+
+void append_fixed(std::string& line, double value, int decimals) {
+    char text[64];
+    const auto end =
+        std::to_chars(text, text + sizeof text, value, std::chars_format::fixed, decimals);
+    line.append(text, end.ptr);
+}
+
+template <class T>
+void append_raw(std::string& bytes, T value) {
+    char raw[sizeof(T)];
+    std::memcpy(raw, &value, sizeof(T));
+    bytes.append(raw, sizeof(T));
+}
+
+/// Whether a sounding belongs in a map.
+bool good_for_map(const RecordedSounding& sounding) {
+    return sounding.quality >= map_quality;
+}
+
+nlohmann::ordered_json georeference(const Bathymetry& grid, double cell_asked_m, std::uint64_t used,
+                                    std::uint64_t left_out) {
+    return {{"file", "bathymetry.tif"},
+            {"values", "mean world z of the soundings in a cell, m; NaN where there are none"},
+            {"rows", grid.rows},
+            {"columns", grid.columns},
+            {"cell_m", grid.cell_m},
+            {"cell_asked_m", cell_asked_m},
+            {"west_m", grid.west_m},
+            {"north_m", grid.north_m},
+            {"axes",
+             "row 0 is north (greatest y), column 0 west (least x): cell (row, column) is centred "
+             "at x = west_m + (column + 0.5) cell_m, y = north_m - (row + 0.5) cell_m"},
+            {"least_quality", map_quality},
+            {"soundings", used},
+            {"soundings_left_out", left_out}};
+}
+
+}  // namespace
+
+void write_soundings(const SoundingSource& source, const std::filesystem::path& folder) {
+    StreamedFile csv(folder / "soundings.csv");
+    csv.append("pose,time_s,beam,range_m,x_m,y_m,z_m,quality\n");
+    std::uint64_t count = 0;
+    std::string line;
+    for_each_sounding(source, [&](const RecordedSounding& s) {
+        line = std::to_string(s.pose) + ',';
+        append_fixed(line, source.trajectory[s.pose].t_s, 6);
+        line += ',' + std::to_string(s.beam);
+        for (const double value : {s.range_m, s.position.x(), s.position.y(), s.position.z()}) {
+            line += ',';
+            append_fixed(line, value, 4);
+        }
+        line += ',';
+        append_fixed(line, s.quality, 3);
+        csv.append(line += '\n');
+        ++count;
+    });
+    csv.finish();
+
+    StreamedFile ply(folder / "soundings.ply");
+    ply.append("ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(count) +
+               "\nproperty double x\nproperty double y\nproperty double z\n"
+               "property float quality\nend_header\n");
+    for_each_sounding(source, [&](const RecordedSounding& s) {
+        line.clear();
+        for (const double value : {s.position.x(), s.position.y(), s.position.z()})
+            append_raw(line, value);
+        append_raw(line, static_cast<float>(s.quality));
+        ply.append(line);
+    });
+    ply.finish();
+}
+
+void write_bathymetry(const SoundingSource& source, double cell_m,
+                      const std::filesystem::path& folder) {
+    SoundingBounds bounds;
+    std::uint64_t left_out = 0;
+    for_each_sounding(source, [&](const RecordedSounding& s) {
+        good_for_map(s) ? bounds.add(s.position) : void(++left_out);
+    });
+    Bathymetry grid = make_bathymetry(bounds, cell_m);
+    for_each_sounding(source, [&](const RecordedSounding& s) {
+        if (good_for_map(s)) grid.add(s.position);
+    });
+    // A TIFF has a pixel at least; without soundings it is NaN.
+    std::vector<float> z = grid.mean_z();
+    if (z.empty()) z.push_back(std::nanf(""));
+    const int columns = std::max(grid.columns, 1);
+    ImageFile tiff(folder / "bathymetry.tif", columns, std::max(grid.rows, 1), PixelKind::float32);
+    for (std::size_t first = 0; first < z.size(); first += columns)
+        tiff.row(std::span<const float>(z).subspan(first, columns));
+    tiff.finish();
+    write_file(folder / "bathymetry.json",
+               json_text(georeference(grid, cell_m, bounds.count, left_out)));
+    write_picture(folder / "bathymetry.png", draw_bathymetry(grid));
+}
+
+}  // namespace sonarsim

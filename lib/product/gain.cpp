@@ -1,0 +1,44 @@
+#include "product/gain.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace sonarsim {
+
+namespace {
+
+// The leading bits of a positive float, its exponent and five bits more, grow with it: they number
+// the cells of a histogram whose cells are 3 % wide or less.
+constexpr int dropped_bits = 18;
+constexpr std::size_t cells = 0x80000000U >> dropped_bits;
+
+}  // namespace
+
+Gain::Gain() : counts_(cells, 0) {}
+
+void Gain::add(std::span<const float> intensity) {
+    for (const float value : intensity) {
+        if (value > 0.0F) ++counts_[std::bit_cast<std::uint32_t>(value) >> dropped_bits];
+    }
+}
+
+double Gain::white() const {
+    std::uint64_t lit = 0;
+    for (const std::uint64_t count : counts_)
+        lit += count;
+    if (lit == 0) return 1.0;
+    std::uint64_t above = 0;
+    for (std::size_t cell = cells; cell-- > 0;) {
+        above += counts_[cell];
+        const auto upper = static_cast<std::uint32_t>(cell + 1) << dropped_bits;
+        if (100 * above >= lit) return std::bit_cast<float>(upper);
+    }
+    return 1.0;
+}
+
+float shade(float intensity, float white) {
+    return std::sqrt(std::clamp(intensity / white, 0.0F, 1.0F));
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,88 @@
+#include "dataset/record_file.h"
+
+#include <doctest/doctest.h>
+
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
+#include "core/file.h"
+#include "support/temporary_folder.h"
+
+using namespace sonarsim;
+using sonarsim::test::TemporaryFolder;
+
+namespace {
+
+template <class T>
+std::span<const std::byte> bytes(const std::vector<T>& values) {
+    return std::as_bytes(std::span(values));
+}
+
+}  // namespace
+
+TEST_SUITE("dataset") {
+    TEST_CASE("npy: headers of every shape, in either order") {
+        // The bytes that numpy.lib.format.write_array_header_1_0 gives, padded to 64.
+        const std::string header = npy_header({"<f8", {120, 480, 5}});
+        CHECK(header.size() % 64 == 0);
+        CHECK(header.substr(10, 64) ==
+              "{'descr': '<f8', 'fortran_order': False, 'shape': (120, 480, 5),");
+        CHECK(header.substr(0, 8) == std::string("\x93NUMPY\x01\x00", 8));
+        CHECK(npy_header({"<f4", {2, 3}, true}).find("'fortran_order': True, 'shape': (2, 3), }") !=
+              std::string::npos);
+    }
+
+    TEST_CASE("records: written in any order by any thread, they read back; the rest is zero") {
+        const TemporaryFolder folder;
+        const auto path = folder.path / "sss" / "waterfall.npy";
+        const NpyFormat format{"<f4", {50, 40}};
+        {
+            const RecordFile file(path, format, 50);
+            CHECK(file.record_bytes() == 160);
+            // It can be opened at once, as long as it will ever be.
+            const Matrix empty = read_npy(path);
+            CHECK(empty.rows == 50);
+            CHECK(empty.columns == 40);
+            const auto fill = [&](int first) {
+                for (int k = 49 - first; k >= 0; k -= 2) {
+                    if (k == 7) continue;
+                    file.write(k, bytes(std::vector<float>(40, static_cast<float>(k + 1))));
+                }
+            };
+            std::thread other([&] { fill(0); });
+            fill(1);
+            other.join();
+            CHECK(file.is_written(6));
+            CHECK_FALSE(file.is_written(7));
+            CHECK_THROWS_AS(file.write(50, bytes(std::vector<float>(40))), std::logic_error);
+            CHECK_THROWS_AS(file.write(0, bytes(std::vector<float>(39))), std::logic_error);
+        }
+        const Matrix matrix = read_npy(path);
+        for (std::size_t k = 0; k < 50; ++k) {
+            CHECK(matrix.values[k * 40] == (k == 7 ? 0.0F : static_cast<float>(k + 1)));
+            CHECK(matrix.values[k * 40 + 39] == matrix.values[k * 40]);
+        }
+        // Opened again, it keeps what it holds.
+        const std::string before = read_file(path, 1 << 20);
+        const RecordFile again(path, format, 50);
+        CHECK(read_file(path, 1 << 20) == before);
+        CHECK(again.is_written(49));
+        std::vector<float> record(40);
+        again.read(3, std::as_writable_bytes(std::span(record)));
+        CHECK(record == std::vector<float>(40, 4.0F));
+    }
+
+    TEST_CASE("records: a file that a crash left short is made whole") {
+        const TemporaryFolder folder;
+        const auto path = folder.path / "a.npy";
+        write_file(path, "half a header");
+        const RecordFile file(path, {"<f4", {3, 4}}, 3);
+        CHECK(read_npy(path).values == std::vector<float>(12, 0.0F));
+    }
+
+    TEST_CASE("records: a folder in the file's place is an error of the machine") {
+        const TemporaryFolder folder;
+        CHECK_THROWS_AS(RecordFile(folder.path, {"<f4", {1, 1}}, 1), std::system_error);
+    }
+}

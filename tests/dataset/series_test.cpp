@@ -1,0 +1,312 @@
+#include <OpenImageIO/imageio.h>
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "core/csv.h"
+#include "core/file.h"
+#include "dataset/job.h"
+#include "dataset/npy.h"
+#include "dataset/products.h"
+#include "product/sidescan_row.h"
+#include "product/soundings.h"
+#include "support/small_mission.h"
+#include "support/temporary_folder.h"
+#include "surface/rays.h"
+
+using namespace sonarsim;
+using namespace sonarsim::test;
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+namespace {
+
+constexpr int poses = 7;  // front, mbes and sss ping at all of them, sounder at 0, 2, 4, 6
+
+RenderSummary run(const Mission& mission, const RenderOptions& options = {}) {
+    return run_job(mission, small_assembly(mission, poses), options, {}, std::atomic<bool>(false));
+}
+
+std::map<std::string, std::string> dataset(const fs::path& folder) {
+    auto files = contents(folder);
+    CHECK(files.erase("mission.resolved.yaml") == 1);
+    return files;
+}
+
+/// What follows the header of a NumPy file.
+template <class T>
+std::vector<T> data_of(const fs::path& path, const NpyFormat& format) {
+    const std::string bytes = read_file(path, 1 << 26);
+    const std::string header = npy_header(format);
+    REQUIRE(bytes.starts_with(header));
+    std::vector<T> values((bytes.size() - header.size()) / sizeof(T));
+    std::memcpy(values.data(), bytes.data() + header.size(), values.size() * sizeof(T));
+    return values;
+}
+
+template <class T>
+std::vector<T> pixels_of(const fs::path& path, int width, int height, int channels,
+                         OIIO::TypeDesc type) {
+    const auto in = OIIO::ImageInput::open(path.string());
+    REQUIRE(in);
+    CHECK(in->spec().width == width);
+    CHECK(in->spec().height == height);
+    CHECK(in->spec().nchannels == channels);
+    CHECK(in->spec().format == type);
+    std::vector<T> pixels(in->spec().image_pixels() * channels);
+    REQUIRE(in->read_image(0, 0, 0, channels, type, pixels.data()));
+    return pixels;
+}
+
+}  // namespace
+
+TEST_SUITE("dataset") {
+    TEST_CASE("series: every file is there and says what the pings say") {
+        const TemporaryFolder temporary;
+        const fs::path out = temporary.path / "out";
+        const Mission mission = survey_mission(out);
+        const Assembly assembly = small_assembly(mission, poses);
+        const RenderSummary summary = run(mission);
+        CHECK(summary.complete);
+        CHECK(summary.pings == 3 * 7 + 4);
+        // 3 common; front 7 x 4; mbes 7 x 4 and 6; sss 7 and 3; sounder 4 and 3.
+        CHECK(contents(out).size() == 3 + 28 + 34 + 10 + 7);
+
+        const auto surface = make_rays_surface(assembly.scene);
+        const auto ping = [&](int sensor, std::uint32_t pose) {
+            return render_ping(assembly.sonars[sensor], assembly.scene, *surface,
+                               assembly.trajectory[pose].T_world_vehicle, {mission.seed, pose});
+        };
+        const auto waterfall = data_of<float>(out / "sss/waterfall.npy", {"<f4", {7, 180}});
+        const auto echogram = data_of<float>(out / "sounder/echogram.npy", {"<f4", {60, 4}, true});
+        const auto soundings = data_of<double>(out / "mbes/soundings.npy", {"<f8", {7, 40, 5}});
+        REQUIRE(soundings.size() == 7 * 40 * 5);
+        for (std::uint32_t k = 0; k < 7; ++k) {
+            const std::vector<float> row = sidescan_row(ping(2, k));
+            CHECK(std::equal(row.begin(), row.end(), waterfall.begin() + k * 180));
+            const auto found = find_soundings(assembly.sonars[1],
+                                              assembly.trajectory[k].T_world_vehicle, ping(1, k));
+            for (std::size_t j = 0; j < 40; ++j) {
+                const double* const f = soundings.data() + (k * 40 + j) * 5;
+                CHECK(f[0] == found[j].range_m);
+                CHECK(f[3] == found[j].position.z());
+                CHECK(f[4] == found[j].quality);
+            }
+        }
+        for (std::uint32_t k = 0; k < 4; ++k) {
+            const std::vector<float> column = ping(3, 2 * k).intensity;
+            CHECK(std::equal(column.begin(), column.end(), echogram.begin() + k * 60));
+        }
+
+        // PNG: full_scale is 0.5.
+        const auto plain =
+            pixels_of<std::uint16_t>(out / "sss/waterfall.png", 180, 7, 1, OIIO::TypeDesc::UINT16);
+        for (std::size_t i = 0; i < plain.size(); ++i)
+            REQUIRE(std::fabs(plain[i] - 65535.0 * std::min(1.0F, waterfall[i] / 0.5F)) < 0.51);
+        const auto echo = pixels_of<std::uint16_t>(out / "sounder/echogram.png", 4, 60, 1,
+                                                   OIIO::TypeDesc::UINT16);
+        for (int i = 0; i < 60; ++i) {
+            for (int k = 0; k < 4; ++k) {
+                REQUIRE(std::fabs(echo[i * 4 + k] -
+                                  65535.0 * std::min(1.0F, echogram[k * 60 + i] / 0.5F)) < 0.51);
+            }
+        }
+        CHECK(OIIO::ImageInput::open((out / "sss/waterfall_view.png").string()));
+        CHECK(OIIO::ImageInput::open((out / "sounder/echogram_view.png").string()));
+    }
+
+    TEST_CASE("series: the metadata of a ping say what was measured") {
+        // The sonars are 1.5 m above the floor of the tank, mounts at the vehicle's origin.
+        const TemporaryFolder temporary;
+        const fs::path out = temporary.path / "out";
+        run(survey_mission(out));
+        const auto measured = [&](const char* file) {
+            return Json::parse(read_file(out / file, 1 << 20)).at("measured");
+        };
+        const Json row = measured("sss/meta/000003.json");
+        CHECK(row.at("altitude_m").get<double>() == doctest::Approx(1.5));
+        for (const char* side : {"port", "starboard"}) {
+            const double first = row.at("first_return_m").at(side);
+            CHECK(std::fabs(first - 1.5) < 4.7 / 90);
+        }
+        const Json column = measured("sounder/meta/000004.json");
+        CHECK(column.at("altitude_m").get<double>() == doctest::Approx(1.5));
+        CHECK(std::fabs(column.at("depth_m").get<double>() - 1.5) < 2.0 * 2.7 / 60);
+        CHECK(measured("mbes/meta/000000.json").at("soundings") == 40);
+        const Json front = Json::parse(read_file(out / "front/meta/000000.json", 1 << 20));
+        CHECK_FALSE(front.contains("measured"));
+        const Json sensors = Json::parse(read_file(out / "dataset.json", 1 << 20)).at("sensors");
+        CHECK(sensors[2].at("records").at("file") == "sss/waterfall.npy");
+        CHECK(sensors[3].at("pings") == 4);
+        CHECK(sensors[1].at("products").size() == 5);
+        CHECK_FALSE(sensors[0].contains("records"));
+    }
+
+    TEST_CASE("series: soundings as text, as a point cloud and as a map agree") {
+        const TemporaryFolder temporary;
+        const fs::path out = temporary.path / "out";
+        run(survey_mission(out));
+        const auto soundings = data_of<double>(out / "mbes/soundings.npy", {"<f8", {7, 40, 5}});
+        const CsvTable csv = read_csv(out / "mbes/soundings.csv", 1 << 20);
+        REQUIRE(csv.rows.size() == 280);
+        CHECK(csv.rows[45].fields[0] == "1");
+        CHECK(csv.rows[45].fields[2] == "5");
+        CHECK(std::fabs(std::stod(csv.rows[45].fields[6]) - soundings[45 * 5 + 3]) < 5.1e-5);
+
+        const std::string ply = read_file(out / "mbes/soundings.ply", 1 << 20);
+        const std::string mark = "end_header\n";
+        const std::size_t at = ply.find(mark) + mark.size();
+        CHECK(ply.starts_with("ply\nformat binary_little_endian 1.0\nelement vertex 280\n"));
+        REQUIRE(ply.size() == at + 280 * 28);
+        for (int k = 0; k < 280; ++k) {
+            double point[3];
+            std::memcpy(point, ply.data() + at + 28 * k, sizeof point);
+            for (int axis = 0; axis < 3; ++axis)
+                REQUIRE(point[axis] == soundings[k * 5 + 1 + axis]);
+        }
+
+        const Json map = Json::parse(read_file(out / "mbes/bathymetry.json", 1 << 20));
+        const int columns = map.at("columns");
+        const int rows = map.at("rows");
+        const double cell = map.at("cell_m");
+        const auto z =
+            pixels_of<float>(out / "mbes/bathymetry.tif", columns, rows, 1, OIIO::TypeDesc::FLOAT);
+        std::vector<double> sum(z.size(), 0.0);
+        std::vector<int> count(z.size(), 0);
+        for (int k = 0; k < 280; ++k) {
+            const double* const f = soundings.data() + k * 5;
+            if (f[4] < map.at("least_quality").get<double>()) continue;
+            const auto column =
+                static_cast<int>(std::floor((f[1] - map.at("west_m").get<double>()) / cell));
+            const auto row =
+                static_cast<int>(std::floor((map.at("north_m").get<double>() - f[2]) / cell));
+            REQUIRE(column >= 0);
+            REQUIRE(column < columns);
+            REQUIRE(row >= 0);
+            REQUIRE(row < rows);
+            sum[row * columns + column] += f[3];
+            ++count[row * columns + column];
+        }
+        for (std::size_t i = 0; i < z.size(); ++i) {
+            REQUIRE(std::isnan(z[i]) == (count[i] == 0));
+            if (count[i] > 0) REQUIRE(z[i] == doctest::Approx(sum[i] / count[i]));
+        }
+        const auto tiff = OIIO::ImageInput::open((out / "mbes/bathymetry.tif").string());
+        CHECK(tiff->spec().get_string_attribute("DateTime").empty());
+        CHECK(OIIO::ImageInput::open((out / "mbes/bathymetry.png").string()));
+    }
+
+    TEST_CASE("series: bytes depend neither on threads nor on interruptions nor on shards") {
+        const TemporaryFolder temporary;
+        const auto whole = [&] {
+            run(survey_mission(temporary.path / "whole"), {.threads = 1});
+            return dataset(temporary.path / "whole");
+        }();
+        run(survey_mission(temporary.path / "two"), {.threads = 2});
+        CHECK(dataset(temporary.path / "two") == whole);
+
+        const Mission stopped = survey_mission(temporary.path / "stopped");
+        std::atomic<bool> stop = false;
+        const RenderSummary first = run_job(
+            stopped, small_assembly(stopped, poses), {.threads = 1},
+            [&](std::uint64_t done, std::uint64_t) { stop = done >= 9; }, stop);
+        CHECK(first.stopped);
+        // What is there can be opened; what is not yet is zero; products come at the end.
+        const auto part =
+            data_of<float>(temporary.path / "stopped/sss/waterfall.npy", {"<f4", {7, 180}});
+        CHECK(std::any_of(part.begin(), part.begin() + 180, [](float v) { return v > 0.0F; }));
+        CHECK(std::all_of(part.end() - 180, part.end(), [](float v) { return v == 0.0F; }));
+        CHECK_FALSE(fs::exists(temporary.path / "stopped/sss/waterfall.png"));
+        const RenderSummary second = run(stopped);
+        CHECK(second.skipped == first.pings);
+        CHECK(dataset(temporary.path / "stopped") == whole);
+
+        const Mission shared = survey_mission(temporary.path / "shared");
+        CHECK_FALSE(run(shared, {.shard = 1, .shards = 2}).complete);
+        CHECK(run(shared, {.shard = 0, .shards = 2}).complete);
+        CHECK(dataset(temporary.path / "shared") == whole);
+    }
+
+    TEST_CASE("series: shards merged by copying lose records, and one more run brings them back") {
+        const TemporaryFolder temporary;
+        run(survey_mission(temporary.path / "whole"));
+        const fs::path merged = temporary.path / "merged";
+        for (int shard = 0; shard < 2; ++shard) {
+            const fs::path out = temporary.path / std::to_string(shard);
+            run(survey_mission(out), {.shard = shard, .shards = 2});
+            fs::copy(out, merged,
+                     fs::copy_options::recursive | fs::copy_options::overwrite_existing);
+        }
+        const RenderSummary summary = run(survey_mission(merged));
+        CHECK(summary.pings > 0);
+        CHECK(summary.complete);
+        CHECK(dataset(merged) == dataset(temporary.path / "whole"));
+    }
+
+    TEST_CASE("series: what is missing is made again, a finished dataset is left alone") {
+        const TemporaryFolder temporary;
+        const fs::path out = temporary.path / "out";
+        const Mission mission = survey_mission(out);
+        run(mission);
+        const auto whole = dataset(out);
+        const auto before = fs::last_write_time(out / "sss/waterfall.npy");
+        CHECK(run(mission).pings == 0);
+        CHECK(fs::last_write_time(out / "sss/waterfall.npy") == before);
+
+        fs::remove(out / "sss/waterfall.npy");
+        fs::remove(out / "mbes/bathymetry.tif");
+        write_file(out / "mbes/.soundings.csv.123.part", "half");
+        const RenderSummary again = run(mission);
+        CHECK(again.pings == 7);
+        CHECK(again.complete);
+        CHECK(dataset(out) == whole);
+
+        fs::remove(out / "sounder/echogram_view.png");
+        CHECK(run(mission).pings == 0);
+        CHECK(dataset(out) == whole);
+
+        write_file(out / "sss/mine.txt", "mine");
+        const RenderSummary anew = run(mission, {.overwrite = true});
+        CHECK(anew.pings == 25);
+        CHECK(fs::remove(out / "sss/mine.txt"));
+        CHECK(dataset(out) == whole);
+    }
+
+    TEST_CASE("series: output chooses them") {
+        const TemporaryFolder temporary;
+        const fs::path out = temporary.path / "out";
+        Mission mission = survey_mission(out);
+        mission.output.waterfall = mission.output.soundings = false;
+        mission.output.polar = mission.output.image = mission.output.fan = false;
+        CHECK(run(mission).complete);
+        CHECK_FALSE(fs::exists(out / "sss/waterfall.npy"));
+        CHECK_FALSE(fs::exists(out / "mbes/soundings.csv"));
+        CHECK(fs::exists(out / "sounder/echogram.npy"));
+        CHECK(fs::exists(out / "sss/meta/000006.json"));
+    }
+
+    TEST_CASE("series: more pings than a picture can be long are averaged") {
+        const TemporaryFolder temporary;
+        SonarConfig config = default_sonar(SonarKind::echosounder);
+        config.name = "sounder";
+        config.range_bins = 4;
+        const Sonar sonar = make_sonar(config, {});
+        constexpr std::size_t pings = most_picture_rows + 3;  // two to a column, the last alone
+        const RecordFile file(temporary.path / "echogram.npy", {"<f4", {4, pings}, true}, pings);
+        const std::vector<float> one(4, 1.0F);
+        file.write(1, std::as_bytes(std::span(one)));
+        file.write(pings - 1, std::as_bytes(std::span(one)));
+        write_echogram(sonar, 1.0, file, temporary.path);
+        constexpr int width = most_picture_rows / 2 + 2;
+        const auto pixels = pixels_of<std::uint16_t>(temporary.path / "echogram.png", width, 4, 1,
+                                                     OIIO::TypeDesc::UINT16);
+        CHECK(pixels[0] == 32768);
+        CHECK(pixels[1] == 0);
+        CHECK(pixels[width - 1] == 65535);
+    }
+}

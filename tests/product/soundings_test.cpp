@@ -1,0 +1,144 @@
+#include "product/soundings.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <random>
+
+#include "core/units.h"
+#include "product/bathymetry.h"
+
+using namespace sonarsim;
+
+namespace {
+
+/// Three beams of 40 degrees, 100 bins of 10 cm from 0.
+Sonar three_beams(bool scale_with_range = false) {
+    SonarConfig config = default_sonar(SonarKind::profiling);
+    config.name = "mbes";
+    config.range_min_m = 0.0;
+    config.range_max_m = 10.0;
+    config.range_bins = 100;
+    config.azimuth_bins = 3;
+    config.noise.scale_with_range = scale_with_range;
+    return make_sonar(config, {});
+}
+
+Ping dark(const Sonar& sonar) {
+    return {100, 3, std::vector<float>(100 * sonar.settings.view.beams, 0.0F), {}, {}};
+}
+
+}  // namespace
+
+TEST_SUITE("product") {
+    TEST_CASE("soundings: the centre of mass around the peak, in the world") {
+        const Sonar sonar = three_beams();
+        Ping ping = dark(sonar);
+        // Beam 1, straight down: bins 50 and 51 of weights 3 and 1: 5.05 + 0.025... the second one
+        // is below half and left out of the run, so it counts as outside.
+        ping.intensity[50 * 3 + 1] = 0.3F;
+        ping.intensity[51 * 3 + 1] = 0.1F;
+        // Beam 2, 40 degrees to port: three bins 60, 61, 62 of weights 2, 4, 3: centre of mass
+        // (2 * 6.05 + 4 * 6.15 + 3 * 6.25) / 9 = 6.16111.
+        ping.intensity[60 * 3 + 2] = 0.2F;
+        ping.intensity[61 * 3 + 2] = 0.4F;
+        ping.intensity[62 * 3 + 2] = 0.3F;
+        // The bow along world y: port is -x.
+        const Pose pose{rotation_from_rpy(0.0, 0.0, 0.5 * pi), {100.0, 200.0, 7.0}};
+        const std::vector<Sounding> soundings = find_soundings(sonar, pose, ping);
+        CHECK(std::isnan(soundings[0].range_m));
+        CHECK(std::isnan(soundings[0].position.z()));
+        CHECK(soundings[0].quality == 0.0);
+        CHECK(soundings[1].range_m == doctest::Approx(5.05));
+        CHECK((soundings[1].position - Eigen::Vector3d(100.0, 200.0, 1.95)).norm() < 1e-9);
+        CHECK(soundings[1].quality == doctest::Approx(1.0 - (0.1 / 99.0) / 0.3));
+        const double range = (2 * 6.05 + 4 * 6.15 + 3 * 6.25) / 9.0;
+        CHECK(soundings[2].range_m == doctest::Approx(range));
+        CHECK(soundings[2].quality == doctest::Approx(1.0));
+        const Eigen::Vector3d expected(100.0 - range * std::sin(radians(40.0)), 200.0,
+                                       7.0 - range * std::cos(radians(40.0)));
+        CHECK((soundings[2].position - expected).norm() < 1e-9);
+    }
+
+    TEST_CASE("soundings: noise that grows with range does not hide a bottom that is near") {
+        // The bottom at 3 m of strength 0.05; noise (r / r_max)^2 times Rayleigh of scale 0.02, so
+        // up to 0.06 at 10 m, above the bottom, but 0.005 at 3 m.
+        const Sonar sonar = three_beams(true);
+        std::mt19937 random(3);
+        std::uniform_real_distribution<double> unit(1e-9, 1.0);
+        int lost = 0;
+        for (int trial = 0; trial < 100; ++trial) {
+            Ping ping = dark(sonar);
+            for (int i = 0; i < 100; ++i) {
+                const double r = (i + 0.5) / 100.0;
+                for (int j = 0; j < 3; ++j) {
+                    const double noise = 0.02 * r * r * std::sqrt(-2.0 * std::log(unit(random)));
+                    ping.intensity[i * 3 + j] = static_cast<float>(noise + (i == 30 ? 0.05 : 0.0));
+                }
+            }
+            for (const Sounding& sounding : find_soundings(sonar, Pose{}, ping)) {
+                lost += std::fabs(sounding.range_m - 3.05) > 0.05;
+                CHECK(sounding.quality > map_quality);
+            }
+        }
+        CHECK(lost == 0);
+    }
+
+    TEST_CASE("bathymetry: means per cell, north up") {
+        SoundingBounds bounds;
+        const Eigen::Vector3d points[] = {
+            {0.2, 0.3, -5}, {0.7, 0.9, -6}, {2.5, 0.5, -7}, {1.5, -1.5, -8}};
+        for (const Eigen::Vector3d& point : points)
+            bounds.add(point);
+        Bathymetry grid = make_bathymetry(bounds, 1.0);
+        CHECK(grid.columns == 3);
+        CHECK(grid.rows == 3);
+        CHECK(grid.west_m == 0.0);
+        CHECK(grid.north_m == 1.0);
+        for (const Eigen::Vector3d& point : points)
+            grid.add(point);
+        const std::vector<float> z = grid.mean_z();
+        CHECK(z[0] == -5.5F);
+        CHECK(std::isnan(z[1]));
+        CHECK(z[2] == -7.0F);
+        CHECK(z[2 * 3 + 1] == -8.0F);
+        grid.add({-0.1, 0.5, 100.0});  // outside: dropped, not clamped
+        CHECK(grid.mean_z()[0] == -5.5F);
+    }
+
+    TEST_CASE("bathymetry: cells suit the soundings, and never are too many") {
+        SoundingBounds bounds;
+        bounds.add({0, 0, 0});
+        bounds.add({40, 20, 0});
+        bounds.count = 32'000;  // 4 * 800 m^2 / 32000 = 0.1 m^2: cells of 0.32 m, rounded up
+        CHECK(make_bathymetry(bounds, 0.0).cell_m == 0.5);
+        CHECK(make_bathymetry({}, 0.0).columns == 0);
+        const Bathymetry held = make_bathymetry(bounds, 1e-4);
+        CHECK(held.cell_m > 1e-3);
+        CHECK(static_cast<double>(held.columns) * held.rows <= 1 << 24);
+        SoundingBounds point;
+        point.add({3, 4, 5});
+        CHECK(make_bathymetry(point, 0.0).columns == 1);
+    }
+
+    TEST_CASE("bathymetry: the picture has the map's shape and colours from deep to shallow") {
+        SoundingBounds bounds;
+        bounds.add({0.5, 0.5, 0});
+        bounds.add({29.5, 9.5, 0});
+        Bathymetry grid = make_bathymetry(bounds, 1.0);
+        for (int x = 0; x < 30; ++x) {
+            for (int y = 0; y < 10; ++y) {
+                if (x != 15) grid.add({x + 0.5, y + 0.5, -10.0 + 0.1 * x});
+            }
+        }
+        Picture picture = draw_bathymetry(grid);
+        CHECK(picture.width == 900 + 100);  // 30 px to a cell, margins and the legend
+        const auto at = [&](int column, int row) {
+            return picture.row(10 + 30 * row + 15)[10 + 30 * column + 15];
+        };
+        CHECK(at(15, 5) == paper);         // not seen
+        CHECK(at(1, 5).b > at(1, 5).r);    // deep: blue
+        CHECK(at(28, 5).r > at(28, 5).b);  // shallow: red
+        CHECK(draw_bathymetry({}).width > 0);
+    }
+}

@@ -1,0 +1,106 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "core/units.h"
+#include "product/echogram.h"
+#include "sonar/sonar.h"
+#include "study/image_error.h"
+#include "study/reference.h"
+#include "support/scenes.h"
+#include "surface/rays.h"
+
+using namespace sonarsim;
+using namespace sonarsim::test;
+
+namespace {
+
+SonarConfig echosounder() {
+    SonarConfig config = default_sonar(SonarKind::echosounder);
+    config.name = "sounder";
+    config.range_bins = 950;  // 1 cm
+    return config;
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("sonar");
+
+TEST_CASE("echosounder: a flat bottom echoes as R H / r over the cone, from its depth on") {
+    // v . n = H / r at every point of the bottom; the cone of half-angle psi ends at H / cos psi.
+    constexpr float R = 0.6F;
+    Scene scene = empty_scene();
+    add_floor(scene, 100.0F, 0.0F, add_material(scene, R));
+    const auto surface = make_rays_surface(scene);
+    const Sonar sonar = make_sonar(echosounder(), {});
+    for (const double H : {2.003, 5.0, 9.017}) {
+        const Ping ping =
+            render_ping(sonar, scene, *surface, {Eigen::Quaterniond::Identity(), {0, 0, H}}, {});
+        REQUIRE(ping.beams == 1);
+        const double bin_m = sonar.settings.view.bin_m();
+        const double end = H / std::cos(radians(15.0));
+        CAPTURE(H);
+        CHECK(std::fabs(detected_depth(sonar, ping).value() - H) <= bin_m);
+        for (int i = 0; i < ping.range_bins; ++i) {
+            const double r = 0.5 * (sonar.range_edges_m[i] + sonar.range_edges_m[i + 1]);
+            if (r < H - bin_m || r > end + bin_m) CHECK(ping.at(i, 0) == 0.0F);
+            if (r > H + bin_m && r < end - bin_m)
+                CHECK(ping.at(i, 0) == doctest::Approx(R * H / r).epsilon(0.01));
+        }
+    }
+}
+
+TEST_CASE("echosounder: the cone has an edge") {
+    // A plate 4 m below, two degrees wide: just inside and just outside 15 degrees.
+    for (const double angle_deg : {13.0, 17.0}) {
+        Scene scene = empty_scene();
+        const auto near = static_cast<float>(4.0 * std::tan(radians(angle_deg - 1.0)));
+        const auto far = static_cast<float>(4.0 * std::tan(radians(angle_deg + 1.0)));
+        add_quad(scene, {near, -0.2F, 0}, {far, -0.2F, 0}, {far, 0.2F, 0}, {near, 0.2F, 0},
+                 add_material(scene, 1.0F));
+        const Sonar sonar = make_sonar(echosounder(), {});
+        const Ping ping = render_ping(sonar, scene, *make_rays_surface(scene),
+                                      {Eigen::Quaterniond::Identity(), {0, 0, 4}}, {});
+        CHECK((ping.counts.occupied_bins > 0) == (angle_deg < 15.0));
+        CHECK(detected_depth(sonar, ping).has_value() == (angle_deg < 15.0));
+    }
+}
+
+TEST_CASE("echosounder: range noise does not fade") {
+    // A bottom within one scatterer cell: each ping draws one w, and the echo keeps its strength
+    // wherever it lands; an imaging sonar's would be weaker by exp(-w / lambda).
+    Scene scene = empty_scene();
+    add_floor(scene, 100.0F, 0.0F, add_material(scene, 0.8F));
+    SonarConfig config = echosounder();
+    config.azimuth_deg = 1.0;
+    config.noise.range_lambda_m = 0.3;
+    config.noise.scatterer_m = 1000.0;
+    const Sonar sonar = make_sonar(config, {});
+    const auto surface = make_rays_surface(scene);
+    double latest = 0.0;
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+        const Ping ping = render_ping(sonar, scene, *surface,
+                                      {Eigen::Quaterniond::Identity(), {0, 0, 3}}, {seed, 0});
+        float brightest = 0.0F;
+        for (const float value : ping.intensity)
+            brightest = std::max(brightest, value);
+        CHECK(brightest == doctest::Approx(0.8).epsilon(1e-3));
+        latest = std::max(latest, detected_depth(sonar, ping).value() - 3.0);
+    }
+    CHECK(latest > 0.2);  // the largest of 20 draws of mean 0.3 m; below 0.2 once in 10^6
+}
+
+TEST_CASE("echosounder: on rough ground the error goal is met") {
+    const Scene scene = rough_floor();
+    const Caster caster(scene);
+    SonarConfig config = echosounder();
+    config.range_bins = 200;
+    const Sonar sonar = make_sonar(config, {0.03});
+    const Pose pose{rotation_from_rpy(0.02, -0.01, 0.4), {0.3, -0.2, 6.0}};
+    const Reference reference = cast_reference(caster, scene, sonar.settings.view,
+                                               pose * sonar.T_vehicle_sensor, {0.003, 64.0});
+    const Ping ping = render_ping(sonar, scene, *make_rays_surface(scene), pose, {});
+    CHECK(image_error(ping.intensity, reference.intensity).relative_l1 < 0.03);
+}
+
+TEST_SUITE_END();

@@ -1,0 +1,101 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "core/units.h"
+#include "product/soundings.h"
+#include "sonar/sonar.h"
+#include "study/image_error.h"
+#include "study/reference.h"
+#include "support/scenes.h"
+#include "surface/rays.h"
+
+using namespace sonarsim;
+using namespace sonarsim::test;
+
+namespace {
+
+Sonar noise_free(const SonarConfig& config) {
+    Sonar sonar = make_sonar(config, {0.03});
+    sonar.settings.pixel_noise.gain = 1.0F;
+    return sonar;
+}
+
+SonarConfig profiling() {
+    SonarConfig config = default_sonar(SonarKind::profiling);
+    config.name = "mbes";
+    return config;
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("sonar");
+
+TEST_CASE("profiling: soundings lie on a flat bottom within a quarter of a range bin") {
+    // Without noise all bins that the bottom touches are equally bright, so the centre of mass is
+    // that of whole bins. Were the ends of the footprint evenly spread over the bins, that would be
+    // off by sqrt((1 - f)^3 + f^3) / sqrt(12) bins for a footprint of f bins, 0.20 on average.
+    Scene scene = empty_scene();
+    add_floor(scene, 200.0F, 0.0F, add_material(scene, 0.5F));
+    const auto surface = make_rays_surface(scene);
+    const Sonar sonar = noise_free(profiling());
+    const double bin_m = sonar.settings.view.bin_m();
+    for (const double H : {8.0, 12.37, 20.02, 30.3}) {
+        const Pose pose{rotation_from_rpy(0.0, 0.0, 1.0), {10.0, -5.0, H}};
+        const Ping ping = render_ping(sonar, scene, *surface, pose, {});
+        const std::vector<Sounding> soundings = find_soundings(sonar, pose, ping);
+        REQUIRE(soundings.size() == 480);
+        double square = 0.0;
+        double mean = 0.0;
+        for (std::size_t j = 0; j < soundings.size(); ++j) {
+            const double azimuth =
+                0.5 * (sonar.azimuth_edges_rad[j] + sonar.azimuth_edges_rad[j + 1]);
+            const double off = soundings[j].range_m - H / std::cos(azimuth);
+            square += off * off;
+            mean += off;
+            CHECK(soundings[j].quality == doctest::Approx(1.0));
+        }
+        CAPTURE(H);
+        CHECK(std::sqrt(square / 480.0) <= 0.25 * bin_m);
+        CHECK(std::fabs(mean / 480.0) <= 0.1 * bin_m);
+        // Port is at the high azimuths: with the bow at yaw 1 it lies along (-sin 1, cos 1).
+        const Eigen::Vector3d port = soundings.back().position - pose.translation;
+        const double reach = H * std::tan(sonar.azimuth_edges_rad[479]);
+        CHECK(port.x() == doctest::Approx(-std::sin(1.0) * reach).epsilon(0.02));
+        CHECK(port.y() == doctest::Approx(std::cos(1.0) * reach).epsilon(0.02));
+        CHECK(std::fabs(port.z() + H) < 2.0 * bin_m);
+    }
+}
+
+TEST_CASE("profiling: on rough ground the error goal is met, and soundings have no bias") {
+    const Scene scene = rough_floor();
+    const Caster caster(scene);
+    SonarConfig config = profiling();
+    config.range_max_m = 20.0;
+    config.range_bins = 400;
+    config.azimuth_bins = 240;
+    const Sonar sonar = noise_free(config);
+    const Pose pose{rotation_from_rpy(0.02, -0.01, 0.4), {0.3, -0.2, 6.0}};
+    const Reference reference = cast_reference(caster, scene, sonar.settings.view,
+                                               pose * sonar.T_vehicle_sensor, {0.005, 64.0});
+    const auto surface = make_rays_surface(scene);
+    const Ping ping = render_ping(sonar, scene, *surface, pose, {});
+    CHECK(image_error(ping.intensity, reference.intensity).relative_l1 < 0.03);
+
+    // The truth of a beam is the range along its centre.
+    const Pose T_world_sensor = pose * sonar.T_vehicle_sensor;
+    double bias = 0.0;
+    const std::vector<Sounding> soundings = find_soundings(sonar, pose, ping);
+    for (std::size_t j = 0; j < soundings.size(); ++j) {
+        const double azimuth = 0.5 * (sonar.azimuth_edges_rad[j] + sonar.azimuth_edges_rad[j + 1]);
+        const Ray ray{Eigen::Vector3f::Zero(),
+                      Eigen::Vector3d(std::cos(azimuth), std::sin(azimuth), 0.0).cast<float>()};
+        Hit hit{};
+        surface->hit(T_world_sensor, {&ray, 1}, {&hit, 1});
+        bias += soundings[j].range_m - hit.distance_m;
+    }
+    bias /= static_cast<double>(soundings.size());
+    CHECK(std::fabs(bias) <= 0.1 * sonar.settings.view.bin_m());
+}
+
+TEST_SUITE_END();

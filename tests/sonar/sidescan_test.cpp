@@ -1,0 +1,138 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "core/units.h"
+#include "product/sidescan_row.h"
+#include "sonar/sonar.h"
+#include "study/image_error.h"
+#include "study/reference.h"
+#include "support/scenes.h"
+#include "surface/rays.h"
+
+using namespace sonarsim;
+using namespace sonarsim::test;
+
+namespace {
+
+constexpr float R = 0.5F;   // of the bottom
+constexpr double H = 5.02;  // altitude, not at the edge of a bin
+
+SonarConfig sidescan() {
+    SonarConfig config = default_sonar(SonarKind::sidescan);
+    config.name = "sss";
+    config.range_max_m = 25.5;
+    config.range_bins = 500;  // 5 cm
+    return config;
+}
+
+Scene flat_bottom() {
+    Scene scene = empty_scene();
+    add_floor(scene, 100.0F, 0.0F, add_material(scene, R));
+    return scene;
+}
+
+Ping look(const Scene& scene, const Sonar& sonar, double yaw = 0.0) {
+    const Pose pose{rotation_from_rpy(0.0, 0.0, yaw), {0.0, 0.0, H}};
+    return render_ping(sonar, scene, *make_rays_surface(scene), pose, {});
+}
+
+double centre(const Sonar& sonar, int i) {
+    return 0.5 * (sonar.range_edges_m[i] + sonar.range_edges_m[i + 1]);
+}
+
+int bin_of(const Sonar& sonar, double range) {
+    return static_cast<int>((range - sonar.settings.view.range_min_m) /
+                            sonar.settings.view.bin_m());
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("sonar");
+
+TEST_CASE(
+    "sidescan: a flat bottom first returns at its altitude, then I = R H / r, on both sides") {
+    // v . n = H / r everywhere, whatever the weights. The swath of 170 degrees reaches
+    // H / cos(85 deg) = 58 m, beyond the range.
+    const Scene scene = flat_bottom();
+    const Sonar sonar = make_sonar(sidescan(), {});
+    const Ping ping = look(scene, sonar);
+    REQUIRE(ping.beams == 2);
+    const int first = bin_of(sonar, H);
+    for (int side = 0; side < 2; ++side) {
+        for (int i = 0; i < first; ++i)
+            CHECK(ping.at(i, side) == 0.0F);
+        CHECK(ping.at(first, side) == doctest::Approx(R).epsilon(0.01));
+        for (int i = first + 1; i < ping.range_bins; ++i)
+            CHECK(ping.at(i, side) == doctest::Approx(R * H / centre(sonar, i)).epsilon(0.01));
+    }
+    const FirstReturns returns = first_returns(sonar, ping);
+    CHECK(std::fabs(returns.port_m.value() - H) <= sonar.settings.view.bin_m());
+    CHECK(std::fabs(returns.starboard_m.value() - H) <= sonar.settings.view.bin_m());
+}
+
+TEST_CASE("sidescan: a box casts a shadow of length r h / (H - h) on its far side") {
+    // A box of height h whose outer upper edge lies at ground distance y: the ray over it meets the
+    // bottom at y H / (H - h). In slant range from the edge, r = sqrt(y^2 + (H - h)^2), the shadow
+    // ends at r H / (H - h): its length is r h / (H - h), beginning at the edge's range.
+    constexpr double h = 1.0;
+    constexpr double y = 6.0;
+    Scene scene = flat_bottom();
+    add_box(scene, {-1.0F, 5.0F, 0.0F}, {1.0F, static_cast<float>(y), static_cast<float>(h)},
+            add_material(scene, 0.9F));
+    const Sonar sonar = make_sonar(sidescan(), {});
+    const Ping ping = look(scene, sonar);
+    const double r = std::sqrt(y * y + (H - h) * (H - h));
+    const double length = r * h / (H - h);
+    int first = bin_of(sonar, r) + 1;
+    while (ping.at(first, 1) > 0.0F)
+        ++first;
+    int last = first;
+    while (ping.at(last, 1) == 0.0F)
+        ++last;
+    CHECK(std::fabs(sonar.range_edges_m[first] - r) <= 2.0 * sonar.settings.view.bin_m());
+    CHECK(std::fabs(sonar.range_edges_m[last] - (r + length)) <= 2.0 * sonar.settings.view.bin_m());
+    // Before the box, and on the other side, the bottom is lit.
+    CHECK(ping.at(bin_of(sonar, 6.5), 1) > 0.0F);
+    for (int i = bin_of(sonar, H) + 1; i < ping.range_bins; ++i)
+        CHECK(ping.at(i, 0) > 0.0F);
+}
+
+TEST_CASE("sidescan: a target to port is in the left half only; turned round, in the right") {
+    Scene scene = empty_scene();
+    add_sphere(scene, {0.0F, 8.0F, 1.0F}, 0.5F, add_material(scene, 1.0F), 64);
+    const Sonar sonar = make_sonar(sidescan(), {});
+    const std::vector<float> there = sidescan_row(look(scene, sonar));
+    const std::vector<float> back = sidescan_row(look(scene, sonar, pi));
+    const std::size_t n = there.size() / 2;
+    REQUIRE(n == 500);
+    float left = 0.0F;
+    float mirrored = 0.0F;
+    for (std::size_t k = 0; k < n; ++k) {
+        left += there[k];
+        CHECK(there[n + k] == 0.0F);
+        CHECK(back[k] == 0.0F);
+        mirrored += std::fabs(back[2 * n - 1 - k] - there[k]);
+    }
+    CHECK(left > 0.0F);
+    CHECK(mirrored < 0.02F * left);
+    // Its near side is at sqrt(8^2 + (H - 1)^2) - 0.5 = 8.45 m; range grows to the left.
+    std::size_t nearest = n - 1;
+    while (there[nearest] == 0.0F)
+        --nearest;
+    CHECK(std::fabs(centre(sonar, static_cast<int>(n - 1 - nearest)) -
+                    (std::hypot(8.0, H - 1.0) - 0.5)) <= 0.1);
+}
+
+TEST_CASE("sidescan: on rough ground the error goal is met") {
+    const Scene scene = rough_floor();
+    const Caster caster(scene);
+    const Sonar sonar = make_sonar(sidescan(), {0.03});
+    const Pose pose{rotation_from_rpy(0.02, -0.01, 0.4), {0.3, -0.2, H}};
+    const Reference reference = cast_reference(caster, scene, sonar.settings.view,
+                                               pose * sonar.T_vehicle_sensor, {0.003, 64.0});
+    const Ping ping = render_ping(sonar, scene, *make_rays_surface(scene), pose, {});
+    CHECK(image_error(ping.intensity, reference.intensity).relative_l1 < 0.03);
+}
+
+TEST_SUITE_END();
