@@ -52,8 +52,10 @@ enum class MultipathMethod { none, cluster, exact };
 /// as the rest of a ping.
 struct MultipathConfig {
     MultipathMethod method = MultipathMethod::none;
-    int epsilon_bins = 5;     ///< size of a cluster in range, beam and elevation
-    double delta_deg = 15.0;  ///< angle between normals within a cluster
+    int epsilon_bins = 5;  ///< size of a cluster in range, beam and elevation
+    /// Between normals within a cluster. The paper's 15 miss more than 5 % of the bins on a rough
+    /// sea floor, 5 miss 2 %, for a tenth more rays.
+    double delta_deg = 5.0;
 
     bool operator==(const MultipathConfig&) const = default;
 };

@@ -83,7 +83,7 @@ sensors:
     multipath:
       method: none
       epsilon_bins: 5
-      delta_deg: 15
+      delta_deg: 5
     noise:
       range_lambda_m: 0
       scatterer_m: 0.02

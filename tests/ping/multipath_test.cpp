@@ -365,7 +365,7 @@ TEST_CASE("clusters light the bins that the exact method lights") {
     };
     const auto compare = [](const Scene& scene, const View& view, const Pose& pose, Tally& tally) {
         const Found exact = find(scene, view, clusters_of(0), pose);
-        const Found cluster = find(scene, view, clusters_of(5), pose);
+        const Found cluster = find(scene, view, clusters_of(5, 5.0), pose);
         const std::vector<float> truth = image_of(exact, view);
         const std::vector<float> image = image_of(cluster, view);
         for (std::size_t k = 0; k < truth.size(); ++k) {
@@ -378,17 +378,21 @@ TEST_CASE("clusters light the bins that the exact method lights") {
     };
     View view = fan(60.0, 12.0);
     view.beams = 256;
+    // Poses by rule, not by choice, and the bins of all of them together. Single poses do worse: of
+    // the 43 that see multipath in the tank, k = 6, 28 and 48 have 7, 14 and 5 % of false bins.
+    const auto pose = [](int k, double z) {
+        return Pose{rotation_from_rpy(0.0, radians(6.0 + 4.0 * (k % 5)), radians(37.0 * k)),
+                    {2.5 * std::sin(1.3 * k), 1.8 * std::cos(2.1 * k), z}};
+    };
+    const Scene walls = tank();
+    const Scene waves = rough_seafloor();
     Tally in_tank;
-    for (const Pose& pose : tank_poses)
-        compare(tank(), view, pose, in_tank);
+    for (int k = 0; k < 60; ++k)
+        compare(walls, view, pose(k, 1.5), in_tank);
     view.range_max_m = 15.0;
     Tally at_sea;
-    for (int k = 0; k < 8; ++k) {
-        compare(
-            rough_seafloor(), view,
-            {rotation_from_rpy(0.0, radians(8.0 + 2.0 * k), radians(40.0 * k)), {1.0, 0.4, 1.5}},
-            at_sea);
-    }
+    for (int k = 0; k < 60; ++k)
+        compare(waves, view, pose(k, 1.3 + 0.35 * (k % 4)), at_sea);
     for (const Tally& tally : {in_tank, at_sea}) {
         CHECK(tally.exact > 200);
         CHECK(tally.missed < 0.05 * tally.exact);
