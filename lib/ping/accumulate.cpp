@@ -1,6 +1,7 @@
 #include "ping/accumulate.h"
 
 #include <algorithm>
+#include <array>
 
 namespace sonarsim {
 
@@ -20,34 +21,38 @@ std::uint64_t accumulate(const Echoes& echoes, std::size_t begin, std::size_t en
     // An echo without depth still needs a width to be divided by.
     constexpr float thinnest = 1e-3F;
     std::uint64_t outside = 0;
-    for (std::size_t k = begin; k < end; ++k) {
-        const float centre = (echoes.range_m[k] - bins.min_m) * per_bin;
-        const float half = std::max(echoes.half_m[k] * per_bin, thinnest);
-        const float low = std::max(centre - half, 0.0F);
-        const float high = std::min(centre + half, count);
-        if (!(low < high)) {
-            ++outside;
-            continue;
+    // First the boxes of a block, in vectors; then the sums, which cannot be.
+    constexpr std::size_t block = 64;
+    std::array<float, block> low, high, density;
+    for (std::size_t from = begin; from < end; from += block) {
+        const std::size_t boxes = std::min(block, end - from);
+        for (std::size_t k = 0; k < boxes; ++k) {
+            const float centre = (echoes.range_m[from + k] - bins.min_m) * per_bin;
+            const float half = std::max(echoes.half_m[from + k] * per_bin, thinnest);
+            low[k] = std::max(centre - half, 0.0F);
+            high[k] = std::min(centre + half, count);
+            density[k] = echoes.weight[from + k] / (2.0F * half);
         }
-        const float density = echoes.weight[k] / (2.0F * half);
-        const float echo = density * echoes.intensity[k];
-        const int first = static_cast<int>(low);
-        const int last = std::min(static_cast<int>(high), bins.count - 1);
-        if (first == last) {
-            sums.weight[first] += density * (high - low);
-            sums.echo[first] += echo * (high - low);
-            continue;
+        for (std::size_t k = 0; k < boxes; ++k) {
+            if (!(low[k] < high[k])) {
+                ++outside;
+                continue;
+            }
+            const float echo = density[k] * echoes.intensity[from + k];
+            const int first = static_cast<int>(low[k]);
+            const int last = std::min(static_cast<int>(high[k]), bins.count - 1);
+            // A box within one bin is all head; no branch, for it could not be foretold.
+            const float head = std::min(static_cast<float>(first + 1), high[k]) - low[k];
+            const float tail = first < last ? high[k] - static_cast<float>(last) : 0.0F;
+            sums.weight[first] += density[k] * head;
+            sums.echo[first] += echo * head;
+            sums.weight[last] += density[k] * tail;
+            sums.echo[last] += echo * tail;
+            for (int i = first + 1; i < last; ++i) {
+                sums.weight[i] += density[k];
+                sums.echo[i] += echo;
+            }
         }
-        const float head = static_cast<float>(first + 1) - low;
-        sums.weight[first] += density * head;
-        sums.echo[first] += echo * head;
-        for (int i = first + 1; i < last; ++i) {
-            sums.weight[i] += density;
-            sums.echo[i] += echo;
-        }
-        const float tail = high - static_cast<float>(last);
-        sums.weight[last] += density * tail;
-        sums.echo[last] += echo * tail;
     }
     return outside;
 }

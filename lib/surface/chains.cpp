@@ -274,7 +274,7 @@ Sampling sampling_for(const View& view) {
         ++sampling.levels;
     const auto slack = static_cast<float>(std::clamp(scale, 0.1, 2.0));
     sampling.tolerance_m = slack * static_cast<float>(view.bin_m());
-    sampling.tolerance_cosine = 0.09F * slack;
+    sampling.tolerance_cosine = 0.1F * slack;
     return sampling;
 }
 
