@@ -44,7 +44,7 @@ double finest_bin_m(const Mission& mission) {
 
 std::vector<Setting> make_ladder(const Mission& mission, bool quick) {
     const std::vector<double> goals =
-        quick ? std::vector{0.1, 0.03, 0.01} : std::vector{0.3, 0.1, 0.03, 0.01, 0.003};
+        quick ? std::vector{0.1, 0.03, 0.01} : std::vector{0.3, 0.1, 0.06, 0.03, 0.01, 0.003};
     const std::vector<double> leaves =
         quick ? std::vector{0.08, 0.04} : std::vector{0.08, 0.04, 0.02, 0.01};
     std::vector<Setting> ladder;
