@@ -3,7 +3,6 @@
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/spdlog.h>
 
-#include <chrono>
 #include <memory>
 
 #include "commands.h"
@@ -11,8 +10,10 @@
 #include "dataset/png.h"
 #include "logging.h"
 #include "mission_options.h"
+#include "study/bench.h"
 #include "study/cold_start.h"
 #include "study/ladder.h"
+#include "study/multipath_rows.h"
 #include "study/report_files.h"
 #include "study/report_plot.h"
 #include "study/report_text.h"
@@ -32,11 +33,6 @@ struct ReportArguments {
     LogOptions log;
 };
 
-double seconds_now() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
-        .count();
-}
-
 void write_plot(const std::filesystem::path& stem, const Plot& plot) {
     const Drawing drawing = draw_log_log(plot);
     write_file(stem.string() + ".svg", svg_text(drawing));
@@ -48,6 +44,7 @@ void write_files(const Report& report, const std::filesystem::path& folder) {
     std::filesystem::create_directories(folder);
     write_file(folder / "report.json", report_json(report));
     write_file(folder / "report.csv", report_csv(report));
+    if (!report.multipath.empty()) write_file(folder / "multipath.csv", multipath_csv(report));
     write_file(folder / "report.md", report_markdown(report));
     for (const ReferenceQuality& reference : report.references) {
         const std::string& sensor = reference.sensor;
@@ -79,6 +76,7 @@ int report(const ReportArguments& arguments) {
     const std::vector<ColdStart> cold =
         measure_cold_starts(mission, assembly, ladder, options, assembled_s);
     Report result = make_report(mission, assembly, ladder, cold, options, progress);
+    result.multipath = measure_multipath(mission, assembly, options, progress);
     if (arguments.scale) {
         result.growth =
             measure_growth(mission, assembly, arguments.most_triangles, options, progress);

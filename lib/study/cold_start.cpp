@@ -7,11 +7,11 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <chrono>
 #include <stdexcept>
 #include <system_error>
 #include <type_traits>
 
+#include "study/bench.h"
 #include "surface/octree.h"
 
 namespace sonarsim {
@@ -19,11 +19,6 @@ namespace sonarsim {
 namespace {
 
 static_assert(std::is_trivially_copyable_v<ColdStart>, "it goes through a pipe as it is");
-
-double seconds_now() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
-        .count();
-}
 
 [[noreturn]] void fail(const char* what) {
     throw std::system_error(errno, std::generic_category(), what);

@@ -6,10 +6,10 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdlib>
 #include <memory>
 
+#include "study/bench.h"
 #include "study/fit.h"
 #include "study/image_error.h"
 #include "study/reference.h"
@@ -17,16 +17,6 @@
 namespace sonarsim {
 
 namespace {
-
-double seconds_now() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
-        .count();
-}
-
-/// The times of one setting at one pose, over all rounds; milliseconds.
-struct PoseTimes {
-    std::vector<double> ping, trace, accumulate, noise, bare;
-};
 
 /// A sonar with a setting, on its way through the rounds.
 struct Trial {
@@ -37,27 +27,20 @@ struct Trial {
 };
 
 /// What all trials share.
-struct Bench {
-    const Scene& scene;
+struct Stand {
+    Bench bench;
     const Caster& caster;
-    std::vector<Pose> poses;
-    std::vector<std::uint32_t> indices;  ///< of the poses on the trajectory
-    std::uint64_t seed;
-    int threads;
-    int rounds;
-
-    Ping ping(const Sonar& sonar, const Surface& surface, std::size_t p) const {
-        return render_ping(sonar, scene, surface, poses[p], {seed, indices[p]});
-    }
+    ReportOptions options;  ///< with the number of threads found out
 };
 
 /// Milliseconds of bare Embree: rays from the sensor to every sample, in the order of the samples.
-double bare_ms(const Bench& bench, const Sonar& sonar, const Surface& surface, std::size_t p) {
-    const Pose T_world_sensor = bench.poses[p] * sonar.T_vehicle_sensor;
+double bare_ms(const Stand& stand, const Sonar& sonar, const Surface& surface, std::size_t p) {
+    const Pose T_world_sensor = stand.bench.poses[p] * sonar.T_vehicle_sensor;
     Samples samples;
     surface.look(sonar.settings.view, T_world_sensor, samples);
     const Eigen::Matrix3f R = T_world_sensor.rotation.toRotationMatrix().cast<float>();
-    const Eigen::Vector3f origin = (T_world_sensor.translation - bench.scene.origin).cast<float>();
+    const Eigen::Vector3f origin =
+        (T_world_sensor.translation - stand.bench.scene.origin).cast<float>();
     std::vector<Eigen::Vector3f> directions(samples.items.size());
     std::vector<std::uint32_t> facets(samples.items.size());
     for (std::size_t i = 0; i < directions.size(); ++i) {
@@ -65,39 +48,16 @@ double bare_ms(const Bench& bench, const Sonar& sonar, const Surface& surface, s
     }
     const auto reach = static_cast<float>(sonar.settings.view.range_max_m) * 1.01F;
     const double start = seconds_now();
-    bench.caster.cast(origin, directions, reach, facets);
+    stand.caster.cast(origin, directions, reach, facets);
     return 1e3 * (seconds_now() - start);
 }
 
-/// One visit of a round: a ping to warm the caches after the other settings, then the ones that
-/// count. A slow setting needs neither.
-void visit(const Bench& bench, Trial& trial, std::size_t p) {
-    constexpr double slow_ms = 100.0;
-    constexpr int repeats = 3;
-    PoseTimes& times = trial.poses[p];
-    const auto timed = [&] {
-        const double start = seconds_now();
-        const Ping ping = bench.ping(trial.noisy, *trial.surface, p);
-        const double ms = 1e3 * (seconds_now() - start);
-        return std::pair{ms, ping.seconds};
-    };
-    auto [ms, stages] = timed();
-    const int count = ms > slow_ms ? 1 : repeats;
-    for (int k = 0; k < count; ++k) {
-        if (count > 1) std::tie(ms, stages) = timed();
-        times.ping.push_back(ms);
-        times.trace.push_back(1e3 * stages.trace);
-        times.accumulate.push_back(1e3 * stages.accumulate);
-        times.noise.push_back(1e3 * stages.noise);
-    }
-    times.bare.push_back(bare_ms(bench, trial.noisy, *trial.surface, p));
-}
-
 /// Pings per second with all threads at work for about a quarter of a second.
-double rate(const Bench& bench, const Trial& trial) {
+double rate(const Stand& stand, const Trial& trial) {
+    const Bench& bench = stand.bench;
+    const int threads = stand.options.threads;
     const double ms = trial.poses[0].ping.back();
-    const int count =
-        std::clamp(static_cast<int>(250.0 * bench.threads / ms), 2 * bench.threads, 2000);
+    const int count = std::clamp(static_cast<int>(250.0 * threads / ms), 2 * threads, 2000);
     const double start = seconds_now();
     tbb::parallel_for(0, count, [&](int k) {
         bench.ping(trial.noisy, *trial.surface, static_cast<std::size_t>(k) % bench.poses.size());
@@ -106,11 +66,12 @@ double rate(const Bench& bench, const Trial& trial) {
 }
 
 /// The truth at each pose.
-std::vector<Reference> cast_references(const Bench& bench, const Sonar& sonar,
-                                       const ReportOptions& options) {
+std::vector<Reference> cast_references(const Stand& stand, const Sonar& sonar) {
+    const Bench& bench = stand.bench;
+    const ReportOptions& options = stand.options;
     std::vector<Reference> references(bench.poses.size());
     tbb::parallel_for(std::size_t{0}, references.size(), [&](std::size_t p) {
-        references[p] = cast_reference(bench.caster, bench.scene, sonar.settings.view,
+        references[p] = cast_reference(stand.caster, bench.scene, sonar.settings.view,
                                        bench.poses[p] * sonar.T_vehicle_sensor,
                                        {options.reference_moved, 64.0, options.reference_rays});
     });
@@ -129,7 +90,7 @@ ReferenceQuality quality(const std::string& sensor, const std::vector<Reference>
 
 void measure_errors(const Bench& bench, const Trial& trial,
                     const std::vector<Reference>& references, ReportRow& row) {
-    const Sonar clean = without_noise(trial.noisy);
+    const Sonar clean = direct_echoes_only(trial.noisy);
     const std::size_t poses = references.size();
     std::vector<double> l1(poses);
     std::vector<double> l2(poses);
@@ -153,17 +114,12 @@ void measure_errors(const Bench& bench, const Trial& trial,
 }
 
 void summarise_times(const Trial& trial, ReportRow& row) {
-    const auto over_poses = [&](std::vector<double> PoseTimes::*stage) {
-        std::vector<double> medians;
-        for (const PoseTimes& times : trial.poses)
-            medians.push_back(spread_of_times(times.*stage).centre);
-        return spread_of_times(medians);
-    };
-    row.ms_per_ping = over_poses(&PoseTimes::ping);
-    row.ms_trace = over_poses(&PoseTimes::trace).centre;
-    row.ms_accumulate = over_poses(&PoseTimes::accumulate).centre;
-    row.ms_noise = over_poses(&PoseTimes::noise).centre;
-    row.ms_bare = over_poses(&PoseTimes::bare).centre;
+    row.ms_per_ping = over_poses(trial.poses, &PoseTimes::ping);
+    row.ms_trace = over_poses(trial.poses, &PoseTimes::trace).centre;
+    row.ms_multipath = over_poses(trial.poses, &PoseTimes::multipath).centre;
+    row.ms_accumulate = over_poses(trial.poses, &PoseTimes::accumulate).centre;
+    row.ms_noise = over_poses(trial.poses, &PoseTimes::noise).centre;
+    row.ms_bare = over_poses(trial.poses, &PoseTimes::bare).centre;
     row.pings_per_s = spread_of_times(trial.pings_per_s).centre;
 }
 
@@ -183,15 +139,16 @@ void mark_front(std::vector<ReportRow>& rows, const std::string& sensor) {
 }
 
 /// All settings on one sonar.
-void report_sonar(const Bench& bench, std::size_t index, const Assembly& assembly,
+void report_sonar(const Stand& stand, std::size_t index, const Assembly& assembly,
                   std::span<const Setting> ladder,
                   const std::vector<std::shared_ptr<const Surface>>& surfaces,
-                  std::span<const ColdStart> cold, const ReportOptions& options,
-                  const ReportProgress& progress, Report& report) {
+                  std::span<const ColdStart> cold, const ReportProgress& progress, Report& report) {
+    const Bench& bench = stand.bench;
+    const int rounds = stand.options.rounds;
     const Sonar& sonar = assembly.sonars[index];
     const std::string& name = sonar.config.name;
     progress(name + ": casting the reference");
-    const std::vector<Reference> references = cast_references(bench, sonar, options);
+    const std::vector<Reference> references = cast_references(stand, sonar);
     report.references.push_back(quality(name, references));
 
     std::vector<Trial> trials;
@@ -208,15 +165,18 @@ void report_sonar(const Bench& bench, std::size_t index, const Assembly& assembl
         if (!cold.empty()) row.cold = cold[s * assembly.sonars.size() + index];
         measure_errors(bench, trials.back(), references, row);
     }
-    for (int round = 0; round < bench.rounds; ++round) {
+    for (int round = 0; round < rounds; ++round) {
         progress(name + ": timing, round " + std::to_string(round + 1) + " of " +
-                 std::to_string(bench.rounds));
+                 std::to_string(rounds));
         for (std::size_t p = 0; p < bench.poses.size(); ++p) {
-            for (Trial& trial : trials)
-                visit(bench, trial, p);
+            for (Trial& trial : trials) {
+                PoseTimes& times = trial.poses[p];
+                visit_pose(bench, trial.noisy, *trial.surface, p, times);
+                times.bare.push_back(bare_ms(stand, trial.noisy, *trial.surface, p));
+            }
         }
         for (Trial& trial : trials)
-            trial.pings_per_s.push_back(rate(bench, trial));
+            trial.pings_per_s.push_back(rate(stand, trial));
     }
     for (std::size_t s = 0; s < rows.size(); ++s)
         summarise_times(trials[s], rows[s]);
@@ -226,7 +186,9 @@ void report_sonar(const Bench& bench, std::size_t index, const Assembly& assembl
 
 }  // namespace
 
-Sonar without_noise(Sonar sonar) {
+Sonar direct_echoes_only(Sonar sonar) {
+    sonar.settings.multipath.on = false;
+    sonar.settings.streaks.mode = StreakMode::none;
     sonar.settings.range_noise.lambda_m = 0.0F;
     sonar.settings.pixel_noise.gain = 1.0F;
     sonar.settings.pixel_noise.add_sigma = 0.0F;
@@ -254,16 +216,14 @@ Report make_report(const Mission& mission, const Assembly& assembly,
                   0.0,
                   {},
                   {},
+                  {},
                   {}};
     ::getloadavg(&report.load, 1);
     arena.execute([&] {
         const Caster caster(assembly.scene);
-        Bench bench{assembly.scene, caster, {}, {}, mission.seed, threads, options.rounds};
-        for (const std::size_t pose : spread_poses(assembly.trajectory.size(), options.poses)) {
-            bench.poses.push_back(assembly.trajectory[pose].T_world_vehicle);
-            bench.indices.push_back(static_cast<std::uint32_t>(pose));
-        }
-        report.poses = static_cast<int>(bench.poses.size());
+        Stand stand{make_bench(mission, assembly, options.poses), caster, options};
+        stand.options.threads = threads;
+        report.poses = static_cast<int>(stand.bench.poses.size());
         std::shared_ptr<const Surface> rays;  // one tree serves every error goal
         std::vector<std::shared_ptr<const Surface>> surfaces;
         for (const Setting& setting : ladder) {
@@ -273,7 +233,7 @@ Report make_report(const Mission& mission, const Assembly& assembly,
             if (setting.kind == EngineKind::rays) rays = surfaces.back();
         }
         for (std::size_t i = 0; i < assembly.sonars.size(); ++i) {
-            report_sonar(bench, i, assembly, ladder, surfaces, cold, options, progress, report);
+            report_sonar(stand, i, assembly, ladder, surfaces, cold, progress, report);
         }
     });
     return report;

@@ -44,9 +44,29 @@ struct ReportRow {
     Spread relative_l1, relative_l2, miss_rate, false_rate;  ///< noise off
     Spread samples_per_ping;
     ColdStart cold;
-    double ms_trace = 0.0, ms_accumulate = 0.0, ms_noise = 0.0;  ///< medians over the poses
+    /// Medians over the poses.
+    double ms_trace = 0.0, ms_multipath = 0.0, ms_accumulate = 0.0, ms_noise = 0.0;
     double ms_bare = 0.0;   ///< Embree alone, one ray to every sample
     bool on_front = false;  ///< no setting of this sonar is both faster and more accurate
+};
+
+/// One sonar with one way to find its multipath echoes, against tracing every sample by itself. The
+/// errors are those of the multipath echoes alone, without noise, over the bins of all poses
+/// together: single poses may light only a few.
+struct MultipathRow {
+    std::string sensor;
+    MultipathConfig setting;       ///< the exact method has 0 for epsilon and delta
+    bool current = false;          ///< what the mission itself uses
+    std::uint64_t exact_bins = 0;  ///< that the exact method lights
+    double relative_l1 = 0.0;
+    double found = 1.0;       ///< share of the bins that the exact method lights
+    double there = 1.0;       ///< share of the bins lit here that the exact method lights too
+    Spread ms_multipath;      ///< of this stage, over the poses; one thread
+    Spread ms_per_ping;       ///< noise on, one thread
+    double ms_without = 0.0;  ///< the ping without multipath, the median over the poses
+    double speed_up = 0.0;    ///< of this stage, over the exact method
+
+    double times_without() const { return ms_without > 0.0 ? ms_per_ping.centre / ms_without : 0; }
 };
 
 /// How far the truth of a sonar's images has converged.
@@ -84,6 +104,7 @@ struct Report {
     std::vector<ReportRow> rows;
     std::vector<ReferenceQuality> references;  ///< one per sonar
     std::vector<Growth> growth;
+    std::vector<MultipathRow> multipath;  ///< of the sonars that have it
 };
 
 /// Says what the report is at.
@@ -91,14 +112,14 @@ using ReportProgress = std::function<void(const std::string&)>;
 
 /// Measures every sonar of a mission with every setting of `ladder`, on poses spread along the
 /// trajectory. Settings take turns: a machine that slows down slows them all. Errors are those of
-/// the noise-free images against cast_reference. `cold` has a ColdStart per setting and sonar
-/// (sonars within settings) or is empty, for zeros.
+/// the direct echoes without noise against cast_reference. `cold` has a ColdStart per setting and
+/// sonar (sonars within settings) or is empty, for zeros.
 Report make_report(const Mission& mission, const Assembly& assembly,
                    std::span<const Setting> ladder, std::span<const ColdStart> cold,
                    const ReportOptions& options, const ReportProgress& progress);
 
-/// The sonar without what is random: what remains is the image that the errors are about.
-Sonar without_noise(Sonar sonar);
+/// The sonar without noise, multipath and streaks: what remains is what cast_reference knows.
+Sonar direct_echoes_only(Sonar sonar);
 
 /// The sonar as the setting has it.
 Sonar with_setting(const Sonar& sonar, const Setting& setting);

@@ -48,6 +48,7 @@ Json stages_of(const ReportRow& row) {
             {"on_front", row.on_front},
             {"current", row.setting.current},
             {"ms_trace", row.ms_trace},
+            {"ms_multipath", row.ms_multipath},
             {"ms_accumulate", row.ms_accumulate},
             {"ms_noise", row.ms_noise},
             {"ms_bare_embree", row.ms_bare},
@@ -75,6 +76,36 @@ Json growth_of(const Growth& growth) {
     return json;
 }
 
+/// The figures of a multipath row: epsilon and delta, then what was measured.
+std::vector<std::pair<const char*, double>> figures(const MultipathRow& row) {
+    return {{"epsilon_bins", row.setting.epsilon_bins},
+            {"delta_deg", row.setting.delta_deg},
+            {"relative_l1", row.relative_l1},
+            {"found", row.found},
+            {"there", row.there},
+            {"exact_bins", static_cast<double>(row.exact_bins)},
+            {"ms_multipath", row.ms_multipath.centre},
+            {"ms_multipath_min", row.ms_multipath.min},
+            {"ms_multipath_max", row.ms_multipath.max},
+            {"ms_per_ping", row.ms_per_ping.centre},
+            {"ms_per_ping_min", row.ms_per_ping.min},
+            {"ms_per_ping_max", row.ms_per_ping.max},
+            {"ms_without", row.ms_without},
+            {"times_without", row.times_without()},
+            {"speed_up", row.speed_up}};
+}
+
+const char* method_of(const MultipathRow& row) {
+    return row.setting.method == MultipathMethod::exact ? "exact" : "cluster";
+}
+
+Json json_of(const MultipathRow& row) {
+    Json json{{"sensor", row.sensor}, {"method", method_of(row)}, {"current", row.current}};
+    for (const auto& [name, value] : figures(row))
+        json[name] = value;
+    return json;
+}
+
 }  // namespace
 
 std::string report_json(const Report& report) {
@@ -82,7 +113,7 @@ std::string report_json(const Report& report) {
               {"triangles", report.triangles},  {"poses", report.poses},
               {"threads", report.threads},      {"load_average", report.load},
               {"goal_relative_l1", report.goal}};
-    for (const char* const list : {"rows", "stages", "reference", "growth"})
+    for (const char* const list : {"rows", "stages", "reference", "growth", "multipath_rows"})
         json[list] = Json::array();
     for (const ReportRow& row : report.rows) {
         json["rows"].push_back(json_of(row));
@@ -92,6 +123,8 @@ std::string report_json(const Report& report) {
         json["reference"].push_back(reference_of(report, reference));
     for (const Growth& growth : report.growth)
         json["growth"].push_back(growth_of(growth));
+    for (const MultipathRow& row : report.multipath)
+        json["multipath_rows"].push_back(json_of(row));
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -115,6 +148,20 @@ std::string report_csv(const Report& report) {
         for (const auto& [name, spread] : spreads(row)) {
             text += "," + number_text(spread->min) + "," + number_text(spread->max);
         }
+        text += "\n";
+    }
+    return text;
+}
+
+std::string multipath_csv(const Report& report) {
+    std::string text = "sensor,method,current";
+    for (const auto& [name, value] : figures(MultipathRow{}))
+        text += std::string(",") + name;
+    text += "\n";
+    for (const MultipathRow& row : report.multipath) {
+        text += row.sensor + "," + method_of(row) + "," + (row.current ? "true" : "false");
+        for (const auto& [name, value] : figures(row))
+            text += "," + number_text(value);
         text += "\n";
     }
     return text;

@@ -3,7 +3,9 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 namespace sonarsim {
 
@@ -11,13 +13,17 @@ namespace {
 
 /// Three significant digits, without an exponent.
 std::string short_number(double x) {
-    if (!(x > 0.0)) return "0";
+    if (!(x >= 5e-5)) return "0";
     const int digits = 2 - static_cast<int>(std::floor(std::log10(x)));
     return fmt::format("{:.{}f}", x, std::clamp(digits, 0, 4));
 }
 
 std::string percent(double x) {
     return short_number(100.0 * x) + " %";
+}
+
+std::string between(const Spread& spread) {
+    return short_number(spread.min) + "-" + short_number(spread.max);
 }
 
 std::string label(const ReportRow& row) {
@@ -53,9 +59,8 @@ std::string costs(const Report& report, const std::string& sensor) {
             "\n",
             fmt::format("{}{} {}", row.on_front ? "*" : " ", label(row),
                         row.setting.current ? "<" : ""),
-            short_number(row.ms_per_ping.centre),
-            short_number(row.ms_per_ping.min) + "-" + short_number(row.ms_per_ping.max),
-            row.pings_per_s, percent(row.relative_l1.centre),
+            short_number(row.ms_per_ping.centre), between(row.ms_per_ping), row.pings_per_s,
+            percent(row.relative_l1.centre),
             short_number(100 * row.relative_l1.min) + "-" + short_number(100 * row.relative_l1.max),
             percent(row.relative_l2.centre), percent(row.miss_rate.centre),
             percent(row.false_rate.centre), row.samples_per_ping.centre, row.cold.build_s,
@@ -65,15 +70,15 @@ std::string costs(const Report& report, const std::string& sensor) {
 }
 
 std::string stages(const Report& report, const std::string& sensor) {
-    std::string text =
-        fmt::format("{:<28}{:>9}{:>12}{:>9}{:>14}{:>12}{:>14}\n", "where it goes, ms", "trace",
-                    "accumulate", "noise", "bare Embree", "x of bare", "slowest ping");
+    std::string text = fmt::format("{:<28}{:>9}{:>11}{:>12}{:>9}{:>14}{:>12}{:>14}\n",
+                                   "where it goes, ms", "trace", "multipath", "accumulate", "noise",
+                                   "bare Embree", "x of bare", "slowest ping");
     for (const ReportRow& row : report.rows) {
         if (row.sensor != sensor) continue;
         text += fmt::format(
-            "{:<28}{:>9}{:>12}{:>9}{:>14}{:>12}{:>14}\n", " " + label(row),
-            short_number(row.ms_trace), short_number(row.ms_accumulate), short_number(row.ms_noise),
-            short_number(row.ms_bare),
+            "{:<28}{:>9}{:>11}{:>12}{:>9}{:>14}{:>12}{:>14}\n", " " + label(row),
+            short_number(row.ms_trace), short_number(row.ms_multipath),
+            short_number(row.ms_accumulate), short_number(row.ms_noise), short_number(row.ms_bare),
             row.ms_bare > 0.0 ? short_number(row.ms_per_ping.centre / row.ms_bare) : "-",
             short_number(row.cold.slowest_ms));
     }
@@ -83,20 +88,28 @@ std::string stages(const Report& report, const std::string& sensor) {
 /// How far the mission's own setting is from bare Embree, and what holds it back.
 std::string floors(const Report& report, const std::string& sensor) {
     for (const ReportRow& row : report.rows) {
-        const double sum = row.ms_trace + row.ms_accumulate + row.ms_noise;
+        const std::array<std::pair<const char*, double>, 4> parts{
+            {{"trace", row.ms_trace},
+             {"multipath", row.ms_multipath},
+             {"accumulation", row.ms_accumulate},
+             {"noise", row.ms_noise}}};
+        double sum = 0.0;
+        for (const auto& [name, ms] : parts)
+            sum += ms;
         if (row.sensor != sensor || !row.setting.current || !(sum > 0.0 && row.ms_bare > 0.0)) {
             continue;
         }
-        const double most = std::max({row.ms_trace, row.ms_accumulate, row.ms_noise});
-        const char* const stage = most == row.ms_trace        ? "the trace"
-                                  : most == row.ms_accumulate ? "the accumulation"
-                                                              : "the noise";
+        std::string shares;
+        for (const auto& [name, ms] : parts) {
+            shares +=
+                fmt::format("{}{:.0f} % {}", shares.empty() ? "" : ", ", 100.0 * ms / sum, name);
+        }
+        const auto& most =
+            *std::ranges::max_element(parts, {}, &std::pair<const char*, double>::second);
         return fmt::format(
-            "{}: a ping takes {} times what bare Embree needs for as many rays. {:.0f} % of it is "
-            "trace, {:.0f} % accumulation, {:.0f} % pixel noise; {} holds it back.\n",
-            label(row), short_number(row.ms_per_ping.centre / row.ms_bare),
-            100.0 * row.ms_trace / sum, 100.0 * row.ms_accumulate / sum, 100.0 * row.ms_noise / sum,
-            stage);
+            "{}: a ping takes {} times what bare Embree needs for as many rays: {}. The {} "
+            "holds it back.\n",
+            label(row), short_number(row.ms_per_ping.centre / row.ms_bare), shares, most.first);
     }
     return "";
 }
@@ -104,6 +117,37 @@ std::string floors(const Report& report, const std::string& sensor) {
 std::string figures(const ReportRow& row) {
     return fmt::format("{} ({} in {} ms)", label(row), percent(row.relative_l1.centre),
                        short_number(row.ms_per_ping.centre));
+}
+
+std::string label(const MultipathRow& row) {
+    const MultipathConfig& setting = row.setting;
+    if (setting.method == MultipathMethod::exact) return "exact";
+    return fmt::format("cluster epsilon={} delta={}", setting.epsilon_bins, setting.delta_deg);
+}
+
+/// The ways to find multipath, against the exact one; nothing for a sonar without multipath.
+std::string multipath(const Report& report, const std::string& sensor) {
+    std::string text;
+    for (const MultipathRow& row : report.multipath) {
+        if (row.sensor != sensor) continue;
+        if (text.empty()) {
+            text = fmt::format("\n{:<28}{:>9}{:>9}{:>9}{:>11}{:>17}{:>10}{:>10}{:>17}{:>11}\n",
+                               "multipath", "L1", "found", "there", "stage ms", "(over poses)",
+                               "speed-up", "ms/ping", "(over poses)", "x without");
+        }
+        text += fmt::format("{:<28}{:>9}{:>9}{:>9}{:>11}{:>17}{:>10}{:>10}{:>17}{:>11.2f}\n",
+                            fmt::format(" {} {}", label(row), row.current ? "<" : ""),
+                            percent(row.relative_l1), percent(row.found), percent(row.there),
+                            short_number(row.ms_multipath.centre), between(row.ms_multipath),
+                            short_number(row.speed_up), short_number(row.ms_per_ping.centre),
+                            between(row.ms_per_ping), row.times_without());
+    }
+    if (text.empty()) return text;
+    const MultipathRow& any = *std::ranges::find(report.multipath, sensor, &MultipathRow::sensor);
+    return text + fmt::format(
+                      "Of the multipath echoes alone, against the exact method, which lights {} "
+                      "bins at {} poses;\nwithout multipath a ping takes {} ms.\n",
+                      any.exact_bins, report.poses, short_number(any.ms_without));
 }
 
 std::string growth_text(const Report& report) {
@@ -158,12 +202,13 @@ std::string report_text(const Report& report) {
             "most {}\n",
             reference.rays_per_bin.centre, percent(reference.moved.centre),
             percent(reference.moved.max));
-        text += floors(report, reference.sensor) + explain_auto(report, reference.sensor) + "\n";
+        text += floors(report, reference.sensor) + explain_auto(report, reference.sensor) + "\n" +
+                multipath(report, reference.sensor);
     }
     return text + growth_text(report) +
            "* nothing is both faster and more accurate; < the mission's own setting. ms/ping on "
-           "one thread,\npings/s on all, noise on; errors without noise. MiB is the peak of a "
-           "process with this setting alone.\n";
+           "one thread,\npings/s on all, noise on; errors of the direct echoes without noise. MiB "
+           "is the peak of a process with\nthis setting alone.\n";
 }
 
 std::string report_markdown(const Report& report) {

@@ -6,8 +6,8 @@
 
 namespace sonarsim {
 
-/// The report as tables for a terminal: costs and errors, stages and floors, and per sonar what
-/// `engine: auto` takes and why.
+/// The report as tables for a terminal: costs and errors, stages and floors, per sonar what
+/// `engine: auto` takes and why, and the multipath rows.
 std::string report_text(const Report& report);
 
 /// The same tables in Markdown, for documents: one row per setting, the front in bold.

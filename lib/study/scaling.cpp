@@ -2,21 +2,16 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <map>
 #include <memory>
 #include <utility>
 
+#include "study/bench.h"
 #include "study/fit.h"
 
 namespace sonarsim {
 
 namespace {
-
-double seconds_now() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
-        .count();
-}
 
 /// Median milliseconds per ping over the poses; the first look at each pose does not count.
 double time_pings(const Mission& mission, const Assembly& assembly, const Scene& scene,

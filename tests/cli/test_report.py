@@ -39,6 +39,35 @@ class Report(Sandbox):
         self.assertLessEqual(ROW, set(rows[0]))
         xml.etree.ElementTree.parse(self.folder / "report/error_fls.svg")
         self.assertEqual((self.folder / "report/error_fls.png").read_bytes()[:4], b"\x89PNG")
+        self.assertEqual(report["multipath_rows"], [])
+        self.assertFalse((self.folder / "report/multipath.csv").exists())
+
+    def test_multipath(self):
+        self.edit("mission.yaml", "    noise:", "    multipath: {method: cluster, delta_deg: 15}\n"
+                  "    streaks: {mode: add}\n    noise:")
+        result = self.run_sonarsim("report", "mission.yaml", "--quick", "--out", "report")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("cluster epsilon=5 delta=15 <", result.stdout)
+        report = json.loads((self.folder / "report/report.json").read_text())
+        # The reference knows direct echoes only; multipath and streaks are no error against it.
+        finest = [r for r in report["rows"] if r["setting"] == "relative_l1=0.01"]
+        self.assertLess(finest[0]["relative_l1"], 0.05)
+
+        rows = report["multipath_rows"]
+        self.assertEqual([(r["epsilon_bins"], r["delta_deg"]) for r in rows],
+                         [(0, 0)] + [(e, d) for e in (1, 3, 5, 9) for d in (5, 15, 30)])
+        self.assertEqual([r["current"] for r in rows].count(True), 1)
+        # Inside a plain box every cluster meets planes.
+        for row in rows:
+            self.assertGreater(row["exact_bins"], 10)
+            self.assertGreater(row["found"], 0.95)
+            self.assertGreater(row["there"], 0.95)
+            self.assertGreater(row["times_without"], 0)
+        with open(self.folder / "report/multipath.csv", newline="") as file:
+            table = list(csv.DictReader(file))
+        self.assertEqual(len(table), len(rows))
+        self.assertEqual(list(table[0]), list(rows[0]))
+        self.assertEqual(float(table[5]["found"]), rows[5]["found"])
 
     def test_scale(self):
         result = self.run_sonarsim("report", "mission.yaml", "--quick", "--scale", "--quiet",

@@ -135,10 +135,15 @@ TEST_CASE("the ladder holds the mission's own setting once, marked, and no needl
     }
 }
 
-TEST_CASE("the error is measured without noise and gain") {
+TEST_CASE("the error is measured without noise, gain, multipath and streaks") {
     Mission mission = small_mission("unused");
+    mission.sensors[0].multipath.method = MultipathMethod::cluster;
+    mission.sensors[0].streaks.mode = StreakMode::add;
     const Assembly assembly = small_assembly(mission, 1);
-    const Sonar clean = without_noise(assembly.sonars[0]);
+    REQUIRE(assembly.sonars[0].settings.multipath.on);
+    const Sonar clean = direct_echoes_only(assembly.sonars[0]);
+    CHECK_FALSE(clean.settings.multipath.on);
+    CHECK_FALSE(clean.settings.streaks.exist());
     CHECK(clean.settings.range_noise.lambda_m == 0.0F);
     CHECK(clean.settings.pixel_noise.gain == 1.0F);
     CHECK(clean.settings.pixel_noise.add_sigma == 0.0F);

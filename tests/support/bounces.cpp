@@ -1,0 +1,33 @@
+#include "support/bounces.h"
+
+#include <cmath>
+
+#include "core/units.h"
+#include "surface/rays.h"
+
+namespace sonarsim::test {
+
+View fan(double azimuth_deg, double elevation_deg) {
+    return {radians(azimuth_deg), radians(elevation_deg), 0.5, 10.0, 512, 128, 0.03};
+}
+
+Multipath clusters_of(int epsilon, double delta_deg) {
+    return {true, {epsilon, static_cast<float>(std::cos(radians(delta_deg)))}};
+}
+
+Found find(const Scene& scene, const View& view, const Multipath& multipath, const Pose& pose) {
+    const auto surface = make_rays_surface(scene);
+    Found found;
+    surface->look(view, pose, found.samples);
+    found.bounces =
+        find_bounces(multipath, view, found.samples, scene.materials, *surface, pose, found.counts);
+    return found;
+}
+
+std::array<Pose, 3> tank_poses() {
+    return {Pose{rotation_from_rpy(0.0, radians(5.0), radians(20.0)), {-3.0, -1.0, 1.5}},
+            Pose{rotation_from_rpy(0.0, radians(10.0), radians(8.0)), {-2.7, -0.3, 1.5}},
+            Pose{rotation_from_rpy(0.0, radians(20.0), radians(-16.0)), {-2.1, 1.1, 1.5}}};
+}
+
+}  // namespace sonarsim::test
