@@ -168,7 +168,10 @@ void AngularCells::see(const Run& run, const Field& field, std::vector<SeenFacet
             next.edge_u = a * u + b * v;
             next.edge_v = a * v - b * u;
             next.rows_u = a * lanes.rows_u[k] + b * lanes.rows_v[k];
-            next.half_rows = std::max(std::fabs(a * lanes.rows_v[k] - b * lanes.rows_u[k]), 1e-4F);
+            const float rows = a * lanes.rows_v[k] - b * lanes.rows_u[k];
+            // Rows grow along edge_v, so that a piece of the facet lies where its rows are.
+            if (rows < 0.0F) next.edge_v = -next.edge_v;
+            next.half_rows = std::max(std::fabs(rows), 1e-4F);
             next.area_m2 = facets.values[FacetArrays::area][begin + k];
             next.triangle = facets.triangle[begin + k];
             next.beam = lanes.beam[k];
