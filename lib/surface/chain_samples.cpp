@@ -31,7 +31,6 @@ struct Cell {
 };
 
 struct Context {
-    const Caster& caster;
     ViewShape shape;
     const Sampling& sampling;
     const Chains& chains;
@@ -117,9 +116,9 @@ void collect(const Context& context, const Chain& chain, const std::uint8_t* spl
 
 }  // namespace
 
-void chain_samples(const Caster& caster, const View& view, const Sampling& sampling,
-                   const Chains& chains, Samples& samples) {
-    const Context context{caster, view.shape, sampling, chains};
+void chain_samples(const View& view, const Sampling& sampling, const Chains& chains,
+                   Samples& samples) {
+    const Context context{view.shape, sampling, chains};
     samples.items.clear();
     samples.items.reserve(chains.nodes.size());
     samples.beam_begin.assign(view.beams + 1, 0);

@@ -26,7 +26,7 @@ class RaysSurface final : public Surface {
         const Sampling sampling = sampling_for(view);
         const LocalPose pose = local_pose(T_world_sensor, origin_);
         const Chains chains = cast_chains(caster_, view, pose, sampling);
-        chain_samples(caster_, view, sampling, chains, samples);
+        chain_samples(view, sampling, chains, samples);
     }
 
     void hit(const Pose& T_world_sensor, std::span<const Ray> rays,
