@@ -43,6 +43,8 @@ class Report(Sandbox):
         self.assertFalse((self.folder / "report/multipath.csv").exists())
 
     def test_multipath(self):
+        # Wide enough to see the corners of the box, at 45 degrees.
+        self.edit("mission.yaml", "azimuth_deg: 60", "azimuth_deg: 120")
         self.edit("mission.yaml", "    noise:", "    multipath: {method: cluster, delta_deg: 15}\n"
                   "    streaks: {mode: add}\n    noise:")
         result = self.run_sonarsim("report", "mission.yaml", "--quick", "--out", "report")
