@@ -74,6 +74,25 @@ void print_json(const RenderSummary& summary) {
     fmt::print("{}", json_line(json));
 }
 
+/// What did not make it into the images, and why.
+void log_dropped(const PingCounts& counts) {
+    const auto say = [](std::uint64_t count, const char* what) {
+        if (count > 0) spdlog::info("{} {}", count, what);
+    };
+    say(counts.dropped_samples, "rays met a surface edge-on or at no distance, and count for none");
+    say(counts.out_of_range, "echoes lay outside the range and were dropped");
+    say(counts.negative_pixels, "pixels were negative after the noise and became 0");
+    const MultipathCounts& m = counts.multipath;
+    if (m.samples > 0) {
+        spdlog::info(
+            "multipath: of {} samples {} came back; {} met nothing, {} met a plane edge-on, {} "
+            "left "
+            "it, {} met it out of view, {} were turned away, {} met what is hidden",
+            m.samples, m.bounces, m.missed, m.edge_on, m.behind, m.outside, m.turned_away,
+            m.hidden);
+    }
+}
+
 /// What the table does not say.
 void comment(const RenderSummary& summary, const Mission& mission, bool files) {
     const std::string folder = mission.output.folder.string();
@@ -85,6 +104,7 @@ void comment(const RenderSummary& summary, const Mission& mission, bool files) {
     if (summary.pings > 0 && summary.counts.echoes == 0) {
         spdlog::warn("no sonar saw any surface within its range and field of view");
     }
+    log_dropped(summary.counts);
     if (summary.clipped_pixels > 0) {
         spdlog::warn("{} pixels are above output.full_scale ({}) and white in the PNG files",
                      summary.clipped_pixels, mission.output.full_scale);

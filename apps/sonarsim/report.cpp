@@ -12,6 +12,8 @@
 #include "mission_options.h"
 #include "study/bench.h"
 #include "study/cold_start.h"
+#include "study/hard_cases.h"
+#include "study/hard_orders.h"
 #include "study/ladder.h"
 #include "study/multipath_rows.h"
 #include "study/report_files.h"
@@ -29,6 +31,8 @@ struct ReportArguments {
     ReportOptions report;
     bool quick = false;
     bool scale = false;
+    bool hard = false;
+    std::string hard_name;
     std::size_t most_triangles = 5'000'000;
     LogOptions log;
 };
@@ -55,7 +59,27 @@ void write_files(const Report& report, const std::filesystem::path& folder) {
     }
 }
 
+/// The catalogue of hard cases, which needs no mission.
+int report_hard(const ReportArguments& arguments) {
+    start_logging(arguments.log);
+    std::vector<HardResult> results;
+    bool all_hold = true;
+    for (const HardCase& hard : hard_cases()) {
+        if (hard.name.find(arguments.hard_name) == std::string::npos) continue;
+        spdlog::info("{}", hard.name);
+        for (HardResult& result : run_hard_case(hard)) {
+            all_hold = all_hold && (result.holds() || !result.known_fault.empty());
+            results.push_back(std::move(result));
+        }
+    }
+    fmt::print("{}", hard_table(results));
+    if (arguments.hard_name.empty()) fmt::print("\n{}", orders_table(convergence_orders()));
+    return all_hold ? exit_done : exit_failed;
+}
+
 int report(const ReportArguments& arguments) {
+    if (arguments.hard) return report_hard(arguments);
+    if (arguments.mission.file.empty()) throw CLI::RequiredError("mission");
     const double start = seconds_now();
     start_logging(arguments.log);
     const Mission mission = load(arguments.mission);
@@ -94,6 +118,7 @@ void add_report(CLI::App& app, int& exit_code) {
         "report", "Measures what each engine costs this mission, in time and in error");
     auto arguments = std::make_shared<ReportArguments>();
     add_mission_options(command, arguments->mission);
+    command.get_option("mission")->required(false);
     command
         .add_option("--json", arguments->json_file,
                     "Writes the report to this file; with --out, JSON, CSV and plots to a folder")
@@ -113,11 +138,20 @@ void add_report(CLI::App& app, int& exit_code) {
         .add_option("--most-triangles", arguments->most_triangles,
                     "The largest scene that --scale makes")
         ->capture_default_str();
+    command
+        .add_option("--hard", arguments->hard_name,
+                    "Runs the catalogue of hard cases instead, or those with NAME in their name; "
+                    "needs no mission")
+        ->expected(0, 1)
+        ->type_name("[NAME]");
     command.add_option("--log-level", arguments->log.level, "trace, debug, info, warning or error")
         ->check(CLI::IsMember({"trace", "debug", "info", "warning", "error"}))
         ->capture_default_str();
     command.add_flag("-q,--quiet", arguments->log.quiet, "Only warnings and errors");
-    command.callback([arguments, &exit_code] { exit_code = report(*arguments); });
+    command.callback([arguments, &command, &exit_code] {
+        arguments->hard = command.count("--hard") > 0;
+        exit_code = report(*arguments);
+    });
 }
 
 }  // namespace sonarsim

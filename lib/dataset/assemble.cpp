@@ -2,6 +2,7 @@
 
 #include <variant>
 
+#include "core/error.h"
 #include "core/text.h"
 #include "core/units.h"
 #include "mission/resolved.h"
@@ -37,6 +38,23 @@ Trajectory poses_of(const LawnmowerTrajectoryConfig& config) {
                       config.line_spacing_m, config.speed_m_s, config.rate_hz});
 }
 
+/// Rows of the octree's cells are equal in the tangent of elevation, which has no end at 90
+/// degrees.
+constexpr double widest_octree_deg = 160.0;
+
+void check_engine(const Mission& mission) {
+    if (mission.engine != EngineKind::octree) return;
+    for (const SonarConfig& sensor : mission.sensors) {
+        const bool cone = sensor.kind == SonarKind::echosounder;
+        const double width = cone ? sensor.azimuth_deg : sensor.elevation_deg;
+        if (width <= widest_octree_deg) continue;
+        throw InputError("sensor '" + sensor.name + "': engine: octree takes " +
+                         (cone ? "opening_deg" : "elevation_deg") + " up to " +
+                         number_text(widest_octree_deg) + ", not " + number_text(width) +
+                         "; use engine: rays");
+    }
+}
+
 template <class T>
 std::string hash_of(const std::vector<T>& values) {
     return fnv1a_128({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)});
@@ -45,6 +63,7 @@ std::string hash_of(const std::vector<T>& values) {
 }  // namespace
 
 Assembly assemble(const Mission& mission) {
+    check_engine(mission);
     Assembly assembly;
     assembly.trajectory =
         std::visit([](const auto& config) { return poses_of(config); }, mission.trajectory);

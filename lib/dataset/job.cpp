@@ -41,6 +41,17 @@ struct PingReport {
     std::uint64_t clipped_pixels = 0;
 };
 
+void add(MultipathCounts& sum, const MultipathCounts& counts) {
+    using Count = std::uint64_t MultipathCounts::*;
+    for (const Count count :
+         {&MultipathCounts::samples, &MultipathCounts::clusters, &MultipathCounts::rays,
+          &MultipathCounts::bounces, &MultipathCounts::missed, &MultipathCounts::edge_on,
+          &MultipathCounts::behind, &MultipathCounts::outside, &MultipathCounts::turned_away,
+          &MultipathCounts::hidden}) {
+        sum.*count += counts.*count;
+    }
+}
+
 void add(RenderSummary& summary, const PingReport& report) {
     ++summary.pings;
     summary.stages.trace += report.seconds.trace;
@@ -50,11 +61,14 @@ void add(RenderSummary& summary, const PingReport& report) {
     summary.encode_seconds += report.encode_seconds;
     summary.write_seconds += report.write_seconds;
     summary.counts.samples += report.counts.samples;
+    summary.counts.dropped_samples += report.counts.dropped_samples;
     summary.counts.echoes += report.counts.echoes;
     summary.counts.out_of_range += report.counts.out_of_range;
     summary.counts.occupied_bins += report.counts.occupied_bins;
     summary.counts.negative_pixels += report.counts.negative_pixels;
+    summary.counts.streak_rows += report.counts.streak_rows;
     summary.clipped_pixels += report.clipped_pixels;
+    add(summary.counts.multipath, report.counts.multipath);
 }
 
 void check(const RenderOptions& options) {

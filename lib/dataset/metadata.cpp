@@ -16,6 +16,15 @@ Json describe_pose(const Pose& pose) {
             {"quaternion_xyzw", {q.x(), q.y(), q.z(), q.w()}}};
 }
 
+/// What of the scene's files is rendered, and what is not.
+Json describe_scene_use(const Scene& scene) {
+    return {{"triangles", scene.triangles.size()},
+            {"dropped",
+             {{"degenerate_triangles", scene.rejects.degenerate_triangles},
+              {"non_finite_triangles", scene.rejects.non_finite_triangles},
+              {"skipped_primitives", scene.rejects.skipped_primitives}}}};
+}
+
 /// How the axes of a sensor's records run, in the order of the indices.
 Json record_axes(SonarKind kind) {
     switch (kind) {
@@ -78,6 +87,7 @@ Json describe_dataset(const Mission& mission, const Assembly& assembly, const La
                  {"inputs_hash", inputs_hash(assembly)},
                  {"seed", mission.seed},
                  {"poses", assembly.trajectory.size()}};
+    json["scene"] = describe_scene_use(assembly.scene);
     Json sensors = Json::array();
     for (std::size_t i = 0; i < assembly.sonars.size(); ++i) {
         sensors.push_back(describe_sensor(assembly.sonars[i], mission, layout, layout.sensors[i]));
@@ -103,6 +113,7 @@ Json describe_ping(const Mission& mission, const Assembly& assembly, const PingI
         {"clipped_pixels", clipped_pixels},
         {"counts",
          {{"samples", counts.samples},
+          {"dropped_samples", counts.dropped_samples},
           {"echoes", counts.echoes},
           {"out_of_range", counts.out_of_range},
           {"occupied_bins", counts.occupied_bins},

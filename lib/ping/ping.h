@@ -22,6 +22,7 @@ struct MultipathCounts {
 /// What a ping counted on its way, for the metadata.
 struct PingCounts {
     std::uint64_t samples = 0;          ///< pieces of surface seen
+    std::uint64_t dropped_samples = 0;  ///< besides these, left out: Samples::dropped
     std::uint64_t echoes = 0;           ///< footprints that were added into bins
     std::uint64_t out_of_range = 0;     ///< of these, dropped: wholly outside the range
     std::uint64_t occupied_bins = 0;    ///< bins that saw surface

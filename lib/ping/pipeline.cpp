@@ -72,6 +72,7 @@ Ping run_pipeline(const PingSettings& settings, const Scene& scene, const Surfac
     Samples samples;
     surface.look(view, T_world_sensor, samples);
     ping.counts.samples = samples.items.size();
+    ping.counts.dropped_samples = samples.dropped;
     ping.seconds.trace = watch.lap();
 
     std::vector<Bounce> bounces;

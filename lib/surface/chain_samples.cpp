@@ -120,6 +120,7 @@ void chain_samples(const View& view, const Sampling& sampling, const Chains& cha
                    Samples& samples) {
     const Context context{view.shape, sampling, chains};
     samples.items.clear();
+    samples.dropped = chains.dropped;
     samples.items.reserve(chains.nodes.size());
     samples.beam_begin.assign(view.beams + 1, 0);
     std::size_t column = 0;

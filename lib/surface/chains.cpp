@@ -14,7 +14,11 @@ namespace {
 // this the surface is too dark to matter.
 constexpr float least_cosine = 0.02F;
 
+// Less than the narrowest bin.
+constexpr float nearest_m = 1e-6F;
+
 constexpr double widest_column = 0.0088;  // rad
+constexpr double widest_strip = 0.035;    // of a side that is not narrow
 
 /// Two neighbours on a chain that do not lie on one surface.
 struct Gap {
@@ -191,8 +195,12 @@ class ChainCaster {
             node.cosine = -node.normal.dot(node.direction);
             node.material = facet.material;
             node.instance = facet.instance;
-            // A plane seen edge-on to within rounding has no range and reflects nothing.
-            if (!(node.cosine > 1e-7F)) node.facet = Caster::nothing;
+            // A plane seen edge-on to within rounding has no range and reflects nothing; one that
+            // the sonar touches has no direction.
+            if (!(node.cosine > 1e-7F && node.range_m() > nearest_m)) {
+                node.facet = Caster::nothing;
+                ++out_.dropped;
+            }
         }
         cast_ = out_.nodes.size();
     }
@@ -260,7 +268,7 @@ Sampling sampling_for(const View& view) {
         case ViewShape::sides:
             // A side is one row of bins: with no other beam to average out what one misses, a ray
             // to a bin and a few columns for the shapes of shadows.
-            sampling.columns = rays(4.0, 2.0);
+            sampling.columns = rays(std::max(4.0, view.elevation_rad / widest_strip), 2.0);
             sampling.chain = rays(1.0 * view.range_bins, 64.0);
             break;
         case ViewShape::cone:

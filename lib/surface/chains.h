@@ -72,6 +72,7 @@ struct Chains {
     std::vector<Chain> chains;
     std::vector<std::uint8_t> split;  ///< [columns, Sampling::chain]: seen in strips
     std::size_t columns = 0;
+    std::uint64_t dropped = 0;  ///< as in Samples
 };
 
 /// Sees the view as chains of rays: along each column a chain, bisected where two neighbours do

@@ -22,6 +22,7 @@ class LazyOctree final : public OctreeSurface {
         const Pose T_local_sensor{T_world_sensor.rotation,
                                   T_world_sensor.translation - scene_->origin};
         const Field field(view, T_local_sensor, options_.leaf_m);
+        samples.dropped = 0;
         if (options_.literal) {
             look_literally(tree_, *scene_, view, field, samples);
         } else {

@@ -15,6 +15,8 @@ constexpr double beams_per_leaf = 1.4;
 constexpr double least_bins_per_leaf = 0.5;
 /// In range bins, where beams are as wide as the view.
 constexpr double bins_per_leaf = 1.5;
+/// However wide the bins are.
+constexpr double leaves_per_range = 64.0;
 
 }  // namespace
 
@@ -29,6 +31,7 @@ Field::Field(const View& view, const Pose& T_local_sensor, double leaf_m)
         leaf_per_m_ = static_cast<float>(beams_per_leaf * view.azimuth_rad / view.beams);
         least_leaf_ = static_cast<float>(least_bins_per_leaf * view.bin_m());
     }
+    least_leaf_ = std::min(least_leaf_, static_cast<float>(view.range_max_m / leaves_per_range));
     const SinCos azimuth = sincos(0.5 * view.azimuth_rad);
     const SinCos elevation = sincos(0.5 * view.elevation_rad);
     sin_azimuth_ = static_cast<float>(azimuth.sin);

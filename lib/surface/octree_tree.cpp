@@ -14,6 +14,7 @@ namespace {
 constexpr std::size_t triangles_per_tile = 48;
 constexpr double leaves_per_tile_edge = 32.0;
 constexpr double auto_tile_edge_m = 2.0;
+constexpr double auto_leaves_per_tile = 200.0;
 
 /// A plain node is this many times larger than the leaves of its level, at most, as a power of 2.
 constexpr int plain_levels = 1;
@@ -75,9 +76,11 @@ Octree::Octree(const Scene& scene, const Caster& caster, const OctreeOptions& op
         low = low.cwiseMin(vertex.cast<double>());
         high = high.cwiseMax(vertex.cast<double>());
     }
-    const double leaf = options.leaf_m > 0.0 ? options.leaf_m : 0.01;
-    tile_edge_m_ = options.leaf_m > 0.0 ? leaves_per_tile_edge * leaf : auto_tile_edge_m;
     const double length = (high - low).maxCoeff();
+    // A tile has leaves of one size, by its distance: it must be small beside what is looked at.
+    const double auto_tile_m = length > 0.0 ? std::min(auto_tile_edge_m, 0.25 * length) : 1.0;
+    const double leaf = options.leaf_m > 0.0 ? options.leaf_m : auto_tile_m / auto_leaves_per_tile;
+    tile_edge_m_ = options.leaf_m > 0.0 ? leaves_per_tile_edge * leaf : auto_tile_m;
     int levels = 0;
     while (std::ldexp(leaf, levels) < length + 2.0 * leaf)
         ++levels;
@@ -87,7 +90,7 @@ Octree::Octree(const Scene& scene, const Caster& caster, const OctreeOptions& op
     }
     edge_m_ = std::ldexp(leaf, levels);
     for (int axis = 0; axis < 3; ++axis)
-        min_[axis] = (std::floor(low[axis] / leaf) - lattice_offset[axis]) * leaf;
+        min_[axis] = low[axis] - lattice_offset[axis] * leaf;
     std::vector<std::uint32_t> all(scene.triangles.size());
     for (std::uint32_t i = 0; i < all.size(); ++i)
         all[i] = i;

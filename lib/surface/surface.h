@@ -27,6 +27,8 @@ struct Sample {
 struct Samples {
     std::vector<Sample> items;
     std::vector<std::uint32_t> beam_begin;  ///< beams + 1 offsets into `items`
+    /// Rays whose surface was left out: seen edge-on to within rounding, or touched by the sonar.
+    std::uint64_t dropped = 0;
 
     std::span<const Sample> beam(int j) const {
         return {items.data() + beam_begin[j], items.data() + beam_begin[j + 1]};

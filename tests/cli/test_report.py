@@ -83,7 +83,14 @@ class Report(Sandbox):
             self.assertEqual(g["triangles"], expected)
             self.assertLess(abs(g["exponent"]), 1)
 
+    def test_hard(self):
+        result = self.run_sonarsim("report", "--hard", "UTM", "--quiet")
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        self.assertIn("UTM, off the grid", result.stdout)
+        self.assertIn("4 verdicts: 0 fail", result.stdout)
+
     def test_bad_input(self):
+        self.assertEqual(self.run_sonarsim("report").returncode, 2)
         self.assert_refused(self.run_sonarsim("report", "none.yaml"), "none.yaml")
         self.assertEqual(self.run_sonarsim("report", "mission.yaml", "--poses", "0").returncode, 2)
 

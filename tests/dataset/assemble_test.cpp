@@ -104,6 +104,23 @@ TEST_SUITE("dataset") {
         CHECK(survey.front().T_world_vehicle.translation.z() == doctest::Approx(3.0));
     }
 
+    TEST_CASE("assemble: the octree refuses a view that its cells cannot hold") {
+        const MissionOnDisk disk;
+        Mission mission = disk.load("{file: poses.csv}");
+        mission.sensors[0].elevation_deg = 180.0;
+        CHECK_NOTHROW(assemble(mission));
+        mission.engine = EngineKind::octree;
+        CHECK_THROWS_WITH_AS(assemble(mission),
+                             "sensor 'fls': engine: octree takes elevation_deg up to 160, not 180; "
+                             "use engine: rays",
+                             InputError);
+        mission.sensors[0] = default_sonar(SonarKind::echosounder);
+        mission.sensors[0].name = "sounder";
+        CHECK_NOTHROW(assemble(mission));
+        mission.sensors[0].azimuth_deg = 170.0;
+        CHECK_THROWS_AS(assemble(mission), InputError);
+    }
+
     TEST_CASE("assemble: what is wrong with a file is told") {
         const MissionOnDisk disk;
         const Mission mission = disk.load("{file: poses.csv}");

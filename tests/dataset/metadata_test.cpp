@@ -15,7 +15,8 @@ using Json = nlohmann::ordered_json;
 TEST_SUITE("dataset") {
     TEST_CASE("metadata: dataset.json tells what the files are and where every bin lies") {
         const Mission mission = small_mission("out");
-        const Assembly assembly = small_assembly(mission, 7);
+        Assembly assembly = small_assembly(mission, 7);
+        assembly.scene.rejects = {3, 2, 1};
         const Json json =
             Json::parse(json_text(describe_dataset(mission, assembly, make_layout(mission, 7))));
         CHECK(json.at("format") == "sonarsim dataset");
@@ -26,6 +27,12 @@ TEST_SUITE("dataset") {
         CHECK(json.at("mission_hash") == mission_hash(mission));
         CHECK(json.at("seed").get<std::uint64_t>() == 18446744073709551615U);
         CHECK(json.at("poses") == 7);
+        // What was dropped is on record, also where it is nothing.
+        const Json& scene = json.at("scene");
+        CHECK(scene.at("triangles") == assembly.scene.triangles.size());
+        CHECK(scene.at("dropped").at("degenerate_triangles") == 3);
+        CHECK(scene.at("dropped").at("non_finite_triangles") == 2);
+        CHECK(scene.at("dropped").at("skipped_primitives") == 1);
         REQUIRE(json.at("sensors").size() == 2);
         const Json& left = json.at("sensors")[1];
         CHECK(left.at("name") == "left");
@@ -62,6 +69,7 @@ TEST_SUITE("dataset") {
                                                   Eigen::Vector3d(1, 2, 3)};
         PingCounts counts;
         counts.samples = 11;
+        counts.dropped_samples = 14;
         counts.negative_pixels = 12;
         const Json json =
             Json::parse(json_text(describe_ping(mission, assembly, {3, 0}, counts, 13)));
@@ -84,6 +92,7 @@ TEST_SUITE("dataset") {
         CHECK(json.at("full_scale") == 0.5);
         CHECK(json.at("clipped_pixels") == 13);
         CHECK(json.at("counts").at("samples") == 11);
+        CHECK(json.at("counts").at("dropped_samples") == 14);
         CHECK(json.at("counts").at("negative_pixels") == 12);
     }
 

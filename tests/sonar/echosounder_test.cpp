@@ -8,6 +8,7 @@
 #include "study/image_error.h"
 #include "study/reference.h"
 #include "support/scenes.h"
+#include "surface/octree.h"
 #include "surface/rays.h"
 
 using namespace sonarsim;
@@ -48,6 +49,28 @@ TEST_CASE("echosounder: a flat bottom echoes as R H / r over the cone, from its 
                 CHECK(ping.at(i, 0) == doctest::Approx(R * H / r).epsilon(0.01));
         }
     }
+}
+
+TEST_CASE("echosounder: both engines see all of the cone") {
+    // On a floor at depth H a disk of radius H tan 15 degrees.
+    constexpr double H = 5.0;
+    Scene scene = empty_scene();
+    add_floor(scene, 100.0F, 0.0F, add_material(scene, 0.6F));
+    const Sonar sonar = make_sonar(echosounder(), {});
+    const Pose T_world_vehicle{Eigen::Quaterniond::Identity(), {0, 0, H}};
+    const double radius = H * std::tan(radians(15.0));
+    const auto seen_m2 = [&](const Surface& surface) {
+        Samples samples;
+        surface.look(sonar.settings.view, T_world_vehicle * sonar.T_vehicle_sensor, samples);
+        double sum = 0.0;
+        for (const Sample& sample : samples.items)
+            sum += static_cast<double>(sample.area_m2);
+        return sum;
+    };
+    CHECK(seen_m2(*make_rays_surface(scene)) ==
+          doctest::Approx(pi * radius * radius).epsilon(0.02));
+    CHECK(seen_m2(*make_octree_surface(scene, {})) ==
+          doctest::Approx(pi * radius * radius).epsilon(0.02));
 }
 
 TEST_CASE("echosounder: the cone has an edge") {

@@ -1,10 +1,10 @@
-#include "support/scenes.h"
+#include "study/shapes.h"
 
 #include <cmath>
 
 #include "core/elementary.h"
 
-namespace sonarsim::test {
+namespace sonarsim::shapes {
 
 namespace {
 
@@ -138,4 +138,4 @@ Scene tank() {
     return scene;
 }
 
-}  // namespace sonarsim::test
+}  // namespace sonarsim::shapes

@@ -1,0 +1,24 @@
+#include <doctest/doctest.h>
+
+#include "study/hard_orders.h"
+
+using namespace sonarsim;
+
+TEST_SUITE_BEGIN("hard");
+
+TEST_CASE("the error of both engines falls with their resolution") {
+    const std::vector<ConvergenceOrder> orders = convergence_orders();
+    REQUIRE(orders.size() == 6);
+    MESSAGE(orders_table(orders));
+    for (const ConvergenceOrder& one : orders) {
+        CAPTURE(one.scene);
+        CAPTURE(one.engine);
+        CAPTURE(one.order);
+        // First order is what silhouettes and bin edges allow; less than half of it would be no
+        // convergence worth the name.
+        CHECK(one.order > 0.4);
+        CHECK(one.errors.back() < 0.5 * one.errors.front());
+    }
+}
+
+TEST_SUITE_END();

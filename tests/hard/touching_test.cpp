@@ -1,0 +1,44 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <memory>
+
+#include "dataset/assemble.h"
+#include "study/hard_tools.h"
+#include "study/shapes.h"
+
+using namespace sonarsim;
+
+TEST_SUITE_BEGIN("hard");
+
+TEST_CASE("a sonar on a floor, turned together every way: no image is anything but an image") {
+    // The sonar's height is 0 up to rounding: above the plane, on it or below it. One in 400 such
+    // pings used to ask for a negative number of echoes.
+    std::uint64_t dropped = 0;
+    for (int i = 0; i < 400; ++i) {
+        const Eigen::Quaterniond R = rotation_from_rpy(0.37 * i, 0.71 * i, 1.13 * i);
+        Scene scene = plain_floor();
+        shapes::add_quad(scene, {3, -9, -9}, {3, 9, -9}, {3, 9, 9}, {3, -9, 9}, 0);
+        for (Eigen::Vector3f& p : scene.vertices)
+            p = R.toRotationMatrix().cast<float>() * (p - Eigen::Vector3f(0.31F, 0.17F, 0.0F));
+        for (const EngineKind engine : {EngineKind::rays, EngineKind::octree}) {
+            if (engine == EngineKind::octree && i % 8 != 0) continue;
+            const std::unique_ptr<Surface> surface = make_surface(scene, engine, {});
+            for (const SonarKind kind : {SonarKind::imaging, SonarKind::profiling,
+                                         SonarKind::sidescan, SonarKind::echosounder}) {
+                HardTrial trial = over_floor(kind, [](SonarConfig& c) { c.range_min_m = 0.0; });
+                Pose& pose = trial.T_world_vehicle;
+                pose = {R * pose.rotation, Eigen::Vector3d::Zero()};
+                const Ping ping = render_ping(trial.sonar, scene, *surface, pose, {1, 0});
+                dropped += ping.counts.dropped_samples;
+                int faults = 0;
+                for (const float x : ping.intensity)
+                    faults += !(x >= 0.0F && x <= 0.5F * 1.00001F);
+                CHECK(faults == 0);
+            }
+        }
+    }
+    CHECK(dropped > 0);
+}
+
+TEST_SUITE_END();
