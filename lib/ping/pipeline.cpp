@@ -69,12 +69,14 @@ Ping run_pipeline(const PingSettings& settings, const Scene& scene, const Surfac
     ping.intensity.resize(static_cast<std::size_t>(view.range_bins) * view.beams);
     Stopwatch watch;
 
+    // III-A: the visible surface.
     Samples samples;
     surface.look(view, T_world_sensor, samples);
     ping.counts.samples = samples.items.size();
     ping.counts.dropped_samples = samples.dropped;
     ping.seconds.trace = watch.lap();
 
+    // III-B: multipath [1-3].
     std::vector<Bounce> bounces;
     if (settings.multipath.on) {
         bounces = find_bounces(settings.multipath, view, samples, scene.materials, surface,
@@ -82,6 +84,7 @@ Ping run_pipeline(const PingSettings& settings, const Scene& scene, const Surfac
     }
     ping.seconds.multipath = watch.lap();
 
+    // III-C, III-D: echoes [4-6], their range noise [7-8] and the mean of every bin [9].
     MultipathEchoes bounced = multipath_echoes(bounces, samples, view, lattice);
     add_noise(bounced.echoes, Stream::multipath_range_noise);
     std::vector<float> by_beam(ping.intensity.size());
@@ -111,6 +114,7 @@ Ping run_pipeline(const PingSettings& settings, const Scene& scene, const Surfac
     transpose(by_beam, ping);
     ping.seconds.accumulate = watch.lap();
 
+    // III-D: pixel noise [10-13]. III-E: streaks [14-15].
     ping.counts.negative_pixels =
         add_pixel_noise(ping.intensity, settings.pixel_noise, stream(Stream::pixel_noise));
     if (streaks.exist()) ping.counts.streak_rows = add_streaks(ping.intensity, areas, streaks);
