@@ -17,8 +17,12 @@ constexpr float least_cosine = 0.02F;
 // Less than the narrowest bin.
 constexpr float nearest_m = 1e-6F;
 
+// Half a degree: with one column to a beam of 2 degrees, a tank misses a goal of 1 % by a factor of
+// nine.
 constexpr double widest_column = 0.0088;  // rad
-constexpr double widest_strip = 0.035;    // of a side that is not narrow
+
+// Two degrees, of a side that is not narrow: four columns over a wide elevation were off by 20 %.
+constexpr double widest_strip = 0.035;  // rad
 
 /// Two neighbours on a chain that do not lie on one surface.
 struct Gap {
@@ -247,8 +251,9 @@ class ChainCaster {
 }  // namespace
 
 Sampling sampling_for(const View& view) {
-    // Measured: these meet 3 % with a margin on every scene of the report. From there the density
-    // follows the goal: rays and bisections grow as the error shrinks.
+    // Fitted to the report: at a goal of 3 % the mean over poses is 1.6 % in the tank and 2.9 % on
+    // the sea floor; a single pose may miss it. From there the density follows the goal: rays and
+    // bisections grow as the error shrinks.
     const double scale = view.relative_l1 / 0.03;
     const double density = 1.0 / std::sqrt(scale);
     const auto rays = [&](double count, double least) {

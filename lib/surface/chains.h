@@ -23,13 +23,13 @@ inline constexpr float margin = 0.1F;
 
 /// How densely a view is sampled.
 struct Sampling {
-    int columns = 1;                 ///< per beam (of a fan), per side, or round the cone
-    int chain = 32;                  ///< rays along a column before refinement
-    int levels = 3;                  ///< bisections where neighbours along a column disagree
-    bool split = true;               ///< columns whose neighbours disagree are seen in strips
-    float tolerance_slope = 0.03F;   ///< to which comes this share of the step in range
-    float tolerance_m = 0.0F;        ///< by how much a neighbour's plane may miss a range
-    float tolerance_cosine = 0.07F;  ///< by which share of itself a cosine of incidence may be off
+    int columns = 1;                ///< per beam (of a fan), per side, or round the cone
+    int chain = 32;                 ///< rays along a column before refinement
+    int levels = 3;                 ///< bisections where neighbours along a column disagree
+    bool split = true;              ///< columns whose neighbours disagree are seen in strips
+    float tolerance_slope = 0.03F;  ///< to which comes this share of the step in range
+    float tolerance_m = 0.0F;       ///< by how much a neighbour's plane may miss a range
+    float tolerance_cosine = 0.1F;  ///< by which share of itself a cosine of incidence may be off
 };
 
 /// The density that meets the view's error goal, by the figures of the speed-against-error report.

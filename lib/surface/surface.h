@@ -53,8 +53,9 @@ class Surface {
   public:
     virtual ~Surface() = default;
 
-    /// Fills `samples` with all surface that `view` sees from `T_world_sensor`, whether the range
-    /// suits the view or not.
+    /// Fills `samples` with the surface that `view` sees from `T_world_sensor` within its greatest
+    /// range. What lies nearer than the least range hides what is behind it; it may be among the
+    /// samples.
     virtual void look(const View& view, const Pose& T_world_sensor, Samples& samples) const = 0;
 
     /// The first surface that each ray meets. `hits` has the length of `rays`.

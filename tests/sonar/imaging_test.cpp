@@ -6,6 +6,7 @@
 #include "sonar/sonar.h"
 #include "study/image_error.h"
 #include "support/scenes.h"
+#include "support/sonars.h"
 #include "support/statistics.h"
 #include "surface/rays.h"
 
@@ -13,25 +14,6 @@ using namespace sonarsim;
 using namespace sonarsim::test;
 
 namespace {
-
-SonarConfig small_sonar() {
-    SonarConfig config;
-    config.name = "fls";
-    config.azimuth_deg = 60.0;
-    config.elevation_deg = 12.0;
-    config.range_min_m = 0.5;
-    config.range_max_m = 10.0;
-    config.range_bins = 256;
-    config.azimuth_bins = 64;
-    return config;
-}
-
-/// The sonar with the pixel noise taken out, its gain of one half, too.
-Sonar noise_free(const SonarConfig& config, double relative_l1 = 0.03) {
-    Sonar sonar = make_sonar(config, {relative_l1});
-    sonar.settings.pixel_noise.gain = 1.0F;
-    return sonar;
-}
 
 Ping look(const Scene& scene, const Sonar& sonar, const Pose& pose, const PingKey& key = {}) {
     return render_ping(sonar, scene, *make_rays_surface(scene), pose, key);
@@ -76,7 +58,7 @@ TEST_CASE("a floor below the sonar: I = R H / r in every bin, from the right bin
     constexpr double pitch_deg = 25.0;
     Scene scene = empty_scene();
     add_floor(scene, 100.0F, 0.0F, add_material(scene, R));
-    const Sonar sonar = noise_free(small_sonar());
+    const Sonar sonar = noise_free(small_imaging());
     const Pose pose{rotation_from_rpy(0.0, radians(pitch_deg), 0.0), {0.0, 0.0, H}};
     const Ping ping = look(scene, sonar, pose);
 
@@ -108,7 +90,7 @@ TEST_CASE("a wall seen face on: I = R D / r") {
     Scene scene = empty_scene();
     const std::uint32_t m = add_material(scene, R);
     add_quad(scene, {D, -50, -50}, {D, 50, -50}, {D, 50, 50}, {D, -50, 50}, m);
-    const Sonar sonar = noise_free(small_sonar());
+    const Sonar sonar = noise_free(small_imaging());
     const Ping ping = look(scene, sonar, Pose{});
     for (int j = 0; j < ping.beams; ++j) {
         // In a beam [a, b) the nearest point is at D / cos of the azimuth nearer to straight
@@ -136,7 +118,7 @@ TEST_CASE("a sphere agrees with its closed form") {
     constexpr double a = 0.403;
     Scene scene = empty_scene();
     add_sphere(scene, {D, 0, 0}, a, add_material(scene, R), 512);
-    SonarConfig config = small_sonar();
+    SonarConfig config = small_imaging();
     config.azimuth_deg = 20.0;
     config.elevation_deg = 20.0;
     config.range_min_m = 3.5;
@@ -162,7 +144,7 @@ TEST_CASE("a sphere agrees with its closed form") {
 TEST_CASE("azimuth is positive to port, and beams run from starboard to port") {
     Scene scene = empty_scene();
     add_sphere(scene, {5, 1.5F, 0}, 0.2F, add_material(scene, 1.0F), 32);
-    const Sonar sonar = noise_free(small_sonar());
+    const Sonar sonar = noise_free(small_imaging());
     const Ping ping = look(scene, sonar, Pose{});
     const double azimuth = std::atan2(1.5, 5.0);
     int brightest = 0;
@@ -186,7 +168,7 @@ TEST_CASE("what is hidden gives no echo, and an occluder only removes direct ech
     add_quad(open, {6, -5, -5}, {6, 5, -5}, {6, 5, 5}, {6, -5, 5}, m);
     Scene blocked = open;
     add_quad(blocked, {3, -0.5F, -5}, {3, 0.5F, -5}, {3, 0.5F, 5}, {3, -0.5F, 5}, m);
-    const Sonar sonar = noise_free(small_sonar());
+    const Sonar sonar = noise_free(small_imaging());
     const Ping before = look(open, sonar, Pose{});
     const Ping after = look(blocked, sonar, Pose{});
     const int behind = bin_of(sonar, 5.5);
@@ -209,7 +191,7 @@ TEST_CASE("surfaces are two-sided and the impedance of water does not echo") {
     const std::uint32_t some = add_material(scene, 0.5F);
     add_quad(scene, {5, -9, -9}, {5, 0, -9}, {5, 0, 9}, {5, -9, 9}, none);
     add_quad(scene, {5, 0, -9}, {5, 0, 9}, {5, 9, 9}, {5, 9, -9}, some);  // wound the other way
-    const Sonar sonar = noise_free(small_sonar());
+    const Sonar sonar = noise_free(small_imaging());
     const Ping ping = look(scene, sonar, Pose{});
     for (int j = 0; j < ping.beams; ++j) {
         float sum = 0.0F;
@@ -224,7 +206,7 @@ TEST_CASE("surfaces are two-sided and the impedance of water does not echo") {
 }
 
 TEST_CASE("a rigid motion of scene and sonar together changes nothing that can be seen") {
-    const Sonar sonar = noise_free(small_sonar());
+    const Sonar sonar = noise_free(small_imaging());
     Scene scene = tank();
     const Pose pose{rotation_from_rpy(0.02, radians(12.0), 0.1), {-3.0, -0.4, 1.4}};
     const Ping at_home = look(scene, sonar, pose);
@@ -239,10 +221,10 @@ TEST_CASE("a rigid motion of scene and sonar together changes nothing that can b
 TEST_CASE("noise is a function of seed, sensor and ping; without it the seed does not matter") {
     const Scene scene = tank();
     const Pose pose{rotation_from_rpy(0.0, radians(12.0), 0.0), {-3.0, 0.0, 1.5}};
-    const Sonar clean = noise_free(small_sonar());
+    const Sonar clean = noise_free(small_imaging());
     CHECK(look(scene, clean, pose, {1, 5}).intensity == look(scene, clean, pose, {2, 6}).intensity);
 
-    SonarConfig config = small_sonar();
+    SonarConfig config = small_imaging();
     config.noise = {0.05, 0.02, 0.1, 0.2, true, 0.0};
     const Sonar noisy = make_sonar(config, {});
     const Ping ping = look(scene, noisy, pose, {0, 5});
@@ -268,7 +250,7 @@ TEST_CASE("the mean over 1,000 seeds agrees with theory") {
     Scene scene = empty_scene();
     const std::uint32_t m = add_material(scene, R);
     add_quad(scene, {D, -1, -1}, {D, 1, -1}, {D, 1, 1}, {D, -1, 1}, m);
-    SonarConfig config = small_sonar();
+    SonarConfig config = small_imaging();
     config.azimuth_deg = config.elevation_deg = 1.0;
     config.range_min_m = 1.9;
     config.range_max_m = 2.5;
@@ -301,7 +283,7 @@ TEST_CASE("range noise drops what it pushes beyond the range") {
     Scene scene = empty_scene();
     const std::uint32_t m = add_material(scene, 1.0F);
     add_quad(scene, {2.45F, -1, -1}, {2.45F, 1, -1}, {2.45F, 1, 1}, {2.45F, -1, 1}, m);
-    SonarConfig config = small_sonar();
+    SonarConfig config = small_imaging();
     config.azimuth_deg = config.elevation_deg = 1.0;
     config.range_max_m = 2.5;
     config.range_bins = 100;

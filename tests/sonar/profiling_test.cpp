@@ -8,18 +8,13 @@
 #include "study/image_error.h"
 #include "study/reference.h"
 #include "support/scenes.h"
+#include "support/sonars.h"
 #include "surface/rays.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;
 
 namespace {
-
-Sonar noise_free(const SonarConfig& config) {
-    Sonar sonar = make_sonar(config, {0.03});
-    sonar.settings.pixel_noise.gain = 1.0F;
-    return sonar;
-}
 
 SonarConfig profiling() {
     SonarConfig config = default_sonar(SonarKind::profiling);

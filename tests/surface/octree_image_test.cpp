@@ -6,6 +6,7 @@
 #include "study/image_error.h"
 #include "study/reference.h"
 #include "support/scenes.h"
+#include "support/sonars.h"
 #include "surface/octree.h"
 #include "surface/rays.h"
 
@@ -15,21 +16,10 @@ TEST_SUITE_BEGIN("surface");
 
 namespace {
 
-/// 60 x 12 degrees, 0.5-10 m, noise-free.
 Sonar small_sonar() {
-    SonarConfig config;
-    config.name = "fls";
-    config.azimuth_deg = 60.0;
-    config.elevation_deg = 12.0;
-    config.range_min_m = 0.5;
-    config.range_max_m = 10.0;
-    config.range_bins = 256;
+    SonarConfig config = test::small_imaging();
     config.azimuth_bins = 128;
-    AccuracyConfig accuracy;
-    accuracy.relative_l1 = 0.03;
-    Sonar sonar = make_sonar(config, accuracy);
-    sonar.settings.pixel_noise.gain = 1.0F;
-    return sonar;
+    return test::noise_free(config);
 }
 
 struct Trial {
