@@ -48,7 +48,8 @@ void add_log_options(CLI::App& command, LogOptions& options) {
 }
 
 void start_logging(const LogOptions& options) {
-    auto logger = spdlog::stderr_color_mt("sonarsim");
+    auto logger = std::make_shared<spdlog::logger>(
+        "sonarsim", std::make_shared<spdlog::sinks::stderr_color_sink_mt>());
     if (options.json) {
         logger->set_formatter(std::make_unique<JsonFormatter>());
     } else {

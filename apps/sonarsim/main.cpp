@@ -2,8 +2,12 @@
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
+#include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <new>
+#include <system_error>
 
 #include "commands.h"
 #include "core/error.h"
@@ -12,6 +16,10 @@
 namespace {
 
 using namespace sonarsim;
+
+// Also where there is none left for the stack of another thread.
+constexpr const char* out_of_memory =
+    "out of memory: use fewer threads (-j), fewer bins or a smaller scene";
 
 /// Lets the C library keep freed memory. A ping allocates and frees a few megabytes; handing them
 /// back to the kernel each time and faulting them in again takes a third of the ping's time.
@@ -39,17 +47,34 @@ int run(int argc, char** argv) {
     return exit_code;
 }
 
+/// What was printed may still wait in a buffer, for a disk that is full.
+void finish_printing() {
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+        throw std::system_error(errno, std::generic_category(), "cannot write to standard output");
+    }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
     keep_freed_memory();
+    start_logging({});
     try {
-        return run(argc, argv);
+        const int exit_code = run(argc, argv);
+        finish_printing();
+        return exit_code;
     } catch (const InputError& error) {
         spdlog::error("{}", error.what());
         return exit_bad_input;
     } catch (const std::bad_alloc&) {
-        spdlog::error("out of memory: use fewer threads (-j), fewer bins or a smaller scene");
+        spdlog::error(out_of_memory);
+        return exit_failed;
+    } catch (const std::filesystem::filesystem_error& error) {
+        spdlog::error("{}: {}", error.path1().string(), error.code().message());
+        return exit_failed;
+    } catch (const std::system_error& error) {
+        const bool no_thread = error.code() == std::errc::resource_unavailable_try_again;
+        spdlog::error("{}", no_thread ? out_of_memory : error.what());
         return exit_failed;
     } catch (const std::exception& error) {
         spdlog::error("{}", error.what());

@@ -43,6 +43,7 @@ double pings_per_s(const RenderSummary& summary) {
 
 void print_table(const RenderSummary& summary) {
     const std::pair<const char*, double> stages[] = {{"trace", summary.stages.trace},
+                                                     {"multipath", summary.stages.multipath},
                                                      {"accumulate", summary.stages.accumulate},
                                                      {"noise", summary.stages.noise},
                                                      {"encode", summary.encode_seconds},
@@ -64,6 +65,7 @@ void print_json(const RenderSummary& summary) {
     json["seconds"] = summary.seconds;
     json["pings_per_s"] = pings_per_s(summary);
     json["thread_seconds"] = {{"trace", summary.stages.trace},
+                              {"multipath", summary.stages.multipath},
                               {"accumulate", summary.stages.accumulate},
                               {"noise", summary.stages.noise},
                               {"encode", summary.encode_seconds},

@@ -8,14 +8,10 @@ namespace {
 
 static_assert(sizeof(Rgb) == 3, "a row of colours is a row of pixels");
 
-[[noreturn]] void fail(const std::filesystem::path& path, const std::string& reason) {
-    throw std::runtime_error("cannot write " + path.string() + ": " + reason);
-}
-
 }  // namespace
 
 ImageFile::ImageFile(const std::filesystem::path& path, int width, int height, PixelKind kind)
-    : whole_(path), width_(width) {
+    : whole_(path), disk_(whole_.part()), width_(width) {
     type_ = kind == PixelKind::rgb8     ? OIIO::TypeDesc::UINT8
             : kind == PixelKind::grey16 ? OIIO::TypeDesc::UINT16
                                         : OIIO::TypeDesc::FLOAT;
@@ -31,21 +27,28 @@ ImageFile::ImageFile(const std::filesystem::path& path, int width, int height, P
         spec.attribute("png:filter", kind == PixelKind::rgb8 ? 0x10 : 0x08);
     }
     out_ = OIIO::ImageOutput::create(kind == PixelKind::float32 ? "tiff" : "png");
-    if (!out_) fail(path, OIIO::geterror());
-    if (!out_->open(whole_.part().string(), spec)) fail(path, out_->geterror());
+    if (!out_) throw std::runtime_error("cannot write " + path.string() + ": " + OIIO::geterror());
+    require(out_->set_ioproxy(&disk_) && out_->open(whole_.part().string(), spec));
+}
+
+void ImageFile::require(bool done) {
+    if (done) return;
+    const std::string reason = out_->geterror();
+    out_.reset();
+    disk_.finish();  // The disk's reason, if that is what the encoder stumbled over.
+    throw std::runtime_error("cannot write " + whole_.part().string() + ": " + reason);
 }
 
 void ImageFile::put(const void* pixels, std::size_t count) {
     if (count != static_cast<std::size_t>(width_)) {
         throw std::logic_error("a row does not suit the width of its image");
     }
-    if (!out_->write_scanline(next_++, 0, type_, pixels)) {
-        fail(whole_.part(), out_->geterror());
-    }
+    require(out_->write_scanline(next_++, 0, type_, pixels));
 }
 
 void ImageFile::finish() {
-    if (!out_->close()) fail(whole_.part(), out_->geterror());
+    require(out_->close());
+    disk_.finish();
     whole_.keep();
 }
 

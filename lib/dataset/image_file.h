@@ -7,6 +7,7 @@
 #include <memory>
 #include <span>
 
+#include "dataset/proxy_file.h"
 #include "dataset/whole_file.h"
 #include "product/picture.h"
 
@@ -33,8 +34,10 @@ class ImageFile {
 
   private:
     void put(const void* pixels, std::size_t count);
+    void require(bool done);
 
     WholeFile whole_;
+    ProxyFile disk_;
     int width_;
     OIIO::TypeDesc type_;
     std::unique_ptr<OIIO::ImageOutput> out_;

@@ -246,6 +246,9 @@ RenderSummary run_job(const Mission& mission, const Assembly& assembly,
     summary.complete = !summary.stopped && std::ranges::all_of(plan.others, is_there);
     if (!summary.complete) return summary;
     write_products(mission, assembly, layout, records);
+    for (const auto& record : records) {
+        if (record) record->close();
+    }
     finish_dataset(layout, common.description);
     return summary;
 }

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 namespace sonarsim {
@@ -64,7 +65,11 @@ RecordFile::RecordFile(const std::filesystem::path& path, const NpyFormat& forma
 }
 
 RecordFile::~RecordFile() {
-    ::close(fd_);
+    if (fd_ >= 0) ::close(fd_);
+}
+
+void RecordFile::close() {
+    if (::close(std::exchange(fd_, -1)) != 0) fail(path_, "cannot write");
 }
 
 void RecordFile::write(std::size_t record, std::span<const std::byte> bytes) const {

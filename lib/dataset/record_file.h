@@ -31,6 +31,10 @@ class RecordFile {
     /// Whether any byte of the record differs from zero.
     bool is_written(std::size_t record) const;
 
+    /// After the last record. std::system_error when the disk did not take them all: some file
+    /// systems say so only here.
+    void close();
+
   private:
     std::uint64_t offset(std::size_t record) const {
         return header_bytes_ + record * record_bytes_;

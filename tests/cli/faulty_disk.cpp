@@ -1,0 +1,205 @@
+// A disk that fails, for the tests of the command line: a library to be loaded before the others
+// (LD_PRELOAD) that stands in front of the C library's calls for writing. What it does is told by
+// the environment:
+//   FAULTY_DISK_BELOW  only files below this folder count
+//   FAULTY_DISK_LOG    a line for each call that counts: its name and the file's
+//   FAULTY_DISK_CALL   the number, from 1, of the call that is the first to fail; 0: none does
+//   FAULTY_DISK_MODE   "full": that call and all later ones fail with ENOSPC; "once": it alone
+//                      fails, with EIO; "short": a write takes half of what it is given;
+//                      "interrupted": every third one is, by a signal
+
+#include <dlfcn.h>
+#include <fcntl.h>
+#include <stdio_ext.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <cstdarg>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+#include <string_view>
+
+namespace {
+
+std::string_view setting(const char* name) {
+    const char* const value = std::getenv(name);
+    return value ? value : "";
+}
+
+template <class Function>
+Function* next(Function*, const char* name) {
+    return reinterpret_cast<Function*>(dlsym(RTLD_NEXT, name));
+}
+
+#define NEXT(function) next(&::function, #function)
+
+/// Which open files lie below the folder.
+std::array<std::atomic<bool>, 4096> watched;
+std::atomic<long> calls = 0;
+
+bool is_below(const char* path) {
+    return !setting("FAULTY_DISK_BELOW").empty() &&
+           std::string_view(path).starts_with(setting("FAULTY_DISK_BELOW"));
+}
+
+bool is_watched(int fd) {
+    return fd >= 0 && fd < static_cast<int>(watched.size()) && watched[fd];
+}
+
+void watch(int fd, const char* path) {
+    if (fd >= 0 && fd < static_cast<int>(watched.size())) watched[fd] = is_below(path);
+}
+
+void log(const char* call, const char* path) {
+    static const int to = NEXT(open)(std::string(setting("FAULTY_DISK_LOG")).c_str(),
+                                     O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+    const std::string line = std::string(call) + " " + path + "\n";
+    if (NEXT(write)(to, line.data(), line.size()) < 0) std::abort();
+}
+
+/// Counts a call and says whether it has to fail; errno is set then.
+bool fails(const char* call, const char* path) {
+    const long number = ++calls;
+    const long first = std::atol(std::string(setting("FAULTY_DISK_CALL")).c_str());
+    log(call, path);
+    const bool full = setting("FAULTY_DISK_MODE") == "full";
+    if (first == 0 || (full ? number < first : number != first)) return false;
+    errno = full ? ENOSPC : EIO;
+    return true;
+}
+
+bool fails(const char* call, int fd) {
+    std::array<char, 4096> path{};
+    const std::string link = "/proc/self/fd/" + std::to_string(fd);
+    if (readlink(link.c_str(), path.data(), path.size() - 1) < 0) std::abort();
+    return fails(call, path.data());
+}
+
+/// What a write of `size` bytes is cut down to; 0: it is interrupted, and errno is set.
+std::size_t taken(std::size_t size) {
+    if (setting("FAULTY_DISK_MODE") == "short") return (size + 1) / 2;
+    if (setting("FAULTY_DISK_MODE") != "interrupted" || calls % 3 != 0) return size;
+    errno = EINTR;
+    return 0;
+}
+
+bool writes(int flags) {
+    return (flags & O_ACCMODE) != O_RDONLY;
+}
+
+template <class Open>
+int open_watched(Open open, const char* path, int flags, mode_t mode) {
+    if (writes(flags) && is_below(path) && fails("open", path)) return -1;
+    const int fd = open(path, flags, mode);
+    watch(fd, writes(flags) ? path : "");
+    return fd;
+}
+
+template <class Open>
+std::FILE* open_stream(Open open, const char* path, const char* mode) {
+    const bool writing = mode[0] != 'r';
+    if (writing && is_below(path) && fails("fopen", path)) return nullptr;
+    std::FILE* const file = open(path, mode);
+    if (file) watch(fileno(file), writing ? path : "");
+    return file;
+}
+
+mode_t mode_argument(int flags, std::va_list arguments) {
+    return (flags & O_CREAT) != 0 ? va_arg(arguments, mode_t) : 0;
+}
+
+}  // namespace
+
+extern "C" {
+
+int open(const char* path, int flags, ...) {
+    std::va_list arguments;
+    va_start(arguments, flags);
+    const mode_t mode = mode_argument(flags, arguments);
+    va_end(arguments);
+    return open_watched(NEXT(open), path, flags, mode);
+}
+
+int open64(const char* path, int flags, ...) {
+    std::va_list arguments;
+    va_start(arguments, flags);
+    const mode_t mode = mode_argument(flags, arguments);
+    va_end(arguments);
+    return open_watched(NEXT(open64), path, flags, mode);
+}
+
+std::FILE* fopen(const char* path, const char* mode) {
+    return open_stream(NEXT(fopen), path, mode);
+}
+
+std::FILE* fopen64(const char* path, const char* mode) {
+    return open_stream(NEXT(fopen64), path, mode);
+}
+
+ssize_t write(int fd, const void* bytes, std::size_t size) {
+    if (!is_watched(fd)) return NEXT(write)(fd, bytes, size);
+    if (fails("write", fd)) return -1;
+    const std::size_t part = taken(size);
+    return part == 0 && size > 0 ? -1 : NEXT(write)(fd, bytes, part);
+}
+
+ssize_t pwrite(int fd, const void* bytes, std::size_t size, off_t offset) {
+    if (!is_watched(fd)) return NEXT(pwrite)(fd, bytes, size, offset);
+    if (fails("pwrite", fd)) return -1;
+    const std::size_t part = taken(size);
+    return part == 0 && size > 0 ? -1 : NEXT(pwrite)(fd, bytes, part, offset);
+}
+
+int ftruncate(int fd, off_t size) noexcept {
+    if (is_watched(fd) && fails("ftruncate", fd)) return -1;
+    return NEXT(ftruncate)(fd, size);
+}
+
+// A stream's bytes may wait in its buffer. The disk is full for those as well, so they are thrown
+// away: a program that does not ask fwrite or fclose would leave a torn file.
+std::size_t fwrite(const void* bytes, std::size_t size, std::size_t count, std::FILE* file) {
+    if (is_watched(fileno(file)) && fails("fwrite", fileno(file))) {
+        __fpurge(file);
+        return 0;
+    }
+    return NEXT(fwrite)(bytes, size, count, file);
+}
+
+int fclose(std::FILE* file) {
+    const int fd = fileno(file);
+    const bool failing = is_watched(fd) && fails("fclose", fd);
+    const int reason = errno;
+    if (failing) __fpurge(file);
+    watch(fd, "");
+    const int result = NEXT(fclose)(file);
+    if (!failing) return result;
+    errno = reason;
+    return EOF;
+}
+
+int close(int fd) {
+    const bool failing = is_watched(fd) && fails("close", fd);
+    const int reason = errno;
+    watch(fd, "");
+    const int result = NEXT(close)(fd);
+    if (!failing) return result;
+    errno = reason;
+    return -1;
+}
+
+int rename(const char* from, const char* to) noexcept {
+    if (is_below(to) && fails("rename", to)) return -1;
+    return NEXT(rename)(from, to);
+}
+
+int mkdir(const char* path, mode_t mode) noexcept {
+    if (is_below(path) && fails("mkdir", path)) return -1;
+    return NEXT(mkdir)(path, mode);
+}
+
+}  // extern "C"

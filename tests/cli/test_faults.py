@@ -1,0 +1,249 @@
+"""Disks that fail, memory that runs out, signals at any moment: an exit code, a sentence, and what
+is written is whole or, by the same command run again, becomes so."""
+import json
+import os
+import pathlib
+import random
+import re
+import resource
+import shutil
+import signal
+import subprocess
+import time
+import unittest
+
+from sandbox import SONARSIM, Sandbox, digest, path_csv
+
+FAULTY_DISK = os.environ["FAULTY_DISK"]
+SANITIZED = os.environ["SANITIZED"] == "1"
+
+# Each kind of file that a dataset has: one ping of every sonar.
+MISSION = """\
+name: faults
+seed: 7
+scene: {file: box.gltf, materials: materials.csv}
+trajectory: {file: path.csv}
+sensors:
+  fls: {kind: imaging, azimuth_deg: 60, range_max_m: 6, range_bins: 16, azimuth_bins: 8,
+        noise: {add_sigma: 0.05}}
+  mbes: {kind: profiling, range_max_m: 6, range_bins: 16, azimuth_bins: 8}
+  sss: {kind: sidescan, range_max_m: 6, range_bins: 16}
+  sounder: {kind: echosounder, range_max_m: 6, range_bins: 16}
+output: {folder: out, fan_width_px: 32}
+"""
+
+RECORDS = ("soundings.npy", "waterfall.npy", "echogram.npy")
+
+
+class Faults(Sandbox):
+    def assert_whole(self, temporary=()):
+        """Every file that has its final name has all of its bytes."""
+        for path in self.out.rglob("*"):
+            if path.name.endswith(".part"):
+                self.assertIn(signal.SIGKILL, temporary, path)
+            elif path.suffix == ".json":
+                json.loads(path.read_text())
+            elif path.suffix == ".png":
+                self.assertEqual(path.read_bytes()[-8:-4], b"IEND", path)
+            elif path.is_file() and path.name in self.expected_sizes:
+                # Where pings are added one by one, in any order, the file bears its name before.
+                if path.name not in RECORDS or self.is_complete():
+                    self.assertEqual(path.stat().st_size, self.expected_sizes[path.name], path)
+
+    def is_complete(self):
+        return (self.out / "dataset.json").exists() and self.dataset()["complete"]
+
+    def render_whole(self):
+        """The dataset as it is when nothing fails."""
+        self.assert_renders()
+        whole = digest(self.out)
+        self.expected_sizes = {p.name: p.stat().st_size for p in self.out.rglob("*")
+                               if p.suffix in (".npy", ".tif", ".csv", ".ply", ".tum")}
+        shutil.rmtree(self.out)
+        return whole
+
+    def assert_can_go_on(self, whole):
+        self.assert_renders()
+        self.assertEqual(digest(self.out), whole)
+        shutil.rmtree(self.out)
+
+
+class FaultyDisk(Faults):
+    def setUp(self):
+        super().setUp()
+        self.write("mission.yaml", MISSION)
+        self.write("path.csv", path_csv(1))
+        self.log = self.folder / "calls"
+
+    def render_faulty(self, mode, call=0):
+        self.log.unlink(missing_ok=True)
+        environment = dict(os.environ, LD_PRELOAD=FAULTY_DISK, FAULTY_DISK_BELOW=str(self.out),
+                           FAULTY_DISK_LOG=str(self.log), FAULTY_DISK_MODE=mode,
+                           FAULTY_DISK_CALL=str(call))
+        result = self.render("-j1", env=environment)
+        calls = self.log.read_text() if self.log.exists() else ""
+        return result, re.sub(r"\.[0-9]+\.part", ".part", calls).splitlines()
+
+    def test_every_call_that_writes_may_fail(self):
+        whole = self.render_whole()
+        result, calls = self.render_faulty("none")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(digest(self.out), whole)
+        shutil.rmtree(self.out)
+        # Four kinds of sonar with all their files: fewer would mean that the disk is not asked.
+        self.assertEqual({call.split()[0] for call in calls},
+                         {"open", "write", "pwrite", "ftruncate", "rename", "mkdir", "fopen",
+                          "fwrite", "fclose", "close"})
+        self.assertGreater(len(calls), 100)
+        every = 10 if SANITIZED else 1
+        for number in range(1, len(calls) + 1, every):
+            self.check_call("once", "Input/output error", calls, number, number % 6 == 0, whole)
+        for number in range(1, len(calls) + 1, 5 * every):
+            self.check_call("full", "No space left on device", calls, number, True, whole)
+
+    def check_call(self, mode, reason, calls, number, go_on, whole):
+        with self.subTest(mode=mode, number=number, call=calls[number - 1]):
+            shutil.rmtree(self.out, ignore_errors=True)
+            result, seen = self.render_faulty(mode, number)
+            self.assertEqual(seen[:number], calls[:number], "calls in another order")
+            self.assertEqual(result.returncode, 1, result.stderr)
+            self.assertEqual(len(re.findall("^error: ", result.stderr, re.M)), 1, result.stderr)
+            self.assertIn(reason, result.stderr)
+            self.assertIn(str(self.out), result.stderr)
+            self.assertFalse(self.is_complete())
+            self.assert_whole()
+            if go_on:
+                self.assert_can_go_on(whole)
+
+    def test_writes_that_are_done_in_parts(self):
+        whole = self.render_whole()
+        for mode in ("short", "interrupted"):
+            with self.subTest(mode=mode):
+                result, calls = self.render_faulty(mode)
+                self.assertEqual(result.returncode, 0, result.stderr)
+                self.assertEqual(digest(self.out), whole)
+                self.assertGreater(len(calls), 200)
+                shutil.rmtree(self.out)
+
+    def test_results_that_nobody_can_take(self):
+        for arguments in (["render", "mission.yaml", "--no-files"], ["inspect", "box.gltf"],
+                          ["validate", "mission.yaml"], ["--help"]):
+            with self.subTest(arguments=arguments), open("/dev/full", "w") as full:
+                result = subprocess.run([SONARSIM, *arguments], cwd=self.folder, text=True,
+                                        stdout=full, stderr=subprocess.PIPE, check=False)
+                self.assertEqual(result.returncode, 1, result.stderr)
+                self.assertIn("No space left on device", result.stderr)
+
+
+class RandomSignals(Faults):
+    POSES = 120
+
+    def test_signals_at_random_moments(self):
+        self.write("path.csv", path_csv(self.POSES))
+        start = time.monotonic()
+        whole = self.render_whole()
+        longest = time.monotonic() - start
+        draw = random.Random(20)
+        codes = {signal.SIGINT: {130}, signal.SIGTERM: {143}, signal.SIGKILL: {-signal.SIGKILL}}
+        for _ in range(4 if SANITIZED else 30):
+            number = draw.choice(list(codes))
+            wait = draw.uniform(0.0, longest)
+            before = digest(self.out) if self.out.exists() else {}
+            with self.subTest(signal=number, wait=wait):
+                with subprocess.Popen([SONARSIM, "render", "mission.yaml"], cwd=self.folder,
+                                      text=True, stdout=subprocess.DEVNULL,
+                                      stderr=subprocess.PIPE) as process:
+                    time.sleep(wait)
+                    process.send_signal(number)
+                    _, stderr = process.communicate(timeout=60)
+                # Until the program is loaded and has begun, a signal ends it without a word.
+                after = digest(self.out) if self.out.exists() else {}
+                early = {-number} if after == before else set()
+                self.assertIn(process.returncode, codes[number] | {0} | early, stderr)
+                if process.returncode > 0:
+                    self.assertIn("run again", stderr)
+                self.assertEqual(self.is_complete(), process.returncode == 0)
+                self.assert_whole(temporary=(number,))
+        self.assert_can_go_on(whole)
+
+    def test_a_second_signal_ends_at_once(self):
+        self.write("path.csv", path_csv(20 * self.POSES))
+        with subprocess.Popen([SONARSIM, "render", "mission.yaml"], cwd=self.folder,
+                              stdout=subprocess.DEVNULL, stderr=subprocess.PIPE) as process:
+            while not list(self.out.glob("fls/meta/*.json")):
+                self.assertIsNone(process.poll())
+                time.sleep(0.01)
+            process.send_signal(signal.SIGSTOP)  # so that both are there before it can react
+            process.send_signal(signal.SIGINT)
+            process.send_signal(signal.SIGTERM)
+            process.send_signal(signal.SIGCONT)
+            process.communicate(timeout=60)
+        self.assertIn(process.returncode, {-signal.SIGINT, -signal.SIGTERM, 130, 143})
+
+
+class Machine(Faults):
+    def test_a_full_disk_exits_1(self):
+        def small_files():
+            resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096))
+
+        # Python ignores SIGXFSZ; handed on, a write beyond the limit fails as on a full disk.
+        result = self.render(preexec_fn=small_files, restore_signals=False)
+        self.assertEqual(result.returncode, 1, result.stderr)
+        self.assertIn("cannot write", result.stderr)
+        self.assertFalse((self.out / "fls/polar/000000.npy").exists())
+        self.assert_renders()
+
+    def limited(self, *arguments, megabytes):
+        def limit():
+            resource.setrlimit(resource.RLIMIT_AS, (megabytes << 20, megabytes << 20))
+
+        return self.run_sonarsim(*arguments, preexec_fn=limit)
+
+    @unittest.skipIf(SANITIZED, "a program under a sanitizer cannot be held to so little memory")
+    def test_too_little_memory_for_the_mission(self):
+        largest = ("--set", "sensors.fls.range_bins=8192", "--set", "sensors.fls.azimuth_bins=8192")
+        result = self.limited("render", "mission.yaml", "-j1", *largest, megabytes=1500)
+        self.assertEqual(result.returncode, 1, result.stderr)
+        self.assertIn("out of memory", result.stderr)
+
+    @unittest.skipIf(SANITIZED, "a program under a sanitizer cannot be held to so little memory")
+    def test_memory_runs_out_anywhere(self):
+        """From what suffices down to what the libraries cannot even be loaded with."""
+        whole = self.render_whole()
+        def loads(megabytes):
+            return self.limited("--version", megabytes=megabytes).returncode == 0
+
+        least = next(mb for mb in range(100, 2000, 10) if loads(mb))
+        failed = 0
+        # Where a library lies in memory is up to chance, and so is the last bit that it needs.
+        for megabytes in range(least + 40, least + 500, 20):
+            with self.subTest(megabytes=megabytes):
+                result = self.limited("render", "mission.yaml", "-j2", megabytes=megabytes)
+                self.assertIn(result.returncode, (0, 1), result.stderr)
+                self.assertEqual(self.is_complete(), result.returncode == 0)
+                self.assert_whole()
+                if result.returncode == 0:
+                    self.assertEqual(digest(self.out), whole)
+                    break
+                failed += 1
+                self.assertIn("out of memory", result.stderr)
+        self.assertGreater(failed, 0)
+        self.assertTrue(self.is_complete())
+
+    def test_read_only_folder(self):
+        self.out.mkdir()
+        self.out.chmod(0o555)
+        self.folder.chmod(0o755)
+        options = {"user": 65534} if os.getuid() == 0 else {}
+        try:
+            subprocess.run([SONARSIM, "--version"], check=True, capture_output=True, **options)
+        except (OSError, subprocess.CalledProcessError):
+            self.skipTest("root writes everywhere, and nobody cannot run the program here")
+        result = self.render(**options)
+        self.assertEqual(result.returncode, 1, result.stderr)
+        self.assertIn("out", result.stderr)
+        self.assertIn("Permission denied", result.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
