@@ -1,29 +1,28 @@
 #!/usr/bin/env bash
-# ./scripts/fuzz.sh [seconds]: builds tests/fuzz with clang and runs each target for that long
-# (default: 60). New inputs are kept in build-fuzz/corpus, a crash in build-fuzz/crash-*.
+# ./scripts/fuzz.sh [seconds]: runs each target of tests/fuzz for that long (default: 60), as many at
+# a time as there are cores, in the build of the preset asan. New inputs are kept in
+# build-asan/fuzz/NAME, what was printed in NAME.log, an input that ends a target in NAME-crash-*.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 seconds=${1:-60}
 [[ $seconds =~ ^[1-9][0-9]*$ ]] || { echo "usage: $0 [seconds]" >&2; exit 2; }
 
-SONARSIM_BUILD=no ./scripts/setup.sh clang libclang-rt-14-dev
-cmake -S . -B build-fuzz -G Ninja -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=RelWithDebInfo \
-    -DSONARSIM_FUZZ=ON >&2
-cmake --build build-fuzz --target fuzz >&2
+export SONARSIM_PRESET=asan
+SONARSIM_BUILD=no ./scripts/setup.sh
+cmake --preset asan >&2
+cmake --build build-asan --target fuzz >&2
 
-shopt -s nullglob
-failed=()
-for source in tests/fuzz/fuzz_*.cpp; do
-    target=$(basename "$source" .cpp)
-    name=${target#fuzz_}
-    mkdir -p "build-fuzz/corpus/$name"
-    corpora=("build-fuzz/corpus/$name")
-    [ -d "tests/fuzz/corpus/$name" ] && corpora+=("tests/fuzz/corpus/$name")
-    build-fuzz/tests/fuzz/"$target" -max_total_time="$seconds" -timeout=10 -rss_limit_mb=2048 \
-        -artifact_prefix=build-fuzz/crash-"$name"- -print_final_stats=1 \
-        "${corpora[@]}" || failed+=("$name")
-done
-if ((${#failed[@]})); then
-    echo "failed: ${failed[*]}" >&2
-    exit 1
-fi
+fuzz() {
+    local name=$1 seconds=$2 folder=build-asan/fuzz code=0
+    mkdir -p "$folder/$name"
+    build-asan/tests/fuzz/fuzz_"$name" -max_total_time="$seconds" -timeout=10 -rss_limit_mb=2048 \
+        -artifact_prefix="$folder/$name"- -print_final_stats=1 \
+        "$folder/$name" "tests/fuzz/corpus/$name" >"$folder/$name.log" 2>&1 || code=$?
+    local runs
+    runs=$(sed -n 's/^stat::number_of_executed_units: *//p' "$folder/$name.log")
+    echo "$name: ${runs:-0} executions in $seconds s, $([ "$code" = 0 ] && echo no finding || echo "FINDING, see $folder/$name.log")"
+    return "$code"
+}
+export -f fuzz
+find tests/fuzz -name 'fuzz_*.cpp' | sed 's/.*fuzz_//; s/\.cpp$//' | sort |
+    xargs -P "$(nproc)" -I{} bash -c "fuzz {} $seconds"

@@ -8,6 +8,8 @@ cd "$(dirname "$0")/.."
 packages=(g++ cmake ninja-build ccache make pkg-config python3
     libeigen3-dev libembree-dev libtbb-dev librandom123-dev libopenimageio-dev libtinygltf-dev
     libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libspdlog-dev doctest-dev "$@")
+preset=${SONARSIM_PRESET:-release}
+case $preset in asan | tsan) packages+=(clang libclang-rt-14-dev) ;; esac
 missing=()
 for package in "${packages[@]}"; do
     dpkg-query -W -f '${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing+=("$package")
@@ -22,6 +24,5 @@ if ((${#missing[@]})); then
 fi
 [ "${SONARSIM_BUILD:-yes}" = yes ] || exit 0
 
-preset=${SONARSIM_PRESET:-release}
 cmake --preset "$preset" >&2
 cmake --build --preset "$preset" >&2

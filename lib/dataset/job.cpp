@@ -14,6 +14,7 @@
 
 #include "core/error.h"
 #include "core/file.h"
+#include "core/handover.h"
 #include "dataset/folder.h"
 #include "dataset/measure.h"
 #include "dataset/metadata.h"
@@ -117,23 +118,35 @@ void stream_pings(const std::vector<PingId>& todo, int threads, const Work& work
                   RenderSummary& summary) {
     std::size_t next = 0;
     const auto feed = [&](tbb::flow_control& flow) -> std::size_t {
+        received(&next);
         if (next == todo.size() || stop) {
             flow.stop();
             return next;
         }
-        return next++;
+        const std::size_t i = next++;
+        handed_over(&next);
+        return i;
+    };
+    const auto render = [&](std::size_t i) {
+        received(&next);
+        PingReport report = work(todo[i]);
+        handed_over(&summary);
+        return report;
     };
     const auto finish = [&](const PingReport& report) {
+        received(&summary);
         add(summary, report);
         if (progress) progress(summary.pings, todo.size());
+        handed_over(&summary);
     };
     const double start = seconds_now();
+    handed_over(&next);
     tbb::parallel_pipeline(
         2 * static_cast<std::size_t>(threads),
         tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order, feed) &
-            tbb::make_filter<std::size_t, PingReport>(
-                tbb::filter_mode::parallel, [&](std::size_t i) { return work(todo[i]); }) &
+            tbb::make_filter<std::size_t, PingReport>(tbb::filter_mode::parallel, render) &
             tbb::make_filter<PingReport, void>(tbb::filter_mode::serial_in_order, finish));
+    received(&summary);
     summary.seconds = seconds_now() - start;
     summary.stopped = summary.pings < todo.size();
 }

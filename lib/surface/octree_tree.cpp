@@ -62,8 +62,7 @@ void close(Level& level) {
 }  // namespace
 
 Octree::Octree(const Scene& scene, const Caster& caster, const OctreeOptions& options)
-    : scene_(&scene),
-      maker_(scene, caster),
+    : maker_(scene, caster),
       budget_(options.memory_mb << 20),
       plain_levels_(options.literal ? 0 : plain_levels) {
     if (!(options.leaf_m >= 0.0)) {

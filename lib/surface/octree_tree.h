@@ -100,7 +100,6 @@ class Octree {
                   Level& level) const;
     void split(const Tile& tile, const LevelNode& node, Level& finer) const;
 
-    const Scene* scene_;
     LeafMaker maker_;
     Eigen::Vector3d min_;
     double edge_m_ = 0.0;

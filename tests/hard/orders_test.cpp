@@ -1,12 +1,14 @@
 #include <doctest/doctest.h>
 
 #include "study/hard_orders.h"
+#include "support/sanitized.h"
 
 using namespace sonarsim;
 
 TEST_SUITE_BEGIN("hard");
 
-TEST_CASE("the error of both engines falls with their resolution") {
+TEST_CASE("the error of both engines falls with their resolution" *
+          doctest::skip(test::sanitized)) {
     const std::vector<ConvergenceOrder> orders = convergence_orders();
     REQUIRE(orders.size() == 6);
     MESSAGE(orders_table(orders));

@@ -7,6 +7,7 @@
 
 #include "core/units.h"
 #include "sonar/sonar.h"
+#include "support/sanitized.h"
 #include "support/scenes.h"
 #include "support/statistics.h"
 #include "surface/rays.h"
@@ -186,7 +187,8 @@ class PlainSonar {
 
 TEST_SUITE_BEGIN("ping");
 
-TEST_CASE("a whole noisy image has the distribution of the equations") {
+TEST_CASE("a whole noisy image has the distribution of the equations" *
+          doctest::skip(test::sanitized)) {
     constexpr int pings = 400;
     const Scene scene = corner();
     const auto surface = make_rays_surface(scene);

@@ -1,0 +1,32 @@
+#pragma once
+
+#if defined(__has_feature)
+#if __has_feature(thread_sanitizer)
+#define SONARSIM_THREAD_SANITIZER
+#endif
+#endif
+
+#ifdef SONARSIM_THREAD_SANITIZER
+extern "C" void __tsan_acquire(void* address);
+extern "C" void __tsan_release(void* address);
+#endif
+
+namespace sonarsim {
+
+// The thread sanitizer sees no order between threads that TBB hands work to: Debian's TBB is not
+// built for it. These tell it of one, and are nothing in other builds. The order itself is TBB's.
+
+/// What this thread has written may be read by those that call `received` for the same address.
+inline void handed_over([[maybe_unused]] const void* address) {
+#ifdef SONARSIM_THREAD_SANITIZER
+    __tsan_release(const_cast<void*>(address));
+#endif
+}
+
+inline void received([[maybe_unused]] const void* address) {
+#ifdef SONARSIM_THREAD_SANITIZER
+    __tsan_acquire(const_cast<void*>(address));
+#endif
+}
+
+}  // namespace sonarsim
