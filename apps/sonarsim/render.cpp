@@ -81,7 +81,8 @@ void log_dropped(const PingCounts& counts) {
     const auto say = [](std::uint64_t count, const char* what) {
         if (count > 0) spdlog::info("{} {}", count, what);
     };
-    say(counts.dropped_samples, "rays met a surface edge-on or at no distance, and count for none");
+    say(counts.dropped_samples,
+        "pieces of surface were left out: edge-on, at no distance, or lost in rounding");
     say(counts.out_of_range, "echoes lay outside the range and were dropped");
     say(counts.negative_pixels, "pixels were negative after the noise and became 0");
     const MultipathCounts& m = counts.multipath;

@@ -12,6 +12,14 @@ namespace {
 constexpr int most_facets = 6;
 constexpr double same_direction = 0.85;  // cosine
 
+/// Whether an area that is small beside a cube is part of a triangle in it, rather than rounding
+/// where the triangle touches the cube: it is not small beside the triangle. Of a triangle that has
+/// no area, all area is rounding.
+bool is_real(double part, const Triangle& t) {
+    const double whole = 0.5 * (t[1] - t[0]).cross(t[2] - t[0]).norm();
+    return whole > 0.0 && part > 1e-6 * whole;
+}
+
 /// The surface of one direction and material inside a cube.
 struct Group {
     Moments moments;
@@ -153,12 +161,14 @@ Triangle LeafMaker::triangle(std::uint32_t index) const {
 int LeafMaker::append(const Cube& cube, std::span<const std::uint32_t> triangles,
                       FacetArrays& facets) const {
     const Eigen::Vector3d centre = cube.min.array() + 0.5 * cube.edge;
-    // Less than this is rounding where a triangle touches the cube.
-    const double least = 1e-12 * cube.edge * cube.edge;
+    const double sliver = 1e-12 * cube.edge * cube.edge;
     Groups groups;
     for (const std::uint32_t index : triangles) {
-        const Moments m = moments(clip(triangle(index), cube), centre);
-        if (m.area > least) groups.add(m, caster_->facet(index), index);
+        const Triangle whole = triangle(index);
+        const Moments m = moments(clip(whole, cube), centre);
+        if (m.area > sliver || (m.area > 0.0 && is_real(m.area, whole))) {
+            groups.add(m, caster_->facet(index), index);
+        }
     }
     const std::span<Group> found = groups.by_area();
     for (const Group& group : found)

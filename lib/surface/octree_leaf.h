@@ -46,7 +46,8 @@ class LeafMaker {
 
     /// Clips `triangles` to the cube and appends what is inside: one facet per direction of the
     /// normal and material, the largest first, six at most. Depends on the cube and the triangles
-    /// in it alone. Returns how many were appended.
+    /// in it alone. A millionth of a triangle may be lost to rounding in a cube, no more. Returns
+    /// how many were appended.
     int append(const Cube& cube, std::span<const std::uint32_t> triangles,
                FacetArrays& facets) const;
 

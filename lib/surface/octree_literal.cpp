@@ -37,7 +37,10 @@ void look_literally(Octree& tree, const Scene& scene, const View& view, const Fi
             const Eigen::Vector3f centre =
                 field.R_sensor_local() * node_visit(run.root, run.level->nodes[i]).centre;
             const double range = centre.norm();
-            if (!(range > 0.0)) continue;
+            if (!(range > 0.0)) {
+                ++samples.dropped;  // the leaf's centre is the sonar: it lies in no direction
+                continue;
+            }
             const int beam = beam_of(view, centre);
             if (beam < 0) continue;
             const double azimuth = arctan2(centre.y(), centre.x()) + 0.5 * view.azimuth_rad;

@@ -32,7 +32,7 @@ void look_at_leaves(Octree& tree, const Scene& scene, const View& view, const Fi
     const auto middle = static_cast<float>(0.5 * view.range_max_m);
     AngularCells cells(view, field.leaf_m(middle) / middle / cells_per_leaf);
     std::vector<SeenFacet> seen;
-    const auto take = [&](const Run& run) { cells.see(run, field, seen); };
+    const auto take = [&](const Run& run) { samples.dropped += cells.see(run, field, seen); };
     Search(tree, field, take).run();
     cells.close_holes();
     if (view.shape == ViewShape::cone) cells.mask_cone(view);
@@ -41,7 +41,7 @@ void look_at_leaves(Octree& tree, const Scene& scene, const View& view, const Fi
     items.reserve(2 * seen.size());
     beams.reserve(2 * seen.size());
     for (const SeenFacet& facet : seen) {
-        cells.pieces(facet, [&](int beam, const SeenPiece& piece) {
+        samples.dropped += cells.pieces(facet, [&](int beam, const SeenPiece& piece) {
             Sample& sample = items.emplace_back();
             sample.position = facet.centre + piece.u * facet.edge_u + piece.v * facet.edge_v;
             sample.edge_u = piece.half_u * facet.edge_u;

@@ -78,11 +78,13 @@ void AngularCells::project(const FacetArrays& facets, std::uint32_t begin, int c
     const auto beams = static_cast<float>(beams_);
     const auto rows = static_cast<float>(rows_);
     const float columns_per_beam = static_cast<float>(columns_per_beam_);
+    const float least_rho2 = least_rho2_;
+    const float least_height = least_height_;
     for (int k = 0; k < count; ++k) {
         const float x = out.centre[0][k];
         const float y = out.centre[1][k];
         const float z = out.centre[2][k];
-        const float rho2 = std::max(x * x + y * y, 1e-8F);
+        const float rho2 = std::max(x * x + y * y, least_rho2);
         const float per_rho = 1.0F / std::sqrt(rho2);
         const float per_rho2 = per_rho * per_rho;
         const float slope = z * per_rho;
@@ -99,7 +101,7 @@ void AngularCells::project(const FacetArrays& facets, std::uint32_t begin, int c
         const float out_of_sight = std::max(std::max(-half_beams - beam, beam - half_beams - beams),
                                             std::max(-half_rows - row, row - half_rows - rows));
         // No azimuth on the sensor's axis.
-        out.in_sight[k] = rho2 > 1e-8F ? -out_of_sight : -1.0F;
+        out.in_sight[k] = rho2 > least_rho2 ? -out_of_sight : -1.0F;
         out.beams_u[k] = beams_u;
         out.beams_v[k] = beams_v;
         out.rows_u[k] = rows_u;
@@ -119,7 +121,7 @@ void AngularCells::project(const FacetArrays& facets, std::uint32_t begin, int c
         out.normal[1][k] = ny;
         out.normal[2][k] = nz;
         // 1 / rho = -(n . (cos azimuth, sin azimuth, slope)) / height.
-        const float height = std::max(facing * signed_height, 1e-6F);
+        const float height = std::max(facing * signed_height, least_height);
         const float per_height = 1.0F / height;
         const float depth_row = -nz * per_height / rows_per_slope;
         const float depth_beam = (nx * y - ny * x) * per_rho * per_height / beams_per_rad;
@@ -144,16 +146,33 @@ void AngularCells::project(const FacetArrays& facets, std::uint32_t begin, int c
     }
 }
 
-void AngularCells::see(const Run& run, const Field& field, std::vector<SeenFacet>& seen) {
+bool AngularCells::is_lost_on_axis(const Lanes& lanes, int k) const {
+    const float x = lanes.centre[0][k];
+    const float y = lanes.centre[1][k];
+    if (x * x + y * y > least_rho2_) return false;
+    const auto aside = [&](const std::array<Lanes::Lane, 3>& v) {
+        return std::sqrt(v[0][k] * v[0][k] + v[1][k] * v[1][k]);
+    };
+    const float farthest = std::sqrt(least_rho2_) + aside(lanes.u) + aside(lanes.v);
+    const float lowest =
+        std::fabs(lanes.centre[2][k]) - std::fabs(lanes.u[2][k]) - std::fabs(lanes.v[2][k]);
+    return rows_per_slope_ * lowest < 0.5F * static_cast<float>(rows_) * farthest;
+}
+
+int AngularCells::see(const Run& run, const Field& field, std::vector<SeenFacet>& seen) {
     const FacetArrays& facets = run.level->facets;
     Lanes lanes;
+    int lost = 0;
     for (std::uint32_t begin = run.facets_begin(); begin < run.facets_end();
          begin += Lanes::width) {
         const int count =
             static_cast<int>(std::min<std::uint32_t>(run.facets_end() - begin, Lanes::width));
         project(facets, begin, count, field, run.leaf_m, lanes);
         for (int k = 0; k < count; ++k) {
-            if (!(lanes.in_sight[k] > 0.0F)) continue;
+            if (!(lanes.in_sight[k] > 0.0F)) {
+                lost += is_lost_on_axis(lanes, k);
+                continue;
+            }
             const auto vector = [&](const std::array<Lanes::Lane, 3>& v) {
                 return Eigen::Vector3f(v[0][k], v[1][k], v[2][k]);
             };
@@ -186,6 +205,7 @@ void AngularCells::see(const Run& run, const Field& field, std::vector<SeenFacet
                   lanes.closing[k]);
         }
     }
+    return lost;
 }
 
 }  // namespace sonarsim

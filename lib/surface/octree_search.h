@@ -26,6 +26,9 @@ class Field {
     /// The edge that a leaf may have at a distance from the sensor, m.
     float leaf_m(float distance) const;
 
+    /// More than by what a place within the range may be off: four roundings of 6e-8 of it.
+    float rounding_m() const { return 1e-6F * reach_; }
+
     const Eigen::Vector3d& position() const { return position_; }
     const Eigen::Matrix3f& R_sensor_local() const { return R_sensor_local_; }
 
@@ -114,7 +117,7 @@ class Search {
     /// than half its diagonal, for rounding.
     bool look_at(Visit& visit) const {
         if (visit.side != Side::inside)
-            visit.side = field_.side(visit.centre, 0.8661F * visit.edge + 1e-4F);
+            visit.side = field_.side(visit.centre, 0.8661F * visit.edge + field_.rounding_m());
         return visit.side != Side::outside;
     }
 

@@ -12,6 +12,20 @@ namespace {
 
 constexpr int most_columns = 8192;
 
+// Positions are floats, off by some 1e-7 of the range. Within a hundred times that of the sensor's
+// z axis an azimuth is a matter of rounding.
+constexpr double axis_per_range = 1e-5;
+
+// A plane that passes the sensor at less than its own rounding is seen edge-on.
+constexpr double edge_on_per_range = 1e-7;
+
+// Azimuths are floats: of a facet a few beams wide, a part narrower than this share of it may as
+// well lie in the next beam.
+constexpr float least_width = 1e-4F;
+
+// And of the rows that a facet spans, less than a float can tell of their sum.
+constexpr float least_share = 1e-5F;
+
 /// Keeps a divisor away from zero, where only the sign of the quotient matters.
 float divisor(float x) {
     return std::fabs(x) > 1e-9F ? x : std::copysign(1e-9F, x);
@@ -33,6 +47,9 @@ AngularCells::AngularCells(const View& view, float cell_rad) : beams_(view.beams
     beams_per_rad_ = static_cast<float>(1.0 / beam);
     const SinCos half = sincos(0.5 * view.elevation_rad);
     rows_per_slope_ = static_cast<float>(0.5 * rows_ * half.cos / half.sin);
+    const double least_rho = axis_per_range * view.range_max_m;
+    least_rho2_ = static_cast<float>(least_rho * least_rho);
+    least_height_ = static_cast<float>(edge_on_per_range * view.range_max_m);
     depth_.assign(static_cast<std::size_t>(columns_) * rows_, 0.0F);
 }
 
@@ -130,19 +147,21 @@ bool AngularCells::is_open(const SeenFacet& seen) const {
     return true;
 }
 
-bool AngularCells::piece(const SeenFacet& seen, int beam, bool open, SeenPiece& piece) const {
+AngularCells::Part AngularCells::piece(const SeenFacet& seen, int beam, bool open,
+                                       SeenPiece& piece) const {
     const auto b = static_cast<float>(beam);
     const float per_half = 1.0F / seen.half_beams;
     const float from = std::max((b - seen.beam) * per_half, -1.0F);
     const float to = std::min((b + 1.0F - seen.beam) * per_half, 1.0F);
     piece.u = 0.5F * (from + to);
     piece.half_u = 0.5F * (to - from);
-    if (!(piece.half_u > 1e-4F)) return false;
+    if (!(piece.half_u > 0.0F)) return Part::unseen;
+    const bool wide = piece.half_u > least_width;
     if (open) {
         piece.share = piece.half_u;
         piece.v = 0.0F;
         piece.half_v = 1.0F;
-        return true;
+        return wide ? Part::seen : Part::too_small;
     }
     const float row = seen.row + piece.u * seen.rows_u;
     const float low = row - seen.half_rows;
@@ -164,8 +183,8 @@ bool AngularCells::piece(const SeenFacet& seen, int beam, bool open, SeenPiece& 
     float most = low;
     for (int column = columns_begin; column < columns_end; ++column) {
         const float* const cells = depth_.data() + static_cast<std::size_t>(column) * rows_;
-        const float wide = std::min(right, static_cast<float>(column + 1)) -
-                           std::max(left, static_cast<float>(column));
+        const float width = std::min(right, static_cast<float>(column + 1)) -
+                            std::max(left, static_cast<float>(column));
         const float d = (static_cast<float>(column) + 0.5F) / per_beam - seen.beam;
         const float base =
             seen.depth + seen.depth_beam * d + seen.depth_row * (0.5F - seen.row) + seen.slack;
@@ -175,21 +194,22 @@ bool AngularCells::piece(const SeenFacet& seen, int beam, bool open, SeenPiece& 
             if (cells[r] > depth) continue;
             const float bottom = std::max(low, static_cast<float>(r));
             const float top = std::min(high, static_cast<float>(r + 1));
-            const float weight = wide * (top - bottom);
+            const float weight = width * (top - bottom);
             sum += weight;
             moment += weight * 0.5F * (bottom + top);
             least = std::min(least, bottom);
             most = std::max(most, top);
         }
     }
+    if (!(sum > 0.0F)) return Part::unseen;
     const float whole = (right - left) * (high - low);
     piece.share = piece.half_u * std::min(sum / whole, 1.0F);
-    if (!(piece.share > 1e-5F)) return false;
+    if (!(wide && piece.share > least_share)) return Part::too_small;
     const float per_rows = 1.0F / seen.half_rows;
     piece.v = (moment / sum - row) * per_rows;
     // The visible rows are one run, or nearly: as long as their number, within what was met.
     piece.half_v = 0.5F * (most - least) * per_rows;
-    return true;
+    return Part::seen;
 }
 
 }  // namespace sonarsim

@@ -48,8 +48,9 @@ class AngularCells {
     AngularCells(const View& view, float cell_rad);
 
     /// Projects the facets of a run, enters them into the cells and appends those that are not
-    /// out of sight to `seen`.
-    void see(const Run& run, const Field& field, std::vector<SeenFacet>& seen);
+    /// out of sight to `seen`. Returns how many are left out although the view reaches them: their
+    /// centre lies on the sensor's z axis to within rounding, where no azimuth can be told.
+    int see(const Run& run, const Field& field, std::vector<SeenFacet>& seen);
 
     /// Once all is seen: a cell takes the depth of its two neighbours to either side where both are
     /// nearer. Footprints leave no larger holes in a surface.
@@ -59,19 +60,22 @@ class AngularCells {
     void mask_cone(const View& view);
 
     /// Calls `put(beam, piece)` for each beam that sees a part of the facet. All facets must have
-    /// been seen.
+    /// been seen. Returns how many parts are left out that a beam does see: they are too small to
+    /// be told from rounding.
     template <class Put>
-    void pieces(const SeenFacet& seen, Put put) const;
+    int pieces(const SeenFacet& seen, Put put) const;
 
   private:
     struct Lanes;
+    enum class Part { seen, unseen, too_small };
 
     void project(const FacetArrays& facets, std::uint32_t begin, int count, const Field& field,
                  float leaf_m, Lanes& lanes) const;
     void cover(const SeenFacet& seen, float beams_u, float beams_v, float rows_u, float rows_v,
                float grow);
+    bool is_lost_on_axis(const Lanes& lanes, int lane) const;
     bool is_open(const SeenFacet& seen) const;
-    bool piece(const SeenFacet& seen, int beam, bool open, SeenPiece& piece) const;
+    Part piece(const SeenFacet& seen, int beam, bool open, SeenPiece& piece) const;
 
     int beams_;
     int columns_per_beam_;
@@ -79,19 +83,25 @@ class AngularCells {
     int rows_;
     float beams_per_rad_;
     float rows_per_slope_;
+    float least_rho2_;          ///< nearer to the sensor's z axis there is no azimuth, m^2
+    float least_height_;        ///< of the sensor above a plane, as a divisor, m
     std::vector<float> depth_;  ///< [columns, rows]; 0: nothing
 };
 
 template <class Put>
-void AngularCells::pieces(const SeenFacet& seen, Put put) const {
+int AngularCells::pieces(const SeenFacet& seen, Put put) const {
     const auto most = static_cast<float>(beams_ - 1);
     const int first = static_cast<int>(std::clamp(seen.beam - seen.half_beams, 0.0F, most));
     const int last = static_cast<int>(std::clamp(seen.beam + seen.half_beams, 0.0F, most));
     const bool open = is_open(seen);
     SeenPiece part;
+    int too_small = 0;
     for (int beam = first; beam <= last; ++beam) {
-        if (piece(seen, beam, open, part)) put(beam, part);
+        const Part found = piece(seen, beam, open, part);
+        if (found == Part::seen) put(beam, part);
+        too_small += found == Part::too_small;
     }
+    return too_small;
 }
 
 }  // namespace sonarsim

@@ -27,7 +27,9 @@ struct Sample {
 struct Samples {
     std::vector<Sample> items;
     std::vector<std::uint32_t> beam_begin;  ///< beams + 1 offsets into `items`
-    /// Rays whose surface was left out: seen edge-on to within rounding, or touched by the sonar.
+    /// Surface in view that was left out. Rays: those that met it edge-on to within rounding, or at
+    /// no distance. Octree: parts of leaves too small, or too near the sensor's z axis, to be told
+    /// from rounding.
     std::uint64_t dropped = 0;
 
     std::span<const Sample> beam(int j) const {
