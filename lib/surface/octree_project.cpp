@@ -201,8 +201,23 @@ int AngularCells::see(const Run& run, const Field& field, std::vector<SeenFacet>
             next.depth_row = lanes.depth_row[k];
             next.depth_range = lanes.depth_range[k];
             next.slack = lanes.slack[k];
-            cover(next, lanes.beams_u[k], lanes.beams_v[k], lanes.rows_u[k], lanes.rows_v[k],
-                  lanes.closing[k]);
+            const auto cover_with = [&](const SeenFacet& facet) {
+                cover(facet, lanes.beams_u[k], lanes.beams_v[k], lanes.rows_u[k], lanes.rows_v[k],
+                      lanes.closing[k]);
+            };
+            cover_with(next);
+            // What reaches over the half plane behind the sonar goes on at the other end of the
+            // view.
+            const float beam = next.beam;
+            const float half = next.half_beams;
+            if (half > 0.5F * turn_beams_) continue;  // all round, or so it seems near the axis
+            for (const float other : {beam - turn_beams_, beam + turn_beams_}) {
+                if (other + half <= 0.0F || other - half >= static_cast<float>(beams_)) continue;
+                SeenFacet over = seen.back();
+                over.beam = other;
+                cover_with(over);
+                seen.push_back(over);
+            }
         }
     }
     return lost;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/elementary.h"
+#include "core/units.h"
 
 namespace sonarsim {
 
@@ -45,6 +46,7 @@ AngularCells::AngularCells(const View& view, float cell_rad) : beams_(view.beams
     columns_ = beams_ * columns_per_beam_;
     rows_ = std::clamp(static_cast<int>(std::ceil(view.elevation_rad / cell_rad)), 4, 2048);
     beams_per_rad_ = static_cast<float>(1.0 / beam);
+    turn_beams_ = static_cast<float>(2.0 * pi / beam);
     const SinCos half = sincos(0.5 * view.elevation_rad);
     rows_per_slope_ = static_cast<float>(0.5 * rows_ * half.cos / half.sin);
     const double least_rho = axis_per_range * view.range_max_m;

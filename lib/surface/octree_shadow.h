@@ -82,6 +82,7 @@ class AngularCells {
     int columns_;
     int rows_;
     float beams_per_rad_;
+    float turn_beams_;  ///< beams that a full turn would have
     float rows_per_slope_;
     float least_rho2_;          ///< nearer to the sensor's z axis there is no azimuth, m^2
     float least_height_;        ///< of the sensor above a plane, as a divisor, m

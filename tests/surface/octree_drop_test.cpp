@@ -110,6 +110,27 @@ TEST_CASE("octree drops: what the view sees of a plate that spans far more than 
     }
 }
 
+TEST_CASE("octree: a full turn has a seam behind the sonar, and nothing is lost there") {
+    // A plate of 40 x 10 cm, its middle at, beside and on the other side of 180 degrees.
+    for (const float middle : {0.0F, 0.05F, -0.05F, 0.19F}) {
+        CAPTURE(middle);
+        Scene scene = plate_ahead(middle - 0.2F, middle + 0.2F);
+        for (Eigen::Vector3f& p : scene.vertices)
+            p.x() = -p.x();
+        const Samples samples = look(scene, view_of(360.0, 20.0, 4));
+        double port = 0.0;
+        double starboard = 0.0;
+        for (const Sample& sample : samples.beam(3))
+            port += static_cast<double>(sample.area_m2);
+        for (const Sample& sample : samples.beam(0))
+            starboard += static_cast<double>(sample.area_m2);
+        CHECK(port == doctest::Approx(0.1 * (0.2 + middle)).epsilon(0.01));
+        CHECK(starboard == doctest::Approx(0.1 * (0.2 - middle)).epsilon(0.01));
+        CHECK(samples.beam(1).empty());
+        CHECK(samples.beam(2).empty());
+    }
+}
+
 TEST_CASE("octree drops: to the letter, a leaf about the sonar lies in no direction") {
     // Literal leaves are cubes that stand for their centre. The corner of the lattice lies
     // (0.382, 0.618, 0.272) leaves before the scene's lowest vertex.
