@@ -12,10 +12,6 @@ namespace {
 // it is beyond what a float position can tell, and beyond what the plane can stand for.
 constexpr float edge_on = 0.01F;
 
-// The point on which the sonar looks back may lie this much behind what it meets there.
-constexpr float hidden_relative = 1e-3F;
-constexpr float hidden_m = 1e-3F;
-
 // Two traced ends of a cluster have met one plane when each lies on the other's to within half a
 // bin, and the normals to within 2.5 degrees.
 constexpr float same_normal = 0.999F;
@@ -25,6 +21,7 @@ constexpr float same_plane_bins = 0.5F;
 struct Second {
     Eigen::Vector3f point;  ///< p_h, sensor frame
     Eigen::Vector3f normal;
+    float rounding_m = 0.0F;  ///< as in Hit
     float reflection = 0.0F;
     bool met = false;
 };
@@ -66,20 +63,35 @@ Ray mirrored_ray(const Sample& sample, float bin_m) {
             mirrored(sample.position / range, sample.normal)};
 }
 
-/// Traces the samples and adds what they met to `seconds`.
+/// Whether a ray may have met the surface that it started from: its start lies on what it met to
+/// within rounding.
+bool met_its_start(const Ray& ray, const Hit& hit) {
+    return std::fabs(hit.distance_m * hit.normal.dot(ray.direction)) <= hit.rounding_m;
+}
+
+/// Traces the samples and adds what they met to `seconds`. Far from the scene's origin, or on a
+/// triangle that reaches far, a start may be rounded to below its surface; it then tries once more
+/// from above that rounding.
 void trace(const Context& context, std::span<const std::uint32_t> chosen,
-           std::vector<Second>& seconds) {
+           std::vector<Second>& seconds, MultipathCounts& counts) {
     std::vector<Ray> rays;
     rays.reserve(chosen.size());
     for (const std::uint32_t i : chosen)
         rays.push_back(mirrored_ray(context.samples.items[i], context.bin_m));
     std::vector<Hit> hits(rays.size());
     context.surface.hit(context.T_world_sensor, rays, hits);
+    counts.rays += rays.size();
+    for (std::size_t k = 0; k < rays.size(); ++k) {
+        if (!met_its_start(rays[k], hits[k])) continue;
+        rays[k].origin += 2.0F * hits[k].rounding_m * context.samples.items[chosen[k]].normal;
+        context.surface.hit(context.T_world_sensor, {&rays[k], 1}, {&hits[k], 1});
+        ++counts.rays;
+    }
     for (std::size_t k = 0; k < rays.size(); ++k) {
         Second second;
         if (std::isfinite(hits[k].distance_m)) {
             second = {rays[k].origin + hits[k].distance_m * rays[k].direction, hits[k].normal,
-                      context.materials[hits[k].material].reflection, true};
+                      hits[k].rounding_m, context.materials[hits[k].material].reflection, true};
         }
         seconds.push_back(second);
     }
@@ -158,13 +170,26 @@ void follow_traced(const Context& context, std::span<const std::uint32_t> chosen
                    std::vector<Second>& seconds, std::vector<Bounce>& bounces,
                    MultipathCounts& counts) {
     const std::size_t first = seconds.size();
-    trace(context, chosen, seconds);
+    trace(context, chosen, seconds, counts);
     constexpr float anywhere = std::numeric_limits<float>::infinity();
     for (std::size_t k = 0; k < chosen.size(); ++k) {
         const Second& own = seconds[first + k];
         follow(context, chosen[k], static_cast<std::uint32_t>(first + k),
                {&own, own.point, anywhere}, bounces, counts);
     }
+}
+
+/// Whether what a ray from the sonar to p_h meets lies before p_h. Where both are the same surface,
+/// two ranges of one point are compared: each is off by its rounding across the surface, and that
+/// counts for 1 / cos of the incidence along the ray.
+bool hides(const Hit& hit, const Second& second, const Ray& ray) {
+    if (std::isinf(hit.distance_m)) return false;
+    const auto along_ray = [&](float rounding_m, const Eigen::Vector3f& normal) {
+        return rounding_m / std::fabs(normal.dot(ray.direction));
+    };
+    const float slack =
+        along_ray(hit.rounding_m, hit.normal) + along_ray(second.rounding_m, second.normal);
+    return !(hit.distance_m + slack >= second.point.norm());
 }
 
 /// Takes out the bounces from points that the sonar does not see.
@@ -182,8 +207,8 @@ void drop_hidden(const Context& context, const std::vector<Second>& seconds,
     context.surface.hit(context.T_world_sensor, rays, hits);
     counts.rays += rays.size();
     counts.hidden += std::erase_if(bounces, [&](const Bounce& b) {
-        const float range = seconds[b.second].point.norm();
-        return !(hits[ray_of[b.second]].distance_m > range * (1.0F - hidden_relative) - hidden_m);
+        const std::uint32_t ray = ray_of[b.second];
+        return hides(hits[ray], seconds[b.second], rays[ray]);
     });
 }
 
@@ -231,7 +256,6 @@ std::vector<Bounce> find_bounces(const Multipath& multipath, const View& view,
         }
     }
     follow_traced(context, chosen, seconds, bounces, counts);
-    counts.rays = seconds.size();
     drop_hidden(context, seconds, bounces, counts);
     counts.bounces = bounces.size();
     return bounces;

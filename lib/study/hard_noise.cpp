@@ -79,9 +79,17 @@ Scene wall_along() {
     return scene;
 }
 
+void clusters(SonarConfig& config) {
+    config.multipath.method = MultipathMethod::cluster;
+}
+
+/// What multipath there is in the tank at home: neither a motion nor a scale can be told from it.
+std::vector<float> multipath_at_home(const HardLook& look) {
+    return image_of(tank(), in_tank(look.kind, clusters), look.engine);
+}
+
 HardTrial multipath_along(SonarKind kind) {
-    HardTrial trial =
-        over_floor(kind, [](SonarConfig& c) { c.multipath.method = MultipathMethod::cluster; });
+    HardTrial trial = over_floor(kind, clusters);
     trial.T_world_vehicle = {
         rotation_from_rpy(0.0, kind == SonarKind::imaging ? radians(30.0) : 0.0, 0.0),
         {0.0, 0.39, 3.0}};
@@ -162,6 +170,27 @@ std::vector<HardCase> hard_noise() {
          },
          {},
          {}},
+        {"multipath, far from the origin",
+         "512345.678, 4812345.678, -43.21 m",
+         "the image at the origin",
+         [] { return moved_tank(utm_odd); },
+         [](SonarKind k) { return in_moved_tank(k, utm_odd, clusters); },
+         multipath_at_home,
+         {1e-4, 1e-4}},
+        {"multipath in a millimetre",
+         "is p hidden? in a tank 8e-4 of its size",
+         "the image in full size",
+         [] { return scaled_tank(1.25e-4); },
+         [](SonarKind k) { return in_scaled_tank(k, 1.25e-4, clusters); },
+         multipath_at_home,
+         {1e-4, 1e-4}},
+        {"multipath in 50 km",
+         "is p hidden? in a tank 6250 times its size",
+         "the image in full size",
+         [] { return scaled_tank(6250.0); },
+         [](SonarKind k) { return in_scaled_tank(k, 6250.0, clusters); },
+         multipath_at_home,
+         {1e-4, 0.25}},
     };
 }
 

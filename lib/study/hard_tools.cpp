@@ -50,6 +50,37 @@ HardTrial in_tank(SonarKind kind, const Tweak& tweak) {
               kind == SonarKind::imaging ? 15.0 : 0.0, 4.0);
 }
 
+Scene moved_tank(const Eigen::Vector3d& by) {
+    Scene scene = shapes::tank();
+    scene.origin = 10.0 * (by / 10.0).array().round().matrix();
+    for (Eigen::Vector3f& p : scene.vertices)
+        p = (p.cast<double>() + by - scene.origin).cast<float>();
+    return scene;
+}
+
+HardTrial in_moved_tank(SonarKind kind, const Eigen::Vector3d& by, const Tweak& tweak) {
+    HardTrial trial = in_tank(kind, tweak);
+    trial.T_world_vehicle.translation += by;
+    return trial;
+}
+
+Scene scaled_tank(double scale) {
+    Scene scene = shapes::tank();
+    for (Eigen::Vector3f& p : scene.vertices)
+        p = (scale * p.cast<double>()).cast<float>();
+    return scene;
+}
+
+HardTrial in_scaled_tank(SonarKind kind, double scale, const Tweak& tweak) {
+    HardTrial trial = in_tank(kind, [&](SonarConfig& c) {
+        if (tweak) tweak(c);
+        c.range_min_m *= scale;
+        c.range_max_m *= scale;
+    });
+    trial.T_world_vehicle.translation *= scale;
+    return trial;
+}
+
 Scene plain_floor() {
     Scene scene = shapes::empty_scene();
     shapes::add_floor(scene, 30.0F, 0.0F, shapes::add_material(scene, 0.5F));

@@ -22,6 +22,18 @@ HardTrial over_floor(SonarKind kind, const Tweak& tweak = {});
 /// In the tank of shapes.h.
 HardTrial in_tank(SonarKind kind, const Tweak& tweak = {});
 
+/// The tank somewhere else, as a file that says so would be read: positions are rounded to float
+/// about an origin on a grid of 10 m; and a sonar in it, where in_tank has it.
+Scene moved_tank(const Eigen::Vector3d& by);
+HardTrial in_moved_tank(SonarKind kind, const Eigen::Vector3d& by, const Tweak& tweak = {});
+
+/// The tank in another size, and a sonar in it that sees as far in proportion.
+Scene scaled_tank(double scale);
+HardTrial in_scaled_tank(SonarKind kind, double scale, const Tweak& tweak = {});
+
+/// Eastings and northings as in UTM, off the grid.
+inline const Eigen::Vector3d utm_odd(512345.678, 4812345.678, -43.21);
+
 /// A floor of 60 m at z = 0, R = 0.5.
 Scene plain_floor();
 

@@ -44,6 +44,7 @@ struct Ray {
 
 struct Hit {
     float distance_m;        ///< along the ray; infinite when nothing is met
+    float rounding_m;        ///< the point at that distance lies on its surface to within this
     Eigen::Vector3f normal;  ///< unit, turned to face the ray's origin
     std::uint32_t material;
     std::uint32_t instance;
