@@ -42,6 +42,13 @@ Trajectory poses_of(const LawnmowerTrajectoryConfig& config) {
 /// degrees.
 constexpr double widest_octree_deg = 160.0;
 
+template <class T>
+std::string hash_of(const std::vector<T>& values) {
+    return fnv1a_128({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)});
+}
+
+}  // namespace
+
 void check_engine(const Mission& mission) {
     if (mission.engine != EngineKind::octree) return;
     for (const SonarConfig& sensor : mission.sensors) {
@@ -54,13 +61,6 @@ void check_engine(const Mission& mission) {
                          "; use engine: rays");
     }
 }
-
-template <class T>
-std::string hash_of(const std::vector<T>& values) {
-    return fnv1a_128({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)});
-}
-
-}  // namespace
 
 Assembly assemble(const Mission& mission) {
     check_engine(mission);

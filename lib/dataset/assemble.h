@@ -19,6 +19,9 @@ struct Assembly {
     std::vector<Sonar> sonars;  ///< in the order of Mission::sensors
 };
 
+/// InputError when the mission's engine cannot do what one of its sensors asks for.
+void check_engine(const Mission& mission);
+
 /// Reads the files of a mission and works out its poses. Writes nothing. InputError for whatever
 /// is wrong with them.
 Assembly assemble(const Mission& mission);

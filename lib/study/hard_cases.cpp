@@ -10,6 +10,7 @@
 #include <limits>
 #include <memory>
 
+#include "core/error.h"
 #include "dataset/assemble.h"
 
 namespace sonarsim {
@@ -66,6 +67,19 @@ Difference compare(const Ping& ping, const std::vector<float>& truth) {
     return out;
 }
 
+/// What a mission with this sonar and engine is refused for; empty: it is not.
+std::string refusal(const SonarConfig& sonar, EngineKind engine) {
+    Mission mission;
+    mission.engine = engine;
+    mission.sensors = {sonar};
+    try {
+        check_engine(mission);
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "";
+}
+
 HardResult run(const HardCase& hard, const Scene& scene, EngineKind engine) {
     const bool rays = engine == EngineKind::rays;
     HardResult result{hard.name, hard.stresses, hard.expected, rays ? "rays" : "octree"};
@@ -76,6 +90,12 @@ HardResult run(const HardCase& hard, const Scene& scene, EngineKind engine) {
     for (const SonarKind kind :
          {SonarKind::imaging, SonarKind::profiling, SonarKind::sidescan, SonarKind::echosounder}) {
         const HardTrial trial = hard.trial(kind);
+        const std::string refused = refusal(trial.sonar.config, engine);
+        if (!refused.empty()) {
+            result.refused = refused;
+            if (rays || !hard.octree_may_refuse) result.broken = "refused: " + refused;
+            continue;
+        }
         const double start = milliseconds_now();
         const Ping ping = render_ping(trial.sonar, scene, *surface, trial.T_world_vehicle, {1, 0});
         const double ms = milliseconds_now() - start;
@@ -94,6 +114,7 @@ HardResult run(const HardCase& hard, const Scene& scene, EngineKind engine) {
 }
 
 std::string verdict(const HardResult& result) {
+    if (result.holds() && !result.refused.empty()) return "refused: " + result.refused;
     if (result.holds()) return result.known_fault.empty() ? "holds" : "holds, though known to fail";
     if (!result.known_fault.empty()) return "known fault: " + result.known_fault;
     return result.broken.empty() ? "FAILS" : "FAILS: " + result.broken;
@@ -132,10 +153,12 @@ std::string hard_table(const std::vector<HardResult>& results) {
         results, [](const HardResult& r) { return !r.holds() && r.known_fault.empty(); });
     const auto known = std::ranges::count_if(
         results, [](const HardResult& r) { return !r.holds() && !r.known_fault.empty(); });
+    const auto refused = std::ranges::count_if(
+        results, [](const HardResult& r) { return r.holds() && !r.refused.empty(); });
     return text + fmt::format(
-                      "{} verdicts: {} fail, {} are known faults. An error is the worst of "
-                      "the four sonars, sum |A - B| / sum B.\n",
-                      results.size(), failed, known);
+                      "{} verdicts: {} fail, {} are known faults, {} refused. An error is the "
+                      "worst of the four sonars, sum |A - B| / sum B.\n",
+                      results.size(), failed, known, refused);
 }
 
 }  // namespace sonarsim

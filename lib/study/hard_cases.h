@@ -57,6 +57,7 @@ struct HardCase {
     bool noisy = false;      ///< may be brighter than the brightest material
     double brightest = 0.0;  ///< no pixel may be above; 0: the largest reflection of the scene
     KnownFaults known = {};
+    bool octree_may_refuse = false;  ///< a mission that asks it for this; else it must render it
 };
 
 /// One case with one engine; of the four sonars the worst.
@@ -69,6 +70,7 @@ struct HardResult {
     double slowest_ms = 0.0;          ///< of the four pings
     std::string broken = {};          ///< the invariant that does not hold; empty: all do
     std::string known_fault = {};
+    std::string refused = {};  ///< why no mission may have these sonars with this engine
 
     bool holds() const { return broken.empty() && error <= bound; }
 };
@@ -82,7 +84,8 @@ std::vector<HardCase> hard_sonar_limits();
 std::vector<HardCase> hard_noise();
 std::vector<HardCase> hard_invariances();
 
-/// Runs a case with the rays and with the octree. Invariants of every image: no NaN, nothing
+/// Runs a case with the rays and with the octree. What a mission would be refused for is refused
+/// here, by the same check, and is not rendered. Invariants of every image: no NaN, nothing
 /// infinite or negative, nothing brighter than physics allows, and less than ten seconds.
 std::vector<HardResult> run_hard_case(const HardCase& hard);
 

@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include "study/hard_cases.h"
+#include "study/hard_tools.h"
 
 using namespace sonarsim;
 
@@ -45,6 +46,32 @@ TEST_CASE("hard cases: invariances") {
     check(hard_invariances());
 }
 
+TEST_CASE("hard cases: what a mission would be refused for") {
+    // A floor and a view that takes no time: the refusals are the matter.
+    HardCase hard{"180 degrees", "", "", plain_floor, [](SonarKind kind) {
+                      return over_floor(kind, [](SonarConfig& c) {
+                          c.elevation_deg = 180.0;
+                          if (c.kind == SonarKind::echosounder) c.azimuth_deg = 180.0;
+                      });
+                  }};
+    hard.octree_may_refuse = true;
+    const std::vector<HardResult> results = run_hard_case(hard);
+    CHECK(results[0].refused.empty());
+    CHECK(results[1].refused.find("octree takes opening_deg up to 160, not 180") !=
+          std::string::npos);
+    CHECK(results[1].holds());
+    // What is refused unasked for does not hold.
+    hard.octree_may_refuse = false;
+    CHECK(!run_hard_case(hard)[1].holds());
+    // And what is not refused is compared: here with an image that it cannot be.
+    hard.octree_may_refuse = true;
+    hard.trial = [](SonarKind kind) { return over_floor(kind); };
+    hard.truth = dark;
+    const HardResult accepted = run_hard_case(hard)[1];
+    CHECK(accepted.refused.empty());
+    CHECK(!accepted.holds());
+}
+
 TEST_CASE("hard cases: the table names every case and says when one fails") {
     HardResult result{"a case", "a thing", "dark", "rays", "imaging"};
     result.error = 0.5;
@@ -58,6 +85,10 @@ TEST_CASE("hard cases: the table names every case and says when one fails") {
     CHECK(hard_table({result}).find("0 fail") != std::string::npos);
     result.broken = "a pixel is negative";
     CHECK(hard_table({result}).find("FAILS: a pixel is negative") != std::string::npos);
+    result.broken.clear();
+    result.refused = "the angle";
+    CHECK(hard_table({result}).find("refused: the angle\n") != std::string::npos);
+    CHECK(hard_table({result}).find("0 fail, 0 are known faults, 1 refused") != std::string::npos);
 }
 
 TEST_SUITE_END();
