@@ -47,6 +47,7 @@ Json scene_json(const Scene& scene) {
             {"degenerate_triangles", scene.rejects.degenerate_triangles},
             {"non_finite_triangles", scene.rejects.non_finite_triangles},
             {"skipped_primitives", scene.rejects.skipped_primitives},
+            {"vertex_rounding_m", scene.vertex_rounding_m},
             {"materials", shares_json(materials, scene.triangle_material)},
             {"instances", shares_json(scene.instances, scene.triangle_instance)}};
 }
@@ -54,7 +55,7 @@ Json scene_json(const Scene& scene) {
 int inspect(const InspectArguments& arguments) {
     start_logging(arguments.log);
     const Scene scene = load_scene_geometry(arguments.scene);
-    warn_about(scene.rejects);
+    warn_about(scene);
     fmt::print("{}", arguments.log.json ? json_line(scene_json(scene)) : describe_scene(scene));
     return exit_done;
 }

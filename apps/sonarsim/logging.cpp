@@ -61,13 +61,20 @@ void start_logging(const LogOptions& options) {
     spdlog::set_default_logger(std::move(logger));
 }
 
-void warn_about(const SceneRejects& rejects) {
+void warn_about(const Scene& scene) {
+    const SceneRejects& rejects = scene.rejects;
     const auto warn = [](std::uint64_t count, const char* what) {
         if (count > 0) spdlog::warn("the scene has {} {}; they are left out", count, what);
     };
     warn(rejects.degenerate_triangles, "triangles without area");
     warn(rejects.non_finite_triangles, "triangles with a vertex that is NaN or infinite");
     warn(rejects.skipped_primitives, "primitives of points or lines");
+    if (has_coarse_vertices(scene)) {
+        spdlog::warn(
+            "the scene's vertices may be off by {:.2g} m: its file holds large coordinates as "
+            "floats; put them into the translation of a node instead",
+            scene.vertex_rounding_m);
+    }
 }
 
 std::string json_line(const nlohmann::ordered_json& json) {

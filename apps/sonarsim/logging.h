@@ -20,8 +20,8 @@ void add_log_options(CLI::App& command, LogOptions& options);
 /// Sends spdlog's default logger to stderr, as text or as JSON.
 void start_logging(const LogOptions& options);
 
-/// Warns of what was left out of a scene.
-void warn_about(const SceneRejects& rejects);
+/// Warns of what was left out of a scene, and of vertices that floats have rounded.
+void warn_about(const Scene& scene);
 
 /// JSON on one line, with the line feed. What is no UTF-8 (a file name may be any bytes) becomes
 /// U+FFFD.

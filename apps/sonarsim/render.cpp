@@ -120,7 +120,7 @@ int render(RenderArguments arguments) {
     const std::atomic<bool>& stop = stop_on_signal();
     const Mission mission = load(arguments.mission);
     const Assembly assembly = assemble(mission);
-    warn_about(assembly.scene.rejects);
+    warn_about(assembly.scene);
     spdlog::info("{}: {} triangles, {} poses", mission.name, assembly.scene.triangles.size(),
                  assembly.trajectory.size());
     const bool quiet = arguments.log.quiet;

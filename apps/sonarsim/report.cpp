@@ -85,7 +85,7 @@ int report(const ReportArguments& arguments) {
     const Mission mission = load(arguments.mission);
     const Assembly assembly = assemble(mission);
     const double assembled_s = seconds_now() - start;
-    warn_about(assembly.scene.rejects);
+    warn_about(assembly.scene);
 
     ReportOptions options = arguments.report;
     if (arguments.quick) {

@@ -110,7 +110,7 @@ int validate(const ValidateArguments& arguments) {
     start_logging(arguments.log);
     const Mission mission = load(arguments.mission);
     const Assembly assembly = assemble(mission);
-    warn_about(assembly.scene.rejects);
+    warn_about(assembly.scene);
     const std::size_t poses = assembly.trajectory.size();
     const Layout layout = make_layout(mission, poses);
     const FolderState state =

@@ -16,9 +16,10 @@ Json describe_pose(const Pose& pose) {
             {"quaternion_xyzw", {q.x(), q.y(), q.z(), q.w()}}};
 }
 
-/// What of the scene's files is rendered, and what is not.
+/// What of the scene's files is rendered, how well it is known, and what is left out.
 Json describe_scene_use(const Scene& scene) {
     return {{"triangles", scene.triangles.size()},
+            {"vertex_rounding_m", scene.vertex_rounding_m},
             {"dropped",
              {{"degenerate_triangles", scene.rejects.degenerate_triangles},
               {"non_finite_triangles", scene.rejects.non_finite_triangles},

@@ -79,26 +79,50 @@ bool is_finite(const std::array<Eigen::Vector3d, 3>& p) {
     return p[0].allFinite() && p[1].allFinite() && p[2].allFinite();
 }
 
-/// The box around the triangles that have an area, before any rounding.
-Eigen::AlignedBox3d find_bounds(const tinygltf::Model& model, const std::vector<PlacedMesh>& placed,
-                                const std::string& file) {
+/// By how much a float of this size may be off for being a float: half a unit in the last place.
+double half_unit(double x) {
+    int exponent = 0;
+    std::frexp(x, &exponent);
+    return x == 0.0 ? 0.0 : std::ldexp(1.0, exponent - 25);
+}
+
+struct Extent {
+    /// Around the triangles that have an area, before any rounding of ours.
     Eigen::AlignedBox3d box;
-    for_each_piece(model, placed, file, [&box](const Piece& piece) {
+    double vertex_rounding_m = 0.0;  ///< as in Scene
+};
+
+Extent find_extent(const tinygltf::Model& model, const std::vector<PlacedMesh>& placed,
+                   const std::string& file) {
+    Extent extent;
+    for_each_piece(model, placed, file, [&extent](const Piece& piece) {
+        Eigen::Vector3d farthest = Eigen::Vector3d::Zero();  // in the mesh's own axes
         for (std::size_t i = 0; i < piece.source.count; ++i) {
             const auto vertices = triangle(piece.source, i, piece.where);
-            const std::array points{corner(piece, vertices[0]), corner(piece, vertices[1]),
-                                    corner(piece, vertices[2])};
+            std::array<Eigen::Vector3d, 3> points;
+            Eigen::Vector3d reach = Eigen::Vector3d::Zero();
+            for (int k = 0; k < 3; ++k) {
+                points[k] = position(piece.source.positions, vertices[k]);
+                reach = reach.cwiseMax(points[k].cwiseAbs());
+                points[k] = piece.placed.T_world_mesh * points[k];
+            }
             if (!is_finite(points) || !has_area(points)) continue;
+            farthest = farthest.cwiseMax(reach);
             for (const Eigen::Vector3d& point : points) {
                 if (point.cwiseAbs().maxCoeff() > max_coordinate_m) {
                     throw InputError(piece.where +
                                      ": a vertex lies more than 1e9 m from the origin");
                 }
-                box.extend(point);
+                extent.box.extend(point);
             }
         }
+        // Integers are what their exporter made them.
+        if (piece.source.positions.component_type != TINYGLTF_COMPONENT_TYPE_FLOAT) return;
+        const Eigen::Vector3d off =
+            piece.placed.T_world_mesh.linear().cwiseAbs() * farthest.unaryExpr(&half_unit);
+        extent.vertex_rounding_m = std::max(extent.vertex_rounding_m, off.maxCoeff());
     });
-    return box;
+    return extent;
 }
 
 Eigen::Vector3d choose_origin(const Eigen::AlignedBox3d& box) {
@@ -191,7 +215,9 @@ Scene read_scene(const std::filesystem::path& path, Nameless nameless) {
 
     SceneBuilder builder;
     Scene& scene = builder.scene;
-    scene.origin = choose_origin(find_bounds(model, placed, file));
+    const Extent extent = find_extent(model, placed, file);
+    scene.origin = choose_origin(extent.box);
+    scene.vertex_rounding_m = extent.vertex_rounding_m;
     for (const PlacedMesh& mesh : placed)
         scene.instances.push_back(mesh.instance);
     scene.rejects.skipped_primitives = for_each_piece(model, placed, file, [&](const Piece& piece) {

@@ -43,7 +43,16 @@ struct Scene {
     std::vector<std::string> instances;                    ///< node names
     Eigen::Vector3d bounds_min = Eigen::Vector3d::Zero();  ///< world frame
     Eigen::Vector3d bounds_max = Eigen::Vector3d::Zero();
+    /// Floats far from the origin of their own file or node are coarse: a vertex may lie this far
+    /// from where its maker put it, m. At UTM coordinates 0.25 m; a node that has them as its
+    /// translation loses nothing.
+    double vertex_rounding_m = 0.0;
     SceneRejects rejects;
 };
+
+/// Whether `vertex_rounding_m` spoils the scene: more than a millimetre, about the finest range bin
+/// (8,192 of them over 10 m), or than 1e-4 of a scene below 10 m; and more than 1e-6 of the scene,
+/// since floats about its own centre are no better than 6e-8.
+bool has_coarse_vertices(const Scene& scene);
 
 }  // namespace sonarsim

@@ -87,6 +87,10 @@ std::string describe_scene(const Scene& scene) {
                " that are not finite, " + std::to_string(rejects.skipped_primitives) +
                " primitives of points or lines\n";
     }
+    if (has_coarse_vertices(scene)) {
+        out += "rounding   " + fixed(scene.vertex_rounding_m) +
+               " m, since vertices lie far from the origin of their file or node\n";
+    }
     return out + table("material", materials, of_material) +
            table("instance", scene.instances, of_instance);
 }

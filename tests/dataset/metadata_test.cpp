@@ -17,6 +17,7 @@ TEST_SUITE("dataset") {
         const Mission mission = small_mission("out");
         Assembly assembly = small_assembly(mission, 7);
         assembly.scene.rejects = {3, 2, 1};
+        assembly.scene.vertex_rounding_m = 0.25;
         const Json json =
             Json::parse(json_text(describe_dataset(mission, assembly, make_layout(mission, 7))));
         CHECK(json.at("format") == "sonarsim dataset");
@@ -30,6 +31,7 @@ TEST_SUITE("dataset") {
         // What was dropped is on record, also where it is nothing.
         const Json& scene = json.at("scene");
         CHECK(scene.at("triangles") == assembly.scene.triangles.size());
+        CHECK(scene.at("vertex_rounding_m") == 0.25);
         CHECK(scene.at("dropped").at("degenerate_triangles") == 3);
         CHECK(scene.at("dropped").at("non_finite_triangles") == 2);
         CHECK(scene.at("dropped").at("skipped_primitives") == 1);

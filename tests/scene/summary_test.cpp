@@ -33,6 +33,35 @@ TEST_SUITE("scene") {
               "large tri           1        6.000\n");
     }
 
+    TEST_CASE("summary: vertices that floats have rounded") {
+        // Half a unit in the last place at 4.8e6 is 0.25 m.
+        GltfBuilder gltf = one_triangle();
+        CHECK(describe_scene(load(gltf)).find("rounding") == std::string::npos);
+        gltf.mesh(
+            {{{"attributes",
+               {{"POSITION", gltf.positions({{0, 0, -4.8e6F}, {8, 0, -4.8e6F}, {0, 8, -4.8e6F}})}}},
+              {"material", 0}}});
+        gltf.document["nodes"][0]["mesh"] = 1;
+        CHECK(describe_scene(load(gltf))
+                  .find("\nrounding   0.250 m, since vertices lie far from "
+                        "the origin of their file or node\n") != std::string::npos);
+    }
+
+    TEST_CASE("vertices are coarse from a millimetre on, or from 1e-4 of a small scene") {
+        const auto coarse = [](double size, double rounding) {
+            Scene scene;
+            scene.bounds_max = {size, 0.5 * size, 0.0};
+            scene.vertex_rounding_m = rounding;
+            return has_coarse_vertices(scene);
+        };
+        CHECK(!coarse(100.0, 0.9e-3));
+        CHECK(coarse(100.0, 1.1e-3));
+        CHECK(!coarse(0.01, 0.9e-6));
+        CHECK(coarse(0.01, 1.1e-6));
+        CHECK(!coarse(50'000.0, 0.04));  // as good as its size allows, or nearly
+        CHECK(coarse(50'000.0, 0.25));
+    }
+
     TEST_CASE("summary: an empty scene") {
         CHECK(describe_scene(Scene{}).find("triangles  0 with 0 vertices, 0.000 m^2\n") !=
               std::string::npos);
