@@ -29,4 +29,16 @@ inline void received([[maybe_unused]] const void* address) {
 #endif
 }
 
+/// Calls `handed_over` at the end of a scope, also when an exception ends it.
+struct HandOverAtEnd {
+    const void* address;
+    ~HandOverAtEnd() { handed_over(address); }
+};
+
+/// Calls `received` at the end of a scope, also when an exception ends it.
+struct ReceiveAtEnd {
+    const void* address;
+    ~ReceiveAtEnd() { received(address); }
+};
+
 }  // namespace sonarsim

@@ -119,27 +119,27 @@ void stream_pings(const std::vector<PingId>& todo, int threads, const Work& work
     std::size_t next = 0;
     const auto feed = [&](tbb::flow_control& flow) -> std::size_t {
         received(&next);
+        const HandOverAtEnd fed{&summary};
         if (next == todo.size() || stop) {
             flow.stop();
-            return next;
+            return 0;
         }
-        const std::size_t i = next++;
-        handed_over(&next);
-        return i;
+        const HandOverAtEnd more{&next};
+        return next++;
     };
     const auto render = [&](std::size_t i) {
         received(&next);
-        PingReport report = work(todo[i]);
-        handed_over(&summary);
-        return report;
+        const HandOverAtEnd rendered{&summary};
+        return work(todo[i]);
     };
     const auto finish = [&](const PingReport& report) {
         received(&summary);
+        const HandOverAtEnd added{&summary};
         add(summary, report);
         if (progress) progress(summary.pings, todo.size());
-        handed_over(&summary);
     };
     const double start = seconds_now();
+    const ReceiveAtEnd all{&summary};
     handed_over(&next);
     tbb::parallel_pipeline(
         2 * static_cast<std::size_t>(threads),

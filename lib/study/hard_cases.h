@@ -86,7 +86,7 @@ std::vector<HardCase> hard_invariances();
 
 /// Runs a case with the rays and with the octree. What a mission would be refused for is refused
 /// here, by the same check, and is not rendered. Invariants of every image: no NaN, nothing
-/// infinite or negative, nothing brighter than physics allows, and less than ten seconds.
+/// infinite or negative, and nothing brighter than physics allows.
 std::vector<HardResult> run_hard_case(const HardCase& hard);
 
 /// The results as a table: case, what it stresses, error, bound, verdict.

@@ -1,13 +1,12 @@
 #include "study/multipath_rows.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 
 #include "ping/accumulate.h"
 #include "ping/multipath_echoes.h"
 #include "study/bench.h"
 #include "study/image_error.h"
+#include "study/in_parallel.h"
 
 namespace sonarsim {
 
@@ -37,7 +36,7 @@ Trial trial_of(const Sonar& sonar, const MultipathConfig& multipath, const Missi
 /// The images of all poses, one after the other.
 std::vector<float> all_images(const Bench& bench, const Sonar& sonar, const Surface& surface) {
     std::vector<std::vector<float>> images(bench.poses.size());
-    tbb::parallel_for(std::size_t{0}, images.size(), [&](std::size_t p) {
+    in_parallel(images.size(), [&](std::size_t p) {
         images[p] = multipath_image(sonar, bench.scene, surface, bench.poses[p]);
     });
     std::vector<float> all;

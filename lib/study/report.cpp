@@ -2,7 +2,6 @@
 
 #include <tbb/global_control.h>
 #include <tbb/info.h>
-#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -12,6 +11,7 @@
 #include "study/bench.h"
 #include "study/fit.h"
 #include "study/image_error.h"
+#include "study/in_parallel.h"
 #include "study/reference.h"
 
 namespace sonarsim {
@@ -59,8 +59,8 @@ double rate(const Stand& stand, const Trial& trial) {
     const double ms = trial.poses[0].ping.back();
     const int count = std::clamp(static_cast<int>(250.0 * threads / ms), 2 * threads, 2000);
     const double start = seconds_now();
-    tbb::parallel_for(0, count, [&](int k) {
-        bench.ping(trial.noisy, *trial.surface, static_cast<std::size_t>(k) % bench.poses.size());
+    in_parallel(count, [&](std::size_t k) {
+        bench.ping(trial.noisy, *trial.surface, k % bench.poses.size());
     });
     return count / (seconds_now() - start);
 }
@@ -70,7 +70,7 @@ std::vector<Reference> cast_references(const Stand& stand, const Sonar& sonar) {
     const Bench& bench = stand.bench;
     const ReportOptions& options = stand.options;
     std::vector<Reference> references(bench.poses.size());
-    tbb::parallel_for(std::size_t{0}, references.size(), [&](std::size_t p) {
+    in_parallel(references.size(), [&](std::size_t p) {
         references[p] = cast_reference(stand.caster, bench.scene, sonar.settings.view,
                                        bench.poses[p] * sonar.T_vehicle_sensor,
                                        {options.reference_moved, 64.0, options.reference_rays});
@@ -97,7 +97,7 @@ void measure_errors(const Bench& bench, const Trial& trial,
     std::vector<double> miss(poses);
     std::vector<double> invented(poses);
     std::vector<double> samples(poses);
-    tbb::parallel_for(std::size_t{0}, poses, [&](std::size_t p) {
+    in_parallel(poses, [&](std::size_t p) {
         const Ping ping = bench.ping(clean, *trial.surface, p);
         const ImageError error = image_error(ping.intensity, references[p].intensity);
         l1[p] = error.relative_l1;

@@ -2,6 +2,7 @@
 
 #include "study/hard_cases.h"
 #include "study/hard_tools.h"
+#include "support/sanitized.h"
 
 using namespace sonarsim;
 
@@ -11,7 +12,13 @@ namespace {
 
 void check(const std::vector<HardCase>& cases) {
     REQUIRE(!cases.empty());
-    for (const HardCase& hard : cases) {
+    for (HardCase hard : cases) {
+        if (test::sanitized) {
+            // The octree takes two minutes for this one then.
+            if (hard.name == "8,192 range bins") continue;
+            // The truths take most of the time; without them the invariants are left.
+            hard.truth = {};
+        }
         for (const HardResult& result : run_hard_case(hard)) {
             CAPTURE(result.name);
             CAPTURE(result.engine);
@@ -19,8 +26,9 @@ void check(const std::vector<HardCase>& cases) {
             CAPTURE(result.error);
             CAPTURE(result.bound);
             CAPTURE(result.broken);
+            CHECK(result.broken.empty());
             // A fault that is known must be mended or still be there: a stale entry is a lie.
-            CHECK(result.holds() == result.known_fault.empty());
+            if (!test::sanitized) CHECK(result.holds() == result.known_fault.empty());
         }
     }
 }

@@ -81,6 +81,23 @@ TEST_CASE("an echo that is not a number is dropped and counted") {
         CHECK(sums.weight[i] == 0.0F);
 }
 
+TEST_CASE("an echo just short of the first bin or beyond the last is dropped, one across is cut") {
+    // Bins from 2 to 3 m, 0.25 m each. Truncated towards zero, 1.8 m would fall into the first.
+    Echoes echoes;
+    echoes.resize(5, false);
+    echoes.range_m = {1.8F, 3.2F, 3.01F, 2.0F, 2.99F};
+    echoes.half_m = {0.1F, 0.1F, 0.0F, 0.1F, 0.1F};
+    echoes.weight = {1, 1, 1, 1, 1};
+    echoes.intensity = {1, 1, 1, 1, 1};
+    BinSums sums;
+    sums.clear(4);
+    CHECK(accumulate(echoes, {2.0F, 0.25F, 4}, sums) == 3);
+    CHECK(sums.weight[0] == doctest::Approx(0.5));  // the half of 1.9 to 2.1 m that lies within
+    CHECK(sums.weight[1] == 0.0F);
+    CHECK(sums.weight[2] == 0.0F);
+    CHECK(sums.weight[3] == doctest::Approx(0.55));  // of 2.89 to 3.09 m up to 3
+}
+
 TEST_CASE("fields of view are half-open: the last edge belongs to no beam") {
     View view{radians(90.0), radians(90.0), 0.0, 10.0, 10, 3, 0.03, ViewShape::fan};
     const FieldOfView field(view);
