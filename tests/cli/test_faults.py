@@ -36,11 +36,11 @@ RECORDS = ("soundings.npy", "waterfall.npy", "echogram.npy")
 
 
 class Faults(Sandbox):
-    def assert_whole(self, temporary=()):
-        """Every file that has its final name has all of its bytes."""
+    def assert_whole(self, killed=False):
+        """Every file that has its final name has all of its bytes; others only a kill leaves."""
         for path in self.out.rglob("*"):
             if path.name.endswith(".part"):
-                self.assertIn(signal.SIGKILL, temporary, path)
+                self.assertTrue(killed, path)
             elif path.suffix == ".json":
                 json.loads(path.read_text())
             elif path.suffix == ".png":
@@ -144,6 +144,7 @@ class RandomSignals(Faults):
         whole = self.render_whole()
         longest = time.monotonic() - start
         draw = random.Random(20)
+        killed = False
         codes = {signal.SIGINT: {130}, signal.SIGTERM: {143}, signal.SIGKILL: {-signal.SIGKILL}}
         for _ in range(4 if SANITIZED else 30):
             number = draw.choice(list(codes))
@@ -164,7 +165,9 @@ class RandomSignals(Faults):
                     self.assertIn("run again", stderr)
                 if process.returncode >= 0:
                     self.assertEqual(self.is_complete(), process.returncode == 0)
-                self.assert_whole(temporary=(number,))
+                # What a kill left stays until a run gets as far as to tidy up.
+                killed = killed or number == signal.SIGKILL
+                self.assert_whole(killed)
         self.assert_can_go_on(whole)
 
     def test_a_second_signal_ends_at_once(self):
