@@ -21,10 +21,9 @@ struct Cut {
     int v;
 };
 
-// A piece has one intensity. Over it v . n may change by a twentieth of itself, so that the ends
-// are 2.5 % off and the average is right; on a plane, where v . n = H / r, that is a twentieth of
-// r.
-constexpr float finest_change = 0.02F;
+// A piece has one intensity. On a plane v . n = H / r: where a piece spans no more than this share
+// of its range, its ends are off by 1 % and its mean is right.
+constexpr float deepest_piece = 0.02F;
 
 constexpr int lanes = 8;
 
@@ -39,7 +38,8 @@ void cells_along(float c, float u, float v, const Lanes& s, const Lanes& t,
 }
 
 /// How many pieces a footprint is cut into along its two edges.
-Cut cut(const Sample& sample, float slope_u, float slope_v, float bin_m, float cell_m) {
+Cut cut(const Sample& sample, float range, float slope_u, float slope_v, float bin_m,
+        float cell_m) {
     if (cell_m <= 0.0F) {
         // A box follows the edge that spans more range; the other edge is cut until a piece of it
         // is half a bin deep.
@@ -48,8 +48,7 @@ Cut cut(const Sample& sample, float slope_u, float slope_v, float bin_m, float c
                 std::ceil(std::clamp(2.0F * slope / most_m, 1.0F, pieces_per_bin)));
         };
         const float across = 0.5F * bin_m;
-        const float change = 2.0F * std::fabs(sample.cosine_v) / (finest_change * sample.cosine);
-        const float along = std::max(bin_m, 2.0F * slope_v / std::max(change, 1.0F));
+        const float along = std::max(bin_m, deepest_piece * range);
         return slope_u < slope_v ? Cut{pieces(slope_u, across), pieces(slope_v, along)}
                                  : Cut{1, pieces(slope_v, across)};
     }
@@ -94,15 +93,14 @@ void direct_echoes(std::span<const Sample> samples, std::span<const Material> ma
         const Eigen::Vector3f out = sample.position / range;
         const float slope_u = std::fabs(out.dot(sample.edge_u));
         const float slope_v = std::fabs(out.dot(sample.edge_v));
-        const Cut pieces = cut(sample, slope_u, slope_v, bin_m, lattice.edge_m);
+        const Cut pieces = cut(sample, range, slope_u, slope_v, bin_m, lattice.edge_m);
         const float u_step = 2.0F / static_cast<float>(pieces.u);
         const float v_step = 2.0F / static_cast<float>(pieces.v);
         const float half = std::max(slope_u / static_cast<float>(pieces.u),
                                     slope_v / static_cast<float>(pieces.v));
         const float weight = sample.area_m2 / static_cast<float>(pieces.u * pieces.v);
         const float reflection = materials[sample.material].reflection;
-        const float cosine = sample.cosine;
-        const float cosine_v = sample.cosine_v;
+        const float height = sample.height_m;
         const Eigen::Vector3f centre = sample.position;
         const Eigen::Vector3f edge_u = sample.edge_u;
         const Eigen::Vector3f edge_v = sample.edge_v;
@@ -133,7 +131,7 @@ void direct_echoes(std::span<const Sample> samples, std::span<const Material> ma
                 const float y = centre.y() + s[lane] * edge_u.y() + t[lane] * edge_v.y();
                 const float z = centre.z() + s[lane] * edge_u.z() + t[lane] * edge_v.z();
                 range_m[lane] = std::sqrt(x * x + y * y + z * z);
-                intensity[lane] = reflection * (cosine + t[lane] * cosine_v);
+                intensity[lane] = reflection * std::min(height / range_m[lane], 1.0F);
             }
             std::fill_n(echoes.half_m.data() + to, lanes, half);
             std::fill_n(echoes.weight.data() + to, lanes, weight);

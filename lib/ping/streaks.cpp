@@ -17,7 +17,7 @@ void RowAreas::add(const BinSums& beam) {
 std::vector<Sample> at_normal_incidence(std::span<const Sample> samples, float least_cosine) {
     std::vector<Sample> out;
     std::copy_if(samples.begin(), samples.end(), std::back_inserter(out),
-                 [&](const Sample& s) { return s.cosine > least_cosine; });
+                 [&](const Sample& s) { return s.height_m > least_cosine * s.position.norm(); });
     return out;
 }
 

@@ -95,12 +95,7 @@ std::vector<HardCase> hard_numbers() {
          plain_floor,
          grazing,
          grazing_law,
-         {0.05, 0.05},
-         false,
-         0.0,
-         {"between the last ray that meets the floor and the first above the horizon there is "
-          "surface up to range_max that three bisections do not reach",
-          ""}},
+         {0.01, 0.05}},
         {"impedance of water",
          "R = 0",
          "dark",

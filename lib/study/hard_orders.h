@@ -15,8 +15,9 @@ struct ConvergenceOrder {
     double order = 0.0;          ///< p of error ~ step^p, by least squares
 };
 
-/// Images of an imaging sonar. Ray spacing along a beam is proportional to the error goal, across
-/// it to its root or less; a leaf is its own step.
+/// Images of an imaging sonar. Ray spacing along a beam is proportional to the error goal, and what
+/// may be at stake between two rays to its power of 3/2; across a beam it is the same for all
+/// goals. A leaf is its own step.
 std::vector<ConvergenceOrder> convergence_orders();
 
 std::string orders_table(const std::vector<ConvergenceOrder>& orders);

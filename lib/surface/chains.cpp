@@ -2,29 +2,19 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <utility>
+
+#include "surface/gaps.h"
 
 namespace sonarsim {
 
 namespace {
 
-// At grazing incidence the cosine is the intensity, and what counts is its relative error. Below
-// this the surface is too dark to matter.
-constexpr float least_cosine = 0.02F;
-
 // Less than the narrowest bin.
 constexpr float nearest_m = 1e-6F;
 
-// Half a degree: with one column to a beam of 2 degrees, a tank misses a goal of 1 % by a factor of
-// nine.
-constexpr double widest_column = 0.0088;  // rad
-
-// Two degrees, of a side that is not narrow: four columns over a wide elevation were off by 20 %.
-constexpr double widest_strip = 0.035;  // rad
-
-/// Two neighbours on a chain that do not lie on one surface.
+/// Two neighbours on a chain between which too much is at stake.
 struct Gap {
     int chain;
     int below;
@@ -40,13 +30,14 @@ class ChainCaster {
           view_(view),
           pose_(pose),
           sampling_(sampling),
+          reach_m_(static_cast<float>(view.range_max_m)),
           columns_(columns(view, sampling.columns)),
           out_(out) {
         out_.columns = columns_.size();
     }
 
     void cast_columns() {
-        // Room for the strips and the bisections, so that the nodes are seldom moved.
+        // Room for the strips and the gaps, so that the nodes are seldom moved.
         out_.nodes.reserve(4 * columns_.size() * sampling_.chain);
         for (const Column& column : columns_) {
             add_chain(column, column.across, 0.5 * column.width, 0, sampling_.chain, true);
@@ -65,7 +56,8 @@ class ChainCaster {
             for (int i = 0; i < n; ++i) {
                 const std::size_t a = c * n + i;
                 const std::size_t b = beside * n + i;
-                if (disagree(out_.nodes[a], out_.nodes[b])) out_.split[a] = out_.split[b] = 1;
+                if (disagree(out_.nodes[a], out_.nodes[b], sampling_, reach_m_))
+                    out_.split[a] = out_.split[b] = 1;
             }
         }
         for (std::size_t c = 0; c < out_.columns; ++c) {
@@ -85,11 +77,12 @@ class ChainCaster {
         cast_new_nodes();
     }
 
-    void bisect() {
+    /// Splits the gaps between neighbours on a chain.
+    void split_gaps() {
         std::vector<Gap> gaps;
         const auto note_above = [&](int chain, int below) {
             const int above = out_.nodes[below].next;
-            if (above != ChainNode::none) note_gap({chain, below, above}, gaps);
+            if (above != ChainNode::none) note_gap({chain, below, above}, 0, gaps);
         };
         for (const int node : in_tiles())
             note_above(node / sampling_.chain, node);
@@ -102,9 +95,9 @@ class ChainCaster {
         for (int level = 0; level < sampling_.levels && !gaps.empty(); ++level) {
             const int first = static_cast<int>(out_.nodes.size());
             for (const Gap& gap : gaps) {
-                const float middle =
-                    0.5F * (out_.nodes[gap.below].along + out_.nodes[gap.above].along);
-                add_node(out_.chains[gap.chain].across, turn_small(middle), middle);
+                const float along =
+                    next_along(out_.nodes[gap.below], out_.nodes[gap.above], reach_m_);
+                add_node(out_.chains[gap.chain].across, turn_small(along), along);
             }
             cast_new_nodes();
             halves.clear();
@@ -112,8 +105,8 @@ class ChainCaster {
                 const Gap& gap = gaps[k];
                 out_.nodes[gap.below].next = first + k;
                 out_.nodes[first + k].next = gap.above;
-                note_gap({gap.chain, gap.below, first + k}, halves);
-                note_gap({gap.chain, first + k, gap.above}, halves);
+                note_gap({gap.chain, gap.below, first + k}, level + 1, halves);
+                note_gap({gap.chain, first + k, gap.above}, level + 1, halves);
             }
             std::swap(gaps, halves);
         }
@@ -131,13 +124,19 @@ class ChainCaster {
 
     void add_chain(const Column& column, double across, double half_width, int begin, int end,
                    bool whole) {
-        const double step = (column.along_max - column.along_min) / sampling_.chain;
-        const auto at = [&](double i) { return static_cast<float>(column.along_min + i * step); };
+        const double step = sampling_.step(column.along_max - column.along_min);
+        const auto at = [&](double i) {
+            return static_cast<float>(column.along_min + (sampling_.inset + i) * step);
+        };
         const Turn middle = turn(across);
-        out_.chains.push_back({column.beam, static_cast<float>(half_width), middle, at(begin),
-                               at(end), static_cast<int>(out_.nodes.size()), whole});
+        const float along_min = begin == 0 ? static_cast<float>(column.along_min) : at(begin - 0.5);
+        const float along_max =
+            end == sampling_.chain ? static_cast<float>(column.along_max) : at(end - 0.5);
+        out_.chains.push_back({column.beam, static_cast<float>(half_width), middle, along_min,
+                               along_max, static_cast<float>(step),
+                               static_cast<int>(out_.nodes.size()), whole});
         for (int i = begin; i < end; ++i) {
-            add_node(middle, turn_small(at(i + 0.5)), at(i + 0.5));
+            add_node(middle, turn_small(at(i)), at(i));
             if (i + 1 < end) out_.nodes.back().next = static_cast<int>(out_.nodes.size());
         }
     }
@@ -180,9 +179,7 @@ class ChainCaster {
         for (std::size_t i = 0; i < count; ++i) {
             directions_[i] = pose_.rotation * out_.nodes[order[i]].direction;
         }
-        // What lies beyond the range can neither echo nor hide what does.
-        caster_.cast(pose_.position, directions_, static_cast<float>(view_.range_max_m) * 1.01F,
-                     facets_);
+        caster_.cast(pose_.position, directions_, reach_m_ * (1.0F + beyond), facets_);
         const Eigen::Matrix3f R_sensor_local = pose_.rotation.transpose();
         for (std::size_t i = 0; i < count; ++i) {
             // The facets of a large scene lie in main memory, all over the place.
@@ -197,11 +194,12 @@ class ChainCaster {
             node.normal = R_sensor_local * (side * facet.normal);
             node.height_m = side * height;
             node.cosine = -node.normal.dot(node.direction);
+            node.range_m = node.height_m / node.cosine;
             node.material = facet.material;
             node.instance = facet.instance;
             // A plane seen edge-on to within rounding has no range and reflects nothing; one that
             // the sonar touches has no direction.
-            if (!(node.cosine > 1e-7F && node.range_m() > nearest_m)) {
+            if (!(node.cosine > 1e-7F && node.range_m > nearest_m)) {
                 node.facet = Caster::nothing;
                 ++out_.dropped;
             }
@@ -209,38 +207,22 @@ class ChainCaster {
         cast_ = out_.nodes.size();
     }
 
-    void note_gap(const Gap& gap, std::vector<Gap>& gaps) {
+    /// Finds out what lies between two neighbours, and whether to split it after `level` times.
+    void note_gap(const Gap& gap, int level, std::vector<Gap>& gaps) {
         ChainNode& below = out_.nodes[gap.below];
-        below.joined = !disagree(below, out_.nodes[gap.above]);
-        if (!below.joined) gaps.push_back(gap);
-    }
-
-    /// Whether two rays met what cannot be taken for one smooth surface of one material.
-    bool disagree(const ChainNode& a, const ChainNode& b) const {
-        const auto reach = static_cast<float>(view_.range_max_m);
-        if (a.missed() || b.missed()) {
-            return !(a.missed() && b.missed()) && (a.missed() ? b : a).range_m() < reach;
+        const Between what = between(below, out_.nodes[gap.above], sampling_, reach_m_);
+        below.joined = what.joined;
+        below.border = what.border;
+        if (what.at_stake_m > sampling_.at_stake_m || (what.turns && level < sampling_.turns)) {
+            gaps.push_back(gap);
         }
-        if (a.facet == b.facet) return false;
-        if (a.material != b.material) return true;
-        const float cosine_ab = -a.normal.dot(b.direction);
-        const float cosine_ba = -b.normal.dot(a.direction);
-        if (!(cosine_ab > 0.0F && cosine_ba > 0.0F)) return true;
-        const float range_a = a.range_m();
-        const float range_b = b.range_m();
-        if (range_a > reach && range_b > reach) return false;
-        const float slack =
-            sampling_.tolerance_m + sampling_.tolerance_slope * std::fabs(range_a - range_b);
-        return std::fabs(a.height_m - range_b * cosine_ab) > slack * cosine_ab ||
-               std::fabs(b.height_m - range_a * cosine_ba) > slack * cosine_ba ||
-               std::fabs(cosine_ab - b.cosine) >
-                   sampling_.tolerance_cosine * std::max(b.cosine, least_cosine);
     }
 
     const Caster& caster_;
     const View& view_;
     const LocalPose& pose_;
     const Sampling& sampling_;
+    const float reach_m_;
     const std::vector<Column> columns_;
     Chains& out_;
     std::size_t cast_ = 0;  ///< nodes that have been cast
@@ -250,54 +232,13 @@ class ChainCaster {
 
 }  // namespace
 
-Sampling sampling_for(const View& view) {
-    // Fitted to the report: at a goal of 3 % the mean over poses is 1.6 % in the tank and 2.9 % on
-    // the sea floor; a single pose may miss it. From there the density follows the goal: rays and
-    // bisections grow as the error shrinks.
-    const double scale = view.relative_l1 / 0.03;
-    const double density = 1.0 / std::sqrt(scale);
-    const auto rays = [&](double count, double least) {
-        return static_cast<int>(std::clamp(std::ceil(count * density), least, 4096.0));
-    };
-    Sampling sampling;
-    switch (view.shape) {
-        case ViewShape::fan:
-            // The error of a fan falls as the spacing of its rays does, up and across: a beam wider
-            // than the usual half degree takes more than one column.
-            sampling.columns = static_cast<int>(
-                std::clamp(std::ceil(view.azimuth_rad / view.beams / widest_column), 1.0, 64.0));
-            sampling.chain = rays(0.8 * density * view.elevation_rad * view.beams *
-                                      sampling.columns / view.azimuth_rad,
-                                  8.0);
-            break;
-        case ViewShape::sides:
-            // A side is one row of bins: with no other beam to average out what one misses, a ray
-            // to a bin and a few columns for the shapes of shadows.
-            sampling.columns = rays(std::max(4.0, view.elevation_rad / widest_strip), 2.0);
-            sampling.chain = rays(1.0 * view.range_bins, 64.0);
-            break;
-        case ViewShape::cone:
-            // All of a cone is one column of bins; a small object may be alone in its own.
-            sampling.columns = rays(72.0, 8.0);
-            sampling.chain = rays(48.0, 4.0);
-            break;
-    }
-    sampling.levels = 3;
-    for (double s = scale; s < 0.6 && sampling.levels < 8; s *= 2.0)
-        ++sampling.levels;
-    const auto slack = static_cast<float>(std::clamp(scale, 0.1, 2.0));
-    sampling.tolerance_m = slack * static_cast<float>(view.bin_m());
-    sampling.tolerance_cosine = 0.1F * slack;
-    return sampling;
-}
-
 Chains cast_chains(const Caster& caster, const View& view, const LocalPose& pose,
                    const Sampling& sampling) {
     Chains out;
     ChainCaster cast(caster, view, pose, sampling, out);
     cast.cast_columns();
     cast.split_columns();
-    cast.bisect();
+    cast.split_gaps();
     return out;
 }
 

@@ -70,8 +70,7 @@ void look_literally(Octree& tree, const Scene& scene, const View& view, const Fi
         sample.position = vote.centre;
         sample.edge_u = sample.edge_v = Eigen::Vector3f::Zero();
         sample.normal = vote.normal;
-        sample.cosine = -vote.normal.dot(vote.centre) / vote.range_m;
-        sample.cosine_v = 0.0F;
+        sample.height_m = -vote.normal.dot(vote.centre);
         sample.area_m2 = 1.0F;
         sample.material = scene.triangle_material[vote.triangle];
         sample.instance = scene.triangle_instance[vote.triangle];

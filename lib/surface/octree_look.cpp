@@ -47,15 +47,7 @@ void look_at_leaves(Octree& tree, const Scene& scene, const View& view, const Fi
             sample.edge_u = piece.half_u * facet.edge_u;
             sample.edge_v = piece.half_v * facet.edge_v;
             sample.normal = facet.normal;
-            // v . n = height / range on all of the plane.
-            const float height = -facet.normal.dot(facet.centre);
-            sample.cosine = height / sample.position.norm();
-            const float change = 0.5F * height *
-                                 (1.0F / (sample.position + sample.edge_v).norm() -
-                                  1.0F / (sample.position - sample.edge_v).norm());
-            // A leaf as long as its distance is not that straight; a cosine stays within [0, 1].
-            const float most = std::max(std::min(sample.cosine, 1.0F - sample.cosine), 0.0F);
-            sample.cosine_v = std::clamp(change, -most, most);
+            sample.height_m = -facet.normal.dot(facet.centre);
             sample.area_m2 = piece.share * facet.area_m2;
             sample.material = scene.triangle_material[facet.triangle];
             sample.instance = scene.triangle_instance[facet.triangle];

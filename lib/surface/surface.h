@@ -16,8 +16,7 @@ struct Sample {
     Eigen::Vector3f edge_u;    ///< half an edge of the footprint, sensor frame, m
     Eigen::Vector3f edge_v;    ///< half the other edge
     Eigen::Vector3f normal;    ///< unit, turned to face the sonar
-    float cosine;              ///< v . n at the centre
-    float cosine_v;            ///< by which v . n grows from the centre to the end of edge_v
+    float height_m;            ///< of the sonar above the piece's plane: v . n = height_m / range
     float area_m2;
     std::uint32_t material;  ///< index into Scene::materials
     std::uint32_t instance;  ///< index into Scene::instances

@@ -111,8 +111,10 @@ TEST_CASE("multipath rows of a corner are sane, as text, JSON and CSV") {
 }
 
 TEST_CASE("multipath rows tell a coarse way from a fine one") {
-    const Mission mission = corner_mission({MultipathMethod::cluster, 1, 5.0});
-    // The tank has a pole and a sphere, on which the normal turns.
+    Mission mission = corner_mission({MultipathMethod::cluster, 1, 5.0});
+    // The tank has a pole and a sphere, on which the normal turns. A bin that holds all of the
+    // sphere would hide it.
+    mission.sensors[0].range_bins = 192;
     const std::vector<MultipathRow> rows = measure(mission, small_assembly(mission, 3));
     const MultipathRow& fine = row_of(rows, 1, 5.0);
     const MultipathRow& coarse = row_of(rows, 9, 30.0);
