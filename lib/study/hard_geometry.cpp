@@ -210,7 +210,7 @@ std::vector<HardCase> hard_geometry() {
          {0.05, 0.20},
          false,
          0.0,
-         {"a cone has a column of rays every 5 degrees, and a pole between two of them is not seen",
+         {"a cone has a column of rays every 4 degrees, and a pole between two of them is not seen",
           ""}},
         {"one triangle of 10 km",
          "vertices 1e4 times as far as the range",
