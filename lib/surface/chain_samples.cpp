@@ -82,8 +82,12 @@ Sample piece(const Context& context, const ChainNode& node, const Sides& sides, 
         const Eigen::Vector3f ray = direction(context.shape, turned, middle);
         return ray * range_on_plane(node, ray, about, most);
     };
-    const Eigen::Vector3f from = cell.from.direction * cell.from.above_m;
-    const Eigen::Vector3f to = cell.to.direction * cell.to.below_m;
+    // A range that is held back leaves the plane, and multipath would start from there.
+    const auto onto_plane = [&](const Eigen::Vector3f& p) -> Eigen::Vector3f {
+        return p - (node.normal.dot(p) + node.height_m) * node.normal;
+    };
+    const Eigen::Vector3f from = onto_plane(cell.from.direction * cell.from.above_m);
+    const Eigen::Vector3f to = onto_plane(cell.to.direction * cell.to.below_m);
     Sample sample;
     sample.position = 0.5F * (from + to);
     sample.edge_u = 0.5F * (beside(sides.high) - beside(sides.low));
