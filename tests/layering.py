@@ -9,20 +9,22 @@ ALLOWED = {
     "mission": {"core"},
     "scene": {"core"},
     "trajectory": {"core"},
-    "surface": {"core", "scene"},
-    "ping": {"core", "mission", "scene", "surface"},
-    "sonar": {"core", "mission", "scene", "surface", "ping"},
+    "visibility": {"core", "scene"},
+    "ping": {"core", "mission", "scene", "visibility"},
+    "sonar": {"core", "mission", "scene", "visibility", "ping"},
     "product": {"core", "mission", "ping", "sonar"},
-    "dataset": {"core", "mission", "scene", "trajectory", "surface", "ping", "sonar", "product"},
-    "study": {"core", "mission", "scene", "trajectory", "surface", "ping", "sonar", "product",
-              "dataset"},
+    "dataset": {"core", "mission", "scene", "trajectory", "visibility", "ping", "sonar", "product"},
+    "validation": {"core", "mission", "scene", "trajectory", "visibility", "ping", "sonar", "product",
+                   "dataset"},
+    "benchmark": {"core", "mission", "scene", "trajectory", "visibility", "ping", "sonar", "product",
+                  "dataset", "validation"},
 }
 # Which folder alone may use a library.
 OWNERS = {
     "yaml-cpp/": "mission",
     "tiny_gltf.h": "scene",
     "OpenImageIO/": "dataset",
-    "embree3/": "surface",
+    "embree3/": "visibility",
     "CLI/": "apps",
 }
 

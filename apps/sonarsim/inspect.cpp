@@ -5,7 +5,7 @@
 
 #include "commands.h"
 #include "logging.h"
-#include "scene/gltf.h"
+#include "scene/gltf/load.h"
 #include "scene/summary.h"
 
 namespace sonarsim {

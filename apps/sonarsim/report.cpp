@@ -1,25 +1,25 @@
-#include "study/report.h"
+#include "benchmark/report.h"
 
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/spdlog.h>
 
 #include <memory>
 
+#include "benchmark/bench.h"
+#include "benchmark/cold_start.h"
+#include "benchmark/ladder.h"
+#include "benchmark/multipath_rows.h"
+#include "benchmark/report_files.h"
+#include "benchmark/report_plot.h"
+#include "benchmark/report_text.h"
+#include "benchmark/scaling.h"
 #include "commands.h"
 #include "core/file.h"
 #include "dataset/png.h"
 #include "logging.h"
 #include "mission_options.h"
-#include "study/bench.h"
-#include "study/cold_start.h"
-#include "study/hard_cases.h"
-#include "study/hard_orders.h"
-#include "study/ladder.h"
-#include "study/multipath_rows.h"
-#include "study/report_files.h"
-#include "study/report_plot.h"
-#include "study/report_text.h"
-#include "study/scaling.h"
+#include "validation/hard/cases.h"
+#include "validation/hard/orders.h"
 
 namespace sonarsim {
 

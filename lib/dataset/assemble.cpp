@@ -6,12 +6,12 @@
 #include "core/text.h"
 #include "core/units.h"
 #include "mission/resolved.h"
-#include "scene/gltf.h"
-#include "surface/octree.h"
-#include "surface/rays.h"
+#include "scene/gltf/load.h"
 #include "trajectory/files.h"
 #include "trajectory/interpolate.h"
 #include "trajectory/patterns.h"
+#include "visibility/octree/octree_engine.h"
+#include "visibility/rays/rays_engine.h"
 
 namespace sonarsim {
 

@@ -7,8 +7,8 @@
 #include "mission/mission.h"
 #include "scene/scene.h"
 #include "sonar/sonar.h"
-#include "surface/surface.h"
 #include "trajectory/trajectory.h"
+#include "visibility/engine.h"
 
 namespace sonarsim {
 

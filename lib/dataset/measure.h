@@ -6,7 +6,7 @@
 #include "dataset/npy.h"
 #include "ping/ping.h"
 #include "sonar/sonar.h"
-#include "surface/surface.h"
+#include "visibility/engine.h"
 
 namespace sonarsim {
 

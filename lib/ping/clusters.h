@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "surface/surface.h"
+#include "visibility/engine.h"
 
 namespace sonarsim {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "scene/scene.h"
-#include "surface/surface.h"
+#include "visibility/engine.h"
 
 namespace sonarsim {
 

@@ -8,7 +8,7 @@
 #include "ping/clusters.h"
 #include "ping/ping.h"
 #include "scene/scene.h"
-#include "surface/surface.h"
+#include "visibility/engine.h"
 
 namespace sonarsim {
 

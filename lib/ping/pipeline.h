@@ -8,7 +8,7 @@
 #include "ping/pixel_noise.h"
 #include "ping/streaks.h"
 #include "scene/scene.h"
-#include "surface/surface.h"
+#include "visibility/engine.h"
 
 namespace sonarsim {
 

@@ -6,7 +6,7 @@
 
 #include "mission/mission.h"
 #include "ping/accumulate.h"
-#include "surface/surface.h"
+#include "visibility/engine.h"
 
 namespace sonarsim {
 

@@ -12,8 +12,8 @@
 #include "product/fan.h"
 #include "support/small_mission.h"
 #include "support/temporary_folder.h"
-#include "surface/rays.h"
 #include "trajectory/files.h"
+#include "visibility/rays/rays_engine.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

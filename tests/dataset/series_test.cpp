@@ -15,7 +15,7 @@
 #include "support/npy_data.h"
 #include "support/small_mission.h"
 #include "support/temporary_folder.h"
-#include "surface/rays.h"
+#include "visibility/rays/rays_engine.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

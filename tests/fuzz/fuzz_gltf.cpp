@@ -8,7 +8,7 @@
 
 #include "core/error.h"
 #include "core/file.h"
-#include "scene/gltf.h"
+#include "scene/gltf/load.h"
 #include "scene/summary.h"
 
 // Any bytes as a .gltf or .glb: a scene that keeps its promises, or InputError.

@@ -1,8 +1,8 @@
 #include <doctest/doctest.h>
 
-#include "study/hard_cases.h"
-#include "study/hard_tools.h"
 #include "support/sanitized.h"
+#include "validation/hard/cases.h"
+#include "validation/hard/tools.h"
 
 using namespace sonarsim;
 

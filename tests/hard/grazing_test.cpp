@@ -5,8 +5,8 @@
 #include <memory>
 
 #include "dataset/assemble.h"
-#include "study/hard_tools.h"
-#include "surface/rays.h"
+#include "validation/hard/tools.h"
+#include "visibility/rays/rays_engine.h"
 
 using namespace sonarsim;
 

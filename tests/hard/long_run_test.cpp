@@ -8,7 +8,7 @@
 #include "core/units.h"
 #include "ping/accumulate.h"
 #include "sonar/setup.h"
-#include "surface/view.h"
+#include "visibility/view.h"
 
 using namespace sonarsim;
 

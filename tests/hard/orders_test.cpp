@@ -1,6 +1,7 @@
+#include "validation/hard/orders.h"
+
 #include <doctest/doctest.h>
 
-#include "study/hard_orders.h"
 #include "support/sanitized.h"
 
 using namespace sonarsim;

@@ -8,8 +8,8 @@
 
 #include "core/file.h"
 #include "core/pose.h"
-#include "scene/gltf_builder.h"
-#include "study/hard_tools.h"
+#include "scene/gltf/builder.h"
+#include "validation/hard/tools.h"
 
 using namespace sonarsim;
 using nlohmann::json;

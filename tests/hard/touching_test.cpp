@@ -4,9 +4,9 @@
 #include <memory>
 
 #include "dataset/assemble.h"
-#include "study/hard_tools.h"
-#include "study/shapes.h"
 #include "support/sanitized.h"
+#include "validation/hard/tools.h"
+#include "validation/shapes.h"
 
 using namespace sonarsim;
 

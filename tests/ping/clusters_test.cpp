@@ -12,7 +12,7 @@
 #include "support/bounces.h"
 #include "support/sanitized.h"
 #include "support/scenes.h"
-#include "surface/rays.h"
+#include "visibility/rays/rays_engine.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

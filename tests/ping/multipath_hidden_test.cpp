@@ -7,7 +7,7 @@
 #include "ping/multipath.h"
 #include "support/bounces.h"
 #include "support/scenes.h"
-#include "surface/rays.h"
+#include "visibility/rays/rays_engine.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

@@ -4,7 +4,7 @@
 
 #include "sonar/sonar.h"
 #include "support/scenes.h"
-#include "surface/rays.h"
+#include "visibility/rays/rays_engine.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

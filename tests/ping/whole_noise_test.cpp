@@ -10,7 +10,7 @@
 #include "support/sanitized.h"
 #include "support/scenes.h"
 #include "support/statistics.h"
-#include "surface/rays.h"
+#include "visibility/rays/rays_engine.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "core/file.h"
-#include "scene/gltf_builder.h"
+#include "scene/gltf/builder.h"
 
 using namespace sonarsim;
 namespace fs = std::filesystem;

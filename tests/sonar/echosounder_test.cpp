@@ -5,11 +5,11 @@
 #include "core/units.h"
 #include "product/echogram.h"
 #include "sonar/sonar.h"
-#include "study/image_error.h"
-#include "study/reference.h"
 #include "support/scenes.h"
-#include "surface/octree.h"
-#include "surface/rays.h"
+#include "validation/image_error.h"
+#include "validation/reference.h"
+#include "visibility/octree/octree_engine.h"
+#include "visibility/rays/rays_engine.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

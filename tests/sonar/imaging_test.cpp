@@ -4,11 +4,11 @@
 
 #include "core/units.h"
 #include "sonar/sonar.h"
-#include "study/image_error.h"
 #include "support/scenes.h"
 #include "support/sonars.h"
 #include "support/statistics.h"
-#include "surface/rays.h"
+#include "validation/image_error.h"
+#include "visibility/rays/rays_engine.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

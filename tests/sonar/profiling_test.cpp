@@ -5,12 +5,12 @@
 #include "core/units.h"
 #include "product/soundings.h"
 #include "sonar/sonar.h"
-#include "study/image_error.h"
-#include "study/reference.h"
 #include "support/sanitized.h"
 #include "support/scenes.h"
 #include "support/sonars.h"
-#include "surface/rays.h"
+#include "validation/image_error.h"
+#include "validation/reference.h"
+#include "visibility/rays/rays_engine.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

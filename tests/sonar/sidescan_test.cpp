@@ -5,10 +5,10 @@
 #include "core/units.h"
 #include "product/sidescan_row.h"
 #include "sonar/sonar.h"
-#include "study/image_error.h"
-#include "study/reference.h"
 #include "support/scenes.h"
-#include "surface/rays.h"
+#include "validation/image_error.h"
+#include "validation/reference.h"
+#include "visibility/rays/rays_engine.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

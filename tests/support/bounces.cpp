@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/units.h"
-#include "surface/rays.h"
+#include "visibility/rays/rays_engine.h"
 
 namespace sonarsim::test {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "study/shapes.h"
+#include "validation/shapes.h"
 
 namespace sonarsim::test {
 

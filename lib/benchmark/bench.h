@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "benchmark/spread.h"
+#include "dataset/assemble.h"
+#include "mission/mission.h"
+
+namespace sonarsim {
+
+// Timing pings so that settings can be compared. A caller lets the settings take turns: a machine
+// that slows down slows them all.
+
+/// Of a clock that only goes forward.
+double seconds_now();
+
+/// The pings that every setting is measured on.
+struct Bench {
+    const Scene& scene;
+    std::uint64_t seed;
+    std::vector<Pose> poses;             ///< T_world_vehicle
+    std::vector<std::uint32_t> indices;  ///< of the poses on the trajectory
+
+    Ping ping(const Sonar& sonar, const Surface& surface, std::size_t p) const;
+};
+
+/// With `poses` of them spread along the trajectory. The assembly must outlive it.
+Bench make_bench(const Mission& mission, const Assembly& assembly, int poses);
+
+/// The times of one setting at one pose, over all visits; milliseconds.
+struct PoseTimes {
+    std::vector<double> ping, trace, multipath, accumulate, noise, bare;
+};
+
+/// Pings a few times and adds the times to `times`: first a ping to warm the caches after the other
+/// settings, then the ones that count. A slow setting needs neither.
+void visit_pose(const Bench& bench, const Sonar& sonar, const Surface& surface, std::size_t p,
+                PoseTimes& times);
+
+/// The medians at the poses, spread over the poses.
+Spread over_poses(std::span<const PoseTimes> poses, std::vector<double> PoseTimes::*stage);
+
+}  // namespace sonarsim

@@ -1,0 +1,148 @@
+#include "benchmark/multipath_rows.h"
+
+#include <algorithm>
+
+#include "benchmark/bench.h"
+#include "core/in_parallel.h"
+#include "ping/accumulate.h"
+#include "ping/multipath_echoes.h"
+#include "validation/image_error.h"
+
+namespace sonarsim {
+
+namespace {
+
+constexpr MultipathConfig exact{MultipathMethod::exact, 0, 0.0};
+constexpr MultipathConfig none{MultipathMethod::none, 0, 0.0};
+
+/// The exact method has neither epsilon nor delta.
+MultipathConfig canonical(const MultipathConfig& config) {
+    return config.method == MultipathMethod::exact ? exact : config;
+}
+
+/// A sonar with one way to find multipath, on its way through the rounds.
+struct Trial {
+    Sonar sonar;
+    std::vector<PoseTimes> poses;
+};
+
+Trial trial_of(const Sonar& sonar, const MultipathConfig& multipath, const Mission& mission,
+               const Bench& bench) {
+    SonarConfig config = sonar.config;
+    config.multipath = multipath;
+    return {make_sonar(config, mission.accuracy), std::vector<PoseTimes>(bench.poses.size())};
+}
+
+/// The images of all poses, one after the other.
+std::vector<float> all_images(const Bench& bench, const Sonar& sonar, const Surface& surface) {
+    std::vector<std::vector<float>> images(bench.poses.size());
+    in_parallel(images.size(), [&](std::size_t p) {
+        images[p] = multipath_image(sonar, bench.scene, surface, bench.poses[p]);
+    });
+    std::vector<float> all;
+    for (const std::vector<float>& image : images)
+        all.insert(all.end(), image.begin(), image.end());
+    return all;
+}
+
+void take_turns(const Bench& bench, const Surface& surface, std::span<Trial> trials) {
+    for (std::size_t p = 0; p < bench.poses.size(); ++p) {
+        for (Trial& trial : trials)
+            visit_pose(bench, trial.sonar, surface, p, trial.poses[p]);
+    }
+}
+
+/// All ways on one sonar.
+std::vector<MultipathRow> measure_sonar(const Mission& mission, const Bench& bench,
+                                        const Sonar& sonar, const Surface& surface, int rounds,
+                                        const ReportProgress& progress) {
+    const std::string& name = sonar.config.name;
+    const std::vector<MultipathConfig> ladder = make_multipath_ladder(sonar.config.multipath);
+    std::vector<Trial> trials{trial_of(sonar, none, mission, bench)};  // then exact, the others
+    for (const MultipathConfig& setting : ladder)
+        trials.push_back(trial_of(sonar, setting, mission, bench));
+
+    progress(name + ": multipath, error");
+    const std::vector<float> truth = all_images(bench, trials[1].sonar, surface);
+    std::vector<MultipathRow> rows;
+    for (std::size_t k = 0; k < ladder.size(); ++k) {
+        MultipathRow& row = rows.emplace_back();
+        row.sensor = name;
+        row.setting = ladder[k];
+        row.current = ladder[k] == canonical(sonar.config.multipath);
+        row.exact_bins = std::ranges::count_if(truth, [](float x) { return x > 0.0F; });
+        const ImageError error =
+            image_error(all_images(bench, trials[k + 1].sonar, surface), truth);
+        row.relative_l1 = error.relative_l1;
+        row.found = 1.0 - error.miss_rate;
+        row.there = 1.0 - error.false_rate;
+    }
+    for (int round = 0; round < rounds; ++round) {
+        progress(name + ": multipath, timing, round " + std::to_string(round + 1) + " of " +
+                 std::to_string(rounds));
+        take_turns(bench, surface, trials);
+    }
+    const double ms_exact = over_poses(trials[1].poses, &PoseTimes::multipath).centre;
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+        MultipathRow& row = rows[k];
+        row.ms_multipath = over_poses(trials[k + 1].poses, &PoseTimes::multipath);
+        row.ms_per_ping = over_poses(trials[k + 1].poses, &PoseTimes::ping);
+        row.ms_without = over_poses(trials[0].poses, &PoseTimes::ping).centre;
+        row.speed_up = ms_exact / row.ms_multipath.centre;
+    }
+    return rows;
+}
+
+}  // namespace
+
+std::vector<MultipathConfig> make_multipath_ladder(const MultipathConfig& own) {
+    std::vector<MultipathConfig> ladder{exact};
+    for (const int epsilon : {1, 3, 5, 9}) {
+        for (const double delta : {5.0, 15.0, 30.0})
+            ladder.push_back({MultipathMethod::cluster, epsilon, delta});
+    }
+    if (std::ranges::find(ladder, canonical(own)) == ladder.end()) ladder.push_back(own);
+    return ladder;
+}
+
+std::vector<float> multipath_image(const Sonar& sonar, const Scene& scene, const Surface& surface,
+                                   const Pose& T_world_vehicle) {
+    const View& view = sonar.settings.view;
+    const Pose T_world_sensor = T_world_vehicle * sonar.T_vehicle_sensor;
+    Samples samples;
+    surface.look(view, T_world_sensor, samples);
+    MultipathCounts counts;
+    const std::vector<Bounce> bounces = find_bounces(
+        sonar.settings.multipath, view, samples, scene.materials, surface, T_world_sensor, counts);
+    const MultipathEchoes bounced = multipath_echoes(bounces, samples, view, {});
+    const RangeBins bins{static_cast<float>(view.range_min_m), static_cast<float>(view.bin_m()),
+                         view.range_bins};
+    std::vector<float> image(static_cast<std::size_t>(view.beams) * bins.count);
+    BinSums sums;
+    for (int j = 0; j < view.beams; ++j) {
+        sums.clear(bins.count);
+        accumulate(bounced.echoes, bounced.beam_begin[j], bounced.beam_begin[j + 1], bins, sums);
+        mean_of_bins(
+            sums, std::span(image).subspan(static_cast<std::size_t>(j) * bins.count, bins.count));
+    }
+    return image;
+}
+
+std::vector<MultipathRow> measure_multipath(const Mission& mission, const Assembly& assembly,
+                                            const ReportOptions& options,
+                                            const ReportProgress& progress) {
+    const auto has_multipath = [](const Sonar& sonar) { return sonar.settings.multipath.on; };
+    std::vector<MultipathRow> out;
+    if (std::ranges::none_of(assembly.sonars, has_multipath)) return out;
+    const Bench bench = make_bench(mission, assembly, options.poses);
+    const auto surface = make_surface(assembly.scene, mission.engine, mission.octree);
+    for (const Sonar& sonar : assembly.sonars) {
+        if (!has_multipath(sonar)) continue;
+        const std::vector<MultipathRow> rows =
+            measure_sonar(mission, bench, sonar, *surface, options.rounds, progress);
+        out.insert(out.end(), rows.begin(), rows.end());
+    }
+    return out;
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,242 @@
+#include "benchmark/report.h"
+
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <memory>
+
+#include "benchmark/bench.h"
+#include "core/in_parallel.h"
+#include "validation/fit.h"
+#include "validation/image_error.h"
+#include "validation/reference.h"
+
+namespace sonarsim {
+
+namespace {
+
+/// A sonar with a setting, on its way through the rounds.
+struct Trial {
+    Sonar noisy;
+    const Surface* surface = nullptr;
+    std::vector<PoseTimes> poses;
+    std::vector<double> pings_per_s;
+};
+
+/// What all trials share.
+struct Stand {
+    Bench bench;
+    const Caster& caster;
+    ReportOptions options;  ///< with the number of threads found out
+};
+
+/// Milliseconds of bare Embree: rays from the sensor to every sample, in the order of the samples.
+double bare_ms(const Stand& stand, const Sonar& sonar, const Surface& surface, std::size_t p) {
+    const Pose T_world_sensor = stand.bench.poses[p] * sonar.T_vehicle_sensor;
+    Samples samples;
+    surface.look(sonar.settings.view, T_world_sensor, samples);
+    const Eigen::Matrix3f R = T_world_sensor.rotation.toRotationMatrix().cast<float>();
+    const Eigen::Vector3f origin =
+        (T_world_sensor.translation - stand.bench.scene.origin).cast<float>();
+    std::vector<Eigen::Vector3f> directions(samples.items.size());
+    std::vector<std::uint32_t> facets(samples.items.size());
+    for (std::size_t i = 0; i < directions.size(); ++i) {
+        directions[i] = R * samples.items[i].position.normalized();
+    }
+    const auto reach = static_cast<float>(sonar.settings.view.range_max_m) * 1.01F;
+    const double start = seconds_now();
+    stand.caster.cast(origin, directions, reach, facets);
+    return 1e3 * (seconds_now() - start);
+}
+
+/// Pings per second with all threads at work for about a quarter of a second.
+double rate(const Stand& stand, const Trial& trial) {
+    const Bench& bench = stand.bench;
+    const int threads = stand.options.threads;
+    const double ms = trial.poses[0].ping.back();
+    const int count = std::clamp(static_cast<int>(250.0 * threads / ms), 2 * threads, 2000);
+    const double start = seconds_now();
+    in_parallel(count, [&](std::size_t k) {
+        bench.ping(trial.noisy, *trial.surface, k % bench.poses.size());
+    });
+    return count / (seconds_now() - start);
+}
+
+/// The truth at each pose.
+std::vector<Reference> cast_references(const Stand& stand, const Sonar& sonar) {
+    const Bench& bench = stand.bench;
+    const ReportOptions& options = stand.options;
+    std::vector<Reference> references(bench.poses.size());
+    in_parallel(references.size(), [&](std::size_t p) {
+        references[p] = cast_reference(stand.caster, bench.scene, sonar.settings.view,
+                                       bench.poses[p] * sonar.T_vehicle_sensor,
+                                       {options.reference_moved, 64.0, options.reference_rays});
+    });
+    return references;
+}
+
+ReferenceQuality quality(const std::string& sensor, const std::vector<Reference>& references) {
+    std::vector<double> moved;
+    std::vector<double> rays;
+    for (const Reference& reference : references) {
+        moved.push_back(reference.moved);
+        rays.push_back(reference.rays_per_bin);
+    }
+    return {sensor, spread_of(moved), spread_of(rays)};
+}
+
+void measure_errors(const Bench& bench, const Trial& trial,
+                    const std::vector<Reference>& references, ReportRow& row) {
+    const Sonar clean = direct_echoes_only(trial.noisy);
+    const std::size_t poses = references.size();
+    std::vector<double> l1(poses);
+    std::vector<double> l2(poses);
+    std::vector<double> miss(poses);
+    std::vector<double> invented(poses);
+    std::vector<double> samples(poses);
+    in_parallel(poses, [&](std::size_t p) {
+        const Ping ping = bench.ping(clean, *trial.surface, p);
+        const ImageError error = image_error(ping.intensity, references[p].intensity);
+        l1[p] = error.relative_l1;
+        l2[p] = error.relative_l2;
+        miss[p] = error.miss_rate;
+        invented[p] = error.false_rate;
+        samples[p] = static_cast<double>(ping.counts.samples);
+    });
+    row.relative_l1 = spread_of(l1);
+    row.relative_l2 = spread_of(l2);
+    row.miss_rate = spread_of(miss);
+    row.false_rate = spread_of(invented);
+    row.samples_per_ping = spread_of(samples);
+}
+
+void summarise_times(const Trial& trial, ReportRow& row) {
+    row.ms_per_ping = over_poses(trial.poses, &PoseTimes::ping);
+    row.ms_trace = over_poses(trial.poses, &PoseTimes::trace).centre;
+    row.ms_multipath = over_poses(trial.poses, &PoseTimes::multipath).centre;
+    row.ms_accumulate = over_poses(trial.poses, &PoseTimes::accumulate).centre;
+    row.ms_noise = over_poses(trial.poses, &PoseTimes::noise).centre;
+    row.ms_bare = over_poses(trial.poses, &PoseTimes::bare).centre;
+    row.pings_per_s = spread_of_times(trial.pings_per_s).centre;
+}
+
+void mark_front(std::vector<ReportRow>& rows, const std::string& sensor) {
+    std::vector<ReportRow*> own;
+    std::vector<double> cost;
+    std::vector<double> error;
+    for (ReportRow& row : rows) {
+        if (row.sensor != sensor) continue;
+        own.push_back(&row);
+        cost.push_back(row.ms_per_ping.centre);
+        error.push_back(row.relative_l1.centre);
+    }
+    const std::vector<bool> front = pareto_front(cost, error);
+    for (std::size_t i = 0; i < own.size(); ++i)
+        own[i]->on_front = front[i];
+}
+
+/// All settings on one sonar.
+void report_sonar(const Stand& stand, std::size_t index, const Assembly& assembly,
+                  std::span<const Setting> ladder,
+                  const std::vector<std::shared_ptr<const Surface>>& surfaces,
+                  std::span<const ColdStart> cold, const ReportProgress& progress, Report& report) {
+    const Bench& bench = stand.bench;
+    const int rounds = stand.options.rounds;
+    const Sonar& sonar = assembly.sonars[index];
+    const std::string& name = sonar.config.name;
+    progress(name + ": casting the reference");
+    const std::vector<Reference> references = cast_references(stand, sonar);
+    report.references.push_back(quality(name, references));
+
+    std::vector<Trial> trials;
+    std::vector<ReportRow> rows;
+    for (std::size_t s = 0; s < ladder.size(); ++s) {
+        progress(name + ": " + ladder[s].engine + " " + ladder[s].name + ", error");
+        trials.push_back({with_setting(sonar, ladder[s]),
+                          surfaces[s].get(),
+                          std::vector<PoseTimes>(bench.poses.size()),
+                          {}});
+        ReportRow& row = rows.emplace_back();
+        row.sensor = name;
+        row.setting = ladder[s];
+        if (!cold.empty()) row.cold = cold[s * assembly.sonars.size() + index];
+        measure_errors(bench, trials.back(), references, row);
+    }
+    for (int round = 0; round < rounds; ++round) {
+        progress(name + ": timing, round " + std::to_string(round + 1) + " of " +
+                 std::to_string(rounds));
+        for (std::size_t p = 0; p < bench.poses.size(); ++p) {
+            for (Trial& trial : trials) {
+                PoseTimes& times = trial.poses[p];
+                visit_pose(bench, trial.noisy, *trial.surface, p, times);
+                times.bare.push_back(bare_ms(stand, trial.noisy, *trial.surface, p));
+            }
+        }
+        for (Trial& trial : trials)
+            trial.pings_per_s.push_back(rate(stand, trial));
+    }
+    for (std::size_t s = 0; s < rows.size(); ++s)
+        summarise_times(trials[s], rows[s]);
+    mark_front(rows, name);
+    report.rows.insert(report.rows.end(), rows.begin(), rows.end());
+}
+
+}  // namespace
+
+Sonar direct_echoes_only(Sonar sonar) {
+    sonar.settings.multipath.on = false;
+    sonar.settings.streaks.mode = StreakMode::none;
+    sonar.settings.range_noise.lambda_m = 0.0F;
+    sonar.settings.pixel_noise.gain = 1.0F;
+    sonar.settings.pixel_noise.add_sigma = 0.0F;
+    sonar.settings.pixel_noise.mult_sigma = 0.0F;
+    return sonar;
+}
+
+Sonar with_setting(const Sonar& sonar, const Setting& setting) {
+    Sonar out = sonar;
+    out.settings.view.relative_l1 = setting.relative_l1;
+    return out;
+}
+
+Report make_report(const Mission& mission, const Assembly& assembly,
+                   std::span<const Setting> ladder, std::span<const ColdStart> cold,
+                   const ReportOptions& options, const ReportProgress& progress) {
+    const int threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    tbb::task_arena arena(threads);
+    Report report{mission.name,
+                  assembly.scene.triangles.size(),
+                  0,
+                  threads,
+                  mission.accuracy.relative_l1,
+                  0.0,
+                  {},
+                  {},
+                  {},
+                  {}};
+    ::getloadavg(&report.load, 1);
+    arena.execute([&] {
+        const Caster caster(assembly.scene);
+        Stand stand{make_bench(mission, assembly, options.poses), caster, options};
+        stand.options.threads = threads;
+        report.poses = static_cast<int>(stand.bench.poses.size());
+        std::shared_ptr<const Surface> rays;  // one tree serves every error goal
+        std::vector<std::shared_ptr<const Surface>> surfaces;
+        for (const Setting& setting : ladder) {
+            const bool again = setting.kind == EngineKind::rays && rays;
+            surfaces.push_back(again ? rays
+                                     : make_surface(assembly.scene, setting.kind, setting.octree));
+            if (setting.kind == EngineKind::rays) rays = surfaces.back();
+        }
+        for (std::size_t i = 0; i < assembly.sonars.size(); ++i) {
+            report_sonar(stand, i, assembly, ladder, surfaces, cold, progress, report);
+        }
+    });
+    return report;
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,170 @@
+#include "benchmark/report_files.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <utility>
+#include <vector>
+
+#include "benchmark/report_text.h"
+#include "core/text.h"
+
+namespace sonarsim {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The figures of a row that vary over the poses.
+std::vector<std::pair<const char*, const Spread*>> spreads(const ReportRow& row) {
+    return {{"ms_per_ping", &row.ms_per_ping}, {"relative_l1", &row.relative_l1},
+            {"relative_l2", &row.relative_l2}, {"miss_rate", &row.miss_rate},
+            {"false_rate", &row.false_rate},   {"samples_per_ping", &row.samples_per_ping}};
+}
+
+Json json_of(const ReportRow& row) {
+    Json json{{"sensor", row.sensor},
+              {"engine", row.setting.engine},
+              {"setting", row.setting.name},
+              {"ms_per_ping", row.ms_per_ping.centre},
+              {"pings_per_s", row.pings_per_s},
+              {"relative_l1", row.relative_l1.centre},
+              {"relative_l2", row.relative_l2.centre},
+              {"miss_rate", row.miss_rate.centre},
+              {"false_rate", row.false_rate.centre},
+              {"samples_per_ping", row.samples_per_ping.centre},
+              {"build_s", row.cold.build_s},
+              {"first_ping_s", row.cold.first_ping_s},
+              {"peak_memory_mb", row.cold.peak_memory_mb}};
+    for (const auto& [name, spread] : spreads(row)) {
+        json["spread"][name] = {spread->min, spread->max};
+    }
+    return json;
+}
+
+Json stages_of(const ReportRow& row) {
+    return {{"sensor", row.sensor},
+            {"engine", row.setting.engine},
+            {"setting", row.setting.name},
+            {"on_front", row.on_front},
+            {"current", row.setting.current},
+            {"ms_trace", row.ms_trace},
+            {"ms_multipath", row.ms_multipath},
+            {"ms_accumulate", row.ms_accumulate},
+            {"ms_noise", row.ms_noise},
+            {"ms_bare_embree", row.ms_bare},
+            {"ms_slowest_ping", row.cold.slowest_ms},
+            {"engine_memory_mb", row.cold.engine_memory_mb}};
+}
+
+Json reference_of(const Report& report, const ReferenceQuality& reference) {
+    return {{"sensor", reference.sensor},
+            {"poses", report.poses},
+            {"moved_mean", reference.moved.centre},
+            {"moved_max", reference.moved.max},
+            {"rays_per_bin_mean", reference.rays_per_bin.centre},
+            {"auto", explain_auto(report, reference.sensor)}};
+}
+
+Json growth_of(const Growth& growth) {
+    Json json{{"sensor", growth.sensor},
+              {"engine", growth.engine},
+              {"along", growth.along},
+              {"triangles", growth.triangles},
+              {"ms_per_ping", growth.ms_per_ping}};
+    // JSON has no NaN.
+    json["exponent"] = std::isfinite(growth.exponent) ? Json(growth.exponent) : Json();
+    return json;
+}
+
+/// The figures of a multipath row: epsilon and delta, then what was measured.
+std::vector<std::pair<const char*, double>> figures(const MultipathRow& row) {
+    return {{"epsilon_bins", row.setting.epsilon_bins},
+            {"delta_deg", row.setting.delta_deg},
+            {"relative_l1", row.relative_l1},
+            {"found", row.found},
+            {"there", row.there},
+            {"exact_bins", static_cast<double>(row.exact_bins)},
+            {"ms_multipath", row.ms_multipath.centre},
+            {"ms_multipath_min", row.ms_multipath.min},
+            {"ms_multipath_max", row.ms_multipath.max},
+            {"ms_per_ping", row.ms_per_ping.centre},
+            {"ms_per_ping_min", row.ms_per_ping.min},
+            {"ms_per_ping_max", row.ms_per_ping.max},
+            {"ms_without", row.ms_without},
+            {"times_without", row.times_without()},
+            {"speed_up", row.speed_up}};
+}
+
+const char* method_of(const MultipathRow& row) {
+    return row.setting.method == MultipathMethod::exact ? "exact" : "cluster";
+}
+
+Json json_of(const MultipathRow& row) {
+    Json json{{"sensor", row.sensor}, {"method", method_of(row)}, {"current", row.current}};
+    for (const auto& [name, value] : figures(row))
+        json[name] = value;
+    return json;
+}
+
+}  // namespace
+
+std::string report_json(const Report& report) {
+    Json json{{"mission", report.mission},      {"version", SONARSIM_VERSION},
+              {"triangles", report.triangles},  {"poses", report.poses},
+              {"threads", report.threads},      {"load_average", report.load},
+              {"goal_relative_l1", report.goal}};
+    for (const char* const list : {"rows", "stages", "reference", "growth", "multipath_rows"})
+        json[list] = Json::array();
+    for (const ReportRow& row : report.rows) {
+        json["rows"].push_back(json_of(row));
+        json["stages"].push_back(stages_of(row));
+    }
+    for (const ReferenceQuality& reference : report.references)
+        json["reference"].push_back(reference_of(report, reference));
+    for (const Growth& growth : report.growth)
+        json["growth"].push_back(growth_of(growth));
+    for (const MultipathRow& row : report.multipath)
+        json["multipath_rows"].push_back(json_of(row));
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string report_csv(const Report& report) {
+    std::string text =
+        "sensor,engine,setting,ms_per_ping,pings_per_s,relative_l1,relative_l2,miss_rate,"
+        "false_rate,samples_per_ping,build_s,first_ping_s,peak_memory_mb";
+    for (const auto& [name, spread] : spreads(ReportRow{})) {
+        text += "," + std::string(name) + "_min," + name + "_max";
+    }
+    text += "\n";
+    for (const ReportRow& row : report.rows) {
+        text += row.sensor + "," + row.setting.engine + "," + row.setting.name;
+        for (const double value :
+             {row.ms_per_ping.centre, row.pings_per_s, row.relative_l1.centre,
+              row.relative_l2.centre, row.miss_rate.centre, row.false_rate.centre,
+              row.samples_per_ping.centre, row.cold.build_s, row.cold.first_ping_s,
+              row.cold.peak_memory_mb}) {
+            text += "," + number_text(value);
+        }
+        for (const auto& [name, spread] : spreads(row)) {
+            text += "," + number_text(spread->min) + "," + number_text(spread->max);
+        }
+        text += "\n";
+    }
+    return text;
+}
+
+std::string multipath_csv(const Report& report) {
+    std::string text = "sensor,method,current";
+    for (const auto& [name, value] : figures(MultipathRow{}))
+        text += std::string(",") + name;
+    text += "\n";
+    for (const MultipathRow& row : report.multipath) {
+        text += row.sensor + "," + method_of(row) + "," + (row.current ? "true" : "false");
+        for (const auto& [name, value] : figures(row))
+            text += "," + number_text(value);
+        text += "\n";
+    }
+    return text;
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,231 @@
+#include "benchmark/report_text.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace sonarsim {
+
+namespace {
+
+/// Three significant digits, without an exponent.
+std::string short_number(double x) {
+    if (!(x >= 5e-5)) return "0";
+    const int digits = 2 - static_cast<int>(std::floor(std::log10(x)));
+    return fmt::format("{:.{}f}", x, std::clamp(digits, 0, 4));
+}
+
+std::string percent(double x) {
+    return short_number(100.0 * x) + " %";
+}
+
+std::string between(const Spread& spread) {
+    return short_number(spread.min) + "-" + short_number(spread.max);
+}
+
+std::string label(const ReportRow& row) {
+    return row.setting.engine + " " + row.setting.name;
+}
+
+/// The best of the rows that `counts` accepts, by the rule of explain_auto.
+const ReportRow* best(const Report& report, const std::string& sensor,
+                      const std::function<bool(const ReportRow&)>& counts) {
+    const ReportRow* found = nullptr;
+    for (const ReportRow& row : report.rows) {
+        if (row.sensor != sensor || !counts(row)) continue;
+        const bool meets = row.relative_l1.centre <= report.goal;
+        const bool found_meets = found != nullptr && found->relative_l1.centre <= report.goal;
+        const bool better = found == nullptr       ? true
+                            : meets != found_meets ? meets
+                            : meets ? row.ms_per_ping.centre < found->ms_per_ping.centre
+                                    : row.relative_l1.centre < found->relative_l1.centre;
+        if (better) found = &row;
+    }
+    return found;
+}
+
+std::string costs(const Report& report, const std::string& sensor) {
+    std::string text =
+        fmt::format("{:<28}{:>9}{:>17}{:>10}{:>9}{:>17}{:>8}{:>8}{:>8}{:>10}{:>8}{:>8}{:>8}\n",
+                    sensor, "ms/ping", "(over poses)", "pings/s", "L1", "(over poses)", "L2",
+                    "miss", "false", "samples", "build s", "first s", "MiB");
+    for (const ReportRow& row : report.rows) {
+        if (row.sensor != sensor) continue;
+        text += fmt::format(
+            "{:<28}{:>9}{:>17}{:>10.0f}{:>9}{:>17}{:>8}{:>8}{:>8}{:>10.0f}{:>8.2f}{:>8.2f}{:>8.0f}"
+            "\n",
+            fmt::format("{}{} {}", row.on_front ? "*" : " ", label(row),
+                        row.setting.current ? "<" : ""),
+            short_number(row.ms_per_ping.centre), between(row.ms_per_ping), row.pings_per_s,
+            percent(row.relative_l1.centre),
+            short_number(100 * row.relative_l1.min) + "-" + short_number(100 * row.relative_l1.max),
+            percent(row.relative_l2.centre), percent(row.miss_rate.centre),
+            percent(row.false_rate.centre), row.samples_per_ping.centre, row.cold.build_s,
+            row.cold.first_ping_s, row.cold.peak_memory_mb);
+    }
+    return text;
+}
+
+std::string stages(const Report& report, const std::string& sensor) {
+    std::string text = fmt::format("{:<28}{:>9}{:>11}{:>12}{:>9}{:>14}{:>12}{:>14}\n",
+                                   "where it goes, ms", "trace", "multipath", "accumulate", "noise",
+                                   "bare Embree", "x of bare", "slowest ping");
+    for (const ReportRow& row : report.rows) {
+        if (row.sensor != sensor) continue;
+        text += fmt::format(
+            "{:<28}{:>9}{:>11}{:>12}{:>9}{:>14}{:>12}{:>14}\n", " " + label(row),
+            short_number(row.ms_trace), short_number(row.ms_multipath),
+            short_number(row.ms_accumulate), short_number(row.ms_noise), short_number(row.ms_bare),
+            row.ms_bare > 0.0 ? short_number(row.ms_per_ping.centre / row.ms_bare) : "-",
+            short_number(row.cold.slowest_ms));
+    }
+    return text;
+}
+
+/// How far the mission's own setting is from bare Embree, and what holds it back.
+std::string floors(const Report& report, const std::string& sensor) {
+    for (const ReportRow& row : report.rows) {
+        const std::array<std::pair<const char*, double>, 4> parts{
+            {{"trace", row.ms_trace},
+             {"multipath", row.ms_multipath},
+             {"accumulation", row.ms_accumulate},
+             {"noise", row.ms_noise}}};
+        double sum = 0.0;
+        for (const auto& [name, ms] : parts)
+            sum += ms;
+        if (row.sensor != sensor || !row.setting.current || !(sum > 0.0 && row.ms_bare > 0.0)) {
+            continue;
+        }
+        std::string shares;
+        for (const auto& [name, ms] : parts) {
+            shares +=
+                fmt::format("{}{:.0f} % {}", shares.empty() ? "" : ", ", 100.0 * ms / sum, name);
+        }
+        const auto& most =
+            *std::ranges::max_element(parts, {}, &std::pair<const char*, double>::second);
+        return fmt::format(
+            "{}: a ping takes {} times what bare Embree needs for as many rays: {}. The {} "
+            "holds it back.\n",
+            label(row), short_number(row.ms_per_ping.centre / row.ms_bare), shares, most.first);
+    }
+    return "";
+}
+
+std::string figures(const ReportRow& row) {
+    return fmt::format("{} ({} in {} ms)", label(row), percent(row.relative_l1.centre),
+                       short_number(row.ms_per_ping.centre));
+}
+
+std::string label(const MultipathRow& row) {
+    const MultipathConfig& setting = row.setting;
+    if (setting.method == MultipathMethod::exact) return "exact";
+    return fmt::format("cluster epsilon={} delta={}", setting.epsilon_bins, setting.delta_deg);
+}
+
+/// The ways to find multipath, against the exact one; nothing for a sonar without multipath.
+std::string multipath(const Report& report, const std::string& sensor) {
+    std::string text;
+    for (const MultipathRow& row : report.multipath) {
+        if (row.sensor != sensor) continue;
+        if (text.empty()) {
+            text = fmt::format("\n{:<28}{:>9}{:>9}{:>9}{:>11}{:>17}{:>10}{:>10}{:>17}{:>11}\n",
+                               "multipath", "L1", "found", "there", "stage ms", "(over poses)",
+                               "speed-up", "ms/ping", "(over poses)", "x without");
+        }
+        text += fmt::format("{:<28}{:>9}{:>9}{:>9}{:>11}{:>17}{:>10}{:>10}{:>17}{:>11.2f}\n",
+                            fmt::format(" {} {}", label(row), row.current ? "<" : ""),
+                            percent(row.relative_l1), percent(row.found), percent(row.there),
+                            short_number(row.ms_multipath.centre), between(row.ms_multipath),
+                            short_number(row.speed_up), short_number(row.ms_per_ping.centre),
+                            between(row.ms_per_ping), row.times_without());
+    }
+    if (text.empty()) return text;
+    const MultipathRow& any = *std::ranges::find(report.multipath, sensor, &MultipathRow::sensor);
+    return text + fmt::format(
+                      "Of the multipath echoes alone, against the exact method, which lights {} "
+                      "bins at {} poses;\nwithout multipath a ping takes {} ms.\n",
+                      any.exact_bins, report.poses, short_number(any.ms_without));
+}
+
+std::string growth_text(const Report& report) {
+    std::string text;
+    for (const Growth& growth : report.growth) {
+        text += fmt::format("{} {}, growing in {}: ms per ping ~ triangles^{:.2f};", growth.sensor,
+                            growth.engine, growth.along, growth.exponent);
+        for (std::size_t i = 0; i < growth.triangles.size(); ++i) {
+            text += fmt::format(" {:.0f}: {}", growth.triangles[i],
+                                short_number(growth.ms_per_ping[i]));
+        }
+        text += "\n";
+    }
+    return text;
+}
+
+}  // namespace
+
+std::string explain_auto(const Report& report, const std::string& sensor) {
+    const ReportRow* const rays =
+        best(report, sensor, [](const ReportRow& row) { return row.setting.engine == "rays"; });
+    const ReportRow* const octree =
+        best(report, sensor, [](const ReportRow& row) { return row.setting.engine != "rays"; });
+    const ReportRow* const all = best(report, sensor, [](const ReportRow&) { return true; });
+    if (all == nullptr || rays == nullptr) return "";
+    std::string text = fmt::format(
+        "{}: engine: auto takes rays. At the goal of {} the best rays "
+        "are {}",
+        sensor, percent(report.goal), figures(*rays));
+    if (octree != nullptr) text += fmt::format(", the best octree is {}", figures(*octree));
+    text += ".";
+    if (all == octree) {
+        text += fmt::format(" Here the octree is better: set engine: octree and octree.{}.",
+                            octree->setting.name);
+    }
+    return text;
+}
+
+std::string report_text(const Report& report) {
+    std::string text = fmt::format("{}: {} triangles, {} poses, {} threads\n", report.mission,
+                                   report.triangles, report.poses, report.threads);
+    if (report.load > 0.5) {
+        text += fmt::format(
+            "The machine was busy (load {:.1f}) before this began: times are too "
+            "long.\n",
+            report.load);
+    }
+    for (const ReferenceQuality& reference : report.references) {
+        text += "\n" + costs(report, reference.sensor) + "\n" + stages(report, reference.sensor);
+        text += fmt::format(
+            "reference: {:.0f} rays per bin; its last doubling moved it by {}, at "
+            "most {}\n",
+            reference.rays_per_bin.centre, percent(reference.moved.centre),
+            percent(reference.moved.max));
+        text += floors(report, reference.sensor) + explain_auto(report, reference.sensor) + "\n" +
+                multipath(report, reference.sensor);
+    }
+    return text + growth_text(report) +
+           "* nothing is both faster and more accurate; < the mission's own setting. ms/ping on "
+           "one thread,\npings/s on all, noise on; errors of the direct echoes without noise. MiB "
+           "is the peak of a process with\nthis setting alone.\n";
+}
+
+std::string report_markdown(const Report& report) {
+    std::string text =
+        "| engine | setting | ms per ping | pings/s | relative L1 | missed bins | false bins | "
+        "samples | first ping, s | peak, MiB |\n|---|---|---|---|---|---|---|---|---|---|\n";
+    for (const ReportRow& row : report.rows) {
+        const char* const bold = row.on_front ? "**" : "";
+        text += fmt::format(
+            "| {} | {} | {}{}{} | {:.0f} | {}{}{} | {} | {} | {:.0f} | {:.2f} | "
+            "{:.0f} |\n",
+            row.setting.engine, row.setting.name, bold, short_number(row.ms_per_ping.centre), bold,
+            row.pings_per_s, bold, percent(row.relative_l1.centre), bold,
+            percent(row.miss_rate.centre), percent(row.false_rate.centre),
+            row.samples_per_ping.centre, row.cold.first_ping_s, row.cold.peak_memory_mb);
+    }
+    return text;
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,142 @@
+#include "benchmark/scaling.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <memory>
+#include <utility>
+
+#include "benchmark/bench.h"
+#include "validation/fit.h"
+
+namespace sonarsim {
+
+namespace {
+
+/// Median milliseconds per ping over the poses; the first look at each pose does not count.
+double time_pings(const Mission& mission, const Assembly& assembly, const Scene& scene,
+                  const Sonar& sonar, const Surface& surface, const ReportOptions& options) {
+    std::vector<double> ms;
+    const auto poses = spread_poses(assembly.trajectory.size(), options.poses);
+    for (int round = 0; round <= options.rounds; ++round) {
+        for (const std::size_t pose : poses) {
+            const double start = seconds_now();
+            render_ping(sonar, scene, surface, assembly.trajectory[pose].T_world_vehicle,
+                        {mission.seed, static_cast<std::uint32_t>(pose)});
+            if (round > 0) ms.push_back(1e3 * (seconds_now() - start));
+        }
+    }
+    return spread_of_times(ms).centre;
+}
+
+/// The scenes of one kind of growth, from the original up.
+std::vector<Scene> grown(const Scene& scene, const std::string& along, std::size_t most) {
+    std::vector<Scene> scenes{scene};
+    if (along == "detail") {
+        while (scenes.size() < 4 && 4 * scenes.back().triangles.size() <= most)
+            scenes.push_back(subdivide(scenes.back()));
+    } else {
+        for (const int n : {3, 5, 11}) {
+            if (scene.triangles.size() * n * n <= most) scenes.push_back(tile(scene, n));
+        }
+    }
+    return scenes;
+}
+
+}  // namespace
+
+Scene subdivide(const Scene& scene) {
+    Scene out = scene;
+    out.triangles.clear();
+    out.triangle_material.clear();
+    out.triangle_instance.clear();
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
+    const auto middle = [&](std::uint32_t a, std::uint32_t b) {
+        const auto [at, is_new] = middles.try_emplace(
+            {std::min(a, b), std::max(a, b)}, static_cast<std::uint32_t>(out.vertices.size()));
+        if (is_new) {
+            const Eigen::Vector3f point = 0.5F * (out.vertices[a] + out.vertices[b]);
+            out.vertices.push_back(point);
+        }
+        return at->second;
+    };
+    for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
+        const auto [a, b, c] = scene.triangles[t];
+        const std::uint32_t ab = middle(a, b);
+        const std::uint32_t bc = middle(b, c);
+        const std::uint32_t ca = middle(c, a);
+        for (const auto& piece : std::array<std::array<std::uint32_t, 3>, 4>{
+                 {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}}}) {
+            out.triangles.push_back(piece);
+            out.triangle_material.push_back(scene.triangle_material[t]);
+            out.triangle_instance.push_back(scene.triangle_instance[t]);
+        }
+    }
+    return out;
+}
+
+Scene tile(const Scene& scene, int n) {
+    Scene out = scene;
+    const Eigen::Vector3d extent = scene.bounds_max - scene.bounds_min;
+    const auto count = static_cast<std::uint32_t>(scene.vertices.size());
+    const int reach = n / 2;
+    for (int i = -reach; i <= reach; ++i) {
+        for (int j = -reach; j <= reach; ++j) {
+            if (i == 0 && j == 0) continue;
+            const Eigen::Vector3f shift(static_cast<float>(i * extent.x()),
+                                        static_cast<float>(j * extent.y()), 0.0F);
+            const auto first = static_cast<std::uint32_t>(out.vertices.size());
+            for (std::uint32_t v = 0; v < count; ++v)
+                out.vertices.push_back(scene.vertices[v] + shift);
+            for (const auto& corners : scene.triangles) {
+                out.triangles.push_back(
+                    {corners[0] + first, corners[1] + first, corners[2] + first});
+            }
+            out.triangle_material.insert(out.triangle_material.end(),
+                                         scene.triangle_material.begin(),
+                                         scene.triangle_material.end());
+            out.triangle_instance.insert(out.triangle_instance.end(),
+                                         scene.triangle_instance.begin(),
+                                         scene.triangle_instance.end());
+        }
+    }
+    const Eigen::Vector3d grown(reach * extent.x(), reach * extent.y(), 0.0);
+    out.bounds_min -= grown;
+    out.bounds_max += grown;
+    return out;
+}
+
+std::vector<Growth> measure_growth(const Mission& mission, const Assembly& assembly,
+                                   std::size_t most_triangles, const ReportOptions& options,
+                                   const ReportProgress& progress) {
+    std::vector<Growth> out;
+    for (const std::string along : {"detail", "area"}) {
+        const std::size_t first = out.size();
+        for (const Sonar& sonar : assembly.sonars) {
+            for (const char* const engine : {"rays", "octree"})
+                out.push_back({sonar.config.name, engine, along, {}, {}, 0.0});
+        }
+        for (const Scene& scene : grown(assembly.scene, along, most_triangles)) {
+            progress("growth in " + along + ": " + std::to_string(scene.triangles.size()) +
+                     " triangles");
+            OctreeConfig octree = mission.octree;
+            octree.literal = false;
+            const auto rays = make_surface(scene, EngineKind::rays, octree);
+            const auto leaves = make_surface(scene, EngineKind::octree, octree);
+            for (std::size_t i = 0; i < assembly.sonars.size(); ++i) {
+                for (const std::size_t e : {0, 1}) {
+                    Growth& growth = out[first + 2 * i + e];
+                    growth.triangles.push_back(static_cast<double>(scene.triangles.size()));
+                    growth.ms_per_ping.push_back(time_pings(mission, assembly, scene,
+                                                            assembly.sonars[i],
+                                                            e == 0 ? *rays : *leaves, options));
+                }
+            }
+        }
+        for (std::size_t k = first; k < out.size(); ++k)
+            out[k].exponent = fit_exponent(out[k].triangles, out[k].ms_per_ping);
+    }
+    return out;
+}
+
+}  // namespace sonarsim

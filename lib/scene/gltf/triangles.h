@@ -1,0 +1,34 @@
+#pragma once
+
+#include <tiny_gltf.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "scene/gltf/accessor.h"
+
+namespace sonarsim {
+
+/// The triangles of one glTF primitive.
+struct TriangleSource {
+    Accessor positions;
+    std::optional<Accessor> indices;
+    int mode = TINYGLTF_MODE_TRIANGLES;
+    std::size_t count = 0;
+};
+
+/// Opens a primitive of triangles, a strip or a fan; nothing for points and lines. InputError
+/// starting with `where`.
+std::optional<TriangleSource> open_triangles(const tinygltf::Model& model,
+                                             const tinygltf::Primitive& primitive,
+                                             const std::string& where);
+
+/// The vertices of triangle `i` < count, below positions.count. InputError starting with `where`
+/// when an index is not.
+std::array<std::uint32_t, 3> triangle(const TriangleSource& source, std::size_t i,
+                                      const std::string& where);
+
+}  // namespace sonarsim

@@ -1,0 +1,245 @@
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <utility>
+
+#include "core/units.h"
+#include "validation/hard/tools.h"
+#include "validation/shapes.h"
+
+namespace sonarsim {
+
+namespace {
+
+using namespace shapes;
+
+/// The floor of `plain_floor`, of R = 0.5 and 3 m below the sonar.
+std::vector<float> floor_law(const HardLook& look) {
+    return plane_law(look, 0.5, 3.0);
+}
+
+std::vector<float> plain_floor_image(const HardLook& look) {
+    return image_of(plain_floor(), look.trial, look.engine);
+}
+
+std::vector<float> tank_image(const HardLook& look) {
+    return image_of(tank(), look.trial, look.engine);
+}
+
+void add_triangle(Scene& scene, const std::array<std::uint32_t, 3>& corners) {
+    scene.triangles.push_back(corners);
+    scene.triangle_material.push_back(0);
+    scene.triangle_instance.push_back(0);
+}
+
+/// Triangles that are a point, a line, or folded onto themselves.
+Scene floor_with_degenerates() {
+    Scene scene = plain_floor();
+    add_triangle(scene, {0, 0, 0});
+    add_triangle(scene, {0, 1, 1});
+    add_triangle(scene, {0, 2, 0});
+    const auto first = static_cast<std::uint32_t>(scene.vertices.size());
+    for (const float x : {0.0F, 1.0F, 2.0F})
+        scene.vertices.emplace_back(x, x, 1.0F);
+    add_triangle(scene, {first, first + 1, first + 2});
+    return scene;
+}
+
+/// A floor in strips, among them needles of 60 m by 60 micrometres.
+Scene floor_with_needles() {
+    Scene scene = empty_scene();
+    const std::uint32_t m = add_material(scene, 0.5F);
+    constexpr float needle = 6e-5F;
+    const float y[] = {-30.0F, -1.0F, -1.0F + needle, 0.0F, needle, 1.0F, 1.0F + needle, 30.0F};
+    for (std::size_t i = 0; i + 1 < std::size(y); ++i) {
+        add_quad(scene, {-30, y[i], 0}, {30, y[i], 0}, {30, y[i + 1], 0}, {-30, y[i + 1], 0}, m);
+    }
+    return scene;
+}
+
+Scene doubled_tank() {
+    Scene scene = tank();
+    const std::size_t count = scene.triangles.size();
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto [a, b, c] = scene.triangles[i];
+        scene.triangles.push_back({b, c, a});
+        scene.triangle_material.push_back(scene.triangle_material[i]);
+        scene.triangle_instance.push_back(scene.triangle_instance[i]);
+    }
+    return scene;
+}
+
+Scene flipped_tank() {
+    Scene scene = tank();
+    for (std::size_t i = 0; i < scene.triangles.size(); i += 2)
+        std::swap(scene.triangles[i][1], scene.triangles[i][2]);
+    return scene;
+}
+
+/// Two halves of a floor whose vertices do not match, a tenth of a millimetre apart.
+Scene cracked_floor() {
+    Scene scene = empty_scene();
+    const std::uint32_t m = add_material(scene, 0.5F);
+    add_quad(scene, {-30, -30, 0}, {30, -30, 0}, {30, 0, 0}, {-30, 0, 0}, m, 7);
+    add_quad(scene, {-30, 1e-4F, 0}, {30, 1e-4F, 0}, {30, 30, 0}, {-30, 30, 0}, m, 10);
+    return scene;
+}
+
+/// Three plates that share one upright edge.
+Scene non_manifold() {
+    Scene scene = plain_floor();
+    const std::uint32_t m = add_material(scene, 0.8F);
+    const Eigen::Vector3f foot(3, 0, 0.5F);
+    const Eigen::Vector3f top(3, 0, 1.5F);
+    const Eigen::Vector3f sides[] = {{1, 0, 0}, {-0.5F, 0.8F, 0}, {0, -1, 0.3F}};
+    for (const Eigen::Vector3f& side : sides) {
+        add_quad(scene, foot, foot + side, top + side, top, m);
+    }
+    return scene;
+}
+
+Scene with_plate(const Eigen::Vector3f& min, const Eigen::Vector3f& max) {
+    Scene scene = plain_floor();
+    add_box(scene, min, max, add_material(scene, 0.9F));
+    return scene;
+}
+
+Scene floor_with_pole() {
+    Scene scene = plain_floor();
+    const std::uint32_t steel = add_material(scene, 0.9F);
+    add_pole(scene, {3.0F, 0.6F, 0.0F}, 0.002F, 2.0F, steel, 8);
+    add_pole(scene, {0.4F, 1.0F, 0.0F}, 0.002F, 1.0F, steel, 8);
+    return scene;
+}
+
+HardTrial plain(SonarKind kind) {
+    return over_floor(kind);
+}
+
+HardTrial tank_trial(SonarKind kind) {
+    return in_tank(kind);
+}
+
+/// Each pole takes up 0.3 degrees of the azimuth, or of the way round the cone: a
+/// reference that has settled without them would not know, so this one takes all its rays.
+std::vector<float> thin_reference(const HardLook& look) {
+    const bool cone = look.kind == SonarKind::echosounder;
+    return reference_of(look, {0.0, 64.0, cone ? 40'000'000U : 8'000'000U});
+}
+
+/// Rays that suffice for what is not thin.
+std::vector<float> reference(const HardLook& look) {
+    return reference_of(look, {0.002, 64.0, 2'000'000});
+}
+
+}  // namespace
+
+// What the octree is off by on its own, with leaves that suit the bins: 0.15 in the cone over a
+// plain floor, where a leaf lights one bin of twenty too many; 0.05 to 0.16 in the tank. Where two
+// of its looks at one scene are compared they may differ by as much. A face that is there twice is
+// no plain rectangle to it and casts a shadow that is a fifth larger; faces of opposite winding are
+// apart in a leaf, since they may be the two sides of a plate.
+std::vector<HardCase> hard_geometry() {
+    return {
+        {"triangles without area",
+         "points, lines, folded triangles",
+         "the image without them",
+         floor_with_degenerates,
+         plain,
+         plain_floor_image,
+         {0.0, 1e-6}},
+        {"needle triangles",
+         "aspect 1e6, 60 m by 60 um",
+         "R H / r",
+         floor_with_needles,
+         plain,
+         floor_law,
+         {0.02, 0.02}},
+        {"duplicated faces",
+         "every triangle twice, turned",
+         "the image with them once",
+         doubled_tank,
+         tank_trial,
+         tank_image,
+         {1e-5, 0.12}},
+        {"flipped normals",
+         "every second triangle wound the other way",
+         "the same image",
+         flipped_tank,
+         tank_trial,
+         tank_image,
+         {1e-6, 0.15}},
+        {"T-junctions, a crack",
+         "0.1 mm between unlike meshes",
+         "R H / r",
+         cracked_floor,
+         plain,
+         floor_law,
+         {0.02, 0.02}},
+        {"non-manifold edge",
+         "three plates on one edge",
+         "reference",
+         non_manifold,
+         plain,
+         reference,
+         {0.05, 0.20}},
+        {"thin plate",
+         "two faces 1 mm apart, upright",
+         "reference",
+         [] {
+             return with_plate({3.0F, -1.0F, 0.0F}, {3.001F, 1.0F, 1.0F});
+         },
+         plain,
+         reference,
+         {0.05, 0.20}},
+        {"thin plate on the floor",
+         "two faces 1 mm apart, flat",
+         "reference",
+         [] {
+             return with_plate({0.0F, -1.0F, 0.001F}, {3.0F, 1.0F, 0.002F});
+         },
+         plain,
+         reference,
+         {0.05, 0.20}},
+        {"thin poles",
+         "4 mm: thinner than leaf and ray spacing",
+         "reference",
+         floor_with_pole,
+         plain,
+         thin_reference,
+         {0.05, 0.20},
+         false,
+         0.0,
+         {"a cone has a column of rays every 4 degrees, and a pole between two of them is not seen",
+          ""}},
+        {"one triangle of 10 km",
+         "vertices 1e4 times as far as the range",
+         "R H / r",
+         [] {
+             Scene scene = empty_scene();
+             add_material(scene, 0.5F);
+             scene.instances.push_back("sea floor");
+             scene.vertices.emplace_back(-5000.0F, -4000.0F, 0.0F);
+             scene.vertices.emplace_back(5000.0F, -4000.0F, 0.0F);
+             scene.vertices.emplace_back(0.0F, 6000.0F, 0.0F);
+             add_triangle(scene, {0, 1, 2});
+             return scene;
+         },
+         plain,
+         floor_law,
+         {0.02, 0.02}},
+        {"a million triangles in a leaf",
+         "1 cm x 1 cm of the floor",
+         "R H / r",
+         [] {
+             Scene scene = plain_floor();
+             add_quad(scene, {2, 0, 0}, {2.01F, 0, 0}, {2.01F, 0.01F, 0}, {2, 0.01F, 0}, 0, 707);
+             return scene;
+         },
+         plain,
+         floor_law,
+         {0.02, 0.02}},
+    };
+}
+
+}  // namespace sonarsim

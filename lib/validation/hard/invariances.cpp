@@ -1,0 +1,140 @@
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "validation/hard/tools.h"
+#include "validation/shapes.h"
+
+namespace sonarsim {
+
+namespace {
+
+using namespace shapes;
+
+const Pose motion{rotation_from_rpy(0.3, -0.2, 1.1), {20.0, -7.0, 3.0}};
+
+std::vector<float> tank_image(const HardLook& look) {
+    return image_of(tank(), in_tank(look.kind), look.engine);
+}
+
+HardTrial tank_trial(SonarKind kind) {
+    return in_tank(kind);
+}
+
+Scene rigidly_moved() {
+    Scene scene = tank();
+    for (Eigen::Vector3f& p : scene.vertices)
+        p = (motion.rotation * p.cast<double>() + motion.translation).cast<float>();
+    return scene;
+}
+
+HardTrial rigidly_moved_trial(SonarKind kind) {
+    HardTrial trial = in_tank(kind);
+    trial.T_world_vehicle = motion * trial.T_world_vehicle;
+    return trial;
+}
+
+Scene mirrored() {
+    Scene scene = tank();
+    for (Eigen::Vector3f& p : scene.vertices)
+        p.y() = -p.y();
+    return scene;
+}
+
+/// y -> -y turns the sense of roll and yaw around.
+HardTrial mirrored_trial(SonarKind kind) {
+    HardTrial trial = in_tank(kind);
+    Pose& pose = trial.T_world_vehicle;
+    pose.translation.y() = -pose.translation.y();
+    pose.rotation.x() = -pose.rotation.x();
+    pose.rotation.z() = -pose.rotation.z();
+    return trial;
+}
+
+/// Port and starboard change places.
+std::vector<float> mirrored_image(const HardLook& look) {
+    std::vector<float> image = tank_image(look);
+    for (auto row = image.begin(); row != image.end(); row += look.ping.beams)
+        std::reverse(row, row + look.ping.beams);
+    return image;
+}
+
+/// A fixed permutation: 7919 is prime to the number of triangles.
+Scene permuted() {
+    const Scene in_order = tank();
+    Scene scene = in_order;
+    const std::size_t count = scene.triangles.size();
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t from = i * 7919 % count;
+        scene.triangles[i] = in_order.triangles[from];
+        scene.triangle_material[i] = in_order.triangle_material[from];
+        scene.triangle_instance[i] = in_order.triangle_instance[from];
+    }
+    return scene;
+}
+
+/// Every triangle cut in four at the middles of its edges.
+Scene split() {
+    Scene scene = tank();
+    const Scene whole = scene;
+    scene.triangles.clear();
+    scene.triangle_material.clear();
+    scene.triangle_instance.clear();
+    for (std::size_t i = 0; i < whole.triangles.size(); ++i) {
+        const auto& [a, b, c] = whole.triangles[i];
+        const auto first = static_cast<std::uint32_t>(scene.vertices.size());
+        for (const auto& [p, q] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) {
+            scene.vertices.push_back(0.5F * (whole.vertices[p] + whole.vertices[q]));
+        }
+        const std::uint32_t ab = first;
+        const std::uint32_t bc = first + 1;
+        const std::uint32_t ca = first + 2;
+        const std::array<std::uint32_t, 3> quarters[] = {
+            {a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}};
+        for (const auto& corners : quarters) {
+            scene.triangles.push_back(corners);
+            scene.triangle_material.push_back(whole.triangle_material[i]);
+            scene.triangle_instance.push_back(whole.triangle_instance[i]);
+        }
+    }
+    return scene;
+}
+
+}  // namespace
+
+// Under a motion the lattice of the octree lies otherwise to the scene: two images may differ by
+// what each is off, up to 0.16 in the tank.
+std::vector<HardCase> hard_invariances() {
+    return {
+        {"rigid motion",
+         "scene and trajectory moved and turned",
+         "the same image",
+         rigidly_moved,
+         rigidly_moved_trial,
+         tank_image,
+         {0.01, 0.20}},
+        {"mirror",
+         "y -> -y",
+         "port and starboard changed",
+         mirrored,
+         mirrored_trial,
+         mirrored_image,
+         {0.01, 0.20}},
+        {"permuted triangles",
+         "another order",
+         "the same image",
+         permuted,
+         tank_trial,
+         tank_image,
+         {1e-6, 0.01}},
+        {"split triangles",
+         "four for each",
+         "the same image",
+         split,
+         tank_trial,
+         tank_image,
+         {0.01, 0.02}},
+    };
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,123 @@
+#include "validation/hard/tools.h"
+
+#include <memory>
+
+#include "core/units.h"
+#include "dataset/assemble.h"
+#include "validation/reference.h"
+#include "validation/shapes.h"
+
+namespace sonarsim {
+
+namespace {
+
+HardTrial at(SonarKind kind, const Tweak& tweak, const Eigen::Vector3d& position, double pitch_deg,
+             double yaw_deg) {
+    SonarConfig config = hard_sonar(kind);
+    if (tweak) tweak(config);
+    return {without_gain(config),
+            {rotation_from_rpy(0.0, radians(pitch_deg), radians(yaw_deg)), position}};
+}
+
+}  // namespace
+
+SonarConfig hard_sonar(SonarKind kind) {
+    SonarConfig config = default_sonar(kind);
+    config.name = name_of(kind);
+    config.range_min_m = 0.2;
+    config.range_max_m = 10.0;
+    config.range_bins = 128;
+    config.azimuth_bins = 48;
+    if (kind == SonarKind::imaging) config.azimuth_deg = 60.0;
+    if (kind == SonarKind::sidescan) config.elevation_deg = 0.5;
+    // Over a floor a narrow cone lights two bins; one more or less would be all that is seen.
+    if (kind == SonarKind::echosounder) config.azimuth_deg = 90.0;
+    return config;
+}
+
+Sonar without_gain(const SonarConfig& config) {
+    Sonar sonar = make_sonar(config, {});
+    sonar.settings.pixel_noise.gain = 1.0F;
+    return sonar;
+}
+
+HardTrial over_floor(SonarKind kind, const Tweak& tweak) {
+    return at(kind, tweak, {0.31, 0.17, 3.0}, kind == SonarKind::imaging ? 30.0 : 0.0, 10.0);
+}
+
+HardTrial in_tank(SonarKind kind, const Tweak& tweak) {
+    return at(kind, tweak, {kind == SonarKind::imaging ? -2.4 : 1.7, -0.4, 1.5},
+              kind == SonarKind::imaging ? 15.0 : 0.0, 4.0);
+}
+
+Scene moved_tank(const Eigen::Vector3d& by) {
+    Scene scene = shapes::tank();
+    scene.origin = 10.0 * (by / 10.0).array().round().matrix();
+    for (Eigen::Vector3f& p : scene.vertices)
+        p = (p.cast<double>() + by - scene.origin).cast<float>();
+    return scene;
+}
+
+HardTrial in_moved_tank(SonarKind kind, const Eigen::Vector3d& by, const Tweak& tweak) {
+    HardTrial trial = in_tank(kind, tweak);
+    trial.T_world_vehicle.translation += by;
+    return trial;
+}
+
+Scene scaled_tank(double scale) {
+    Scene scene = shapes::tank();
+    for (Eigen::Vector3f& p : scene.vertices)
+        p = (scale * p.cast<double>()).cast<float>();
+    return scene;
+}
+
+HardTrial in_scaled_tank(SonarKind kind, double scale, const Tweak& tweak) {
+    HardTrial trial = in_tank(kind, [&](SonarConfig& c) {
+        if (tweak) tweak(c);
+        c.range_min_m *= scale;
+        c.range_max_m *= scale;
+    });
+    trial.T_world_vehicle.translation *= scale;
+    return trial;
+}
+
+Scene plain_floor() {
+    Scene scene = shapes::empty_scene();
+    shapes::add_floor(scene, 30.0F, 0.0F, shapes::add_material(scene, 0.5F));
+    return scene;
+}
+
+std::vector<float> plane_law(const HardLook& look, double reflection, double height_m) {
+    const Ping& ping = look.ping;
+    const std::vector<double>& edges = look.trial.sonar.range_edges_m;
+    std::vector<float> truth(ping.intensity.size(), ignored);
+    for (int j = 0; j < ping.beams; ++j) {
+        for (int i = 1; i + 1 < ping.range_bins; ++i) {
+            if (!(ping.at(i - 1, j) > 0.0F && ping.at(i, j) > 0.0F && ping.at(i + 1, j) > 0.0F)) {
+                continue;
+            }
+            const double middle = 0.5 * (edges[i] + edges[i + 1]);
+            truth[static_cast<std::size_t>(i) * ping.beams + j] =
+                static_cast<float>(reflection * height_m / middle);
+        }
+    }
+    return truth;
+}
+
+std::vector<float> reference_of(const HardLook& look, const ReferenceGoal& goal) {
+    const Caster caster(look.scene);
+    const Pose T_world_sensor = look.trial.T_world_vehicle * look.trial.sonar.T_vehicle_sensor;
+    return cast_reference(caster, look.scene, look.trial.sonar.settings.view, T_world_sensor, goal)
+        .intensity;
+}
+
+std::vector<float> dark(const HardLook& look) {
+    return std::vector<float>(look.ping.intensity.size(), 0.0F);
+}
+
+std::vector<float> image_of(const Scene& scene, const HardTrial& trial, EngineKind engine) {
+    const std::unique_ptr<Surface> surface = make_surface(scene, engine, {});
+    return render_ping(trial.sonar, scene, *surface, trial.T_world_vehicle, {1, 0}).intensity;
+}
+
+}  // namespace sonarsim

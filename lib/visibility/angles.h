@@ -1,0 +1,66 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "core/elementary.h"
+#include "visibility/view.h"
+
+namespace sonarsim {
+
+/// Sine and cosine of an angle in float.
+struct Turn {
+    float sin;
+    float cos;
+};
+
+inline Turn turn(double angle) {
+    const SinCos s = sincos(angle);
+    return {static_cast<float>(s.sin), static_cast<float>(s.cos)};
+}
+
+/// For |angle| <= pi, to 1e-6.
+inline Turn turn_small(float angle) {
+    const SinCosFloat s = sincos_small(angle);
+    return {s.sin, s.cos};
+}
+
+inline Turn operator+(Turn a, Turn b) {
+    return {a.sin * b.cos + a.cos * b.sin, a.cos * b.cos - a.sin * b.sin};
+}
+
+inline Turn operator-(Turn a, Turn b) {
+    return a + Turn{-b.sin, b.cos};
+}
+
+// A view is swept by two angles: `across` numbers its columns, `along` runs through each of them.
+//   fan:   across is azimuth, along is elevation: a column lies within a beam;
+//   sides: across is elevation, along is azimuth, from nadir outward on either side;
+//   cone:  across is tau, the angle around the boresight, along is psi, the angle off it.
+
+/// Unit vector in the sensor frame.
+inline Eigen::Vector3f direction(ViewShape shape, Turn across, Turn along) {
+    switch (shape) {
+        case ViewShape::sides:
+            return {across.cos * along.cos, across.cos * along.sin, across.sin};
+        case ViewShape::cone:
+            return {along.cos, along.sin * across.cos, along.sin * across.sin};
+        default:
+            return {along.cos * across.cos, along.cos * across.sin, along.sin};
+    }
+}
+
+/// A strip of a view that lies within one beam.
+struct Column {
+    int beam;
+    double across;  ///< of its middle, rad
+    double width;   ///< rad
+    double along_min;
+    double along_max;
+};
+
+/// The view cut into columns of equal width, sorted by beam. A fan has `per_beam` columns in each
+/// beam; sides have `per_beam` on either side; a cone has `per_beam` sectors.
+std::vector<Column> columns(const View& view, int per_beam);
+
+}  // namespace sonarsim

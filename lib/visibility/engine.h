@@ -1,0 +1,68 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/pose.h"
+#include "visibility/view.h"
+
+namespace sonarsim {
+
+/// A piece of visible surface: a flat parallelogram that stands for `area_m2` of the scene.
+struct Sample {
+    Eigen::Vector3f position;  ///< centre, sensor frame, m
+    Eigen::Vector3f edge_u;    ///< half an edge of the footprint, sensor frame, m
+    Eigen::Vector3f edge_v;    ///< half the other edge
+    Eigen::Vector3f normal;    ///< unit, turned to face the sonar
+    float height_m;            ///< of the sonar above the piece's plane: v . n = height_m / range
+    float area_m2;
+    std::uint32_t material;  ///< index into Scene::materials
+    std::uint32_t instance;  ///< index into Scene::instances
+};
+
+/// What a ping sees, sorted by beam. No footprint crosses from one beam into another.
+struct Samples {
+    std::vector<Sample> items;
+    std::vector<std::uint32_t> beam_begin;  ///< beams + 1 offsets into `items`
+    /// Surface in view that was left out. Rays: those that met it edge-on to within rounding, or at
+    /// no distance. Octree: parts of leaves too small, or too near the sensor's z axis, to be told
+    /// from rounding.
+    std::uint64_t dropped = 0;
+
+    std::span<const Sample> beam(int j) const {
+        return {items.data() + beam_begin[j], items.data() + beam_begin[j + 1]};
+    }
+};
+
+struct Ray {
+    Eigen::Vector3f origin;     ///< sensor frame, m
+    Eigen::Vector3f direction;  ///< unit
+};
+
+struct Hit {
+    float distance_m;        ///< along the ray; infinite when nothing is met
+    float rounding_m;        ///< the point at that distance lies on its surface to within this
+    Eigen::Vector3f normal;  ///< unit, turned to face the ray's origin
+    std::uint32_t material;
+    std::uint32_t instance;
+};
+
+/// What a sonar can see of a scene. Engines are immutable to their callers: any number of threads
+/// may look at once, and what a call returns depends on its arguments alone.
+class Surface {
+  public:
+    virtual ~Surface() = default;
+
+    /// Fills `samples` with the surface that `view` sees from `T_world_sensor` within its greatest
+    /// range. What lies nearer than the least range hides what is behind it; it may be among the
+    /// samples.
+    virtual void look(const View& view, const Pose& T_world_sensor, Samples& samples) const = 0;
+
+    /// The first surface that each ray meets. `hits` has the length of `rays`.
+    virtual void hit(const Pose& T_world_sensor, std::span<const Ray> rays,
+                     std::span<Hit> hits) const = 0;
+};
+
+}  // namespace sonarsim

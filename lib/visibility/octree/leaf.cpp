@@ -1,0 +1,179 @@
+#include "visibility/octree/leaf.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace sonarsim {
+
+namespace {
+
+constexpr int most_facets = 6;
+constexpr double same_direction = 0.85;  // cosine
+
+/// Whether an area that is small beside a cube is part of a triangle in it, rather than rounding
+/// where the triangle touches the cube: it is not small beside the triangle. Of a triangle that has
+/// no area, all area is rounding.
+bool is_real(double part, const Triangle& t) {
+    const double whole = 0.5 * (t[1] - t[0]).cross(t[2] - t[0]).norm();
+    return whole > 0.0 && part > 1e-6 * whole;
+}
+
+/// The surface of one direction and material inside a cube.
+struct Group {
+    Moments moments;
+    Eigen::Vector3d normal;  ///< sum of area times normal
+    double largest;          ///< area of the largest polygon
+    std::uint32_t triangle;  ///< whose it is
+    std::uint32_t material;
+};
+
+class Groups {
+  public:
+    void add(const Moments& moments, const Facet& facet, std::uint32_t triangle) {
+        const Eigen::Vector3d normal = facet.normal.cast<double>();
+        Group* home = nullptr;
+        double best = -2.0;
+        for (int i = 0; i < count_; ++i) {
+            Group& group = group_[i];
+            double alike = group.normal.dot(normal) / group.normal.norm();
+            if (group.material != facet.material) alike -= 1.0;
+            if (alike > best) {
+                best = alike;
+                home = &group;
+            }
+        }
+        if (best < same_direction && count_ < most_facets) {
+            group_[count_++] = {moments, moments.area * normal, moments.area, triangle,
+                                facet.material};
+            return;
+        }
+        home->moments.area += moments.area;
+        home->moments.first += moments.first;
+        home->moments.second += moments.second;
+        // A sum that stays well away from zero, although the last group takes all directions.
+        home->normal += moments.area * (best < 0.0 ? Eigen::Vector3d::Zero().eval() : normal);
+        if (moments.area > home->largest) {
+            home->largest = moments.area;
+            home->triangle = triangle;
+            home->material = facet.material;
+        }
+    }
+
+    std::span<Group> by_area() {
+        const std::span<Group> groups(group_.data(), count_);
+        std::stable_sort(groups.begin(), groups.end(), [](const Group& a, const Group& b) {
+            return a.moments.area > b.moments.area;
+        });
+        return groups;
+    }
+
+  private:
+    std::array<Group, most_facets> group_;
+    int count_ = 0;
+};
+
+LeafFacet facet_of(const Group& group, const Eigen::Vector3d& relative_to) {
+    const Moments& m = group.moments;
+    const Eigen::Vector3d centre = m.first / m.area;
+    const Eigen::Matrix3d covariance = m.second / m.area - centre * centre.transpose();
+    const Eigen::Vector3d n = group.normal.normalized();
+    // In-plane axes along those of the cube where they can be: its section by a plane that lies
+    // along it is a square, whose second moments do not say how it is turned.
+    int axis = 0;
+    n.cwiseAbs().minCoeff(&axis);
+    const Eigen::Vector3d p = (Eigen::Vector3d::Unit(axis) - n[axis] * n).normalized();
+    const Eigen::Vector3d q = n.cross(p);
+    const double pp = p.dot(covariance * p);
+    const double qq = q.dot(covariance * q);
+    const double pq = p.dot(covariance * q);
+    const double mean = 0.5 * (pp + qq);
+    const double half = 0.5 * (pp - qq);
+    const double split = std::sqrt(half * half + pq * pq);
+    Eigen::Vector3d major = p;
+    double high = pp;
+    double low = qq;
+    if (split > 1e-3 * mean) {
+        high = mean + split;
+        low = mean - split;
+        // The larger of the two expressions for the eigenvector.
+        major = half > 0.0 ? ((half + split) * p + pq * q).normalized()
+                           : (pq * p + (split - half) * q).normalized();
+    }
+    const Eigen::Vector3d minor = n.cross(major);
+    LeafFacet facet;
+    facet.centre = (relative_to + centre).cast<float>();
+    facet.normal = n.cast<float>();
+    facet.edge_u = (std::sqrt(3.0 * std::max(high, 0.0)) * major).cast<float>();
+    facet.edge_v = (std::sqrt(3.0 * std::max(low, 0.0)) * minor).cast<float>();
+    facet.area_m2 = static_cast<float>(m.area);
+    facet.thickness_m = static_cast<float>(std::sqrt(3.0 * std::max(n.dot(covariance * n), 0.0)));
+    facet.triangle = group.triangle;
+    return facet;
+}
+
+}  // namespace
+
+void FacetArrays::push_back(const LeafFacet& facet) {
+    int k = 0;
+    for (const Eigen::Vector3f* v : {&facet.centre, &facet.normal, &facet.edge_u, &facet.edge_v}) {
+        for (int axis = 0; axis < 3; ++axis)
+            values[k++].push_back((*v)[axis]);
+    }
+    values[k++].push_back(facet.area_m2);
+    values[k].push_back(facet.thickness_m);
+    triangle.push_back(facet.triangle);
+}
+
+LeafFacet FacetArrays::at(std::uint32_t i) const {
+    const auto vector = [&](int k) {
+        return Eigen::Vector3f(values[k][i], values[k + 1][i], values[k + 2][i]);
+    };
+    return {vector(centre),  vector(normal),       vector(edge_u), vector(edge_v),
+            values[area][i], values[thickness][i], triangle[i]};
+}
+
+void FacetArrays::shrink_to_fit() {
+    for (std::vector<float>& v : values)
+        v.shrink_to_fit();
+    triangle.shrink_to_fit();
+}
+
+std::size_t FacetArrays::bytes() const {
+    return triangle.capacity() * (values.size() * sizeof(float) + sizeof(std::uint32_t));
+}
+
+bool is_plain(const LeafFacet& facet) {
+    const float longest = std::max(facet.edge_u.norm(), facet.edge_v.norm());
+    const float rectangle = 4.0F * facet.edge_u.norm() * facet.edge_v.norm();
+    return facet.thickness_m < 1e-3F * longest &&
+           std::fabs(facet.area_m2 - rectangle) < 1e-3F * rectangle;
+}
+
+Triangle LeafMaker::triangle(std::uint32_t index) const {
+    const auto& corners = scene_->triangles[index];
+    return {scene_->vertices[corners[0]].cast<double>(),
+            scene_->vertices[corners[1]].cast<double>(),
+            scene_->vertices[corners[2]].cast<double>()};
+}
+
+int LeafMaker::append(const Cube& cube, std::span<const std::uint32_t> triangles,
+                      FacetArrays& facets) const {
+    const Eigen::Vector3d centre = cube.min.array() + 0.5 * cube.edge;
+    const double sliver = 1e-12 * cube.edge * cube.edge;
+    Groups groups;
+    for (const std::uint32_t index : triangles) {
+        const Triangle whole = triangle(index);
+        const Moments m = moments(clip(whole, cube), centre);
+        if (m.area > sliver || (m.area > 0.0 && is_real(m.area, whole))) {
+            groups.add(m, caster_->facet(index), index);
+        }
+    }
+    const std::span<Group> found = groups.by_area();
+    for (const Group& group : found)
+        facets.push_back(facet_of(group, centre));
+    return static_cast<int>(found.size());
+}
+
+}  // namespace sonarsim

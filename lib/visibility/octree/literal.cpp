@@ -1,0 +1,83 @@
+#include "visibility/octree/literal.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/elementary.h"
+
+namespace sonarsim {
+
+namespace {
+
+constexpr float gap_leaves = 4.0F;
+
+struct Vote {
+    std::uint64_t cell;  ///< of azimuth and elevation, azimuth first
+    int beam;
+    float range_m;
+    float leaf_m;
+    Eigen::Vector3f centre;  ///< sensor frame
+    Eigen::Vector3f normal;
+    std::uint32_t triangle;
+};
+
+}  // namespace
+
+void look_literally(Octree& tree, const Scene& scene, const View& view, const Field& field,
+                    Samples& samples) {
+    // Elevation cells as high as a leaf halfway to the maximum range.
+    const auto middle = static_cast<float>(0.5 * view.range_max_m);
+    const double row_height = field.leaf_m(middle) / middle;
+    // Where beams are wider than that, shadows are told apart by cells as wide as they are high.
+    const bool fan = view.shape == ViewShape::fan;
+    std::vector<Vote> votes;
+    const auto take = [&](const Run& run) {
+        for (std::uint32_t i = run.begin; i < run.end; ++i) {
+            const LeafFacet facet = run.level->facets.at(run.level->nodes[i].facets);
+            const Eigen::Vector3f centre =
+                field.R_sensor_local() * node_visit(run.root, run.level->nodes[i]).centre;
+            const double range = centre.norm();
+            if (!(range > 0.0)) {
+                ++samples.dropped;  // the leaf's centre is the sonar: it lies in no direction
+                continue;
+            }
+            const int beam = beam_of(view, centre);
+            if (beam < 0) continue;
+            const double azimuth = arctan2(centre.y(), centre.x()) + 0.5 * view.azimuth_rad;
+            const double elevation = arcsin(centre.z() / range) + 0.5 * view.elevation_rad;
+            const auto column = fan ? beam : static_cast<int>(std::max(azimuth, 0.0) / row_height);
+            const auto row = static_cast<int>(std::max(elevation, 0.0) / row_height);
+            const Eigen::Vector3f normal = field.R_sensor_local() * facet.normal;
+            votes.push_back(
+                {static_cast<std::uint64_t>(column) << 32U | static_cast<std::uint64_t>(row), beam,
+                 static_cast<float>(range), run.leaf_m, centre,
+                 normal.dot(centre) > 0.0F ? Eigen::Vector3f(-normal) : normal, facet.triangle});
+        }
+    };
+    Search(tree, field, take).run();
+    std::stable_sort(votes.begin(), votes.end(), [](const Vote& a, const Vote& b) {
+        return a.cell != b.cell ? a.cell < b.cell : a.range_m < b.range_m;
+    });
+    samples.items.clear();
+    samples.beam_begin.assign(view.beams + 1, 0);
+    bool kept = false;
+    for (std::size_t k = 0; k < votes.size(); ++k) {
+        const Vote& vote = votes[k];
+        const bool first = k == 0 || votes[k - 1].cell != vote.cell;
+        kept = first || (kept && vote.range_m - votes[k - 1].range_m <= gap_leaves * vote.leaf_m);
+        if (!kept) continue;
+        Sample& sample = samples.items.emplace_back();
+        sample.position = vote.centre;
+        sample.edge_u = sample.edge_v = Eigen::Vector3f::Zero();
+        sample.normal = vote.normal;
+        sample.height_m = -vote.normal.dot(vote.centre);
+        sample.area_m2 = 1.0F;
+        sample.material = scene.triangle_material[vote.triangle];
+        sample.instance = scene.triangle_instance[vote.triangle];
+        ++samples.beam_begin[vote.beam + 1];
+    }
+    for (int b = 0; b < view.beams; ++b)
+        samples.beam_begin[b + 1] += samples.beam_begin[b];
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+
+#include "scene/scene.h"
+#include "visibility/engine.h"
+
+namespace sonarsim {
+
+struct OctreeOptions {
+    double leaf_m = 0.0;          ///< edge of the leaves; 0: what the view's bins call for
+    std::size_t memory_mb = 512;  ///< above this, what has not been seen for longest is dropped
+    bool literal = false;         ///< the paper to the letter: leaf centres, one leaf one vote
+};
+
+struct OctreeStatistics {
+    std::uint64_t nodes = 0;
+    std::uint64_t leaves = 0;  ///< nodes without children
+    std::uint64_t facets = 0;  ///< pieces of surface held by all nodes
+    std::uint64_t bytes = 0;
+    std::uint64_t evictions = 0;  ///< subtrees dropped so far
+    double leaf_area_m2 = 0.0;    ///< the surface held by all leaves
+};
+
+/// The octree engine. It grows while it is looked at; what it shows does not depend on what it
+/// was asked before.
+class OctreeSurface : public Surface {
+  public:
+    virtual OctreeStatistics statistics() const = 0;
+};
+
+/// `scene` must outlive the surface. Throws InputError when `leaf_m` is negative or so small that
+/// the scene is more than 2^30 leaves long.
+std::unique_ptr<OctreeSurface> make_octree_surface(const Scene& scene,
+                                                   const OctreeOptions& options);
+
+}  // namespace sonarsim

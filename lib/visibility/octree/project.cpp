@@ -1,0 +1,226 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/units.h"
+#include "visibility/octree/shadow.h"
+
+namespace sonarsim {
+
+namespace {
+
+/// Footprints are parallelograms in place of polygons, so neighbours leave gaps. As a screen they
+/// are larger by this factor, which closes them. Rectangles fit without.
+constexpr float closing = 1.25F;
+constexpr float closing_plain = 1.05F;
+
+/// A surface hides what lies behind it by more than this many leaves.
+constexpr float slack_leaves = 0.25F;
+
+/// The angle of the point (x, y) in [-pi, pi], absolute error below 1e-6: half the angle's tangent,
+/// at most tan(pi / 8), then the Taylor series.
+float azimuth_of(float x, float y) {
+    const float ax = std::fabs(x);
+    const float ay = std::fabs(y);
+    const float high = std::max(ax, ay);
+    const float low = std::min(ax, ay);
+    float t = low / high;
+    t /= 1.0F + std::sqrt(1.0F + t * t);
+    const float t2 = t * t;
+    const float series =
+        1.0F -
+        t2 * (1.0F / 3 -
+              t2 * (1.0F / 5 -
+                    t2 * (1.0F / 7 - t2 * (1.0F / 9 - t2 * (1.0F / 11 - t2 * (1.0F / 13))))));
+    float angle = 2.0F * t * series;
+    if (ay > ax) angle = static_cast<float>(0.5 * pi) - angle;
+    if (x < 0.0F) angle = static_cast<float>(pi) - angle;
+    return y < 0.0F ? -angle : angle;
+}
+
+}  // namespace
+
+/// A block of facets as they are projected.
+struct AngularCells::Lanes {
+    static constexpr int width = 32;
+    using Lane = std::array<float, width>;
+    std::array<Lane, 3> centre, normal, u, v;
+    Lane in_sight, beams_u, beams_v, rows_u, rows_v;
+    Lane beam, half_beams, row, turn_u, turn_v;
+    Lane depth, depth_beam, depth_row, depth_range, slack, closing;
+};
+
+void AngularCells::project(const FacetArrays& facets, std::uint32_t begin, int count,
+                           const Field& field, float leaf_m, Lanes& out) const {
+    const Eigen::Matrix3f R = field.R_sensor_local();
+    const Eigen::Vector3f at = R * field.position().cast<float>();
+    for (int axis = 0; axis < 3; ++axis) {
+        const float a = R(axis, 0);
+        const float b = R(axis, 1);
+        const float c = R(axis, 2);
+        const float shift = at[axis];
+        const auto turn = [&](int field_index, float minus, float* to) {
+            const float* const x = facets.values[field_index].data() + begin;
+            const float* const y = facets.values[field_index + 1].data() + begin;
+            const float* const z = facets.values[field_index + 2].data() + begin;
+            for (int k = 0; k < count; ++k)
+                to[k] = a * x[k] + b * y[k] + c * z[k] - minus;
+        };
+        turn(FacetArrays::centre, shift, out.centre[axis].data());
+        turn(FacetArrays::normal, 0.0F, out.normal[axis].data());
+        turn(FacetArrays::edge_u, 0.0F, out.u[axis].data());
+        turn(FacetArrays::edge_v, 0.0F, out.v[axis].data());
+    }
+    const float* const area = facets.values[FacetArrays::area].data() + begin;
+    const float* const thickness = facets.values[FacetArrays::thickness].data() + begin;
+    const float beams_per_rad = beams_per_rad_;
+    const float rows_per_slope = rows_per_slope_;
+    const auto beams = static_cast<float>(beams_);
+    const auto rows = static_cast<float>(rows_);
+    const float columns_per_beam = static_cast<float>(columns_per_beam_);
+    const float least_rho2 = least_rho2_;
+    const float least_height = least_height_;
+    for (int k = 0; k < count; ++k) {
+        const float x = out.centre[0][k];
+        const float y = out.centre[1][k];
+        const float z = out.centre[2][k];
+        const float rho2 = std::max(x * x + y * y, least_rho2);
+        const float per_rho = 1.0F / std::sqrt(rho2);
+        const float per_rho2 = per_rho * per_rho;
+        const float slope = z * per_rho;
+        const float beams_u = beams_per_rad * per_rho2 * (x * out.u[1][k] - y * out.u[0][k]);
+        const float beams_v = beams_per_rad * per_rho2 * (x * out.v[1][k] - y * out.v[0][k]);
+        const float rho_u = per_rho * (x * out.u[0][k] + y * out.u[1][k]);
+        const float rho_v = per_rho * (x * out.v[0][k] + y * out.v[1][k]);
+        const float rows_u = rows_per_slope * per_rho * (out.u[2][k] - slope * rho_u);
+        const float rows_v = rows_per_slope * per_rho * (out.v[2][k] - slope * rho_v);
+        const float half_beams = std::sqrt(beams_u * beams_u + beams_v * beams_v) + 1e-6F;
+        const float beam = beams_per_rad * azimuth_of(x, y) + 0.5F * beams;
+        const float row = rows_per_slope * slope + 0.5F * rows;
+        const float half_rows = std::fabs(rows_u) + std::fabs(rows_v);
+        const float out_of_sight = std::max(std::max(-half_beams - beam, beam - half_beams - beams),
+                                            std::max(-half_rows - row, row - half_rows - rows));
+        // No azimuth on the sensor's axis.
+        out.in_sight[k] = rho2 > least_rho2 ? -out_of_sight : -1.0F;
+        out.beams_u[k] = beams_u;
+        out.beams_v[k] = beams_v;
+        out.rows_u[k] = rows_u;
+        out.rows_v[k] = rows_v;
+        out.beam[k] = beam;
+        out.half_beams[k] = half_beams;
+        out.row[k] = row;
+        out.turn_u[k] = beams_u / half_beams;
+        out.turn_v[k] = beams_v / half_beams;
+        const float signed_height =
+            -(out.normal[0][k] * x + out.normal[1][k] * y + out.normal[2][k] * z);
+        const float facing = signed_height < 0.0F ? -1.0F : 1.0F;
+        const float nx = facing * out.normal[0][k];
+        const float ny = facing * out.normal[1][k];
+        const float nz = facing * out.normal[2][k];
+        out.normal[0][k] = nx;
+        out.normal[1][k] = ny;
+        out.normal[2][k] = nz;
+        // 1 / rho = -(n . (cos azimuth, sin azimuth, slope)) / height.
+        const float height = std::max(facing * signed_height, least_height);
+        const float per_height = 1.0F / height;
+        const float depth_row = -nz * per_height / rows_per_slope;
+        const float depth_beam = (nx * y - ny * x) * per_rho * per_height / beams_per_rad;
+        const float uu =
+            out.u[0][k] * out.u[0][k] + out.u[1][k] * out.u[1][k] + out.u[2][k] * out.u[2][k];
+        const float vv =
+            out.v[0][k] * out.v[0][k] + out.v[1][k] * out.v[1][k] + out.v[2][k] * out.v[2][k];
+        const float rectangle = 4.0F * std::sqrt(uu * vv);
+        const float grow =
+            std::fabs(area[k] - rectangle) < 1e-3F * rectangle ? closing_plain : closing;
+        out.closing[k] = grow;
+        const float leaf_depth = leaf_m * per_rho2;
+        const float cosine = std::max(height * per_rho / std::sqrt(1.0F + slope * slope), 0.1F);
+        const float cell_slope = std::fabs(depth_row) + std::fabs(depth_beam) / columns_per_beam;
+        out.depth[k] = per_rho;
+        out.depth_row[k] = depth_row;
+        out.depth_beam[k] = depth_beam;
+        out.depth_range[k] =
+            grow * per_rho2 * (std::fabs(rho_u) + std::fabs(rho_v)) + 0.5F * leaf_depth;
+        out.slack[k] = slack_leaves * leaf_depth + per_rho2 * thickness[k] / cosine +
+                       std::min(0.5F * cell_slope, 0.25F * leaf_depth);
+    }
+}
+
+bool AngularCells::is_lost_on_axis(const Lanes& lanes, int k) const {
+    const float x = lanes.centre[0][k];
+    const float y = lanes.centre[1][k];
+    if (x * x + y * y > least_rho2_) return false;
+    const auto aside = [&](const std::array<Lanes::Lane, 3>& v) {
+        return std::sqrt(v[0][k] * v[0][k] + v[1][k] * v[1][k]);
+    };
+    const float farthest = std::sqrt(least_rho2_) + aside(lanes.u) + aside(lanes.v);
+    const float lowest =
+        std::fabs(lanes.centre[2][k]) - std::fabs(lanes.u[2][k]) - std::fabs(lanes.v[2][k]);
+    return rows_per_slope_ * lowest < 0.5F * static_cast<float>(rows_) * farthest;
+}
+
+int AngularCells::see(const Run& run, const Field& field, std::vector<SeenFacet>& seen) {
+    const FacetArrays& facets = run.level->facets;
+    Lanes lanes;
+    int lost = 0;
+    for (std::uint32_t begin = run.facets_begin(); begin < run.facets_end();
+         begin += Lanes::width) {
+        const int count =
+            static_cast<int>(std::min<std::uint32_t>(run.facets_end() - begin, Lanes::width));
+        project(facets, begin, count, field, run.leaf_m, lanes);
+        for (int k = 0; k < count; ++k) {
+            if (!(lanes.in_sight[k] > 0.0F)) {
+                lost += is_lost_on_axis(lanes, k);
+                continue;
+            }
+            const auto vector = [&](const std::array<Lanes::Lane, 3>& v) {
+                return Eigen::Vector3f(v[0][k], v[1][k], v[2][k]);
+            };
+            const Eigen::Vector3f u = vector(lanes.u);
+            const Eigen::Vector3f v = vector(lanes.v);
+            const float a = lanes.turn_u[k];
+            const float b = lanes.turn_v[k];
+            SeenFacet& next = seen.emplace_back();
+            next.centre = vector(lanes.centre);
+            next.normal = vector(lanes.normal);
+            // Mixing conjugate half edges by a rotation leaves the second moments as they are.
+            next.edge_u = a * u + b * v;
+            next.edge_v = a * v - b * u;
+            next.rows_u = a * lanes.rows_u[k] + b * lanes.rows_v[k];
+            const float rows = a * lanes.rows_v[k] - b * lanes.rows_u[k];
+            // Rows grow along edge_v, so that a piece of the facet lies where its rows are.
+            if (rows < 0.0F) next.edge_v = -next.edge_v;
+            next.half_rows = std::max(std::fabs(rows), 1e-4F);
+            next.area_m2 = facets.values[FacetArrays::area][begin + k];
+            next.triangle = facets.triangle[begin + k];
+            next.beam = lanes.beam[k];
+            next.half_beams = lanes.half_beams[k];
+            next.row = lanes.row[k];
+            next.depth = lanes.depth[k];
+            next.depth_beam = lanes.depth_beam[k];
+            next.depth_row = lanes.depth_row[k];
+            next.depth_range = lanes.depth_range[k];
+            next.slack = lanes.slack[k];
+            const auto cover_with = [&](const SeenFacet& facet) {
+                cover(facet, lanes.beams_u[k], lanes.beams_v[k], lanes.rows_u[k], lanes.rows_v[k],
+                      lanes.closing[k]);
+            };
+            cover_with(next);
+            // What reaches over the half plane behind the sonar goes on at the other end of the
+            // view.
+            const float beam = next.beam;
+            const float half = next.half_beams;
+            if (half > 0.5F * turn_beams_) continue;  // all round, or so it seems near the axis
+            for (const float other : {beam - turn_beams_, beam + turn_beams_}) {
+                if (other + half <= 0.0F || other - half >= static_cast<float>(beams_)) continue;
+                SeenFacet over = seen.back();
+                over.beam = other;
+                cover_with(over);
+                seen.push_back(over);
+            }
+        }
+    }
+    return lost;
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,228 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cstdint>
+#include <mutex>
+#include <shared_mutex>
+#include <span>
+#include <vector>
+
+#include "visibility/engine.h"
+#include "visibility/octree/tree.h"
+
+namespace sonarsim {
+
+enum class Side { outside, across, inside };
+
+/// The field of view of a ping. Points are given in local axes relative to the sensor.
+class Field {
+  public:
+    Field(const View& view, const Pose& T_local_sensor, double leaf_m);
+
+    /// Where the ball lies. `outside` and `inside` are certain.
+    Side side(const Eigen::Vector3f& centre, float radius) const;
+
+    /// The edge that a leaf may have at a distance from the sensor, m.
+    float leaf_m(float distance) const;
+
+    /// More than by what a place within the range may be off: four roundings of 6e-8 of it.
+    float rounding_m() const { return 1e-6F * reach_; }
+
+    const Eigen::Vector3d& position() const { return position_; }
+    const Eigen::Matrix3f& R_sensor_local() const { return R_sensor_local_; }
+
+  private:
+    Eigen::Matrix3f R_sensor_local_;
+    Eigen::Vector3d position_;  ///< scene-local
+    float reach_;
+    float sin_azimuth_, cos_azimuth_;  ///< of the half angles
+    float sin_elevation_, cos_elevation_;
+    float fixed_leaf_;
+    float leaf_per_m_;
+    float least_leaf_;
+};
+
+/// A node on the way down.
+struct Visit {
+    Cell cell;
+    Eigen::Vector3f centre;  ///< in local axes, relative to the sensor
+    float edge;
+    Side side;
+};
+
+/// A node of a tile whose own cube is `root`.
+inline Visit node_visit(const Visit& root, const LevelNode& node) {
+    const float edge = root.edge / static_cast<float>(1U << node.level);
+    const Eigen::Vector3f at(node.x, node.y, node.z);
+    const Eigen::Vector3f corner = root.centre.array() - 0.5F * root.edge;
+    return {{}, corner.array() + edge * (at.array() + 0.5F), edge, root.side};
+}
+
+/// Leaves in view: a run of nodes of a level. Some of them may be out of sight.
+struct Run {
+    Visit root;  ///< of the tile that the level belongs to
+    const Level* level;
+    std::uint32_t begin, end;
+    float leaf_m;  ///< edge of the level's cubes
+
+    std::uint32_t facets_begin() const { return level->nodes[begin].facets; }
+    std::uint32_t facets_end() const { return level->nodes[end].facets; }
+};
+
+/// Finds the leaves in the field of view. `take(run)` is called for each run of them, near tiles
+/// before far ones, roughly; a run lives as long as the call.
+template <class Take>
+class Search {
+  public:
+    Search(Octree& tree, const Field& field, Take& take)
+        : tree_(tree), field_(field), take_(take), look_(tree.next_look()) {}
+
+    void run() {
+        const Visit root = start({});
+        bool complete = false;
+        {
+            const std::shared_lock shared(tree_.top_lock());
+            complete = enter_top(0, root, nullptr);
+        }
+        if (!complete) {
+            const std::unique_lock alone(tree_.top_lock());
+            entries_.clear();
+            enter_top(0, root, &tree_);
+        }
+        for (const Entry& entry : entries_) {
+            if (entry.tile) {
+                search(*entry.tile, entry.visit);
+            } else {
+                take_(Run{entry.visit, entry.level, 0, 1, entry.visit.edge});
+            }
+        }
+    }
+
+  private:
+    struct Entry {
+        Visit visit;
+        const Level* level;
+        Tile* tile;
+    };
+
+    Visit start(const Cell& cell) const {
+        const Cube cube = tree_.cube(cell);
+        const Eigen::Vector3d centre = cube.min.array() + 0.5 * cube.edge;
+        return {cell, (centre - field_.position()).cast<float>(), static_cast<float>(cube.edge),
+                Side::across};
+    }
+
+    /// False when the node is not in view. The radius of the ball around a cube is a little more
+    /// than half its diagonal, for rounding.
+    bool look_at(Visit& visit) const {
+        if (visit.side != Side::inside)
+            visit.side = field_.side(visit.centre, 0.8661F * visit.edge + field_.rounding_m());
+        return visit.side != Side::outside;
+    }
+
+    /// How many times a node must be halved until it is as small as a leaf there may be.
+    int halvings(const Visit& visit) const {
+        const float leaf = field_.leaf_m(visit.centre.norm()) * 1.0001F;
+        int count = 0;
+        for (float edge = visit.edge; edge > leaf && visit.cell.level + count < 30; edge *= 0.5F)
+            ++count;
+        return count;
+    }
+
+    /// Lists what lies below the top. False when a node must be split and `grower` is null.
+    bool enter_top(std::uint32_t index, Visit visit, Octree* grower) {
+        if (!look_at(visit)) return true;
+        const TopNode& node = tree_.top(index);
+        if (node.level.nodes.empty()) return true;
+        if (node.tile || halvings(visit) == 0) {
+            entries_.push_back({visit, &node.level, node.tile.get()});
+            return true;
+        }
+        if (node.children == 0) {
+            if (!grower) return false;
+            grower->split(index);
+        }
+        const int near = (visit.centre.x() < 0.0F) | (visit.centre.y() < 0.0F) << 1 |
+                         (visit.centre.z() < 0.0F) << 2;
+        for (int i = 0; i < 8; ++i) {
+            const unsigned octant = i ^ near;
+            if (!(node.octants >> octant & 1U)) continue;
+            const auto before = static_cast<std::uint32_t>(
+                __builtin_popcount(node.octants & ((1U << octant) - 1U)));
+            Visit child = start(visit.cell.child(static_cast<int>(octant)));
+            child.side = visit.side;
+            if (!enter_top(node.children + before, child, grower)) return false;
+        }
+        return true;
+    }
+
+    void search(Tile& tile, const Visit& root) {
+        const int depth = std::min(halvings(root), 16);  // nodes count to 2^16
+        tile.seen.store(look_, std::memory_order_relaxed);
+        {
+            const std::shared_lock shared(tile.lock);
+            if (static_cast<int>(tile.levels.size()) > depth) {
+                enter(tile, root, depth);
+                return;
+            }
+        }
+        {
+            const std::unique_lock alone(tile.lock);
+            tree_.grow(tile, depth + 1);
+            enter(tile, root, depth);
+        }
+        tree_.evict();
+    }
+
+    void enter(const Tile& tile, const Visit& root, int depth) {
+        pending_ = {root, &tile.levels[depth], 0, 0, root.edge / static_cast<float>(1U << depth)};
+        enter(tile, root, 0, 0, 1, depth);
+        flush();
+    }
+
+    /// Nodes [begin, end) of a level, children of one node or the tile's root.
+    void enter(const Tile& tile, const Visit& root, int level, std::uint32_t begin,
+               std::uint32_t end, int depth) {
+        const std::vector<LevelNode>& nodes = tile.levels[level].nodes;
+        for (std::uint32_t i = begin; i < end; ++i) {
+            Visit visit = node_visit(root, nodes[i]);
+            if (!look_at(visit)) continue;
+            if (level == depth) {
+                add(i, i + 1);
+            } else if (visit.side == Side::inside) {
+                std::uint32_t from = i;
+                std::uint32_t to = i + 1;
+                for (int l = level; l < depth; ++l) {
+                    from = tile.levels[l].nodes[from].children;
+                    to = tile.levels[l].nodes[to].children;
+                }
+                add(from, to);
+            } else {
+                enter(tile, root, level + 1, nodes[i].children, nodes[i + 1].children, depth);
+            }
+        }
+    }
+
+    void add(std::uint32_t begin, std::uint32_t end) {
+        if (begin != pending_.end) {
+            flush();
+            pending_.begin = begin;
+        }
+        pending_.end = end;
+    }
+
+    void flush() {
+        if (pending_.begin < pending_.end) take_(pending_);
+        pending_.begin = pending_.end;
+    }
+
+    Octree& tree_;
+    const Field& field_;
+    Take& take_;
+    std::uint64_t look_;
+    Run pending_{};
+    std::vector<Entry> entries_;
+};
+
+}  // namespace sonarsim

@@ -1,0 +1,178 @@
+#include "benchmark/multipath_rows.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <tuple>
+
+#include "benchmark/report_files.h"
+#include "benchmark/report_text.h"
+#include "support/scenes.h"
+#include "support/small_mission.h"
+
+using namespace sonarsim;
+using namespace sonarsim::test;
+
+namespace {
+
+/// Two sonars of which the first has multipath.
+Mission corner_mission(const MultipathConfig& multipath) {
+    Mission mission = small_mission("unused");
+    mission.sensors[0].multipath = multipath;
+    return mission;
+}
+
+/// Two walls that meet at a right angle in front of the vehicle, which moves towards them.
+Assembly corner_assembly(const Mission& mission) {
+    Assembly assembly = small_assembly(mission, 3);
+    Scene scene = empty_scene();
+    const std::uint32_t m = add_material(scene, 0.6F);
+    add_quad(scene, {0, 0, 0}, {-6, 6, 0}, {-6, 6, 3}, {0, 0, 3}, m);
+    add_quad(scene, {0, 0, 0}, {-6, -6, 0}, {-6, -6, 3}, {0, 0, 3}, m);
+    assembly.scene = scene;
+    return assembly;
+}
+
+std::vector<MultipathRow> measure(const Mission& mission, const Assembly& assembly) {
+    ReportOptions options;
+    options.poses = 2;
+    options.rounds = 1;
+    return measure_multipath(mission, assembly, options, [](const std::string&) {});
+}
+
+const MultipathRow& row_of(const std::vector<MultipathRow>& rows, int epsilon, double delta) {
+    const auto at = std::ranges::find_if(rows, [&](const MultipathRow& row) {
+        return row.setting.epsilon_bins == epsilon && row.setting.delta_deg == delta;
+    });
+    REQUIRE(at != rows.end());
+    return *at;
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("benchmark");
+
+TEST_CASE("multipath rows of a corner are sane, as text, JSON and CSV") {
+    const Mission mission = corner_mission({MultipathMethod::cluster, 5, 5.0});
+    Report report;
+    report.references.push_back({mission.sensors[0].name, {}, {}});
+    report.references.push_back({mission.sensors[1].name, {}, {}});
+    report.multipath = measure(mission, corner_assembly(mission));
+    REQUIRE(report.multipath.size() == 13);  // exact, 4 x 3 clusters
+    int current = 0;
+    for (const MultipathRow& row : report.multipath) {
+        CAPTURE(row.setting.epsilon_bins);
+        CAPTURE(row.setting.delta_deg);
+        CHECK(row.sensor == "front");
+        CHECK(row.exact_bins > 20);
+        // On two planes every cluster is right but for rounding at the edges of bins.
+        CHECK(row.relative_l1 < 0.02);
+        CHECK(row.found > 0.98);
+        CHECK(row.there > 0.98);
+        CHECK(row.ms_multipath.centre > 0.0);
+        CHECK(row.ms_multipath.centre < row.ms_per_ping.centre);
+        CHECK(row.ms_per_ping.min <= row.ms_per_ping.centre);
+        CHECK(row.ms_without > 0.0);
+        CHECK(row.times_without() == doctest::Approx(row.ms_per_ping.centre / row.ms_without));
+        CHECK(row.speed_up ==
+              doctest::Approx(report.multipath[0].ms_multipath.centre / row.ms_multipath.centre));
+        current += row.current;
+    }
+    const MultipathRow& exact = report.multipath[0];
+    CHECK(exact.setting.method == MultipathMethod::exact);
+    CHECK(exact.relative_l1 == 0.0);
+    CHECK(exact.found == 1.0);
+    CHECK(exact.there == 1.0);
+    CHECK(exact.speed_up == 1.0);
+    CHECK(current == 1);
+    CHECK(row_of(report.multipath, 5, 5.0).current);
+
+    const auto json = nlohmann::json::parse(report_json(report));
+    REQUIRE(json["multipath_rows"].size() == 13);
+    CHECK(json["multipath_rows"][0]["method"] == "exact");
+    CHECK(json["multipath_rows"][1]["method"] == "cluster");
+    CHECK(json["multipath_rows"][1]["epsilon_bins"] == 1);
+    CHECK(json["multipath_rows"][1]["delta_deg"] == 5);
+    CHECK(json["multipath_rows"][1]["found"].get<double>() == report.multipath[1].found);
+
+    const std::string csv = multipath_csv(report);
+    CHECK(csv.starts_with("sensor,method,current,epsilon_bins,delta_deg,relative_l1,found,there,"));
+    CHECK(std::ranges::count(csv, '\n') == 14);
+    CHECK(std::ranges::count(csv, ',') % 14 == 0);  // as many in every line
+    CHECK(csv.find("\nfront,cluster,true,5,5,") != std::string::npos);
+
+    const std::string text = report_text(report);
+    CHECK(text.find("\n cluster epsilon=5 delta=5 <") != std::string::npos);
+    CHECK(text.find("\n cluster epsilon=9 delta=30  ") != std::string::npos);
+    const std::string title = "found    there";
+    CHECK(text.find(title) == text.rfind(title));  // only for the sonar that has multipath
+}
+
+TEST_CASE("multipath rows tell a coarse way from a fine one") {
+    Mission mission = corner_mission({MultipathMethod::cluster, 1, 5.0});
+    // The tank has a pole and a sphere, on which the normal turns. A bin that holds all of the
+    // sphere would hide it.
+    mission.sensors[0].range_bins = 192;
+    const std::vector<MultipathRow> rows = measure(mission, small_assembly(mission, 3));
+    const MultipathRow& fine = row_of(rows, 1, 5.0);
+    const MultipathRow& coarse = row_of(rows, 9, 30.0);
+    CHECK(fine.current);
+    CHECK(fine.relative_l1 < coarse.relative_l1);
+    CHECK(coarse.found < 1.0);
+    CHECK(fine.found > 0.9);
+}
+
+TEST_CASE("without multipath there are no multipath rows") {
+    const Mission mission = small_mission("unused");
+    Report report;
+    report.multipath = measure(mission, small_assembly(mission, 2));
+    CHECK(report.multipath.empty());
+    CHECK(report_text(report).find("multipath echoes") == std::string::npos);
+    CHECK(nlohmann::json::parse(report_json(report))["multipath_rows"].empty());
+}
+
+TEST_CASE("the ladder of multipath holds the mission's own way once") {
+    const auto size = [](const MultipathConfig& own) {
+        const std::vector<MultipathConfig> ladder = make_multipath_ladder(own);
+        std::set<std::tuple<MultipathMethod, int, double>> ways;
+        for (const MultipathConfig& way : ladder)
+            ways.insert({way.method, way.epsilon_bins, way.delta_deg});
+        CHECK(ways.size() == ladder.size());
+        return ladder.size();
+    };
+    CHECK(size({MultipathMethod::cluster, 5, 15.0}) == 13);
+    CHECK(size({MultipathMethod::cluster, 4, 15.0}) == 14);
+    // Exact is exact, whatever epsilon and delta say.
+    CHECK(size({MultipathMethod::exact, 5, 5.0}) == 13);
+    const Mission mission = corner_mission({MultipathMethod::exact, 5, 5.0});
+    const std::vector<MultipathRow> rows = measure(mission, corner_assembly(mission));
+    CHECK(std::ranges::count(rows, true, &MultipathRow::current) == 1);
+    CHECK(rows[0].current);
+}
+
+TEST_CASE("the multipath image is what multipath adds where nothing else is") {
+    const Mission mission = corner_mission({MultipathMethod::cluster, 5, 5.0});
+    const Assembly assembly = corner_assembly(mission);
+    const Sonar& sonar = assembly.sonars[0];
+    const auto surface = make_surface(assembly.scene, mission.engine, mission.octree);
+    const Pose& pose = assembly.trajectory[0].T_world_vehicle;
+    Sonar both = direct_echoes_only(sonar);
+    const Ping direct = render_ping(both, assembly.scene, *surface, pose, {});
+    both.settings.multipath.on = true;
+    const Ping ping = render_ping(both, assembly.scene, *surface, pose, {});
+    const std::vector<float> image = multipath_image(sonar, assembly.scene, *surface, pose);
+    int alone = 0;
+    for (int j = 0; j < ping.beams; ++j) {
+        for (int i = 0; i < ping.range_bins; ++i) {
+            if (direct.at(i, j) > 0.0F) continue;
+            const float bounced = image[static_cast<std::size_t>(j) * ping.range_bins + i];
+            REQUIRE(ping.at(i, j) == bounced);
+            alone += bounced > 0.0F;
+        }
+    }
+    CHECK(alone > 10);
+}
+
+TEST_SUITE_END();

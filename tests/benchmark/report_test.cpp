@@ -1,0 +1,169 @@
+#include "benchmark/report.h"
+
+#include <doctest/doctest.h>
+
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "benchmark/ladder.h"
+#include "benchmark/report_files.h"
+#include "benchmark/report_text.h"
+#include "support/sanitized.h"
+#include "support/small_mission.h"
+
+using namespace sonarsim;
+using namespace sonarsim::test;
+
+namespace {
+
+/// A report on one small sonar with two settings of rays and one of each octree.
+Report small_report() {
+    Mission mission = small_mission("unused");
+    mission.sensors.resize(1);
+    const Assembly assembly = small_assembly(mission, 4);
+    const std::vector<Setting> ladder{
+        {"rays", "relative_l1=0.3", EngineKind::rays, {}, 0.3, false},
+        {"rays", "relative_l1=0.01", EngineKind::rays, {}, 0.01, true},
+        {"octree", "leaf_m=0.04", EngineKind::octree, {0.04, 256, false}, 0.03, false},
+        {"literal", "leaf_m=0.04", EngineKind::octree, {0.04, 256, true}, 0.03, false}};
+    ReportOptions options;
+    options.poses = 2;
+    options.rounds = 1;
+    options.threads = 2;
+    options.reference_moved = 0.005;
+    options.reference_rays = 20'000'000;
+    return make_report(mission, assembly, ladder, {}, options, [](const std::string&) {});
+}
+
+/// A row with the figures that the choice looks at.
+ReportRow row_of(const std::string& engine, const std::string& name, double ms, double l1) {
+    ReportRow row;
+    row.sensor = "fls";
+    row.setting.engine = engine;
+    row.setting.name = name;
+    row.ms_per_ping = {ms, ms, ms};
+    row.relative_l1 = {l1, l1, l1};
+    return row;
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("benchmark");
+
+TEST_CASE("a report has a sane row per setting, as text, JSON and CSV" *
+          doctest::skip(test::sanitized)) {
+    const Report report = small_report();
+    REQUIRE(report.rows.size() == 4);
+    CHECK(report.poses == 2);
+    for (const ReportRow& row : report.rows) {
+        CAPTURE(row.setting.engine);
+        CHECK(row.sensor == "front");
+        CHECK(row.ms_per_ping.centre > 0.0);
+        CHECK(row.ms_per_ping.min <= row.ms_per_ping.centre);
+        CHECK(row.ms_per_ping.centre <= row.ms_per_ping.max);
+        CHECK(row.pings_per_s > 0.0);
+        CHECK(row.samples_per_ping.centre > 0.0);
+        CHECK(row.relative_l1.min <= row.relative_l1.max);
+        CHECK(row.miss_rate.centre >= 0.0);
+        CHECK(row.miss_rate.max <= 1.0);
+        CHECK(row.ms_trace + row.ms_accumulate + row.ms_noise <= 2.0 * row.ms_per_ping.max);
+        CHECK(row.ms_bare > 0.0);
+    }
+    // A finer goal takes more samples and errs less.
+    CHECK(report.rows[1].samples_per_ping.centre > report.rows[0].samples_per_ping.centre);
+    CHECK(report.rows[1].relative_l1.centre < report.rows[0].relative_l1.centre);
+    CHECK(report.rows[1].relative_l1.centre < 0.03);
+    REQUIRE(report.references.size() == 1);
+    CHECK(report.references[0].moved.max < 0.05);
+
+    const auto json = nlohmann::json::parse(report_json(report));
+    REQUIRE(json["rows"].size() == 4);
+    const std::set<std::string> keys{
+        "sensor",      "engine",       "setting",        "ms_per_ping", "pings_per_s",
+        "relative_l1", "relative_l2",  "miss_rate",      "false_rate",  "samples_per_ping",
+        "build_s",     "first_ping_s", "peak_memory_mb", "spread"};
+    for (const auto& row : json["rows"]) {
+        std::set<std::string> found;
+        for (const auto& [key, value] : row.items())
+            found.insert(key);
+        CHECK(found == keys);
+    }
+    CHECK(json["reference"][0]["sensor"] == "front");
+    CHECK(json["reference"][0]["moved_mean"].get<double>() > 0.0);
+
+    const std::string csv = report_csv(report);
+    CHECK(std::ranges::count(csv, '\n') == 5);
+    CHECK(std::ranges::count(csv, ',') % 5 == 0);  // as many in every line
+    CHECK(report_text(report).find("rays relative_l1=0.01") != std::string::npos);
+    CHECK(report_markdown(report).find("| rays | relative_l1=0.01 |") != std::string::npos);
+}
+
+TEST_CASE("auto is explained by the fastest setting that meets the goal") {
+    Report report;
+    report.goal = 0.03;
+    report.rows = {
+        row_of("rays", "relative_l1=0.1", 1.0, 0.05), row_of("rays", "relative_l1=0.03", 2.0, 0.02),
+        row_of("rays", "relative_l1=0.01", 4.0, 0.01), row_of("octree", "leaf_m=0.02", 3.0, 0.04)};
+    std::string text = explain_auto(report, "fls");
+    CHECK(text.find("the best rays are rays relative_l1=0.03") != std::string::npos);
+    // No octree meets the goal: the most accurate stands for it.
+    CHECK(text.find("the best octree is octree leaf_m=0.02") != std::string::npos);
+    CHECK(text.find("Here the octree is better") == std::string::npos);
+    report.rows.push_back(row_of("octree", "leaf_m=0.04", 1.5, 0.03));
+    text = explain_auto(report, "fls");
+    CHECK(text.find("set engine: octree and octree.leaf_m=0.04") != std::string::npos);
+}
+
+TEST_CASE("the ladder holds the mission's own setting once, marked, and no needless leaves") {
+    Mission mission = small_mission("unused");
+    const auto marked = [](const std::vector<Setting>& ladder) {
+        std::vector<std::string> out;
+        for (const Setting& setting : ladder) {
+            if (setting.current) out.push_back(setting.engine + " " + setting.name);
+        }
+        return out;
+    };
+    CHECK(marked(make_ladder(mission, false)) == std::vector<std::string>{"rays relative_l1=0.03"});
+    mission.accuracy.relative_l1 = 0.05;
+    CHECK(marked(make_ladder(mission, true)) == std::vector<std::string>{"rays relative_l1=0.05"});
+    mission.engine = EngineKind::octree;
+    CHECK(marked(make_ladder(mission, true)) == std::vector<std::string>{"octree leaf_m=auto"});
+    mission.octree.leaf_m = 0.03;
+    CHECK(marked(make_ladder(mission, true)) == std::vector<std::string>{"octree leaf_m=0.03"});
+    // Bins of 9.9 m / 48 = 20.6 cm: leaves below 5.2 cm are left out.
+    for (const Setting& setting : make_ladder(mission, false)) {
+        CHECK(setting.name != "leaf_m=0.04");
+        CHECK(setting.name != "leaf_m=0.01");
+    }
+}
+
+TEST_CASE("the error is measured without noise, gain, multipath and streaks") {
+    Mission mission = small_mission("unused");
+    mission.sensors[0].multipath.method = MultipathMethod::cluster;
+    mission.sensors[0].streaks.mode = StreakMode::add;
+    const Assembly assembly = small_assembly(mission, 1);
+    REQUIRE(assembly.sonars[0].settings.multipath.on);
+    const Sonar clean = direct_echoes_only(assembly.sonars[0]);
+    CHECK_FALSE(clean.settings.multipath.on);
+    CHECK_FALSE(clean.settings.streaks.exist());
+    CHECK(clean.settings.range_noise.lambda_m == 0.0F);
+    CHECK(clean.settings.pixel_noise.gain == 1.0F);
+    CHECK(clean.settings.pixel_noise.add_sigma == 0.0F);
+    CHECK(clean.settings.pixel_noise.mult_sigma == 0.0F);
+}
+
+TEST_CASE("poses are spread from end to end") {
+    CHECK(spread_poses(10, 4) == std::vector<std::size_t>{0, 3, 6, 9});
+    CHECK(spread_poses(2, 8) == std::vector<std::size_t>{0, 1});
+    CHECK(spread_poses(5, 1) == std::vector<std::size_t>{0});
+}
+
+TEST_CASE("spreads by hand") {
+    const Spread times = spread_of_times({4.0, 1.0, 2.0, 3.0});
+    CHECK(times.centre == 2.5);
+    CHECK(times.min == 1.0);
+    CHECK(times.max == 4.0);
+    CHECK(spread_of({1.0, 2.0, 6.0}).centre == doctest::Approx(3.0));
+}
+
+TEST_SUITE_END();

@@ -1,0 +1,178 @@
+#pragma once
+
+#include <doctest/doctest.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <initializer_list>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "scene/gltf/load.h"
+
+namespace sonarsim {
+
+/// A folder that goes away with the test.
+class TemporaryFolder {
+  public:
+    TemporaryFolder() {
+        std::string name = (std::filesystem::temp_directory_path() / "sonarsim_XXXXXX").string();
+        if (!::mkdtemp(name.data())) throw std::runtime_error("no temporary folder");
+        path_ = name;
+    }
+    ~TemporaryFolder() { std::filesystem::remove_all(path_); }
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+    std::filesystem::path write(const std::string& name, std::string_view bytes) const {
+        write_file(path_ / name, bytes);
+        return path_ / name;
+    }
+    const std::filesystem::path& path() const { return path_; }
+
+  private:
+    std::filesystem::path path_;
+};
+
+using Point = std::array<float, 3>;
+
+/// The .glb container of a JSON text and a BIN chunk ("": none), padded as glTF asks for.
+inline std::string glb_of(std::string text, std::string binary) {
+    const auto number = [](std::size_t value) {
+        const auto v = static_cast<std::uint32_t>(value);
+        return std::string(reinterpret_cast<const char*>(&v), sizeof(v));
+    };
+    text.resize((text.size() + 3) / 4 * 4, ' ');
+    binary.resize((binary.size() + 3) / 4 * 4, '\0');
+    std::string chunks = number(text.size()) + "JSON" + text;
+    if (!binary.empty()) chunks += number(binary.size()) + std::string("BIN\0", 4) + binary;
+    return "glTF" + number(2) + number(12 + chunks.size()) + chunks;
+}
+
+/// A small glTF under construction. `document` may be bent at will before it is written.
+struct GltfBuilder {
+    nlohmann::json document = {{"asset", {{"version", "2.0"}}}};
+    std::string binary;
+
+    /// A buffer view of these values; returns its index.
+    template <class T>
+    int view(const std::vector<T>& values, std::size_t stride = 0) {
+        binary.resize((binary.size() + 3) / 4 * 4, '\0');
+        nlohmann::json entry = {{"buffer", 0},
+                                {"byteOffset", binary.size()},
+                                {"byteLength", values.size() * sizeof(T)}};
+        if (stride > 0) entry["byteStride"] = stride;
+        binary.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
+        return append("bufferViews", entry);
+    }
+
+    int accessor(int buffer_view, int component_type, std::size_t count, const std::string& type) {
+        return append("accessors", {{"bufferView", buffer_view},
+                                    {"componentType", component_type},
+                                    {"count", count},
+                                    {"type", type}});
+    }
+
+    int positions(const std::vector<Point>& points) {
+        return accessor(view(points), 5126, points.size(), "VEC3");
+    }
+
+    template <class T>
+    int indices(const std::vector<T>& values) {
+        const int type = sizeof(T) == 1 ? 5121 : sizeof(T) == 2 ? 5123 : 5125;
+        return accessor(view(values), type, values.size(), "SCALAR");
+    }
+
+    int material(const std::string& name) { return append("materials", {{"name", name}}); }
+
+    int mesh(const nlohmann::json& primitives, const std::string& name = "") {
+        nlohmann::json entry = {{"primitives", primitives}};
+        if (!name.empty()) entry["name"] = name;
+        return append("meshes", entry);
+    }
+
+    int node(const nlohmann::json& entry) { return append("nodes", entry); }
+
+    int append(const std::string& section, const nlohmann::json& entry) {
+        document[section].push_back(entry);
+        return static_cast<int>(document[section].size()) - 1;
+    }
+
+    std::string text() const {
+        nlohmann::json out = document;
+        if (!binary.empty() && !out.contains("buffers")) {
+            out["buffers"] = {{{"byteLength", binary.size()}}};
+        }
+        return out.dump();
+    }
+
+    std::string glb() const { return glb_of(text(), binary); }
+};
+
+inline const std::vector<Point> unit_triangle{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+
+/// One node "tri" with mesh "Tri": a triangle (0 0 0, 1 0 0, 0 1 0) in the glTF frame, of steel.
+inline GltfBuilder one_triangle() {
+    GltfBuilder gltf;
+    const int steel = gltf.material("steel");
+    const int points = gltf.positions(unit_triangle);
+    const int mesh =
+        gltf.mesh({{{"attributes", {{"POSITION", points}}}, {"material", steel}}}, "Tri");
+    gltf.node({{"name", "tri"}, {"mesh", mesh}});
+    return gltf;
+}
+
+inline const std::string test_materials =
+    "material,density_kg_m3,sound_speed_m_s\nsteel,7850,5900\nsand,1900,1650\nrubber,1100,1500\n";
+
+/// Writes the file and loads it, with the materials above.
+inline Scene load(const std::string& bytes) {
+    const TemporaryFolder folder;
+    const auto materials = folder.write("materials.csv", test_materials);
+    return load_scene(folder.write("x.glb", bytes), materials, Water{});
+}
+
+inline Scene load(const GltfBuilder& gltf) {
+    return load(gltf.glb());
+}
+
+/// What loading says, without the folder; "" when nothing is wrong.
+inline std::string load_error(const std::string& bytes) {
+    const TemporaryFolder folder;
+    const auto materials = folder.write("materials.csv", test_materials);
+    try {
+        load_scene(folder.write("x.glb", bytes), materials, Water{});
+    } catch (const InputError& error) {
+        std::string message = error.what();
+        const std::string prefix = folder.path().string() + "/";
+        for (auto at = message.find(prefix); at != std::string::npos; at = message.find(prefix)) {
+            message.erase(at, prefix.size());
+        }
+        return message;
+    }
+    return "";
+}
+
+inline std::string load_error(const GltfBuilder& gltf) {
+    return load_error(gltf.glb());
+}
+
+/// Corner `k` of triangle `i` in the world frame.
+inline Eigen::Vector3d world_corner(const Scene& scene, std::size_t i, std::size_t k) {
+    return scene.origin + scene.vertices[scene.triangles[i][k]].cast<double>();
+}
+
+inline void check_point(const Eigen::Vector3d& p, double x, double y, double z,
+                        double tolerance = 1e-6) {
+    CAPTURE(p.transpose());
+    CHECK((p - Eigen::Vector3d(x, y, z)).cwiseAbs().maxCoeff() <= tolerance);
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,134 @@
+#include <doctest/doctest.h>
+
+#include <string>
+
+#include "scene/gltf/builder.h"
+
+using namespace sonarsim;
+using nlohmann::json;
+
+namespace {
+
+std::string uri_error(const std::string& uri) {
+    GltfBuilder gltf = one_triangle();
+    gltf.document["buffers"] = {{{"byteLength", 36}, {"uri", uri}}};
+    return load_error(gltf.text());
+}
+
+std::string outside(const std::string& uri) {
+    return "x.glb: buffers[0]: '" + uri +
+           "' is not beside or below the glTF file, where buffers must lie";
+}
+
+}  // namespace
+
+TEST_SUITE("scene") {
+    TEST_CASE("glTF errors: buffers outside of the folder") {
+        for (const char* uri :
+             {"/etc/passwd", "../x.bin", "a/../../x.bin", "%2e%2e/x.bin", "%2Fetc/passwd",
+              "file:///etc/passwd", "http://localhost/x.bin", "C:/x.bin", ""}) {
+            CHECK(uri_error(uri) == outside(uri));
+        }
+        CHECK(uri_error("a%00.bin") != "");
+        CHECK(uri_error("missing.bin") == "missing.bin: cannot open: No such file or directory");
+        CHECK(uri_error(".") == ".: is not a regular file");
+    }
+
+    TEST_CASE("glTF errors: buffers that are not what they claim") {
+        CHECK(uri_error("data:text/html;base64,AAAA") ==
+              "x.glb: buffers[0]: its data URI must start with "
+              "'data:application/octet-stream;base64,'");
+        CHECK(uri_error("data:application/octet-stream;base64,AAAA")
+                  .starts_with("x.glb: is no valid glTF: Failed to decode 'uri'"));
+        CHECK(uri_error("data:application/octet-stream;base64,????") != "");
+        CHECK(uri_error("data:application/octet-stream;base64,") != "");
+        // The message does not quote a long one whole.
+        const std::string long_uri =
+            "data:application/octet-stream;base64," + std::string(5000, 'A');
+        CHECK(uri_error(long_uri).size() < 400);
+        CHECK(uri_error("x.glb") != "");  // itself, of another size
+
+        GltfBuilder gltf = one_triangle();
+        gltf.document["buffers"] = {{{"byteLength", 40}}};
+        CHECK(load_error(gltf) == "x.glb: buffers[0] claims 40 bytes; the BIN chunk has 36");
+        gltf.document["buffers"] = {{{"byteLength", 36}}, {{"byteLength", 36}}};
+        CHECK(load_error(gltf) ==
+              "x.glb: buffers[1]: has no uri, and only the first buffer of a .glb with a BIN chunk "
+              "may lack it");
+        gltf.document["buffers"] = {{{"byteLength", 36}}};
+        CHECK(load_error(gltf.text()) ==
+              "x.glb: buffers[0]: has no uri, and only the first buffer of a .glb with a BIN chunk "
+              "may lack it");
+        gltf.document["buffers"] = json::array({json::object()});
+        CHECK(load_error(gltf) == "x.glb: buffers[0]: byteLength is missing");
+        gltf.document["buffers"] = {{{"byteLength", 0}}};
+        CHECK(load_error(gltf) != "");
+    }
+
+    TEST_CASE("glTF errors: .glb containers that lie") {
+        const std::string whole = one_triangle().glb();
+        // Cut anywhere, it is refused, never read beyond its end.
+        for (std::size_t length = 0; length < whole.size(); length += 3) {
+            CAPTURE(length);
+            CHECK(load_error(whole.substr(0, length)) != "");
+        }
+        const auto patched = [&](std::size_t at, const std::string& bytes) {
+            std::string glb = whole;
+            return load_error(glb.replace(at, bytes.size(), bytes));
+        };
+        const std::string huge("\xF0\xFF\xFF\xFF", 4);
+        CHECK(patched(4, std::string("\1\0\0\0", 4)) ==
+              "x.glb: is a .glb of version 1; expected 2");
+        CHECK(patched(8, huge) == "x.glb: the .glb claims 4294967280 bytes; the file has " +
+                                      std::to_string(whole.size()));
+        CHECK(patched(8, std::string("\4\0\0\0", 4)) != "");
+        CHECK(patched(12, huge) ==
+              "x.glb: a chunk of the .glb claims 4294967280 bytes; the file has " +
+                  std::to_string(whole.size() - 20) + " left");
+        CHECK(patched(16, "BIN ") ==
+              "x.glb: the .glb has an unexpected chunk; expected JSON, then BIN");
+        const std::size_t binary_length_at = whole.find(std::string("BIN\0", 4)) - 4;
+        CHECK(patched(binary_length_at, std::string("\x28\0\0\0", 4)) ==
+              "x.glb: a chunk of the .glb claims 40 bytes; the file has 36 left");
+    }
+
+    TEST_CASE("glTF errors: JSON that is malformed, deep or not an object") {
+        CHECK(load_error("") != "");
+        CHECK(load_error("[]") == "x.glb: asset.version is missing; expected glTF version 2.0");
+        CHECK(load_error("{\"asset\": {\"version\": \"2.0\"},\n \"nodes\": [}") ==
+              "x.glb: parse error at line 2, column 12: syntax error while parsing value - "
+              "unexpected '}'; expected '[', '{', or a literal");
+        CHECK(load_error("{\"asset\": {\"version\": \"2.0\"}, \"nodes\": [1e999]}")
+                  .starts_with("x.glb: number overflow"));
+        CHECK(load_error("\x7F"
+                         "ELF") != "");
+        CHECK(load_error(std::string(1'000'000, '[')) ==
+              "x.glb: the JSON is nested more than 64 deep");
+        std::string deep = "{\"asset\":{\"version\":\"2.0\"},\"extras\":";
+        for (int i = 0; i < 100'000; ++i)
+            deep += "{\"a\":";
+        CHECK(load_error(deep) == "x.glb: the JSON is nested more than 64 deep");
+    }
+
+    TEST_CASE("glTF errors: a small file that would take the machine's memory") {
+        GltfBuilder gltf = one_triangle();
+        // Zeros under a sparse accessor cost no bytes to claim.
+        json& accessor = gltf.document["accessors"][0];
+        accessor.erase("bufferView");
+        accessor["count"] = 1 << 28;
+        const int at = gltf.view(std::vector<std::uint8_t>{1});
+        const int values = gltf.view(std::vector<Point>{{1, 0, 0}});
+        accessor["sparse"] = {{"count", 1},
+                              {"indices", {{"bufferView", at}, {"componentType", 5121}}},
+                              {"values", {{"bufferView", values}}}};
+        gltf.document["meshes"][0]["primitives"][0]["mode"] = 5;
+        CHECK(load_error(gltf) ==
+              "x.glb: places more than 2^28 triangles (a primitive counts as 64 more)");
+
+        GltfBuilder many = one_triangle();
+        many.document["nodes"] = json::array();
+        many.document["nodes"].get_ref<json::array_t&>().assign(2'000'001, json::object());
+        CHECK(load_error(many) ==
+              "x.glb: holds more than 2000000 nodes, meshes, accessors and so on");
+    }
+}

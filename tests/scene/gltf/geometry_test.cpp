@@ -1,0 +1,227 @@
+#include <doctest/doctest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "scene/gltf/builder.h"
+#include "scene/gltf/load.h"
+
+using namespace sonarsim;
+using nlohmann::json;
+
+namespace {
+
+/// Four corners of the unit square, in the order of a strip.
+const std::vector<Point> square{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
+
+GltfBuilder square_mesh(int mode, int indices) {
+    GltfBuilder gltf;
+    json primitive = {{"attributes", {{"POSITION", gltf.positions(square)}}},
+                      {"material", gltf.material("sand")},
+                      {"mode", mode}};
+    if (indices >= 0) primitive["indices"] = indices;
+    gltf.mesh(json::array({primitive}));
+    gltf.node({{"mesh", 0}});
+    return gltf;
+}
+
+template <class T>
+GltfBuilder indexed_square(const std::vector<T>& values, int mode = 4) {
+    GltfBuilder gltf = square_mesh(mode, -1);
+    const int indices = gltf.indices(values);
+    gltf.document["meshes"][0]["primitives"][0]["indices"] = indices;
+    return gltf;
+}
+
+void check_square(const Scene& scene) {
+    REQUIRE(scene.triangles.size() == 2);
+    CHECK(scene.vertices.size() == 4);
+    double area = 0.0;
+    for (std::size_t i = 0; i < 2; ++i) {
+        const Eigen::Vector3d a = world_corner(scene, i, 0);
+        area += 0.5 * (world_corner(scene, i, 1) - a).cross(world_corner(scene, i, 2) - a).norm();
+    }
+    CHECK(area == doctest::Approx(1.0));
+    check_point(scene.bounds_min, 0, 0, 0);
+    check_point(scene.bounds_max, 1, 0, 1);
+}
+
+}  // namespace
+
+TEST_SUITE("scene") {
+    TEST_CASE("glTF: y up becomes z up, and a triangle knows material and instance") {
+        GltfBuilder gltf = one_triangle();
+        gltf.document["nodes"][0]["translation"] = {1, 2, 3};
+        const Scene scene = load(gltf);
+        REQUIRE(scene.triangles.size() == 1);
+        // (x, -z, y) of (1 2 3), (2 2 3), (1 3 3).
+        check_point(world_corner(scene, 0, 0), 1, -3, 2);
+        check_point(world_corner(scene, 0, 1), 2, -3, 2);
+        check_point(world_corner(scene, 0, 2), 1, -3, 3);
+        CHECK(scene.materials.at(scene.triangle_material[0]).name == "steel");
+        CHECK(scene.materials.at(0).density_kg_m3 == 7850.0);
+        CHECK(scene.materials.at(0).reflection > 0.8F);
+        CHECK(scene.instances.at(scene.triangle_instance[0]) == "tri");
+        CHECK(scene.rejects.degenerate_triangles == 0);
+    }
+
+    TEST_CASE("glTF: every index type, and none") {
+        check_square(load(indexed_square<std::uint8_t>({0, 1, 2, 1, 3, 2})));
+        check_square(load(indexed_square<std::uint16_t>({0, 1, 2, 1, 3, 2})));
+        check_square(load(indexed_square<std::uint32_t>({0, 1, 2, 1, 3, 2})));
+        CHECK(load(one_triangle()).triangles.size() == 1);
+    }
+
+    TEST_CASE("glTF: strips and fans") {
+        check_square(load(square_mesh(5, -1)));
+        check_square(load(indexed_square<std::uint16_t>({2, 0, 3, 1}, 5)));
+        // A fan goes around: 0 1 3 and 0 3 2.
+        check_square(load(indexed_square<std::uint8_t>({0, 1, 3, 2}, 6)));
+    }
+
+    TEST_CASE("glTF: points and lines are skipped and counted") {
+        GltfBuilder gltf = one_triangle();
+        json primitive = gltf.document["meshes"][0]["primitives"][0];
+        for (const int mode : {0, 1, 2, 3}) {
+            primitive["mode"] = mode;
+            gltf.document["meshes"][0]["primitives"].push_back(primitive);
+        }
+        const Scene scene = load(gltf);
+        CHECK(scene.triangles.size() == 1);
+        CHECK(scene.rejects.skipped_primitives == 4);
+    }
+
+    TEST_CASE("glTF: strided positions") {
+        GltfBuilder gltf;
+        // Position and normal interleaved: stride 24.
+        const std::vector<std::array<float, 6>> mixed{
+            {0, 0, 0, 9, 9, 9}, {1, 0, 0, 9, 9, 9}, {0, 1, 0, 9, 9, 9}};
+        const int points = gltf.accessor(gltf.view(mixed, 24), 5126, 3, "VEC3");
+        gltf.mesh({{{"attributes", {{"POSITION", points}}}, {"material", gltf.material("sand")}}});
+        gltf.node({{"mesh", 0}});
+        const Scene scene = load(gltf);
+        REQUIRE(scene.triangles.size() == 1);
+        check_point(world_corner(scene, 0, 1), 1, 0, 0);
+        check_point(world_corner(scene, 0, 2), 0, 0, 1);
+    }
+
+    TEST_CASE("glTF: sparse positions, over data and over zeros") {
+        for (const bool has_base : {true, false}) {
+            CAPTURE(has_base);
+            GltfBuilder gltf = one_triangle();
+            const int at = gltf.view(std::vector<std::uint16_t>{1, 2});
+            const int values = gltf.view(std::vector<Point>{{4, 0, 0}, {0, 5, 0}});
+            json& accessor = gltf.document["accessors"][0];
+            if (!has_base) accessor.erase("bufferView");
+            accessor["sparse"] = {{"count", 2},
+                                  {"indices", {{"bufferView", at}, {"componentType", 5123}}},
+                                  {"values", {{"bufferView", values}}}};
+            const Scene scene = load(gltf);
+            REQUIRE(scene.triangles.size() == 1);
+            check_point(world_corner(scene, 0, 0), 0, 0, 0);
+            check_point(world_corner(scene, 0, 1), 4, 0, 0);
+            check_point(world_corner(scene, 0, 2), 0, 0, 5);
+        }
+    }
+
+    TEST_CASE("glTF: quantized positions") {
+        GltfBuilder gltf;
+        const std::vector<std::array<std::int16_t, 4>> points{
+            {0, 0, 0, 0}, {32767, 0, 0, 0}, {0, -32768, 0, 0}};
+        const int accessor = gltf.accessor(gltf.view(points, 8), 5122, 3, "VEC3");
+        gltf.mesh(
+            {{{"attributes", {{"POSITION", accessor}}}, {"material", gltf.material("sand")}}});
+        gltf.node({{"mesh", 0}});
+        gltf.document["extensionsRequired"] = {"KHR_mesh_quantization"};
+        CHECK(load(gltf).bounds_max.x() == doctest::Approx(32767.0));
+        gltf.document["accessors"][0]["normalized"] = true;
+        const Scene scene = load(gltf);
+        check_point(world_corner(scene, 0, 1), 1, 0, 0);
+        check_point(world_corner(scene, 0, 2), 0, 0, -1);  // -32768 / 32767 is clamped
+    }
+
+    TEST_CASE("glTF: degenerate and non-finite triangles are dropped and counted") {
+        constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+        constexpr float infinity = std::numeric_limits<float>::infinity();
+        GltfBuilder gltf;
+        std::vector<Point> points = unit_triangle;
+        points.insert(points.end(), {{0, 0, 0}, {1, 1, 1}, {2, 2, 2}});           // on a line
+        points.insert(points.end(), {{5e8F, 0, 0}, {5e8F, 0, 0}, {0, 5e8F, 0}});  // a point twice
+        points.insert(points.end(), {{0, 0, 0}, {nan, 0, 0}, {0, 1, 0}});
+        points.insert(points.end(), {{0, 0, 0}, {1, 0, 0}, {0, infinity, 0}});
+        gltf.mesh({{{"attributes", {{"POSITION", gltf.positions(points)}}},
+                    {"material", gltf.material("sand")}}});
+        gltf.node({{"mesh", 0}});
+        const Scene scene = load(gltf);
+        CHECK(scene.triangles.size() == 1);
+        CHECK(scene.vertices.size() == 3);  // nothing is left of the dropped ones
+        CHECK(scene.rejects.degenerate_triangles == 2);
+        CHECK(scene.rejects.non_finite_triangles == 2);
+        check_point(scene.bounds_max, 1, 0, 1);
+        check_point(scene.origin, 1, 0, 1);  // and they did not move the origin: centre 0.5
+    }
+
+    TEST_CASE("glTF: a triangle that floats flatten to a line is degenerate") {
+        GltfBuilder gltf = one_triangle();
+        // 1e-12 m high at z = 0.3 m, where floats are 3e-8 m apart.
+        gltf.node({{"mesh", 0}, {"translation", {100, 0.3, 0}}, {"scale", {1, 1e-12, 1}}});
+        const Scene scene = load(gltf);
+        CHECK(scene.triangles.size() == 1);
+        CHECK(scene.rejects.degenerate_triangles == 1);
+    }
+
+    TEST_CASE("glTF: the origin lies on a grid that holds the scene") {
+        GltfBuilder gltf = one_triangle();
+        gltf.document["nodes"][0]["scale"] = {60, 8, 1};
+        gltf.document["nodes"][0]["translation"] = {500030, 41, -4800070};
+        const Scene scene = load(gltf);
+        // Extent 60 m: g = 100. The centre (500060, 4800070, 45) goes to (500100, 4800100, 0).
+        check_point(scene.origin, 500100, 4800100, 0, 0.0);
+        check_point(world_corner(scene, 0, 1), 500090, 4800070, 41);
+    }
+
+    TEST_CASE("glTF: a scene moved by multiples of g keeps its local coordinates bit by bit") {
+        // A size of exactly 100 m and a centre of exactly half of that are the delicate case.
+        GltfBuilder gltf;
+        const std::vector<Point> points{{0, 0, 0}, {100, 0.123456789F, 0}, {33.3F, 100, 77.7F}};
+        gltf.mesh({{{"attributes", {{"POSITION", gltf.positions(points)}}},
+                    {"material", gltf.material("sand")}}});
+        gltf.node({{"mesh", 0}});
+        const Scene scene = load(gltf);
+        for (const double shift : {-100.0, 500000.0, 4800000.0}) {
+            CAPTURE(shift);
+            gltf.document["nodes"][0]["translation"] = {shift, -shift, 2 * shift};
+            const Scene moved = load(gltf);
+            REQUIRE(moved.vertices.size() == scene.vertices.size());
+            for (std::size_t i = 0; i < scene.vertices.size(); ++i) {
+                CHECK(moved.vertices[i] == scene.vertices[i]);
+            }
+            const Eigen::Vector3d moved_by = moved.origin - scene.origin;
+            check_point(moved_by, shift, -2 * shift, -shift, 0.0);
+        }
+    }
+
+    TEST_CASE("glTF: many primitives may share one list of vertices") {
+        GltfBuilder gltf = square_mesh(4, -1);
+        json primitive = gltf.document["meshes"][0]["primitives"][0];
+        json primitives = json::array();
+        for (const std::vector<std::uint8_t>& corners :
+             {std::vector<std::uint8_t>{0, 1, 2}, std::vector<std::uint8_t>{1, 3, 2}}) {
+            primitive["indices"] = gltf.indices(corners);
+            primitives.push_back(primitive);
+        }
+        gltf.document["meshes"][0]["primitives"] = primitives;
+        const Scene scene = load(gltf);
+        CHECK(scene.vertices.size() == 6);  // each takes the ones that it uses
+        check_point(world_corner(scene, 1, 1), 1, 0, 1);
+    }
+
+    TEST_CASE("glTF: an empty scene") {
+        const Scene scene = load(GltfBuilder{});
+        CHECK(scene.triangles.empty());
+        check_point(scene.origin, 0, 0, 0, 0.0);
+        check_point(scene.bounds_max, 0, 0, 0, 0.0);
+    }
+}

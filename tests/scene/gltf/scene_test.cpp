@@ -1,0 +1,131 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstdint>
+
+#include "scene/gltf/builder.h"
+#include "scene/gltf/load.h"
+
+using namespace sonarsim;
+using nlohmann::json;
+
+TEST_SUITE("scene") {
+    TEST_CASE("glTF: node transforms, as TRS and as matrix, compose down the tree") {
+        GltfBuilder gltf = one_triangle();
+        // Parent: 90 degrees about glTF's y (x to -z). Child: scaled by 2, moved by (10 0 0).
+        const double h = std::sqrt(0.5);
+        gltf.document["nodes"][0]["translation"] = {10, 0, 0};
+        gltf.document["nodes"][0]["scale"] = {2, 2, 2};
+        gltf.node({{"rotation", {0, h, 0, h}}, {"children", {0}}});
+        const Scene scene = load(gltf);
+        // In the parent: (10 0 0), (12 0 0), (10 2 0); turned: (0 0 -10), (0 0 -12), (0 2 -10);
+        // in the world (x, -z, y): (0 10 0), (0 12 0), (0 10 2).
+        check_point(world_corner(scene, 0, 0), 0, 10, 0);
+        check_point(world_corner(scene, 0, 1), 0, 12, 0);
+        check_point(world_corner(scene, 0, 2), 0, 10, 2);
+
+        GltfBuilder other = one_triangle();
+        // The same by matrices, column by column.
+        other.document["nodes"][0]["matrix"] = {2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 10, 0, 0, 1};
+        other.node(
+            {{"matrix", {0, 0, -1, 0, 0, 1, 0, 0, 1, 0, 0, 0, 0, 0, 0, 1}}, {"children", {0}}});
+        const Scene same = load(other);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Eigen::Vector3d p = world_corner(scene, 0, k);
+            check_point(world_corner(same, 0, k), p.x(), p.y(), p.z());
+        }
+    }
+
+    TEST_CASE("glTF: a mirrored scale") {
+        GltfBuilder gltf = one_triangle();
+        gltf.document["nodes"][0]["scale"] = {-3, 1, 1};
+        const Scene scene = load(gltf);
+        REQUIRE(scene.triangles.size() == 1);
+        check_point(scene.bounds_min, -3, 0, 0);
+        check_point(scene.bounds_max, 0, 0, 1);
+    }
+
+    TEST_CASE("glTF: instanced meshes and unique instance names") {
+        GltfBuilder gltf = one_triangle();
+        gltf.node({{"name", "tri"}, {"mesh", 0}, {"translation", {5, 0, 0}}});
+        gltf.node({{"mesh", 0}, {"translation", {6, 0, 0}}});
+        gltf.node({{"name", "tri_2"}, {"mesh", 0}, {"translation", {7, 0, 0}}});
+        const Scene scene = load(gltf);
+        CHECK(scene.instances == std::vector<std::string>{"tri", "tri_2", "node2", "tri_2_2"});
+        CHECK(scene.triangle_instance == std::vector<std::uint32_t>{0, 1, 2, 3});
+        CHECK(scene.vertices.size() == 12);
+        check_point(world_corner(scene, 3, 0), 7, 0, 0);
+    }
+
+    TEST_CASE("glTF: default scene, first scene, all roots") {
+        GltfBuilder gltf = one_triangle();
+        gltf.node({{"name", "b"}, {"mesh", 0}});
+        CHECK(load(gltf).instances == std::vector<std::string>{"tri", "b"});
+        gltf.document["scenes"] = {{{"nodes", {1}}}, {{"nodes", {0}}}};
+        CHECK(load(gltf).instances == std::vector<std::string>{"b"});
+        gltf.document["scene"] = 1;
+        CHECK(load(gltf).instances == std::vector<std::string>{"tri"});
+    }
+
+    TEST_CASE("glTF: extras.sonar.material of node, ancestor and material") {
+        const json rubber = {{"sonar", {{"material", "rubber"}}}};
+        const json sand = {{"sonar", {{"material", "sand"}}}};
+        const auto material_of = [](const GltfBuilder& gltf) {
+            const Scene scene = load(gltf);
+            REQUIRE(scene.materials.size() == 1);
+            return scene.materials[0].name;
+        };
+        GltfBuilder gltf = one_triangle();
+        gltf.document["materials"][0]["extras"] = rubber;
+        CHECK(material_of(gltf) == "rubber");
+        gltf.document["materials"][0]["extras"] = "anything goes";
+        CHECK(material_of(gltf) == "steel");
+        gltf.node({{"children", {0}}, {"extras", sand}});
+        CHECK(material_of(gltf) == "sand");  // inherited
+        gltf.document["nodes"][0]["extras"] = rubber;
+        CHECK(material_of(gltf) == "rubber");  // the nearest wins
+        gltf.document["meshes"][0]["primitives"][0].erase("material");
+        CHECK(material_of(gltf) == "rubber");  // and serves where the primitive has none
+    }
+
+    TEST_CASE("glTF: textures, cameras, animations and unknown members are nobody's business") {
+        GltfBuilder gltf = one_triangle();
+        gltf.document["images"] = {{{"uri", "/etc/passwd"}}, {{"bufferView", 999}}};
+        gltf.document["animations"] = "not even an array";
+        gltf.document["cameras"] = {nullptr};
+        gltf.document["extensionsUsed"] = {"KHR_materials_unlit", "VENDOR_anything"};
+        gltf.document["extensionsRequired"] = {"KHR_materials_unlit", "KHR_texture_transform"};
+        gltf.document["meshes"][0]["weights"] = {0, 0};
+        CHECK(load(gltf).triangles.size() == 1);
+    }
+
+    TEST_CASE("glTF: as text, with data URI and with files beside and below") {
+        GltfBuilder gltf = one_triangle();
+        const std::string binary = gltf.binary;
+        const TemporaryFolder folder;
+        std::filesystem::create_directory(folder.path() / "sub");
+        folder.write("a b+c.bin", binary);
+        folder.write("sub/d.bin", binary);
+        const auto count = [&](const std::string& uri) {
+            gltf.document["buffers"] = {{{"byteLength", binary.size()}, {"uri", uri}}};
+            return load_scene_geometry(folder.write("x.gltf", gltf.text())).triangles.size();
+        };
+        CHECK(count("a%20b+c.bin") == 1);
+        CHECK(count("sub/d.bin") == 1);
+        // 36 bytes: nine floats, of which the fourth and the eighth are 1 (00 00 80 3f).
+        CHECK(count("data:application/octet-stream;base64,"
+                    "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA") == 1);
+    }
+
+    TEST_CASE("glTF: without a CSV, materials are names") {
+        const TemporaryFolder folder;
+        GltfBuilder gltf = one_triangle();
+        gltf.document["materials"][0]["name"] = "unobtainium";
+        const Scene named = load_scene_geometry(folder.write("x.glb", gltf.glb()));
+        CHECK(named.materials.at(0).name == "unobtainium");
+        CHECK(named.materials.at(0).density_kg_m3 == 0.0);
+        gltf.document["meshes"][0]["primitives"][0].erase("material");
+        const Scene nameless = load_scene_geometry(folder.write("x.glb", gltf.glb()));
+        CHECK(nameless.materials.at(0).name == "(no material)");
+    }
+}

@@ -1,0 +1,125 @@
+#include "visibility/rays/gap_estimate.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "core/units.h"
+
+using namespace sonarsim;
+
+TEST_SUITE_BEGIN("visibility");
+
+namespace {
+
+constexpr float reach_m = 10.0F;
+
+Sampling usual() {
+    Sampling sampling;
+    sampling.tolerance_m = 0.004F;
+    return sampling;
+}
+
+Eigen::Vector3f ray(double along) {
+    return {static_cast<float>(std::cos(along)), 0.0F, static_cast<float>(std::sin(along))};
+}
+
+ChainNode nothing_at(double along) {
+    ChainNode node{ray(along), static_cast<float>(along)};
+    return node;
+}
+
+/// A ray in the plane y = 0 at an elevation, on the plane through (x, 0, z) with the given normal.
+ChainNode on_plane(double along, std::uint32_t facet, const Eigen::Vector3f& point,
+                   const Eigen::Vector3f& normal) {
+    ChainNode node = nothing_at(along);
+    const Eigen::Vector3f n = normal.normalized();
+    node.normal = n.dot(point) > 0.0F ? Eigen::Vector3f(-n) : n;
+    node.height_m = -node.normal.dot(point);
+    node.cosine = -node.normal.dot(node.direction);
+    node.range_m = node.height_m / node.cosine;
+    node.facet = facet;
+    return node;
+}
+
+}  // namespace
+
+TEST_CASE("two facets that share an edge are parted by it, be it a ridge or a valley") {
+    // The edge lies at (5, 0, -1), at an elevation of atan(-1 / 5).
+    const Eigen::Vector3f edge(5.0F, 0.0F, -1.0F);
+    const double there = std::atan2(-1.0, 5.0);
+    const Eigen::Vector3f up(0, 0, 1);
+    const Eigen::Vector3f steep(-1, 0, 1);
+    const Eigen::Vector3f falling(0.1F, 0, 1);
+    for (const double share : {0.1, 0.5, 0.8}) {
+        const double below = there - share * radians(0.3);
+        const double above = below + radians(0.3);
+        const auto check = [&](const Eigen::Vector3f& near, const Eigen::Vector3f& far) {
+            const Between what = between(on_plane(below, 1, edge, near),
+                                         on_plane(above, 2, edge, far), usual(), reach_m);
+            CHECK(what.joined);
+            CHECK(what.border == doctest::Approx(share).epsilon(0.01));
+            CHECK(what.turns);
+            // No more than what lies between the rays.
+            CHECK(what.at_stake_m > 0.0F);
+            CHECK(what.at_stake_m < 0.25F * 0.3F);
+        };
+        check(up, steep);       // a valley
+        check(steep, falling);  // a ridge
+    }
+}
+
+TEST_CASE("a surface that hides another one breaks off") {
+    // A wall at 4 m in front of a floor that is met at 6 m.
+    const ChainNode wall = on_plane(-0.17, 1, {4, 0, 0}, {1, 0, 0});
+    const ChainNode floor = on_plane(-0.16, 2, {0, 0, -1}, {0, 0, 1});
+    for (const bool swapped : {false, true}) {
+        const Between what = swapped ? between(floor, wall, usual(), reach_m)
+                                     : between(wall, floor, usual(), reach_m);
+        CHECK_FALSE(what.joined);
+        // The floor runs on from 1 / sin 0.16 to 1 / sin 0.17 behind the wall, the wall hardly.
+        CHECK(what.at_stake_m ==
+              doctest::Approx(1.0 / std::sin(0.16) - 1.0 / std::sin(0.17)).epsilon(1e-3));
+    }
+    // Beside nothing it might run on to the reach.
+    const Between horizon = between(floor, nothing_at(0.01), usual(), reach_m);
+    CHECK_FALSE(horizon.joined);
+    CHECK(horizon.at_stake_m == doctest::Approx(10.0 - 1.0 / std::sin(0.16)));
+    // Out of reach nothing is at stake.
+    const ChainNode far = on_plane(-0.09, 1, {0, 0, -1}, {0, 0, 1});
+    CHECK(between(far, nothing_at(0.01), usual(), reach_m).at_stake_m == 0.0F);
+}
+
+TEST_CASE("facets of one plane are parted half way, and nothing is at stake") {
+    // Where planes that are equal but for rounding cross is chance.
+    const Eigen::Vector3f tilt(0.1F, 0.2F, 1.0F);
+    for (int k = 0; k < 100; ++k) {
+        const double along = radians(-20.0 + 0.1 * k);
+        const Between what =
+            between(on_plane(along, 1, {5, 0, -1}, tilt),
+                    on_plane(along + radians(0.3), 2, {5, 0, -1}, 3.0F * tilt), usual(), 100.0F);
+        CHECK(what.joined);
+        CHECK(what.border == 0.5F);
+        CHECK(what.at_stake_m < 1e-4F);
+        CHECK_FALSE(what.turns);
+    }
+}
+
+TEST_CASE("beside nothing, the next ray goes to where the plane leaves the reach") {
+    // A floor 1 mm below the sonar leaves the reach at asin(1e-4), in one two-hundredth of the gap.
+    const ChainNode floor = on_plane(-0.01, 1, {0, 0, -1e-3F}, {0, 0, 1});
+    const ChainNode nothing = nothing_at(0.01);
+    const float next = next_along(floor, nothing, reach_m);
+    CHECK(next_along(nothing, floor, reach_m) == doctest::Approx(next));
+    const double range = 1e-3 / std::sin(-next);
+    CHECK(range > 10.0);
+    CHECK(range < 10.1);
+    // A ray that was cast there is not cast again.
+    CHECK(next_along(floor, nothing_at(next), reach_m) == doctest::Approx(0.5 * (next - 0.01)));
+    // A wall stays within reach.
+    const ChainNode wall = on_plane(-0.01, 1, {4, 0, 0}, {1, 0, 0});
+    CHECK(next_along(wall, nothing, reach_m) == doctest::Approx(0.0));
+    CHECK(next_along(wall, floor, reach_m) == doctest::Approx(-0.01));
+}
+
+TEST_SUITE_END();
