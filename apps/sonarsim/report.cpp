@@ -14,6 +14,7 @@
 #include "benchmark/report_text.h"
 #include "benchmark/scaling.h"
 #include "commands.h"
+#include "core/clock.h"
 #include "core/file.h"
 #include "dataset/png.h"
 #include "logging.h"

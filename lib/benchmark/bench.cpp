@@ -1,15 +1,11 @@
 #include "benchmark/bench.h"
 
-#include <chrono>
 #include <tuple>
 #include <utility>
 
-namespace sonarsim {
+#include "core/clock.h"
 
-double seconds_now() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
-        .count();
-}
+namespace sonarsim {
 
 Ping Bench::ping(const Sonar& sonar, const Surface& surface, std::size_t p) const {
     return render_ping(sonar, scene, surface, poses[p], {seed, indices[p]});

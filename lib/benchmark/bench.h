@@ -13,9 +13,6 @@ namespace sonarsim {
 // Timing pings so that settings can be compared. A caller lets the settings take turns: a machine
 // that slows down slows them all.
 
-/// Of a clock that only goes forward.
-double seconds_now();
-
 /// The pings that every setting is measured on.
 struct Bench {
     const Scene& scene;

@@ -12,6 +12,7 @@
 #include <type_traits>
 
 #include "benchmark/bench.h"
+#include "core/clock.h"
 #include "visibility/octree/octree_engine.h"
 
 namespace sonarsim {

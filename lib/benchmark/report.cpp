@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "benchmark/bench.h"
+#include "core/clock.h"
 #include "core/in_parallel.h"
 #include "validation/fit.h"
 #include "validation/image_error.h"

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "benchmark/bench.h"
+#include "core/clock.h"
 #include "validation/fit.h"
 
 namespace sonarsim {

@@ -2,19 +2,18 @@
 
 #include <tbb/global_control.h>
 #include <tbb/info.h>
-#include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <memory>
 #include <span>
 #include <vector>
 
+#include "core/clock.h"
 #include "core/error.h"
 #include "core/file.h"
-#include "core/handover.h"
+#include "core/ordered_pipeline.h"
 #include "dataset/folder.h"
 #include "dataset/measure.h"
 #include "dataset/metadata.h"
@@ -27,11 +26,6 @@
 namespace sonarsim {
 
 namespace {
-
-double seconds_now() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
-        .count();
-}
 
 /// What one ping left behind besides its files.
 struct PingReport {
@@ -116,38 +110,15 @@ using Work = std::function<PingReport(const PingId&)>;
 void stream_pings(const std::vector<PingId>& todo, int threads, const Work& work,
                   const ProgressCallback& progress, const std::atomic<bool>& stop,
                   RenderSummary& summary) {
-    std::size_t next = 0;
-    const auto feed = [&](tbb::flow_control& flow) -> std::size_t {
-        received(&next);
-        const HandOverAtEnd fed{&summary};
-        if (next == todo.size() || stop) {
-            flow.stop();
-            return 0;
-        }
-        const HandOverAtEnd more{&next};
-        return next++;
-    };
-    const auto render = [&](std::size_t i) {
-        received(&next);
-        const HandOverAtEnd rendered{&summary};
-        return work(todo[i]);
-    };
-    const auto finish = [&](const PingReport& report) {
-        received(&summary);
-        const HandOverAtEnd added{&summary};
-        add(summary, report);
-        if (progress) progress(summary.pings, todo.size());
-    };
-    const double start = seconds_now();
-    const ReceiveAtEnd all{&summary};
-    handed_over(&next);
-    tbb::parallel_pipeline(
-        2 * static_cast<std::size_t>(threads),
-        tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order, feed) &
-            tbb::make_filter<std::size_t, PingReport>(tbb::filter_mode::parallel, render) &
-            tbb::make_filter<PingReport, void>(tbb::filter_mode::serial_in_order, finish));
-    received(&summary);
-    summary.seconds = seconds_now() - start;
+    Stopwatch watch;
+    ordered_pipeline(
+        todo.size(), 2 * static_cast<std::size_t>(threads), stop,
+        [&](std::size_t i) { return work(todo[i]); },
+        [&](const PingReport& report) {
+            add(summary, report);
+            if (progress) progress(summary.pings, todo.size());
+        });
+    summary.seconds = watch.lap();
     summary.stopped = summary.pings < todo.size();
 }
 
@@ -170,7 +141,7 @@ void write_ping(const Workshop& shop, const Destination& to, const std::vector<F
     const auto& [mission, assembly, surface] = shop;
     const Sonar& sonar = assembly.sonars[id.sensor];
     const Pose& T_world_vehicle = assembly.trajectory[id.pose].T_world_vehicle;
-    const double start = seconds_now();
+    Stopwatch watch;
     const Measurement measurement = measure(sonar, surface, T_world_vehicle, ping);
     std::array<Ping, 5> stages;
     if (to.layout.sensors[id.sensor].writes(FileKind::stages)) {
@@ -179,15 +150,14 @@ void write_ping(const Workshop& shop, const Destination& to, const std::vector<F
     }
     const PingFiles encoded =
         encode_ping(mission, assembly, to.layout, fans, id, ping, measurement.summary, stages);
-    const double encoded_at = seconds_now();
+    report.encode_seconds = watch.lap();
     if (to.records[id.sensor]) {
         to.records[id.sensor]->write(to.layout.record_of(id),
                                      std::as_bytes(std::span(measurement.record)));
     }
     for (const auto& [kind, bytes] : encoded.files)
         write_file(to.layout.file(id, kind), bytes);
-    report.encode_seconds = encoded_at - start;
-    report.write_seconds = seconds_now() - encoded_at;
+    report.write_seconds = watch.lap();
     report.clipped_pixels = encoded.clipped_pixels;
 }
 

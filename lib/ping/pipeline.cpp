@@ -1,9 +1,8 @@
 #include "ping/pipeline.h"
 
 #include <algorithm>
-#include <chrono>
-#include <utility>
 
+#include "core/clock.h"
 #include "ping/accumulate.h"
 #include "ping/echoes.h"
 #include "ping/multipath_echoes.h"
@@ -12,18 +11,6 @@
 namespace sonarsim {
 
 namespace {
-
-/// Seconds since the last call.
-class Stopwatch {
-  public:
-    double lap() {
-        const auto now = std::chrono::steady_clock::now();
-        return std::chrono::duration<double>(now - std::exchange(last_, now)).count();
-    }
-
-  private:
-    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
 
 ScattererLattice lattice_for(const RangeNoise& noise, const Scene& scene,
                              const Pose& T_world_sensor) {

@@ -4,24 +4,18 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <iterator>
 #include <limits>
 #include <memory>
 
+#include "core/clock.h"
 #include "core/error.h"
 #include "dataset/assemble.h"
 
 namespace sonarsim {
 
 namespace {
-
-double milliseconds_now() {
-    return std::chrono::duration<double, std::milli>(
-               std::chrono::steady_clock::now().time_since_epoch())
-        .count();
-}
 
 /// The first invariant that the image breaks.
 std::string broken_invariant(const Ping& ping, double brightest) {
@@ -94,9 +88,9 @@ HardResult run(const HardCase& hard, const Scene& scene, EngineKind engine) {
             if (rays || !hard.octree_may_refuse) result.broken = "refused: " + refused;
             continue;
         }
-        const double start = milliseconds_now();
+        Stopwatch watch;
         const Ping ping = render_ping(trial.sonar, scene, *surface, trial.T_world_vehicle, {1, 0});
-        const double ms = milliseconds_now() - start;
+        const double ms = 1e3 * watch.lap();
         result.slowest_ms = std::max(result.slowest_ms, ms);
         const std::string broken = broken_invariant(ping, brightest);
         if (!broken.empty()) result.broken = std::string(name_of(kind)) + ": " + broken;
