@@ -10,13 +10,11 @@
 #include "benchmark/ladder.h"
 #include "benchmark/multipath_rows.h"
 #include "benchmark/report_files.h"
-#include "benchmark/report_plot.h"
 #include "benchmark/report_text.h"
 #include "benchmark/scaling.h"
 #include "commands.h"
 #include "core/clock.h"
 #include "core/file.h"
-#include "dataset/png.h"
 #include "logging.h"
 #include "mission_options.h"
 #include "validation/hard/cases.h"
@@ -38,26 +36,12 @@ struct ReportArguments {
     LogOptions log;
 };
 
-void write_plot(const std::filesystem::path& stem, const Plot& plot) {
-    const Drawing drawing = draw_log_log(plot);
-    write_file(stem.string() + ".svg", svg_text(drawing));
-    write_file(stem.string() + ".png",
-               png_bytes(raster(drawing), drawing.width, drawing.height, 3));
-}
-
 void write_files(const Report& report, const std::filesystem::path& folder) {
     std::filesystem::create_directories(folder);
     write_file(folder / "report.json", report_json(report));
     write_file(folder / "report.csv", report_csv(report));
     if (!report.multipath.empty()) write_file(folder / "multipath.csv", multipath_csv(report));
     write_file(folder / "report.md", report_markdown(report));
-    for (const ReferenceQuality& reference : report.references) {
-        const std::string& sensor = reference.sensor;
-        write_plot(folder / ("error_" + sensor), error_plot(report, sensor));
-        if (!report.growth.empty()) {
-            write_plot(folder / ("growth_" + sensor), growth_plot(report, sensor));
-        }
-    }
 }
 
 /// The catalogue of hard cases, which needs no mission.
@@ -121,8 +105,9 @@ void add_report(CLI::App& app, int& exit_code) {
     add_mission_options(command, arguments->mission);
     command.get_option("mission")->required(false);
     command
-        .add_option("--json", arguments->json_file,
-                    "Writes the report to this file; with --out, JSON, CSV and plots to a folder")
+        .add_option(
+            "--json", arguments->json_file,
+            "Writes the report to this file; with --out, JSON, CSV and Markdown to a folder")
         ->type_name("FILE");
     command.add_flag("--quick", arguments->quick, "Fewer settings, poses and rounds");
     command.add_option("--poses", arguments->report.poses, "Poses, spread along the trajectory")

@@ -6,6 +6,7 @@ import os
 import pathlib
 import struct
 import subprocess
+import sys
 import tempfile
 import unittest
 
@@ -74,6 +75,18 @@ def digest(folder, without=()):
     """SHA-256 of every file below `folder`, by relative name."""
     return {str(p.relative_to(folder)): hashlib.sha256(p.read_bytes()).hexdigest()
             for p in sorted(folder.rglob("*")) if p.is_file() and p.name not in without}
+
+
+def python_with_matplotlib():
+    """Debian's package belongs to Debian's Python, which need not be the one of the tests."""
+    for python in (sys.executable, "/usr/bin/python3"):
+        try:
+            if subprocess.run([python, "-c", "import matplotlib"], capture_output=True,
+                              check=False).returncode == 0:
+                return python
+        except FileNotFoundError:
+            pass
+    return None
 
 
 class Sandbox(unittest.TestCase):
