@@ -15,6 +15,11 @@ namespace sonarsim {
 
 namespace {
 
+/// On a terminal a message takes the place of the progress line.
+std::string start_of_line() {
+    return ::isatty(STDERR_FILENO) == 1 ? "\r\x1b[K" : "";
+}
+
 std::string_view view(const spdlog::string_view_t& text) {
     return {text.data(), text.size()};
 }
@@ -53,12 +58,15 @@ void start_logging(const LogOptions& options) {
     if (options.json) {
         logger->set_formatter(std::make_unique<JsonFormatter>());
     } else {
-        // On a terminal a message takes the place of the progress line.
-        const std::string clear = ::isatty(STDERR_FILENO) ? "\r\x1b[K" : "";
-        logger->set_pattern(clear + "%^%l%$: %v");
+        logger->set_pattern(start_of_line() + "%^%l%$: %v");
     }
     logger->set_level(options.quiet ? spdlog::level::warn : spdlog::level::from_str(options.level));
     spdlog::set_default_logger(std::move(logger));
+}
+
+std::string warning_line(const LogOptions& options, const std::string& message) {
+    if (options.json) return json_line({{"level", "warning"}, {"message", message}});
+    return start_of_line() + "warning: " + message + "\n";
 }
 
 void warn_about(const Scene& scene) {

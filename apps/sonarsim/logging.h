@@ -20,6 +20,10 @@ void add_log_options(CLI::App& command, LogOptions& options);
 /// Sends spdlog's default logger to stderr, as text or as JSON.
 void start_logging(const LogOptions& options);
 
+/// A warning as it would be logged, as a line of its own: for a signal handler, which cannot log.
+/// As JSON it lacks the time, which is not known yet.
+std::string warning_line(const LogOptions& options, const std::string& message);
+
 /// Warns of what was left out of a scene, and of vertices that floats have rounded.
 void warn_about(const Scene& scene);
 

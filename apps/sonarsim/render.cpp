@@ -17,6 +17,9 @@ namespace sonarsim {
 
 namespace {
 
+constexpr const char* goes_on_from_there =
+    "what is written is whole, and the same command run again goes on from there";
+
 struct RenderArguments {
     MissionOptions mission;
     RenderOptions render;
@@ -117,7 +120,8 @@ void comment(const RenderSummary& summary, const Mission& mission, bool files) {
 int render(RenderArguments arguments) {
     start_logging(arguments.log);
     arguments.render.files = !arguments.no_files;
-    const std::atomic<bool>& stop = stop_on_signal();
+    const std::atomic<bool>& stop = stop_on_signal(
+        warning_line(arguments.log, std::string("stopped at once; ") + goes_on_from_there));
     const Mission mission = load(arguments.mission);
     const Assembly assembly = assemble(mission);
     warn_about(assembly.scene);
@@ -134,10 +138,7 @@ int render(RenderArguments arguments) {
     comment(summary, mission, arguments.render.files);
     if (!quiet) arguments.log.json ? print_json(summary) : print_table(summary);
     if (!summary.stopped) return exit_done;
-    spdlog::warn(
-        "stopped after {} pings; what is written is whole, and the same command run again "
-        "goes on from there",
-        summary.pings);
+    spdlog::warn("stopped after {} pings; {}", summary.pings, goes_on_from_there);
     return exit_signal + signal_received();
 }
 

@@ -1,5 +1,6 @@
 #include "benchmark/cold_start.h"
 
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -7,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <csignal>
 #include <stdexcept>
 #include <system_error>
 #include <type_traits>
@@ -56,9 +58,13 @@ ColdStart run_cold(const Mission& mission, const Assembly& assembly, const Setti
 ColdStart in_child(const std::function<ColdStart()>& run) {
     std::array<int, 2> ends{};
     if (::pipe(ends.data()) != 0) fail("cannot make a pipe");
+    const pid_t parent = ::getpid();
     const pid_t child = ::fork();
     if (child < 0) fail("cannot start a process");
     if (child == 0) {
+        // A signal that ends the parent ends what it measures, too.
+        ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+        if (::getppid() != parent) ::_exit(1);
         // The child leaves by _exit, without the parent's destructors and buffers.
         try {
             const ColdStart cold = run();

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include "core/units.h"
 
@@ -94,16 +95,26 @@ inline double arccos(double x) {
     return arctan2(std::sqrt((1.0 - x) * (1.0 + x)), x);
 }
 
-/// e^x for |x| < 700, relative error below 1e-14: e^x = (e^(x / 2^10))^(2^10), the inner one by its
-/// Taylor series.
+/// e^x for every x, relative error below 1e-15 where the result is a normal number; 0 below the
+/// smallest number, infinity above the largest, NaN for NaN. e^x = 2^k e^y with |y| <= ln(2) / 2:
+/// ln 2 in two parts (Cody and Waite), e^y by its Taylor series.
 inline double exponential(double x) {
-    const double y = x / 1024.0;
+    constexpr double ln2_high = 0x1.62e42fefa39efp-1;
+    constexpr double ln2_low = 0x1.abc9e3b39803fp-56;
+    if (std::isnan(x)) return x;
+    if (x < -746.0) return 0.0;
+    if (x > 710.0) return std::numeric_limits<double>::infinity();
+    const double k = std::floor(x / ln2_high + 0.5);
+    const double y = std::fma(-k, ln2_low, std::fma(-k, ln2_high, x));
     double series = 1.0;
-    for (int n = 8; n >= 1; --n)
+    for (int n = 14; n >= 1; --n)
         series = 1.0 + series * y / n;
-    for (int i = 0; i < 10; ++i)
-        series *= series;
-    return series;
+    // In two factors, for 2^k itself may be no double where the result is one.
+    const auto power_of_two = [](std::int64_t exponent) {
+        return std::bit_cast<double>((exponent + 1023) << 52);
+    };
+    const auto whole = static_cast<std::int64_t>(k);
+    return series * power_of_two(whole / 2) * power_of_two(whole - whole / 2);
 }
 
 /// Natural logarithm of a positive, normal float; relative error below 3e-7 away from 1, absolute

@@ -14,6 +14,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/ordered_pipeline.h"
+#include "dataset/finite_image.h"
 #include "dataset/folder.h"
 #include "dataset/measure.h"
 #include "dataset/metadata.h"
@@ -175,6 +176,7 @@ void render(const Mission& mission, const Assembly& assembly, const std::vector<
             render_ping(assembly.sonars[id.sensor], assembly.scene, *surface,
                         assembly.trajectory[id.pose].T_world_vehicle, {mission.seed, id.pose});
         PingReport report{ping.counts, ping.seconds};
+        brightest_pixel(ping, assembly.sonars[id.sensor].config.name, id.pose);
         if (to) write_ping({mission, assembly, *surface}, *to, fans, id, ping, report);
         return report;
     };

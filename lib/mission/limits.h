@@ -1,5 +1,7 @@
 #pragma once
 
+#include "core/input_limits.h"
+
 namespace sonarsim {
 
 /// The values that a number of a mission may take.
@@ -22,7 +24,7 @@ constexpr Limits above(double low) {
 constexpr Limits between(double low, double high) {
     return {low, high};
 }
-inline constexpr Limits any_number{-largest_number, largest_number};
+inline constexpr Limits any_position_m{-furthest_m, furthest_m};
 inline constexpr Limits any_angle_deg{-360.0, 360.0};
 
 /// Whether a key may be left out, so that its default holds.

@@ -4,6 +4,7 @@
 #include <string_view>
 #include <variant>
 
+#include "core/input_limits.h"
 #include "mission/limits.h"
 #include "mission/mission.h"
 
@@ -37,8 +38,8 @@ inline bool is_folder_name(std::string_view name) {
 
 template <class Visitor>
 void describe(Visitor& v, WaterConfig& c) {
-    v.number("density_kg_m3", c.density_kg_m3, above(0));
-    v.number("sound_speed_m_s", c.sound_speed_m_s, above(0));
+    v.number("density_kg_m3", c.density_kg_m3, between(least_medium, largest_medium));
+    v.number("sound_speed_m_s", c.sound_speed_m_s, between(least_medium, largest_medium));
 }
 
 template <class Visitor>
@@ -49,7 +50,7 @@ void describe(Visitor& v, SceneConfig& c) {
 
 template <class Visitor>
 void describe(Visitor& v, MountConfig& c) {
-    v.numbers("translation_m", c.translation_m, any_number);
+    v.numbers("translation_m", c.translation_m, any_position_m);
     v.numbers("rpy_deg", c.rpy_deg, any_angle_deg);
 }
 
@@ -117,7 +118,7 @@ void describe(Visitor& v, FileTrajectoryConfig& c) {
 
 template <class Visitor>
 void describe(Visitor& v, WaypointConfig& c) {
-    v.numbers("position_m", c.position_m, any_number, required);
+    v.numbers("position_m", c.position_m, any_position_m, required);
     v.numbers("rpy_deg", c.rpy_deg, any_angle_deg);
 }
 
@@ -130,9 +131,9 @@ void describe(Visitor& v, WaypointTrajectoryConfig& c) {
 
 template <class Visitor>
 void describe(Visitor& v, LawnmowerTrajectoryConfig& c) {
-    v.numbers("area_min_m", c.area_min_m, any_number, required);
-    v.numbers("area_max_m", c.area_max_m, any_number, required);
-    v.number("z_m", c.z_m, any_number, required);
+    v.numbers("area_min_m", c.area_min_m, any_position_m, required);
+    v.numbers("area_max_m", c.area_max_m, any_position_m, required);
+    v.number("z_m", c.z_m, any_position_m, required);
     v.number("heading_deg", c.heading_deg, any_angle_deg);
     v.number("line_spacing_m", c.line_spacing_m, above(0));
     v.number("speed_m_s", c.speed_m_s, above(0));

@@ -10,6 +10,7 @@ namespace {
 
 constexpr double most_cells = 1 << 24;
 constexpr double soundings_per_cell = 4.0;
+constexpr double finest_cell_m = 1e-6;  // as fine as range bins may be
 
 }  // namespace
 
@@ -44,7 +45,7 @@ Bathymetry make_bathymetry(const SoundingBounds& bounds, double cell_m) {
     const Eigen::Vector2d size = bounds.max - bounds.min;
     const double area = std::max(size.x(), 1e-3) * std::max(size.y(), 1e-3);
     const double wanted = soundings_per_cell * area / static_cast<double>(bounds.count);
-    grid.cell_m = cell_m > 0.0 ? cell_m : round_up_125(std::sqrt(wanted));
+    grid.cell_m = std::max(cell_m > 0.0 ? cell_m : round_up_125(std::sqrt(wanted)), finest_cell_m);
     // A cell more on either side for where the grid begins.
     while ((size.x() / grid.cell_m + 2.0) * (size.y() / grid.cell_m + 2.0) > most_cells)
         grid.cell_m = round_up_125(1.001 * grid.cell_m);

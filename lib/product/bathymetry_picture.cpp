@@ -25,7 +25,7 @@ struct HeightRange {
 };
 
 /// What all but one in a hundred cells at either end lie within, so that a stray one does not wash
-/// out the rest.
+/// out the rest. At least a millimetre, and at least eight steps of float where those are coarser.
 HeightRange height_range(const std::vector<float>& z) {
     std::vector<float> known;
     std::ranges::copy_if(z, std::back_inserter(known), [](float v) { return !std::isnan(v); });
@@ -33,7 +33,8 @@ HeightRange height_range(const std::vector<float>& z) {
     std::ranges::sort(known);
     const std::size_t skip = known.size() / 100;
     const float low = known[skip];
-    return {low, std::max(known[known.size() - 1 - skip], low + 1e-3F)};
+    const float least = std::max(1e-3F, 1e-6F * std::fabs(low));
+    return {low, std::max(known[known.size() - 1 - skip], low + least)};
 }
 
 struct Slope {

@@ -73,11 +73,15 @@ double round_up_125(double value) {
 }
 
 std::vector<double> axis_marks(double low, double high, double wanted) {
-    const double step = round_up_125((high - low) / wanted);
     std::vector<double> marks;
+    if (!(low < high)) return marks;
+    const double step = round_up_125((high - low) / wanted);
     // Whole numbers per metre, so that the marks are the doubles nearest to their decimals.
     const double per_step = std::round(1.0 / step);
-    for (double k = std::ceil(low / step); k * step <= high; ++k)
+    const double first = std::ceil(low / step);
+    // So far from 0 that neighbouring marks are the same number there is no axis to mark.
+    if (first + 1.0 == first) return marks;
+    for (double k = first; k * step <= high; ++k)
         marks.push_back((step < 1.0 ? k / per_step : k * step) + 0.0);
     return marks;
 }

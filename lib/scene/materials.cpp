@@ -1,11 +1,11 @@
 #include "scene/materials.h"
 
-#include <cmath>
 #include <map>
 #include <utility>
 
 #include "core/csv.h"
 #include "core/error.h"
+#include "core/input_limits.h"
 #include "core/text.h"
 
 namespace sonarsim {
@@ -23,12 +23,14 @@ void check_header(const CsvTable& csv) {
                      "'Material, Density kg/m^3, Speed of Sound m/s'");
 }
 
-double positive_number(const std::string& text, const char* quantity, const Location& where) {
+/// A density or a speed of sound.
+double medium_number(const std::string& text, const char* quantity, const Location& where) {
     const auto value = parse_number(text);
     if (!value) throw InputError(where, std::string(quantity) + " '" + text + "' is not a number");
-    if (!(std::isfinite(*value) && *value > 0.0)) {
-        throw InputError(
-            where, std::string(quantity) + " is " + text + "; expected a finite number above zero");
+    if (!(*value >= least_medium && *value <= largest_medium)) {
+        throw InputError(where, std::string(quantity) + " is " + text +
+                                    "; expected a number from " + number_text(least_medium) +
+                                    " to " + number_text(largest_medium));
     }
     return *value;
 }
@@ -48,8 +50,8 @@ MaterialTable to_materials(const CsvTable& csv) {
             throw InputError(where, "material '" + material.name + "' stands in line " +
                                         std::to_string(known->second) + " already");
         }
-        material.density_kg_m3 = positive_number(row.fields[1], "density", where);
-        material.sound_speed_m_s = positive_number(row.fields[2], "sound speed", where);
+        material.density_kg_m3 = medium_number(row.fields[1], "density", where);
+        material.sound_speed_m_s = medium_number(row.fields[2], "sound speed", where);
         table.materials.push_back(std::move(material));
     }
     return table;

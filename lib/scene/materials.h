@@ -17,8 +17,8 @@ struct MaterialTable {
 
 /// Reads `material,density_kg_m3,sound_speed_m_s`, or HoloOcean's own header
 /// `Material, Density kg/m^3, Speed of Sound m/s`. InputError with file:line for any other header,
-/// for a wrong number of fields, for a density or speed that is not a finite number above zero,
-/// and for a material that stands there twice.
+/// for a wrong number of fields, for a density or speed that is not a number within
+/// the limits of core/input_limits.h, and for a material that stands there twice.
 MaterialTable read_materials(const std::filesystem::path& path);
 MaterialTable parse_materials(std::string_view text, const std::string& file_name);
 

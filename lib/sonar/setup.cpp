@@ -72,10 +72,11 @@ void add_azimuth(Sonar& sonar) {
     const double sigma = radians(config.noise.lobe_sigma_deg > 0.0 ? config.noise.lobe_sigma_deg
                                                                    : config.azimuth_deg / 8.0);
     for (int j = 0; j < sonar.settings.view.beams; ++j) {
-        const double phi =
-            0.5 * (sonar.azimuth_edges_rad[j] + sonar.azimuth_edges_rad[j + 1]) / sigma;
+        const double phi = 0.5 * (sonar.azimuth_edges_rad[j] + sonar.azimuth_edges_rad[j + 1]);
+        // The narrowest lobes that a mission can ask for have no width left in radians.
+        const double sigmas = phi == 0.0 ? 0.0 : phi / sigma;
         sonar.settings.pixel_noise.lobe_scale[j] =
-            static_cast<float>(1.0 + 0.5 * exponential(-0.5 * phi * phi));
+            static_cast<float>(1.0 + 0.5 * exponential(-0.5 * sigmas * sigmas));
     }
 }
 

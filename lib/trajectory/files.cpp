@@ -12,6 +12,7 @@
 #include "core/csv.h"
 #include "core/error.h"
 #include "core/file.h"
+#include "core/input_limits.h"
 #include "core/text.h"
 #include "core/units.h"
 
@@ -29,17 +30,17 @@ struct Column {
 
 // The first four columns are the same for both ways to give an attitude; TUM has the first set.
 constexpr std::array<Column, 8> with_quaternion{{{"t_s", 1e10},
-                                                 {"x_m", 1e9},
-                                                 {"y_m", 1e9},
-                                                 {"z_m", 1e9},
+                                                 {"x_m", furthest_m},
+                                                 {"y_m", furthest_m},
+                                                 {"z_m", furthest_m},
                                                  {"qx", 1e9},
                                                  {"qy", 1e9},
                                                  {"qz", 1e9},
                                                  {"qw", 1e9}}};
 constexpr std::array<Column, 7> with_angles{{{"t_s", 1e10},
-                                             {"x_m", 1e9},
-                                             {"y_m", 1e9},
-                                             {"z_m", 1e9},
+                                             {"x_m", furthest_m},
+                                             {"y_m", furthest_m},
+                                             {"z_m", furthest_m},
                                              {"roll_deg", 1e6},
                                              {"pitch_deg", 1e6},
                                              {"yaw_deg", 1e6}}};

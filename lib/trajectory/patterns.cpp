@@ -9,6 +9,7 @@
 
 #include "core/elementary.h"
 #include "core/error.h"
+#include "core/input_limits.h"
 #include "core/text.h"
 #include "core/units.h"
 #include "trajectory/interpolate.h"
@@ -17,7 +18,6 @@ namespace sonarsim {
 
 namespace {
 
-constexpr double furthest_m = 1e9;
 constexpr int most_lines = 100'000;
 
 void require_positive(const char* name, double value) {

@@ -15,7 +15,7 @@ struct Waypoint {
 /// 1 / rate_hz s. The attitude turns from one waypoint's to the next one's along the whole leg; say
 /// with a waypoint in between which way round a half turn goes. One waypoint gives one pose. A leg
 /// without length is an InputError, since it could not be flown at the speed: move the waypoint,
-/// or turn along a leg. So are: no waypoint, a coordinate that is not finite or beyond 1e9 m, an
+/// or turn along a leg. So are: no waypoint, a coordinate that is not finite or beyond 1e8 m, an
 /// attitude that is not unit, a speed that is not positive, and what resample() refuses.
 Trajectory follow_waypoints(std::span<const Waypoint> waypoints, double speed_m_s, double rate_hz);
 

@@ -6,7 +6,8 @@
 //   FAULTY_DISK_CALL   the number, from 1, of the call that is the first to fail; 0: none does
 //   FAULTY_DISK_MODE   "full": that call and all later ones fail with ENOSPC; "once": it alone
 //                      fails, with EIO; "short": a write takes half of what it is given;
-//                      "interrupted": every third one is, by a signal
+//                      "interrupted": every third one is, by a signal; "stall": that call never
+//                      comes back
 
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -67,6 +68,8 @@ bool fails(const char* call, const char* path) {
     const long number = ++calls;
     const long first = std::atol(std::string(setting("FAULTY_DISK_CALL")).c_str());
     log(call, path);
+    while (number == first && setting("FAULTY_DISK_MODE") == "stall")
+        pause();
     const bool full = setting("FAULTY_DISK_MODE") == "full";
     if (first == 0 || (full ? number < first : number != first)) return false;
     errno = full ? ENOSPC : EIO;

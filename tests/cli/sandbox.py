@@ -65,6 +65,34 @@ def box_gltf(half=(2.0, 1.5, 2.0), material="Concrete"):
     })
 
 
+def copies_gltf(copies, cells, flat=1.0):
+    """A sheet of cells x cells x 2 triangles, `copies` times one below the other: a large scene of
+    a small file. With `flat` = 0 its triangles have no area and are dropped."""
+    side = cells + 1
+    points = b"".join(struct.pack("<3f", 0.1 * i, 0.0, 0.1 * flat * j)
+                      for i in range(side) for j in range(side))
+    corners = [i * side + j for i in range(cells) for j in range(cells)]
+    indices = [k for a in corners for k in (a, a + 1, a + side + 1, a, a + side + 1, a + side)]
+    data = points + struct.pack(f"<{len(indices)}I", *indices)
+    return json.dumps({
+        "asset": {"version": "2.0"},
+        "scene": 0,
+        "scenes": [{"nodes": list(range(copies))}],
+        "nodes": [{"mesh": 0, "translation": [0, -2 - 0.01 * k, 0]} for k in range(copies)],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "material": 0}]}],
+        "materials": [{"name": "Concrete"}],
+        "buffers": [{"byteLength": len(data), "uri": "data:application/octet-stream;base64," +
+                     base64.b64encode(data).decode()}],
+        "bufferViews": [{"buffer": 0, "byteOffset": 0, "byteLength": len(points)},
+                        {"buffer": 0, "byteOffset": len(points),
+                         "byteLength": len(data) - len(points)}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": side * side,
+                       "type": "VEC3", "min": [0, 0, 0], "max": [0.1 * cells, 0, 0.1 * cells]},
+                      {"bufferView": 1, "componentType": 5125, "count": len(indices),
+                       "type": "SCALAR"}],
+    })
+
+
 def path_csv(poses):
     """`poses` poses that turn slowly on the spot, five a second."""
     rows = [f"{0.2 * i:.1f},0,0,0,0,0,{3 * i}" for i in range(poses)]
@@ -118,8 +146,8 @@ class Sandbox(unittest.TestCase):
     def render(self, *arguments, **options):
         return self.run_sonarsim("render", "mission.yaml", *arguments, **options)
 
-    def assert_renders(self, *arguments):
-        result = self.render(*arguments)
+    def assert_renders(self, *arguments, **options):
+        result = self.render(*arguments, **options)
         self.assertEqual(result.returncode, 0, result.stderr)
         return result
 

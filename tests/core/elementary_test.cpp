@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 using namespace sonarsim;
 
@@ -82,5 +83,25 @@ TEST_SUITE("core") {
                              static_cast<double>(std::fabs(arccos(x) - std::acos((long double)x))));
         }
         CHECK(worst < 1e-15);
+    }
+
+    TEST_CASE("elementary: e^x is off by less than 1e-15 of itself, and defined for every x") {
+        double worst = 0.0;
+        for (int i = -70800; i <= 70970; ++i) {
+            const double x = i * 0.01;
+            const long double truth = std::exp((long double)x);
+            worst =
+                std::max(worst, static_cast<double>(std::fabs((exponential(x) - truth) / truth)));
+        }
+        CHECK(worst < 1e-15);
+        CHECK(exponential(0.0) == 1.0);
+        // Below the normal numbers as precise as such numbers are, and then 0.
+        CHECK(std::fabs(exponential(-740.0) - std::exp(-740.0)) <= 5e-324);
+        constexpr double infinity = std::numeric_limits<double>::infinity();
+        for (const double x : {-746.0, -1e4, -1e300, -infinity})
+            CHECK(exponential(x) == 0.0);
+        for (const double x : {710.0, 1e4, infinity})
+            CHECK(exponential(x) == infinity);
+        CHECK(std::isnan(exponential(std::nan(""))));
     }
 }

@@ -141,4 +141,24 @@ TEST_SUITE("product") {
         CHECK(at(28, 5).r > at(28, 5).b);  // shallow: red
         CHECK(draw_bathymetry({}).width > 0);
     }
+
+    TEST_CASE("bathymetry: a level floor far from the origin has a picture") {
+        // 1e-3F is below the step of float there: heights from low to low + 1e-3F would be empty.
+        for (const double far : {1e5, 1e7, 1e8, -1e8}) {
+            SoundingBounds bounds;
+            bounds.add({far, far, far});
+            Bathymetry grid = make_bathymetry(bounds, 1.0);
+            grid.add({far, far, far});
+            CHECK(draw_bathymetry(grid).width > 0);
+        }
+    }
+
+    TEST_CASE("bathymetry: the finest cell that a mission can ask for") {
+        SoundingBounds bounds;
+        bounds.add({0, 0, 0});
+        bounds.add({4, 2, 0});
+        const Bathymetry grid = make_bathymetry(bounds, 5e-324);
+        CHECK(grid.cell_m >= 1e-6);
+        CHECK(static_cast<double>(grid.columns) * grid.rows <= 1 << 24);
+    }
 }

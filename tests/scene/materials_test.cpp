@@ -52,13 +52,17 @@ TEST_SUITE("scene") {
         check_error(header + "steel,heavy,5900\n", "m.csv:2: density 'heavy' is not a number");
         check_error(header + "steel,7850,\n", "m.csv:2: sound speed '' is not a number");
         check_error(header + "steel,0,5900\n",
-                    "m.csv:2: density is 0; expected a finite number above zero");
+                    "m.csv:2: density is 0; expected a number from 1e-09 to 1e+09");
         check_error(header + "steel,7850,-5900\n",
-                    "m.csv:2: sound speed is -5900; expected a finite number above zero");
+                    "m.csv:2: sound speed is -5900; expected a number from 1e-09 to 1e+09");
         check_error(header + "steel,nan,5900\n",
-                    "m.csv:2: density is nan; expected a finite number above zero");
+                    "m.csv:2: density is nan; expected a number from 1e-09 to 1e+09");
         check_error(header + "steel,7850,inf\n",
-                    "m.csv:2: sound speed is inf; expected a finite number above zero");
+                    "m.csv:2: sound speed is inf; expected a number from 1e-09 to 1e+09");
+        check_error(header + "steel,1e308,5900\n",
+                    "m.csv:2: density is 1e308; expected a number from 1e-09 to 1e+09");
+        check_error(header + "steel,7850,1e-300\n",
+                    "m.csv:2: sound speed is 1e-300; expected a number from 1e-09 to 1e+09");
         check_error(header + "a,1,1\n\nb,1,1\na,2,2\n",
                     "m.csv:5: material 'a' stands in line 2 already");
         check_error(header + ",1,1\n", "m.csv:2: the material has no name");
@@ -71,6 +75,19 @@ TEST_SUITE("scene") {
         // z = 7850 * 5900 = 46.315e6, z_w = 1.5e6: ((46.315 - 1.5) / (46.315 + 1.5))^2 = 0.878453.
         CHECK(scene.materials[0].reflection == doctest::Approx(0.878453).epsilon(1e-6));
         CHECK(scene.materials[0].density_kg_m3 == 7850.0);
+    }
+
+    TEST_CASE("materials: reflections are finite at the limits of what is accepted") {
+        const MaterialTable table =
+            parse_materials(header + "void,1e-9,1e-9\nrock,1e9,1e9\nodd,1e-9,1e9\n", "m.csv");
+        Scene scene = scene_of({"void", "rock", "odd"});
+        for (const Water& water : {Water{1e-9, 1e-9}, Water{1e9, 1e9}, Water{1e9, 1e-9}}) {
+            resolve_materials(scene, table, water);
+            for (const Material& material : scene.materials) {
+                CHECK(material.reflection >= 0.0F);
+                CHECK(material.reflection <= 1.0F);
+            }
+        }
     }
 
     TEST_CASE("materials: every missing name is listed") {

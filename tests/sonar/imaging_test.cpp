@@ -277,6 +277,20 @@ TEST_CASE("the mean over 1,000 seeds agrees with theory") {
     }
 }
 
+TEST_CASE("the narrowest lobe that a mission can ask for leaves finite scales") {
+    SonarConfig config;
+    for (const double sigma_deg : {0.5, 0.1, 1e-3, 1e-12, 1e-300, 5e-324}) {
+        config.noise.lobe_sigma_deg = sigma_deg;
+        config.azimuth_bins = 512;
+        for (const float scale : make_sonar(config, {}).settings.pixel_noise.lobe_scale) {
+            CHECK(scale >= 1.0F);
+            CHECK(scale < 1.5F);
+        }
+        config.azimuth_bins = 1;  // along the boresight, where the lobe has its peak
+        CHECK(make_sonar(config, {}).settings.pixel_noise.lobe_scale[0] == 1.5F);
+    }
+}
+
 TEST_CASE("range noise drops what it pushes beyond the range") {
     // A wall just inside range_max and a noise of many bins: without the drop the last bin would
     // be lit in almost every ping.

@@ -97,6 +97,9 @@ TEST_SUITE("trajectory") {
         // Nanoseconds since 1970 in the column of seconds.
         CHECK(csv_error(angle_header + "1700000000000000000,0,0,0,0,0,0\n") ==
               "p.csv:2: t_s: '1700000000000000000' is beyond 1e+10; the unit is that of the name");
+        CHECK(csv_error(angle_header + "0,0,-2e8,0,0,0,0\n") ==
+              "p.csv:2: y_m: '-2e8' is beyond 1e+08; the unit is that of the name");
+        CHECK(csv_error(angle_header + "0,1e8,-1e8,0,0,0,0\n") == "no error");
         CHECK(csv_error(angle_header + "0,0,0,0,0,0\n") ==
               "p.csv:2: 6 fields, but the header in line 1 has 7");
         // A long or binary field is shown in part, and as plain text.

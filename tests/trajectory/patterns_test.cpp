@@ -88,7 +88,7 @@ TEST_SUITE("trajectory") {
         CHECK_THROWS_AS(follow_waypoints(points, 1.0, 0.0), InputError);
         CHECK_THROWS_WITH_AS(
             follow_waypoints(std::vector<Waypoint>{at(0, 0, 0), at(0, nan, 0)}, 1.0, 10.0),
-            "position_m of waypoint 2 must be between -1e+09 and 1e+09, not nan", InputError);
+            "position_m of waypoint 2 must be between -1e+08 and 1e+08, not nan", InputError);
         CHECK_THROWS_WITH_AS(
             follow_waypoints(std::vector<Waypoint>{{{0, 0, 0}, {2, 0, 0, 0}}}, 1.0, 10.0),
             "the attitude of waypoint 1 is not a unit quaternion", InputError);
@@ -209,10 +209,10 @@ TEST_SUITE("trajectory") {
         plan.area_max_m.y() = plan.area_min_m.y();
         CHECK(error(plan) == "area_max_m must be greater than area_min_m in x and in y");
         plan.area_max_m.y() = nan;
-        CHECK(error(plan) == "area_max_m must be between -1e+09 and 1e+09, not nan");
+        CHECK(error(plan) == "area_max_m must be between -1e+08 and 1e+08, not nan");
         plan = survey(0.0, 5.0);
         plan.z_m = nan;
-        CHECK(error(plan) == "z_m must be between -1e+09 and 1e+09, not nan");
+        CHECK(error(plan) == "z_m must be between -1e+08 and 1e+08, not nan");
         CHECK(error(survey(361.0, 5.0)) == "heading_deg must be between -360 and 360, not 361");
         CHECK(error(survey(0.0, 0.0)) == "line_spacing_m must be a number above 0, not 0");
         CHECK(error(survey(0.0, 1e-9)) ==

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/input_limits.h"
 #include "scene/gltf/file.h"
 #include "scene/gltf/nodes.h"
 #include "scene/gltf/triangles.h"
@@ -23,7 +24,6 @@ namespace {
 // A small file can place a large mesh, or many small ones, many times.
 constexpr std::size_t max_triangles = std::size_t{1} << 28;
 constexpr std::size_t piece_cost = 64;
-constexpr double max_coordinate_m = 1e9;
 
 enum class Nameless { refused, allowed };
 
@@ -109,9 +109,9 @@ Extent find_extent(const tinygltf::Model& model, const std::vector<PlacedMesh>& 
             if (!is_finite(points) || !has_area(points)) continue;
             farthest = farthest.cwiseMax(reach);
             for (const Eigen::Vector3d& point : points) {
-                if (point.cwiseAbs().maxCoeff() > max_coordinate_m) {
+                if (point.cwiseAbs().maxCoeff() > furthest_m) {
                     throw InputError(piece.where +
-                                     ": a vertex lies more than 1e9 m from the origin");
+                                     ": a vertex lies more than 1e8 m from the origin");
                 }
                 extent.box.extend(point);
             }

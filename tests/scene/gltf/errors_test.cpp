@@ -207,7 +207,7 @@ TEST_SUITE("scene") {
         CHECK(node_error("translation", {0, 0, "1"}) ==
               "x.glb: nodes[0].translation[2]: expected a number, not string");
         CHECK(node_error("translation", {0, 0, 1e12}) ==
-              "x.glb: mesh 'Tri' primitive 0: a vertex lies more than 1e9 m from the origin");
+              "x.glb: mesh 'Tri' primitive 0: a vertex lies more than 1e8 m from the origin");
         CHECK(node_error("matrix", {1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}) ==
               "x.glb: node 'tri' has a matrix whose last row is not 0 0 0 1");
         CHECK(error_of([](json& d) {

@@ -1,0 +1,19 @@
+#pragma once
+
+// What the program accepts from files and missions. Beyond these values numbers lose the precision
+// that the results promise, or overflow.
+
+namespace sonarsim {
+
+/// The largest magnitude of a coordinate, m, of poses, mounts and vertices alike. A double there is
+/// exact to 1.5e-8 m, a hundredth of the narrowest range bin. UTM (1e7), earth-centred (6.4e6) and
+/// web Mercator coordinates (2e7) are well within.
+inline constexpr double furthest_m = 1e8;
+
+// Densities (kg/m^3) and speeds of sound (m/s), of water and materials. Impedances then lie within
+// 1e-18 to 1e18, and their squares and products within 1e-36 to 1e36: normal numbers even as
+// floats. The densest metal has 2.3e4 kg/m^3, sound in diamond 1.8e4 m/s.
+inline constexpr double least_medium = 1e-9;
+inline constexpr double largest_medium = 1e9;
+
+}  // namespace sonarsim

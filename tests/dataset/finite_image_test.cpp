@@ -1,0 +1,58 @@
+#include "dataset/finite_image.h"
+
+#include <doctest/doctest.h>
+
+#include <limits>
+#include <stdexcept>
+
+#include "dataset/job.h"
+#include "support/small_mission.h"
+#include "support/temporary_folder.h"
+
+using namespace sonarsim;
+using namespace sonarsim::test;
+
+namespace {
+
+Ping image_of(std::vector<float> pixels) {
+    return {1, static_cast<int>(pixels.size()), std::move(pixels), {}, {}};
+}
+
+}  // namespace
+
+TEST_SUITE("dataset") {
+    TEST_CASE("finite image: the brightest pixel, wherever it stands") {
+        CHECK(brightest_pixel(image_of({0.0F, 0.0F}), "fls", 0) == 0.0F);
+        for (std::size_t at = 0; at < 19; ++at) {
+            std::vector<float> pixels(19, 0.25F);
+            pixels[at] = 3e38F;
+            CHECK(brightest_pixel(image_of(std::move(pixels)), "fls", 0) == 3e38F);
+        }
+    }
+
+    TEST_CASE("finite image: a pixel that is not finite is an error, wherever it stands") {
+        constexpr float infinity = std::numeric_limits<float>::infinity();
+        for (const float bad : {std::nanf(""), -std::nanf(""), infinity, -infinity}) {
+            for (std::size_t at = 0; at < 19; ++at) {
+                std::vector<float> pixels(19, 0.25F);
+                pixels[at] = bad;
+                CHECK_THROWS_WITH_AS(brightest_pixel(image_of(std::move(pixels)), "fls", 12),
+                                     "sensor 'fls', ping at pose 12: 1 of 19 pixels are NaN or "
+                                     "infinite, a fault of sonarsim; please report it with the "
+                                     "mission",
+                                     std::runtime_error);
+            }
+        }
+    }
+
+    TEST_CASE("finite image: a run ends before it writes one that is not") {
+        const TemporaryFolder temporary;
+        const Mission mission = small_mission(temporary.path / "out");
+        Assembly assembly = small_assembly(mission, 1);
+        assembly.sonars[1].settings.pixel_noise.lobe_scale[3] = std::nanf("");
+        CHECK_THROWS_WITH_AS(run_job(mission, assembly, {.threads = 1}, {}, {false}),
+                             doctest::Contains("sensor 'left', ping at pose 0: 48 of 1536"),
+                             std::runtime_error);
+        CHECK_FALSE(std::filesystem::exists(temporary.path / "out/left/polar/000000.npy"));
+    }
+}
