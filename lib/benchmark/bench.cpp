@@ -7,8 +7,8 @@
 
 namespace sonarsim {
 
-Ping Bench::ping(const Sonar& sonar, const Surface& surface, std::size_t p) const {
-    return render_ping(sonar, scene, surface, poses[p], {seed, indices[p]});
+Ping Bench::ping(const Sonar& sonar, const VisibilityEngine& engine, std::size_t p) const {
+    return render_ping(sonar, scene, engine, poses[p], {seed, indices[p]});
 }
 
 Bench make_bench(const Mission& mission, const Assembly& assembly, int poses) {
@@ -20,13 +20,13 @@ Bench make_bench(const Mission& mission, const Assembly& assembly, int poses) {
     return bench;
 }
 
-void visit_pose(const Bench& bench, const Sonar& sonar, const Surface& surface, std::size_t p,
-                PoseTimes& times) {
+void visit_pose(const Bench& bench, const Sonar& sonar, const VisibilityEngine& engine,
+                std::size_t p, PoseTimes& times) {
     constexpr double slow_ms = 100.0;
     constexpr int repeats = 3;
     const auto timed = [&] {
         const double start = seconds_now();
-        const Ping ping = bench.ping(sonar, surface, p);
+        const Ping ping = bench.ping(sonar, engine, p);
         const double ms = 1e3 * (seconds_now() - start);
         return std::pair{ms, ping.seconds};
     };

@@ -20,7 +20,7 @@ struct Bench {
     std::vector<Pose> poses;             ///< T_world_vehicle
     std::vector<std::uint32_t> indices;  ///< of the poses on the trajectory
 
-    Ping ping(const Sonar& sonar, const Surface& surface, std::size_t p) const;
+    Ping ping(const Sonar& sonar, const VisibilityEngine& engine, std::size_t p) const;
 };
 
 /// With `poses` of them spread along the trajectory. The assembly must outlive it.
@@ -33,8 +33,8 @@ struct PoseTimes {
 
 /// Pings a few times and adds the times to `times`: first a ping to warm the caches after the other
 /// settings, then the ones that count. A slow setting needs neither.
-void visit_pose(const Bench& bench, const Sonar& sonar, const Surface& surface, std::size_t p,
-                PoseTimes& times);
+void visit_pose(const Bench& bench, const Sonar& sonar, const VisibilityEngine& engine,
+                std::size_t p, PoseTimes& times);
 
 /// The medians at the poses, spread over the poses.
 Spread over_poses(std::span<const PoseTimes> poses, std::vector<double> PoseTimes::*stage);

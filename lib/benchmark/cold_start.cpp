@@ -15,6 +15,7 @@
 
 #include "benchmark/bench.h"
 #include "core/clock.h"
+#include "sonar/engine_settings.h"
 #include "visibility/octree/octree_engine.h"
 
 namespace sonarsim {
@@ -31,12 +32,12 @@ ColdStart run_cold(const Mission& mission, const Assembly& assembly, const Setti
                    const Sonar& sonar, int poses, double assembled_s) {
     ColdStart cold;
     const double start = seconds_now();
-    const auto surface = make_surface(assembly.scene, setting.kind, setting.octree);
+    const auto engine = make_engine(assembly.scene, engine_settings(setting.kind, setting.octree));
     cold.build_s = seconds_now() - start;
     bool first = true;
     for (const std::size_t pose : spread_poses(assembly.trajectory.size(), poses)) {
         const double before = seconds_now();
-        render_ping(sonar, assembly.scene, *surface, assembly.trajectory[pose].T_world_vehicle,
+        render_ping(sonar, assembly.scene, *engine, assembly.trajectory[pose].T_world_vehicle,
                     {mission.seed, static_cast<std::uint32_t>(pose)});
         const double after = seconds_now();
         if (first) {
@@ -46,7 +47,7 @@ ColdStart run_cold(const Mission& mission, const Assembly& assembly, const Setti
         }
         first = false;
     }
-    if (const auto* octree = dynamic_cast<const OctreeSurface*>(surface.get())) {
+    if (const auto* octree = dynamic_cast<const OctreeEngine*>(engine.get())) {
         cold.engine_memory_mb = static_cast<double>(octree->statistics().bytes) / (1024.0 * 1024.0);
     }
     rusage usage{};

@@ -6,6 +6,7 @@
 #include "core/in_parallel.h"
 #include "ping/accumulate.h"
 #include "ping/multipath_echoes.h"
+#include "sonar/engine_settings.h"
 #include "validation/image_error.h"
 
 namespace sonarsim {
@@ -34,10 +35,11 @@ Trial trial_of(const Sonar& sonar, const MultipathConfig& multipath, const Missi
 }
 
 /// The images of all poses, one after the other.
-std::vector<float> all_images(const Bench& bench, const Sonar& sonar, const Surface& surface) {
+std::vector<float> all_images(const Bench& bench, const Sonar& sonar,
+                              const VisibilityEngine& engine) {
     std::vector<std::vector<float>> images(bench.poses.size());
     in_parallel(images.size(), [&](std::size_t p) {
-        images[p] = multipath_image(sonar, bench.scene, surface, bench.poses[p]);
+        images[p] = multipath_image(sonar, bench.scene, engine, bench.poses[p]);
     });
     std::vector<float> all;
     for (const std::vector<float>& image : images)
@@ -45,17 +47,17 @@ std::vector<float> all_images(const Bench& bench, const Sonar& sonar, const Surf
     return all;
 }
 
-void take_turns(const Bench& bench, const Surface& surface, std::span<Trial> trials) {
+void take_turns(const Bench& bench, const VisibilityEngine& engine, std::span<Trial> trials) {
     for (std::size_t p = 0; p < bench.poses.size(); ++p) {
         for (Trial& trial : trials)
-            visit_pose(bench, trial.sonar, surface, p, trial.poses[p]);
+            visit_pose(bench, trial.sonar, engine, p, trial.poses[p]);
     }
 }
 
 /// All ways on one sonar.
 std::vector<MultipathRow> measure_sonar(const Mission& mission, const Bench& bench,
-                                        const Sonar& sonar, const Surface& surface, int rounds,
-                                        const ReportProgress& progress) {
+                                        const Sonar& sonar, const VisibilityEngine& engine,
+                                        int rounds, const ReportProgress& progress) {
     const std::string& name = sonar.config.name;
     const std::vector<MultipathConfig> ladder = make_multipath_ladder(sonar.config.multipath);
     std::vector<Trial> trials{trial_of(sonar, none, mission, bench)};  // then exact, the others
@@ -63,7 +65,7 @@ std::vector<MultipathRow> measure_sonar(const Mission& mission, const Bench& ben
         trials.push_back(trial_of(sonar, setting, mission, bench));
 
     progress(name + ": multipath, error");
-    const std::vector<float> truth = all_images(bench, trials[1].sonar, surface);
+    const std::vector<float> truth = all_images(bench, trials[1].sonar, engine);
     std::vector<MultipathRow> rows;
     for (std::size_t k = 0; k < ladder.size(); ++k) {
         MultipathRow& row = rows.emplace_back();
@@ -71,8 +73,7 @@ std::vector<MultipathRow> measure_sonar(const Mission& mission, const Bench& ben
         row.setting = ladder[k];
         row.current = ladder[k] == canonical(sonar.config.multipath);
         row.exact_bins = std::ranges::count_if(truth, [](float x) { return x > 0.0F; });
-        const ImageError error =
-            image_error(all_images(bench, trials[k + 1].sonar, surface), truth);
+        const ImageError error = image_error(all_images(bench, trials[k + 1].sonar, engine), truth);
         row.relative_l1 = error.relative_l1;
         row.found = 1.0 - error.miss_rate;
         row.there = 1.0 - error.false_rate;
@@ -80,7 +81,7 @@ std::vector<MultipathRow> measure_sonar(const Mission& mission, const Bench& ben
     for (int round = 0; round < rounds; ++round) {
         progress(name + ": multipath, timing, round " + std::to_string(round + 1) + " of " +
                  std::to_string(rounds));
-        take_turns(bench, surface, trials);
+        take_turns(bench, engine, trials);
     }
     const double ms_exact = over_poses(trials[1].poses, &PoseTimes::multipath).centre;
     for (std::size_t k = 0; k < rows.size(); ++k) {
@@ -105,15 +106,14 @@ std::vector<MultipathConfig> make_multipath_ladder(const MultipathConfig& own) {
     return ladder;
 }
 
-std::vector<float> multipath_image(const Sonar& sonar, const Scene& scene, const Surface& surface,
-                                   const Pose& T_world_vehicle) {
+std::vector<float> multipath_image(const Sonar& sonar, const Scene& scene,
+                                   const VisibilityEngine& engine, const Pose& T_world_vehicle) {
     const View& view = sonar.settings.view;
     const Pose T_world_sensor = T_world_vehicle * sonar.T_vehicle_sensor;
-    Samples samples;
-    surface.look(view, T_world_sensor, samples);
+    const Samples samples = engine.visible_surface(view, T_world_sensor);
     MultipathCounts counts;
     const std::vector<Bounce> bounces = find_bounces(
-        sonar.settings.multipath, view, samples, scene.materials, surface, T_world_sensor, counts);
+        sonar.settings.multipath, view, samples, scene.materials, engine, T_world_sensor, counts);
     const MultipathEchoes bounced = multipath_echoes(bounces, samples, view, {});
     const RangeBins bins{static_cast<float>(view.range_min_m), static_cast<float>(view.bin_m()),
                          view.range_bins};
@@ -135,11 +135,12 @@ std::vector<MultipathRow> measure_multipath(const Mission& mission, const Assemb
     std::vector<MultipathRow> out;
     if (std::ranges::none_of(assembly.sonars, has_multipath)) return out;
     const Bench bench = make_bench(mission, assembly, options.poses);
-    const auto surface = make_surface(assembly.scene, mission.engine, mission.octree);
+    const auto engine =
+        make_engine(assembly.scene, engine_settings(mission.engine, mission.octree));
     for (const Sonar& sonar : assembly.sonars) {
         if (!has_multipath(sonar)) continue;
         const std::vector<MultipathRow> rows =
-            measure_sonar(mission, bench, sonar, *surface, options.rounds, progress);
+            measure_sonar(mission, bench, sonar, *engine, options.rounds, progress);
         out.insert(out.end(), rows.begin(), rows.end());
     }
     return out;

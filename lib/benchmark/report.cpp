@@ -11,6 +11,7 @@
 #include "benchmark/bench.h"
 #include "core/clock.h"
 #include "core/in_parallel.h"
+#include "sonar/engine_settings.h"
 #include "validation/fit.h"
 #include "validation/image_error.h"
 #include "validation/reference.h"
@@ -22,7 +23,7 @@ namespace {
 /// A sonar with a setting, on its way through the rounds.
 struct Trial {
     Sonar noisy;
-    const Surface* surface = nullptr;
+    const VisibilityEngine* engine = nullptr;
     std::vector<PoseTimes> poses;
     std::vector<double> pings_per_s;
 };
@@ -35,10 +36,10 @@ struct Stand {
 };
 
 /// Milliseconds of bare Embree: rays from the sensor to every sample, in the order of the samples.
-double bare_ms(const Stand& stand, const Sonar& sonar, const Surface& surface, std::size_t p) {
+double bare_ms(const Stand& stand, const Sonar& sonar, const VisibilityEngine& engine,
+               std::size_t p) {
     const Pose T_world_sensor = stand.bench.poses[p] * sonar.T_vehicle_sensor;
-    Samples samples;
-    surface.look(sonar.settings.view, T_world_sensor, samples);
+    const Samples samples = engine.visible_surface(sonar.settings.view, T_world_sensor);
     const Eigen::Matrix3f R = T_world_sensor.rotation.toRotationMatrix().cast<float>();
     const Eigen::Vector3f origin =
         (T_world_sensor.translation - stand.bench.scene.origin).cast<float>();
@@ -61,7 +62,7 @@ double rate(const Stand& stand, const Trial& trial) {
     const int count = std::clamp(static_cast<int>(250.0 * threads / ms), 2 * threads, 2000);
     const double start = seconds_now();
     in_parallel(count, [&](std::size_t k) {
-        bench.ping(trial.noisy, *trial.surface, k % bench.poses.size());
+        bench.ping(trial.noisy, *trial.engine, k % bench.poses.size());
     });
     return count / (seconds_now() - start);
 }
@@ -99,7 +100,7 @@ void measure_errors(const Bench& bench, const Trial& trial,
     std::vector<double> invented(poses);
     std::vector<double> samples(poses);
     in_parallel(poses, [&](std::size_t p) {
-        const Ping ping = bench.ping(clean, *trial.surface, p);
+        const Ping ping = bench.ping(clean, *trial.engine, p);
         const ImageError error = image_error(ping.intensity, references[p].intensity);
         l1[p] = error.relative_l1;
         l2[p] = error.relative_l2;
@@ -142,7 +143,7 @@ void mark_front(std::vector<ReportRow>& rows, const std::string& sensor) {
 /// All settings on one sonar.
 void report_sonar(const Stand& stand, std::size_t index, const Assembly& assembly,
                   std::span<const Setting> ladder,
-                  const std::vector<std::shared_ptr<const Surface>>& surfaces,
+                  const std::vector<std::shared_ptr<const VisibilityEngine>>& engines,
                   std::span<const ColdStart> cold, const ReportProgress& progress, Report& report) {
     const Bench& bench = stand.bench;
     const int rounds = stand.options.rounds;
@@ -157,7 +158,7 @@ void report_sonar(const Stand& stand, std::size_t index, const Assembly& assembl
     for (std::size_t s = 0; s < ladder.size(); ++s) {
         progress(name + ": " + ladder[s].engine + " " + ladder[s].name + ", error");
         trials.push_back({with_setting(sonar, ladder[s]),
-                          surfaces[s].get(),
+                          engines[s].get(),
                           std::vector<PoseTimes>(bench.poses.size()),
                           {}});
         ReportRow& row = rows.emplace_back();
@@ -172,8 +173,8 @@ void report_sonar(const Stand& stand, std::size_t index, const Assembly& assembl
         for (std::size_t p = 0; p < bench.poses.size(); ++p) {
             for (Trial& trial : trials) {
                 PoseTimes& times = trial.poses[p];
-                visit_pose(bench, trial.noisy, *trial.surface, p, times);
-                times.bare.push_back(bare_ms(stand, trial.noisy, *trial.surface, p));
+                visit_pose(bench, trial.noisy, *trial.engine, p, times);
+                times.bare.push_back(bare_ms(stand, trial.noisy, *trial.engine, p));
             }
         }
         for (Trial& trial : trials)
@@ -225,16 +226,17 @@ Report make_report(const Mission& mission, const Assembly& assembly,
         Stand stand{make_bench(mission, assembly, options.poses), caster, options};
         stand.options.threads = threads;
         report.poses = static_cast<int>(stand.bench.poses.size());
-        std::shared_ptr<const Surface> rays;  // one tree serves every error goal
-        std::vector<std::shared_ptr<const Surface>> surfaces;
+        std::shared_ptr<const VisibilityEngine> rays;  // one tree serves every error goal
+        std::vector<std::shared_ptr<const VisibilityEngine>> engines;
         for (const Setting& setting : ladder) {
             const bool again = setting.kind == EngineKind::rays && rays;
-            surfaces.push_back(again ? rays
-                                     : make_surface(assembly.scene, setting.kind, setting.octree));
-            if (setting.kind == EngineKind::rays) rays = surfaces.back();
+            engines.push_back(
+                again ? rays
+                      : make_engine(assembly.scene, engine_settings(setting.kind, setting.octree)));
+            if (setting.kind == EngineKind::rays) rays = engines.back();
         }
         for (std::size_t i = 0; i < assembly.sonars.size(); ++i) {
-            report_sonar(stand, i, assembly, ladder, surfaces, cold, progress, report);
+            report_sonar(stand, i, assembly, ladder, engines, cold, progress, report);
         }
     });
     return report;

@@ -8,6 +8,7 @@
 
 #include "benchmark/bench.h"
 #include "core/clock.h"
+#include "sonar/engine_settings.h"
 #include "validation/fit.h"
 
 namespace sonarsim {
@@ -16,13 +17,14 @@ namespace {
 
 /// Median milliseconds per ping over the poses; the first look at each pose does not count.
 double time_pings(const Mission& mission, const Assembly& assembly, const Scene& scene,
-                  const Sonar& sonar, const Surface& surface, const ReportOptions& options) {
+                  const Sonar& sonar, const VisibilityEngine& engine,
+                  const ReportOptions& options) {
     std::vector<double> ms;
     const auto poses = spread_poses(assembly.trajectory.size(), options.poses);
     for (int round = 0; round <= options.rounds; ++round) {
         for (const std::size_t pose : poses) {
             const double start = seconds_now();
-            render_ping(sonar, scene, surface, assembly.trajectory[pose].T_world_vehicle,
+            render_ping(sonar, scene, engine, assembly.trajectory[pose].T_world_vehicle,
                         {mission.seed, static_cast<std::uint32_t>(pose)});
             if (round > 0) ms.push_back(1e3 * (seconds_now() - start));
         }
@@ -122,8 +124,8 @@ std::vector<Growth> measure_growth(const Mission& mission, const Assembly& assem
                      " triangles");
             OctreeConfig octree = mission.octree;
             octree.literal = false;
-            const auto rays = make_surface(scene, EngineKind::rays, octree);
-            const auto leaves = make_surface(scene, EngineKind::octree, octree);
+            const auto rays = make_engine(scene, {EngineType::rays, {}});
+            const auto leaves = make_engine(scene, engine_settings(EngineKind::octree, octree));
             for (std::size_t i = 0; i < assembly.sonars.size(); ++i) {
                 for (const std::size_t e : {0, 1}) {
                     Growth& growth = out[first + 2 * i + e];

@@ -7,11 +7,10 @@
 #include "core/units.h"
 #include "mission/resolved.h"
 #include "scene/gltf/load.h"
+#include "sonar/engine_settings.h"
 #include "trajectory/files.h"
 #include "trajectory/interpolate.h"
 #include "trajectory/patterns.h"
-#include "visibility/octree/octree_engine.h"
-#include "visibility/rays/rays_engine.h"
 
 namespace sonarsim {
 
@@ -38,10 +37,6 @@ Trajectory poses_of(const LawnmowerTrajectoryConfig& config) {
                       config.line_spacing_m, config.speed_m_s, config.rate_hz});
 }
 
-/// Rows of the octree's cells are equal in the tangent of elevation, which has no end at 90
-/// degrees.
-constexpr double widest_octree_deg = 160.0;
-
 template <class T>
 std::string hash_of(const std::vector<T>& values) {
     return fnv1a_128({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)});
@@ -49,37 +44,19 @@ std::string hash_of(const std::vector<T>& values) {
 
 }  // namespace
 
-void check_engine(const Mission& mission) {
-    if (mission.engine != EngineKind::octree) return;
-    for (const SonarConfig& sensor : mission.sensors) {
-        const bool cone = sensor.kind == SonarKind::echosounder;
-        const double width = cone ? sensor.azimuth_deg : sensor.elevation_deg;
-        if (width <= widest_octree_deg) continue;
-        throw InputError("sensor '" + sensor.name + "': engine: octree takes " +
-                         (cone ? "opening_deg" : "elevation_deg") + " up to " +
-                         number_text(widest_octree_deg) + ", not " + number_text(width) +
-                         "; use engine: rays");
-    }
-}
-
 Assembly assemble(const Mission& mission) {
-    check_engine(mission);
     Assembly assembly;
     assembly.trajectory =
         std::visit([](const auto& config) { return poses_of(config); }, mission.trajectory);
+    const EngineSettings settings = engine_settings(mission.engine, mission.octree);
     for (const SonarConfig& sensor : mission.sensors) {
-        assembly.sonars.push_back(make_sonar(sensor, mission.accuracy));
+        const Sonar& sonar = assembly.sonars.emplace_back(make_sonar(sensor, mission.accuracy));
+        const std::string refusal = refusal_of(settings, sonar.settings.view);
+        if (!refusal.empty()) throw InputError("sensor '" + sensor.name + "': " + refusal);
     }
     assembly.scene = load_scene(mission.scene.file, mission.scene.materials,
                                 {mission.water.density_kg_m3, mission.water.sound_speed_m_s});
     return assembly;
-}
-
-std::unique_ptr<Surface> make_surface(const Scene& scene, EngineKind engine,
-                                      const OctreeConfig& octree) {
-    if (engine != EngineKind::octree) return make_rays_surface(scene);
-    return make_octree_surface(
-        scene, {octree.leaf_m, static_cast<std::size_t>(octree.memory_mb), octree.literal});
 }
 
 std::string inputs_hash(const Assembly& assembly) {

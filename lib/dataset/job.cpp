@@ -22,6 +22,7 @@
 #include "dataset/products.h"
 #include "mission/resolved.h"
 #include "product/fan.h"
+#include "sonar/engine_settings.h"
 #include "trajectory/files.h"
 
 namespace sonarsim {
@@ -133,21 +134,21 @@ struct Destination {
 struct Workshop {
     const Mission& mission;
     const Assembly& assembly;
-    const Surface& surface;
+    const VisibilityEngine& engine;
 };
 
 /// Writes the files of a ping: its record first, then the others, its metadata last.
 void write_ping(const Workshop& shop, const Destination& to, const std::vector<FanMap>& fans,
                 const PingId& id, const Ping& ping, PingReport& report) {
-    const auto& [mission, assembly, surface] = shop;
+    const auto& [mission, assembly, engine] = shop;
     const Sonar& sonar = assembly.sonars[id.sensor];
     const Pose& T_world_vehicle = assembly.trajectory[id.pose].T_world_vehicle;
     Stopwatch watch;
-    const Measurement measurement = measure(sonar, surface, T_world_vehicle, ping);
+    const Measurement measurement = measure(sonar, engine, T_world_vehicle, ping);
     std::array<Ping, 5> stages;
     if (to.layout.sensors[id.sensor].writes(FileKind::stages)) {
         stages =
-            render_stages(sonar, assembly.scene, surface, T_world_vehicle, {mission.seed, id.pose});
+            render_stages(sonar, assembly.scene, engine, T_world_vehicle, {mission.seed, id.pose});
     }
     const PingFiles encoded =
         encode_ping(mission, assembly, to.layout, fans, id, ping, measurement.summary, stages);
@@ -167,17 +168,17 @@ void render(const Mission& mission, const Assembly& assembly, const std::vector<
             const Destination* to, int threads, const ProgressCallback& progress,
             const std::atomic<bool>& stop, RenderSummary& summary) {
     if (todo.empty()) return;
-    const std::unique_ptr<Surface> surface =
-        make_surface(assembly.scene, mission.engine, mission.octree);
+    const std::unique_ptr<VisibilityEngine> engine =
+        make_engine(assembly.scene, engine_settings(mission.engine, mission.octree));
     const std::vector<FanMap> fans =
         to ? make_fan_maps(mission, assembly, to->layout) : std::vector<FanMap>();
     const auto work = [&](const PingId& id) {
         const Ping ping =
-            render_ping(assembly.sonars[id.sensor], assembly.scene, *surface,
+            render_ping(assembly.sonars[id.sensor], assembly.scene, *engine,
                         assembly.trajectory[id.pose].T_world_vehicle, {mission.seed, id.pose});
         PingReport report{ping.counts, ping.seconds};
         brightest_pixel(ping, assembly.sonars[id.sensor].config.name, id.pose);
-        if (to) write_ping({mission, assembly, *surface}, *to, fans, id, ping, report);
+        if (to) write_ping({mission, assembly, *engine}, *to, fans, id, ping, report);
         return report;
     };
     stream_pings(todo, threads, work, progress, stop, summary);

@@ -24,12 +24,12 @@ Json number_or_null(const std::optional<double>& value) {
     return value ? Json(*value) : Json();
 }
 
-Json altitude_m(const Surface& surface, const Pose& T_world_sensor) {
+Json altitude_m(const VisibilityEngine& engine, const Pose& T_world_sensor) {
     const Eigen::Vector3d down =
         T_world_sensor.rotation.conjugate() * Eigen::Vector3d(0.0, 0.0, -1.0);
     const Ray ray{Eigen::Vector3f::Zero(), down.cast<float>()};
-    Hit hit{};
-    surface.hit(T_world_sensor, {&ray, 1}, {&hit, 1});
+    Intersection hit{};
+    engine.intersect(T_world_sensor, {&ray, 1}, {&hit, 1});
     return std::isfinite(hit.distance_m) ? Json(hit.distance_m) : Json();
 }
 
@@ -62,10 +62,10 @@ Measurement profiling(const Sonar& sonar, const Pose& T_world_vehicle, const Pin
 
 }  // namespace
 
-Measurement measure(const Sonar& sonar, const Surface& surface, const Pose& T_world_vehicle,
+Measurement measure(const Sonar& sonar, const VisibilityEngine& engine, const Pose& T_world_vehicle,
                     const Ping& ping) {
     const auto altitude = [&] {
-        return altitude_m(surface, T_world_vehicle * sonar.T_vehicle_sensor);
+        return altitude_m(engine, T_world_vehicle * sonar.T_vehicle_sensor);
     };
     switch (sonar.config.kind) {
         case SonarKind::imaging:

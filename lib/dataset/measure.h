@@ -20,7 +20,7 @@ struct Measurement {
 /// echosounder: a column of the echogram; the altitude and the detected depth.
 /// profiling: a row of range, x, y, z and quality per beam; the altitude and how many soundings.
 /// The altitude is the truth: how far below the sonar the scene begins. What is absent is null.
-Measurement measure(const Sonar& sonar, const Surface& surface, const Pose& T_world_vehicle,
+Measurement measure(const Sonar& sonar, const VisibilityEngine& engine, const Pose& T_world_vehicle,
                     const Ping& ping);
 
 /// The file that holds the records of `pings` pings.

@@ -21,7 +21,7 @@ constexpr float same_plane_bins = 0.5F;
 struct Second {
     Eigen::Vector3f point;  ///< p_h, sensor frame
     Eigen::Vector3f normal;
-    float rounding_m = 0.0F;  ///< as in Hit
+    float rounding_m = 0.0F;  ///< as in Intersection
     float reflection = 0.0F;
     bool met = false;
 };
@@ -42,7 +42,7 @@ struct Context {
     const View& view;
     const Samples& samples;
     std::span<const Material> materials;
-    const Surface& surface;
+    const VisibilityEngine& engine;
     const Pose& T_world_sensor;
     float bin_m;
     FieldOfView field;
@@ -65,7 +65,7 @@ Ray mirrored_ray(const Sample& sample, float bin_m) {
 
 /// Whether a ray may have met the surface that it started from: its start lies on what it met to
 /// within rounding.
-bool met_its_start(const Ray& ray, const Hit& hit) {
+bool met_its_start(const Ray& ray, const Intersection& hit) {
     return std::fabs(hit.distance_m * hit.normal.dot(ray.direction)) <= hit.rounding_m;
 }
 
@@ -78,13 +78,13 @@ void trace(const Context& context, std::span<const std::uint32_t> chosen,
     rays.reserve(chosen.size());
     for (const std::uint32_t i : chosen)
         rays.push_back(mirrored_ray(context.samples.items[i], context.bin_m));
-    std::vector<Hit> hits(rays.size());
-    context.surface.hit(context.T_world_sensor, rays, hits);
+    std::vector<Intersection> hits(rays.size());
+    context.engine.intersect(context.T_world_sensor, rays, hits);
     counts.rays += rays.size();
     for (std::size_t k = 0; k < rays.size(); ++k) {
         if (!met_its_start(rays[k], hits[k])) continue;
         rays[k].origin += 2.0F * hits[k].rounding_m * context.samples.items[chosen[k]].normal;
-        context.surface.hit(context.T_world_sensor, {&rays[k], 1}, {&hits[k], 1});
+        context.engine.intersect(context.T_world_sensor, {&rays[k], 1}, {&hits[k], 1});
         ++counts.rays;
     }
     for (std::size_t k = 0; k < rays.size(); ++k) {
@@ -182,7 +182,7 @@ void follow_traced(const Context& context, std::span<const std::uint32_t> chosen
 /// Whether what a ray from the sonar to p_h meets lies before p_h. Where both are the same surface,
 /// two ranges of one point are compared: each is off by its rounding across the surface, and that
 /// counts for 1 / cos of the incidence along the ray.
-bool hides(const Hit& hit, const Second& second, const Ray& ray) {
+bool hides(const Intersection& hit, const Second& second, const Ray& ray) {
     if (std::isinf(hit.distance_m)) return false;
     const auto along_ray = [&](float rounding_m, const Eigen::Vector3f& normal) {
         return rounding_m / std::fabs(normal.dot(ray.direction));
@@ -203,8 +203,8 @@ void drop_hidden(const Context& context, const std::vector<Second>& seconds,
         ray_of[b.second] = static_cast<std::uint32_t>(rays.size());
         rays.push_back({Eigen::Vector3f::Zero(), seconds[b.second].point.normalized()});
     }
-    std::vector<Hit> hits(rays.size());
-    context.surface.hit(context.T_world_sensor, rays, hits);
+    std::vector<Intersection> hits(rays.size());
+    context.engine.intersect(context.T_world_sensor, rays, hits);
     counts.rays += rays.size();
     counts.hidden += std::erase_if(bounces, [&](const Bounce& b) {
         const std::uint32_t ray = ray_of[b.second];
@@ -216,12 +216,12 @@ void drop_hidden(const Context& context, const std::vector<Second>& seconds,
 
 std::vector<Bounce> find_bounces(const Multipath& multipath, const View& view,
                                  const Samples& samples, std::span<const Material> materials,
-                                 const Surface& surface, const Pose& T_world_sensor,
+                                 const VisibilityEngine& engine, const Pose& T_world_sensor,
                                  MultipathCounts& counts) {
     const Context context{view,
                           samples,
                           materials,
-                          surface,
+                          engine,
                           T_world_sensor,
                           static_cast<float>(view.bin_m()),
                           FieldOfView(view)};

@@ -36,7 +36,7 @@ struct Bounce {
 /// rejected, and why, is counted.
 std::vector<Bounce> find_bounces(const Multipath& multipath, const View& view,
                                  const Samples& samples, std::span<const Material> materials,
-                                 const Surface& surface, const Pose& T_world_sensor,
+                                 const VisibilityEngine& engine, const Pose& T_world_sensor,
                                  MultipathCounts& counts);
 
 }  // namespace sonarsim

@@ -38,7 +38,7 @@ void transpose(const std::vector<float>& by_beam, Ping& ping) {
 
 }  // namespace
 
-Ping run_pipeline(const PingSettings& settings, const Scene& scene, const Surface& surface,
+Ping run_pipeline(const PingSettings& settings, const Scene& scene, const VisibilityEngine& engine,
                   const Pose& T_world_sensor, const PingKey& key) {
     const View& view = settings.view;
     const Streaks& streaks = settings.streaks;
@@ -57,8 +57,7 @@ Ping run_pipeline(const PingSettings& settings, const Scene& scene, const Surfac
     Stopwatch watch;
 
     // III-A: the visible surface.
-    Samples samples;
-    surface.look(view, T_world_sensor, samples);
+    const Samples samples = engine.visible_surface(view, T_world_sensor);
     ping.counts.samples = samples.items.size();
     ping.counts.dropped_samples = samples.dropped;
     ping.seconds.trace = watch.lap();
@@ -66,7 +65,7 @@ Ping run_pipeline(const PingSettings& settings, const Scene& scene, const Surfac
     // III-B: multipath [1-3].
     std::vector<Bounce> bounces;
     if (settings.multipath.on) {
-        bounces = find_bounces(settings.multipath, view, samples, scene.materials, surface,
+        bounces = find_bounces(settings.multipath, view, samples, scene.materials, engine,
                                T_world_sensor, ping.counts.multipath);
     }
     ping.seconds.multipath = watch.lap();

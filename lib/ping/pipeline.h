@@ -36,7 +36,7 @@ struct PingKey {
 };
 
 /// One ping, from what is visible to the finished image: the paper's section III.
-Ping run_pipeline(const PingSettings& settings, const Scene& scene, const Surface& surface,
+Ping run_pipeline(const PingSettings& settings, const Scene& scene, const VisibilityEngine& engine,
                   const Pose& T_world_sensor, const PingKey& key);
 
 }  // namespace sonarsim

@@ -21,17 +21,18 @@ Sonar make_sonar(const SonarConfig& config, const AccuracyConfig& accuracy) {
     return {};
 }
 
-Ping render_ping(const Sonar& sonar, const Scene& scene, const Surface& surface,
+Ping render_ping(const Sonar& sonar, const Scene& scene, const VisibilityEngine& engine,
                  const Pose& T_world_vehicle, const PingKey& key) {
-    return run_pipeline(sonar.settings, scene, surface, T_world_vehicle * sonar.T_vehicle_sensor,
+    return run_pipeline(sonar.settings, scene, engine, T_world_vehicle * sonar.T_vehicle_sensor,
                         key);
 }
 
-std::array<Ping, 5> render_stages(const Sonar& sonar, const Scene& scene, const Surface& surface,
-                                  const Pose& T_world_vehicle, const PingKey& key) {
+std::array<Ping, 5> render_stages(const Sonar& sonar, const Scene& scene,
+                                  const VisibilityEngine& engine, const Pose& T_world_vehicle,
+                                  const PingKey& key) {
     Sonar pruned = sonar;
     PingSettings& settings = pruned.settings;
-    const auto render = [&] { return render_ping(pruned, scene, surface, T_world_vehicle, key); };
+    const auto render = [&] { return render_ping(pruned, scene, engine, T_world_vehicle, key); };
     std::array<Ping, 5> stages;
     stages[4] = render();
     settings.streaks.mode = StreakMode::none;

@@ -41,28 +41,28 @@ struct Ray {
     Eigen::Vector3f direction;  ///< unit
 };
 
-struct Hit {
+/// Where a ray meets the scene.
+struct Intersection {
     float distance_m;        ///< along the ray; infinite when nothing is met
     float rounding_m;        ///< the point at that distance lies on its surface to within this
     Eigen::Vector3f normal;  ///< unit, turned to face the ray's origin
-    std::uint32_t material;
-    std::uint32_t instance;
+    std::uint32_t material;  ///< index into Scene::materials
+    std::uint32_t instance;  ///< index into Scene::instances
 };
 
-/// What a sonar can see of a scene. Engines are immutable to their callers: any number of threads
-/// may look at once, and what a call returns depends on its arguments alone.
-class Surface {
+/// Answers what a sonar sees of a scene. Engines are immutable to their callers: any number of
+/// threads may ask at once, and an answer depends on the arguments alone.
+class VisibilityEngine {
   public:
-    virtual ~Surface() = default;
+    virtual ~VisibilityEngine() = default;
 
-    /// Fills `samples` with the surface that `view` sees from `T_world_sensor` within its greatest
-    /// range. What lies nearer than the least range hides what is behind it; it may be among the
-    /// samples.
-    virtual void look(const View& view, const Pose& T_world_sensor, Samples& samples) const = 0;
+    /// The surface that `view` sees from `T_world_sensor` within its greatest range. Surface nearer
+    /// than the least range hides what is behind it; it may be among the samples.
+    virtual Samples visible_surface(const View& view, const Pose& T_world_sensor) const = 0;
 
-    /// The first surface that each ray meets. `hits` has the length of `rays`.
-    virtual void hit(const Pose& T_world_sensor, std::span<const Ray> rays,
-                     std::span<Hit> hits) const = 0;
+    /// The first surface that each ray meets. `intersections` has the length of `rays`.
+    virtual void intersect(const Pose& T_world_sensor, std::span<const Ray> rays,
+                           std::span<Intersection> intersections) const = 0;
 };
 
 }  // namespace sonarsim

@@ -9,6 +9,7 @@
 
 #include "benchmark/report_files.h"
 #include "benchmark/report_text.h"
+#include "sonar/engine_settings.h"
 #include "support/scenes.h"
 #include "support/small_mission.h"
 
@@ -156,13 +157,14 @@ TEST_CASE("the multipath image is what multipath adds where nothing else is") {
     const Mission mission = corner_mission({MultipathMethod::cluster, 5, 5.0});
     const Assembly assembly = corner_assembly(mission);
     const Sonar& sonar = assembly.sonars[0];
-    const auto surface = make_surface(assembly.scene, mission.engine, mission.octree);
+    const auto engine =
+        make_engine(assembly.scene, engine_settings(mission.engine, mission.octree));
     const Pose& pose = assembly.trajectory[0].T_world_vehicle;
     Sonar both = direct_echoes_only(sonar);
-    const Ping direct = render_ping(both, assembly.scene, *surface, pose, {});
+    const Ping direct = render_ping(both, assembly.scene, *engine, pose, {});
     both.settings.multipath.on = true;
-    const Ping ping = render_ping(both, assembly.scene, *surface, pose, {});
-    const std::vector<float> image = multipath_image(sonar, assembly.scene, *surface, pose);
+    const Ping ping = render_ping(both, assembly.scene, *engine, pose, {});
+    const std::vector<float> image = multipath_image(sonar, assembly.scene, *engine, pose);
     int alone = 0;
     for (int j = 0; j < ping.beams; ++j) {
         for (int i = 0; i < ping.range_bins; ++i) {

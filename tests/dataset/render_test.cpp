@@ -59,7 +59,7 @@ TEST_SUITE("dataset") {
         CHECK(read_file(out / "mission.resolved.yaml", 1 << 20) == resolved_yaml(mission));
         CHECK(read_file(out / "trajectory.tum", 1 << 20) == write_tum(assembly.trajectory));
 
-        const auto surface = make_rays_surface(assembly.scene);
+        const auto engine = make_rays_engine(assembly.scene);
         std::uint64_t clipped_pixels = 0;
         for (const std::uint32_t pose : {0U, 3U, 6U}) {
             for (std::size_t i = 0; i < 2; ++i) {
@@ -67,7 +67,7 @@ TEST_SUITE("dataset") {
                 const fs::path sensor = out / sonar.config.name;
                 const std::string number = "00000" + std::to_string(pose);
                 Ping ping =
-                    render_ping(sonar, assembly.scene, *surface,
+                    render_ping(sonar, assembly.scene, *engine,
                                 assembly.trajectory[pose].T_world_vehicle, {mission.seed, pose});
                 const Matrix matrix = read_npy(sensor / "polar" / (number + ".npy"));
                 CHECK(matrix.rows == 48);

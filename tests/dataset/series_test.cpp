@@ -58,9 +58,9 @@ TEST_SUITE("dataset") {
         // 3 common; front 7 x 4; mbes 7 x 4 and 6; sss 7 and 3; sounder 4 and 3.
         CHECK(contents(out).size() == 3 + 28 + 34 + 10 + 7);
 
-        const auto surface = make_rays_surface(assembly.scene);
+        const auto engine = make_rays_engine(assembly.scene);
         const auto ping = [&](int sensor, std::uint32_t pose) {
-            return render_ping(assembly.sonars[sensor], assembly.scene, *surface,
+            return render_ping(assembly.sonars[sensor], assembly.scene, *engine,
                                assembly.trajectory[pose].T_world_vehicle, {mission.seed, pose});
         };
         const auto waterfall = data_of<float>(out / "sss/waterfall.npy", {"<f4", {7, 180}});

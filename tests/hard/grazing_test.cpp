@@ -4,7 +4,7 @@
 #include <cmath>
 #include <memory>
 
-#include "dataset/assemble.h"
+#include "sonar/engine_settings.h"
 #include "validation/hard/tools.h"
 #include "visibility/rays/rays_engine.h"
 
@@ -46,8 +46,8 @@ TEST_CASE("rays: a floor at ever smaller grazing angles fills every bin with R H
 TEST_CASE("rays: no sample at grazing incidence is longer than it is far away") {
     const Scene scene = plain_floor();
     const HardTrial trial = along_the_floor(2e-3);
-    Samples samples;
-    make_rays_surface(scene)->look(trial.sonar.settings.view, trial.T_world_vehicle, samples);
+    const Samples samples =
+        make_rays_engine(scene)->visible_surface(trial.sonar.settings.view, trial.T_world_vehicle);
     float farthest = 0.0F;
     for (const Sample& sample : samples.items) {
         const float one = (sample.position - sample.edge_v).norm();

@@ -101,10 +101,10 @@ TEST_CASE("epsilon 0 is the exact method") {
     config.name = "fls";
     config.azimuth_bins = 64;
     const Scene scene = tank();
-    const auto surface = make_rays_surface(scene);
+    const auto engine = make_rays_engine(scene);
     const auto render = [&](MultipathMethod method, int epsilon) {
         config.multipath = {method, epsilon, 15.0};
-        return render_ping(make_sonar(config, {}), scene, *surface, tank_poses()[0], {}).intensity;
+        return render_ping(make_sonar(config, {}), scene, *engine, tank_poses()[0], {}).intensity;
     };
     CHECK(render(MultipathMethod::exact, 5) == render(MultipathMethod::cluster, 0));
     CHECK(render(MultipathMethod::exact, 5) != render(MultipathMethod::none, 0));

@@ -198,7 +198,7 @@ TEST_CASE("the exact method is the paper's equations, sample by sample") {
     const Scene scene = tank();
     const View view = fan(60.0, 12.0);
     const Found found = find(scene, view, clusters_of(0), tank_poses()[1]);
-    const auto surface = make_rays_surface(scene);
+    const auto engine = make_rays_engine(scene);
     std::vector<const Bounce*> bounce_of(found.samples.items.size(), nullptr);
     for (const Bounce& b : found.bounces)
         bounce_of[b.sample] = &b;
@@ -208,8 +208,8 @@ TEST_CASE("the exact method is the paper's equations, sample by sample") {
         const Eigen::Vector3f v = -sample.position.normalized();
         const Eigen::Vector3f r = -v + 2.0F * sample.normal.dot(v) * sample.normal;  // [1]
         const std::array<Ray, 1> ray{Ray{sample.position + 2e-3F * sample.normal, r}};
-        std::array<Hit, 1> hit;
-        surface->hit(tank_poses()[1], ray, hit);
+        std::array<Intersection, 1> hit;
+        engine->intersect(tank_poses()[1], ray, hit);
         bool comes_back = std::isfinite(hit[0].distance_m);
         if (comes_back) {
             const Eigen::Vector3f p = ray[0].origin + hit[0].distance_m * r;
@@ -219,8 +219,8 @@ TEST_CASE("the exact method is the paper's equations, sample by sample") {
                 0.5F * (sample.position.norm() + (p - sample.position).norm() + p.norm());
             const float cosine = -q.dot(p) / p.norm();
             const std::array<Ray, 1> look{Ray{Eigen::Vector3f::Zero(), p.normalized()}};
-            std::array<Hit, 1> seen;
-            surface->hit(tank_poses()[1], look, seen);
+            std::array<Intersection, 1> seen;
+            engine->intersect(tank_poses()[1], look, seen);
             comes_back = beam_of(view, p) >= 0 && d < view.range_max_m && cosine > 0.0F &&
                          n.dot(p) < 0.0F && seen[0].distance_m > 0.999F * p.norm() - 1e-3F;
             if (comes_back && bounce_of[i]) {
@@ -242,14 +242,14 @@ TEST_CASE("multipath off is without cost and without trace") {
     const Scene scene = tank();
     SonarConfig config;
     config.name = "fls";
-    const auto surface = make_rays_surface(scene);
-    const Ping off = render_ping(make_sonar(config, {}), scene, *surface, tank_poses()[0], {});
+    const auto engine = make_rays_engine(scene);
+    const Ping off = render_ping(make_sonar(config, {}), scene, *engine, tank_poses()[0], {});
     CHECK(off.counts.multipath.rays == 0);
     CHECK(off.counts.streak_rows == 0);
     // In a scene without multipath, on and off are the same bytes.
     Scene sphere = empty_scene();
     add_sphere(sphere, {4, 0, 0}, 0.8F, add_material(sphere, 0.6F), 64);
-    const auto round = make_rays_surface(sphere);
+    const auto round = make_rays_engine(sphere);
     config.noise.range_lambda_m = 0.05;
     const Ping without = render_ping(make_sonar(config, {}), sphere, *round, Pose{}, {});
     config.multipath.method = MultipathMethod::cluster;

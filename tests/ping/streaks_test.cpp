@@ -43,7 +43,7 @@ TEST_CASE("streaks come from walls seen face on") {
         const std::uint32_t m = add_material(scene, 0.5F);
         add_quad(scene, {5 - 9 * tilt, -9, -9}, {5 + 9 * tilt, 9, -9}, {5 + 9 * tilt, 9, 9},
                  {5 - 9 * tilt, -9, 9}, m);
-        return render_ping(make_sonar(config, {}), scene, *make_rays_surface(scene), Pose{}, {})
+        return render_ping(make_sonar(config, {}), scene, *make_rays_engine(scene), Pose{}, {})
             .counts.streak_rows;
     };
     // Face on, the normal is in view. Of a wall at distance D, ranges below D / cos 8 degrees are
@@ -64,11 +64,11 @@ TEST_CASE("the stages of a ping end with the ping, and each adds one term") {
     config.noise.add_sigma = 0.08;
     config.streaks.mode = StreakMode::add;
     const Scene scene = tank();
-    const auto surface = make_rays_surface(scene);
+    const auto engine = make_rays_engine(scene);
     const Pose pose{Eigen::Quaterniond::Identity(), {-3.0, 0.0, 1.5}};
     const Sonar sonar = make_sonar(config, {});
-    const auto stages = render_stages(sonar, scene, *surface, pose, {7, 3});
-    CHECK(stages[4].intensity == render_ping(sonar, scene, *surface, pose, {7, 3}).intensity);
+    const auto stages = render_stages(sonar, scene, *engine, pose, {7, 3});
+    CHECK(stages[4].intensity == render_ping(sonar, scene, *engine, pose, {7, 3}).intensity);
     for (int k = 0; k < 4; ++k)
         CHECK(stages[k].intensity != stages[k + 1].intensity);
     CHECK(stages[0].counts.multipath.rays == 0);

@@ -191,11 +191,10 @@ TEST_CASE("a whole noisy image has the distribution of the equations" *
           doctest::skip(test::sanitized)) {
     constexpr int pings = 400;
     const Scene scene = corner();
-    const auto surface = make_rays_surface(scene);
+    const auto engine = make_rays_engine(scene);
     const SonarConfig config = small_sonar();
     const Sonar sonar = make_sonar(config, {0.01});
-    Samples samples;
-    surface->look(sonar.settings.view, Pose{}, samples);
+    const Samples samples = engine->visible_surface(sonar.settings.view, Pose{});
     const PlainSonar plain(config, samples);
     std::mt19937_64 random(20231);
     const int bins = config.range_bins * config.azimuth_bins;
@@ -203,7 +202,7 @@ TEST_CASE("a whole noisy image has the distribution of the equations" *
     std::uint64_t bounces = 0;
     std::uint64_t streaks = 0;
     for (std::uint32_t k = 0; k < pings; ++k) {
-        const Ping ping = render_ping(sonar, scene, *surface, Pose{}, {5, k});
+        const Ping ping = render_ping(sonar, scene, *engine, Pose{}, {5, k});
         const std::vector<double> image = plain.ping(random);
         bounces += ping.counts.multipath.bounces;
         streaks += ping.counts.streak_rows;

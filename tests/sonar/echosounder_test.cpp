@@ -32,11 +32,11 @@ TEST_CASE("echosounder: a flat bottom echoes as R H / r over the cone, from its 
     constexpr float R = 0.6F;
     Scene scene = empty_scene();
     add_floor(scene, 100.0F, 0.0F, add_material(scene, R));
-    const auto surface = make_rays_surface(scene);
+    const auto engine = make_rays_engine(scene);
     const Sonar sonar = make_sonar(echosounder(), {});
     for (const double H : {2.003, 5.0, 9.017}) {
         const Ping ping =
-            render_ping(sonar, scene, *surface, {Eigen::Quaterniond::Identity(), {0, 0, H}}, {});
+            render_ping(sonar, scene, *engine, {Eigen::Quaterniond::Identity(), {0, 0, H}}, {});
         REQUIRE(ping.beams == 1);
         const double bin_m = sonar.settings.view.bin_m();
         const double end = H / std::cos(radians(15.0));
@@ -59,17 +59,16 @@ TEST_CASE("echosounder: both engines see all of the cone") {
     const Sonar sonar = make_sonar(echosounder(), {});
     const Pose T_world_vehicle{Eigen::Quaterniond::Identity(), {0, 0, H}};
     const double radius = H * std::tan(radians(15.0));
-    const auto seen_m2 = [&](const Surface& surface) {
-        Samples samples;
-        surface.look(sonar.settings.view, T_world_vehicle * sonar.T_vehicle_sensor, samples);
+    const auto seen_m2 = [&](const VisibilityEngine& engine) {
+        const Samples samples =
+            engine.visible_surface(sonar.settings.view, T_world_vehicle * sonar.T_vehicle_sensor);
         double sum = 0.0;
         for (const Sample& sample : samples.items)
             sum += static_cast<double>(sample.area_m2);
         return sum;
     };
-    CHECK(seen_m2(*make_rays_surface(scene)) ==
-          doctest::Approx(pi * radius * radius).epsilon(0.02));
-    CHECK(seen_m2(*make_octree_surface(scene, {})) ==
+    CHECK(seen_m2(*make_rays_engine(scene)) == doctest::Approx(pi * radius * radius).epsilon(0.02));
+    CHECK(seen_m2(*make_octree_engine(scene, {})) ==
           doctest::Approx(pi * radius * radius).epsilon(0.02));
 }
 
@@ -82,7 +81,7 @@ TEST_CASE("echosounder: the cone has an edge") {
         add_quad(scene, {near, -0.2F, 0}, {far, -0.2F, 0}, {far, 0.2F, 0}, {near, 0.2F, 0},
                  add_material(scene, 1.0F));
         const Sonar sonar = make_sonar(echosounder(), {});
-        const Ping ping = render_ping(sonar, scene, *make_rays_surface(scene),
+        const Ping ping = render_ping(sonar, scene, *make_rays_engine(scene),
                                       {Eigen::Quaterniond::Identity(), {0, 0, 4}}, {});
         CHECK((ping.counts.occupied_bins > 0) == (angle_deg < 15.0));
         CHECK(detected_depth(sonar, ping).has_value() == (angle_deg < 15.0));
@@ -99,10 +98,10 @@ TEST_CASE("echosounder: range noise does not fade") {
     config.noise.range_lambda_m = 0.3;
     config.noise.scatterer_m = 1000.0;
     const Sonar sonar = make_sonar(config, {});
-    const auto surface = make_rays_surface(scene);
+    const auto engine = make_rays_engine(scene);
     double latest = 0.0;
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
-        const Ping ping = render_ping(sonar, scene, *surface,
+        const Ping ping = render_ping(sonar, scene, *engine,
                                       {Eigen::Quaterniond::Identity(), {0, 0, 3}}, {seed, 0});
         float brightest = 0.0F;
         for (const float value : ping.intensity)
@@ -122,7 +121,7 @@ TEST_CASE("echosounder: on rough ground the error goal is met") {
     const Pose pose{rotation_from_rpy(0.02, -0.01, 0.4), {0.3, -0.2, 6.0}};
     const Reference reference = cast_reference(caster, scene, sonar.settings.view,
                                                pose * sonar.T_vehicle_sensor, {0.003, 64.0});
-    const Ping ping = render_ping(sonar, scene, *make_rays_surface(scene), pose, {});
+    const Ping ping = render_ping(sonar, scene, *make_rays_engine(scene), pose, {});
     CHECK(image_error(ping.intensity, reference.intensity).relative_l1 < 0.03);
 }
 

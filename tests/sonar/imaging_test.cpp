@@ -16,7 +16,7 @@ using namespace sonarsim::test;
 namespace {
 
 Ping look(const Scene& scene, const Sonar& sonar, const Pose& pose, const PingKey& key = {}) {
-    return render_ping(sonar, scene, *make_rays_surface(scene), pose, key);
+    return render_ping(sonar, scene, *make_rays_engine(scene), pose, key);
 }
 
 double bin_centre(const Sonar& sonar, int i) {
@@ -258,10 +258,10 @@ TEST_CASE("the mean over 1,000 seeds agrees with theory") {
     config.azimuth_bins = 1;
     config.noise = {lambda, 1000.0, sigma_a, 0.05, true, 0.0};
     const Sonar sonar = make_sonar(config, {});
-    const auto surface = make_rays_surface(scene);
+    const auto engine = make_rays_engine(scene);
     std::vector<std::vector<double>> bins(12);
     for (std::uint64_t seed = 0; seed < 1000; ++seed) {
-        const Ping ping = render_ping(sonar, scene, *surface, Pose{}, {seed, 0});
+        const Ping ping = render_ping(sonar, scene, *engine, Pose{}, {seed, 0});
         for (int i = 0; i < 12; ++i)
             bins[i].push_back(ping.at(i, 0));
     }
@@ -305,10 +305,10 @@ TEST_CASE("range noise drops what it pushes beyond the range") {
     config.noise.range_lambda_m = 1.0;
     config.noise.scatterer_m = 1000.0;
     const Sonar sonar = make_sonar(config, {});
-    const auto surface = make_rays_surface(scene);
+    const auto engine = make_rays_engine(scene);
     int lit = 0;
     for (std::uint64_t seed = 0; seed < 1000; ++seed) {
-        const Ping ping = render_ping(sonar, scene, *surface, Pose{}, {seed, 0});
+        const Ping ping = render_ping(sonar, scene, *engine, Pose{}, {seed, 0});
         lit += ping.at(99, 0) > 0.0F;
         if (ping.counts.out_of_range > 0) CHECK(ping.at(99, 0) == 0.0F);
     }

@@ -30,19 +30,19 @@ struct Spread {
 
 /// How far the soundings of a straight pass lie above the surface below them.
 Spread heights_of_a_pass(const Scene& scene, const Sonar& sonar) {
-    const auto surface = make_rays_surface(scene);
+    const auto engine = make_rays_engine(scene);
     double sum = 0.0;
     double square = 0.0;
     double count = 0.0;
     for (std::uint32_t ping = 0; ping < 20; ++ping) {
         const Pose pose{rotation_from_rpy(0.02, -0.01, 0.4), {0.1 * ping, 0.05 * ping, 6.0}};
-        const Ping echo = render_ping(sonar, scene, *surface, pose, {7, ping});
+        const Ping echo = render_ping(sonar, scene, *engine, pose, {7, ping});
         for (const Sounding& sounding : find_soundings(sonar, pose, echo)) {
             if (std::isnan(sounding.range_m)) continue;
             const Eigen::Vector3d above(sounding.position.x(), sounding.position.y(), 50.0);
             const Ray down{Eigen::Vector3f::Zero(), -Eigen::Vector3f::UnitZ()};
-            Hit hit{};
-            surface->hit({Eigen::Quaterniond::Identity(), above}, {&down, 1}, {&hit, 1});
+            Intersection hit{};
+            engine->intersect({Eigen::Quaterniond::Identity(), above}, {&down, 1}, {&hit, 1});
             const double off = sounding.position.z() - (above.z() - hit.distance_m);
             sum += off;
             square += off * off;
@@ -63,12 +63,12 @@ TEST_CASE("profiling: soundings lie on a flat bottom within a quarter of a range
     // off by sqrt((1 - f)^3 + f^3) / sqrt(12) bins for a footprint of f bins, 0.20 on average.
     Scene scene = empty_scene();
     add_floor(scene, 200.0F, 0.0F, add_material(scene, 0.5F));
-    const auto surface = make_rays_surface(scene);
+    const auto engine = make_rays_engine(scene);
     const Sonar sonar = noise_free(profiling());
     const double bin_m = sonar.settings.view.bin_m();
     for (const double H : {8.0, 12.37, 20.02, 30.3}) {
         const Pose pose{rotation_from_rpy(0.0, 0.0, 1.0), {10.0, -5.0, H}};
-        const Ping ping = render_ping(sonar, scene, *surface, pose, {});
+        const Ping ping = render_ping(sonar, scene, *engine, pose, {});
         const std::vector<Sounding> soundings = find_soundings(sonar, pose, ping);
         REQUIRE(soundings.size() == 480);
         double square = 0.0;
@@ -105,8 +105,8 @@ TEST_CASE("profiling: on rough ground the error goal is met, and soundings have 
     const Pose pose{rotation_from_rpy(0.02, -0.01, 0.4), {0.3, -0.2, 6.0}};
     const Reference reference = cast_reference(caster, scene, sonar.settings.view,
                                                pose * sonar.T_vehicle_sensor, {0.005, 64.0});
-    const auto surface = make_rays_surface(scene);
-    const Ping ping = render_ping(sonar, scene, *surface, pose, {});
+    const auto engine = make_rays_engine(scene);
+    const Ping ping = render_ping(sonar, scene, *engine, pose, {});
     CHECK(image_error(ping.intensity, reference.intensity).relative_l1 < 0.03);
 
     // The truth of a beam is the range along its centre.
@@ -117,8 +117,8 @@ TEST_CASE("profiling: on rough ground the error goal is met, and soundings have 
         const double azimuth = 0.5 * (sonar.azimuth_edges_rad[j] + sonar.azimuth_edges_rad[j + 1]);
         const Ray ray{Eigen::Vector3f::Zero(),
                       Eigen::Vector3d(std::cos(azimuth), std::sin(azimuth), 0.0).cast<float>()};
-        Hit hit{};
-        surface->hit(T_world_sensor, {&ray, 1}, {&hit, 1});
+        Intersection hit{};
+        engine->intersect(T_world_sensor, {&ray, 1}, {&hit, 1});
         bias += soundings[j].range_m - hit.distance_m;
     }
     bias /= static_cast<double>(soundings.size());

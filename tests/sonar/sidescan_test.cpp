@@ -34,7 +34,7 @@ Scene flat_bottom() {
 
 Ping look(const Scene& scene, const Sonar& sonar, double yaw = 0.0) {
     const Pose pose{rotation_from_rpy(0.0, 0.0, yaw), {0.0, 0.0, H}};
-    return render_ping(sonar, scene, *make_rays_surface(scene), pose, {});
+    return render_ping(sonar, scene, *make_rays_engine(scene), pose, {});
 }
 
 double centre(const Sonar& sonar, int i) {
@@ -131,7 +131,7 @@ TEST_CASE("sidescan: on rough ground the error goal is met") {
     const Pose pose{rotation_from_rpy(0.02, -0.01, 0.4), {0.3, -0.2, H}};
     const Reference reference = cast_reference(caster, scene, sonar.settings.view,
                                                pose * sonar.T_vehicle_sensor, {0.003, 64.0});
-    const Ping ping = render_ping(sonar, scene, *make_rays_surface(scene), pose, {});
+    const Ping ping = render_ping(sonar, scene, *make_rays_engine(scene), pose, {});
     CHECK(image_error(ping.intensity, reference.intensity).relative_l1 < 0.03);
 }
 

@@ -16,11 +16,11 @@ Multipath clusters_of(int epsilon, double delta_deg) {
 }
 
 Found find(const Scene& scene, const View& view, const Multipath& multipath, const Pose& pose) {
-    const auto surface = make_rays_surface(scene);
+    const auto engine = make_rays_engine(scene);
     Found found;
-    surface->look(view, pose, found.samples);
+    found.samples = engine->visible_surface(view, pose);
     found.bounces =
-        find_bounces(multipath, view, found.samples, scene.materials, *surface, pose, found.counts);
+        find_bounces(multipath, view, found.samples, scene.materials, *engine, pose, found.counts);
     return found;
 }
 

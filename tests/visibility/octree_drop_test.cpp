@@ -28,8 +28,8 @@ Samples look(Scene scene, View view, double unit = 1.0, bool literal = false) {
     for (Eigen::Vector3f& p : scene.vertices)
         p *= static_cast<float>(unit);
     view.range_max_m *= unit;
-    Samples samples;
-    make_octree_surface(scene, {unit * leaf_m, 512, literal})->look(view, {}, samples);
+    const Samples samples =
+        make_octree_engine(scene, {unit * leaf_m, 512, literal})->visible_surface(view, {});
     return samples;
 }
 
@@ -148,9 +148,9 @@ TEST_CASE("octree drops: to the letter, a leaf about the sonar lies in no direct
 TEST_CASE("octree drops: nothing where nothing is delicate") {
     const View view{radians(60.0), radians(12.0), 0.5, 10.0, 512, 256, 0.03};
     const Scene scene = test::tank();
-    const auto octree = make_octree_surface(scene, {});
-    Samples samples;
-    octree->look(view, {rotation_from_rpy(0.0, 0.2, 0.3), {-2.7, -0.3, 1.5}}, samples);
+    const auto octree = make_octree_engine(scene, {});
+    const Samples samples =
+        octree->visible_surface(view, {rotation_from_rpy(0.0, 0.2, 0.3), {-2.7, -0.3, 1.5}});
     MESSAGE(samples.dropped << " of " << samples.items.size() << " pieces dropped");
     CHECK(samples.dropped < samples.items.size() / 1000);
 }

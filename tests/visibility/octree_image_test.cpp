@@ -33,13 +33,13 @@ struct Trial {
         truth = cast_reference(caster, scene, sonar.settings.view, pose, {0.004, 64.0, 40'000'000});
     }
 
-    double error(const Surface& surface) const {
-        const Ping ping = render_ping(sonar, scene, surface, pose, {1, 0});
+    double error(const VisibilityEngine& engine) const {
+        const Ping ping = render_ping(sonar, scene, engine, pose, {1, 0});
         return image_error(ping.intensity, truth.intensity).relative_l1;
     }
 
     double octree_error(double leaf_m, bool literal = false) const {
-        return error(*make_octree_surface(scene, {leaf_m, 512, literal}));
+        return error(*make_octree_engine(scene, {leaf_m, 512, literal}));
     }
 };
 
@@ -56,7 +56,7 @@ TEST_CASE("octree image: a closed box room") {
     Scene scene = test::empty_scene();
     test::add_box(scene, {-4, -3, 0}, {4, 3, 3}, test::add_material(scene, 0.5F));
     const Trial trial(scene, looking_down(15.0, {-3, 0.2, 1.5}));
-    CHECK(trial.error(*make_rays_surface(scene)) < 0.03);
+    CHECK(trial.error(*make_rays_engine(scene)) < 0.03);
     CHECK(trial.octree_error(0.08) < 0.06);
     CHECK(trial.octree_error(0.02) < 0.02);
     CHECK(trial.octree_error(0.0) < 0.03);
@@ -66,7 +66,7 @@ TEST_CASE("octree image: an open seafloor") {
     Scene scene = test::empty_scene();
     test::add_floor(scene, 30.0F, 0.0F, test::add_material(scene, 0.3F), 20);
     const Trial trial(scene, looking_down(20.0, {0, 0, 2}));
-    CHECK(trial.error(*make_rays_surface(scene)) < 0.03);
+    CHECK(trial.error(*make_rays_engine(scene)) < 0.03);
     CHECK(trial.octree_error(0.08) < 0.04);
     CHECK(trial.octree_error(0.02) < 0.02);
     CHECK(trial.octree_error(0.0) < 0.03);
@@ -79,7 +79,7 @@ TEST_CASE("octree image: a thin plate on a floor, its two faces in one leaf") {
     test::add_floor(scene, 15.0F, 0.0F, mud);
     test::add_box(scene, {3.0F, -1.0F, 0.0F}, {3.01F, 1.0F, 1.0F}, steel);
     const Trial trial(scene, looking_down(20.0, {0, 0, 2}));
-    CHECK(trial.error(*make_rays_surface(scene)) < 0.04);
+    CHECK(trial.error(*make_rays_engine(scene)) < 0.04);
     CHECK(trial.octree_error(0.08) < 0.08);
     CHECK(trial.octree_error(0.02) < 0.03);
 }
@@ -89,7 +89,7 @@ TEST_CASE("octree image: a pole thinner than a leaf") {
     test::add_floor(scene, 15.0F, 0.0F, test::add_material(scene, 0.2F));
     test::add_pole(scene, {4.0F, 0.3F, 0.0F}, 0.01F, 2.0F, test::add_material(scene, 0.9F), 16);
     const Trial trial(scene, looking_down(20.0, {0, 0, 2}));
-    CHECK(trial.error(*make_rays_surface(scene)) < 0.04);
+    CHECK(trial.error(*make_rays_engine(scene)) < 0.04);
     CHECK(trial.octree_error(0.08) < 0.06);
     CHECK(trial.octree_error(0.02) < 0.03);
 }
@@ -98,7 +98,7 @@ TEST_CASE("octree image: a sphere alone in the water") {
     Scene scene = test::empty_scene();
     test::add_sphere(scene, {4.0F, 0.2F, 0.0F}, 0.5F, test::add_material(scene, 0.8F), 128);
     const Trial trial(scene, looking_down(0.0, {0, 0, 0}));
-    CHECK(trial.error(*make_rays_surface(scene)) < 0.10);
+    CHECK(trial.error(*make_rays_engine(scene)) < 0.10);
     CHECK(trial.octree_error(0.08) < 0.30);
     CHECK(trial.octree_error(0.02) < 0.10);
 }
@@ -135,7 +135,7 @@ TEST_CASE("octree image: a side-scan and an echosounder over a floor with a box 
     };
     view = {radians(170.0), radians(0.5), 0.5, 10.0, 190, 2, 0.03, ViewShape::sides};
     retry();
-    CHECK(trial.error(*make_rays_surface(scene)) < 0.04);
+    CHECK(trial.error(*make_rays_engine(scene)) < 0.04);
     CHECK(trial.octree_error(0.0) < 0.06);
     CHECK(trial.octree_error(0.02) < 0.04);
     view = {radians(30.0), radians(30.0), 0.5, 10.0, 190, 1, 0.03, ViewShape::cone};

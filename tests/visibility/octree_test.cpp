@@ -67,13 +67,12 @@ TEST_CASE("octree: its leaves hold the surface of the scene, no more and no less
     const Scene scene = test::tank();
     for (const bool literal : {false, true}) {
         for (const double leaf : {0.0, 0.31, 0.1}) {
-            const auto octree = make_octree_surface(scene, {leaf, 512, literal});
+            const auto octree = make_octree_engine(scene, {leaf, 512, literal});
             const double truth = scene_area(scene);
             CHECK(octree->statistics().leaf_area_m2 == doctest::Approx(truth).epsilon(1e-5));
-            Samples samples;
-            octree->look(wide_view(20.0), {Eigen::Quaterniond::Identity(), {0.3, 0.2, 1.1}},
-                         samples);
-            octree->look(tank_view(), tank_pose(0), samples);
+            octree->visible_surface(wide_view(20.0),
+                                    {Eigen::Quaterniond::Identity(), {0.3, 0.2, 1.1}});
+            octree->visible_surface(tank_view(), tank_pose(0));
             CHECK(octree->statistics().leaves > 100);
             CHECK(octree->statistics().leaf_area_m2 == doctest::Approx(truth).epsilon(1e-5));
         }
@@ -86,9 +85,8 @@ TEST_CASE("octree: a tilted plane keeps its area, too, and so does one on round 
     test::add_quad(scene, {-1, -2, 0.1F}, {1.2F, -1.7F, 1}, {0.5F, 2, 1.5F}, {-2, 1.5F, 0.2F},
                    material, 3);
     test::add_floor(scene, 2.0F, 0.0F, material);
-    const auto octree = make_octree_surface(scene, {0.125, 512, false});
-    Samples samples;
-    octree->look(wide_view(10.0), {Eigen::Quaterniond::Identity(), {0, 0, 3}}, samples);
+    const auto octree = make_octree_engine(scene, {0.125, 512, false});
+    octree->visible_surface(wide_view(10.0), {Eigen::Quaterniond::Identity(), {0, 0, 3}});
     CHECK(octree->statistics().leaf_area_m2 == doctest::Approx(scene_area(scene)).epsilon(1e-5));
 }
 
@@ -151,9 +149,8 @@ TEST_CASE("octree leaf: a thin plate keeps both faces, and the larger material c
 TEST_CASE("octree: samples face the sonar and stay in their beam") {
     const Scene scene = test::tank();
     const View view = tank_view();
-    const auto octree = make_octree_surface(scene, {0.04, 512, false});
-    Samples samples;
-    octree->look(view, tank_pose(1), samples);
+    const auto octree = make_octree_engine(scene, {0.04, 512, false});
+    const Samples samples = octree->visible_surface(view, tank_pose(1));
     REQUIRE(samples.beam_begin.size() == 257);
     REQUIRE(samples.items.size() > 1000);
     for (int j = 0; j < view.beams; ++j) {
@@ -175,14 +172,13 @@ TEST_CASE("octree: samples face the sonar and stay in their beam") {
 
 TEST_CASE("octree: nothing is refined that nobody looks at") {
     const Scene scene = test::tank();
-    const auto octree = make_octree_surface(scene, {0.02, 512, false});
+    const auto octree = make_octree_engine(scene, {0.02, 512, false});
     CHECK(octree->statistics().nodes == 1);
-    Samples samples;
-    octree->look(tank_view(), tank_pose(0), samples);
+    octree->visible_surface(tank_view(), tank_pose(0));
     const OctreeStatistics once = octree->statistics();
-    octree->look(tank_view(), tank_pose(0), samples);
+    octree->visible_surface(tank_view(), tank_pose(0));
     CHECK(octree->statistics().nodes == once.nodes);
-    octree->look(wide_view(20.0), tank_pose(0), samples);
+    octree->visible_surface(wide_view(20.0), tank_pose(0));
     CHECK(octree->statistics().nodes > 2 * once.nodes);
 }
 
@@ -190,17 +186,17 @@ TEST_CASE("octree: the same bytes for any number of threads and any order") {
     const Scene scene = test::tank();
     constexpr int pings = 8;
     for (const double leaf : {0.0, 0.04}) {
-        const auto alone = make_octree_surface(scene, {leaf, 512, false});
+        const auto alone = make_octree_engine(scene, {leaf, 512, false});
         std::array<Samples, pings> expected;
         for (int k = 0; k < pings; ++k)
-            alone->look(tank_view(), tank_pose(k % 4), expected[k]);
-        const auto shared = make_octree_surface(scene, {leaf, 512, false});
+            expected[k] = alone->visible_surface(tank_view(), tank_pose(k % 4));
+        const auto shared = make_octree_engine(scene, {leaf, 512, false});
         std::array<Samples, pings> found;
         std::vector<std::thread> threads;
         for (int t = 0; t < 4; ++t) {
             threads.emplace_back([&, t] {
                 for (int k = pings - 1 - t; k >= 0; k -= 4)
-                    shared->look(tank_view(), tank_pose(k % 4), found[k]);
+                    found[k] = shared->visible_surface(tank_view(), tank_pose(k % 4));
             });
         }
         for (std::thread& thread : threads)
@@ -212,13 +208,11 @@ TEST_CASE("octree: the same bytes for any number of threads and any order") {
 
 TEST_CASE("octree: eviction bounds the memory and changes no sample") {
     const Scene scene = test::tank();
-    const auto roomy = make_octree_surface(scene, {0.02, 512, false});
-    const auto tight = make_octree_surface(scene, {0.02, 2, false});
+    const auto roomy = make_octree_engine(scene, {0.02, 512, false});
+    const auto tight = make_octree_engine(scene, {0.02, 2, false});
     for (int k = 0; k < 8; ++k) {
-        Samples expected;
-        Samples found;
-        roomy->look(tank_view(), tank_pose(k % 4), expected);
-        tight->look(tank_view(), tank_pose(k % 4), found);
+        const Samples expected = roomy->visible_surface(tank_view(), tank_pose(k % 4));
+        const Samples found = tight->visible_surface(tank_view(), tank_pose(k % 4));
         CHECK(same(expected, found));
         CHECK(tight->statistics().bytes <= 2U << 20U);
     }
@@ -229,11 +223,11 @@ TEST_CASE("octree: eviction bounds the memory and changes no sample") {
 
 TEST_CASE("octree: rays are traced as the ray engine does") {
     const Scene scene = test::tank();
-    const auto octree = make_octree_surface(scene, {});
+    const auto octree = make_octree_engine(scene, {});
     const Pose pose{Eigen::Quaterniond::Identity(), {0, 0, 1}};
     const std::array rays{Ray{{0, 0, 0}, {0, 0, -1}}, Ray{{0, 0, 0}, {0, 0, 1}}};
-    std::array<Hit, 2> hits;
-    octree->hit(pose, rays, hits);
+    std::array<Intersection, 2> hits;
+    octree->intersect(pose, rays, hits);
     CHECK(hits[0].distance_m == doctest::Approx(1.0));
     CHECK(hits[0].normal.z() == doctest::Approx(1.0));
     CHECK(std::isinf(hits[1].distance_m));
@@ -241,18 +235,17 @@ TEST_CASE("octree: rays are traced as the ray engine does") {
 
 TEST_CASE("octree: an empty scene shows nothing") {
     const Scene scene = test::empty_scene();
-    const auto octree = make_octree_surface(scene, {});
-    Samples samples;
-    octree->look(tank_view(), tank_pose(0), samples);
+    const auto octree = make_octree_engine(scene, {});
+    const Samples samples = octree->visible_surface(tank_view(), tank_pose(0));
     CHECK(samples.items.empty());
     CHECK(samples.beam_begin.size() == 257);
 }
 
 TEST_CASE("octree: bad leaf sizes are refused") {
     const Scene scene = test::tank();
-    CHECK_THROWS_WITH_AS(make_octree_surface(scene, {-0.1}),
+    CHECK_THROWS_WITH_AS(make_octree_engine(scene, {-0.1}),
                          doctest::Contains("leaf_m must be positive"), InputError);
-    CHECK_THROWS_WITH_AS(make_octree_surface(scene, {1e-10}),
+    CHECK_THROWS_WITH_AS(make_octree_engine(scene, {1e-10}),
                          doctest::Contains("leaf_m is too small"), InputError);
 }
 
@@ -264,10 +257,9 @@ TEST_CASE("octree literal: one leaf one vote, and a gap of four leaves ends a cl
         const auto material = test::add_material(scene, 0.5F);
         for (const float x : {5.0F, 5.0F + apart})
             test::add_quad(scene, {x, -1, -1}, {x, 1, -1}, {x, 1, 1}, {x, -1, 1}, material);
-        const auto literal = make_octree_surface(scene, {0.1, 512, true});
+        const auto literal = make_octree_engine(scene, {0.1, 512, true});
         const View view{radians(2.0), radians(1.0), 0.5, 10.0, 100, 1, 0.03};
-        Samples samples;
-        literal->look(view, {}, samples);
+        const Samples samples = literal->visible_surface(view, {});
         REQUIRE(!samples.items.empty());
         float farthest = 0.0F;
         for (const Sample& s : samples.items) {

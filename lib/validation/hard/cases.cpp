@@ -11,7 +11,7 @@
 
 #include "core/clock.h"
 #include "core/error.h"
-#include "dataset/assemble.h"
+#include "sonar/engine_settings.h"
 
 namespace sonarsim {
 
@@ -59,43 +59,31 @@ Difference compare(const Ping& ping, const std::vector<float>& truth) {
     return out;
 }
 
-/// What a mission with this sonar and engine is refused for; empty: it is not.
-std::string refusal(const SonarConfig& sonar, EngineKind engine) {
-    Mission mission;
-    mission.engine = engine;
-    mission.sensors = {sonar};
-    try {
-        check_engine(mission);
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
-}
-
-HardResult run(const HardCase& hard, const Scene& scene, EngineKind engine) {
-    const bool rays = engine == EngineKind::rays;
+HardResult run(const HardCase& hard, const Scene& scene, EngineKind engine_kind) {
+    const bool rays = engine_kind == EngineKind::rays;
     HardResult result{hard.name, hard.stresses, hard.expected, rays ? "rays" : "octree"};
     result.bound = rays ? hard.bounds.rays : hard.bounds.octree;
     result.known_fault = rays ? hard.known.rays : hard.known.octree;
     const double brightest = brightest_of(hard, scene);
-    const std::unique_ptr<Surface> surface = make_surface(scene, engine, {});
+    const EngineSettings settings = engine_settings(engine_kind);
+    const std::unique_ptr<VisibilityEngine> engine = make_engine(scene, settings);
     for (const SonarKind kind :
          {SonarKind::imaging, SonarKind::profiling, SonarKind::sidescan, SonarKind::echosounder}) {
         const HardTrial trial = hard.trial(kind);
-        const std::string refused = refusal(trial.sonar.config, engine);
+        const std::string refused = refusal_of(settings, trial.sonar.settings.view);
         if (!refused.empty()) {
             result.refused = refused;
             if (rays || !hard.octree_may_refuse) result.broken = "refused: " + refused;
             continue;
         }
         Stopwatch watch;
-        const Ping ping = render_ping(trial.sonar, scene, *surface, trial.T_world_vehicle, {1, 0});
+        const Ping ping = render_ping(trial.sonar, scene, *engine, trial.T_world_vehicle, {1, 0});
         const double ms = 1e3 * watch.lap();
         result.slowest_ms = std::max(result.slowest_ms, ms);
         const std::string broken = broken_invariant(ping, brightest);
         if (!broken.empty()) result.broken = std::string(name_of(kind)) + ": " + broken;
         if (!hard.truth) continue;
-        const Difference apart = compare(ping, hard.truth({scene, trial, kind, engine, ping}));
+        const Difference apart = compare(ping, hard.truth({scene, trial, kind, engine_kind, ping}));
         result.largest_difference = std::max(result.largest_difference, apart.largest);
         if (result.sonar.empty() || apart.relative > result.error) {
             result.error = apart.relative;

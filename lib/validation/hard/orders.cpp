@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/units.h"
-#include "dataset/assemble.h"
+#include "sonar/engine_settings.h"
 #include "validation/fit.h"
 #include "validation/hard/tools.h"
 #include "validation/image_error.h"
@@ -32,9 +32,9 @@ std::vector<Subject> subjects() {
             {"grazing", shapes::rough_floor(), down(5.0, {0.3, 0.2, 1.3})}};
 }
 
-double error_of(const Subject& subject, const Sonar& sonar, const Surface& surface,
+double error_of(const Subject& subject, const Sonar& sonar, const VisibilityEngine& engine,
                 const Reference& truth) {
-    const Ping ping = render_ping(sonar, subject.scene, surface, subject.T_world_sensor, {1, 0});
+    const Ping ping = render_ping(sonar, subject.scene, engine, subject.T_world_sensor, {1, 0});
     return image_error(ping.intensity, truth.intensity).relative_l1;
 }
 
@@ -49,18 +49,20 @@ std::vector<ConvergenceOrder> convergence_orders() {
                                                subject.T_world_sensor, {0.001, 256.0, 16'000'000});
         ConvergenceOrder rays{
             subject.name, "rays", "relative_l1", {0.24, 0.12, 0.06, 0.03, 0.015}, {}};
-        const std::unique_ptr<Surface> surface = make_surface(subject.scene, EngineKind::rays, {});
+        const std::unique_ptr<VisibilityEngine> engine =
+            make_engine(subject.scene, {EngineType::rays, {}});
         for (const double goal : rays.steps) {
             Sonar finer = sonar;
             finer.settings.view.relative_l1 = goal;
-            rays.errors.push_back(error_of(subject, finer, *surface, truth));
+            rays.errors.push_back(error_of(subject, finer, *engine, truth));
         }
         ConvergenceOrder octree{subject.name, "octree", "leaf_m", {0.16, 0.08, 0.04, 0.02}, {}};
         for (const double leaf : octree.steps) {
             OctreeConfig config;
             config.leaf_m = leaf;
             octree.errors.push_back(error_of(
-                subject, sonar, *make_surface(subject.scene, EngineKind::octree, config), truth));
+                subject, sonar,
+                *make_engine(subject.scene, engine_settings(EngineKind::octree, config)), truth));
         }
         for (ConvergenceOrder* one : {&rays, &octree}) {
             one->order = fit_exponent(one->steps, one->errors);

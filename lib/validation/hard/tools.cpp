@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "core/units.h"
-#include "dataset/assemble.h"
+#include "sonar/engine_settings.h"
 #include "validation/reference.h"
 #include "validation/shapes.h"
 
@@ -115,9 +115,10 @@ std::vector<float> dark(const HardLook& look) {
     return std::vector<float>(look.ping.intensity.size(), 0.0F);
 }
 
-std::vector<float> image_of(const Scene& scene, const HardTrial& trial, EngineKind engine) {
-    const std::unique_ptr<Surface> surface = make_surface(scene, engine, {});
-    return render_ping(trial.sonar, scene, *surface, trial.T_world_vehicle, {1, 0}).intensity;
+std::vector<float> image_of(const Scene& scene, const HardTrial& trial, EngineKind engine_kind) {
+    const std::unique_ptr<VisibilityEngine> engine =
+        make_engine(scene, engine_settings(engine_kind));
+    return render_ping(trial.sonar, scene, *engine, trial.T_world_vehicle, {1, 0}).intensity;
 }
 
 }  // namespace sonarsim

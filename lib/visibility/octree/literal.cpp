@@ -23,14 +23,14 @@ struct Vote {
 
 }  // namespace
 
-void look_literally(Octree& tree, const Scene& scene, const View& view, const Field& field,
-                    Samples& samples) {
+Samples literal_samples(Octree& tree, const Scene& scene, const View& view, const Field& field) {
     // Elevation cells as high as a leaf halfway to the maximum range.
     const auto middle = static_cast<float>(0.5 * view.range_max_m);
     const double row_height = field.leaf_m(middle) / middle;
     // Where beams are wider than that, shadows are told apart by cells as wide as they are high.
     const bool fan = view.shape == ViewShape::fan;
     std::vector<Vote> votes;
+    Samples samples;
     const auto take = [&](const Run& run) {
         for (std::uint32_t i = run.begin; i < run.end; ++i) {
             const LeafFacet facet = run.level->facets.at(run.level->nodes[i].facets);
@@ -58,7 +58,6 @@ void look_literally(Octree& tree, const Scene& scene, const View& view, const Fi
     std::stable_sort(votes.begin(), votes.end(), [](const Vote& a, const Vote& b) {
         return a.cell != b.cell ? a.cell < b.cell : a.range_m < b.range_m;
     });
-    samples.items.clear();
     samples.beam_begin.assign(view.beams + 1, 0);
     bool kept = false;
     for (std::size_t k = 0; k < votes.size(); ++k) {
@@ -78,6 +77,7 @@ void look_literally(Octree& tree, const Scene& scene, const View& view, const Fi
     }
     for (int b = 0; b < view.beams; ++b)
         samples.beam_begin[b + 1] += samples.beam_begin[b];
+    return samples;
 }
 
 }  // namespace sonarsim

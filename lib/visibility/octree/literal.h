@@ -10,7 +10,6 @@ namespace sonarsim {
 /// The paper to the letter, as the baseline of the report: every leaf in view stands for its
 /// cube's centre and has one vote. Within each cell of azimuth and elevation the leaves are sorted
 /// by range, and the first cluster is kept: a gap of four leaves ends it.
-void look_literally(Octree& tree, const Scene& scene, const View& view, const Field& field,
-                    Samples& samples);
+Samples literal_samples(Octree& tree, const Scene& scene, const View& view, const Field& field);
 
 }  // namespace sonarsim

@@ -26,14 +26,13 @@ struct OctreeStatistics {
 
 /// The octree engine. It grows while it is looked at; what it shows does not depend on what it
 /// was asked before.
-class OctreeSurface : public Surface {
+class OctreeEngine : public VisibilityEngine {
   public:
     virtual OctreeStatistics statistics() const = 0;
 };
 
 /// `scene` must outlive the surface. Throws InputError when `leaf_m` is negative or so small that
 /// the scene is more than 2^30 leaves long.
-std::unique_ptr<OctreeSurface> make_octree_surface(const Scene& scene,
-                                                   const OctreeOptions& options);
+std::unique_ptr<OctreeEngine> make_octree_engine(const Scene& scene, const OctreeOptions& options);
 
 }  // namespace sonarsim

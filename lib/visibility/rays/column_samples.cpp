@@ -160,10 +160,9 @@ void collect(const Context& context, const Chain& chain, const std::uint8_t* spl
 
 }  // namespace
 
-void chain_samples(const View& view, const Sampling& sampling, const Chains& chains,
-                   Samples& samples) {
+Samples chain_samples(const View& view, const Sampling& sampling, const Chains& chains) {
     const Context context{view.shape, sampling, chains};
-    samples.items.clear();
+    Samples samples;
     samples.dropped = chains.dropped;
     samples.items.reserve(chains.nodes.size());
     samples.beam_begin.assign(view.beams + 1, 0);
@@ -179,6 +178,7 @@ void chain_samples(const View& view, const Sampling& sampling, const Chains& cha
         }
         samples.beam_begin[j + 1] = static_cast<std::uint32_t>(samples.items.size());
     }
+    return samples;
 }
 
 }  // namespace sonarsim

@@ -6,16 +6,11 @@
 
 #include "visibility/angles.h"
 #include "visibility/caster.h"
+#include "visibility/local_pose.h"
 #include "visibility/rays/sampling.h"
 #include "visibility/view.h"
 
 namespace sonarsim {
-
-/// A sensor pose relative to the scene's local origin.
-struct LocalPose {
-    Eigen::Matrix3f rotation;  ///< R_local_sensor
-    Eigen::Vector3f position;  ///< m
-};
 
 /// A ray and the plane of what it met, in the sensor frame.
 struct ChainNode {

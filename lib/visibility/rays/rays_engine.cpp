@@ -1,11 +1,8 @@
 #include "visibility/rays/rays_engine.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
-#include "core/elementary.h"
 #include "visibility/caster.h"
+#include "visibility/intersect.h"
+#include "visibility/local_pose.h"
 #include "visibility/rays/column_samples.h"
 #include "visibility/rays/ray_columns.h"
 
@@ -13,36 +10,20 @@ namespace sonarsim {
 
 namespace {
 
-LocalPose local_pose(const Pose& T_world_sensor, const Eigen::Vector3d& scene_origin) {
-    return {T_world_sensor.rotation.toRotationMatrix().cast<float>(),
-            (T_world_sensor.translation - scene_origin).cast<float>()};
-}
-
-/// How far o + d v may lie off the plane of a facet through q, when all is float with a unit u of
-/// 2^-24. The error of n . (q - o) is 4 u |q - o|; that of d (n . v), with v turned into the
-/// scene's axes, 9 u d; o is turned, 6 u |o|, and moved, u |o| of what it is there; adding up p is
-/// off by u (2 d + |o|) and its direction from the sonar, which is asked for next, by 2 u |p|.
-float plane_rounding(const Eigen::Vector3f& to_vertex, const Eigen::Vector3f& origin,
-                     const Eigen::Vector3f& local_origin, float distance) {
-    constexpr float unit = 0x1p-24F;
-    return unit * (16.0F * (to_vertex.norm() + origin.norm() + std::fabs(distance)) +
-                   2.0F * local_origin.norm());
-}
-
-class RaysSurface final : public Surface {
+class RaysEngine final : public VisibilityEngine {
   public:
-    explicit RaysSurface(const Scene& scene) : origin_(scene.origin), caster_(scene) {}
+    explicit RaysEngine(const Scene& scene) : origin_(scene.origin), caster_(scene) {}
 
-    void look(const View& view, const Pose& T_world_sensor, Samples& samples) const override {
+    Samples visible_surface(const View& view, const Pose& T_world_sensor) const override {
         const Sampling sampling = sampling_for(view);
         const LocalPose pose = local_pose(T_world_sensor, origin_);
         const Chains chains = cast_chains(caster_, view, pose, sampling);
-        chain_samples(view, sampling, chains, samples);
+        return chain_samples(view, sampling, chains);
     }
 
-    void hit(const Pose& T_world_sensor, std::span<const Ray> rays,
-             std::span<Hit> hits) const override {
-        trace_rays(caster_, origin_, T_world_sensor, rays, hits);
+    void intersect(const Pose& T_world_sensor, std::span<const Ray> rays,
+                   std::span<Intersection> intersections) const override {
+        intersect_rays(caster_, origin_, T_world_sensor, rays, intersections);
     }
 
   private:
@@ -52,35 +33,8 @@ class RaysSurface final : public Surface {
 
 }  // namespace
 
-void trace_rays(const Caster& caster, const Eigen::Vector3d& scene_origin,
-                const Pose& T_world_sensor, std::span<const Ray> rays, std::span<Hit> hits) {
-    const LocalPose pose = local_pose(T_world_sensor, scene_origin);
-    std::vector<Eigen::Vector3f> origins(rays.size());
-    std::vector<Eigen::Vector3f> directions(rays.size());
-    std::vector<std::uint32_t> facets(rays.size());
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        origins[i] = pose.rotation * rays[i].origin + pose.position;
-        directions[i] = pose.rotation * rays[i].direction;
-    }
-    caster.cast(origins, directions, facets);
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        if (facets[i] == Caster::nothing) {
-            hits[i] = {std::numeric_limits<float>::infinity(), 0.0F, Eigen::Vector3f::Zero(), 0, 0};
-            continue;
-        }
-        const Facet& facet = caster.facet(facets[i]);
-        const float along = facet.normal.dot(directions[i]);
-        const Eigen::Vector3f to_vertex = facet.vertex - origins[i];
-        const float distance = facet.normal.dot(to_vertex) / along;
-        const float rounding = plane_rounding(to_vertex, rays[i].origin, origins[i], distance);
-        const Eigen::Vector3f normal =
-            pose.rotation.transpose() * (along > 0.0F ? -facet.normal : facet.normal);
-        hits[i] = {distance, rounding, normal, facet.material, facet.instance};
-    }
-}
-
-std::unique_ptr<Surface> make_rays_surface(const Scene& scene) {
-    return std::make_unique<RaysSurface>(scene);
+std::unique_ptr<VisibilityEngine> make_rays_engine(const Scene& scene) {
+    return std::make_unique<RaysEngine>(scene);
 }
 
 }  // namespace sonarsim

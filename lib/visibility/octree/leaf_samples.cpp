@@ -1,4 +1,4 @@
-#include "visibility/octree/look.h"
+#include "visibility/octree/leaf_samples.h"
 
 #include <algorithm>
 
@@ -10,9 +10,10 @@ namespace {
 
 constexpr float cells_per_leaf = 3.0F;
 
-/// Sorts samples by beam, in the order given within a beam.
-void sort_by_beam(const std::vector<Sample>& from, const std::vector<std::uint32_t>& beam,
-                  int beams, Samples& to) {
+/// Samples by beam, in the order given within a beam.
+Samples sorted_by_beam(const std::vector<Sample>& from, const std::vector<std::uint32_t>& beam,
+                       int beams) {
+    Samples to;
     to.beam_begin.assign(beams + 1, 0);
     for (const std::uint32_t b : beam)
         ++to.beam_begin[b + 1];
@@ -22,17 +23,18 @@ void sort_by_beam(const std::vector<Sample>& from, const std::vector<std::uint32
     to.items.resize(from.size());
     for (std::size_t k = 0; k < from.size(); ++k)
         to.items[next[beam[k]]++] = from[k];
+    return to;
 }
 
 }  // namespace
 
-void look_at_leaves(Octree& tree, const Scene& scene, const View& view, const Field& field,
-                    Samples& samples) {
+Samples leaf_samples(Octree& tree, const Scene& scene, const View& view, const Field& field) {
     // A leaf halfway to the maximum range spans a few cells.
     const auto middle = static_cast<float>(0.5 * view.range_max_m);
     AngularCells cells(view, field.leaf_m(middle) / middle / cells_per_leaf);
     std::vector<SeenFacet> seen;
-    const auto take = [&](const Run& run) { samples.dropped += cells.see(run, field, seen); };
+    std::uint64_t dropped = 0;
+    const auto take = [&](const Run& run) { dropped += cells.see(run, field, seen); };
     Search(tree, field, take).run();
     cells.close_holes();
     if (view.shape == ViewShape::cone) cells.mask_cone(view);
@@ -41,7 +43,7 @@ void look_at_leaves(Octree& tree, const Scene& scene, const View& view, const Fi
     items.reserve(2 * seen.size());
     beams.reserve(2 * seen.size());
     for (const SeenFacet& facet : seen) {
-        samples.dropped += cells.pieces(facet, [&](int beam, const SeenPiece& piece) {
+        dropped += cells.pieces(facet, [&](int beam, const SeenPiece& piece) {
             Sample& sample = items.emplace_back();
             sample.position = facet.centre + piece.u * facet.edge_u + piece.v * facet.edge_v;
             sample.edge_u = piece.half_u * facet.edge_u;
@@ -54,7 +56,9 @@ void look_at_leaves(Octree& tree, const Scene& scene, const View& view, const Fi
             beams.push_back(static_cast<std::uint32_t>(beam));
         });
     }
-    sort_by_beam(items, beams, view.beams, samples);
+    Samples samples = sorted_by_beam(items, beams, view.beams);
+    samples.dropped = dropped;
+    return samples;
 }
 
 }  // namespace sonarsim

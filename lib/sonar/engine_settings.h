@@ -1,0 +1,13 @@
+#pragma once
+
+#include "mission/mission.h"
+#include "visibility/make_engine.h"
+
+namespace sonarsim {
+
+/// What a mission's `engine` and `octree` keys stand for. `auto` is rays: in the
+/// speed-against-error report they reach every error goal in less time than the octree, on every
+/// scene.
+EngineSettings engine_settings(EngineKind kind, const OctreeConfig& octree = {});
+
+}  // namespace sonarsim

@@ -1,0 +1,55 @@
+#include "visibility/intersect.h"
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "visibility/local_pose.h"
+
+namespace sonarsim {
+
+namespace {
+
+/// How far o + d v may lie off the plane of a facet through q, when all is float with a unit u of
+/// 2^-24. The error of n . (q - o) is 4 u |q - o|; that of d (n . v), with v turned into the
+/// scene's axes, 9 u d; o is turned, 6 u |o|, and moved, u |o| of what it is there; adding up p is
+/// off by u (2 d + |o|) and its direction from the sonar, which is asked for next, by 2 u |p|.
+float plane_rounding(const Eigen::Vector3f& to_vertex, const Eigen::Vector3f& origin,
+                     const Eigen::Vector3f& local_origin, float distance) {
+    constexpr float unit = 0x1p-24F;
+    return unit * (16.0F * (to_vertex.norm() + origin.norm() + std::fabs(distance)) +
+                   2.0F * local_origin.norm());
+}
+
+}  // namespace
+
+void intersect_rays(const Caster& caster, const Eigen::Vector3d& scene_origin,
+                    const Pose& T_world_sensor, std::span<const Ray> rays,
+                    std::span<Intersection> intersections) {
+    const LocalPose pose = local_pose(T_world_sensor, scene_origin);
+    std::vector<Eigen::Vector3f> origins(rays.size());
+    std::vector<Eigen::Vector3f> directions(rays.size());
+    std::vector<std::uint32_t> facets(rays.size());
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        origins[i] = pose.rotation * rays[i].origin + pose.position;
+        directions[i] = pose.rotation * rays[i].direction;
+    }
+    caster.cast(origins, directions, facets);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        if (facets[i] == Caster::nothing) {
+            intersections[i] = {std::numeric_limits<float>::infinity(), 0.0F,
+                                Eigen::Vector3f::Zero(), 0, 0};
+            continue;
+        }
+        const Facet& facet = caster.facet(facets[i]);
+        const float along = facet.normal.dot(directions[i]);
+        const Eigen::Vector3f to_vertex = facet.vertex - origins[i];
+        const float distance = facet.normal.dot(to_vertex) / along;
+        const float rounding = plane_rounding(to_vertex, rays[i].origin, origins[i], distance);
+        const Eigen::Vector3f normal =
+            pose.rotation.transpose() * (along > 0.0F ? -facet.normal : facet.normal);
+        intersections[i] = {distance, rounding, normal, facet.material, facet.instance};
+    }
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,39 @@
+#include "visibility/make_engine.h"
+
+#include <cmath>
+
+#include "core/text.h"
+#include "core/units.h"
+#include "visibility/rays/rays_engine.h"
+
+namespace sonarsim {
+
+namespace {
+
+/// Rows of the octree's depth buffer are equal in the tangent of elevation, which is infinite at
+/// 90 degrees.
+constexpr double widest_octree_deg = 160.0;
+
+}  // namespace
+
+std::unique_ptr<VisibilityEngine> make_engine(const Scene& scene, const EngineSettings& settings) {
+    switch (settings.type) {
+        case EngineType::octree:
+            return make_octree_engine(scene, settings.octree);
+        case EngineType::rays:
+            break;
+    }
+    return make_rays_engine(scene);
+}
+
+std::string refusal_of(const EngineSettings& settings, const View& view) {
+    if (settings.type != EngineType::octree) return "";
+    const double width_deg = std::round(1e9 * degrees(view.elevation_rad)) / 1e9;
+    if (width_deg <= widest_octree_deg) return "";
+    return std::string("engine: octree takes ") +
+           (view.shape == ViewShape::cone ? "opening_deg" : "elevation_deg") + " up to " +
+           number_text(widest_octree_deg) + ", not " + number_text(width_deg) +
+           "; use engine: rays";
+}
+
+}  // namespace sonarsim

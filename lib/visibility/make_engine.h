@@ -1,0 +1,27 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "scene/scene.h"
+#include "visibility/engine.h"
+#include "visibility/octree/octree_engine.h"
+
+namespace sonarsim {
+
+enum class EngineType { rays, octree };
+
+struct EngineSettings {
+    EngineType type = EngineType::rays;
+    OctreeOptions octree;  ///< read by the octree alone
+};
+
+/// The engine over a scene that must outlive it. Throws InputError when octree.leaf_m is too small
+/// for the scene, and std::runtime_error when memory does not suffice.
+std::unique_ptr<VisibilityEngine> make_engine(const Scene& scene, const EngineSettings& settings);
+
+/// Why the engine cannot see this view, as a sentence that names the mission's keys; empty when it
+/// can.
+std::string refusal_of(const EngineSettings& settings, const View& view);
+
+}  // namespace sonarsim
