@@ -5,23 +5,31 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-packages=(g++ cmake ninja-build ccache make pkg-config python3
-    libeigen3-dev libembree-dev libtbb-dev librandom123-dev libopenimageio-dev libtinygltf-dev
-    libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libspdlog-dev doctest-dev "$@")
 preset=${SONARSIM_PRESET:-release}
-case $preset in asan | tsan) packages+=(clang libclang-rt-14-dev) ;; esac
-missing=()
-for package in "${packages[@]}"; do
-    dpkg-query -W -f '${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing+=("$package")
-done
-if ((${#missing[@]})); then
+
+install() {
+    local package missing=() as_root=()
+    for package in "$@"; do
+        dpkg-query -W -f '${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing+=("$package")
+    done
+    ((${#missing[@]})) || return 0
     echo "installing: ${missing[*]}" >&2
-    as_root=()
     [ "$(id -u)" -eq 0 ] || as_root=(sudo)
     "${as_root[@]}" apt-get update -qq
     "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
         apt-get install -y -qq --no-install-recommends "${missing[@]}" >&2
-fi
+}
+
+install g++ cmake ninja-build ccache make pkg-config python3 \
+    libeigen3-dev libembree-dev libtbb-dev librandom123-dev libopenimageio-dev libtinygltf-dev \
+    libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libspdlog-dev doctest-dev "$@"
+case $preset in
+    asan | tsan)
+        install clang
+        # The sanitizers' package bears the number of the compiler: 14 on Debian 12, 19 on Debian 13.
+        install "libclang-rt-$(clang++ -dumpversion | cut -d. -f1)-dev"
+        ;;
+esac
 [ "${SONARSIM_BUILD:-yes}" = yes ] || exit 0
 
 cmake --preset "$preset" >&2

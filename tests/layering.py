@@ -25,6 +25,7 @@ OWNERS = {
     "tiny_gltf.h": "scene",
     "OpenImageIO/": "dataset",
     "embree3/": "visibility",
+    "embree4/": "visibility",
     "CLI/": "apps",
 }
 

@@ -1,12 +1,12 @@
 #include "visibility/caster.h"
 
-#include <embree3/rtcore.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
 #include <string>
+
+#include "visibility/embree.h"
 
 namespace sonarsim {
 
@@ -26,12 +26,8 @@ Facet make_facet(const Scene& scene, std::size_t triangle) {
 
 /// Traces rays in packets; `origin_of(i)` gives the start of ray i.
 template <class OriginOf>
-void trace(RTCScene tree, RTCIntersectContextFlags flags, OriginOf origin_of,
-           std::span<const Eigen::Vector3f> directions, float reach_m,
-           std::span<std::uint32_t> facets) {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = flags;
+void trace(RTCScene tree, OriginOf origin_of, std::span<const Eigen::Vector3f> directions,
+           float reach_m, std::span<std::uint32_t> facets) {
     alignas(64) RTCRayHit8 rays;
     alignas(64) int valid[packet];
     for (int k = 0; k < packet; ++k) {
@@ -59,7 +55,7 @@ void trace(RTCScene tree, RTCIntersectContextFlags flags, OriginOf origin_of,
             rays.hit.primID[k] = Caster::nothing;
             valid[k] = k < count ? -1 : 0;
         }
-        rtcIntersect8(valid, tree, &context, &rays);
+        intersect_coherent_8(valid, tree, rays);
         std::copy_n(rays.hit.primID, count, facets.begin() + static_cast<std::ptrdiff_t>(first));
     }
 }
@@ -121,17 +117,16 @@ Caster::~Caster() = default;
 void Caster::cast(const Eigen::Vector3f& origin, std::span<const Eigen::Vector3f> directions,
                   float reach_m, std::span<std::uint32_t> facets) const {
     trace(
-        embree_->tree, RTC_INTERSECT_CONTEXT_FLAG_COHERENT,
-        [&](std::size_t) -> const Eigen::Vector3f& { return origin; }, directions, reach_m, facets);
+        embree_->tree, [&](std::size_t) -> const Eigen::Vector3f& { return origin; }, directions,
+        reach_m, facets);
 }
 
 void Caster::cast(std::span<const Eigen::Vector3f> origins,
                   std::span<const Eigen::Vector3f> directions,
                   std::span<std::uint32_t> facets) const {
     trace(
-        embree_->tree, RTC_INTERSECT_CONTEXT_FLAG_COHERENT,
-        [&](std::size_t i) -> const Eigen::Vector3f& { return origins[i]; }, directions,
-        std::numeric_limits<float>::infinity(), facets);
+        embree_->tree, [&](std::size_t i) -> const Eigen::Vector3f& { return origins[i]; },
+        directions, std::numeric_limits<float>::infinity(), facets);
 }
 
 }  // namespace sonarsim
