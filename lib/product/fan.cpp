@@ -1,8 +1,13 @@
 #include "product/fan.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <memory>
+#include <span>
+#include <type_traits>
 
 #include "core/elementary.h"
 #include "core/units.h"
@@ -11,107 +16,137 @@ namespace sonarsim {
 
 namespace {
 
-// A tap is the index of a bin, then the bin's weight less one in the low bits. 64 is the weight of
-// a bin that fills its pixel.
-constexpr int weight_bits = 6;
-constexpr std::uint32_t whole = 1U << weight_bits;
-constexpr std::uint32_t weight_mask = whole - 1;
+/// A pixel takes the mean of no more bins than this in range or in azimuth. Only next to the apex
+/// does it cover more, and there the mean hardly changes any more.
+constexpr double most_bins = 128.0;
 
-/// The points of one pixel at which bins are looked up, relative to its centre: a rank-1
-/// lattice, whose projections on either axis (and so on an edge) do not coincide.
-template <int count, int step>
-struct Points {
-    std::array<double, count> right{};
-    std::array<double, count> down{};
+/// From one ring to the next a pixel covers this many times as many beams.
+constexpr double ring_step = 1.125;
 
-    constexpr Points() {
-        for (int k = 0; k < count; ++k) {
-            right[k] = (k + 0.5) / count - 0.5;
-            down[k] = (k * step % count + 0.5) / count - 0.5;
-        }
-    }
+/// Where the centre of a pixel lies.
+struct PixelPlace {
+    double x_m;  ///< ahead
+    double y_m;  ///< to port
+    double range_m;
+    double azimuth_rad;
 };
-constexpr Points<16, 7> coarse_points;
-constexpr Points<64, 19> fine_points;  // where several bins share a pixel
 
-/// Finds the bins under a pixel.
-class Sampler {
-  public:
-    Sampler(const View& view, int width, double pixel_m)
-        : view_(view),
-          half_width_(0.5 * width),
-          pixel_m_(pixel_m),
-          bins_per_m_(1.0 / view.bin_m()),
-          beams_per_rad_(view.beams / view.azimuth_rad) {}
+PixelPlace place_of(const FanFrame& frame, double range_max_m, double column, double row) {
+    const double x = range_max_m - (row + 0.5) * frame.pixel_m;
+    const double y = (0.5 * frame.width - (column + 0.5)) * frame.pixel_m;
+    return {x, y, std::sqrt(x * x + y * y), arctan2(y, x)};
+}
 
-    /// The taps of pixel (column, row), sorted by bin.
-    const std::vector<std::uint32_t>& taps(int column, int row) {
-        const double x = view_.range_max_m - (row + 0.5) * pixel_m_;
-        const double y = (half_width_ - (column + 0.5)) * pixel_m_;
-        const double r = std::sqrt(x * x + y * y);
-        bins_.clear();
-        if (r > view_.range_max_m + pixel_m_ || r < view_.range_min_m - pixel_m_) return bins_;
-        const double azimuth = arctan2(y, x);
-        if (r * (std::fabs(azimuth) - 0.5 * view_.azimuth_rad) > pixel_m_) return bins_;
-        const double bin_m = std::min(view_.bin_m(), r / beams_per_rad_);
-        bin_m < 0.5 * pixel_m_ ? look_up(fine_points, x, y, azimuth)
-                               : look_up(coarse_points, x, y, azimuth);
-        return bins_;
+bool is_inside(const View& view, const PixelPlace& place) {
+    return place.range_m >= view.range_min_m && place.range_m < view.range_max_m &&
+           std::fabs(place.azimuth_rad) <= 0.5 * view.azimuth_rad;
+}
+
+/// The share of a pixel inside the sector, counted at 64 points of it: a rank-1 lattice, whose
+/// projections on either axis (and so on an edge) do not coincide.
+float covered_share(const View& view, const FanFrame& frame, int column, int row) {
+    constexpr int count = 64;
+    constexpr int step = 19;
+    int inside = 0;
+    for (int k = 0; k < count; ++k) {
+        const double right = (k + 0.5) / count - 0.5;
+        const double down = (k * step % count + 0.5) / count - 0.5;
+        inside += is_inside(view, place_of(frame, view.range_max_m, column + right, row + down));
     }
+    return static_cast<float>(inside) / count;
+}
 
-  private:
-    /// The bins at points of the pixel whose centre is (x, y).
-    template <int count, int step>
-    void look_up(const Points<count, step>& points, double x, double y, double azimuth) {
-        std::array<double, count> range;
-        std::array<double, count> beam;
-        const double first_beam = (azimuth + 0.5 * view_.azimuth_rad) * beams_per_rad_;
-        const double full_turn = 2.0 * pi * beams_per_rad_;
-        const bool near_apex = x * x + y * y < 64.0 * pixel_m_ * pixel_m_;
-        for (int k = 0; k < count; ++k) {
-            const double px = x - points.down[k] * pixel_m_;
-            const double py = y - points.right[k] * pixel_m_;
-            range[k] = (std::sqrt(px * px + py * py) - view_.range_min_m) * bins_per_m_;
-            // The angle from the centre is small: three terms of the arctangent are exact to 1e-8.
-            const double t = (x * py - y * px) / (x * px + y * py);
-            const double t2 = t * t;
-            beam[k] = first_beam + t * (1.0 - t2 * (1.0 / 3.0 - t2 / 5.0)) * beams_per_rad_;
-        }
-        for (int k = 0; k < count && near_apex; ++k) {
-            const double px = x - points.down[k] * pixel_m_;
-            const double py = y - points.right[k] * pixel_m_;
-            beam[k] = (arctan2(py, px) + 0.5 * view_.azimuth_rad) * beams_per_rad_;
-        }
-        for (int k = 0; k < count; ++k) {
-            // Behind the apex of a full circle the last beam meets the first.
-            const double turn = beam[k] < 0.0 ? full_turn : beam[k] >= full_turn ? -full_turn : 0.0;
-            const double j = beam[k] + turn;
-            if (!(range[k] >= 0.0 && range[k] < view_.range_bins)) continue;
-            if (!(j >= 0.0 && j < view_.beams)) continue;
-            const auto bin = static_cast<std::uint32_t>(static_cast<int>(range[k]) * view_.beams +
-                                                        static_cast<int>(j));
-            add(bin, whole / count);
-        }
-        std::sort(bins_.begin(), bins_.end());
-    }
+/// Whether an edge of the sector may cross the pixel.
+bool is_near_edge(const View& view, const FanFrame& frame, const PixelPlace& place) {
+    const double aside = std::fabs(0.5 * view.azimuth_rad - std::fabs(place.azimuth_rad));
+    const bool full_turn = view.azimuth_rad >= 2.0 * pi;
+    return std::fabs(place.range_m - view.range_min_m) < frame.pixel_m ||
+           std::fabs(place.range_m - view.range_max_m) < frame.pixel_m ||
+           (!full_turn && place.range_m * std::min(aside, 1.0) < 2.0 * frame.pixel_m);
+}
 
-    void add(std::uint32_t bin, std::uint32_t weight) {
-        for (std::uint32_t& tap : bins_) {
-            if (tap >> weight_bits == bin) {
-                tap += weight;
-                return;
-            }
-        }
-        bins_.push_back(bin << weight_bits | (weight - 1));
-    }
+/// The ring of pixels that are `extent` beams wide; ring 0 holds those of up to one beam.
+std::size_t ring_of(double extent) {
+    std::size_t ring = 0;
+    for (double limit = 1.0; limit < std::min(extent, most_bins); limit *= ring_step)
+        ++ring;
+    return ring;
+}
 
-    View view_;
-    double half_width_;
-    double pixel_m_;
-    double bins_per_m_;
-    double beams_per_rad_;
-    std::vector<std::uint32_t> bins_;
+/// A pixel of a ring, from the places of its centre in range and in azimuth.
+FanMap::Pixel pixel_at(const FanMap& map, const FanMap::Ring& ring, int beams, int index,
+                       const KernelPlace& range, const KernelPlace& beam, float covered) {
+    const KernelTable& range_kernel = map.range_kernel;
+    const KernelTable& beam_kernel = ring.beam_kernel;
+    const int row = range.bin + range_kernel.first[range.phase] + map.range_padding;
+    const int column = beam.bin + beam_kernel.first[beam.phase] + map.beam_padding;
+    return {.index = index,
+            .first_bin = row * (beams + 2 * map.beam_padding) + column,
+            .range_weights = static_cast<std::uint16_t>(range.phase * range_kernel.taps),
+            .beam_weights = static_cast<std::uint16_t>(beam.phase * beam_kernel.taps),
+            .covered = covered};
+}
+
+/// An image with a margin of bins on all sides.
+struct PaddedImage {
+    std::ptrdiff_t width;
+    std::unique_ptr<float[]> values;
 };
+
+/// The image with its edges repeated outwards, or joined where the sonar looks all around.
+PaddedImage padded(const FanMap& map, const Ping& ping) {
+    const int beams = ping.beams;
+    const int width = beams + 2 * map.beam_padding;
+    const int height = ping.range_bins + 2 * map.range_padding;
+    const std::size_t size = static_cast<std::size_t>(width) * height;
+    PaddedImage out{width, std::make_unique_for_overwrite<float[]>(size)};
+    for (int i = 0; i < height; ++i) {
+        const int bin = std::clamp(i - map.range_padding, 0, ping.range_bins - 1);
+        const float* const from = ping.intensity.data() + static_cast<std::size_t>(bin) * beams;
+        float* const to = out.values.get() + static_cast<std::size_t>(i) * width + map.beam_padding;
+        // An infinite intensity under a weight of 0 would not be nothing.
+        for (int j = 0; j < beams; ++j)
+            to[j] = std::min(from[j], std::numeric_limits<float>::max());
+        for (int j = 0; j < map.beam_padding; ++j) {
+            to[-1 - j] = map.full_turn ? to[beams - 1 - j % beams] : to[0];
+            to[beams + j] = map.full_turn ? to[j % beams] : to[beams - 1];
+        }
+    }
+    return out;
+}
+
+/// A number of taps that is known when the program is compiled.
+template <int count>
+using Taps = std::integral_constant<int, count>;
+
+constexpr std::size_t block = 256;
+
+/// The means of at most `block` pixels. The numbers of taps are ints or Taps; that of the beams is
+/// a multiple of 4.
+template <class RangeTaps, class BeamTaps>
+void take_means(const FanMap& map, RangeTaps range_taps, const KernelTable& beam_kernel,
+                BeamTaps beam_taps, std::span<const FanMap::Pixel> pixels, const PaddedImage& bins,
+                std::array<float, block>& means) {
+    using Four = Eigen::Array4f;
+    const float* const range_weights = map.range_kernel.weights.data();
+    const float* const beam_weights = beam_kernel.weights.data();
+    const float* const values = bins.values.get();
+    const std::ptrdiff_t width = bins.width;
+    for (std::size_t p = 0; p < pixels.size(); ++p) {
+        const FanMap::Pixel& pixel = pixels[p];
+        const float* const range_weight = range_weights + pixel.range_weights;
+        const float* const beam_weight = beam_weights + pixel.beam_weights;
+        Four sum = Four::Zero();
+        for (int b = 0; b < beam_taps; b += 4) {
+            const float* const first = values + pixel.first_bin + b;
+            Four over_range = range_weight[0] * Eigen::Map<const Four>(first);
+            for (int k = 1; k < range_taps; ++k)
+                over_range += range_weight[k] * Eigen::Map<const Four>(first + k * width);
+            sum += over_range * Eigen::Map<const Four>(beam_weight + b);
+        }
+        means[p] = sum.sum() * pixel.covered;
+    }
+}
 
 }  // namespace
 
@@ -133,79 +168,73 @@ FanFrame fan_frame(const Sonar& sonar, int width_px) {
 }
 
 FanMap make_fan_map(const Sonar& sonar, int width_px) {
+    const View& view = sonar.settings.view;
     FanMap map;
     map.frame = fan_frame(sonar, width_px);
-    const auto [width, height, pixel_m] = map.frame;
-    // Taps by pixel in raster order first; then transposed, group by group.
-    struct Entry {
-        std::int32_t pixel;
-        std::uint32_t first;
-        std::uint32_t count;
+    map.full_turn = view.azimuth_rad >= 2.0 * pi;
+    map.range_kernel = make_kernel(std::min(map.frame.pixel_m / view.bin_m(), most_bins), 1);
+    map.range_padding = map.range_kernel.taps / 2 + 1;
+    const double beams_per_rad = view.beams / view.azimuth_rad;
+    const auto beams_across = [&](double range_m) {
+        return std::min({map.frame.pixel_m * beams_per_rad / range_m, most_bins,
+                         static_cast<double>(view.beams)});
     };
-    std::vector<Entry> entries;
-    std::vector<std::uint32_t> raster;
-    Sampler sampler(sonar.settings.view, width, pixel_m);
-    for (int row = 0; row < height; ++row) {
-        for (int column = 0; column < width; ++column) {
-            const std::vector<std::uint32_t>& taps = sampler.taps(column, row);
-            if (taps.empty()) continue;
-            entries.push_back({row * width + column, static_cast<std::uint32_t>(raster.size()),
-                               static_cast<std::uint32_t>(taps.size())});
-            raster.insert(raster.end(), taps.begin(), taps.end());
+    const double nearest_m = std::max(view.range_min_m - map.frame.pixel_m, 0.0);
+    double extent = 1.0;
+    for (std::size_t k = 0; k <= ring_of(beams_across(nearest_m)); ++k, extent *= ring_step)
+        map.rings.push_back({make_kernel(extent, 4), {}});
+    map.beam_padding = map.rings.back().beam_kernel.taps;
+    for (int row = 0; row < map.frame.height; ++row) {
+        for (int column = 0; column < map.frame.width; ++column) {
+            const PixelPlace place = place_of(map.frame, view.range_max_m, column, row);
+            const float covered = is_near_edge(view, map.frame, place)
+                                      ? covered_share(view, map.frame, column, row)
+                                      : static_cast<float>(is_inside(view, place));
+            if (covered == 0.0F) continue;
+            // The centre of a pixel on the edge may lie outside.
+            const double bins = (place.range_m - view.range_min_m) / view.bin_m();
+            const double beams = (place.azimuth_rad + 0.5 * view.azimuth_rad) * beams_per_rad;
+            FanMap::Ring& ring = map.rings[ring_of(beams_across(place.range_m))];
+            ring.pixels.push_back(
+                pixel_at(map, ring, view.beams, row * map.frame.width + column,
+                         kernel_place(std::clamp(bins, 0.0, view.range_bins - 1e-6)),
+                         kernel_place(std::clamp(beams, 0.0, view.beams - 1e-6)), covered));
         }
     }
-    std::stable_sort(entries.begin(), entries.end(),
-                     [](const Entry& a, const Entry& b) { return a.count < b.count; });
-    map.taps.reserve(raster.size());
-    for (std::size_t begin = 0; begin < entries.size();) {
-        const std::uint32_t count = entries[begin].count;
-        std::size_t end = begin;
-        while (end < entries.size() && entries[end].count == count)
-            ++end;
-        map.groups.push_back({count, begin, end - begin, map.taps.size()});
-        for (std::uint32_t k = 0; k < count; ++k) {
-            for (std::size_t p = begin; p < end; ++p)
-                map.taps.push_back(raster[entries[p].first + k]);
-        }
-        begin = end;
-    }
-    for (const Entry& entry : entries)
-        map.pixel.push_back(entry.pixel);
     return map;
 }
 
 std::vector<std::uint8_t> render_fan(const FanMap& map, const Ping& ping, double full_scale) {
-    constexpr std::size_t block = 256;
-    const float scale = static_cast<float>(1.0 / (full_scale * whole));
-    const float* const intensity = ping.intensity.data();
-    std::vector<std::uint8_t> image(static_cast<std::size_t>(map.frame.width) * map.frame.height,
-                                    0);
-    std::array<float, block> sum;
+    const auto scale = static_cast<float>(1.0 / full_scale);
+    const PaddedImage bins = padded(map, ping);
+    std::vector<std::uint8_t> picture(static_cast<std::size_t>(map.frame.width) * map.frame.height,
+                                      0);
+    std::array<float, block> means{};
     std::array<std::uint8_t, block> grey;
-    for (const FanMap::Group& group : map.groups) {
-        for (std::size_t begin = 0; begin < group.pixels; begin += block) {
-            const std::size_t count = std::min(block, group.pixels - begin);
-            sum.fill(0.0F);
-            for (std::size_t k = 0; k < group.taps_per_pixel; ++k) {
-                const std::uint32_t* const taps =
-                    map.taps.data() + group.first_tap + k * group.pixels + begin;
-                for (std::size_t p = 0; p < count; ++p) {
-                    const auto bin = static_cast<std::int32_t>(taps[p] >> weight_bits);
-                    const auto weight = static_cast<std::int32_t>((taps[p] & weight_mask) + 1);
-                    sum[p] += static_cast<float>(weight) * intensity[bin];
-                }
+    std::uint8_t* const out = picture.data();
+    const int range_taps = map.range_kernel.taps;
+    for (const FanMap::Ring& ring : map.rings) {
+        const KernelTable& kernel = ring.beam_kernel;
+        for (std::size_t begin = 0; begin < ring.pixels.size(); begin += block) {
+            const auto pixels =
+                std::span(ring.pixels).subspan(begin, std::min(block, ring.pixels.size() - begin));
+            if (range_taps == 3 && kernel.taps == 4) {
+                take_means(map, Taps<3>(), kernel, Taps<4>(), pixels, bins, means);
+            } else if (range_taps == 4 && kernel.taps == 4) {
+                take_means(map, Taps<4>(), kernel, Taps<4>(), pixels, bins, means);
+            } else {
+                take_means(map, range_taps, kernel, kernel.taps, pixels, bins, means);
             }
             for (std::size_t p = 0; p < block; ++p) {
-                const float share = std::min(1.0F, std::max(0.0F, sum[p] * scale));
+                const float share = std::min(1.0F, std::max(0.0F, means[p] * scale));
                 grey[p] = static_cast<std::uint8_t>(
                     static_cast<std::int32_t>(255.0F * std::sqrt(share) + 0.5F));
             }
-            const std::int32_t* const pixel = map.pixel.data() + group.first_pixel + begin;
-            for (std::size_t p = 0; p < count; ++p)
-                image[pixel[p]] = grey[p];
+            for (std::size_t p = 0; p < pixels.size(); ++p)
+                out[pixels[p].index] = grey[p];
         }
     }
-    return image;
+    return picture;
 }
 
 }  // namespace sonarsim

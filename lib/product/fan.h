@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "ping/ping.h"
+#include "product/even_kernel.h"
 #include "sonar/sonar.h"
 
 namespace sonarsim {
@@ -22,26 +23,34 @@ struct FanFrame {
 /// one pixel per range bin, at most 1024.
 FanFrame fan_frame(const Sonar& sonar, int width_px);
 
-/// How the bins of a sonar fall on the pixels of its fan, worked out once per sonar. A pixel is the
-/// mean of the bins that it covers, weighted by area; what lies outside the sector counts as black,
-/// so that edges are smooth. Areas are counted at 16 points of the pixel, 64 where bins are small.
+/// How the bins of a sonar fall on the pixels of its fan, worked out once per sonar. A pixel is a
+/// weighted mean of the bins around it, by the kernel of even_kernel.h in range and in azimuth; a
+/// pixel that is larger than the bins takes the mean of those it covers. What lies outside the
+/// sector counts as black, so that edges are smooth: the covered share of a pixel on the edge is
+/// counted at 64 points.
 struct FanMap {
-    /// Pixels that cover the same number of bins, so that the inner loops have a fixed length.
-    /// Tap k of the group's pixel p is taps[first_tap + k * pixels + p].
-    struct Group {
-        std::size_t taps_per_pixel;
-        std::size_t first_pixel;
-        std::size_t pixels;
-        std::size_t first_tap;
+    struct Pixel {
+        std::int32_t index;           ///< into the picture, row by row
+        std::int32_t first_bin;       ///< of the first taps, into the padded image
+        std::uint16_t range_weights;  ///< where its weights begin in the range kernel
+        std::uint16_t beam_weights;   ///< and in the beam kernel
+        float covered;                ///< share of the pixel inside the sector
+    };
+    /// Pixels that share a beam kernel: the nearer to the apex, the more beams a pixel covers.
+    struct Ring {
+        KernelTable beam_kernel;
+        std::vector<Pixel> pixels;
     };
 
     FanFrame frame;
-    std::vector<Group> groups;
-    std::vector<std::int32_t> pixel;  ///< index into the image, row by row
-    std::vector<std::uint32_t> taps;  ///< a bin and its weight, packed
+    KernelTable range_kernel;
+    std::vector<Ring> rings;
+    int range_padding = 0;   ///< rows before the first and after the last bin, so that kernels at
+    int beam_padding = 0;    ///< the edges need no case of their own; columns likewise
+    bool full_turn = false;  ///< the last beam meets the first
 };
 
-/// `width_px` as for fan_frame(). At most 2^26 bins.
+/// `width_px` as for fan_frame().
 FanMap make_fan_map(const Sonar& sonar, int width_px);
 
 /// The fan as grey values [height, width], row by row from the top. Intensity is power, an
