@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -57,6 +58,8 @@ void finish_printing() {
 }  // namespace
 
 int main(int argc, char** argv) {
+    // A limit on the size of files (ulimit -f) shall be an error with a reason, not a sudden end.
+    std::signal(SIGXFSZ, SIG_IGN);
     keep_freed_memory();
     start_logging({});
     try {

@@ -159,7 +159,12 @@ void add_render(CLI::App& app, int& exit_code) {
             "Renders the I-th of N parts, counted from 1")
         ->type_name("I/N");
     command.add_flag("--overwrite", arguments->render.overwrite,
-                     "Begins anew where the output folder holds something else");
+                     "Begins anew where the output folder holds another dataset");
+    command
+        .add_option("--checkpoint", arguments->render.checkpoint_s,
+                    "Seconds between checkpoints: what a power cut costs at the most (default: 5)")
+        ->check(CLI::Range(0.01, 3600.0))
+        ->type_name("S");
     command.add_flag("--no-files", arguments->no_files, "Writes nothing, to measure the speed");
     add_log_options(command, arguments->log);
     command.callback([arguments, &exit_code] { exit_code = render(*arguments); });

@@ -12,7 +12,6 @@
 #include "dataset/metadata.h"
 #include "logging.h"
 #include "mission_options.h"
-#include "product/fan.h"
 
 namespace sonarsim {
 
@@ -32,15 +31,6 @@ void check_writable(std::filesystem::path folder) {
         throw std::system_error(errno, std::generic_category(),
                                 "cannot write to " + folder.string());
     }
-}
-
-/// The most that the files of a ping take: noise hardly compresses, so PNG files count in full.
-double bytes_per_ping(const Sonar& sonar, const OutputConfig& output) {
-    const double bins = static_cast<double>(sonar.config.range_bins) * sonar.config.azimuth_bins;
-    const FanFrame fan = fan_frame(sonar, output.fan_width_px);
-    return (output.polar ? 128.0 + 4.0 * bins : 0.0) + (output.image ? 100.0 + 2.0 * bins : 0.0) +
-           (output.fan ? 100.0 + static_cast<double>(fan.width) * fan.height : 0.0) +
-           (output.meta ? 1500.0 : 0.0);
 }
 
 /// What a mission comes to.
@@ -97,9 +87,10 @@ std::string text_of(const Findings& f) {
     text += line("trajectory", fmt::format("{} poses, {:.1f} s", trajectory.size(),
                                            trajectory.back().t_s - trajectory.front().t_s));
     for (std::size_t i = 0; i < f.pings.size(); ++i) {
-        const SonarConfig& sensor = f.assembly.sonars[i].config;
-        text += line(sensor.name, fmt::format("{} x {} bins, {} pings", sensor.range_bins,
-                                              sensor.azimuth_bins, f.pings[i]));
+        const Sonar& sonar = f.assembly.sonars[i];
+        text +=
+            line(sonar.config.name, fmt::format("{} x {} bins, {} pings", sonar.config.range_bins,
+                                                sonar.settings.view.beams, f.pings[i]));
     }
     text +=
         line("dataset", fmt::format("{} pings, at most {:.1f} MB", f.all_pings(), 1e-6 * f.bytes));
@@ -112,18 +103,19 @@ int validate(const ValidateArguments& arguments) {
     const Assembly assembly = assemble(mission);
     warn_about(assembly.scene);
     const std::size_t poses = assembly.trajectory.size();
-    const Layout layout = make_layout(mission, poses);
+    const std::vector<Writers> writers = make_writers(mission, assembly);
+    const Layout layout = make_layout(mission, writers, poses);
+    protect_inputs(layout, mission);
     const FolderState state =
-        arguments.overwrite ? FolderState::fresh
-                            : inspect_folder(layout, describe_dataset(mission, assembly, layout));
+        arguments.overwrite
+            ? FolderState::fresh
+            : inspect_folder(layout, describe_dataset(mission, assembly, layout, writers));
     check_writable(layout.folder);
 
-    Findings findings{mission, assembly, layout.folder, state_text(state), {}, 0.0};
-    for (const Sonar& sonar : assembly.sonars) {
-        const std::size_t pings = (poses + sonar.config.every - 1) / sonar.config.every;
-        findings.pings.push_back(pings);
-        findings.bytes += static_cast<double>(pings) * bytes_per_ping(sonar, mission.output);
-    }
+    Findings findings{mission, assembly, layout.folder, state_text(state),
+                      count_pings(mission, poses)};
+    for (std::size_t i = 0; i < writers.size(); ++i)
+        findings.bytes += bytes_at_most(writers[i], findings.pings[i]);
     if (!arguments.log.quiet) {
         fmt::print("{}", arguments.log.json ? json_line(json_of(findings)) : text_of(findings));
     }

@@ -1,9 +1,11 @@
 #include "core/file.h"
 
 #include <fcntl.h>
+#include <sys/random.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <system_error>
 #include <utility>
@@ -40,8 +42,11 @@ std::string reason() {
     throw std::system_error(errno, std::generic_category(), "cannot write " + path.string());
 }
 
-void write_bytes(const std::filesystem::path& path, std::string_view bytes) {
-    Descriptor file(path, O_WRONLY | O_CREAT | O_TRUNC);
+enum class Durable { no, yes };
+
+/// A new file: what bears the name already, a link included, is not written to.
+void write_bytes(const std::filesystem::path& path, std::string_view bytes, Durable durable) {
+    Descriptor file(path, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW);
     if (file.get() < 0) fail_to_write(path);
     while (!bytes.empty()) {
         const ssize_t put = ::write(file.get(), bytes.data(), bytes.size());
@@ -49,8 +54,30 @@ void write_bytes(const std::filesystem::path& path, std::string_view bytes) {
         if (put < 0) fail_to_write(path);
         bytes.remove_prefix(static_cast<std::size_t>(put));
     }
+    if (durable == Durable::yes && ::fsync(file.get()) != 0) fail_to_write(path);
     if (!file.close()) fail_to_write(path);
 }
+
+/// The names in a folder become durable.
+void sync_folder(const std::filesystem::path& folder) {
+    const Descriptor names(folder.empty() ? "." : folder, O_RDONLY | O_DIRECTORY);
+    if (names.get() < 0 || ::fsync(names.get()) != 0) fail_to_write(folder);
+}
+
+void write_and_rename(const std::filesystem::path& path, std::string_view bytes, Durable durable) {
+    const std::filesystem::path part = temporary_name(path);
+    try {
+        write_bytes(part, bytes, durable);
+        if (::rename(part.c_str(), path.c_str()) != 0) fail_to_write(path);
+    } catch (...) {
+        ::unlink(part.c_str());
+        throw;
+    }
+    if (durable == Durable::yes) sync_folder(path.parent_path());
+}
+
+constexpr std::size_t random_bytes = 8;
+constexpr std::string_view temporary_ending = ".part";
 
 }  // namespace
 
@@ -80,19 +107,38 @@ std::string read_file(const std::filesystem::path& path, std::size_t limit) {
 }
 
 std::filesystem::path temporary_name(const std::filesystem::path& path) {
-    return path.parent_path() /
-           ("." + path.filename().string() + "." + std::to_string(::getpid()) + ".part");
+    std::array<unsigned char, random_bytes> random;
+    if (::getrandom(random.data(), random.size(), 0) != random_bytes) fail_to_write(path);
+    std::string digits;
+    for (const unsigned byte : random) {
+        digits += "0123456789abcdef"[byte >> 4];
+        digits += "0123456789abcdef"[byte & 15U];
+    }
+    return path.parent_path() / ("." + path.filename().string() + "." + digits + ".part");
+}
+
+bool is_temporary_name(std::string_view name) {
+    return name.starts_with('.') && name.ends_with(temporary_ending);
+}
+
+std::string final_name(std::string_view name) {
+    if (!is_temporary_name(name)) return std::string(name);
+    name.remove_prefix(1);
+    name.remove_suffix(temporary_ending.size());
+    return std::string(name.substr(0, name.rfind('.')));
 }
 
 void write_file(const std::filesystem::path& path, std::string_view bytes) {
-    const std::filesystem::path part = temporary_name(path);
-    try {
-        write_bytes(part, bytes);
-        if (::rename(part.c_str(), path.c_str()) != 0) fail_to_write(path);
-    } catch (...) {
-        ::unlink(part.c_str());
-        throw;
-    }
+    write_and_rename(path, bytes, Durable::no);
+}
+
+void write_file_durably(const std::filesystem::path& path, std::string_view bytes) {
+    write_and_rename(path, bytes, Durable::yes);
+}
+
+void sync_file_system(const std::filesystem::path& folder) {
+    const Descriptor any(folder, O_RDONLY | O_DIRECTORY);
+    if (any.get() < 0 || ::syncfs(any.get()) != 0) fail_to_write(folder);
 }
 
 }  // namespace sonarsim

@@ -3,9 +3,9 @@
 #include <variant>
 
 #include "core/error.h"
+#include "core/hash.h"
 #include "core/text.h"
 #include "core/units.h"
-#include "mission/resolved.h"
 #include "scene/gltf/load.h"
 #include "sonar/engine_settings.h"
 #include "trajectory/files.h"

@@ -3,16 +3,27 @@
 #include <algorithm>
 #include <span>
 
-#include "dataset/products.h"
 #include "product/gain.h"
 
 namespace sonarsim {
 
+namespace {
+
+/// Pings to a row.
+std::size_t fold_of(std::size_t pings) {
+    return std::max<std::size_t>(1, (pings + most_picture_rows - 1) / most_picture_rows);
+}
+
+}  // namespace
+
+int picture_rows(std::size_t pings) {
+    return static_cast<int>((pings + fold_of(pings) - 1) / fold_of(pings));
+}
+
 FoldedRecords::FoldedRecords(const RecordFile& records)
     : records_(records),
-      fold_(std::max<std::size_t>(1,
-                                  (records.records() + most_picture_rows - 1) / most_picture_rows)),
-      rows_((records.records() + fold_ - 1) / fold_),
+      fold_(fold_of(records.records())),
+      rows_(picture_rows(records.records())),
       record_(records.record_bytes() / sizeof(float)),
       mean_(record_.size()) {}
 

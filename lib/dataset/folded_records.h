@@ -7,6 +7,13 @@
 
 namespace sonarsim {
 
+/// Pictures have a row (or column) per ping up to 60,000 pings; beyond that, the mean of as many
+/// pings as it takes. A PNG cannot be much longer.
+inline constexpr std::size_t most_picture_rows = 60'000;
+
+/// How many rows that makes.
+int picture_rows(std::size_t pings);
+
 /// The float32 records of a file as the rows of a picture: each the mean of as many pings as it
 /// takes to have at most `most_picture_rows`.
 class FoldedRecords {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "dataset/journal.h"
 #include "dataset/layout.h"
 
 namespace sonarsim {
@@ -19,7 +20,12 @@ enum class FolderState {
 /// other input files or of another version of the program.
 FolderState inspect_folder(const Layout& layout, const nlohmann::ordered_json& description);
 
-/// Removes what a dataset consists of, whichever sensors it has; anything else stays.
+/// InputError when writing the dataset would touch what is not its own: a file that the mission
+/// reads, or something behind a symbolic link. The folder of the dataset itself may be a link.
+void protect_inputs(const Layout& layout, const Mission& mission);
+
+/// Removes the files that the folder's dataset.json lists, and nothing else; no link is followed.
+/// InputError when the folder holds files and no dataset of sonarsim.
 void remove_dataset(const std::filesystem::path& folder);
 
 /// The text of the files that stand beside the pings.
@@ -29,15 +35,17 @@ struct CommonFiles {
     std::string trajectory;              ///< trajectory.tum
 };
 
-/// Makes the folder ready for pings: subfolders and common files, dataset.json first and with
-/// `complete` set to false. std::system_error when the disk does not take them.
+/// Makes the folder ready for pings: common files and subfolders, dataset.json first, durably and
+/// with `complete` set to false. std::system_error when the disk does not take them.
 void begin_dataset(const Layout& layout, const CommonFiles& files);
 
 /// Removes the temporary files that an interrupted run left of the pings in `todo` (sorted), and of
 /// the common files when no other shard may be at work (`alone`).
 void remove_leftovers(const Layout& layout, const std::vector<PingId>& todo, bool alone);
 
-/// Writes dataset.json with `complete` set to true.
-void finish_dataset(const Layout& layout, const nlohmann::ordered_json& description);
+/// Writes journal.txt and then dataset.json with `complete` set to true, both durably, after all
+/// else has become durable; then the parts of the journal go.
+void finish_dataset(const Layout& layout, const nlohmann::ordered_json& description,
+                    const JournalEntries& entries);
 
 }  // namespace sonarsim

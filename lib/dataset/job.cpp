@@ -5,7 +5,6 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <array>
 #include <memory>
 #include <span>
 #include <vector>
@@ -16,12 +15,11 @@
 #include "core/ordered_pipeline.h"
 #include "dataset/finite_image.h"
 #include "dataset/folder.h"
-#include "dataset/measure.h"
+#include "dataset/journal.h"
+#include "dataset/measured.h"
 #include "dataset/metadata.h"
-#include "dataset/ping_files.h"
-#include "dataset/products.h"
+#include "dataset/resume.h"
 #include "mission/resolved.h"
-#include "product/fan.h"
 #include "sonar/engine_settings.h"
 #include "trajectory/files.h"
 
@@ -31,6 +29,8 @@ namespace {
 
 /// What one ping left behind besides its files.
 struct PingReport {
+    PingId id;
+    std::vector<std::string> what;  ///< for the journal: what each writer wrote
     PingCounts counts;
     PingSeconds seconds;
     double encode_seconds = 0.0;
@@ -82,106 +82,105 @@ void check(const RenderOptions& options) {
 /// Which pings a run renders.
 struct Plan {
     std::vector<PingId> todo;
-    std::vector<PingId> others;  ///< those of other shards
-    std::uint64_t skipped = 0;   ///< of this shard, with all their files
+    std::uint64_t skipped = 0;  ///< of this shard, with all their files
 };
 
-/// Whether a ping is there already.
-using IsThere = std::function<bool(const PingId&)>;
-
 Plan make_plan(const std::vector<PingId>& all, const RenderOptions& options,
-               const IsThere& is_there) {
+               const std::function<bool(const PingId&)>& is_there) {
     Plan plan;
     for (std::size_t i = 0; i < all.size(); ++i) {
-        if (static_cast<int>(i % options.shards) != options.shard) {
-            plan.others.push_back(all[i]);
-        } else if (is_there(all[i])) {
-            ++plan.skipped;
-        } else {
-            plan.todo.push_back(all[i]);
-        }
+        if (static_cast<int>(i % options.shards) != options.shard) continue;
+        is_there(all[i]) ? void(++plan.skipped) : plan.todo.push_back(all[i]);
     }
     return plan;
-}
-
-/// Renders one ping and writes its files, if any.
-using Work = std::function<PingReport(const PingId&)>;
-
-/// Does the work for each ping, several at a time. At most twice as many pings as threads are in
-/// memory.
-void stream_pings(const std::vector<PingId>& todo, int threads, const Work& work,
-                  const ProgressCallback& progress, const std::atomic<bool>& stop,
-                  RenderSummary& summary) {
-    Stopwatch watch;
-    ordered_pipeline(
-        todo.size(), 2 * static_cast<std::size_t>(threads), stop,
-        [&](std::size_t i) { return work(todo[i]); },
-        [&](const PingReport& report) {
-            add(summary, report);
-            if (progress) progress(summary.pings, todo.size());
-        });
-    summary.seconds = watch.lap();
-    summary.stopped = summary.pings < todo.size();
 }
 
 /// Where a run writes to.
 struct Destination {
     const Layout& layout;
+    const std::vector<Writers>& writers;
     const RecordFiles& records;
+    Journal& journal;
 };
 
-/// What the pings of a run have in common.
-struct Workshop {
-    const Mission& mission;
-    const Assembly& assembly;
-    const VisibilityEngine& engine;
-};
-
-/// Writes the files of a ping: its record first, then the others, its metadata last.
-void write_ping(const Workshop& shop, const Destination& to, const std::vector<FanMap>& fans,
-                const PingId& id, const Ping& ping, PingReport& report) {
-    const auto& [mission, assembly, engine] = shop;
-    const Sonar& sonar = assembly.sonars[id.sensor];
-    const Pose& T_world_vehicle = assembly.trajectory[id.pose].T_world_vehicle;
+/// Hands a ping to the writers of its sensor.
+void write_ping(const Mission& mission, const Assembly& assembly, const VisibilityEngine& engine,
+                const Destination& to, const Ping& ping, PingReport& report) {
+    const PingId& id = report.id;
     Stopwatch watch;
-    const Measurement measurement = measure(sonar, engine, T_world_vehicle, ping);
-    std::array<Ping, 5> stages;
-    if (to.layout.sensors[id.sensor].writes(FileKind::stages)) {
-        stages =
-            render_stages(sonar, assembly.scene, engine, T_world_vehicle, {mission.seed, id.pose});
-    }
-    const PingFiles encoded =
-        encode_ping(mission, assembly, to.layout, fans, id, ping, measurement.summary, stages);
+    const auto white = static_cast<float>(mission.output.full_scale);
+    report.clipped_pixels =
+        std::ranges::count_if(ping.intensity, [&](float v) { return v > white; });
+    const auto metadata = measured(assembly.sonars[id.sensor], engine,
+                                   assembly.trajectory[id.pose].T_world_vehicle, ping);
+    const FinishedPing finished{id, ping, engine, metadata, report.clipped_pixels};
+    const Writers& writers = to.writers[id.sensor];
+    std::vector<std::string> encoded;
+    for (const auto& writer : writers)
+        encoded.push_back(writer->encode(finished));
     report.encode_seconds = watch.lap();
-    if (to.records[id.sensor]) {
-        to.records[id.sensor]->write(to.layout.record_of(id),
-                                     std::as_bytes(std::span(measurement.record)));
+    for (std::size_t k = 0; k < writers.size(); ++k) {
+        const auto& part = to.layout.sensors[id.sensor].per_ping[k];
+        if (const auto* file = std::get_if<PingFile>(&part)) {
+            write_file(to.layout.file(id, *file), encoded[k]);
+            report.what.push_back(std::to_string(encoded[k].size()));
+        } else {
+            to.records[id.sensor][k]->write(to.layout.record_of(id),
+                                            std::as_bytes(std::span(encoded[k])));
+            report.what.push_back(hash_of_record(encoded[k]));
+        }
     }
-    for (const auto& [kind, bytes] : encoded.files)
-        write_file(to.layout.file(id, kind), bytes);
     report.write_seconds = watch.lap();
-    report.clipped_pixels = encoded.clipped_pixels;
 }
 
-/// Renders `todo`. Without a destination nothing is written.
+/// Renders `todo`, several pings at a time; at most twice as many as threads are in memory. Without
+/// a destination nothing is written.
 void render(const Mission& mission, const Assembly& assembly, const std::vector<PingId>& todo,
             const Destination* to, int threads, const ProgressCallback& progress,
             const std::atomic<bool>& stop, RenderSummary& summary) {
     if (todo.empty()) return;
     const std::unique_ptr<VisibilityEngine> engine =
         make_engine(assembly.scene, engine_settings(mission.engine, mission.octree));
-    const std::vector<FanMap> fans =
-        to ? make_fan_maps(mission, assembly, to->layout) : std::vector<FanMap>();
-    const auto work = [&](const PingId& id) {
-        const Ping ping =
-            render_ping(assembly.sonars[id.sensor], assembly.scene, *engine,
-                        assembly.trajectory[id.pose].T_world_vehicle, {mission.seed, id.pose});
-        PingReport report{ping.counts, ping.seconds};
-        brightest_pixel(ping, assembly.sonars[id.sensor].config.name, id.pose);
-        if (to) write_ping({mission, assembly, *engine}, *to, fans, id, ping, report);
-        return report;
-    };
-    stream_pings(todo, threads, work, progress, stop, summary);
+    Stopwatch watch;
+    ordered_pipeline(
+        todo.size(), 2 * static_cast<std::size_t>(threads), stop,
+        [&](std::size_t i) {
+            const PingId& id = todo[i];
+            const Ping ping =
+                render_ping(assembly.sonars[id.sensor], assembly.scene, *engine,
+                            assembly.trajectory[id.pose].T_world_vehicle, {mission.seed, id.pose});
+            PingReport report{.id = id, .what = {}, .counts = ping.counts, .seconds = ping.seconds};
+            brightest_pixel(ping, assembly.sonars[id.sensor].config.name, id.pose);
+            if (to) write_ping(mission, assembly, *engine, *to, ping, report);
+            return report;
+        },
+        [&](const PingReport& report) {
+            add(summary, report);
+            if (to) to->journal.add(report.id, report.what);
+            if (progress) progress(summary.pings, todo.size());
+        });
+    summary.seconds = watch.lap();
+    summary.stopped = summary.pings < todo.size();
+}
+
+/// "3-of-8": the name of a shard's part of the journal.
+std::string part_name(const RenderOptions& options) {
+    return std::to_string(options.shard + 1) + "-of-" + std::to_string(options.shards);
+}
+
+/// Makes the products when every ping is there, and says so in the folder.
+void complete_dataset(const Layout& layout, const std::vector<Writers>& writers,
+                      RecordFiles& records, const CommonFiles& common) {
+    for (std::size_t i = 0; i < writers.size(); ++i) {
+        for (std::size_t k = 0; k < writers[i].size(); ++k) {
+            if (!records[i][k]) continue;
+            writers[i][k]->write_products(*records[i][k], layout.sensor_folder(i));
+            records[i][k]->close();
+        }
+    }
+    JournalEntries entries = read_journal(layout.folder);
+    entries.products = product_sizes(layout);
+    finish_dataset(layout, common.description, entries);
 }
 
 }  // namespace
@@ -205,37 +204,34 @@ RenderSummary run_job(const Mission& mission, const Assembly& assembly,
         return summary;
     }
 
-    const Layout layout = make_layout(mission, assembly.trajectory.size());
-    const CommonFiles common{describe_dataset(mission, assembly, layout), resolved_yaml(mission),
-                             write_tum(assembly.trajectory)};
+    const std::vector<Writers> writers = make_writers(mission, assembly);
+    const Layout layout = make_layout(mission, writers, assembly.trajectory.size());
+    const CommonFiles common{describe_dataset(mission, assembly, layout, writers),
+                             resolved_yaml(mission), write_tum(assembly.trajectory)};
+    protect_inputs(layout, mission);
     if (options.overwrite) remove_dataset(layout.folder);
-    const FolderState state =
-        options.overwrite ? FolderState::fresh : inspect_folder(layout, common.description);
-    const bool fresh = state == FolderState::fresh;
-    if (fresh) begin_dataset(layout, common);
-    const RecordFiles records = open_records(assembly, layout);
-    const auto is_there = [&](const PingId& id) {
-        const auto& record = records[id.sensor];
-        return layout.has(id) && (!record || record->is_written(layout.record_of(id)));
-    };
-    const Plan plan = make_plan(all, options, fresh ? IsThere(none) : IsThere(is_there));
+    const FolderState state = inspect_folder(layout, common.description);
+    if (state == FolderState::fresh) begin_dataset(layout, common);
+    RecordFiles records = open_records(layout);
+    Plan plan = make_plan(all, options, FinishedPings(layout, records));
     summary.skipped = plan.skipped;
-    summary.complete = state == FolderState::complete && plan.todo.empty() && layout.has_products();
+    summary.complete = state == FolderState::complete && plan.todo.empty() && has_products(layout);
     if (summary.complete) return summary;
 
-    if (!fresh) {
+    if (state != FolderState::fresh) {
         begin_dataset(layout, common);
         remove_leftovers(layout, plan.todo, options.shards == 1);
     }
-    const Destination to{layout, records};
+    Journal journal(layout.folder, part_name(options), options.checkpoint_s);
+    const Destination to{layout, writers, records, journal};
     render_all(plan.todo, &to);
-    summary.complete = !summary.stopped && std::ranges::all_of(plan.others, is_there);
-    if (!summary.complete) return summary;
-    write_products(mission, assembly, layout, records);
-    for (const auto& record : records) {
-        if (record) record->close();
-    }
-    finish_dataset(layout, common.description);
+    journal.finish();
+    if (summary.stopped) return summary;
+    // What was there, or written by this run, may be gone by now: all of it is looked at once more.
+    const FinishedPings finished(layout, records);
+    require_files(layout, plan.todo, finished);
+    summary.complete = std::ranges::all_of(all, finished);
+    if (summary.complete) complete_dataset(layout, writers, records, common);
     return summary;
 }
 

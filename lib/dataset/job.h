@@ -11,11 +11,12 @@
 namespace sonarsim {
 
 struct RenderOptions {
-    int threads = 0;         ///< 0: one per core
-    int shard = 0;           ///< renders the pings whose index i has i % shards == shard
-    int shards = 1;          ///< 1: all of them
-    bool overwrite = false;  ///< begins anew, whatever the output folder holds
-    bool files = true;       ///< false: renders and throws away, to measure
+    int threads = 0;            ///< 0: one per core
+    int shard = 0;              ///< renders the pings whose index i has i % shards == shard
+    int shards = 1;             ///< 1: all of them
+    bool overwrite = false;     ///< begins anew, whatever the output folder holds
+    bool files = true;          ///< false: renders and throws away, to measure
+    double checkpoint_s = 5.0;  ///< between checkpoints; what a power cut costs at the most
 };
 
 struct RenderSummary {
@@ -38,14 +39,16 @@ using ProgressCallback = std::function<void(std::uint64_t done, std::uint64_t to
 /// Renders a mission into its output folder.
 ///
 /// A folder with an unfinished dataset of the same mission, inputs and program version is resumed:
-/// pings whose files are all there are not rendered again, and the bytes come out the same. If
-/// nothing is missing, nothing is done. Shards may run at the same time, in one folder or in
-/// folders that are merged later; whichever run finds that no ping is missing marks the dataset as
-/// complete (after a merge, one more run without shards does that).
+/// pings that its journal lists, and whose files are there with the sizes that it tells, are not
+/// rendered again, and the bytes come out the same. If nothing is missing, nothing is done. Shards
+/// may run at the same time, in one folder or in folders that are merged later by copying them over
+/// each other; whichever run finds that no ping is missing makes the products and marks the dataset
+/// as complete (after a merge, one more run without shards does that).
 ///
 /// When `stop` becomes true, pings in flight are finished and the rest is left for a later run.
-/// InputError when the folder holds something else and `overwrite` is off, std::system_error when
-/// the disk does not take a file.
+/// InputError when the folder holds something else and `overwrite` is off, or when the dataset
+/// would replace a file that the mission reads; std::system_error when the disk does not take a
+/// file; std::runtime_error when files vanish while the run is under way.
 RenderSummary run_job(const Mission& mission, const Assembly& assembly,
                       const RenderOptions& options, const ProgressCallback& progress,
                       const std::atomic<bool>& stop);

@@ -1,7 +1,6 @@
 #include "dataset/metadata.h"
 
 #include "mission/resolved.h"
-#include "product/fan.h"
 
 namespace sonarsim {
 
@@ -26,20 +25,8 @@ Json describe_scene_use(const Scene& scene) {
               {"skipped_primitives", scene.rejects.skipped_primitives}}}};
 }
 
-/// How the axes of a sensor's records run, in the order of the indices.
-Json record_axes(SonarKind kind) {
-    switch (kind) {
-        case SonarKind::sidescan:
-            return {"ping", "port from range_max to range_min, then starboard back"};
-        case SonarKind::echosounder:
-            return {"range", "ping"};
-        default:
-            return {"ping", "beam", "range_m, x_m, y_m, z_m, quality"};
-    }
-}
-
 Json describe_sensor(const Sonar& sonar, const Mission& mission, const Layout& layout,
-                     const SensorLayout& own) {
+                     const SensorLayout& own, const Writers& writers) {
     const SonarConfig& config = sonar.config;
     Json json = {{"name", config.name},
                  {"kind", name_of(config.kind)},
@@ -49,28 +36,20 @@ Json describe_sensor(const Sonar& sonar, const Mission& mission, const Layout& l
                  {"pings", own.pings},
                  {"T_vehicle_sensor", describe_pose(sonar.T_vehicle_sensor)},
                  {"full_scale", mission.output.full_scale}};
-    Json files = Json::object();
-    for (const FileKind kind : own.kinds) {
-        files[std::string(name_of(kind))] = config.name + "/" + std::string(name_of(kind)) + "/%0" +
-                                            std::to_string(layout.digits) + "d" +
-                                            std::string(extension_of(kind));
+    json["files"] = Json::object();
+    for (const auto& part : own.per_ping) {
+        if (const auto* file = std::get_if<PingFile>(&part)) {
+            json["files"][file->name] = config.name + "/" + file->name + "/%0" +
+                                        std::to_string(layout.digits) + "d" + file->extension;
+        }
+        if (const auto* record = std::get_if<PingRecord>(&part)) {
+            json["records"] = {{"file", config.name + "/" + record->file}, {"axes", record->axes}};
+        }
     }
-    json["files"] = std::move(files);
-    if (!own.series.record.empty()) {
-        Json products = Json::array();
-        for (const std::string& name : own.series.products)
-            products.push_back(config.name + "/" + name);
-        json["records"] = {{"file", config.name + "/" + own.series.record},
-                           {"axes", record_axes(config.kind)}};
-        json["products"] = std::move(products);
-    }
-    if (own.writes(FileKind::fan)) {
-        const FanFrame fan = fan_frame(sonar, mission.output.fan_width_px);
-        json["fan"] = {{"width_px", fan.width},
-                       {"height_px", fan.height},
-                       {"pixel_m", fan.pixel_m},
-                       {"apex_px", {0.5 * fan.width, config.range_max_m / fan.pixel_m}}};
-    }
+    for (const std::string& name : own.products)
+        json["products"].push_back(config.name + "/" + name);
+    for (const auto& writer : writers)
+        writer->describe(json);
     json["range_edges_m"] = sonar.range_edges_m;
     if (!sonar.azimuth_edges_rad.empty()) json["azimuth_edges_rad"] = sonar.azimuth_edges_rad;
     return json;
@@ -78,7 +57,8 @@ Json describe_sensor(const Sonar& sonar, const Mission& mission, const Layout& l
 
 }  // namespace
 
-Json describe_dataset(const Mission& mission, const Assembly& assembly, const Layout& layout) {
+Json describe_dataset(const Mission& mission, const Assembly& assembly, const Layout& layout,
+                      const std::vector<Writers>& writers) {
     Json json = {{"format", dataset_format},
                  {"format_version", dataset_format_version},
                  {"program_version", SONARSIM_VERSION},
@@ -91,14 +71,16 @@ Json describe_dataset(const Mission& mission, const Assembly& assembly, const La
     json["scene"] = describe_scene_use(assembly.scene);
     Json sensors = Json::array();
     for (std::size_t i = 0; i < assembly.sonars.size(); ++i) {
-        sensors.push_back(describe_sensor(assembly.sonars[i], mission, layout, layout.sensors[i]));
+        sensors.push_back(
+            describe_sensor(assembly.sonars[i], mission, layout, layout.sensors[i], writers[i]));
     }
     json["sensors"] = std::move(sensors);
     return json;
 }
 
-Json describe_ping(const Mission& mission, const Assembly& assembly, const PingId& id,
-                   const PingCounts& counts, std::uint64_t clipped_pixels, const Json& measured) {
+Json describe_ping(const Mission& mission, const Assembly& assembly, const FinishedPing& finished) {
+    const PingId& id = finished.id;
+    const PingCounts& counts = finished.ping.counts;
     const Sonar& sonar = assembly.sonars[id.sensor];
     const TimedPose& pose = assembly.trajectory[id.pose];
     const Pose T_world_sensor = pose.T_world_vehicle * sonar.T_vehicle_sensor;
@@ -111,7 +93,7 @@ Json describe_ping(const Mission& mission, const Assembly& assembly, const PingI
         {"T_world_sensor", describe_pose(T_world_sensor)},
         {"random", {{"seed", mission.seed}, {"stream", sonar.settings.stream}, {"ping", id.pose}}},
         {"full_scale", mission.output.full_scale},
-        {"clipped_pixels", clipped_pixels},
+        {"clipped_pixels", finished.clipped_pixels},
         {"counts",
          {{"samples", counts.samples},
           {"dropped_samples", counts.dropped_samples},
@@ -131,7 +113,7 @@ Json describe_ping(const Mission& mission, const Assembly& assembly, const PingI
             {"outside", counts.multipath.outside},
             {"turned_away", counts.multipath.turned_away},
             {"hidden", counts.multipath.hidden}}}}}};
-    if (!measured.is_null()) json["measured"] = measured;
+    if (!finished.measured.is_null()) json["measured"] = finished.measured;
     return json;
 }
 

@@ -65,4 +65,10 @@ std::string png_bytes(std::span<const std::uint16_t> pixels, int width, int heig
                   dark ? 1 : 0, filter_none);
 }
 
+double png_bytes_at_most(int width, int height, int bytes_per_pixel) {
+    const double raw =
+        static_cast<double>(height) * (1.0 + static_cast<double>(width) * bytes_per_pixel);
+    return 200.0 + 1.01 * raw;
+}
+
 }  // namespace sonarsim

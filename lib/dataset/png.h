@@ -15,4 +15,8 @@ std::string png_bytes(std::span<const std::uint8_t> pixels, int width, int heigh
 /// The same with 16 bits per value, grey.
 std::string png_bytes(std::span<const std::uint16_t> pixels, int width, int height);
 
+/// More than such a file takes when nothing in it can be compressed: a filter byte per row, and the
+/// blocks and chunks of the format.
+double png_bytes_at_most(int width, int height, int bytes_per_pixel);
+
 }  // namespace sonarsim

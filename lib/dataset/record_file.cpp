@@ -10,7 +10,8 @@
 #include <string>
 #include <system_error>
 #include <utility>
-#include <vector>
+
+#include "core/hash.h"
 
 namespace sonarsim {
 
@@ -37,6 +38,10 @@ bool transfer_all(Transfer transfer, int fd, Byte* bytes, std::size_t size, std:
 
 }  // namespace
 
+std::string hash_of_record(std::string_view bytes) {
+    return fnv1a_128(bytes).substr(0, 16);
+}
+
 RecordFile::RecordFile(const std::filesystem::path& path, const NpyFormat& format,
                        std::size_t records)
     : path_(path), records_(records), record_bytes_(format.type == "<f8" ? 8 : 4) {
@@ -46,7 +51,7 @@ RecordFile::RecordFile(const std::filesystem::path& path, const NpyFormat& forma
     const std::string header = npy_header(format);
     header_bytes_ = header.size();
     std::filesystem::create_directories(path.parent_path());
-    fd_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    fd_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
     if (fd_ < 0) fail(path, "cannot open");
     // No temporary name and no truncation: two shards that begin at once make the same file, and
     // neither can take away what the other has written into it.
@@ -87,18 +92,10 @@ void RecordFile::read(std::size_t record, std::span<std::byte> bytes) const {
     }
 }
 
-bool RecordFile::is_written(std::size_t record) const {
-    std::byte part[4096];
-    for (std::size_t done = 0; done < record_bytes_; done += sizeof part) {
-        const std::size_t size = std::min(sizeof part, record_bytes_ - done);
-        if (!transfer_all(::pread, fd_, part, size, offset(record) + done)) {
-            fail(path_, "cannot read");
-        }
-        if (std::any_of(part, part + size, [](std::byte b) { return b != std::byte{0}; })) {
-            return true;
-        }
-    }
-    return false;
+std::string RecordFile::hash(std::size_t record) const {
+    std::string bytes(record_bytes_, '\0');
+    read(record, std::as_writable_bytes(std::span(bytes)));
+    return hash_of_record(bytes);
 }
 
 }  // namespace sonarsim

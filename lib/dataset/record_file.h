@@ -4,10 +4,22 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "dataset/npy.h"
 
 namespace sonarsim {
+
+/// The values of a record as its bytes.
+template <class T>
+std::string record_bytes(const std::vector<T>& values) {
+    return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
+}
+
+/// 16 hexadecimal digits by which the journal knows a record again.
+std::string hash_of_record(std::string_view bytes);
 
 /// A NumPy file of equal records, one per ping, that is filled while the mission runs, by any
 /// thread and any process in any order. From the beginning it has its full length, and records that
@@ -15,7 +27,8 @@ namespace sonarsim {
 class RecordFile {
   public:
     /// Opens the file, or makes it and the folders above. The data of `format` are `records`
-    /// records of equal size. std::system_error when the disk does not allow it.
+    /// records of equal size. std::system_error when the disk does not allow it, or when the name
+    /// belongs to a symbolic link.
     RecordFile(const std::filesystem::path& path, const NpyFormat& format, std::size_t records);
     ~RecordFile();
     RecordFile(const RecordFile&) = delete;
@@ -28,8 +41,8 @@ class RecordFile {
     void write(std::size_t record, std::span<const std::byte> bytes) const;
     /// Fills `bytes` from the beginning of the record on; it may go on into the next ones.
     void read(std::size_t record, std::span<std::byte> bytes) const;
-    /// Whether any byte of the record differs from zero.
-    bool is_written(std::size_t record) const;
+    /// The hash of a record's bytes, as hash_of_record().
+    std::string hash(std::size_t record) const;
 
     /// After the last record. std::system_error when the disk did not take them all: some file
     /// systems say so only here.

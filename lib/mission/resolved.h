@@ -1,7 +1,6 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 
 #include "mission/mission.h"
 
@@ -16,8 +15,5 @@ std::string resolved_yaml(const Mission& mission);
 /// file: a dataset moved or rendered on another machine is the same mission. What the files contain
 /// does not count either.
 std::string mission_hash(const Mission& mission);
-
-/// FNV-1a of 128 bits, as 32 hexadecimal digits. It tells inputs apart and stops no forger.
-std::string fnv1a_128(std::string_view bytes);
 
 }  // namespace sonarsim

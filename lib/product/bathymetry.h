@@ -11,6 +11,9 @@ namespace sonarsim {
 /// Soundings of less quality do not enter a map.
 inline constexpr double map_quality = 0.5;
 
+/// The most cells that a map has.
+inline constexpr double most_map_cells = 1 << 24;
+
 /// The ground that the soundings of a map cover.
 struct SoundingBounds {
     Eigen::Vector2d min = Eigen::Vector2d::Zero();  ///< world x, y, m

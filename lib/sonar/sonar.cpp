@@ -7,6 +7,10 @@
 
 namespace sonarsim {
 
+bool has_images(const Sonar& sonar) {
+    return sonar.config.kind == SonarKind::imaging || sonar.config.kind == SonarKind::profiling;
+}
+
 Sonar make_sonar(const SonarConfig& config, const AccuracyConfig& accuracy) {
     switch (config.kind) {
         case SonarKind::imaging:

@@ -18,6 +18,9 @@ struct Sonar {
     std::vector<double> azimuth_edges_rad;  ///< of a fan: beams + 1, from starboard (-) to port (+)
 };
 
+/// Whether a ping is an image of its own, range by azimuth, and not a row or column of a longer one.
+bool has_images(const Sonar& sonar);
+
 Sonar make_sonar(const SonarConfig& config, const AccuracyConfig& accuracy);
 
 /// One ping with one term of the model after the other, as in the paper's Fig. 5(d): direct echoes,

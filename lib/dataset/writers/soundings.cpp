@@ -1,3 +1,5 @@
+#include "product/soundings.h"
+
 #include <charconv>
 #include <cmath>
 #include <cstring>
@@ -6,15 +8,26 @@
 
 #include "core/file.h"
 #include "dataset/image_file.h"
-#include "dataset/measure.h"
 #include "dataset/metadata.h"
-#include "dataset/products.h"
+#include "dataset/png.h"
 #include "dataset/whole_file.h"
+#include "dataset/writers.h"
 #include "product/bathymetry.h"
 
 namespace sonarsim {
 
 namespace {
+
+/// The soundings of a sensor, and when its pings were.
+struct SoundingSource {
+    const RecordFile& records;
+    std::size_t beams;
+    std::uint32_t every;
+    const Trajectory& trajectory;
+};
+
+/// Numbers per sounding in a record: range, x, y, z and quality.
+constexpr std::size_t sounding_fields = 5;
 
 struct RecordedSounding {
     std::size_t pose;
@@ -75,8 +88,6 @@ nlohmann::ordered_json georeference(const Bathymetry& grid, double cell_asked_m,
             {"soundings_left_out", left_out}};
 }
 
-}  // namespace
-
 void write_soundings(const SoundingSource& source, const std::filesystem::path& folder) {
     StreamedFile csv(folder / "soundings.csv");
     csv.append("pose,time_s,beam,range_m,x_m,y_m,z_m,quality\n");
@@ -133,6 +144,66 @@ void write_bathymetry(const SoundingSource& source, double cell_m,
     write_file(folder / "bathymetry.json",
                json_text(georeference(grid, cell_m, bounds.count, left_out)));
     write_picture(folder / "bathymetry.png", draw_bathymetry(grid));
+}
+
+/// soundings.npy: float64 [ping, beam, 5]: range, x, y, z, quality, NaN for none; soundings.csv and
+/// .ply without the beams that saw nothing; the map of them in bathymetry.tif, .json and .png.
+class SoundingsWriter final : public Writer {
+  public:
+    explicit SoundingsWriter(const WriterContext& context) : context_(context) {}
+
+    WriterOutputs outputs() const override {
+        const double soundings = static_cast<double>(beams()) * static_cast<double>(context_.pings);
+        // A cell of its own choice holds four soundings on average, before it is rounded up.
+        const bool own_cell = context_.mission.output.bathymetry_cell_m == 0.0;
+        const double cells = own_cell ? 1.0 + soundings / 4.0 : most_map_cells;
+        constexpr double csv_line = 110.0;
+        constexpr double ply_vertex = 28.0;
+        WriterOutputs outputs;
+        outputs.per_ping = PingRecord{"soundings.npy",
+                                      {"<f8", {context_.pings, beams(), sounding_fields}},
+                                      {"ping", "beam", "range_m, x_m, y_m, z_m, quality"}};
+        outputs.bytes_per_ping = 8.0 * sounding_fields * static_cast<double>(beams());
+        outputs.products = {{"soundings.csv", 60.0 + csv_line * soundings},
+                            {"soundings.ply", 200.0 + ply_vertex * soundings},
+                            {"bathymetry.tif", 1000.0 + 4.0 * cells},
+                            {"bathymetry.json", 1000.0},
+                            {"bathymetry.png", png_bytes_at_most(4096, 4096, 3)}};
+        return outputs;
+    }
+
+    std::string encode(const FinishedPing& finished) const override {
+        std::vector<double> fields;
+        const Pose& T_world_vehicle =
+            context_.assembly.trajectory[finished.id.pose].T_world_vehicle;
+        for (const Sounding& s : find_soundings(context_.sonar(), T_world_vehicle, finished.ping)) {
+            fields.insert(fields.end(),
+                          {s.range_m, s.position.x(), s.position.y(), s.position.z(), s.quality});
+        }
+        return record_bytes(fields);
+    }
+
+    void write_products(const RecordFile& records,
+                        const std::filesystem::path& folder) const override {
+        const SoundingSource source{records, beams(),
+                                    static_cast<std::uint32_t>(context_.sonar().config.every),
+                                    context_.assembly.trajectory};
+        write_soundings(source, folder);
+        write_bathymetry(source, context_.mission.output.bathymetry_cell_m, folder);
+    }
+
+  private:
+    std::size_t beams() const { return context_.sonar().settings.view.beams; }
+
+    WriterContext context_;
+};
+
+}  // namespace
+
+std::unique_ptr<Writer> make_soundings_writer(const WriterContext& context) {
+    const bool profiling = context.sonar().config.kind == SonarKind::profiling;
+    if (!context.mission.output.soundings || !profiling) return nullptr;
+    return std::make_unique<SoundingsWriter>(context);
 }
 
 }  // namespace sonarsim

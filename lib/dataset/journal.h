@@ -1,0 +1,72 @@
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <exception>
+#include <filesystem>
+#include <map>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "dataset/writer.h"
+
+namespace sonarsim {
+
+/// What a dataset holds, as its journal tells: a ping stands in it once all of its files are
+/// durable. A text, one line each:
+///
+///     ping SENSOR POSE WHAT...  of each of the sensor's writers the size of the ping's file in
+///                               bytes, or the hash of its record
+///     product SENSOR FILE SIZE  in the finished dataset
+///
+/// SENSOR is the index in dataset.json, POSE that of the pose. Each line ends in a hash of what
+/// stands before it, so that a line that a power cut tore does not count.
+struct JournalEntries {
+    std::map<PingId, std::vector<std::string>> pings;
+    std::map<std::pair<std::uint32_t, std::string>, std::uint64_t> products;
+};
+
+/// Reads OUT/journal.txt and all parts in OUT/journal/ (those of shards that ran in other folders
+/// are copied there when these are merged). Lines that are torn are left out.
+JournalEntries read_journal(const std::filesystem::path& folder);
+
+/// The text of OUT/journal.txt: the same for all ways in which a dataset may have come about.
+std::string journal_text(const JournalEntries& entries);
+
+/// The part of the journal that one run writes. A background thread makes a checkpoint every few
+/// seconds: it makes durable what has been written so far and then adds the lines of the pings that
+/// were finished before. So a power cut costs the pings since the last checkpoint and nothing else.
+class Journal {
+  public:
+    /// Adds to OUT/journal/`name`.txt. std::system_error when the disk does not allow it.
+    Journal(const std::filesystem::path& folder, const std::string& name,
+            double checkpoint_seconds);
+    ~Journal();
+    Journal(const Journal&) = delete;
+    Journal& operator=(const Journal&) = delete;
+
+    /// Every file of the ping has its final name. Throws what a checkpoint has failed with.
+    void add(const PingId& ping, const std::vector<std::string>& what);
+    /// The last checkpoint. Throws what a checkpoint has failed with.
+    void finish();
+
+  private:
+    void run(double checkpoint_seconds);
+    void checkpoint();
+    void rethrow();
+
+    std::filesystem::path folder_;
+    std::filesystem::path path_;
+    int fd_;
+    std::mutex mutex_;
+    std::condition_variable wake_;
+    std::string pending_;  ///< lines of pings that are not durable yet
+    bool ending_ = false;
+    std::exception_ptr fault_;
+    std::thread thread_;  ///< last, so that it starts when the rest is there
+};
+
+}  // namespace sonarsim

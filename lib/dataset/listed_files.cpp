@@ -1,0 +1,104 @@
+#include "dataset/listed_files.h"
+
+#include <cstdint>
+#include <set>
+#include <string>
+
+#include "core/file.h"
+#include "dataset/layout.h"
+
+namespace sonarsim {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+/// Relative to the folder of the dataset.
+using Files = std::set<fs::path>;
+
+/// "fls/polar/%06d.npy" with a ping number in it; empty for any other text.
+std::string numbered(const std::string& pattern, std::uint64_t number) {
+    const std::size_t percent = pattern.find('%');
+    if (percent == std::string::npos) return {};
+    const std::size_t end = pattern.find('d', percent);
+    if (end == std::string::npos || end != percent + 3 || pattern[percent + 1] != '0') return {};
+    const int digits = pattern[percent + 2] - '0';
+    std::string text = std::to_string(number);
+    text.insert(0, std::max(0, digits - static_cast<int>(text.size())), '0');
+    return pattern.substr(0, percent) + text + pattern.substr(end + 1);
+}
+
+void list_sensor(const Json& sensor, Files& files) {
+    const auto pings = sensor.value("pings", std::uint64_t{0});
+    const auto every = sensor.value("every", std::uint64_t{1});
+    for (const auto& [name, pattern] : sensor.value("files", Json::object()).items()) {
+        for (std::uint64_t i = 0; i < pings; ++i)
+            files.insert(numbered(pattern.get<std::string>(), i * every));
+    }
+    const Json records = sensor.value("records", Json::object());
+    if (records.contains("file")) files.insert(records["file"].get<std::string>());
+    for (const Json& product : sensor.value("products", Json::array()))
+        files.insert(product.get<std::string>());
+}
+
+/// Whether every folder between `folder` and a file below it is one, and no link.
+bool is_reached_directly(const fs::path& folder, const fs::path& relative) {
+    fs::path path = folder;
+    for (const fs::path& step : relative.parent_path()) {
+        path /= step;
+        if (step == ".." || fs::symlink_status(path).type() != fs::file_type::directory)
+            return false;
+    }
+    return relative.is_relative() && !relative.empty();
+}
+
+void remove_file(const fs::path& folder, const fs::path& relative) {
+    if (!is_reached_directly(folder, relative)) return;
+    if (fs::symlink_status(folder / relative).type() == fs::file_type::regular)
+        fs::remove(folder / relative);
+}
+
+/// Removes the temporary files of listed ones in a folder of the dataset, and it, if that empties
+/// it.
+void tidy(const fs::path& folder, const fs::path& relative, const Files& files) {
+    const fs::path here = folder / relative;
+    if (!is_reached_directly(folder, relative / "x") || !fs::is_directory(here)) return;
+    for (const fs::directory_entry& entry : fs::directory_iterator(here)) {
+        const std::string name = entry.path().filename().string();
+        if (is_temporary_name(name) && files.contains(relative / final_name(name)))
+            remove_file(folder, relative / name);
+    }
+    if (!relative.empty() && fs::is_empty(here)) fs::remove(here);
+}
+
+}  // namespace
+
+void remove_listed_files(const fs::path& folder, const Json& description) {
+    Files files{mission_name, trajectory_name, journal_name};
+    try {
+        for (const Json& sensor : description.value("sensors", Json::array()))
+            list_sensor(sensor, files);
+    } catch (const Json::exception&) {  // NOLINT(bugprone-empty-catch)
+        // A description that somebody edited: what can be read of it is removed.
+    }
+    const fs::path parts = fs::path(journal_folder_name);
+    if (is_reached_directly(folder, parts / "x") && fs::is_directory(folder / parts)) {
+        for (const fs::directory_entry& part : fs::directory_iterator(folder / parts)) {
+            if (part.path().extension() == ".txt") files.insert(parts / part.path().filename());
+        }
+    }
+    std::set<fs::path, std::greater<>> folders;  // a folder comes after those in it
+    for (const fs::path& file : files) {
+        remove_file(folder, file);
+        for (fs::path above = file.parent_path(); !above.empty(); above = above.parent_path())
+            folders.insert(above);
+    }
+    for (const fs::path& inner : folders)
+        tidy(folder, inner, files);
+    tidy(folder, "", files);
+    // Last: while it is there, the folder is known as ours and the removal can be run again.
+    remove_file(folder, description_name);
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "dataset/assemble.h"
+#include "dataset/npy.h"
+#include "dataset/record_file.h"
+#include "mission/mission.h"
+#include "ping/ping.h"
+#include "visibility/engine.h"
+
+namespace sonarsim {
+
+/// A ping of a dataset: sensor by its index in Mission::sensors, pose by its index on the
+/// trajectory. Ordered by pose, then sensor.
+struct PingId {
+    std::uint32_t pose = 0;
+    std::uint32_t sensor = 0;
+
+    auto operator<=>(const PingId&) const = default;
+};
+
+/// The sensor that a writer writes for.
+struct WriterContext {
+    const Mission& mission;
+    const Assembly& assembly;
+    std::size_t sensor;  ///< index in Mission::sensors
+    std::size_t pings;   ///< that the sensor sends in the whole mission
+
+    const Sonar& sonar() const { return assembly.sonars[sensor]; }
+};
+
+/// A finished ping, with all that a writer may ask about it.
+struct FinishedPing {
+    PingId id;
+    const Ping& ping;
+    const VisibilityEngine& engine;
+    const nlohmann::ordered_json& measured;  ///< what its metadata say; null for none
+    std::uint64_t clipped_pixels;            ///< intensities above full_scale
+};
+
+/// A file per ping: NAME/000000EXTENSION in the folder of the sensor.
+struct PingFile {
+    std::string name;       ///< of the folder
+    std::string extension;  ///< with the dot
+};
+
+/// A record per ping, in one file for all pings of the sensor.
+struct PingRecord {
+    std::string file;
+    NpyFormat format;
+    nlohmann::ordered_json axes;  ///< what the indices count, for dataset.json
+};
+
+/// A file that is made of the records of all pings.
+struct Product {
+    std::string file;
+    double bytes_at_most;
+};
+
+/// What a writer leaves behind, known before the first ping.
+struct WriterOutputs {
+    std::variant<PingFile, PingRecord> per_ping;
+    double bytes_per_ping = 0.0;  ///< at most; noise hardly compresses, so PNG files count in full
+    std::vector<Product> products;
+};
+
+/// One output format of one sensor. Writers are immutable: any number of threads may encode at a
+/// time. What is there already at a resume is told by the journal, by the size of each file and the
+/// hash of each record; products are made anew unless all of them are there.
+class Writer {
+  public:
+    virtual ~Writer() = default;
+
+    virtual WriterOutputs outputs() const = 0;
+    /// The bytes of the ping's file, or of its record.
+    virtual std::string encode(const FinishedPing& ping) const = 0;
+    /// Makes the products in `folder`, in memory that does not grow with the number of pings.
+    virtual void write_products(const RecordFile& /*records*/,
+                                const std::filesystem::path& /*folder*/) const {}
+    /// Adds to the sensor's block in dataset.json.
+    virtual void describe(nlohmann::ordered_json& /*sensor*/) const {}
+};
+
+}  // namespace sonarsim

@@ -1,0 +1,61 @@
+#include "dataset/writers.h"
+
+#include "core/error.h"
+
+namespace sonarsim {
+
+namespace {
+
+using MakeWriter = std::unique_ptr<Writer> (*)(const WriterContext&);
+
+/// Every format that a dataset may hold.
+constexpr MakeWriter formats[] = {
+    make_polar_writer,      //
+    make_image_writer,      //
+    make_fan_writer,        //
+    make_stages_writer,     //
+    make_waterfall_writer,  //
+    make_echogram_writer,   //
+    make_soundings_writer,  //
+    make_meta_writer,       //
+};
+
+}  // namespace
+
+std::vector<std::size_t> count_pings(const Mission& mission, std::size_t poses) {
+    std::vector<std::size_t> pings;
+    for (const SonarConfig& sensor : mission.sensors) {
+        const auto every = static_cast<std::size_t>(sensor.every);
+        pings.push_back((poses + every - 1) / every);
+    }
+    return pings;
+}
+
+std::vector<Writers> make_writers(const Mission& mission, const Assembly& assembly) {
+    const std::vector<std::size_t> pings = count_pings(mission, assembly.trajectory.size());
+    std::vector<Writers> all(mission.sensors.size());
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        for (const MakeWriter make : formats) {
+            if (auto writer = make({mission, assembly, i, pings[i]}))
+                all[i].push_back(std::move(writer));
+        }
+        if (!all[i].empty()) continue;
+        throw InputError("mission '" + mission.name + "' writes nothing of sensor '" +
+                         mission.sensors[i].name +
+                         "': set output.meta, or another output of its kind, to true");
+    }
+    return all;
+}
+
+double bytes_at_most(const Writers& writers, std::size_t pings) {
+    double bytes = 0.0;
+    for (const auto& writer : writers) {
+        const WriterOutputs outputs = writer->outputs();
+        bytes += outputs.bytes_per_ping * static_cast<double>(pings);
+        for (const Product& product : outputs.products)
+            bytes += product.bytes_at_most;
+    }
+    return bytes;
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,36 @@
+#include "dataset/png.h"
+#include "dataset/writers.h"
+#include "product/grey.h"
+
+namespace sonarsim {
+
+namespace {
+
+/// image/NNNNNN.png: 16 bits [range, azimuth], 65535 intensity / full_scale.
+class ImageWriter final : public Writer {
+  public:
+    explicit ImageWriter(const WriterContext& context)
+        : view_(context.sonar().settings.view), full_scale_(context.mission.output.full_scale) {}
+
+    WriterOutputs outputs() const override {
+        return {PingFile{"image", ".png"}, png_bytes_at_most(view_.beams, view_.range_bins, 2), {}};
+    }
+
+    std::string encode(const FinishedPing& finished) const override {
+        const Ping& ping = finished.ping;
+        return png_bytes(grey_16(ping.intensity, full_scale_), ping.beams, ping.range_bins);
+    }
+
+  private:
+    const View& view_;
+    double full_scale_;
+};
+
+}  // namespace
+
+std::unique_ptr<Writer> make_image_writer(const WriterContext& context) {
+    if (!context.mission.output.image || !has_images(context.sonar())) return nullptr;
+    return std::make_unique<ImageWriter>(context);
+}
+
+}  // namespace sonarsim

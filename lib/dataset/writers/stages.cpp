@@ -1,0 +1,50 @@
+#include <array>
+
+#include "dataset/png.h"
+#include "dataset/writers.h"
+#include "product/fan.h"
+#include "product/panels.h"
+
+namespace sonarsim {
+
+namespace {
+
+constexpr int panels = 5;
+
+/// stages/NNNNNN.png: 8 bits, five fans side by side: direct echoes, then with one term of the
+/// model after the other.
+class StagesWriter final : public Writer {
+  public:
+    explicit StagesWriter(const WriterContext& context)
+        : context_(context),
+          map_(make_fan_map(context.sonar(), context.mission.output.fan_width_px)) {}
+
+    WriterOutputs outputs() const override {
+        return {PingFile{"stages", ".png"},
+                png_bytes_at_most(panels * map_.frame.width, map_.frame.height, 1),
+                {}};
+    }
+
+    std::string encode(const FinishedPing& finished) const override {
+        const auto& [mission, assembly, sensor, pings] = context_;
+        const std::uint32_t pose = finished.id.pose;
+        const std::array<Ping, panels> stages =
+            render_stages(context_.sonar(), assembly.scene, finished.engine,
+                          assembly.trajectory[pose].T_world_vehicle, {mission.seed, pose});
+        return png_bytes(render_panels(map_, stages, mission.output.full_scale),
+                         panels * map_.frame.width, map_.frame.height);
+    }
+
+  private:
+    WriterContext context_;
+    FanMap map_;
+};
+
+}  // namespace
+
+std::unique_ptr<Writer> make_stages_writer(const WriterContext& context) {
+    if (!context.mission.output.stages || !has_images(context.sonar())) return nullptr;
+    return std::make_unique<StagesWriter>(context);
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,79 @@
+#include "product/waterfall.h"
+
+#include "dataset/folded_records.h"
+#include "dataset/image_file.h"
+#include "dataset/png.h"
+#include "dataset/writers.h"
+#include "product/grey.h"
+#include "product/sidescan_row.h"
+
+namespace sonarsim {
+
+namespace {
+
+/// waterfall.npy: float32 [ping, 2 x range]; waterfall.png the same in 16 bits, waterfall_view.png
+/// in copper tones.
+class WaterfallWriter final : public Writer {
+  public:
+    explicit WaterfallWriter(const WriterContext& context)
+        : sonar_(context.sonar()),
+          pings_(context.pings),
+          full_scale_(context.mission.output.full_scale) {}
+
+    WriterOutputs outputs() const override {
+        const auto columns = 2 * static_cast<std::size_t>(sonar_.config.range_bins);
+        const Picture axis = waterfall_axis(sonar_.config);
+        const int rows = picture_rows(pings_);
+        WriterOutputs outputs;
+        outputs.per_ping =
+            PingRecord{"waterfall.npy",
+                       {"<f4", {pings_, columns}},
+                       {"ping", "port from range_max to range_min, then starboard back"}};
+        outputs.bytes_per_ping = 4.0 * static_cast<double>(columns);
+        outputs.products = {
+            {"waterfall.png", png_bytes_at_most(static_cast<int>(columns), rows, 2)},
+            {"waterfall_view.png", png_bytes_at_most(axis.width, axis.height + rows, 3)}};
+        return outputs;
+    }
+
+    std::string encode(const FinishedPing& finished) const override {
+        return record_bytes(sidescan_row(finished.ping));
+    }
+
+    void write_products(const RecordFile& file,
+                        const std::filesystem::path& folder) const override {
+        FoldedRecords records(file);
+        const double white = white_of(records);
+        Picture axis = waterfall_axis(sonar_.config);
+        const int rows = static_cast<int>(records.rows());
+        ImageFile plain(folder / "waterfall.png", axis.width, rows, PixelKind::grey16);
+        ImageFile view(folder / "waterfall_view.png", axis.width, axis.height + rows,
+                       PixelKind::rgb8);
+        for (int y = 0; y < axis.height; ++y)
+            view.row(std::span<const Rgb>(axis.row(y), axis.width));
+        std::vector<Rgb> pixels(axis.width);
+        for (int k = 0; k < rows; ++k) {
+            const std::vector<float>& row = records.row(k);
+            plain.row(grey_16(row, full_scale_));
+            waterfall_row(row, white, pixels);
+            view.row(pixels);
+        }
+        plain.finish();
+        view.finish();
+    }
+
+  private:
+    const Sonar& sonar_;
+    std::size_t pings_;
+    double full_scale_;
+};
+
+}  // namespace
+
+std::unique_ptr<Writer> make_waterfall_writer(const WriterContext& context) {
+    const bool sidescan = context.sonar().config.kind == SonarKind::sidescan;
+    if (!context.mission.output.waterfall || !sidescan) return nullptr;
+    return std::make_unique<WaterfallWriter>(context);
+}
+
+}  // namespace sonarsim
