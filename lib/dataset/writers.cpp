@@ -31,6 +31,17 @@ std::vector<std::size_t> count_pings(const Mission& mission, std::size_t poses) 
     return pings;
 }
 
+WriterOutputs record_outputs(std::string file, NpyFormat format, nlohmann::ordered_json axes,
+                             double bytes) {
+    WriterOutputs outputs;
+    PingRecord& record = outputs.per_ping.emplace<PingRecord>();
+    record.file = std::move(file);
+    record.format = std::move(format);
+    record.axes = std::move(axes);
+    outputs.bytes_per_ping = bytes;
+    return outputs;
+}
+
 std::vector<Writers> make_writers(const Mission& mission, const Assembly& assembly) {
     const std::vector<std::size_t> pings = count_pings(mission, assembly.trajectory.size());
     std::vector<Writers> all(mission.sensors.size());

@@ -40,10 +40,8 @@ class EchogramWriter final : public Writer {
         const auto bins = static_cast<std::size_t>(config_.range_bins);
         const int columns = picture_rows(pings_);
         const EchogramFrame frame = echogram_frame(config_, columns);
-        WriterOutputs outputs;
-        outputs.per_ping =
-            PingRecord{"echogram.npy", {"<f4", {bins, pings_}, true}, {"range", "ping"}};
-        outputs.bytes_per_ping = 4.0 * static_cast<double>(bins);
+        WriterOutputs outputs = record_outputs("echogram.npy", {"<f4", {bins, pings_}, true},
+                                               {"range", "ping"}, 4.0 * static_cast<double>(bins));
         outputs.products = {{"echogram.png", png_bytes_at_most(columns, config_.range_bins, 2)},
                             {"echogram_view.png", png_bytes_at_most(frame.width, frame.height, 3)}};
         return outputs;

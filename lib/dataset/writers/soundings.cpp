@@ -159,11 +159,10 @@ class SoundingsWriter final : public Writer {
         const double cells = own_cell ? 1.0 + soundings / 4.0 : most_map_cells;
         constexpr double csv_line = 110.0;
         constexpr double ply_vertex = 28.0;
-        WriterOutputs outputs;
-        outputs.per_ping = PingRecord{"soundings.npy",
-                                      {"<f8", {context_.pings, beams(), sounding_fields}},
-                                      {"ping", "beam", "range_m, x_m, y_m, z_m, quality"}};
-        outputs.bytes_per_ping = 8.0 * sounding_fields * static_cast<double>(beams());
+        WriterOutputs outputs =
+            record_outputs("soundings.npy", {"<f8", {context_.pings, beams(), sounding_fields}},
+                           {"ping", "beam", "range_m, x_m, y_m, z_m, quality"},
+                           8.0 * sounding_fields * static_cast<double>(beams()));
         outputs.products = {{"soundings.csv", 60.0 + csv_line * soundings},
                             {"soundings.ply", 200.0 + ply_vertex * soundings},
                             {"bathymetry.tif", 1000.0 + 4.0 * cells},

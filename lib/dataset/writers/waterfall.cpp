@@ -24,12 +24,10 @@ class WaterfallWriter final : public Writer {
         const auto columns = 2 * static_cast<std::size_t>(sonar_.config.range_bins);
         const Picture axis = waterfall_axis(sonar_.config);
         const int rows = picture_rows(pings_);
-        WriterOutputs outputs;
-        outputs.per_ping =
-            PingRecord{"waterfall.npy",
-                       {"<f4", {pings_, columns}},
-                       {"ping", "port from range_max to range_min, then starboard back"}};
-        outputs.bytes_per_ping = 4.0 * static_cast<double>(columns);
+        WriterOutputs outputs =
+            record_outputs("waterfall.npy", {"<f4", {pings_, columns}},
+                           {"ping", "port from range_max to range_min, then starboard back"},
+                           4.0 * static_cast<double>(columns));
         outputs.products = {
             {"waterfall.png", png_bytes_at_most(static_cast<int>(columns), rows, 2)},
             {"waterfall_view.png", png_bytes_at_most(axis.width, axis.height + rows, 3)}};
