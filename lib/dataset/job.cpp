@@ -179,7 +179,7 @@ void complete_dataset(const Layout& layout, const std::vector<Writers>& writers,
         }
     }
     JournalEntries entries = read_journal(layout.folder);
-    entries.products = product_sizes(layout);
+    entries.products = require_products(layout);
     finish_dataset(layout, common.description, entries);
 }
 

@@ -15,6 +15,9 @@
 
 namespace sonarsim {
 
+/// Bytes, by sensor and file.
+using ProductSizes = std::map<std::pair<std::uint32_t, std::string>, std::uint64_t>;
+
 /// What a dataset holds, as its journal tells: a ping stands in it once all of its files are
 /// durable. A text, one line each:
 ///
@@ -26,7 +29,7 @@ namespace sonarsim {
 /// stands before it, so that a line that a power cut tore does not count.
 struct JournalEntries {
     std::map<PingId, std::vector<std::string>> pings;
-    std::map<std::pair<std::uint32_t, std::string>, std::uint64_t> products;
+    ProductSizes products;
 };
 
 /// Reads OUT/journal.txt and all parts in OUT/journal/ (those of shards that ran in other folders

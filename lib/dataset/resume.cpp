@@ -18,6 +18,14 @@ std::optional<std::uint64_t> size_of(const fs::path& path) {
     return absent ? std::nullopt : std::optional(size);
 }
 
+template <class Visit>
+void for_each_product(const Layout& layout, const Visit& visit) {
+    for (std::uint32_t i = 0; i < layout.sensors.size(); ++i) {
+        for (const std::string& name : layout.sensors[i].products)
+            visit(i, name);
+    }
+}
+
 }  // namespace
 
 RecordFiles open_records(const Layout& layout) {
@@ -65,22 +73,29 @@ void require_files(const Layout& layout, const std::vector<PingId>& written,
     }
 }
 
-std::map<std::pair<std::uint32_t, std::string>, std::uint64_t> product_sizes(const Layout& layout) {
-    std::map<std::pair<std::uint32_t, std::string>, std::uint64_t> sizes;
-    for (std::uint32_t i = 0; i < layout.sensors.size(); ++i) {
-        for (const std::string& name : layout.sensors[i].products) {
-            if (const auto size = size_of(layout.sensor_folder(i) / name)) sizes[{i, name}] = *size;
-        }
-    }
+ProductSizes require_products(const Layout& layout) {
+    ProductSizes sizes;
+    for_each_product(layout, [&](std::uint32_t sensor, const std::string& name) {
+        const fs::path path = layout.sensor_folder(sensor) / name;
+        const auto size = size_of(path);
+        if (!size)
+            throw std::runtime_error(path.string() +
+                                     " was removed during the run; the same "
+                                     "command run again makes it anew");
+        sizes[{sensor, name}] = *size;
+    });
     return sizes;
 }
 
 bool has_products(const Layout& layout) {
-    std::size_t products = 0;
-    for (const SensorLayout& sensor : layout.sensors)
-        products += sensor.products.size();
-    const auto sizes = product_sizes(layout);
-    return sizes.size() == products && sizes == read_journal(layout.folder).products;
+    const ProductSizes expected = read_journal(layout.folder).products;
+    bool all = true;
+    for_each_product(layout, [&](std::uint32_t sensor, const std::string& name) {
+        const auto entry = expected.find({sensor, name});
+        all = all && entry != expected.end() &&
+              size_of(layout.sensor_folder(sensor) / name) == entry->second;
+    });
+    return all;
 }
 
 }  // namespace sonarsim

@@ -33,8 +33,8 @@ class FinishedPings {
 void require_files(const Layout& layout, const std::vector<PingId>& written,
                    const FinishedPings& finished);
 
-/// The sizes of the products as they lie in the folder.
-std::map<std::pair<std::uint32_t, std::string>, std::uint64_t> product_sizes(const Layout& layout);
+/// The sizes of the products by sensor and file. std::runtime_error when one is not there.
+ProductSizes require_products(const Layout& layout);
 
 /// Whether every product is there with the size that the journal tells.
 bool has_products(const Layout& layout);

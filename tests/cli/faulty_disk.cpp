@@ -83,6 +83,13 @@ bool fails(const char* call, int fd) {
     return fails(call, path.data());
 }
 
+/// Whether the file or folder lies below the watched one, whichever way it was opened.
+bool is_below_open(int fd) {
+    std::array<char, 4096> path{};
+    const std::string link = "/proc/self/fd/" + std::to_string(fd);
+    return readlink(link.c_str(), path.data(), path.size() - 1) > 0 && is_below(path.data());
+}
+
 /// What a write of `size` bytes is cut down to; 0: it is interrupted, and errno is set.
 std::size_t taken(std::size_t size) {
     if (setting("FAULTY_DISK_MODE") == "short") return (size + 1) / 2;
@@ -193,6 +200,21 @@ int close(int fd) {
     if (!failing) return result;
     errno = reason;
     return -1;
+}
+
+int fsync(int fd) {
+    if (is_below_open(fd) && fails("fsync", fd)) return -1;
+    return NEXT(fsync)(fd);
+}
+
+int fdatasync(int fd) {
+    if (is_below_open(fd) && fails("fdatasync", fd)) return -1;
+    return NEXT(fdatasync)(fd);
+}
+
+int syncfs(int fd) noexcept {
+    if (is_below_open(fd) && fails("syncfs", fd)) return -1;
+    return NEXT(syncfs)(fd);
 }
 
 int rename(const char* from, const char* to) noexcept {

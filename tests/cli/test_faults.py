@@ -82,7 +82,7 @@ class FaultyDisk(Faults):
                            FAULTY_DISK_CALL=str(call))
         result = self.render("-j1", env=environment)
         calls = self.log.read_text() if self.log.exists() else ""
-        return result, re.sub(r"\.[0-9]+\.part", ".part", calls).splitlines()
+        return result, re.sub(r"\.[0-9a-f]{16}\.part", ".part", calls).splitlines()
 
     def test_every_call_that_writes_may_fail(self):
         whole = self.render_whole()
@@ -93,7 +93,7 @@ class FaultyDisk(Faults):
         # Four kinds of sonar with all their files: fewer would mean that the disk is not asked.
         self.assertEqual({call.split()[0] for call in calls},
                          {"open", "write", "pwrite", "ftruncate", "rename", "mkdir", "fopen",
-                          "fwrite", "fclose", "close"})
+                          "fwrite", "fclose", "close", "fsync", "fdatasync", "syncfs"})
         self.assertGreater(len(calls), 100)
         every = 10 if SANITIZED else 1
         for number in range(1, len(calls) + 1, every):

@@ -19,12 +19,21 @@ RenderSummary run(const Mission& mission, int poses, bool overwrite) {
                    std::atomic<bool>(false));
 }
 
-void check_refused(const Mission& mission, int poses, const std::string& what) {
+void check_refused(const Mission& mission, int poses, const std::string& what,
+                   bool overwrite = false) {
     const auto before = contents(mission.output.folder);
-    const std::string message = mission.output.folder.string() + ": " + what +
-                                "; choose another output.folder, or replace it with --overwrite";
-    CHECK_THROWS_WITH_AS(run(mission, poses, false), message.c_str(), InputError);
+    const std::string message =
+        mission.output.folder.string() + ": " + what + "; choose another output.folder";
+    CHECK_THROWS_WITH_AS(run(mission, poses, overwrite), message.c_str(), InputError);
     CHECK(contents(mission.output.folder) == before);
+}
+
+constexpr const char* or_overwrite =
+    "; choose another output.folder, or replace it with --overwrite";
+
+void check_refused_unless_overwritten(const Mission& mission, int poses, const std::string& what) {
+    const std::string message = mission.output.folder.string() + ": " + what + or_overwrite;
+    CHECK_THROWS_WITH_AS(run(mission, poses, false), message.c_str(), InputError);
 }
 
 /// Replaces text in a file.
@@ -44,19 +53,19 @@ TEST_SUITE("dataset") {
         CHECK(run(mission, 2, false).complete);
     }
 
-    TEST_CASE("folder: what is no dataset is never overwritten unasked") {
+    TEST_CASE("folder: what is no dataset is never overwritten, asked or not") {
         const TemporaryFolder temporary;
         const Mission mission = small_mission(temporary.path / "out");
         fs::create_directory(mission.output.folder);
         write_file(mission.output.folder / "thesis.tex", "five years");
-        check_refused(mission, 2, "holds files that are no sonarsim dataset");
+        for (const bool overwrite : {false, true})
+            check_refused(mission, 2, "holds files that are no sonarsim dataset", overwrite);
         for (const char* json :
              {"", "{", "[]", "3", "{}", R"({"format": "other"})", R"({"format": 3})"}) {
             write_file(mission.output.folder / "dataset.json", json);
-            check_refused(mission, 2, "holds a dataset.json that is not sonarsim's");
+            for (const bool overwrite : {false, true})
+                check_refused(mission, 2, "holds a dataset.json that is not sonarsim's", overwrite);
         }
-        CHECK(run(mission, 2, true).complete);
-        CHECK(read_file(mission.output.folder / "thesis.tex", 100) == "five years");
     }
 
     TEST_CASE("folder: a file in its place is refused, overwrite or not") {
@@ -74,16 +83,16 @@ TEST_SUITE("dataset") {
         const TemporaryFolder temporary;
         Mission mission = small_mission(temporary.path / "out");
         run(mission, 4, false);
-        check_refused(mission, 5,
-                      "holds a dataset of this mission made from other scene, material or "
-                      "trajectory files");
+        check_refused_unless_overwritten(
+            mission, 5,
+            "holds a dataset of this mission made from other scene, material or trajectory files");
         ++mission.seed;
-        check_refused(mission, 4, "holds the dataset of another mission");
+        check_refused_unless_overwritten(mission, 4, "holds the dataset of another mission");
         --mission.seed;
         edit(mission.output.folder / "dataset.json", "\"program_version\": \"",
              "\"program_version\": \"9");
-        check_refused(mission, 4,
-                      "holds a dataset of this mission made by another version of sonarsim");
+        check_refused_unless_overwritten(
+            mission, 4, "holds a dataset of this mission made by another version of sonarsim");
     }
 
     TEST_CASE("folder: overwrite replaces a whole dataset and nothing else") {
@@ -98,10 +107,60 @@ TEST_SUITE("dataset") {
         mission.sensors[1].name = "left";
         CHECK(run(mission, 3, true).complete);
         const auto files = contents(out);
-        CHECK(files.size() == 3 + 4 * 4 + 2);  // front at 0, 1, 2 and left at 0; the notes
+        CHECK(files.size() == 4 + 4 * 4 + 2);  // front at 0, 1, 2 and left at 0; the notes
         CHECK(files.contains("notes.txt"));
         CHECK(files.contains("gone/meta/notes.txt"));
         CHECK_FALSE(fs::exists(out / "gone/fan"));
         CHECK_FALSE(files.contains("front/polar/000007.npy"));
+    }
+
+    TEST_CASE("folder: overwrite removes what dataset.json lists, not what looks like it") {
+        const TemporaryFolder temporary;
+        const Mission mission = small_mission(temporary.path / "out");
+        const fs::path& out = mission.output.folder;
+        run(mission, 4, false);
+        write_file(out / "front/meta/20240101.json", "a log");
+        fs::create_directories(out / "camera/image");
+        write_file(out / "camera/image/000001.png", "a photograph");
+        CHECK(run(mission, 4, true).complete);
+        CHECK(read_file(out / "front/meta/20240101.json", 100) == "a log");
+        CHECK(read_file(out / "camera/image/000001.png", 100) == "a photograph");
+    }
+
+    TEST_CASE("folder: neither overwriting nor writing goes through a link") {
+        const TemporaryFolder temporary;
+        const Mission mission = small_mission(temporary.path / "out");
+        const fs::path& out = mission.output.folder;
+        run(mission, 4, false);
+        // Another dataset, reached through the first one's folder.
+        const Mission other = small_mission(temporary.path / "other");
+        run(other, 4, false);
+        const auto before = contents(other.output.folder);
+        fs::remove_all(out / "left");
+        fs::create_directory_symlink(temporary.path / "other/left", out / "left");
+        for (const bool overwrite : {false, true}) {
+            CHECK_THROWS_AS(run(mission, 4, overwrite), InputError);
+            CHECK(contents(other.output.folder) == before);
+        }
+        // A description that points out of the folder removes nothing there.
+        fs::remove(out / "left");
+        edit(out / "dataset.json", "front/polar/%06d.npy", "../other/front/polar/%06d.npy");
+        CHECK(run(mission, 4, true).complete);
+        CHECK(contents(other.output.folder) == before);
+    }
+
+    TEST_CASE("folder: a file that the mission reads is never replaced") {
+        const TemporaryFolder temporary;
+        Mission mission = small_mission(temporary.path);
+        write_file(temporary.path / "trajectory.tum", "0 0 0 0 0 0 0 1");
+        mission.trajectory = FileTrajectoryConfig{temporary.path / "trajectory.tum", 0.0};
+        for (const bool overwrite : {false, true})
+            CHECK_THROWS_AS(run(mission, 2, overwrite), InputError);
+        CHECK(read_file(temporary.path / "trajectory.tum", 100) == "0 0 0 0 0 0 0 1");
+        // A scene in the folder of a sensor.
+        mission = small_mission(temporary.path / "new");
+        mission.scene.file = temporary.path / "new/front/scene.glb";
+        CHECK_THROWS_AS(run(mission, 2, false), InputError);
+        CHECK_FALSE(fs::exists(temporary.path / "new"));
     }
 }

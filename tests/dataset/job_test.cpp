@@ -82,7 +82,7 @@ TEST_SUITE("dataset") {
         CHECK(first.pings >= 4);
         CHECK(first.pings < pings);
         CHECK_FALSE(is_complete(out));
-        CHECK(contents(out).size() == 3 + first.pings * 4);
+        CHECK(contents(out).size() == 4 + first.pings * 4);
         const RenderSummary second = run(mission);
         CHECK(second.skipped == first.pings);
         CHECK(second.pings == pings - first.pings);
@@ -131,6 +131,70 @@ TEST_SUITE("dataset") {
         const RenderSummary filled = run(mission);
         CHECK(filled.pings == 1);
         CHECK(filled.complete);
+        CHECK(dataset(out) == whole_dataset());
+    }
+
+    TEST_CASE("job: a ping that saw nothing is there like any other") {
+        // Straight up out of the tank: without noise every record is zero.
+        const TemporaryFolder temporary;
+        Mission mission = survey_mission(temporary.path / "out");
+        mission.sensors = {mission.sensors[2], mission.sensors[3]};
+        for (SonarConfig& sensor : mission.sensors) {
+            sensor.noise = {};
+            sensor.mount.rpy_deg = {180.0, 0.0, 0.0};
+            sensor.azimuth_deg = 20.0;
+        }
+        CHECK(run(mission).complete);
+        const RenderSummary again = run(mission);
+        CHECK(again.counts.echoes == 0);
+        CHECK(again.pings == 0);
+        CHECK(again.complete);
+        const Mission shards = [&] {
+            Mission other = mission;
+            other.output.folder = temporary.path / "shards";
+            return other;
+        }();
+        CHECK_FALSE(run(shards, {.shard = 0, .shards = 2}).complete);
+        CHECK(run(shards, {.shard = 1, .shards = 2}).complete);
+    }
+
+    TEST_CASE("job: a file that goes away during the run is no part of a complete dataset") {
+        const TemporaryFolder temporary;
+        const fs::path out = temporary.path / "out";
+        const Mission mission = small_mission(out);
+        const auto thief = [&](std::uint64_t done, std::uint64_t total) {
+            if (done == total) fs::remove(out / "front/polar/000000.npy");
+        };
+        CHECK_THROWS_AS(
+            run_job(mission, small_assembly(mission, poses), {}, thief, std::atomic<bool>(false)),
+            std::runtime_error);
+        CHECK_FALSE(is_complete(out));
+        CHECK(run(mission).pings == 1);
+        CHECK(dataset(out) == whole_dataset());
+    }
+
+    TEST_CASE("job: a file of another size than the journal's is rendered again") {
+        const TemporaryFolder temporary;
+        const fs::path out = temporary.path / "out";
+        const Mission mission = small_mission(out);
+        run(mission);
+        write_file(out / "front/fan/000002.png", "");
+        write_file(out / "left/meta/000003.json", "{}");
+        CHECK(run(mission).pings == 2);
+        CHECK(dataset(out) == whole_dataset());
+    }
+
+    TEST_CASE("job: lines of the journal that are torn or made up do not count") {
+        const TemporaryFolder temporary;
+        const fs::path out = temporary.path / "out";
+        const Mission mission = small_mission(out);
+        run_until(mission, 4);
+        const fs::path part = out / "journal/1-of-1.txt";
+        const std::string lines = read_file(part, 1 << 20);
+        write_file(part, lines.substr(0, lines.size() - 3) + "\nping 0 6 1 1 1 1 00000000\nping\n");
+        const RenderSummary rest = run(mission);
+        CHECK(rest.complete);
+        CHECK(rest.skipped > 0);
         CHECK(dataset(out) == whole_dataset());
     }
 

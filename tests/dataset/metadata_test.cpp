@@ -7,6 +7,7 @@
 #include "core/units.h"
 #include "mission/resolved.h"
 #include "support/small_mission.h"
+#include "visibility/rays/rays_engine.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;
@@ -18,10 +19,11 @@ TEST_SUITE("dataset") {
         Assembly assembly = small_assembly(mission, 7);
         assembly.scene.rejects = {3, 2, 1};
         assembly.scene.vertex_rounding_m = 0.25;
-        const Json json =
-            Json::parse(json_text(describe_dataset(mission, assembly, make_layout(mission, 7))));
+        const std::vector<Writers> writers = make_writers(mission, assembly);
+        const Json json = Json::parse(json_text(
+            describe_dataset(mission, assembly, make_layout(mission, writers, 7), writers)));
         CHECK(json.at("format") == "sonarsim dataset");
-        CHECK(json.at("format_version") == 1);
+        CHECK(json.at("format_version") == 2);
         CHECK(json.at("program_version") == SONARSIM_VERSION);
         CHECK(json.at("complete") == false);
         CHECK(json.at("mission") == "small");
@@ -69,12 +71,13 @@ TEST_SUITE("dataset") {
         // half a metre ahead, points along the world's y.
         assembly.trajectory[3].T_world_vehicle = {rotation_from_rpy(0, 0, 0.5 * pi),
                                                   Eigen::Vector3d(1, 2, 3)};
-        PingCounts counts;
-        counts.samples = 11;
-        counts.dropped_samples = 14;
-        counts.negative_pixels = 12;
-        const Json json =
-            Json::parse(json_text(describe_ping(mission, assembly, {3, 0}, counts, 13)));
+        Ping ping;
+        ping.counts.samples = 11;
+        ping.counts.dropped_samples = 14;
+        ping.counts.negative_pixels = 12;
+        const auto engine = make_rays_engine(assembly.scene);
+        const FinishedPing finished{{3, 0}, ping, *engine, Json(), 13};
+        const Json json = Json::parse(json_text(describe_ping(mission, assembly, finished)));
         CHECK(json.at("sensor") == "front");
         CHECK(json.at("settings") == "mission.resolved.yaml#/sensors/front");
         CHECK(json.at("ping") == 3);

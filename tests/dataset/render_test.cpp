@@ -55,7 +55,7 @@ TEST_SUITE("dataset") {
         CHECK(summary.encode_seconds > 0.0);
         CHECK(summary.write_seconds > 0.0);
         CHECK(summary.counts.samples > 0);
-        CHECK(contents(out).size() == 3 + pings * 4);
+        CHECK(contents(out).size() == 4 + pings * 4);
         CHECK(read_file(out / "mission.resolved.yaml", 1 << 20) == resolved_yaml(mission));
         CHECK(read_file(out / "trajectory.tum", 1 << 20) == write_tum(assembly.trajectory));
 
@@ -103,7 +103,7 @@ TEST_SUITE("dataset") {
         Mission mission = small_mission(temporary.path / "out");
         mission.output.polar = mission.output.image = mission.output.meta = false;
         run(mission);
-        CHECK(contents(temporary.path / "out").size() == 3 + pings);
+        CHECK(contents(temporary.path / "out").size() == 4 + pings);
         CHECK(fs::exists(temporary.path / "out/left/fan/000006.png"));
         CHECK_FALSE(fs::exists(temporary.path / "out/left/polar"));
     }

@@ -8,8 +8,9 @@
 
 #include "core/csv.h"
 #include "core/file.h"
+#include "dataset/folded_records.h"
 #include "dataset/job.h"
-#include "dataset/products.h"
+#include "dataset/writers.h"
 #include "product/sidescan_row.h"
 #include "product/soundings.h"
 #include "support/npy_data.h"
@@ -55,8 +56,8 @@ TEST_SUITE("dataset") {
         const RenderSummary summary = run(mission);
         CHECK(summary.complete);
         CHECK(summary.pings == 3 * 7 + 4);
-        // 3 common; front 7 x 4; mbes 7 x 4 and 6; sss 7 and 3; sounder 4 and 3.
-        CHECK(contents(out).size() == 3 + 28 + 34 + 10 + 7);
+        // 4 common; front 7 x 4; mbes 7 x 4 and 6; sss 7 and 3; sounder 4 and 3.
+        CHECK(contents(out).size() == 4 + 28 + 34 + 10 + 7);
 
         const auto engine = make_rays_engine(assembly.scene);
         const auto ping = [&](int sensor, std::uint32_t pose) {
@@ -195,18 +196,51 @@ TEST_SUITE("dataset") {
         CHECK(fs::exists(out / "sss/meta/000006.json"));
     }
 
+    TEST_CASE("series: without metadata the records alone are written") {
+        const TemporaryFolder temporary;
+        const fs::path out = temporary.path / "out";
+        Mission mission = survey_mission(out);
+        mission.output.meta = false;
+        CHECK(run(mission).complete);
+        CHECK_FALSE(fs::exists(out / "sss/meta"));
+        CHECK_FALSE(fs::exists(out / "sounder/meta"));
+        CHECK(fs::exists(out / "sss/waterfall.png"));
+        CHECK(run(mission).pings == 0);
+    }
+
+    TEST_CASE("series: what is predicted before a run is not less than what it writes") {
+        const TemporaryFolder temporary;
+        const Mission mission = survey_mission(temporary.path / "out");
+        const Assembly assembly = small_assembly(mission, poses);
+        run(mission);
+        const std::vector<Writers> writers = make_writers(mission, assembly);
+        const std::vector<std::size_t> pings = count_pings(mission, poses);
+        for (std::size_t i = 0; i < writers.size(); ++i) {
+            double written = 0.0;
+            for (const auto& [name, bytes] :
+                 contents(temporary.path / "out" / mission.sensors[i].name))
+                written += static_cast<double>(bytes.size());
+            CHECK(bytes_at_most(writers[i], pings[i]) >= written);
+        }
+        // Images of a side-scan sonar do not count: it has none.
+        CHECK(bytes_at_most(writers[2], pings[2]) < 1e6);
+    }
+
     TEST_CASE("series: more pings than a picture can be long are averaged") {
         const TemporaryFolder temporary;
         SonarConfig config = default_sonar(SonarKind::echosounder);
         config.name = "sounder";
         config.range_bins = 4;
-        const Sonar sonar = make_sonar(config, {});
+        Mission mission;
+        mission.sensors = {config};
+        Assembly assembly;
+        assembly.sonars = {make_sonar(config, {})};
         constexpr std::size_t pings = most_picture_rows + 3;  // two to a column, the last alone
         const RecordFile file(temporary.path / "echogram.npy", {"<f4", {4, pings}, true}, pings);
         const std::vector<float> one(4, 1.0F);
         file.write(1, std::as_bytes(std::span(one)));
         file.write(pings - 1, std::as_bytes(std::span(one)));
-        write_echogram(sonar, 1.0, file, temporary.path);
+        make_echogram_writer({mission, assembly, 0, pings})->write_products(file, temporary.path);
         constexpr int width = most_picture_rows / 2 + 2;
         const auto pixels = pixels_of<std::uint16_t>(temporary.path / "echogram.png", width, 4, 1,
                                                      OIIO::TypeDesc::UINT16);

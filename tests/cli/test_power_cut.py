@@ -1,0 +1,98 @@
+"""The power goes off at any moment: what is not durable yet is gone, or there in part; the same
+command run again comes to the same bytes as a run that nothing disturbed."""
+import json
+import os
+import shutil
+import subprocess
+import unittest
+
+from sandbox import Sandbox, digest, path_csv
+from test_faults import MISSION
+
+POWER_CUT = os.environ["POWER_CUT"]
+SANITIZED = os.environ["SANITIZED"] == "1"
+
+
+class PowerCut(Sandbox):
+    POSES = 8
+    # So often that checkpoints lie between the pings of a short run.
+    CHECKPOINT = ("--checkpoint", "0.01")
+
+    def setUp(self):
+        super().setUp()
+        self.write("mission.yaml", MISSION)
+        self.write("path.csv", path_csv(self.POSES))
+        self.log = self.folder / "calls"
+
+    def render_until(self, call, seed, *arguments):
+        environment = dict(os.environ, LD_PRELOAD=POWER_CUT, POWER_CUT_BELOW=str(self.out),
+                           POWER_CUT_CALL=str(call), POWER_CUT_SEED=str(seed),
+                           POWER_CUT_LOG=str(self.log))
+        return self.render("-j2", *self.CHECKPOINT, *arguments, env=environment)
+
+    def count_calls(self, *arguments):
+        result = self.render_until(0, 0, *arguments)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return int(self.log.read_text())
+
+    def whole(self):
+        self.assert_renders()
+        whole = digest(self.out)
+        shutil.rmtree(self.out)
+        return whole
+
+    def test_twenty_moments(self):
+        whole = self.whole()
+        calls = self.count_calls()
+        self.assertEqual(digest(self.out), whole)
+        # Four sonars with all their files: fewer would mean that the disk is not asked.
+        self.assertGreater(calls, 150)
+        moments = 5 if SANITIZED else 20
+        survived = 0
+        skipped = 0
+        for k in range(moments):
+            shutil.rmtree(self.out, ignore_errors=True)
+            call = 1 + (calls - 1) * k // (moments - 1)
+            with self.subTest(call=call):
+                cut = self.render_until(call, seed=k)
+                # Checkpoints come at other times in every run: near the end there may be no such call.
+                self.assertIn(cut.returncode, (0, 99), cut.stderr)
+                survived += cut.returncode == 0
+                result = self.assert_renders("-j1", "--json")
+                self.assertEqual(digest(self.out), whole, result.stderr)
+                skipped += json.loads(result.stdout)["skipped"]
+        self.assertLessEqual(survived, 3)
+        self.assertGreater(skipped, 0, "what a checkpoint holds is not rendered again")
+
+    def test_cut_again_and_again(self):
+        """A resume may be cut as well."""
+        whole = self.whole()
+        calls = self.count_calls()
+        shutil.rmtree(self.out)
+        for k in range(3 if SANITIZED else 12):
+            self.render_until(2 + calls * (k % 4 + 1) // 5, seed=100 + k)
+        self.assert_renders()
+        self.assertEqual(digest(self.out), whole)
+
+    def test_a_disk_that_forgets_would_be_noticed(self):
+        """The library does take away what is not durable: files written by a program that never
+        asks for it are gone."""
+        self.out.mkdir()
+        target = self.out / "file"
+        program = (f"import os; f = os.open({str(target)!r}, os.O_WRONLY | os.O_CREAT); "
+                   "os.write(f, b'x' * 100); os.close(f); "
+                   f"os.open({str(self.out / 'last')!r}, os.O_WRONLY | os.O_CREAT)")
+        lost = 0
+        for seed in range(12):
+            target.unlink(missing_ok=True)
+            environment = dict(os.environ, LD_PRELOAD=POWER_CUT, POWER_CUT_BELOW=str(self.out),
+                               POWER_CUT_CALL="3", POWER_CUT_SEED=str(seed))
+            code = subprocess.run(["python3", "-c", program], env=environment,
+                                  check=False).returncode
+            self.assertEqual(code, 99)
+            lost += not target.exists() or target.stat().st_size < 100
+        self.assertGreater(lost, 4)
+
+
+if __name__ == "__main__":
+    unittest.main()
