@@ -1,6 +1,7 @@
 #include "mission_options.h"
 
 #include "mission/parse.h"
+#include "sonar/kinds.h"
 
 namespace sonarsim {
 
@@ -20,7 +21,7 @@ void add_mission_options(CLI::App& command, MissionOptions& options) {
 Mission load(const MissionOptions& options) {
     std::vector<std::string> settings = options.settings;
     if (!options.seed.empty()) settings.push_back("seed=" + options.seed);
-    Mission mission = load_mission(options.file, settings);
+    Mission mission = load_mission(options.file, settings, sonar_keys());
     // On the command line a path starts here, in the mission at the mission's folder.
     if (!options.out.empty()) mission.output.folder = std::filesystem::absolute(options.out);
     return mission;

@@ -16,11 +16,12 @@
 #include "dataset/finite_image.h"
 #include "dataset/folder.h"
 #include "dataset/journal.h"
-#include "dataset/measured.h"
 #include "dataset/metadata.h"
 #include "dataset/resume.h"
 #include "mission/resolved.h"
 #include "sonar/engine_settings.h"
+#include "sonar/kinds.h"
+#include "sonar/measured.h"
 #include "trajectory/files.h"
 
 namespace sonarsim {
@@ -111,8 +112,9 @@ void write_ping(const Mission& mission, const Assembly& assembly, const Visibili
     const auto white = static_cast<float>(mission.output.full_scale);
     report.clipped_pixels =
         std::ranges::count_if(ping.intensity, [&](float v) { return v > white; });
-    const auto metadata = measured(assembly.sonars[id.sensor], engine,
-                                   assembly.trajectory[id.pose].T_world_vehicle, ping);
+    const auto metadata = measured(
+        {assembly.sonars[id.sensor], assembly.trajectory[id.pose].T_world_vehicle, id.pose, ping},
+        engine);
     const FinishedPing finished{id, ping, engine, metadata, report.clipped_pixels};
     const Writers& writers = to.writers[id.sensor];
     std::vector<std::string> encoded;
@@ -207,7 +209,7 @@ RenderSummary run_job(const Mission& mission, const Assembly& assembly,
     const std::vector<Writers> writers = make_writers(mission, assembly);
     const Layout layout = make_layout(mission, writers, assembly.trajectory.size());
     const CommonFiles common{describe_dataset(mission, assembly, layout, writers),
-                             resolved_yaml(mission), write_tum(assembly.trajectory)};
+                             resolved_yaml(mission, sonar_keys()), write_tum(assembly.trajectory)};
     protect_inputs(layout, mission);
     if (options.overwrite) remove_dataset(layout.folder);
     const FolderState state = inspect_folder(layout, common.description);

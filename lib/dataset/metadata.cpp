@@ -1,6 +1,7 @@
 #include "dataset/metadata.h"
 
 #include "mission/resolved.h"
+#include "sonar/kinds.h"
 
 namespace sonarsim {
 
@@ -64,7 +65,7 @@ Json describe_dataset(const Mission& mission, const Assembly& assembly, const La
                  {"program_version", SONARSIM_VERSION},
                  {"complete", false},
                  {"mission", mission.name},
-                 {"mission_hash", mission_hash(mission)},
+                 {"mission_hash", mission_hash(mission, sonar_keys())},
                  {"inputs_hash", inputs_hash(assembly)},
                  {"seed", mission.seed},
                  {"poses", assembly.trajectory.size()}};
@@ -83,7 +84,7 @@ Json describe_ping(const Mission& mission, const Assembly& assembly, const Finis
     const PingCounts& counts = finished.ping.counts;
     const Sonar& sonar = assembly.sonars[id.sensor];
     const TimedPose& pose = assembly.trajectory[id.pose];
-    const Pose T_world_sensor = pose.T_world_vehicle * sonar.T_vehicle_sensor;
+    const Pose T_world_sensor = sensor_pose(sonar, pose.T_world_vehicle, id.pose);
     Json json = {
         {"sensor", sonar.config.name},
         {"settings", "mission.resolved.yaml#/sensors/" + sonar.config.name},

@@ -12,6 +12,7 @@
 #include "dataset/record_file.h"
 #include "mission/mission.h"
 #include "ping/ping.h"
+#include "sonar/kinds.h"
 #include "visibility/engine.h"
 
 namespace sonarsim {
@@ -33,6 +34,7 @@ struct WriterContext {
     std::size_t pings;   ///< that the sensor sends in the whole mission
 
     const Sonar& sonar() const { return assembly.sonars[sensor]; }
+    const KindOfSonar& kind() const { return kind_of(sonar().config.kind); }
 };
 
 /// A finished ping, with all that a writer may ask about it.

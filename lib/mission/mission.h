@@ -71,31 +71,32 @@ struct StreaksConfig {
     bool operator==(const StreaksConfig&) const = default;
 };
 
-enum class SonarKind { imaging, profiling, sidescan, echosounder };
+/// The kinds of sonar. What they are is told by the table in sonar/kinds.h.
+enum class SonarKind {
+    imaging,
+    profiling,
+    sidescan,
+    echosounder,
+};
 
 struct SonarConfig {
     std::string name;  ///< the key below `sensors`
     SonarKind kind = SonarKind::imaging;
     MountConfig mount;
     int every = 1;                ///< pings at every n-th pose
-    double azimuth_deg = 120.0;   ///< full angle; of an echosounder that of its cone
-    double elevation_deg = 20.0;  ///< full angle; not of an echosounder
+    double azimuth_deg = 120.0;   ///< full angle
+    double elevation_deg = 20.0;  ///< full angle
+    double opening_deg = 30.0;    ///< full angle of a cone, which has no azimuth and elevation
     double range_min_m = 0.1;
     double range_max_m = 10.0;
     int range_bins = 512;
-    int azimuth_bins = 512;  ///< of imaging and profiling
+    int azimuth_bins = 512;
     MultipathConfig multipath;
     NoiseConfig noise;
     StreaksConfig streaks;
 
     bool operator==(const SonarConfig&) const = default;
 };
-
-/// The kind's name in a mission.
-std::string_view name_of(SonarKind kind);
-
-/// A sonar of this kind as it is where the mission says nothing else.
-SonarConfig default_sonar(SonarKind kind);
 
 /// Poses from a file, either taken as they are or interpolated at `rate_hz`.
 struct FileTrajectoryConfig {

@@ -13,14 +13,15 @@ constexpr std::size_t largest_file = std::size_t{1} << 20;
 
 }  // namespace
 
-Mission load_mission(const std::filesystem::path& file, std::span<const std::string> overrides) {
+Mission load_mission(const std::filesystem::path& file, std::span<const std::string> overrides,
+                     SonarKeyTable sonars) {
     return parse_mission(read_file(file, largest_file), file.string(), file.parent_path(),
-                         overrides);
+                         overrides, sonars);
 }
 
 Mission parse_mission(std::string_view text, const std::string& file_name,
                       const std::filesystem::path& base_folder,
-                      std::span<const std::string> overrides) {
+                      std::span<const std::string> overrides, SonarKeyTable sonars) {
     if (text.size() > largest_file) throw InputError({file_name}, "is larger than 1 MiB");
     YamlNode root = read_document(text, file_name);
     for (const std::string& setting : overrides)
@@ -28,7 +29,7 @@ Mission parse_mission(std::string_view text, const std::string& file_name,
 
     Mission mission;
     mission.name = std::filesystem::path(file_name).stem().string();
-    MissionReader reader(root, "mission", base_folder);
+    MissionReader reader(root, "mission", base_folder, sonars);
     describe(reader, mission);
     reader.finish();
     if (mission.output.folder.empty()) {

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "mission/mission.h"
+#include "mission/sonar_keys.h"
 
 namespace sonarsim {
 
@@ -14,12 +15,14 @@ namespace sonarsim {
 /// its file; one without an output folder writes to out/<name> below the current directory.
 /// `overrides` are settings "a.b.c=value" that replace or add keys, the last one winning, under the
 /// same checks and with the same meaning. InputError with file:line:column, or with the override,
-/// for whatever is not exactly right.
-Mission load_mission(const std::filesystem::path& file, std::span<const std::string> overrides);
+/// for whatever is not exactly right. `sonars` are the kinds of sonar that a mission may name:
+/// sonar_keys() of sonar/kinds.h.
+Mission load_mission(const std::filesystem::path& file, std::span<const std::string> overrides,
+                     SonarKeyTable sonars);
 
 /// The same for a mission in memory. `file_name` is used in messages and for the default name.
 Mission parse_mission(std::string_view text, const std::string& file_name,
                       const std::filesystem::path& base_folder,
-                      std::span<const std::string> overrides);
+                      std::span<const std::string> overrides, SonarKeyTable sonars);
 
 }  // namespace sonarsim

@@ -80,8 +80,8 @@ bool is_name(std::string_view text) {
 }  // namespace
 
 MissionReader::MissionReader(const YamlNode& node, std::string name,
-                             const std::filesystem::path& base_folder)
-    : node_(node), name_(std::move(name)), base_folder_(base_folder) {
+                             const std::filesystem::path& base_folder, SonarKeyTable sonars)
+    : node_(node), name_(std::move(name)), base_folder_(base_folder), sonars_(sonars) {
     if (node.kind != YamlNode::Kind::map) refuse_type(node, name_, "a section of keys");
 }
 
@@ -100,6 +100,17 @@ const YamlNode* MissionReader::find(const char* key, Presence presence) {
         refuse(node_, "'" + name_ + "' lacks the key '" + key + "'");
     }
     return found_node;
+}
+
+const SonarKeys& MissionReader::sonar_kind(const char* key, SonarConfig& value) {
+    std::vector<std::string> names;
+    for (const SonarKeys& one : sonars_)
+        names.emplace_back(one.name);
+    const SonarKeys& keys = sonars_[index_of(*find(key, required), key, names)];
+    std::string name = std::move(value.name);
+    value = keys.defaults;
+    value.name = std::move(name);
+    return keys;
 }
 
 void MissionReader::number(const char* key, double& value, const Limits& limits,

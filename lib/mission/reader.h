@@ -12,6 +12,7 @@
 
 #include "mission/document.h"
 #include "mission/limits.h"
+#include "mission/sonar_keys.h"
 
 namespace sonarsim {
 
@@ -20,7 +21,8 @@ namespace sonarsim {
 class MissionReader {
   public:
     /// `name` is what messages call the section. Relative paths start at `base_folder`.
-    MissionReader(const YamlNode& node, std::string name, const std::filesystem::path& base_folder);
+    MissionReader(const YamlNode& node, std::string name, const std::filesystem::path& base_folder,
+                  SonarKeyTable sonars);
 
     void number(const char* key, double& value, const Limits& limits,
                 Presence presence = Presence::optional);
@@ -52,13 +54,8 @@ class MissionReader {
         }
     }
 
-    /// What the keys that are left out keep, once it is known what kind of thing `value` is.
-    template <class T, class Make>
-    void start_from(T& value, Make make) {
-        std::string name = std::move(value.name);
-        value = make();
-        value.name = std::move(name);
-    }
+    /// Reads the kind of a sonar and fills in its defaults, all but the name.
+    const SonarKeys& sonar_kind(const char* key, SonarConfig& value);
 
     template <class T>
     void section(const char* key, T& value, Presence presence = Presence::optional) {
@@ -103,7 +100,7 @@ class MissionReader {
   private:
     template <class T>
     void read(const YamlNode& node, std::string name, T& value) {
-        MissionReader reader(node, std::move(name), base_folder_);
+        MissionReader reader(node, std::move(name), base_folder_, sonars_);
         describe(reader, value);
         reader.finish();
     }
@@ -120,6 +117,7 @@ class MissionReader {
     const YamlNode& node_;
     std::string name_;
     const std::filesystem::path& base_folder_;
+    SonarKeyTable sonars_;
     std::vector<std::string> known_;
 };
 

@@ -6,14 +6,14 @@
 
 namespace sonarsim {
 
-std::string resolved_yaml(const Mission& mission) {
+std::string resolved_yaml(const Mission& mission, SonarKeyTable sonars) {
     Mission copy = mission;  // a description may write, so it asks for more than const
-    MissionWriter writer;
+    MissionWriter writer(sonars);
     describe(writer, copy);
     return writer.yaml();
 }
 
-std::string mission_hash(const Mission& mission) {
+std::string mission_hash(const Mission& mission, SonarKeyTable sonars) {
     Mission copy = mission;
     const std::filesystem::path scene_folder = mission.scene.file.parent_path();
     const auto relative = [&](std::filesystem::path& path) {
@@ -23,7 +23,7 @@ std::string mission_hash(const Mission& mission) {
     relative(copy.scene.materials);
     if (auto* poses = std::get_if<FileTrajectoryConfig>(&copy.trajectory)) relative(poses->file);
     copy.output.folder.clear();
-    return fnv1a_128(resolved_yaml(copy));
+    return fnv1a_128(resolved_yaml(copy, sonars));
 }
 
 }  // namespace sonarsim

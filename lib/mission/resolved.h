@@ -3,17 +3,18 @@
 #include <string>
 
 #include "mission/mission.h"
+#include "mission/sonar_keys.h"
 
 namespace sonarsim {
 
 /// The mission as YAML with every value written out. `parse_mission` reads it back to an equal
 /// Mission, from any folder.
-std::string resolved_yaml(const Mission& mission);
+std::string resolved_yaml(const Mission& mission, SonarKeyTable sonars);
 
 /// 32 hexadecimal digits that differ when what is to be rendered differs. Neither the output folder
 /// counts nor where the mission's files lie as a whole, only where they lie relative to the scene
 /// file: a dataset moved or rendered on another machine is the same mission. What the files contain
 /// does not count either.
-std::string mission_hash(const Mission& mission);
+std::string mission_hash(const Mission& mission, SonarKeyTable sonars);
 
 }  // namespace sonarsim

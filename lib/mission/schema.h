@@ -7,17 +7,13 @@
 #include "core/input_limits.h"
 #include "mission/limits.h"
 #include "mission/mission.h"
+#include "mission/sonar_keys.h"
 
 // The keys of a mission, each written once. A visitor is handed every key with its value, its
 // limits and its checks; the MissionReader fills the value from YAML, the MissionWriter turns it
 // into YAML.
 
 namespace sonarsim {
-
-inline constexpr std::array sonar_kinds{Choice<SonarKind>{"imaging", SonarKind::imaging},
-                                        Choice<SonarKind>{"profiling", SonarKind::profiling},
-                                        Choice<SonarKind>{"sidescan", SonarKind::sidescan},
-                                        Choice<SonarKind>{"echosounder", SonarKind::echosounder}};
 
 inline constexpr std::array multipath_methods{
     Choice<MultipathMethod>{"none", MultipathMethod::none},
@@ -82,27 +78,22 @@ void describe(Visitor& v, StreaksConfig& c) {
 
 template <class Visitor>
 void describe(Visitor& v, SonarConfig& c) {
-    v.choice("kind", c.kind, sonar_kinds, required);
-    v.start_from(c, [&] { return default_sonar(c.kind); });
-    const bool fan = c.kind == SonarKind::imaging || c.kind == SonarKind::profiling;
+    const SonarKeys& keys = v.sonar_kind("kind", c);
     v.section("mount", c.mount);
     v.integer("every", c.every, at_least(1));
-    if (c.kind == SonarKind::echosounder) {
-        v.number("opening_deg", c.azimuth_deg, between(1e-3, 180));
-    } else {
-        v.number("azimuth_deg", c.azimuth_deg, between(1e-3, 360));
-        v.number("elevation_deg", c.elevation_deg, between(1e-3, 180));
-    }
+    if (keys.opening) v.number("opening_deg", c.opening_deg, between(1e-3, 180));
+    if (keys.azimuth) v.number("azimuth_deg", c.azimuth_deg, between(1e-3, 360));
+    if (keys.elevation) v.number("elevation_deg", c.elevation_deg, between(1e-3, 180));
     v.number("range_min_m", c.range_min_m, at_least(0));
     v.number("range_max_m", c.range_max_m, above(0));
     // 8192 x 8192 bins are 2^26, the largest image that is rendered.
     v.integer("range_bins", c.range_bins, between(1, 8192));
-    if (fan) v.integer("azimuth_bins", c.azimuth_bins, between(1, 8192));
+    if (keys.azimuth_bins) v.integer("azimuth_bins", c.azimuth_bins, between(1, 8192));
     v.section("multipath", c.multipath);
     v.section("noise", c.noise);
     v.section("streaks", c.streaks);
-    v.require(c.kind != SonarKind::sidescan || c.noise.range_lambda_m == 0.0, {"noise"},
-              "a side-scan sonar has no range noise: range_lambda_m must be 0");
+    v.require(keys.range_noise || c.noise.range_lambda_m == 0.0, {"noise"},
+              "this kind of sonar has no range noise: range_lambda_m must be 0");
     v.require(c.range_min_m < c.range_max_m, {"range_min_m", "range_max_m"},
               "range_min_m must be below range_max_m");
     v.require((c.range_max_m - c.range_min_m) / c.range_bins > 1e-6,

@@ -1,5 +1,7 @@
 #include "mission/writer.h"
 
+#include <algorithm>
+
 #include "core/text.h"
 
 namespace sonarsim {
@@ -18,6 +20,12 @@ void MissionWriter::integer(const char* key, int value, const Limits&) {
 
 void MissionWriter::integer(const char* key, std::uint64_t value) {
     line(key, std::to_string(value));
+}
+
+const SonarKeys& MissionWriter::sonar_kind(const char* key, const SonarConfig& value) {
+    const auto keys = std::ranges::find(sonars_, value.kind, &SonarKeys::kind);
+    line(key, keys->name);
+    return *keys;
 }
 
 void MissionWriter::flag(const char* key, bool value) {

@@ -10,12 +10,15 @@
 #include <vector>
 
 #include "mission/limits.h"
+#include "mission/sonar_keys.h"
 
 namespace sonarsim {
 
 /// The visitor that turns a mission into YAML, every value of it. It checks nothing.
 class MissionWriter {
   public:
+    explicit MissionWriter(SonarKeyTable sonars) : sonars_(sonars) {}
+
     const std::string& yaml() const { return yaml_; }
 
     void number(const char* key, double value, const Limits&, Presence = Presence::optional);
@@ -39,6 +42,8 @@ class MissionWriter {
             if (one.value == value) line(key, one.name);
         }
     }
+
+    const SonarKeys& sonar_kind(const char* key, const SonarConfig& value);
 
     template <class T>
     void section(std::string_view key, T& value, Presence = Presence::optional) {
@@ -71,9 +76,6 @@ class MissionWriter {
     template <class... T>
     void one_of(const std::variant<T...>&, const std::array<const char*, sizeof...(T)>&) const {}
 
-    template <class T, class Make>
-    void start_from(const T&, Make) const {}
-
     void require(bool, std::initializer_list<const char*>, const char*) const {}
 
   private:
@@ -81,6 +83,7 @@ class MissionWriter {
     void write_list(const char* key, const double* values, std::size_t count);
     void line(std::string_view key, std::string_view value);
 
+    SonarKeyTable sonars_;
     std::string yaml_;
     std::size_t indent_ = 0;
     bool item_ = false;  ///< the next line begins an item of a list

@@ -5,8 +5,8 @@
 
 #include "mission/mission.h"
 #include "ping/ping.h"
+#include "ping/sonar.h"
 #include "product/picture.h"
-#include "sonar/sonar.h"
 
 namespace sonarsim {
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "ping/ping.h"
+#include "ping/sonar.h"
 #include "product/even_kernel.h"
-#include "sonar/sonar.h"
 
 namespace sonarsim {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "ping/ping.h"
-#include "sonar/sonar.h"
+#include "ping/sonar.h"
 
 namespace sonarsim {
 

@@ -6,7 +6,7 @@
 
 #include "core/pose.h"
 #include "ping/ping.h"
-#include "sonar/sonar.h"
+#include "ping/sonar.h"
 
 namespace sonarsim {
 

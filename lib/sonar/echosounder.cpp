@@ -1,15 +1,38 @@
-#include "sonar/echosounder.h"
-
+#include "product/echogram.h"
+#include "sonar/kinds.h"
 #include "sonar/setup.h"
 
 namespace sonarsim {
 
-Sonar make_echosounder(const SonarConfig& config, const AccuracyConfig& accuracy) {
-    Sonar sonar = common_sonar(config, accuracy, ViewShape::cone, 1, 1.0);
-    sonar.T_vehicle_sensor = mounted(config.mount, looking_down());
-    sonar.settings.view.elevation_rad = sonar.settings.view.azimuth_rad;
-    sonar.settings.range_noise.fades = false;
-    return sonar;
+namespace {
+
+/// The range at which the bottom is detected.
+void measure_depth(const PingView& view, nlohmann::ordered_json& json) {
+    json["depth_m"] = number_or_null(detected_depth(view.sonar, view.ping));
+}
+
+}  // namespace
+
+/// An echosounder (section VI): one beam, a cone of half-angle opening / 2. Its range noise does
+/// not fade. Looks down.
+KindOfSonar echosounder() {
+    SonarConfig defaults;
+    defaults.kind = SonarKind::echosounder;
+    defaults.range_min_m = 0.5;
+    defaults.range_bins = 200;
+    return {.keys = {.kind = SonarKind::echosounder,
+                     .name = "echosounder",
+                     .defaults = defaults,
+                     .azimuth = false,
+                     .elevation = false,
+                     .opening = true},
+            .shape = ViewShape::cone,
+            .looks_down = true,
+            .gain = 1.0,
+            .range_noise_fades = false,
+            .has_images = false,
+            .record = RecordKind::echogram,
+            .measure = measure_depth};
 }
 
 }  // namespace sonarsim

@@ -1,14 +1,23 @@
-#include "sonar/imaging.h"
-
+#include "sonar/kinds.h"
 #include "sonar/setup.h"
 
 namespace sonarsim {
 
-Sonar make_imaging(const SonarConfig& config, const AccuracyConfig& accuracy) {
-    Sonar sonar = common_sonar(config, accuracy, ViewShape::fan, config.azimuth_bins, 0.5);
-    sonar.T_vehicle_sensor = mounted(config.mount, Pose{});
-    add_azimuth(sonar);
-    return sonar;
+/// A multibeam imaging sonar (section III): range by azimuth, elevation is lost. Looks forward.
+KindOfSonar imaging() {
+    SonarConfig defaults;
+    defaults.kind = SonarKind::imaging;
+    return {.keys = {.kind = SonarKind::imaging,
+                     .name = "imaging",
+                     .defaults = defaults,
+                     .azimuth_bins = true},
+            .shape = ViewShape::fan,
+            .looks_down = false,
+            .gain = 0.5,
+            .range_noise_fades = true,
+            .has_images = true,
+            .record = RecordKind::none,
+            .finish = add_azimuth};
 }
 
 }  // namespace sonarsim

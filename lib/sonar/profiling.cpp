@@ -1,14 +1,45 @@
-#include "sonar/profiling.h"
+#include <algorithm>
+#include <cmath>
 
+#include "product/soundings.h"
+#include "sonar/kinds.h"
 #include "sonar/setup.h"
 
 namespace sonarsim {
 
-Sonar make_profiling(const SonarConfig& config, const AccuracyConfig& accuracy) {
-    Sonar sonar = common_sonar(config, accuracy, ViewShape::fan, config.azimuth_bins, 0.5);
-    sonar.T_vehicle_sensor = mounted(config.mount, looking_down());
-    add_azimuth(sonar);
-    return sonar;
+namespace {
+
+/// How many beams have a sounding.
+void measure_soundings(const PingView& view, nlohmann::ordered_json& json) {
+    const auto soundings = find_soundings(view.sonar, view.T_world_vehicle, view.ping);
+    json["soundings"] =
+        std::ranges::count_if(soundings, [](const Sounding& s) { return !std::isnan(s.range_m); });
+}
+
+}  // namespace
+
+/// A multibeam profiling sonar (section V): an imaging sonar whose elevation is so narrow that it
+/// makes one bin. Looks down.
+KindOfSonar profiling() {
+    SonarConfig defaults;
+    defaults.kind = SonarKind::profiling;
+    defaults.elevation_deg = 1.0;
+    defaults.range_min_m = 0.5;
+    defaults.range_max_m = 75.0;
+    defaults.range_bins = 750;
+    defaults.azimuth_bins = 480;
+    return {.keys = {.kind = SonarKind::profiling,
+                     .name = "profiling",
+                     .defaults = defaults,
+                     .azimuth_bins = true},
+            .shape = ViewShape::fan,
+            .looks_down = true,
+            .gain = 0.5,
+            .range_noise_fades = true,
+            .has_images = true,
+            .record = RecordKind::soundings,
+            .finish = add_azimuth,
+            .measure = measure_soundings};
 }
 
 }  // namespace sonarsim

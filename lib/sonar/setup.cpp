@@ -30,18 +30,26 @@ std::uint32_t stream_of(std::string_view sensor_name) {
     return hash;
 }
 
-Sonar common_sonar(const SonarConfig& config, const AccuracyConfig& accuracy, ViewShape shape,
-                   int beams, double gain) {
+Sonar common_sonar(const SonarConfig& config, const AccuracyConfig& accuracy,
+                   const KindOfSonar& kind) {
     const NoiseConfig& noise = config.noise;
+    const bool cone = kind.shape == ViewShape::cone;
+    const int sides_or_one = kind.shape == ViewShape::sides ? 2 : 1;
+    const int beams = kind.keys.azimuth_bins ? config.azimuth_bins : sides_or_one;
     Sonar sonar;
     sonar.config = config;
+    sonar.T_vehicle_sensor = mounted(config.mount, kind.looks_down ? looking_down() : Pose{});
     sonar.range_edges_m = edges(config.range_min_m, config.range_max_m, config.range_bins);
     PingSettings& settings = sonar.settings;
     settings.stream = stream_of(config.name);
-    settings.view = {radians(config.azimuth_deg), radians(config.elevation_deg),
-                     config.range_min_m,          config.range_max_m,
-                     config.range_bins,           beams,
-                     accuracy.relative_l1,        shape};
+    settings.view = {.azimuth_rad = radians(cone ? config.opening_deg : config.azimuth_deg),
+                     .elevation_rad = radians(cone ? config.opening_deg : config.elevation_deg),
+                     .range_min_m = config.range_min_m,
+                     .range_max_m = config.range_max_m,
+                     .range_bins = config.range_bins,
+                     .beams = beams,
+                     .relative_l1 = accuracy.relative_l1,
+                     .shape = kind.shape};
     const bool exact = config.multipath.method == MultipathMethod::exact;
     settings.multipath = {config.multipath.method != MultipathMethod::none,
                           {exact ? 0 : config.multipath.epsilon_bins,
@@ -49,8 +57,8 @@ Sonar common_sonar(const SonarConfig& config, const AccuracyConfig& accuracy, Vi
     settings.streaks = {config.streaks.mode, static_cast<float>(config.streaks.threshold),
                         static_cast<float>(sincos(radians(config.streaks.angle_deg)).cos)};
     settings.range_noise = {static_cast<float>(noise.range_lambda_m),
-                            static_cast<float>(noise.scatterer_m), true};
-    settings.pixel_noise = {static_cast<float>(gain), static_cast<float>(noise.add_sigma),
+                            static_cast<float>(noise.scatterer_m), kind.range_noise_fades};
+    settings.pixel_noise = {static_cast<float>(kind.gain), static_cast<float>(noise.add_sigma),
                             static_cast<float>(noise.mult_sigma),
                             std::vector<float>(config.range_bins, 1.0F),
                             std::vector<float>(beams, 1.0F)};
@@ -82,6 +90,10 @@ void add_azimuth(Sonar& sonar) {
 
 Pose looking_down() {
     return {rotation_from_rpy(0.0, 0.5 * pi, 0.0), Eigen::Vector3d::Zero()};
+}
+
+nlohmann::ordered_json number_or_null(const std::optional<double>& value) {
+    return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json();
 }
 
 }  // namespace sonarsim

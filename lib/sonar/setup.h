@@ -1,12 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <nlohmann/json.hpp>
+#include <optional>
 #include <string_view>
 #include <vector>
 
 #include "core/pose.h"
 #include "mission/mission.h"
-#include "sonar/sonar.h"
+#include "sonar/kinds.h"
 
 namespace sonarsim {
 
@@ -23,10 +25,10 @@ Pose mounted(const MountConfig& mount, const Pose& T_vehicle_default);
 /// sensor to a mission changes no draw.
 std::uint32_t stream_of(std::string_view sensor_name);
 
-/// The view, the noise and the range edges of a sonar, by its configuration. `gain` is the m of
-/// I (m + w_m) [12]. Lobe factors are 1.
-Sonar common_sonar(const SonarConfig& config, const AccuracyConfig& accuracy, ViewShape shape,
-                   int beams, double gain);
+/// The mount, the view, the noise and the range edges of a sonar, by its configuration and its
+/// kind. Lobe factors are 1.
+Sonar common_sonar(const SonarConfig& config, const AccuracyConfig& accuracy,
+                   const KindOfSonar& kind);
 
 /// The lobe of [10] over the beams of a fan, 1 + 0.5 exp(-phi^2 / (2 sigma^2)), if the mission
 /// wants it, and the azimuth edges.
@@ -35,5 +37,8 @@ void add_azimuth(Sonar& sonar);
 /// The mount of the sonars that look down: x along the vehicle's -z, z along its x, so that
 /// azimuth runs from starboard (-) to port (+).
 Pose looking_down();
+
+/// For metadata, where what is absent is null.
+nlohmann::ordered_json number_or_null(const std::optional<double>& value);
 
 }  // namespace sonarsim

@@ -1,13 +1,41 @@
-#include "sonar/sidescan.h"
-
+#include "product/sidescan_row.h"
+#include "sonar/kinds.h"
 #include "sonar/setup.h"
 
 namespace sonarsim {
 
-Sonar make_sidescan(const SonarConfig& config, const AccuracyConfig& accuracy) {
-    Sonar sonar = common_sonar(config, accuracy, ViewShape::sides, 2, 1.0);
-    sonar.T_vehicle_sensor = mounted(config.mount, looking_down());
-    return sonar;
+namespace {
+
+/// The range of the first bottom return on either side.
+void measure_first_returns(const PingView& view, nlohmann::ordered_json& json) {
+    const FirstReturns first = first_returns(view.sonar, view.ping);
+    json["first_return_m"] = {{"port", number_or_null(first.port_m)},
+                              {"starboard", number_or_null(first.starboard_m)}};
+}
+
+}  // namespace
+
+/// A side-scan sonar (section IV): two beams, starboard and port, of range bins alone. No range
+/// noise. Looks down.
+KindOfSonar sidescan() {
+    SonarConfig defaults;
+    defaults.kind = SonarKind::sidescan;
+    defaults.azimuth_deg = 170.0;
+    defaults.elevation_deg = 0.25;
+    defaults.range_min_m = 0.5;
+    defaults.range_max_m = 35.0;
+    defaults.range_bins = 690;
+    return {.keys = {.kind = SonarKind::sidescan,
+                     .name = "sidescan",
+                     .defaults = defaults,
+                     .range_noise = false},
+            .shape = ViewShape::sides,
+            .looks_down = true,
+            .gain = 1.0,
+            .range_noise_fades = true,
+            .has_images = false,
+            .record = RecordKind::waterfall,
+            .measure = measure_first_returns};
 }
 
 }  // namespace sonarsim

@@ -1,34 +1,21 @@
 #include "sonar/sonar.h"
 
-#include "sonar/echosounder.h"
-#include "sonar/imaging.h"
-#include "sonar/profiling.h"
-#include "sonar/sidescan.h"
+#include "sonar/kinds.h"
+#include "sonar/setup.h"
 
 namespace sonarsim {
 
-bool has_images(const Sonar& sonar) {
-    return sonar.config.kind == SonarKind::imaging || sonar.config.kind == SonarKind::profiling;
-}
-
 Sonar make_sonar(const SonarConfig& config, const AccuracyConfig& accuracy) {
-    switch (config.kind) {
-        case SonarKind::imaging:
-            return make_imaging(config, accuracy);
-        case SonarKind::profiling:
-            return make_profiling(config, accuracy);
-        case SonarKind::sidescan:
-            return make_sidescan(config, accuracy);
-        case SonarKind::echosounder:
-            return make_echosounder(config, accuracy);
-    }
-    return {};
+    const KindOfSonar& kind = kind_of(config.kind);
+    Sonar sonar = common_sonar(config, accuracy, kind);
+    if (kind.finish) kind.finish(sonar);
+    return sonar;
 }
 
 Ping render_ping(const Sonar& sonar, const Scene& scene, const VisibilityEngine& engine,
                  const Pose& T_world_vehicle, const PingKey& key) {
-    return run_pipeline(sonar.settings, scene, engine, T_world_vehicle * sonar.T_vehicle_sensor,
-                        key);
+    return run_pipeline(sonar.settings, scene, engine,
+                        sensor_pose(sonar, T_world_vehicle, key.ping), key);
 }
 
 std::array<Ping, 5> render_stages(const Sonar& sonar, const Scene& scene,

@@ -1,26 +1,14 @@
 #pragma once
 
 #include <array>
-#include <vector>
 
 #include "core/pose.h"
 #include "mission/mission.h"
-#include "ping/pipeline.h"
+#include "ping/sonar.h"
 
 namespace sonarsim {
 
-/// A sonar ready to ping: its configuration turned into what the pipeline works with.
-struct Sonar {
-    SonarConfig config;
-    Pose T_vehicle_sensor;
-    PingSettings settings;
-    std::vector<double> range_edges_m;      ///< range_bins + 1
-    std::vector<double> azimuth_edges_rad;  ///< of a fan: beams + 1, from starboard (-) to port (+)
-};
-
-/// Whether a ping is an image of its own, range by azimuth, and not a row or column of a longer one.
-bool has_images(const Sonar& sonar);
-
+/// A sonar of the kind that its configuration names, see sonar/kinds.h.
 Sonar make_sonar(const SonarConfig& config, const AccuracyConfig& accuracy);
 
 /// One ping with one term of the model after the other, as in the paper's Fig. 5(d): direct echoes,

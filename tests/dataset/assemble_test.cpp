@@ -10,6 +10,7 @@
 #include "core/units.h"
 #include "dataset/job.h"
 #include "mission/parse.h"
+#include "sonar/kinds.h"
 #include "support/small_mission.h"
 #include "support/temporary_folder.h"
 
@@ -64,7 +65,7 @@ struct MissionOnDisk {
                 "\nsensors:\n  fls: {kind: imaging, range_bins: 100, "
                 "azimuth_bins: 8, azimuth_deg: 20, elevation_deg: 10}\n"
                 "output: {folder: out}\n",
-            "mission.yaml", folder.path, {});
+            "mission.yaml", folder.path, {}, sonar_keys());
     }
 };
 
@@ -117,7 +118,7 @@ TEST_SUITE("dataset") {
         mission.sensors[0] = default_sonar(SonarKind::echosounder);
         mission.sensors[0].name = "sounder";
         CHECK_NOTHROW(assemble(mission));
-        mission.sensors[0].azimuth_deg = 170.0;
+        mission.sensors[0].opening_deg = 170.0;
         CHECK_THROWS_AS(assemble(mission), InputError);
     }
 

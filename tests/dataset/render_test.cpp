@@ -10,6 +10,7 @@
 #include "dataset/npy.h"
 #include "mission/resolved.h"
 #include "product/fan.h"
+#include "sonar/kinds.h"
 #include "support/small_mission.h"
 #include "support/temporary_folder.h"
 #include "trajectory/files.h"
@@ -56,7 +57,8 @@ TEST_SUITE("dataset") {
         CHECK(summary.write_seconds > 0.0);
         CHECK(summary.counts.samples > 0);
         CHECK(contents(out).size() == 4 + pings * 4);
-        CHECK(read_file(out / "mission.resolved.yaml", 1 << 20) == resolved_yaml(mission));
+        CHECK(read_file(out / "mission.resolved.yaml", 1 << 20) ==
+              resolved_yaml(mission, sonar_keys()));
         CHECK(read_file(out / "trajectory.tum", 1 << 20) == write_tum(assembly.trajectory));
 
         const auto engine = make_rays_engine(assembly.scene);

@@ -13,6 +13,7 @@
 #include "dataset/writers.h"
 #include "product/sidescan_row.h"
 #include "product/soundings.h"
+#include "sonar/kinds.h"
 #include "support/npy_data.h"
 #include "support/small_mission.h"
 #include "support/temporary_folder.h"

@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "mission/parse.h"
 #include "mission/resolved.h"
+#include "sonar/kinds.h"
 
 // The input is a mission, followed by lines "--set ..." after the first zero byte, if any. Whatever
 // is accepted must survive the way through the resolved mission.
@@ -24,9 +25,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         start = stop + 1;
     }
     try {
-        const Mission mission = parse_mission(input.substr(0, end), "f.yaml", "/base", overrides);
-        const std::string resolved = resolved_yaml(mission);
-        if (parse_mission(resolved, "f.yaml", "/other", {}) != mission) std::abort();
+        const Mission mission =
+            parse_mission(input.substr(0, end), "f.yaml", "/base", overrides, sonar_keys());
+        const std::string resolved = resolved_yaml(mission, sonar_keys());
+        if (parse_mission(resolved, "f.yaml", "/other", {}, sonar_keys()) != mission) std::abort();
     } catch (const InputError&) {
     }
     return 0;

@@ -59,7 +59,7 @@ TEST_CASE("hard cases: what a mission would be refused for") {
     HardCase hard{"180 degrees", "", "", plain_floor, [](SonarKind kind) {
                       return over_floor(kind, [](SonarConfig& c) {
                           c.elevation_deg = 180.0;
-                          if (c.kind == SonarKind::echosounder) c.azimuth_deg = 180.0;
+                          c.opening_deg = 180.0;
                       });
                   }};
     hard.octree_may_refuse = true;

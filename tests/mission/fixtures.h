@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "mission/parse.h"
+#include "sonar/kinds.h"
 
 namespace sonarsim {
 
@@ -19,7 +20,7 @@ inline const std::string smallest_mission =
     "    kind: imaging\n";
 
 inline Mission parse(const std::string& text, const std::vector<std::string>& overrides = {}) {
-    return parse_mission(text, "m.yaml", "/base", overrides);
+    return parse_mission(text, "m.yaml", "/base", overrides, sonar_keys());
 }
 
 /// The message of the InputError that reading `text` ends in; "" when it does not.

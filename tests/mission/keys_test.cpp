@@ -70,7 +70,7 @@ TEST_CASE("each kind of sonar has defaults and keys of its own") {
     CHECK(sidescan.elevation_deg == 0.25);
     CHECK(sidescan.range_max_m == 50.0);
     CHECK(parse(before + "profiling}}\n").sensors[0].azimuth_bins == 480);
-    CHECK(parse(before + "echosounder, opening_deg: 20}}\n").sensors[0].azimuth_deg == 20.0);
+    CHECK(parse(before + "echosounder, opening_deg: 20}}\n").sensors[0].opening_deg == 20.0);
     CHECK(refusal(before + "echosounder, elevation_deg: 20}}\n").find("unknown key") !=
           std::string::npos);
     CHECK(refusal(before + "sidescan, azimuth_bins: 20}}\n").find("unknown key") !=

@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "mission/fixtures.h"
+#include "sonar/kinds.h"
 
 namespace sonarsim {
 
@@ -248,7 +249,7 @@ TEST_CASE("paths") {
     CHECK(refusal("scene: {file: [a], materials: b}\n") ==
           "m.yaml:1:15: 'file' must be text, not a list");
     const auto here = std::filesystem::current_path();
-    const Mission mission = parse_mission(smallest_mission, "m.yaml", "", {});
+    const Mission mission = parse_mission(smallest_mission, "m.yaml", "", {}, sonar_keys());
     CHECK(mission.scene.file == here / "a.glb");
     // The default output folder starts at the current directory, a given one at the mission.
     CHECK(parse(smallest_mission + "output: {folder: o/p}\n").output.folder == "/base/o/p");
@@ -269,32 +270,32 @@ TEST_CASE("load_mission reads a file and refuses what is none") {
     std::filesystem::create_directories(folder);
     const auto file = folder / "harbour.v2.yaml";
     std::ofstream(file) << smallest_mission;
-    const Mission mission = load_mission(file, none);
+    const Mission mission = load_mission(file, none, sonar_keys());
     CHECK(mission.name == "harbour.v2");
     CHECK(mission.scene.file == folder / "a.glb");
 
     std::ofstream(file) << std::string((1U << 20) + 1, '#');
     CHECK_THROWS_WITH_AS(
-        load_mission(file, none),
+        load_mission(file, none, sonar_keys()),
         (file.string() + ": is 1048577 bytes long; at most 1048576 are read").c_str(), InputError);
-    CHECK_THROWS_AS(load_mission(folder, none), InputError);
-    CHECK_THROWS_AS(load_mission(folder / "missing.yaml", none), InputError);
+    CHECK_THROWS_AS(load_mission(folder, none, sonar_keys()), InputError);
+    CHECK_THROWS_AS(load_mission(folder / "missing.yaml", none, sonar_keys()), InputError);
     std::filesystem::remove_all(folder);
     CHECK(refusal(std::string((1U << 20) + 1, '#')) == "m.yaml: is larger than 1 MiB");
 }
 
 TEST_CASE("the example missions are valid") {
     const std::filesystem::path root = SONARSIM_SOURCE_DIR;
-    const Mission mission = load_mission(root / "configs/tank_imaging.yaml", {});
+    const Mission mission = load_mission(root / "configs/tank_imaging.yaml", {}, sonar_keys());
     CHECK(mission.name == "tank_imaging");
     CHECK(mission.scene.file == root / "scenes/tank.glb");
     CHECK(mission.sensors.at(0).range_bins == 512);
     for (const char* name : {"seafloor_bathymetry", "seafloor_sidescan", "tank_echosounder"}) {
         const std::filesystem::path file = root / "configs" / (std::string(name) + ".yaml");
-        CHECK(load_mission(file, {}).name == name);
-        CHECK(load_mission(file, {}).sensors.size() == 1);
+        CHECK(load_mission(file, {}, sonar_keys()).name == name);
+        CHECK(load_mission(file, {}, sonar_keys()).sensors.size() == 1);
     }
-    CHECK(load_mission(root / "configs/survey.yaml", {}).sensors.size() == 4);
+    CHECK(load_mission(root / "configs/survey.yaml", {}, sonar_keys()).sensors.size() == 4);
 }
 
 TEST_SUITE_END();

@@ -1,6 +1,7 @@
 #include "mission/resolved.h"
 
 #include "mission/fixtures.h"
+#include "sonar/kinds.h"
 
 namespace sonarsim {
 
@@ -44,18 +45,19 @@ TEST_SUITE_BEGIN("mission");
 
 TEST_CASE("the resolved mission reads back as the same mission") {
     Mission mission = unusual_mission();
-    CHECK(parse(resolved_yaml(mission)) == mission);
+    CHECK(parse(resolved_yaml(mission, sonar_keys())) == mission);
     mission.trajectory = FileTrajectoryConfig{"/t/poses.csv", 2.5};
-    CHECK(parse(resolved_yaml(mission)) == mission);
+    CHECK(parse(resolved_yaml(mission, sonar_keys())) == mission);
     mission.trajectory = WaypointTrajectoryConfig{
         {{{1, 2, 3}, {4, 5, 6}}, {{-1, 0.1, 1e-9}, {7, -8, 9}}}, 3.25, 0.5};
-    CHECK(parse(resolved_yaml(mission)) == mission);
+    CHECK(parse(resolved_yaml(mission, sonar_keys())) == mission);
     const Mission defaults = parse(smallest_mission);
-    CHECK(parse(resolved_yaml(defaults)) == defaults);
+    CHECK(parse(resolved_yaml(defaults, sonar_keys())) == defaults);
 }
 
 TEST_CASE("the resolved mission shows every default") {
-    const std::string text = resolved_yaml(parse(smallest_mission, {"output.folder=/o"}));
+    const std::string text =
+        resolved_yaml(parse(smallest_mission, {"output.folder=/o"}), sonar_keys());
     CHECK(text == R"(name: "m"
 seed: 0
 water:
@@ -119,15 +121,16 @@ output:
 }
 
 TEST_CASE("the hash knows what is rendered, not where it lies") {
-    const std::string hash = mission_hash(parse(smallest_mission));
+    const std::string hash = mission_hash(parse(smallest_mission), sonar_keys());
     CHECK(hash.size() == 32);
     CHECK(hash.find_first_not_of("0123456789abcdef") == std::string::npos);
     const auto with = [](const std::string& setting) {
-        return mission_hash(parse(smallest_mission, {setting}));
+        return mission_hash(parse(smallest_mission, {setting}), sonar_keys());
     };
     CHECK(with("output.folder=/elsewhere") == hash);
     CHECK(with("water.density_kg_m3=997.0") == hash);  // the default, written out
-    CHECK(mission_hash(parse_mission(smallest_mission, "m.yaml", "/other/place", {})) == hash);
+    CHECK(mission_hash(parse_mission(smallest_mission, "m.yaml", "/other/place", {}, sonar_keys()),
+                       sonar_keys()) == hash);
 
     CHECK(with("seed=1") != hash);
     CHECK(with("scene.file=b.glb") != hash);

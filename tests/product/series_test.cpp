@@ -11,6 +11,7 @@
 #include "product/picture.h"
 #include "product/sidescan_row.h"
 #include "product/waterfall.h"
+#include "sonar/kinds.h"
 
 using namespace sonarsim;
 

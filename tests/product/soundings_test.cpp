@@ -7,6 +7,7 @@
 
 #include "core/units.h"
 #include "product/bathymetry.h"
+#include "sonar/kinds.h"
 
 using namespace sonarsim;
 

@@ -4,6 +4,7 @@
 
 #include "core/units.h"
 #include "product/echogram.h"
+#include "sonar/kinds.h"
 #include "sonar/sonar.h"
 #include "support/scenes.h"
 #include "validation/image_error.h"
@@ -94,7 +95,7 @@ TEST_CASE("echosounder: range noise does not fade") {
     Scene scene = empty_scene();
     add_floor(scene, 100.0F, 0.0F, add_material(scene, 0.8F));
     SonarConfig config = echosounder();
-    config.azimuth_deg = 1.0;
+    config.opening_deg = 1.0;
     config.noise.range_lambda_m = 0.3;
     config.noise.scatterer_m = 1000.0;
     const Sonar sonar = make_sonar(config, {});

@@ -4,6 +4,7 @@
 
 #include "core/units.h"
 #include "product/soundings.h"
+#include "sonar/kinds.h"
 #include "sonar/sonar.h"
 #include "support/sanitized.h"
 #include "support/scenes.h"

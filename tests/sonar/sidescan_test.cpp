@@ -4,6 +4,7 @@
 
 #include "core/units.h"
 #include "product/sidescan_row.h"
+#include "sonar/kinds.h"
 #include "sonar/sonar.h"
 #include "support/scenes.h"
 #include "validation/image_error.h"

@@ -1,6 +1,7 @@
 #include "support/small_mission.h"
 
 #include "core/file.h"
+#include "sonar/kinds.h"
 #include "support/scenes.h"
 
 namespace sonarsim::test {

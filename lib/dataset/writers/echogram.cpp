@@ -92,8 +92,8 @@ class EchogramWriter final : public Writer {
 }  // namespace
 
 std::unique_ptr<Writer> make_echogram_writer(const WriterContext& context) {
-    const bool echosounder = context.sonar().config.kind == SonarKind::echosounder;
-    if (!context.mission.output.echogram || !echosounder) return nullptr;
+    const bool records = context.kind().record == RecordKind::echogram;
+    if (!context.mission.output.echogram || !records) return nullptr;
     return std::make_unique<EchogramWriter>(context);
 }
 

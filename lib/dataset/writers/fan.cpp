@@ -42,7 +42,7 @@ class FanWriter final : public Writer {
 }  // namespace
 
 std::unique_ptr<Writer> make_fan_writer(const WriterContext& context) {
-    if (!context.mission.output.fan || !has_images(context.sonar())) return nullptr;
+    if (!context.mission.output.fan || !context.kind().has_images) return nullptr;
     return std::make_unique<FanWriter>(context);
 }
 

@@ -29,7 +29,7 @@ class ImageWriter final : public Writer {
 }  // namespace
 
 std::unique_ptr<Writer> make_image_writer(const WriterContext& context) {
-    if (!context.mission.output.image || !has_images(context.sonar())) return nullptr;
+    if (!context.mission.output.image || !context.kind().has_images) return nullptr;
     return std::make_unique<ImageWriter>(context);
 }
 

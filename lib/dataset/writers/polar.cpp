@@ -25,7 +25,7 @@ class PolarWriter final : public Writer {
 }  // namespace
 
 std::unique_ptr<Writer> make_polar_writer(const WriterContext& context) {
-    if (!context.mission.output.polar || !has_images(context.sonar())) return nullptr;
+    if (!context.mission.output.polar || !context.kind().has_images) return nullptr;
     return std::make_unique<PolarWriter>(context);
 }
 

@@ -200,8 +200,8 @@ class SoundingsWriter final : public Writer {
 }  // namespace
 
 std::unique_ptr<Writer> make_soundings_writer(const WriterContext& context) {
-    const bool profiling = context.sonar().config.kind == SonarKind::profiling;
-    if (!context.mission.output.soundings || !profiling) return nullptr;
+    const bool records = context.kind().record == RecordKind::soundings;
+    if (!context.mission.output.soundings || !records) return nullptr;
     return std::make_unique<SoundingsWriter>(context);
 }
 

@@ -43,7 +43,7 @@ class StagesWriter final : public Writer {
 }  // namespace
 
 std::unique_ptr<Writer> make_stages_writer(const WriterContext& context) {
-    if (!context.mission.output.stages || !has_images(context.sonar())) return nullptr;
+    if (!context.mission.output.stages || !context.kind().has_images) return nullptr;
     return std::make_unique<StagesWriter>(context);
 }
 

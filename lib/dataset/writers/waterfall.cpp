@@ -69,8 +69,8 @@ class WaterfallWriter final : public Writer {
 }  // namespace
 
 std::unique_ptr<Writer> make_waterfall_writer(const WriterContext& context) {
-    const bool sidescan = context.sonar().config.kind == SonarKind::sidescan;
-    if (!context.mission.output.waterfall || !sidescan) return nullptr;
+    const bool records = context.kind().record == RecordKind::waterfall;
+    if (!context.mission.output.waterfall || !records) return nullptr;
     return std::make_unique<WaterfallWriter>(context);
 }
 

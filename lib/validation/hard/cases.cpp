@@ -12,6 +12,7 @@
 #include "core/clock.h"
 #include "core/error.h"
 #include "sonar/engine_settings.h"
+#include "sonar/kinds.h"
 
 namespace sonarsim {
 

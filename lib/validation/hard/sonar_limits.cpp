@@ -31,7 +31,7 @@ void all_azimuths(SonarConfig& config) {
 
 void half_sphere(SonarConfig& config) {
     config.elevation_deg = 180.0;
-    if (config.kind == SonarKind::echosounder) config.azimuth_deg = 180.0;
+    config.opening_deg = 180.0;
 }
 
 /// With 1 m bins from 0 to 10 m the radius of this sphere is the edge of a bin.
@@ -122,7 +122,7 @@ std::vector<HardCase> hard_sonar_limits() {
          plain_floor,
          floor_with([](SonarConfig& c) {
              c.range_bins = 8192;
-             if (c.kind == SonarKind::echosounder) c.azimuth_deg = 30.0;
+             c.opening_deg = 30.0;
          }),
          floor_law,
          {0.02, 0.02}},

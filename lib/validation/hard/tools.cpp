@@ -4,6 +4,7 @@
 
 #include "core/units.h"
 #include "sonar/engine_settings.h"
+#include "sonar/kinds.h"
 #include "validation/reference.h"
 #include "validation/shapes.h"
 
@@ -31,7 +32,7 @@ SonarConfig hard_sonar(SonarKind kind) {
     if (kind == SonarKind::imaging) config.azimuth_deg = 60.0;
     if (kind == SonarKind::sidescan) config.elevation_deg = 0.5;
     // Over a floor a narrow cone lights two bins; one more or less would be all that is seen.
-    if (kind == SonarKind::echosounder) config.azimuth_deg = 90.0;
+    config.opening_deg = 90.0;
     return config;
 }
 

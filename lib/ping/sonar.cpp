@@ -1,0 +1,19 @@
+#include "ping/sonar.h"
+
+namespace sonarsim {
+
+double head_angle_rad(const Sonar& sonar, std::uint32_t pose) {
+    if (sonar.head_angles_rad.empty()) return 0.0;
+    const std::size_t ping = pose / static_cast<std::uint32_t>(sonar.config.every);
+    return sonar.head_angles_rad[ping % sonar.head_angles_rad.size()];
+}
+
+Pose sensor_pose(const Sonar& sonar, const Pose& T_world_vehicle, std::uint32_t pose) {
+    const Pose T_world_mount = T_world_vehicle * sonar.T_vehicle_sensor;
+    if (sonar.head_angles_rad.empty()) return T_world_mount;
+    const Pose T_mount_head{rotation_from_rpy(0.0, 0.0, head_angle_rad(sonar, pose)),
+                            Eigen::Vector3d::Zero()};
+    return T_world_mount * T_mount_head;
+}
+
+}  // namespace sonarsim

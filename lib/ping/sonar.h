@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/pose.h"
+#include "mission/mission.h"
+#include "ping/pipeline.h"
+
+namespace sonarsim {
+
+/// A sonar ready to ping: its configuration turned into what a ping works with.
+struct Sonar {
+    SonarConfig config;
+    Pose T_vehicle_sensor;  ///< where its head, if it turns, is at angle 0
+    PingSettings settings;
+    std::vector<double> range_edges_m;      ///< range_bins + 1
+    std::vector<double> azimuth_edges_rad;  ///< of a fan: beams + 1, from starboard (-) to port (+)
+    /// Of a head that turns from ping to ping, about the sensor's z axis, positive to port: its
+    /// angles, over and over again. Empty for a sonar that is fixed.
+    std::vector<double> head_angles_rad;
+};
+
+/// The angle of the head at the pose with this index on the trajectory; 0 for a fixed sonar.
+double head_angle_rad(const Sonar& sonar, std::uint32_t pose);
+
+/// T_world_sensor at that pose.
+Pose sensor_pose(const Sonar& sonar, const Pose& T_world_vehicle, std::uint32_t pose);
+
+}  // namespace sonarsim
