@@ -17,6 +17,7 @@ constexpr MakeWriter formats[] = {
     make_waterfall_writer,  //
     make_echogram_writer,   //
     make_soundings_writer,  //
+    make_scan_writer,       //
     make_meta_writer,       //
 };
 

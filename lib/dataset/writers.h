@@ -16,6 +16,7 @@ std::unique_ptr<Writer> make_stages_writer(const WriterContext& context);
 std::unique_ptr<Writer> make_waterfall_writer(const WriterContext& context);
 std::unique_ptr<Writer> make_echogram_writer(const WriterContext& context);
 std::unique_ptr<Writer> make_soundings_writer(const WriterContext& context);
+std::unique_ptr<Writer> make_scan_writer(const WriterContext& context);
 std::unique_ptr<Writer> make_meta_writer(const WriterContext& context);
 
 /// The writers of one sensor, in the order in which a ping is written.

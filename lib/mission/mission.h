@@ -77,6 +77,7 @@ enum class SonarKind {
     profiling,
     sidescan,
     echosounder,
+    scanning,
 };
 
 struct SonarConfig {
@@ -87,6 +88,8 @@ struct SonarConfig {
     double azimuth_deg = 120.0;   ///< full angle
     double elevation_deg = 20.0;  ///< full angle
     double opening_deg = 30.0;    ///< full angle of a cone, which has no azimuth and elevation
+    double sector_deg = 360.0;    ///< that a turning head covers
+    double step_deg = 0.9;        ///< that it turns from ping to ping
     double range_min_m = 0.1;
     double range_max_m = 10.0;
     int range_bins = 512;
@@ -169,6 +172,7 @@ struct OutputConfig {
     bool waterfall = true;           ///< of side-scan
     bool echogram = true;            ///< of echosounders
     bool soundings = true;           ///< of profiling sonars, and the map made of them
+    bool scan = true;                ///< of scanning sonars
     double bathymetry_cell_m = 0.0;  ///< 0: by the number of soundings
 
     bool operator==(const OutputConfig&) const = default;

@@ -84,6 +84,10 @@ void describe(Visitor& v, SonarConfig& c) {
     if (keys.opening) v.number("opening_deg", c.opening_deg, between(1e-3, 180));
     if (keys.azimuth) v.number("azimuth_deg", c.azimuth_deg, between(1e-3, 360));
     if (keys.elevation) v.number("elevation_deg", c.elevation_deg, between(1e-3, 180));
+    if (keys.head) v.number("sector_deg", c.sector_deg, between(1e-2, 360));
+    if (keys.head) v.number("step_deg", c.step_deg, between(1e-2, 360));
+    v.require(!keys.head || c.step_deg <= c.sector_deg, {"sector_deg", "step_deg"},
+              "step_deg must be at most sector_deg");
     v.number("range_min_m", c.range_min_m, at_least(0));
     v.number("range_max_m", c.range_max_m, above(0));
     // 8192 x 8192 bins are 2^26, the largest image that is rendered.
@@ -169,6 +173,7 @@ void describe(Visitor& v, OutputConfig& c) {
     v.flag("waterfall", c.waterfall);
     v.flag("echogram", c.echogram);
     v.flag("soundings", c.soundings);
+    v.flag("scan", c.scan);
     v.number("bathymetry_cell_m", c.bathymetry_cell_m, at_least(0));
 }
 

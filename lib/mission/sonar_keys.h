@@ -20,6 +20,7 @@ struct SonarKeys {
     bool opening = false;       ///< opening_deg
     bool azimuth_bins = false;  ///< azimuth_bins
     bool range_noise = true;    ///< noise.range_lambda_m may be above 0
+    bool head = false;          ///< sector_deg and step_deg
 };
 
 /// All kinds, in the order in which messages name them.

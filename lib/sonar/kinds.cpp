@@ -11,6 +11,7 @@ const std::vector<KindOfSonar>& kinds_of_sonar() {
         profiling(),
         sidescan(),
         echosounder(),
+        scanning(),
     };
     return kinds;
 }

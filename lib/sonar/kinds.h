@@ -16,6 +16,7 @@ enum class RecordKind {
     waterfall,  ///< a row of port and starboard ranges
     echogram,   ///< a column of ranges
     soundings,  ///< a point per beam
+    scan,       ///< a column of ranges at the angle of the head
 };
 
 /// A finished ping, and where the sonar was.
@@ -47,6 +48,7 @@ KindOfSonar imaging();
 KindOfSonar profiling();
 KindOfSonar sidescan();
 KindOfSonar echosounder();
+KindOfSonar scanning();
 
 /// Every kind, in the order in which messages name them.
 const std::vector<KindOfSonar>& kinds_of_sonar();

@@ -1,0 +1,49 @@
+#include "core/units.h"
+#include "product/scan.h"
+#include "sonar/kinds.h"
+#include "sonar/setup.h"
+
+namespace sonarsim {
+
+namespace {
+
+/// The one beam has no lobe across: the head turns past everything.
+void turn_head(Sonar& sonar) {
+    const double half = 0.5 * sonar.settings.view.azimuth_rad;
+    sonar.azimuth_edges_rad = edges(-half, half, 1);
+    sonar.head_angles_rad = scan_angles_rad(sonar.config);
+}
+
+void measure_head(const PingView& view, nlohmann::ordered_json& json) {
+    json["head_angle_rad"] = head_angle_rad(view.sonar, view.pose);
+}
+
+}  // namespace
+
+/// A mechanical scanning sonar, such as a Ping360 or a Micron: a single beam whose head turns a
+/// step from ping to ping, all the way round or to and fro over a sector. Looks forward, the head
+/// turns about the vertical. The paper has none. Defaults are those of the Ping360's data sheet
+/// (Blue Robotics): beam 2 x 25 degrees, from 0.75 m, 400 steps to the turn.
+KindOfSonar scanning() {
+    SonarConfig defaults;
+    defaults.kind = SonarKind::scanning;
+    defaults.azimuth_deg = 2.0;
+    defaults.elevation_deg = 25.0;
+    defaults.range_min_m = 0.75;
+    defaults.range_max_m = 20.0;
+    defaults.range_bins = 500;
+    return {.keys = {.kind = SonarKind::scanning,
+                     .name = "scanning",
+                     .defaults = defaults,
+                     .head = true},
+            .shape = ViewShape::fan,
+            .looks_down = false,
+            .gain = 1.0,
+            .range_noise_fades = true,
+            .has_images = false,
+            .record = RecordKind::scan,
+            .finish = turn_head,
+            .measure = measure_head};
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,111 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "core/units.h"
+#include "product/scan.h"
+#include "sonar/kinds.h"
+#include "sonar/measured.h"
+#include "sonar/sonar.h"
+#include "validation/shapes.h"
+#include "visibility/rays/rays_engine.h"
+
+using namespace sonarsim;
+
+namespace {
+
+SonarConfig scanning_sonar() {
+    SonarConfig config = default_sonar(SonarKind::scanning);
+    config.name = "head";
+    config.step_deg = 10.0;
+    config.range_min_m = 0.2;
+    config.range_max_m = 6.0;
+    config.range_bins = 290;  // of 2 cm
+    return config;
+}
+
+/// A sphere of 0.2 m about (3, 0, 0) turned by `azimuth_deg` to port.
+Scene sphere_at(double azimuth_deg) {
+    Scene scene = shapes::empty_scene();
+    const double azimuth = radians(azimuth_deg);
+    const Eigen::Vector3f centre(static_cast<float>(3.0 * std::cos(azimuth)),
+                                 static_cast<float>(3.0 * std::sin(azimuth)), 0.0F);
+    shapes::add_sphere(scene, centre, 0.2F, shapes::add_material(scene, 0.5F));
+    return scene;
+}
+
+/// The first bin that echoes; -1 for none.
+int first_bin(const Ping& ping) {
+    for (int i = 0; i < ping.range_bins; ++i) {
+        if (ping.at(i, 0) > 0.0F) return i;
+    }
+    return -1;
+}
+
+}  // namespace
+
+TEST_SUITE("sonar") {
+    TEST_CASE("scanning: the head goes round and round, or to and fro over a sector") {
+        SonarConfig config = scanning_sonar();
+        const std::vector<double> round = scan_angles_rad(config);
+        REQUIRE(round.size() == 36);
+        CHECK(round.front() == doctest::Approx(radians(-175)));
+        CHECK(round.back() == doctest::Approx(radians(175)));
+        config.sector_deg = 40.0;
+        const std::vector<double> sector = scan_angles_rad(config);
+        REQUIRE(sector.size() == 8);
+        const double expected[] = {-15, -5, 5, 15, 15, 5, -5, -15};
+        for (int k = 0; k < 8; ++k)
+            CHECK(sector[k] == doctest::Approx(radians(expected[k])));
+        // A step that does not divide the sector is rounded to one that does.
+        config.step_deg = 9.0;
+        CHECK(scan_steps(config) == 4);
+    }
+
+    TEST_CASE("scanning: a sphere is seen when the head points at it, and at its range") {
+        const Scene scene = sphere_at(65.0);
+        const auto engine = make_rays_engine(scene);
+        const Sonar sonar = make_sonar(scanning_sonar(), {});
+        for (std::uint32_t pose = 0; pose < 36; ++pose) {
+            const Ping ping = render_ping(sonar, scene, *engine, Pose{}, {0, pose});
+            const double angle = head_angle_rad(sonar, pose);
+            // The sphere spans asin(0.2 / 3) = 3.8 degrees to either side, the beam 1; steps
+            // are 10.
+            const bool aims = std::fabs(angle - radians(65)) < radians(4.0);
+            CHECK((first_bin(ping) >= 0) == aims);
+            // Its near side is 2.8 m away: bin (2.8 - 0.2) / 0.02.
+            if (aims) CHECK(std::abs(first_bin(ping) - 130) <= 1);
+        }
+    }
+
+    TEST_CASE("scanning: the metadata tell the angle of the head, `every` counts its pings") {
+        SonarConfig config = scanning_sonar();
+        config.every = 3;
+        const Sonar sonar = make_sonar(config, {});
+        CHECK(head_angle_rad(sonar, 0) == doctest::Approx(radians(-175)));
+        CHECK(head_angle_rad(sonar, 6) == doctest::Approx(radians(-155)));
+        const Scene scene = sphere_at(0.0);
+        const auto engine = make_rays_engine(scene);
+        const Ping ping = render_ping(sonar, scene, *engine, Pose{}, {0, 6});
+        const auto json = measured({sonar, Pose{}, 6, ping}, *engine);
+        CHECK(json.at("head_angle_rad") == doctest::Approx(radians(-155)));
+        CHECK(json.at("altitude_m").is_null());
+    }
+
+    TEST_CASE("scanning: the display shows the last ping at each step") {
+        SonarConfig config = scanning_sonar();
+        config.sector_deg = 40.0;
+        config.range_bins = 3;
+        ScanDisplay display(make_sonar(config, {}));
+        for (std::size_t ping = 0; ping < 6; ++ping) {
+            const std::vector<float> bins(3, static_cast<float>(ping + 1));
+            display.show(ping, bins);
+        }
+        // Pings 0 to 3 fall on steps 0 to 3, pings 4 and 5 come back over steps 3 and 2.
+        const float expected[] = {1, 2, 6, 5};
+        for (int step = 0; step < 4; ++step) {
+            for (int bin = 0; bin < 3; ++bin)
+                CHECK(display.image().at(bin, step) == expected[step]);
+        }
+    }
+}
