@@ -32,7 +32,8 @@ std::string numbered(const std::string& pattern, std::uint64_t number) {
 void list_sensor(const Json& sensor, Files& files) {
     const auto pings = sensor.value("pings", std::uint64_t{0});
     const auto every = sensor.value("every", std::uint64_t{1});
-    for (const auto& [name, pattern] : sensor.value("files", Json::object()).items()) {
+    const Json patterns = sensor.value("files", Json::object());
+    for (const auto& [name, pattern] : patterns.items()) {
         for (std::uint64_t i = 0; i < pings; ++i)
             files.insert(numbered(pattern.get<std::string>(), i * every));
     }

@@ -83,10 +83,17 @@ TEST_SUITE("core") {
         CHECK(folder.entries() == 1);
     }
 
-    TEST_CASE("file: the temporary name is a hidden sibling of this process's own") {
-        const std::string ending = "." + std::to_string(::getpid()) + ".part";
-        CHECK(temporary_name("out/a.png") == fs::path("out/.a.png" + ending));
-        CHECK(temporary_name("a.png") == fs::path(".a.png" + ending));
+    TEST_CASE("file: a temporary name is a hidden sibling, another one each time") {
+        const fs::path one = temporary_name("out/a.png");
+        CHECK(one.parent_path() == "out");
+        CHECK(one.filename().string().starts_with(".a.png."));
+        CHECK(is_temporary_name(one.filename().string()));
+        CHECK(final_name(one.filename().string()) == "a.png");
+        CHECK(temporary_name("out/a.png") != one);
+        CHECK(temporary_name("a.png").parent_path().empty());
+        CHECK_FALSE(is_temporary_name("a.png"));
+        CHECK_FALSE(is_temporary_name("a.part"));
+        CHECK(final_name("a.png") == "a.png");
     }
 
     TEST_CASE("file: reading refuses what is missing, too long or no regular file") {
