@@ -38,34 +38,13 @@ struct PingReport {
     std::uint64_t clipped_pixels = 0;
 };
 
-void add(MultipathCounts& sum, const MultipathCounts& counts) {
-    using Count = std::uint64_t MultipathCounts::*;
-    for (const Count count :
-         {&MultipathCounts::samples, &MultipathCounts::clusters, &MultipathCounts::rays,
-          &MultipathCounts::bounces, &MultipathCounts::missed, &MultipathCounts::edge_on,
-          &MultipathCounts::behind, &MultipathCounts::outside, &MultipathCounts::turned_away,
-          &MultipathCounts::hidden}) {
-        sum.*count += counts.*count;
-    }
-}
-
 void add(RenderSummary& summary, const PingReport& report) {
     ++summary.pings;
-    summary.stages.trace += report.seconds.trace;
-    summary.stages.multipath += report.seconds.multipath;
-    summary.stages.accumulate += report.seconds.accumulate;
-    summary.stages.noise += report.seconds.noise;
+    summary.stages += report.seconds;
     summary.encode_seconds += report.encode_seconds;
     summary.write_seconds += report.write_seconds;
-    summary.counts.samples += report.counts.samples;
-    summary.counts.dropped_samples += report.counts.dropped_samples;
-    summary.counts.echoes += report.counts.echoes;
-    summary.counts.out_of_range += report.counts.out_of_range;
-    summary.counts.occupied_bins += report.counts.occupied_bins;
-    summary.counts.negative_pixels += report.counts.negative_pixels;
-    summary.counts.streak_rows += report.counts.streak_rows;
+    summary.counts += report.counts;
     summary.clipped_pixels += report.clipped_pixels;
-    add(summary.counts.multipath, report.counts.multipath);
 }
 
 void check(const RenderOptions& options) {
@@ -139,17 +118,15 @@ struct Workshop {
 
 /// Writes the files of a ping: its record first, then the others, its metadata last.
 void write_ping(const Workshop& shop, const Destination& to, const std::vector<FanMap>& fans,
-                const PingId& id, const Ping& ping, PingReport& report) {
+                const PingId& id, const TracedPing& traced, const Ping& ping, PingReport& report) {
     const auto& [mission, assembly, engine] = shop;
     const Sonar& sonar = assembly.sonars[id.sensor];
     const Pose& T_world_vehicle = assembly.trajectory[id.pose].T_world_vehicle;
     Stopwatch watch;
     const Measurement measurement = measure(sonar, engine, T_world_vehicle, ping);
     std::array<Ping, 5> stages;
-    if (to.layout.sensors[id.sensor].writes(FileKind::stages)) {
-        stages =
-            render_stages(sonar, assembly.scene, engine, T_world_vehicle, {mission.seed, id.pose});
-    }
+    if (to.layout.sensors[id.sensor].writes(FileKind::stages))
+        stages = form_stages(traced, sonar, assembly.scene, {mission.seed, id.pose});
     const PingFiles encoded =
         encode_ping(mission, assembly, to.layout, fans, id, ping, measurement.summary, stages);
     report.encode_seconds = watch.lap();
@@ -173,12 +150,14 @@ void render(const Mission& mission, const Assembly& assembly, const std::vector<
     const std::vector<FanMap> fans =
         to ? make_fan_maps(mission, assembly, to->layout) : std::vector<FanMap>();
     const auto work = [&](const PingId& id) {
+        const Sonar& sonar = assembly.sonars[id.sensor];
+        const TracedPing traced =
+            trace(sonar, assembly.scene, *engine, assembly.trajectory[id.pose].T_world_vehicle);
         const Ping ping =
-            render_ping(assembly.sonars[id.sensor], assembly.scene, *engine,
-                        assembly.trajectory[id.pose].T_world_vehicle, {mission.seed, id.pose});
+            form_image(traced, sonar.settings, assembly.scene, {mission.seed, id.pose});
         PingReport report{ping.counts, ping.seconds};
-        brightest_pixel(ping, assembly.sonars[id.sensor].config.name, id.pose);
-        if (to) write_ping({mission, assembly, *engine}, *to, fans, id, ping, report);
+        brightest_pixel(ping, sonar.config.name, id.pose);
+        if (to) write_ping({mission, assembly, *engine}, *to, fans, id, traced, ping, report);
         return report;
     };
     stream_pings(todo, threads, work, progress, stop, summary);

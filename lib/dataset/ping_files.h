@@ -30,7 +30,7 @@ std::vector<FanMap> make_fan_maps(const Mission& mission, const Assembly& assemb
 
 /// Encodes a ping into the kinds of file that `layout` asks for. `fans` are those of
 /// make_fan_maps(). `measured` goes into the metadata. `stages` are those of
-/// render_stages(), or nothing when they are not asked for.
+/// form_stages(), or nothing when they are not asked for.
 PingFiles encode_ping(const Mission& mission, const Assembly& assembly, const Layout& layout,
                       const std::vector<FanMap>& fans, const PingId& id, const Ping& ping,
                       const nlohmann::ordered_json& measured = {},

@@ -24,11 +24,11 @@ Pose mounted(const MountConfig& mount, const Pose& T_vehicle_default);
 std::uint32_t stream_of(std::string_view sensor_name);
 
 /// The view, the noise and the range edges of a sonar, by its configuration. `gain` is the m of
-/// I (m + w_m) [12]. Lobe factors are 1.
+/// I (m + w_m), Eq. 12. Lobe factors are 1.
 Sonar common_sonar(const SonarConfig& config, const AccuracyConfig& accuracy, ViewShape shape,
                    int beams, double gain);
 
-/// The lobe of [10] over the beams of a fan, 1 + 0.5 exp(-phi^2 / (2 sigma^2)), if the mission
+/// The lobe of Eq. 10 over the beams of a fan, 1 + 0.5 exp(-phi^2 / (2 sigma^2)), if the mission
 /// wants it, and the azimuth edges.
 void add_azimuth(Sonar& sonar);
 
