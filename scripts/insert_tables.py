@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """insert_tables.py document.md name=table.md ...: puts each table between its marks
-<!-- report NAME --> and <!-- end NAME --> in the document."""
+<!-- report NAME --> (or <!-- begin NAME -->) and <!-- end NAME --> in the document."""
 import pathlib
 import re
 import sys
@@ -11,7 +11,7 @@ def main() -> int:
     text = document.read_text()
     for argument in sys.argv[2:]:
         name, table = argument.split("=", 1)
-        marks = re.compile(rf"(<!-- report {name} -->\n).*?(<!-- end {name} -->)", re.DOTALL)
+        marks = re.compile(rf"(<!-- (?:report|begin) {name} -->\n).*?(<!-- end {name} -->)", re.DOTALL)
         body = pathlib.Path(table).read_text()
         text, found = marks.subn(lambda m: m.group(1) + "\n" + body + "\n" + m.group(2), text)
         if found != 1:

@@ -18,5 +18,6 @@ void add_render(CLI::App& app, int& exit_code);
 void add_validate(CLI::App& app, int& exit_code);
 void add_inspect(CLI::App& app, int& exit_code);
 void add_report(CLI::App& app, int& exit_code);
+void add_keys(CLI::App& app, int& exit_code);
 
 }  // namespace sonarsim

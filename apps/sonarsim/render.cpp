@@ -4,6 +4,9 @@
 
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "commands.h"
 #include "core/text.h"
@@ -45,12 +48,11 @@ double pings_per_s(const RenderSummary& summary) {
 }
 
 void print_table(const RenderSummary& summary) {
-    const std::pair<const char*, double> stages[] = {{"trace", summary.stages.trace},
-                                                     {"multipath", summary.stages.multipath},
-                                                     {"accumulate", summary.stages.accumulate},
-                                                     {"noise", summary.stages.noise},
-                                                     {"encode", summary.encode_seconds},
-                                                     {"write", summary.write_seconds}};
+    std::vector<std::pair<std::string_view, double>> stages;
+    for (const auto& timer : ping_timers)
+        stages.emplace_back(timer.name, summary.stages.*timer.member);
+    stages.emplace_back("encode", summary.encode_seconds);
+    stages.emplace_back("write", summary.write_seconds);
     double sum = 0.0;
     for (const auto& stage : stages)
         sum += stage.second;
@@ -61,18 +63,17 @@ void print_table(const RenderSummary& summary) {
 }
 
 void print_json(const RenderSummary& summary) {
-    nlohmann::ordered_json json;
+    using Json = nlohmann::ordered_json;
+    Json thread_seconds = json_object<Json>(ping_timers, summary.stages);
+    thread_seconds["encode"] = summary.encode_seconds;
+    thread_seconds["write"] = summary.write_seconds;
+    Json json;
     json["pings"] = summary.pings;
     json["skipped"] = summary.skipped;
     json["complete"] = summary.complete;
     json["seconds"] = summary.seconds;
     json["pings_per_s"] = pings_per_s(summary);
-    json["thread_seconds"] = {{"trace", summary.stages.trace},
-                              {"multipath", summary.stages.multipath},
-                              {"accumulate", summary.stages.accumulate},
-                              {"noise", summary.stages.noise},
-                              {"encode", summary.encode_seconds},
-                              {"write", summary.write_seconds}};
+    json["thread_seconds"] = std::move(thread_seconds);
     json["samples"] = summary.counts.samples;
     json["echoes"] = summary.counts.echoes;
     json["clipped_pixels"] = summary.clipped_pixels;
@@ -81,22 +82,12 @@ void print_json(const RenderSummary& summary) {
 
 /// What did not make it into the images, and why.
 void log_dropped(const PingCounts& counts) {
-    const auto say = [](std::uint64_t count, const char* what) {
-        if (count > 0) spdlog::info("{} {}", count, what);
-    };
-    say(counts.dropped_samples,
-        "pieces of surface were left out: edge-on, at no distance, or lost in rounding");
-    say(counts.out_of_range, "echoes lay outside the range and were dropped");
-    say(counts.negative_pixels, "pixels were negative after the noise and became 0");
-    const MultipathCounts& m = counts.multipath;
-    if (m.samples > 0) {
-        spdlog::info(
-            "multipath: of {} samples {} came back; {} met nothing, {} met a plane edge-on, {} "
-            "left "
-            "it, {} met it out of view, {} were turned away, {} met what is hidden",
-            m.samples, m.bounces, m.missed, m.edge_on, m.behind, m.outside, m.turned_away,
-            m.hidden);
+    for (const auto& counter : ping_counters) {
+        const std::uint64_t count = counts.*counter.member;
+        if (counter.is_a_loss && count > 0) spdlog::info("{} {}", count, counter.text);
     }
+    if (counts.multipath.samples > 0)
+        spdlog::info("multipath: {}", sentence(multipath_counters, counts.multipath));
 }
 
 /// What the table does not say.

@@ -1,8 +1,5 @@
 #include "benchmark/bench.h"
 
-#include <tuple>
-#include <utility>
-
 #include "core/clock.h"
 
 namespace sonarsim {
@@ -20,32 +17,45 @@ Bench make_bench(const Mission& mission, const Assembly& assembly, int poses) {
     return bench;
 }
 
-void visit_pose(const Bench& bench, const Sonar& sonar, const VisibilityEngine& engine,
-                std::size_t p, PoseTimes& times) {
+TracedPing visit_pose(const Bench& bench, const Sonar& sonar, const VisibilityEngine& engine,
+                      std::size_t p, PoseTimes& times) {
     constexpr double slow_ms = 100.0;
     constexpr int repeats = 3;
-    const auto timed = [&] {
-        const double start = seconds_now();
-        const Ping ping = bench.ping(sonar, engine, p);
-        const double ms = 1e3 * (seconds_now() - start);
-        return std::pair{ms, ping.seconds};
+    TracedPing traced;
+    PingSeconds stages;
+    const auto timed_ms = [&] {
+        Stopwatch watch;
+        traced = trace(sonar, bench.scene, engine, bench.poses[p], bench.indices[p]);
+        const Ping ping =
+            form_image(traced, sonar.settings, bench.scene, {bench.seed, bench.indices[p]});
+        stages = ping.seconds;
+        return 1e3 * watch.lap();
     };
-    auto [ms, stages] = timed();
+    double ms = timed_ms();
     const int count = ms > slow_ms ? 1 : repeats;
     for (int k = 0; k < count; ++k) {
-        if (count > 1) std::tie(ms, stages) = timed();
-        times.ping.push_back(ms);
-        times.trace.push_back(1e3 * stages.trace);
-        times.multipath.push_back(1e3 * stages.multipath);
-        times.accumulate.push_back(1e3 * stages.accumulate);
-        times.noise.push_back(1e3 * stages.noise);
+        if (count > 1) ms = timed_ms();
+        times.ping_ms.push_back(ms);
+        times.stages.push_back(stages);
     }
+    return traced;
 }
 
-Spread over_poses(std::span<const PoseTimes> poses, std::vector<double> PoseTimes::*stage) {
+Spread over_poses(std::span<const PoseTimes> poses, std::vector<double> PoseTimes::*times_ms) {
     std::vector<double> medians;
     for (const PoseTimes& times : poses)
-        medians.push_back(spread_of_times(times.*stage).centre);
+        medians.push_back(spread_of_times(times.*times_ms).centre);
+    return spread_of_times(medians);
+}
+
+Spread over_poses(std::span<const PoseTimes> poses, double PingSeconds::*stage) {
+    std::vector<double> medians;
+    for (const PoseTimes& times : poses) {
+        std::vector<double> ms;
+        for (const PingSeconds& stages : times.stages)
+            ms.push_back(1e3 * stages.*stage);
+        medians.push_back(spread_of_times(ms).centre);
+    }
     return spread_of_times(medians);
 }
 

@@ -20,23 +20,27 @@ struct Bench {
     std::vector<Pose> poses;             ///< T_world_vehicle
     std::vector<std::uint32_t> indices;  ///< of the poses on the trajectory
 
+    /// The ping at pose `p`, whole.
     Ping ping(const Sonar& sonar, const VisibilityEngine& engine, std::size_t p) const;
 };
 
 /// With `poses` of them spread along the trajectory. The assembly must outlive it.
 Bench make_bench(const Mission& mission, const Assembly& assembly, int poses);
 
-/// The times of one setting at one pose, over all visits; milliseconds.
+/// The times of one setting at one pose, over all visits.
 struct PoseTimes {
-    std::vector<double> ping, trace, multipath, accumulate, noise, bare;
+    std::vector<double> ping_ms;
+    std::vector<double> bare_ms;
+    std::vector<PingSeconds> stages;
 };
 
 /// Pings a few times and adds the times to `times`: first a ping to warm the caches after the other
-/// settings, then the ones that count. A slow setting needs neither.
-void visit_pose(const Bench& bench, const Sonar& sonar, const VisibilityEngine& engine,
-                std::size_t p, PoseTimes& times);
+/// settings, then the ones that count. A slow setting needs neither. Returns what was seen.
+TracedPing visit_pose(const Bench& bench, const Sonar& sonar, const VisibilityEngine& engine,
+                      std::size_t p, PoseTimes& times);
 
-/// The medians at the poses, spread over the poses.
-Spread over_poses(std::span<const PoseTimes> poses, std::vector<double> PoseTimes::*stage);
+/// The medians at the poses, spread over the poses; milliseconds.
+Spread over_poses(std::span<const PoseTimes> poses, std::vector<double> PoseTimes::*times_ms);
+Spread over_poses(std::span<const PoseTimes> poses, double PingSeconds::*stage);
 
 }  // namespace sonarsim

@@ -4,8 +4,6 @@
 
 #include "benchmark/bench.h"
 #include "core/in_parallel.h"
-#include "ping/accumulate.h"
-#include "ping/multipath_echoes.h"
 #include "sonar/engine_settings.h"
 #include "validation/image_error.h"
 
@@ -34,12 +32,27 @@ Trial trial_of(const Sonar& sonar, const MultipathConfig& multipath, const Missi
     return {make_sonar(config, mission.accuracy), std::vector<PoseTimes>(bench.poses.size())};
 }
 
-/// The images of all poses, one after the other.
-std::vector<float> all_images(const Bench& bench, const Sonar& sonar,
-                              const VisibilityEngine& engine) {
-    std::vector<std::vector<float>> images(bench.poses.size());
+/// What the sonar sees from each pose, without multipath.
+std::vector<TracedPing> trace_surfaces(const Bench& bench, const Sonar& sonar,
+                                       const VisibilityEngine& engine) {
+    std::vector<TracedPing> traced(bench.poses.size());
+    in_parallel(traced.size(), [&](std::size_t p) {
+        traced[p] = trace(sonar, bench.scene, engine, bench.poses[p], bench.indices[p],
+                          {.multipath = false});
+    });
+    return traced;
+}
+
+/// The multipath echoes alone, of all poses one after the other. What is seen stays as it is in
+/// `traced`, and the sonar's way to find multipath is put on top.
+std::vector<float> multipath_images(const Bench& bench, const Sonar& sonar,
+                                    const VisibilityEngine& engine,
+                                    std::vector<TracedPing>& traced) {
+    std::vector<std::vector<float>> images(traced.size());
     in_parallel(images.size(), [&](std::size_t p) {
-        images[p] = multipath_image(sonar, bench.scene, engine, bench.poses[p]);
+        trace_multipath(sonar.settings, bench.scene, engine, traced[p]);
+        images[p] =
+            form_image(traced[p], sonar.settings, bench.scene, {}, multipath_alone).intensity;
     });
     std::vector<float> all;
     for (const std::vector<float>& image : images)
@@ -65,7 +78,8 @@ std::vector<MultipathRow> measure_sonar(const Mission& mission, const Bench& ben
         trials.push_back(trial_of(sonar, setting, mission, bench));
 
     progress(name + ": multipath, error");
-    const std::vector<float> truth = all_images(bench, trials[1].sonar, engine);
+    std::vector<TracedPing> traced = trace_surfaces(bench, sonar, engine);
+    const std::vector<float> truth = multipath_images(bench, trials[1].sonar, engine, traced);
     std::vector<MultipathRow> rows;
     for (std::size_t k = 0; k < ladder.size(); ++k) {
         MultipathRow& row = rows.emplace_back();
@@ -73,7 +87,8 @@ std::vector<MultipathRow> measure_sonar(const Mission& mission, const Bench& ben
         row.setting = ladder[k];
         row.current = ladder[k] == canonical(sonar.config.multipath);
         row.exact_bins = std::ranges::count_if(truth, [](float x) { return x > 0.0F; });
-        const ImageError error = image_error(all_images(bench, trials[k + 1].sonar, engine), truth);
+        const ImageError error =
+            image_error(multipath_images(bench, trials[k + 1].sonar, engine, traced), truth);
         row.relative_l1 = error.relative_l1;
         row.found = 1.0 - error.miss_rate;
         row.there = 1.0 - error.false_rate;
@@ -83,12 +98,12 @@ std::vector<MultipathRow> measure_sonar(const Mission& mission, const Bench& ben
                  std::to_string(rounds));
         take_turns(bench, engine, trials);
     }
-    const double ms_exact = over_poses(trials[1].poses, &PoseTimes::multipath).centre;
+    const double ms_exact = over_poses(trials[1].poses, &PingSeconds::multipath).centre;
     for (std::size_t k = 0; k < rows.size(); ++k) {
         MultipathRow& row = rows[k];
-        row.ms_multipath = over_poses(trials[k + 1].poses, &PoseTimes::multipath);
-        row.ms_per_ping = over_poses(trials[k + 1].poses, &PoseTimes::ping);
-        row.ms_without = over_poses(trials[0].poses, &PoseTimes::ping).centre;
+        row.ms_multipath = over_poses(trials[k + 1].poses, &PingSeconds::multipath);
+        row.ms_per_ping = over_poses(trials[k + 1].poses, &PoseTimes::ping_ms);
+        row.ms_without = over_poses(trials[0].poses, &PoseTimes::ping_ms).centre;
         row.speed_up = ms_exact / row.ms_multipath.centre;
     }
     return rows;
@@ -104,28 +119,6 @@ std::vector<MultipathConfig> make_multipath_ladder(const MultipathConfig& own) {
     }
     if (std::ranges::find(ladder, canonical(own)) == ladder.end()) ladder.push_back(own);
     return ladder;
-}
-
-std::vector<float> multipath_image(const Sonar& sonar, const Scene& scene,
-                                   const VisibilityEngine& engine, const Pose& T_world_vehicle) {
-    const View& view = sonar.settings.view;
-    const Pose T_world_sensor = T_world_vehicle * sonar.T_vehicle_sensor;
-    const Samples samples = engine.visible_surface(view, T_world_sensor);
-    MultipathCounts counts;
-    const std::vector<Bounce> bounces = find_bounces(
-        sonar.settings.multipath, view, samples, scene.materials, engine, T_world_sensor, counts);
-    const MultipathEchoes bounced = multipath_echoes(bounces, samples, view, {});
-    const RangeBins bins{static_cast<float>(view.range_min_m), static_cast<float>(view.bin_m()),
-                         view.range_bins};
-    std::vector<float> image(static_cast<std::size_t>(view.beams) * bins.count);
-    BinSums sums;
-    for (int j = 0; j < view.beams; ++j) {
-        sums.clear(bins.count);
-        accumulate(bounced.echoes, bounced.beam_begin[j], bounced.beam_begin[j + 1], bins, sums);
-        mean_of_bins(
-            sums, std::span(image).subspan(static_cast<std::size_t>(j) * bins.count, bins.count));
-    }
-    return image;
 }
 
 std::vector<MultipathRow> measure_multipath(const Mission& mission, const Assembly& assembly,

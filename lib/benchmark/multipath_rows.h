@@ -10,10 +10,6 @@ namespace sonarsim {
 /// {1, 3, 5, 9} bins and delta in {5, 15, 30} degrees. `own` is among them.
 std::vector<MultipathConfig> make_multipath_ladder(const MultipathConfig& own);
 
-/// The mean [9] of a ping's multipath echoes alone, without noise, as [beams, range_bins].
-std::vector<float> multipath_image(const Sonar& sonar, const Scene& scene,
-                                   const VisibilityEngine& engine, const Pose& T_world_vehicle);
-
 /// Measures every sonar that has multipath in all ways of the ladder, with the engine and the goal
 /// of the mission, on poses spread along the trajectory. The ways take turns.
 std::vector<MultipathRow> measure_multipath(const Mission& mission, const Assembly& assembly,

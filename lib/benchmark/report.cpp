@@ -22,7 +22,7 @@ namespace {
 
 /// A sonar with a setting, on its way through the rounds.
 struct Trial {
-    Sonar noisy;
+    Sonar sonar;
     const VisibilityEngine* engine = nullptr;
     std::vector<PoseTimes> poses;
     std::vector<double> pings_per_s;
@@ -36,33 +36,32 @@ struct Stand {
 };
 
 /// Milliseconds of bare Embree: rays from the sensor to every sample, in the order of the samples.
-double bare_ms(const Stand& stand, const Sonar& sonar, const VisibilityEngine& engine,
-               std::size_t p) {
-    const Pose T_world_sensor = stand.bench.poses[p] * sonar.T_vehicle_sensor;
-    const Samples samples = engine.visible_surface(sonar.settings.view, T_world_sensor);
+double bare_ms(const Stand& stand, const TracedPing& traced, double range_max_m) {
+    const Pose& T_world_sensor = traced.T_world_sensor;
+    const std::vector<Sample>& samples = traced.samples.items;
     const Eigen::Matrix3f R = T_world_sensor.rotation.toRotationMatrix().cast<float>();
     const Eigen::Vector3f origin =
         (T_world_sensor.translation - stand.bench.scene.origin).cast<float>();
-    std::vector<Eigen::Vector3f> directions(samples.items.size());
-    std::vector<std::uint32_t> facets(samples.items.size());
+    std::vector<Eigen::Vector3f> directions(samples.size());
+    std::vector<std::uint32_t> facets(samples.size());
     for (std::size_t i = 0; i < directions.size(); ++i) {
-        directions[i] = R * samples.items[i].position.normalized();
+        directions[i] = R * samples[i].position.normalized();
     }
-    const auto reach = static_cast<float>(sonar.settings.view.range_max_m) * 1.01F;
-    const double start = seconds_now();
+    const auto reach = static_cast<float>(range_max_m) * 1.01F;
+    Stopwatch watch;
     stand.caster.cast(origin, directions, reach, facets);
-    return 1e3 * (seconds_now() - start);
+    return 1e3 * watch.lap();
 }
 
 /// Pings per second with all threads at work for about a quarter of a second.
 double rate(const Stand& stand, const Trial& trial) {
     const Bench& bench = stand.bench;
     const int threads = stand.options.threads;
-    const double ms = trial.poses[0].ping.back();
+    const double ms = trial.poses[0].ping_ms.back();
     const int count = std::clamp(static_cast<int>(250.0 * threads / ms), 2 * threads, 2000);
     const double start = seconds_now();
     in_parallel(count, [&](std::size_t k) {
-        bench.ping(trial.noisy, *trial.engine, k % bench.poses.size());
+        bench.ping(trial.sonar, *trial.engine, k % bench.poses.size());
     });
     return count / (seconds_now() - start);
 }
@@ -74,7 +73,7 @@ std::vector<Reference> cast_references(const Stand& stand, const Sonar& sonar) {
     std::vector<Reference> references(bench.poses.size());
     in_parallel(references.size(), [&](std::size_t p) {
         references[p] = cast_reference(stand.caster, bench.scene, sonar.settings.view,
-                                       bench.poses[p] * sonar.T_vehicle_sensor,
+                                       sensor_pose(sonar, bench.poses[p], bench.indices[p]),
                                        {options.reference_moved, 64.0, options.reference_rays});
     });
     return references;
@@ -92,7 +91,6 @@ ReferenceQuality quality(const std::string& sensor, const std::vector<Reference>
 
 void measure_errors(const Bench& bench, const Trial& trial,
                     const std::vector<Reference>& references, ReportRow& row) {
-    const Sonar clean = direct_echoes_only(trial.noisy);
     const std::size_t poses = references.size();
     std::vector<double> l1(poses);
     std::vector<double> l2(poses);
@@ -100,7 +98,8 @@ void measure_errors(const Bench& bench, const Trial& trial,
     std::vector<double> invented(poses);
     std::vector<double> samples(poses);
     in_parallel(poses, [&](std::size_t p) {
-        const Ping ping = bench.ping(clean, *trial.engine, p);
+        const Ping ping = render_ping(trial.sonar, bench.scene, *trial.engine, bench.poses[p], {},
+                                      direct_echoes_alone);
         const ImageError error = image_error(ping.intensity, references[p].intensity);
         l1[p] = error.relative_l1;
         l2[p] = error.relative_l2;
@@ -116,12 +115,10 @@ void measure_errors(const Bench& bench, const Trial& trial,
 }
 
 void summarise_times(const Trial& trial, ReportRow& row) {
-    row.ms_per_ping = over_poses(trial.poses, &PoseTimes::ping);
-    row.ms_trace = over_poses(trial.poses, &PoseTimes::trace).centre;
-    row.ms_multipath = over_poses(trial.poses, &PoseTimes::multipath).centre;
-    row.ms_accumulate = over_poses(trial.poses, &PoseTimes::accumulate).centre;
-    row.ms_noise = over_poses(trial.poses, &PoseTimes::noise).centre;
-    row.ms_bare = over_poses(trial.poses, &PoseTimes::bare).centre;
+    row.ms_per_ping = over_poses(trial.poses, &PoseTimes::ping_ms);
+    for (const auto& timer : ping_timers)
+        row.stages.*timer.member = 1e-3 * over_poses(trial.poses, timer.member).centre;
+    row.ms_bare = over_poses(trial.poses, &PoseTimes::bare_ms).centre;
     row.pings_per_s = spread_of_times(trial.pings_per_s).centre;
 }
 
@@ -173,8 +170,9 @@ void report_sonar(const Stand& stand, std::size_t index, const Assembly& assembl
         for (std::size_t p = 0; p < bench.poses.size(); ++p) {
             for (Trial& trial : trials) {
                 PoseTimes& times = trial.poses[p];
-                visit_pose(bench, trial.noisy, *trial.engine, p, times);
-                times.bare.push_back(bare_ms(stand, trial.noisy, *trial.engine, p));
+                const TracedPing traced = visit_pose(bench, trial.sonar, *trial.engine, p, times);
+                times.bare_ms.push_back(
+                    bare_ms(stand, traced, trial.sonar.settings.view.range_max_m));
             }
         }
         for (Trial& trial : trials)
@@ -187,16 +185,6 @@ void report_sonar(const Stand& stand, std::size_t index, const Assembly& assembl
 }
 
 }  // namespace
-
-Sonar direct_echoes_only(Sonar sonar) {
-    sonar.settings.multipath.on = false;
-    sonar.settings.streaks.mode = StreakMode::none;
-    sonar.settings.range_noise.lambda_m = 0.0F;
-    sonar.settings.pixel_noise.gain = 1.0F;
-    sonar.settings.pixel_noise.add_sigma = 0.0F;
-    sonar.settings.pixel_noise.mult_sigma = 0.0F;
-    return sonar;
-}
 
 Sonar with_setting(const Sonar& sonar, const Setting& setting) {
     Sonar out = sonar;

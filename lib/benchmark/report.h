@@ -44,9 +44,8 @@ struct ReportRow {
     Spread relative_l1, relative_l2, miss_rate, false_rate;  ///< noise off
     Spread samples_per_ping;
     ColdStart cold;
-    /// Medians over the poses.
-    double ms_trace = 0.0, ms_multipath = 0.0, ms_accumulate = 0.0, ms_noise = 0.0;
-    double ms_bare = 0.0;   ///< Embree alone, one ray to every sample
+    PingSeconds stages;     ///< medians over the poses
+    double ms_bare = 0.0;   ///< the same: Embree alone, one ray to every sample
     bool on_front = false;  ///< no setting of this sonar is both faster and more accurate
 };
 
@@ -117,9 +116,6 @@ using ReportProgress = std::function<void(const std::string&)>;
 Report make_report(const Mission& mission, const Assembly& assembly,
                    std::span<const Setting> ladder, std::span<const ColdStart> cold,
                    const ReportOptions& options, const ReportProgress& progress);
-
-/// The sonar without noise, multipath and streaks: what remains is what cast_reference knows.
-Sonar direct_echoes_only(Sonar sonar);
 
 /// The sonar as the setting has it.
 Sonar with_setting(const Sonar& sonar, const Setting& setting);

@@ -42,18 +42,17 @@ Json json_of(const ReportRow& row) {
 }
 
 Json stages_of(const ReportRow& row) {
-    return {{"sensor", row.sensor},
-            {"engine", row.setting.engine},
-            {"setting", row.setting.name},
-            {"on_front", row.on_front},
-            {"current", row.setting.current},
-            {"ms_trace", row.ms_trace},
-            {"ms_multipath", row.ms_multipath},
-            {"ms_accumulate", row.ms_accumulate},
-            {"ms_noise", row.ms_noise},
-            {"ms_bare_embree", row.ms_bare},
-            {"ms_slowest_ping", row.cold.slowest_ms},
-            {"engine_memory_mb", row.cold.engine_memory_mb}};
+    Json json = {{"sensor", row.sensor},
+                 {"engine", row.setting.engine},
+                 {"setting", row.setting.name},
+                 {"on_front", row.on_front},
+                 {"current", row.setting.current}};
+    for (const auto& timer : ping_timers)
+        json["ms_" + std::string(timer.name)] = 1e3 * row.stages.*timer.member;
+    json["ms_bare_embree"] = row.ms_bare;
+    json["ms_slowest_ping"] = row.cold.slowest_ms;
+    json["engine_memory_mb"] = row.cold.engine_memory_mb;
+    return json;
 }
 
 Json reference_of(const Report& report, const ReferenceQuality& reference) {

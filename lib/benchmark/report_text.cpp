@@ -70,15 +70,17 @@ std::string costs(const Report& report, const std::string& sensor) {
 }
 
 std::string stages(const Report& report, const std::string& sensor) {
-    std::string text = fmt::format("{:<28}{:>9}{:>11}{:>12}{:>9}{:>14}{:>12}{:>14}\n",
-                                   "where it goes, ms", "trace", "multipath", "accumulate", "noise",
-                                   "bare Embree", "x of bare", "slowest ping");
+    std::string text = fmt::format("{:<28}", "where it goes, ms");
+    for (const auto& timer : ping_timers)
+        text += fmt::format("{:>12}", timer.name);
+    text += fmt::format("{:>14}{:>12}{:>14}\n", "bare Embree", "x of bare", "slowest ping");
     for (const ReportRow& row : report.rows) {
         if (row.sensor != sensor) continue;
+        text += fmt::format("{:<28}", " " + label(row));
+        for (const auto& timer : ping_timers)
+            text += fmt::format("{:>12}", short_number(1e3 * row.stages.*timer.member));
         text += fmt::format(
-            "{:<28}{:>9}{:>11}{:>12}{:>9}{:>14}{:>12}{:>14}\n", " " + label(row),
-            short_number(row.ms_trace), short_number(row.ms_multipath),
-            short_number(row.ms_accumulate), short_number(row.ms_noise), short_number(row.ms_bare),
+            "{:>14}{:>12}{:>14}\n", short_number(row.ms_bare),
             row.ms_bare > 0.0 ? short_number(row.ms_per_ping.centre / row.ms_bare) : "-",
             short_number(row.cold.slowest_ms));
     }
@@ -88,28 +90,23 @@ std::string stages(const Report& report, const std::string& sensor) {
 /// How far the mission's own setting is from bare Embree, and what holds it back.
 std::string floors(const Report& report, const std::string& sensor) {
     for (const ReportRow& row : report.rows) {
-        const std::array<std::pair<const char*, double>, 4> parts{
-            {{"trace", row.ms_trace},
-             {"multipath", row.ms_multipath},
-             {"accumulation", row.ms_accumulate},
-             {"noise", row.ms_noise}}};
         double sum = 0.0;
-        for (const auto& [name, ms] : parts)
-            sum += ms;
+        for (const auto& timer : ping_timers)
+            sum += row.stages.*timer.member;
         if (row.sensor != sensor || !row.setting.current || !(sum > 0.0 && row.ms_bare > 0.0)) {
             continue;
         }
         std::string shares;
-        for (const auto& [name, ms] : parts) {
-            shares +=
-                fmt::format("{}{:.0f} % {}", shares.empty() ? "" : ", ", 100.0 * ms / sum, name);
+        for (const auto& timer : ping_timers) {
+            shares += fmt::format("{}{:.0f} % {}", shares.empty() ? "" : ", ",
+                                  100.0 * row.stages.*timer.member / sum, timer.name);
         }
-        const auto& most =
-            *std::ranges::max_element(parts, {}, &std::pair<const char*, double>::second);
+        const auto most = std::ranges::max_element(
+            ping_timers, {}, [&](const auto& timer) { return row.stages.*timer.member; });
         return fmt::format(
-            "{}: a ping takes {} times what bare Embree needs for as many rays: {}. The {} "
-            "holds it back.\n",
-            label(row), short_number(row.ms_per_ping.centre / row.ms_bare), shares, most.first);
+            "{}: a ping takes {} times what bare Embree needs for as many rays: {}. The stage {} "
+            "takes most.\n",
+            label(row), short_number(row.ms_per_ping.centre / row.ms_bare), shares, most->name);
     }
     return "";
 }

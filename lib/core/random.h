@@ -71,7 +71,7 @@ inline void philox_batch(std::uint32_t* x0, std::uint32_t* x1, std::uint32_t* x2
     }
 }
 
-/// A float in (0, 1): the midpoint of one of 2^23 equal cells. Neither 0 nor 1 occurs, so the
+/// A float in (0, 1): the midpoint of one of 2^23 equal intervals. Neither 0 nor 1 occurs, so the
 /// logarithm of it is finite; with 24 bits the last midpoint would round to 1.
 inline float unit_float(std::uint32_t word) {
     return (static_cast<float>(static_cast<std::int32_t>(word >> 9)) + 0.5F) * 0x1p-23F;

@@ -39,34 +39,13 @@ struct PingReport {
     std::uint64_t clipped_pixels = 0;
 };
 
-void add(MultipathCounts& sum, const MultipathCounts& counts) {
-    using Count = std::uint64_t MultipathCounts::*;
-    for (const Count count :
-         {&MultipathCounts::samples, &MultipathCounts::clusters, &MultipathCounts::rays,
-          &MultipathCounts::bounces, &MultipathCounts::missed, &MultipathCounts::edge_on,
-          &MultipathCounts::behind, &MultipathCounts::outside, &MultipathCounts::turned_away,
-          &MultipathCounts::hidden}) {
-        sum.*count += counts.*count;
-    }
-}
-
 void add(RenderSummary& summary, const PingReport& report) {
     ++summary.pings;
-    summary.stages.trace += report.seconds.trace;
-    summary.stages.multipath += report.seconds.multipath;
-    summary.stages.accumulate += report.seconds.accumulate;
-    summary.stages.noise += report.seconds.noise;
+    summary.stages += report.seconds;
     summary.encode_seconds += report.encode_seconds;
     summary.write_seconds += report.write_seconds;
-    summary.counts.samples += report.counts.samples;
-    summary.counts.dropped_samples += report.counts.dropped_samples;
-    summary.counts.echoes += report.counts.echoes;
-    summary.counts.out_of_range += report.counts.out_of_range;
-    summary.counts.occupied_bins += report.counts.occupied_bins;
-    summary.counts.negative_pixels += report.counts.negative_pixels;
-    summary.counts.streak_rows += report.counts.streak_rows;
+    summary.counts += report.counts;
     summary.clipped_pixels += report.clipped_pixels;
-    add(summary.counts.multipath, report.counts.multipath);
 }
 
 void check(const RenderOptions& options) {
@@ -106,7 +85,8 @@ struct Destination {
 
 /// Hands a ping to the writers of its sensor.
 void write_ping(const Mission& mission, const Assembly& assembly, const VisibilityEngine& engine,
-                const Destination& to, const Ping& ping, PingReport& report) {
+                const Destination& to, const TracedPing& traced, const Ping& ping,
+                PingReport& report) {
     const PingId& id = report.id;
     Stopwatch watch;
     const auto white = static_cast<float>(mission.output.full_scale);
@@ -115,7 +95,7 @@ void write_ping(const Mission& mission, const Assembly& assembly, const Visibili
     const auto metadata = measured(
         {assembly.sonars[id.sensor], assembly.trajectory[id.pose].T_world_vehicle, id.pose, ping},
         engine);
-    const FinishedPing finished{id, ping, engine, metadata, report.clipped_pixels};
+    const FinishedPing finished{id, traced, ping, metadata, report.clipped_pixels};
     const Writers& writers = to.writers[id.sensor];
     std::vector<std::string> encoded;
     for (const auto& writer : writers)
@@ -148,12 +128,14 @@ void render(const Mission& mission, const Assembly& assembly, const std::vector<
         todo.size(), 2 * static_cast<std::size_t>(threads), stop,
         [&](std::size_t i) {
             const PingId& id = todo[i];
+            const Sonar& sonar = assembly.sonars[id.sensor];
+            const TracedPing traced = trace(sonar, assembly.scene, *engine,
+                                            assembly.trajectory[id.pose].T_world_vehicle, id.pose);
             const Ping ping =
-                render_ping(assembly.sonars[id.sensor], assembly.scene, *engine,
-                            assembly.trajectory[id.pose].T_world_vehicle, {mission.seed, id.pose});
+                form_image(traced, sonar.settings, assembly.scene, {mission.seed, id.pose});
             PingReport report{.id = id, .what = {}, .counts = ping.counts, .seconds = ping.seconds};
-            brightest_pixel(ping, assembly.sonars[id.sensor].config.name, id.pose);
-            if (to) write_ping(mission, assembly, *engine, *to, ping, report);
+            brightest_pixel(ping, sonar.config.name, id.pose);
+            if (to) write_ping(mission, assembly, *engine, *to, traced, ping, report);
             return report;
         },
         [&](const PingReport& report) {

@@ -95,25 +95,8 @@ Json describe_ping(const Mission& mission, const Assembly& assembly, const Finis
         {"random", {{"seed", mission.seed}, {"stream", sonar.settings.stream}, {"ping", id.pose}}},
         {"full_scale", mission.output.full_scale},
         {"clipped_pixels", finished.clipped_pixels},
-        {"counts",
-         {{"samples", counts.samples},
-          {"dropped_samples", counts.dropped_samples},
-          {"echoes", counts.echoes},
-          {"out_of_range", counts.out_of_range},
-          {"occupied_bins", counts.occupied_bins},
-          {"negative_pixels", counts.negative_pixels},
-          {"streak_rows", counts.streak_rows},
-          {"multipath",
-           {{"samples", counts.multipath.samples},
-            {"clusters", counts.multipath.clusters},
-            {"rays", counts.multipath.rays},
-            {"bounces", counts.multipath.bounces},
-            {"missed", counts.multipath.missed},
-            {"edge_on", counts.multipath.edge_on},
-            {"behind", counts.multipath.behind},
-            {"outside", counts.multipath.outside},
-            {"turned_away", counts.multipath.turned_away},
-            {"hidden", counts.multipath.hidden}}}}}};
+        {"counts", json_object<Json>(ping_counters, counts)}};
+    json["counts"]["multipath"] = json_object<Json>(multipath_counters, counts.multipath);
     if (!finished.measured.is_null()) json["measured"] = finished.measured;
     return json;
 }

@@ -11,9 +11,8 @@
 #include "dataset/npy.h"
 #include "dataset/record_file.h"
 #include "mission/mission.h"
-#include "ping/ping.h"
+#include "ping/pipeline.h"
 #include "sonar/kinds.h"
-#include "visibility/engine.h"
 
 namespace sonarsim {
 
@@ -40,8 +39,8 @@ struct WriterContext {
 /// A finished ping, with all that a writer may ask about it.
 struct FinishedPing {
     PingId id;
+    const TracedPing& traced;
     const Ping& ping;
-    const VisibilityEngine& engine;
     const nlohmann::ordered_json& measured;  ///< what its metadata say; null for none
     std::uint64_t clipped_pixels;            ///< intensities above full_scale
 };

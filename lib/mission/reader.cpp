@@ -102,7 +102,8 @@ const YamlNode* MissionReader::find(const char* key, Presence presence) {
     return found_node;
 }
 
-const SonarKeys& MissionReader::sonar_kind(const char* key, SonarConfig& value) {
+const SonarKeys& MissionReader::sonar_kind(const char* key, SonarConfig& value,
+                                           const char* /*meaning*/) {
     std::vector<std::string> names;
     for (const SonarKeys& one : sonars_)
         names.emplace_back(one.name);
@@ -114,11 +115,12 @@ const SonarKeys& MissionReader::sonar_kind(const char* key, SonarConfig& value) 
 }
 
 void MissionReader::number(const char* key, double& value, const Limits& limits,
-                           Presence presence) {
+                           const char* /*meaning*/, Presence presence) {
     if (const YamlNode* node = find(key, presence)) value = read_number(*node, key, limits);
 }
 
-void MissionReader::number_or_auto(const char* key, double& value, const Limits& limits) {
+void MissionReader::number_or_auto(const char* key, double& value, const Limits& limits,
+                                   const char* /*meaning*/) {
     const YamlNode* node = find(key, Presence::optional);
     if (node == nullptr) return;
     if (is_plain(*node) && node->text == "auto") {
@@ -130,7 +132,8 @@ void MissionReader::number_or_auto(const char* key, double& value, const Limits&
     value = read_number(*node, key, limits);
 }
 
-void MissionReader::integer(const char* key, int& value, const Limits& limits) {
+void MissionReader::integer(const char* key, int& value, const Limits& limits,
+                            const char* /*meaning*/) {
     const YamlNode* node = find(key, Presence::optional);
     if (node == nullptr) return;
     const std::optional<std::int64_t> number =
@@ -140,7 +143,7 @@ void MissionReader::integer(const char* key, int& value, const Limits& limits) {
     value = static_cast<int>(*number);
 }
 
-void MissionReader::integer(const char* key, std::uint64_t& value) {
+void MissionReader::integer(const char* key, std::uint64_t& value, const char* /*meaning*/) {
     const YamlNode* node = find(key, Presence::optional);
     if (node == nullptr) return;
     const std::optional<std::uint64_t> number =
@@ -149,7 +152,7 @@ void MissionReader::integer(const char* key, std::uint64_t& value) {
     value = *number;
 }
 
-void MissionReader::flag(const char* key, bool& value) {
+void MissionReader::flag(const char* key, bool& value, const char* /*meaning*/) {
     const YamlNode* node = find(key, Presence::optional);
     if (node == nullptr) return;
     const bool yes = is_plain(*node) && node->text == "true";
@@ -159,11 +162,12 @@ void MissionReader::flag(const char* key, bool& value) {
     value = yes;
 }
 
-void MissionReader::text(const char* key, std::string& value) {
+void MissionReader::text(const char* key, std::string& value, const char* /*meaning*/) {
     if (const YamlNode* node = find(key, Presence::optional)) value = read_text(*node, key);
 }
 
-void MissionReader::path(const char* key, std::filesystem::path& value, Presence presence) {
+void MissionReader::path(const char* key, std::filesystem::path& value, const char* /*meaning*/,
+                         Presence presence) {
     const YamlNode* node = find(key, presence);
     if (node == nullptr) return;
     value = std::filesystem::absolute(base_folder_ / read_text(*node, key)).lexically_normal();

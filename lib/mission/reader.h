@@ -24,27 +24,27 @@ class MissionReader {
     MissionReader(const YamlNode& node, std::string name, const std::filesystem::path& base_folder,
                   SonarKeyTable sonars);
 
-    void number(const char* key, double& value, const Limits& limits,
+    void number(const char* key, double& value, const Limits& limits, const char* meaning,
                 Presence presence = Presence::optional);
     /// 0 stands for `auto`.
-    void number_or_auto(const char* key, double& value, const Limits& limits);
-    void integer(const char* key, int& value, const Limits& limits);
-    void integer(const char* key, std::uint64_t& value);
-    void flag(const char* key, bool& value);
-    void text(const char* key, std::string& value);
-    void path(const char* key, std::filesystem::path& value,
+    void number_or_auto(const char* key, double& value, const Limits& limits, const char* meaning);
+    void integer(const char* key, int& value, const Limits& limits, const char* meaning);
+    void integer(const char* key, std::uint64_t& value, const char* meaning);
+    void flag(const char* key, bool& value, const char* meaning);
+    void text(const char* key, std::string& value, const char* meaning);
+    void path(const char* key, std::filesystem::path& value, const char* meaning,
               Presence presence = Presence::optional);
 
     template <std::size_t N>
     void numbers(const char* key, std::array<double, N>& values, const Limits& limits,
-                 Presence presence = Presence::optional) {
+                 const char* /*meaning*/, Presence presence = Presence::optional) {
         if (const YamlNode* node = find(key, presence))
             read_list(*node, key, values.data(), N, limits);
     }
 
     template <class T, std::size_t N>
     void choice(const char* key, T& value, const std::array<Choice<T>, N>& choices,
-                Presence presence = Presence::optional) {
+                const char* /*meaning*/, Presence presence = Presence::optional) {
         std::vector<std::string> names;
         names.reserve(N);
         for (const Choice<T>& one : choices)
@@ -55,16 +55,18 @@ class MissionReader {
     }
 
     /// Reads the kind of a sonar and fills in its defaults, all but the name.
-    const SonarKeys& sonar_kind(const char* key, SonarConfig& value);
+    const SonarKeys& sonar_kind(const char* key, SonarConfig& value, const char* meaning);
 
     template <class T>
-    void section(const char* key, T& value, Presence presence = Presence::optional) {
+    void section(const char* key, T& value, const char* /*meaning*/,
+                 Presence presence = Presence::optional) {
         if (const YamlNode* node = find(key, presence)) read(*node, key, value);
     }
 
     /// A list of sections, at least `fewest` of them.
     template <class T>
-    void list(const char* key, std::vector<T>& values, std::size_t fewest) {
+    void list(const char* key, std::vector<T>& values, std::size_t fewest,
+              const char* /*meaning*/) {
         for (const YamlNode& item : list_items(key, fewest)) {
             std::string item_name = key + ("." + std::to_string(values.size()));
             read(item, std::move(item_name), values.emplace_back());
@@ -73,7 +75,7 @@ class MissionReader {
 
     /// A map from names to sections, at least one of them. The elements keep their `name`.
     template <class T>
-    void named(const char* key, std::vector<T>& values) {
+    void named(const char* key, std::vector<T>& values, const char* /*meaning*/) {
         for (const YamlNode& item : named_items(key)) {
             T& value = values.emplace_back();
             value.name = item.key;

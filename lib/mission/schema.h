@@ -10,8 +10,9 @@
 #include "mission/sonar_keys.h"
 
 // The keys of a mission, each written once. A visitor is handed every key with its value, its
-// limits and its checks; the MissionReader fills the value from YAML, the MissionWriter turns it
-// into YAML.
+// limits, its meaning and its checks; the MissionReader fills the value from YAML, the
+// MissionWriter turns it into YAML, the KeyCollector (reference.cpp) makes the tables of
+// docs/mission.md.
 
 namespace sonarsim {
 
@@ -34,70 +35,99 @@ inline bool is_folder_name(std::string_view name) {
 
 template <class Visitor>
 void describe(Visitor& v, WaterConfig& c) {
-    v.number("density_kg_m3", c.density_kg_m3, between(least_medium, largest_medium));
-    v.number("sound_speed_m_s", c.sound_speed_m_s, between(least_medium, largest_medium));
+    v.number("density_kg_m3", c.density_kg_m3, between(least_medium, largest_medium),
+             "density of the water");
+    v.number("sound_speed_m_s", c.sound_speed_m_s, between(least_medium, largest_medium),
+             "speed of sound in the water");
 }
 
 template <class Visitor>
 void describe(Visitor& v, SceneConfig& c) {
-    v.path("file", c.file, required);
-    v.path("materials", c.materials, required);
+    v.path("file", c.file, "the scene, a .gltf or .glb", required);
+    v.path("materials", c.materials,
+           "CSV with the density and speed of sound of every material of the scene", required);
 }
 
 template <class Visitor>
 void describe(Visitor& v, MountConfig& c) {
-    v.numbers("translation_m", c.translation_m, any_position_m);
-    v.numbers("rpy_deg", c.rpy_deg, any_angle_deg);
+    v.numbers("translation_m", c.translation_m, any_position_m,
+              "position of the sonar in the vehicle's frame");
+    v.numbers("rpy_deg", c.rpy_deg, any_angle_deg,
+              "roll, pitch and yaw on top of the default mount");
 }
 
 template <class Visitor>
 void describe(Visitor& v, NoiseConfig& c) {
-    v.number("range_lambda_m", c.range_lambda_m, at_least(0));
+    v.number("range_lambda_m", c.range_lambda_m, at_least(0),
+             "mean of the exponential range noise; 0 is off, and a side-scan sonar has none");
     // Cells are counted from the world's origin: below a tenth of a millimetre the counts of
     // UTM-sized coordinates leave what a double holds exactly.
-    v.number("scatterer_m", c.scatterer_m, between(1e-4, 1e3));
-    v.number("add_sigma", c.add_sigma, at_least(0));
-    v.number("mult_sigma", c.mult_sigma, at_least(0));
-    v.flag("scale_with_range", c.scale_with_range);
-    v.number("lobe_sigma_deg", c.lobe_sigma_deg, between(0, 360));
+    v.number("scatterer_m", c.scatterer_m, between(1e-4, 1e3),
+             "edge of the cells of the scene that share one draw of the range noise");
+    v.number("add_sigma", c.add_sigma, at_least(0),
+             "scale of the Rayleigh noise that is added to every pixel; 0 is off");
+    v.number("mult_sigma", c.mult_sigma, at_least(0),
+             "standard deviation of the normal noise that multiplies every pixel; 0 is off");
+    v.flag("scale_with_range", c.scale_with_range,
+           "the added noise grows with range and towards the boresight");
+    v.number(
+        "lobe_sigma_deg", c.lobe_sigma_deg, between(0, 360),
+        "width of that growth towards the boresight; 0 means an eighth of the opening in azimuth");
 }
 
 template <class Visitor>
 void describe(Visitor& v, MultipathConfig& c) {
-    v.choice("method", c.method, multipath_methods);
-    v.integer("epsilon_bins", c.epsilon_bins, between(0, 8192));
-    v.number("delta_deg", c.delta_deg, between(0, 180));
+    v.choice("method", c.method, multipath_methods,
+             "echoes by way of a second surface: `cluster` traces clusters of samples to it, "
+             "`exact` every sample");
+    v.integer("epsilon_bins", c.epsilon_bins, between(0, 8192),
+              "size of a cluster in range, azimuth and elevation bins");
+    v.number("delta_deg", c.delta_deg, between(0, 180),
+             "largest angle between the normals within a cluster");
 }
 
 template <class Visitor>
 void describe(Visitor& v, StreaksConfig& c) {
-    v.choice("mode", c.mode, streak_modes);
-    v.number("threshold", c.threshold, between(0, 1));
-    v.number("angle_deg", c.angle_deg, between(0, 90));
+    v.choice("mode", c.mode, streak_modes,
+             "azimuth streaks: `add` brightens a range row with too many echoes at normal "
+             "incidence, `reduce` darkens it");
+    v.number("threshold", c.threshold, between(0, 1),
+             "share of a row's echoes, by area, that is too many");
+    v.number("angle_deg", c.angle_deg, between(0, 90),
+             "largest angle of incidence that counts as normal");
 }
 
 template <class Visitor>
 void describe(Visitor& v, SonarConfig& c) {
-    const SonarKeys& keys = v.sonar_kind("kind", c);
-    v.section("mount", c.mount);
-    v.integer("every", c.every, at_least(1));
-    if (keys.opening) v.number("opening_deg", c.opening_deg, between(1e-3, 180));
-    if (keys.azimuth) v.number("azimuth_deg", c.azimuth_deg, between(1e-3, 360));
-    if (keys.elevation) v.number("elevation_deg", c.elevation_deg, between(1e-3, 180));
-    if (keys.head) v.number("sector_deg", c.sector_deg, between(1e-2, 360));
-    if (keys.head) v.number("step_deg", c.step_deg, between(1e-2, 360));
-    v.require(!keys.head || c.step_deg <= c.sector_deg, {"sector_deg", "step_deg"},
-              "step_deg must be at most sector_deg");
-    v.number("range_min_m", c.range_min_m, at_least(0));
-    v.number("range_max_m", c.range_max_m, above(0));
+    const SonarKeys& keys = v.sonar_kind("kind", c, "the kind of sonar");
+    v.section("mount", c.mount, "where the sonar sits on the vehicle");
+    v.integer("every", c.every, at_least(1), "the sonar pings at every n-th pose");
+    if (keys.opening)
+        v.number("opening_deg", c.opening_deg, between(1e-3, 180), "full angle of the cone");
+    if (keys.azimuth)
+        v.number("azimuth_deg", c.azimuth_deg, between(1e-3, 360), "full angle in azimuth");
+    if (keys.elevation)
+        v.number("elevation_deg", c.elevation_deg, between(1e-3, 180), "full angle in elevation");
+    if (keys.head) {
+        v.number("sector_deg", c.sector_deg, between(1e-2, 360),
+                 "full angle that the head covers: 360 round and round, less to and fro");
+        v.number("step_deg", c.step_deg, between(1e-2, 360),
+                 "angle that the head turns from ping to ping, rounded to divide the sector");
+        v.require(c.step_deg <= c.sector_deg, {"sector_deg", "step_deg"},
+                  "step_deg must be at most sector_deg");
+    }
+    v.number("range_min_m", c.range_min_m, at_least(0), "nearest slant range, one way");
+    v.number("range_max_m", c.range_max_m, above(0), "farthest slant range, one way");
     // 8192 x 8192 bins are 2^26, the largest image that is rendered.
-    v.integer("range_bins", c.range_bins, between(1, 8192));
-    if (keys.azimuth_bins) v.integer("azimuth_bins", c.azimuth_bins, between(1, 8192));
-    v.section("multipath", c.multipath);
-    v.section("noise", c.noise);
-    v.section("streaks", c.streaks);
+    v.integer("range_bins", c.range_bins, between(1, 8192),
+              "range bins of a ping; of a side-scan sonar to either side");
+    if (keys.azimuth_bins)
+        v.integer("azimuth_bins", c.azimuth_bins, between(1, 8192), "beams of a ping");
+    v.section("multipath", c.multipath, "echoes by way of a second surface");
+    v.section("noise", c.noise, "the random terms");
+    v.section("streaks", c.streaks, "azimuth streaks");
     v.require(keys.range_noise || c.noise.range_lambda_m == 0.0, {"noise"},
-              "this kind of sonar has no range noise: range_lambda_m must be 0");
+              "a side-scan sonar has no range noise: range_lambda_m must be 0");
     v.require(c.range_min_m < c.range_max_m, {"range_min_m", "range_max_m"},
               "range_min_m must be below range_max_m");
     v.require((c.range_max_m - c.range_min_m) / c.range_bins > 1e-6,
@@ -107,32 +137,38 @@ void describe(Visitor& v, SonarConfig& c) {
 
 template <class Visitor>
 void describe(Visitor& v, FileTrajectoryConfig& c) {
-    v.path("file", c.file, required);
-    v.number("rate_hz", c.rate_hz, at_least(0));
+    v.path("file", c.file, "timed poses, a .csv or a TUM .txt or .tum", required);
+    v.number("rate_hz", c.rate_hz, at_least(0),
+             "poses are interpolated at this rate; 0 pings at every pose of the file");
 }
 
 template <class Visitor>
 void describe(Visitor& v, WaypointConfig& c) {
-    v.numbers("position_m", c.position_m, any_position_m, required);
-    v.numbers("rpy_deg", c.rpy_deg, any_angle_deg);
+    v.numbers("position_m", c.position_m, any_position_m, "x, y, z in the world", required);
+    v.numbers("rpy_deg", c.rpy_deg, any_angle_deg, "roll, pitch and yaw of the vehicle");
 }
 
 template <class Visitor>
 void describe(Visitor& v, WaypointTrajectoryConfig& c) {
-    v.list("waypoints", c.waypoints, 2);
-    v.number("speed_m_s", c.speed_m_s, above(0));
-    v.number("rate_hz", c.rate_hz, above(0));
+    v.list("waypoints", c.waypoints, 2,
+           "poses in the order in which they are visited, by straight legs");
+    v.number("speed_m_s", c.speed_m_s, above(0), "speed along the legs");
+    v.number("rate_hz", c.rate_hz, above(0), "poses per second");
 }
 
 template <class Visitor>
 void describe(Visitor& v, LawnmowerTrajectoryConfig& c) {
-    v.numbers("area_min_m", c.area_min_m, any_position_m, required);
-    v.numbers("area_max_m", c.area_max_m, any_position_m, required);
-    v.number("z_m", c.z_m, any_position_m, required);
-    v.number("heading_deg", c.heading_deg, any_angle_deg);
-    v.number("line_spacing_m", c.line_spacing_m, above(0));
-    v.number("speed_m_s", c.speed_m_s, above(0));
-    v.number("rate_hz", c.rate_hz, above(0));
+    v.numbers("area_min_m", c.area_min_m, any_position_m,
+              "corner of the rectangle with the least x and y", required);
+    v.numbers("area_max_m", c.area_max_m, any_position_m,
+              "corner of the rectangle with the largest x and y", required);
+    v.number("z_m", c.z_m, any_position_m,
+             "height of the vehicle in the world; negative below a surface at 0", required);
+    v.number("heading_deg", c.heading_deg, any_angle_deg,
+             "direction of the first line; 0 is along x, positive to the left");
+    v.number("line_spacing_m", c.line_spacing_m, above(0), "distance between the lines");
+    v.number("speed_m_s", c.speed_m_s, above(0), "speed along the lines and between them");
+    v.number("rate_hz", c.rate_hz, above(0), "poses per second");
     v.require(c.area_min_m[0] < c.area_max_m[0] && c.area_min_m[1] < c.area_max_m[1],
               {"area_min_m", "area_max_m"}, "area_min_m must be below area_max_m in x and in y");
 }
@@ -141,7 +177,8 @@ template <class Visitor>
 void describe(Visitor& v, TrajectoryConfig& c) {
     v.one_of(c, {"file", "waypoints", "lawnmower"});
     if (auto* lawnmower = std::get_if<LawnmowerTrajectoryConfig>(&c)) {
-        v.section("lawnmower", *lawnmower, required);
+        v.section("lawnmower", *lawnmower,
+                  "parallel lines over a rectangle, to and fro at constant height", required);
     } else {
         std::visit([&v](auto& form) { describe(v, form); }, c);
     }
@@ -149,48 +186,60 @@ void describe(Visitor& v, TrajectoryConfig& c) {
 
 template <class Visitor>
 void describe(Visitor& v, AccuracyConfig& c) {
-    v.number("relative_l1", c.relative_l1, between(1e-4, 0.5));
+    v.number("relative_l1", c.relative_l1, between(1e-4, 0.5),
+             "error goal of the image without noise: the sum of its absolute errors over its sum. "
+             "Sampling follows from it");
 }
 
 template <class Visitor>
 void describe(Visitor& v, OctreeConfig& c) {
     // Leaves below a millimetre are finer than any sonar's bins.
-    v.number_or_auto("leaf_m", c.leaf_m, between(1e-3, 1e3));
-    v.integer("memory_mb", c.memory_mb, between(1, 1e6));
-    v.flag("literal", c.literal);
+    v.number_or_auto("leaf_m", c.leaf_m, between(1e-3, 1e3),
+                     "edge of the octree's leaves; `auto`: what the range bins call for");
+    v.integer("memory_mb", c.memory_mb, between(1, 1e6),
+              "above this the octree drops what has not been seen for longest");
+    v.flag("literal", c.literal, "the octree of the paper to the letter, as a baseline");
 }
 
 template <class Visitor>
 void describe(Visitor& v, OutputConfig& c) {
-    v.path("folder", c.folder);
-    v.flag("polar", c.polar);
-    v.flag("image", c.image);
-    v.flag("fan", c.fan);
-    v.flag("meta", c.meta);
-    v.flag("stages", c.stages);
-    v.integer("fan_width_px", c.fan_width_px, between(0, 8192));
-    v.number("full_scale", c.full_scale, above(0));
-    v.flag("waterfall", c.waterfall);
-    v.flag("echogram", c.echogram);
-    v.flag("soundings", c.soundings);
-    v.flag("scan", c.scan);
-    v.number("bathymetry_cell_m", c.bathymetry_cell_m, at_least(0));
+    v.path("folder", c.folder,
+           "folder of the dataset; out/NAME in the current directory where left out");
+    v.flag("polar", c.polar, "write every ping of imaging and profiling sonars as float32");
+    v.flag("image", c.image, "write every ping of these sonars as a 16-bit PNG");
+    v.flag("fan", c.fan, "write every ping of these sonars as the 8-bit fan that an operator sees");
+    v.flag("meta", c.meta, "write a JSON file per ping");
+    v.flag("stages", c.stages,
+           "write five fans side by side: direct echoes, then with multipath, range noise, pixel "
+           "noise and streaks");
+    v.integer("fan_width_px", c.fan_width_px, between(0, 8192),
+              "width of the fan; 0 means one pixel per range bin, at most 1024");
+    v.number("full_scale", c.full_scale, above(0), "intensity that becomes white");
+    v.flag("waterfall", c.waterfall, "write the waterfalls of side-scan sonars");
+    v.flag("echogram", c.echogram, "write the echograms of echosounders");
+    v.flag("soundings", c.soundings,
+           "write the soundings of profiling sonars and the map made of them");
+    v.number("bathymetry_cell_m", c.bathymetry_cell_m, at_least(0),
+             "cell of the map of soundings; 0 means four soundings to a cell or more on average");
 }
 
 template <class Visitor>
 void describe(Visitor& v, Mission& c) {
-    v.text("name", c.name);
+    v.text("name", c.name, "name of the dataset; that of the mission's file where left out");
     v.require(is_folder_name(c.name), {"name"},
               "'name' names a folder: at most 200 bytes, without '/'");
-    v.integer("seed", c.seed);
-    v.section("water", c.water);
-    v.section("scene", c.scene, required);
-    v.section("trajectory", c.trajectory, required);
-    v.named("sensors", c.sensors);
-    v.section("accuracy", c.accuracy);
-    v.choice("engine", c.engine, engine_kinds);
-    v.section("octree", c.octree);
-    v.section("output", c.output);
+    v.integer("seed", c.seed, "every random draw follows from it; 0 is a seed like any other");
+    v.section("water", c.water, "the water");
+    v.section("scene", c.scene, "what the sonars look at", required);
+    v.section("trajectory", c.trajectory, "where the vehicle goes; exactly one of the three forms",
+              required);
+    v.named("sensors", c.sensors, "one section per sonar; NAME is its folder in the dataset");
+    v.section("accuracy", c.accuracy, "how exact the images are");
+    v.choice("engine", c.engine, engine_kinds,
+             "what finds the visible surface; `auto` takes the rays. The octree sees up to 160 "
+             "degrees of elevation or opening");
+    v.section("octree", c.octree, "settings of the octree");
+    v.section("output", c.output, "what is written, and where");
 }
 
 }  // namespace sonarsim

@@ -6,37 +6,41 @@
 
 namespace sonarsim {
 
-void MissionWriter::number(const char* key, double value, const Limits&, Presence) {
+void MissionWriter::number(const char* key, double value, const Limits&, const char* /*meaning*/,
+                           Presence) {
     line(key, number_text(value));
 }
 
-void MissionWriter::number_or_auto(const char* key, double value, const Limits&) {
+void MissionWriter::number_or_auto(const char* key, double value, const Limits&,
+                                   const char* /*meaning*/) {
     line(key, value == 0.0 ? "auto" : number_text(value));
 }
 
-void MissionWriter::integer(const char* key, int value, const Limits&) {
+void MissionWriter::integer(const char* key, int value, const Limits&, const char* /*meaning*/) {
     line(key, std::to_string(value));
 }
 
-void MissionWriter::integer(const char* key, std::uint64_t value) {
+void MissionWriter::integer(const char* key, std::uint64_t value, const char* /*meaning*/) {
     line(key, std::to_string(value));
 }
 
-const SonarKeys& MissionWriter::sonar_kind(const char* key, const SonarConfig& value) {
+const SonarKeys& MissionWriter::sonar_kind(const char* key, const SonarConfig& value,
+                                           const char* /*meaning*/) {
     const auto keys = std::ranges::find(sonars_, value.kind, &SonarKeys::kind);
     line(key, keys->name);
     return *keys;
 }
 
-void MissionWriter::flag(const char* key, bool value) {
+void MissionWriter::flag(const char* key, bool value, const char* /*meaning*/) {
     line(key, value ? "true" : "false");
 }
 
-void MissionWriter::text(const char* key, std::string_view value) {
+void MissionWriter::text(const char* key, std::string_view value, const char* /*meaning*/) {
     line(key, scalar_text(value));
 }
 
-void MissionWriter::path(const char* key, const std::filesystem::path& value, Presence) {
+void MissionWriter::path(const char* key, const std::filesystem::path& value,
+                         const char* /*meaning*/, Presence) {
     line(key, scalar_text(value.string()));
 }
 

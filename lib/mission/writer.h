@@ -21,32 +21,35 @@ class MissionWriter {
 
     const std::string& yaml() const { return yaml_; }
 
-    void number(const char* key, double value, const Limits&, Presence = Presence::optional);
-    void number_or_auto(const char* key, double value, const Limits&);
-    void integer(const char* key, int value, const Limits&);
-    void integer(const char* key, std::uint64_t value);
-    void flag(const char* key, bool value);
-    void text(const char* key, std::string_view value);
-    void path(const char* key, const std::filesystem::path& value, Presence = Presence::optional);
+    void number(const char* key, double value, const Limits&, const char* meaning,
+                Presence = Presence::optional);
+    void number_or_auto(const char* key, double value, const Limits&, const char* meaning);
+    void integer(const char* key, int value, const Limits&, const char* meaning);
+    void integer(const char* key, std::uint64_t value, const char* meaning);
+    void flag(const char* key, bool value, const char* meaning);
+    void text(const char* key, std::string_view value, const char* meaning);
+    void path(const char* key, const std::filesystem::path& value, const char* meaning,
+              Presence = Presence::optional);
 
     template <std::size_t N>
     void numbers(const char* key, const std::array<double, N>& values, const Limits&,
-                 Presence = Presence::optional) {
+                 const char* /*meaning*/, Presence = Presence::optional) {
         write_list(key, values.data(), N);
     }
 
     template <class T, std::size_t N>
     void choice(const char* key, const T& value, const std::array<Choice<T>, N>& choices,
-                Presence = Presence::optional) {
+                const char* /*meaning*/, Presence = Presence::optional) {
         for (const Choice<T>& one : choices) {
             if (one.value == value) line(key, one.name);
         }
     }
 
-    const SonarKeys& sonar_kind(const char* key, const SonarConfig& value);
+    const SonarKeys& sonar_kind(const char* key, const SonarConfig& value, const char* meaning);
 
     template <class T>
-    void section(std::string_view key, T& value, Presence = Presence::optional) {
+    void section(std::string_view key, T& value, const char* /*meaning*/,
+                 Presence = Presence::optional) {
         line(key, "");
         indent_ += 2;
         describe(*this, value);
@@ -54,7 +57,7 @@ class MissionWriter {
     }
 
     template <class T>
-    void list(const char* key, std::vector<T>& values, std::size_t) {
+    void list(const char* key, std::vector<T>& values, std::size_t, const char* /*meaning*/) {
         line(key, "");
         indent_ += 4;
         for (T& value : values) {
@@ -65,11 +68,11 @@ class MissionWriter {
     }
 
     template <class T>
-    void named(const char* key, std::vector<T>& values) {
+    void named(const char* key, std::vector<T>& values, const char* meaning) {
         line(key, "");
         indent_ += 2;
         for (T& value : values)
-            section(scalar_text(value.name), value);
+            section(scalar_text(value.name), value, meaning);
         indent_ -= 2;
     }
 

@@ -15,7 +15,7 @@ struct RangeBins {
     int count = 0;
 };
 
-/// The sums behind the mean [9] of one beam's bins.
+/// The sums of one beam's bins, whose quotient is the mean of Eq. 9.
 struct BinSums {
     std::vector<float> weight;  ///< area, m^2
     std::vector<float> echo;    ///< area times intensity
@@ -23,15 +23,18 @@ struct BinSums {
     void clear(int bins);
 };
 
-/// Adds every echo to the bins that its box in range covers, in proportion to the overlap. What
-/// lies outside the range is dropped. Returns how many echoes lay outside as a whole.
+/// Adds every echo to the bins that its box in range covers, in proportion to the overlap. Parts
+/// outside the range are dropped. Returns how many echoes lay wholly outside.
 std::uint64_t accumulate(const Echoes& echoes, const RangeBins& bins, BinSums& sums);
 
 /// The same for the echoes [begin, end).
 std::uint64_t accumulate(const Echoes& echoes, std::size_t begin, std::size_t end,
                          const RangeBins& bins, BinSums& sums);
 
-/// [9]: the area-weighted mean of each bin, 0 where it saw no surface. Returns the occupied bins.
+/// The area-weighted mean of each bin, Eq. 9; 0 where it saw no surface. Returns how many did.
 std::uint64_t mean_of_bins(const BinSums& sums, std::span<float> intensity);
+
+/// The means of all beams, [beams, range bins], as an image, [range bins, beams].
+std::vector<float> image_of_beams(std::span<const float> by_beam, int range_bins, int beams);
 
 }  // namespace sonarsim

@@ -10,9 +10,9 @@ namespace {
 
 constexpr std::uint32_t none = 0xFFFFFFFFU;
 
-// Of the clusters of a tile, those looked at before a sample starts one of its own. More normals
-// than this in one tile are rubble, in which no cluster would have a second member anyway.
-constexpr int most_tries = 16;
+// So many clusters of its tile are compared with a sample before it starts one of its own. A tile
+// with more normals than this is rubble, in which clusters have hardly a second member.
+constexpr int most_comparisons = 16;
 
 struct Tile {
     std::int32_t range;
@@ -22,7 +22,7 @@ struct Tile {
     bool operator==(const Tile&) const = default;
 };
 
-/// Which tile a sample lies in.
+/// Cuts the view into tiles of epsilon bins each way, and finds the tile of a sample.
 class Tiling {
   public:
     Tiling(const View& view, int epsilon)
@@ -36,13 +36,13 @@ class Tiling {
 
     Tile of(const Sample& sample, float range_m, int beam) const {
         const float per_m = per_sine_ / range_m;
-        return {cell(range_m * per_range_),
-                fan_ ? beam / epsilon_ : cell(sample.position.y() * per_m),
-                cell(sample.position.z() * per_m)};
+        return {floor_of(range_m * per_range_),
+                fan_ ? beam / epsilon_ : floor_of(sample.position.y() * per_m),
+                floor_of(sample.position.z() * per_m)};
     }
 
   private:
-    static std::int32_t cell(float x) { return static_cast<std::int32_t>(std::floor(x)); }
+    static std::int32_t floor_of(float x) { return static_cast<std::int32_t>(std::floor(x)); }
 
     bool fan_;
     int epsilon_;
@@ -50,8 +50,8 @@ class Tiling {
     float per_sine_;
 };
 
-/// A cluster while it is being filled, in a list of those of one bucket.
-struct Seed {
+/// A cluster that is being filled, known by its first sample; one of the list of its hash bucket.
+struct OpenCluster {
     Tile tile;
     Eigen::Vector3f normal;
     std::uint32_t next;
@@ -64,43 +64,43 @@ std::uint32_t bucket_of(const Tile& tile, std::uint32_t mask) {
     return (h ^ (h >> 16)) & mask;
 }
 
-class Builder {
+class ClusterTable {
   public:
-    Builder(std::size_t samples, float delta_cosine)
+    ClusterTable(std::size_t samples, float delta_cosine)
         : delta_cosine_(delta_cosine),
           heads_(std::bit_ceil(std::max<std::size_t>(samples, 16)), none) {}
 
     std::uint32_t cluster_of(const Tile& tile, const Eigen::Vector3f& normal) {
         std::uint32_t& head =
             heads_[bucket_of(tile, static_cast<std::uint32_t>(heads_.size()) - 1U)];
-        int tries = most_tries;
-        for (std::uint32_t k = head; k != none && tries > 0; k = seeds_[k].next) {
-            if (seeds_[k].tile != tile) continue;
-            if (seeds_[k].normal.dot(normal) >= delta_cosine_) return k;
-            --tries;
+        int left = most_comparisons;
+        for (std::uint32_t k = head; k != none && left > 0; k = clusters_[k].next) {
+            if (clusters_[k].tile != tile) continue;
+            if (clusters_[k].normal.dot(normal) >= delta_cosine_) return k;
+            --left;
         }
-        seeds_.push_back({tile, normal, head});
-        head = static_cast<std::uint32_t>(seeds_.size()) - 1U;
+        clusters_.push_back({tile, normal, head});
+        head = static_cast<std::uint32_t>(clusters_.size()) - 1U;
         return head;
     }
 
-    std::size_t size() const { return seeds_.size(); }
+    std::size_t size() const { return clusters_.size(); }
 
   private:
     float delta_cosine_;
     std::vector<std::uint32_t> heads_;
-    std::vector<Seed> seeds_;
+    std::vector<OpenCluster> clusters_;
 };
 
 }  // namespace
 
 Clusters cluster_samples(const View& view, const Samples& samples, const ClusterLimits& limits) {
-    const auto reach = static_cast<float>(view.range_max_m);
+    const auto range_max = static_cast<float>(view.range_max_m);
     Clusters clusters;
     if (limits.epsilon_bins == 0) {
         for (std::uint32_t i = 0; i < samples.items.size(); ++i) {
             const float range = samples.items[i].position.norm();
-            if (range > 0.0F && range < reach) clusters.members.push_back(i);
+            if (range > 0.0F && range < range_max) clusters.members.push_back(i);
         }
         clusters.begin.resize(clusters.members.size() + 1);
         for (std::uint32_t i = 0; i < clusters.begin.size(); ++i)
@@ -108,21 +108,21 @@ Clusters cluster_samples(const View& view, const Samples& samples, const Cluster
         return clusters;
     }
     const Tiling tiling(view, limits.epsilon_bins);
-    Builder builder(samples.items.size(), limits.delta_cosine);
+    ClusterTable table(samples.items.size(), limits.delta_cosine);
     std::vector<std::uint32_t> cluster(samples.items.size(), none);
     for (int j = 0; j < view.beams; ++j) {
         for (std::uint32_t i = samples.beam_begin[j]; i < samples.beam_begin[j + 1]; ++i) {
             const Sample& sample = samples.items[i];
             const float range = sample.position.norm();
-            // A path by way of a second surface is longer still.
-            if (!(range > 0.0F && range < reach)) continue;
-            cluster[i] = builder.cluster_of(tiling.of(sample, range, j), sample.normal);
+            // Beyond the range, the path by way of a second surface is longer still.
+            if (!(range > 0.0F && range < range_max)) continue;
+            cluster[i] = table.cluster_of(tiling.of(sample, range, j), sample.normal);
         }
     }
-    clusters.begin.assign(builder.size() + 1, 0);
+    clusters.begin.assign(table.size() + 1, 0);
     for (const std::uint32_t c : cluster)
         if (c != none) ++clusters.begin[c + 1];
-    for (std::size_t c = 0; c < builder.size(); ++c)
+    for (std::size_t c = 0; c < table.size(); ++c)
         clusters.begin[c + 1] += clusters.begin[c];
     clusters.members.resize(clusters.begin.back());
     std::vector<std::uint32_t> next(clusters.begin.begin(), clusters.begin.end() - 1);

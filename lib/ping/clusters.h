@@ -25,10 +25,10 @@ struct Clusters {
     }
 };
 
-/// Groups the samples within the view's range. The bins of range, beam and elevation are cut into
-/// tiles of `epsilon_bins` each; samples of one tile, whose normals lie within delta of those of
-/// the group's first, form a group. The paper's double loop over all leaves (Algorithm 1, lines 9
-/// to 15) makes balls instead of tiles, and its time is quadratic; here it is linear.
+/// Groups the samples within the view's range: Algorithm 1, lines 9 to 15. The bins of range, beam
+/// and elevation are cut into tiles of `epsilon_bins` each way; samples of one tile whose normals
+/// lie within delta of those of the group's first form a group. The paper's double loop over all
+/// leaves makes balls instead of tiles, in quadratic time; this takes linear time.
 Clusters cluster_samples(const View& view, const Samples& samples, const ClusterLimits& limits);
 
 }  // namespace sonarsim

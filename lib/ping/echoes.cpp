@@ -4,32 +4,25 @@
 #include <array>
 #include <cmath>
 
+#include "ping/footprint.h"
+
 namespace sonarsim {
 
 namespace {
 
-// A bin averages over its pieces; beyond this many, more of them change neither its mean nor its
-// speckle by what can be seen (the contrast of a mean over 64 draws is an eighth of one draw's).
-constexpr float pieces_per_bin = 64.0F;
-
-// Scene planes like to lie on round coordinates. Cell faces that coincide with them would hand
-// neighbouring points to one cell or the other by rounding; these offsets keep them apart.
-const Eigen::Vector3f lattice_offset(0.381966F, 0.618034F, 0.272019F);
-
-struct Cut {
-    int u;
-    int v;
-};
+// A bin averages over its pieces; more of them than this change neither its mean nor its speckle by
+// what can be seen (the contrast of a mean over 64 draws is an eighth of one draw's).
+constexpr float most_pieces_per_bin = 64.0F;
 
 // A piece has one intensity. On a plane v . n = H / r: where a piece spans no more than this share
 // of its range, its ends are off by 1 % and its mean is right.
-constexpr float deepest_piece = 0.02F;
+constexpr float most_depth_by_range = 0.02F;
 
 constexpr int lanes = 8;
 
 using Lanes = std::array<float, lanes>;
 
-/// One coordinate of the cells at c + s u + t v.
+/// One coordinate of the scatterer cells at c + s u + t v.
 void cells_along(float c, float u, float v, const Lanes& s, const Lanes& t,
                  std::int32_t* __restrict out) {
     for (int lane = 0; lane < lanes; ++lane) {
@@ -37,31 +30,25 @@ void cells_along(float c, float u, float v, const Lanes& s, const Lanes& t,
     }
 }
 
-/// How many pieces a footprint is cut into along its two edges.
-Cut cut(const Sample& sample, float range, float slope_u, float slope_v, float bin_m,
+/// How a footprint is cut whose half edges span `depth_u_m` and `depth_v_m` of range.
+Cut cut(const Sample& sample, float range_m, float depth_u_m, float depth_v_m, float bin_m,
         float cell_m) {
-    if (cell_m <= 0.0F) {
-        // A box follows the edge that spans more range; the other edge is cut until a piece of it
-        // is half a bin deep.
-        const auto pieces = [&](float slope, float most_m) {
-            return static_cast<int>(
-                std::ceil(std::clamp(2.0F * slope / most_m, 1.0F, pieces_per_bin)));
-        };
-        const float across = 0.5F * bin_m;
-        const float along = std::max(bin_m, deepest_piece * range);
-        return slope_u < slope_v ? Cut{pieces(slope_u, across), pieces(slope_v, along)}
-                                 : Cut{1, pieces(slope_v, across)};
+    if (cell_m > 0.0F) {
+        const float bins = 2.0F + 2.0F * (depth_u_m + depth_v_m) / bin_m;
+        return rounded_up(one_piece_per_cell(sample, cell_m, most_pieces_per_bin * bins));
     }
-    float u = std::max(2.0F * sample.edge_u.norm() / cell_m, 1.0F);
-    float v = std::max(2.0F * sample.edge_v.norm() / cell_m, 1.0F);
-    const float bins = 2.0F + 2.0F * (slope_u + slope_v) / bin_m;
-    const float excess = u * v / (pieces_per_bin * bins);
-    if (excess > 1.0F) {
-        const float shrink = 1.0F / std::sqrt(excess);
-        u = std::max(u * shrink, 1.0F);
-        v = std::max(v * shrink, 1.0F);
-    }
-    return {static_cast<int>(std::ceil(u)), static_cast<int>(std::ceil(v))};
+    // A box follows the edge that spans more range; the other edge is cut until a piece of it is
+    // half a bin deep.
+    const auto pieces = [](float depth_m, float most_m) {
+        return std::clamp(2.0F * depth_m / most_m, 1.0F, most_pieces_per_bin);
+    };
+    const float across_m = 0.5F * bin_m;
+    const float along_m = std::max(bin_m, most_depth_by_range * range_m);
+    const Pieces wanted =
+        depth_u_m < depth_v_m
+            ? Pieces{.u = pieces(depth_u_m, across_m), .v = pieces(depth_v_m, along_m)}
+            : Pieces{.u = 1.0F, .v = pieces(depth_v_m, across_m)};
+    return rounded_up(wanted);
 }
 
 }  // namespace
@@ -78,12 +65,6 @@ void Echoes::resize(std::size_t count, bool cells) {
     }
 }
 
-CellFrame::CellFrame(const ScattererLattice& lattice) {
-    const float per_cell = lattice.exists() ? 1.0F / lattice.edge_m : 0.0F;
-    rotation = per_cell * lattice.R_world_sensor;
-    base = per_cell * lattice.sensor + lattice_offset;
-}
-
 void direct_echoes(std::span<const Sample> samples, std::span<const Material> materials,
                    float bin_m, const ScattererLattice& lattice, Echoes& echoes) {
     const CellFrame cells(lattice);
@@ -91,29 +72,28 @@ void direct_echoes(std::span<const Sample> samples, std::span<const Material> ma
     for (const Sample& sample : samples) {
         const float range = sample.position.norm();
         const Eigen::Vector3f out = sample.position / range;
-        const float slope_u = std::fabs(out.dot(sample.edge_u));
-        const float slope_v = std::fabs(out.dot(sample.edge_v));
-        const Cut pieces = cut(sample, range, slope_u, slope_v, bin_m, lattice.edge_m);
-        const float u_step = 2.0F / static_cast<float>(pieces.u);
-        const float v_step = 2.0F / static_cast<float>(pieces.v);
-        const float half = std::max(slope_u / static_cast<float>(pieces.u),
-                                    slope_v / static_cast<float>(pieces.v));
-        const float weight = sample.area_m2 / static_cast<float>(pieces.u * pieces.v);
+        const float depth_u = std::fabs(out.dot(sample.edge_u));
+        const float depth_v = std::fabs(out.dot(sample.edge_v));
+        const Cut grid = cut(sample, range, depth_u, depth_v, bin_m, lattice.edge_m);
+        const float u_step = 2.0F / static_cast<float>(grid.u);
+        const float v_step = 2.0F / static_cast<float>(grid.v);
+        const float half =
+            std::max(depth_u / static_cast<float>(grid.u), depth_v / static_cast<float>(grid.v));
+        const float weight = sample.area_m2 / static_cast<float>(grid.pieces());
         const float reflection = materials[sample.material].reflection;
         const float height = sample.height_m;
         const Eigen::Vector3f centre = sample.position;
         const Eigen::Vector3f edge_u = sample.edge_u;
         const Eigen::Vector3f edge_v = sample.edge_v;
-        const float per_row = 1.0F / static_cast<float>(pieces.v);
+        const float per_row = 1.0F / static_cast<float>(grid.v);
         const Eigen::Vector3f cell = cells.rotation * sample.position + cells.base;
         const Eigen::Vector3f cell_u = cells.rotation * sample.edge_u;
         const Eigen::Vector3f cell_v = cells.rotation * sample.edge_v;
-        const int count = pieces.u * pieces.v;
+        const int count = grid.pieces();
         if (end + count + lanes > echoes.size()) {
             echoes.resize(2 * (end + count + lanes), lattice.exists());
         }
-        // Whole vectors are written; what lies beyond the last piece is overwritten by the next
-        // sample.
+        // Whole vectors are written: the next sample overwrites the lanes after the last piece.
         for (int first = 0; first < count; first += lanes) {
             const std::size_t to = end + first;
             Lanes s;
@@ -122,7 +102,7 @@ void direct_echoes(std::span<const Sample> samples, std::span<const Material> ma
                 const float k = static_cast<float>(first + lane);
                 const float row = std::floor((k + 0.5F) * per_row);
                 s[lane] = (row + 0.5F) * u_step - 1.0F;
-                t[lane] = (k - row * static_cast<float>(pieces.v) + 0.5F) * v_step - 1.0F;
+                t[lane] = (k - row * static_cast<float>(grid.v) + 0.5F) * v_step - 1.0F;
             }
             float* const __restrict range_m = echoes.range_m.data() + to;
             float* const __restrict intensity = echoes.intensity.data() + to;

@@ -8,34 +8,34 @@ namespace sonarsim {
 
 namespace {
 
-// Below this |r . n_h| the second plane is seen edge-on, half a degree: where the ray would meet
-// it is beyond what a float position can tell, and beyond what the plane can stand for.
-constexpr float edge_on = 0.01F;
+// Below this |r . n_h|, half a degree, the second plane is seen edge-on: where the ray meets it is
+// finer than a float position, and farther off than the plane can stand for the surface.
+constexpr float least_cosine = 0.01F;
 
-// Two traced ends of a cluster have met one plane when each lies on the other's to within half a
-// bin, and the normals to within 2.5 degrees.
-constexpr float same_normal = 0.999F;
+// Two traced members of a cluster have hit one plane when each point lies on the other's plane to
+// within half a bin, and the normals agree to within 2.5 degrees.
+constexpr float same_normal_cosine = 0.999F;
 constexpr float same_plane_bins = 0.5F;
 
-/// Where a traced ray met a second surface.
-struct Second {
-    Eigen::Vector3f point;  ///< p_h, sensor frame
-    Eigen::Vector3f normal;
+/// What a traced ray hit: the second surface h.
+struct SecondHit {
+    Eigen::Vector3f point;    ///< p_h, sensor frame, m
+    Eigen::Vector3f normal;   ///< n_h
     float rounding_m = 0.0F;  ///< as in Intersection
-    float reflection = 0.0F;
-    bool met = false;
+    float reflection = 0.0F;  ///< R_h
+    bool exists = false;
 };
 
-/// The second plane of a cluster, as far as it is known to reach.
+/// The plane of the second surface of a cluster, and the disc of it that was hit.
 struct Plane {
-    const Second* second;
+    const SecondHit* hit;
     Eigen::Vector3f middle;
     float radius_m;
 };
 
-/// What became of a sample, as the count that it goes into.
-using Fate = std::uint64_t MultipathCounts::*;
-constexpr Fate stray = nullptr;  ///< the plane is not known to reach this far
+/// What became of a sample, as the counter that it goes into.
+using Outcome = std::uint64_t MultipathCounts::*;
+constexpr Outcome off_the_disc = nullptr;  ///< to be traced by itself
 
 /// What all steps need.
 struct Context {
@@ -48,13 +48,13 @@ struct Context {
     FieldOfView field;
 };
 
-/// [1]
+/// The direction in which a mirror sends on what comes along `direction`: r of Eq. 1.
 Eigen::Vector3f mirrored(const Eigen::Vector3f& direction, const Eigen::Vector3f& normal) {
     return direction - 2.0F * normal.dot(direction) * normal;
 }
 
-/// The ray that leaves a sample. A sample on a curved surface may lie a little below it, by no
-/// more than the facets that it stands for disagree; the ray starts above that.
+/// The ray that leaves a sample. On a curved surface the sample may lie a little below the facets
+/// that it stands for; the ray starts above them.
 Ray mirrored_ray(const Sample& sample, float bin_m) {
     const float range = sample.position.norm();
     const float size = sample.edge_u.norm() + sample.edge_v.norm();
@@ -63,66 +63,70 @@ Ray mirrored_ray(const Sample& sample, float bin_m) {
             mirrored(sample.position / range, sample.normal)};
 }
 
-/// Whether a ray may have met the surface that it started from: its start lies on what it met to
-/// within rounding.
-bool met_its_start(const Ray& ray, const Intersection& hit) {
+/// Whether a ray may have hit the surface that it started from: its start lies in the plane of what
+/// it hit, to within rounding.
+bool hit_its_start(const Ray& ray, const Intersection& hit) {
     return std::fabs(hit.distance_m * hit.normal.dot(ray.direction)) <= hit.rounding_m;
 }
 
-/// Traces the samples and adds what they met to `seconds`. Far from the scene's origin, or on a
-/// triangle that reaches far, a start may be rounded to below its surface; it then tries once more
-/// from above that rounding.
-void trace(const Context& context, std::span<const std::uint32_t> chosen,
-           std::vector<Second>& seconds, MultipathCounts& counts) {
+/// Traces the samples and appends what their rays hit to `second_hits`. Far from the scene's
+/// origin, or on a large triangle, rounding may put the start of a ray below its surface; such a
+/// ray is traced once more from above the rounding.
+void trace(const Context& context, std::span<const std::uint32_t> sources,
+           std::vector<SecondHit>& second_hits, MultipathCounts& counts) {
     std::vector<Ray> rays;
-    rays.reserve(chosen.size());
-    for (const std::uint32_t i : chosen)
+    rays.reserve(sources.size());
+    for (const std::uint32_t i : sources)
         rays.push_back(mirrored_ray(context.samples.items[i], context.bin_m));
     std::vector<Intersection> hits(rays.size());
     context.engine.intersect(context.T_world_sensor, rays, hits);
     counts.rays += rays.size();
     for (std::size_t k = 0; k < rays.size(); ++k) {
-        if (!met_its_start(rays[k], hits[k])) continue;
-        rays[k].origin += 2.0F * hits[k].rounding_m * context.samples.items[chosen[k]].normal;
+        if (!hit_its_start(rays[k], hits[k])) continue;
+        rays[k].origin += 2.0F * hits[k].rounding_m * context.samples.items[sources[k]].normal;
         context.engine.intersect(context.T_world_sensor, {&rays[k], 1}, {&hits[k], 1});
         ++counts.rays;
     }
     for (std::size_t k = 0; k < rays.size(); ++k) {
-        Second second;
+        SecondHit second;
         if (std::isfinite(hits[k].distance_m)) {
-            second = {rays[k].origin + hits[k].distance_m * rays[k].direction, hits[k].normal,
-                      hits[k].rounding_m, context.materials[hits[k].material].reflection, true};
+            second = {.point = rays[k].origin + hits[k].distance_m * rays[k].direction,
+                      .normal = hits[k].normal,
+                      .rounding_m = hits[k].rounding_m,
+                      .reflection = context.materials[hits[k].material].reflection,
+                      .exists = true};
         }
-        seconds.push_back(second);
+        second_hits.push_back(second);
     }
 }
 
-bool agree(const Second& a, const Second& b, float slack_m) {
-    if (!a.met || !b.met) return a.met == b.met;
+/// Whether two rays hit one plane, or both nothing.
+bool same_plane(const SecondHit& a, const SecondHit& b, float slack_m) {
+    if (!a.exists || !b.exists) return a.exists == b.exists;
     const Eigen::Vector3f apart = b.point - a.point;
-    return a.reflection == b.reflection && a.normal.dot(b.normal) >= same_normal &&
+    return a.reflection == b.reflection && a.normal.dot(b.normal) >= same_normal_cosine &&
            std::fabs(apart.dot(a.normal)) <= slack_m && std::fabs(apart.dot(b.normal)) <= slack_m;
 }
 
-/// [2-3] for one sample of a cluster: where it meets the plane, and what comes back from there. The
-/// mirror image of the sonar in the sample's plane, s, makes this one straight line: p lies on the
-/// ray from s through p_i, and |p - s| is the length of the path to p. Moving p_i along an edge e
-/// of its footprint leaves s where it is.
-Fate bounce(const Context& context, const Sample& sample, const Plane& plane, Bounce& out) {
-    const Second& second = *plane.second;
-    if (!second.met) return &MultipathCounts::missed;
-    // The sound met the back of what the sonar faces.
+/// The point p where the sound of one sample meets the plane, Eq. 2, and the echo that comes back
+/// from there, Eq. 3. The mirror image of the sonar in the sample's plane, s, makes the path to p
+/// one straight line: p lies on the ray from s through p_i, and |p - s| is the length of the path.
+/// When p_i moves along an edge of its footprint, s stays where it is.
+Outcome reflect(const Context& context, const Sample& sample, const Plane& plane, Bounce& out) {
+    const SecondHit& second = *plane.hit;
+    if (!second.exists) return &MultipathCounts::missed;
+    // The sound hit the far side of what the sonar faces.
     if (!(second.normal.dot(second.point) < 0.0F)) return &MultipathCounts::hidden;
     const Eigen::Vector3f image = 2.0F * sample.normal.dot(sample.position) * sample.normal;
     const Eigen::Vector3f through = sample.position - image;  // |p_i| r_i
     const float first_leg = sample.position.norm();
     const float along = through.dot(second.normal);
-    if (!(std::fabs(along) >= edge_on * first_leg)) return &MultipathCounts::edge_on;
+    if (!(std::fabs(along) >= least_cosine * first_leg)) return &MultipathCounts::edge_on;
     // In units of |p_i|, from the mirror image: 1 is the sample itself.
     const float t = (second.point - image).dot(second.normal) / along;
     if (!(t > 1.0F)) return &MultipathCounts::behind;
     const Eigen::Vector3f p = image + t * through;
-    if ((p - plane.middle).squaredNorm() > plane.radius_m * plane.radius_m) return stray;
+    if ((p - plane.middle).squaredNorm() > plane.radius_m * plane.radius_m) return off_the_disc;
     const float last_leg = p.norm();
     const float range = 0.5F * (t * first_leg + last_leg);
     const float beam = context.field.beam(p, last_leg);
@@ -147,42 +151,42 @@ Fate bounce(const Context& context, const Sample& sample, const Plane& plane, Bo
     return &MultipathCounts::bounces;
 }
 
-/// Follows one sample to the plane, and keeps what comes back. Returns whether the sample has to
-/// be traced itself.
+/// Reflects one sample off the plane, and keeps what comes back. Returns whether the sample has to
+/// be traced by itself.
 bool follow(const Context& context, std::uint32_t sample, std::uint32_t second, const Plane& plane,
             std::vector<Bounce>& bounces, MultipathCounts& counts) {
     const Sample& source = context.samples.items[sample];
     Bounce b;
     b.sample = sample;
     b.second = second;
-    const Fate fate = bounce(context, source, plane, b);
-    if (fate == stray) return true;
-    ++(counts.*fate);
-    if (fate == &MultipathCounts::bounces) {
+    const Outcome outcome = reflect(context, source, plane, b);
+    if (outcome == off_the_disc) return true;
+    ++(counts.*outcome);
+    if (outcome == &MultipathCounts::bounces) {
         b.intensity *= context.materials[source.material].reflection;
         bounces.push_back(b);
     }
     return false;
 }
 
-/// Traces the samples and follows each to what it met itself.
-void follow_traced(const Context& context, std::span<const std::uint32_t> chosen,
-                   std::vector<Second>& seconds, std::vector<Bounce>& bounces,
+/// Traces the samples and reflects each off what its own ray hit.
+void follow_traced(const Context& context, std::span<const std::uint32_t> sources,
+                   std::vector<SecondHit>& second_hits, std::vector<Bounce>& bounces,
                    MultipathCounts& counts) {
-    const std::size_t first = seconds.size();
-    trace(context, chosen, seconds, counts);
-    constexpr float anywhere = std::numeric_limits<float>::infinity();
-    for (std::size_t k = 0; k < chosen.size(); ++k) {
-        const Second& own = seconds[first + k];
-        follow(context, chosen[k], static_cast<std::uint32_t>(first + k),
-               {&own, own.point, anywhere}, bounces, counts);
+    const std::size_t first = second_hits.size();
+    trace(context, sources, second_hits, counts);
+    constexpr float unbounded = std::numeric_limits<float>::infinity();
+    for (std::size_t k = 0; k < sources.size(); ++k) {
+        const SecondHit& own = second_hits[first + k];
+        follow(context, sources[k], static_cast<std::uint32_t>(first + k),
+               {&own, own.point, unbounded}, bounces, counts);
     }
 }
 
-/// Whether what a ray from the sonar to p_h meets lies before p_h. Where both are the same surface,
-/// two ranges of one point are compared: each is off by its rounding across the surface, and that
-/// counts for 1 / cos of the incidence along the ray.
-bool hides(const Intersection& hit, const Second& second, const Ray& ray) {
+/// Whether `hit`, of a ray from the sonar towards p_h, lies before p_h and hides it. Where both are
+/// one surface, two ranges of one point are compared. Each is off by its rounding across the
+/// surface, which along the ray is longer by 1 / cos(incidence).
+bool hides(const Intersection& hit, const SecondHit& second, const Ray& ray) {
     if (std::isinf(hit.distance_m)) return false;
     const auto along_ray = [&](float rounding_m, const Eigen::Vector3f& normal) {
         return rounding_m / std::fabs(normal.dot(ray.direction));
@@ -192,23 +196,23 @@ bool hides(const Intersection& hit, const Second& second, const Ray& ray) {
     return !(hit.distance_m + slack >= second.point.norm());
 }
 
-/// Takes out the bounces from points that the sonar does not see.
-void drop_hidden(const Context& context, const std::vector<Second>& seconds,
+/// Takes out the bounces whose second point the sonar does not see.
+void drop_hidden(const Context& context, const std::vector<SecondHit>& second_hits,
                  std::vector<Bounce>& bounces, MultipathCounts& counts) {
-    constexpr std::uint32_t unasked = 0xFFFFFFFFU;
-    std::vector<std::uint32_t> ray_of(seconds.size(), unasked);
+    constexpr std::uint32_t no_ray = 0xFFFFFFFFU;
+    std::vector<std::uint32_t> ray_of(second_hits.size(), no_ray);
     std::vector<Ray> rays;
     for (const Bounce& b : bounces) {
-        if (ray_of[b.second] != unasked) continue;
+        if (ray_of[b.second] != no_ray) continue;
         ray_of[b.second] = static_cast<std::uint32_t>(rays.size());
-        rays.push_back({Eigen::Vector3f::Zero(), seconds[b.second].point.normalized()});
+        rays.push_back({Eigen::Vector3f::Zero(), second_hits[b.second].point.normalized()});
     }
     std::vector<Intersection> hits(rays.size());
     context.engine.intersect(context.T_world_sensor, rays, hits);
     counts.rays += rays.size();
     counts.hidden += std::erase_if(bounces, [&](const Bounce& b) {
         const std::uint32_t ray = ray_of[b.second];
-        return hides(hits[ray], seconds[b.second], rays[ray]);
+        return hides(hits[ray], second_hits[b.second], rays[ray]);
     });
 }
 
@@ -218,45 +222,49 @@ std::vector<Bounce> find_bounces(const Multipath& multipath, const View& view,
                                  const Samples& samples, std::span<const Material> materials,
                                  const VisibilityEngine& engine, const Pose& T_world_sensor,
                                  MultipathCounts& counts) {
-    const Context context{view,
-                          samples,
-                          materials,
-                          engine,
-                          T_world_sensor,
-                          static_cast<float>(view.bin_m()),
-                          FieldOfView(view)};
+    const Context context{.view = view,
+                          .samples = samples,
+                          .materials = materials,
+                          .engine = engine,
+                          .T_world_sensor = T_world_sensor,
+                          .bin_m = static_cast<float>(view.bin_m()),
+                          .field = FieldOfView(view)};
     const Clusters clusters = cluster_samples(view, samples, multipath.cluster);
     counts.samples = clusters.members.size();
     counts.clusters = clusters.size();
 
-    std::vector<std::uint32_t> chosen;
+    // The first and the last member of every cluster are traced.
+    std::vector<std::uint32_t> sources;
     for (std::size_t c = 0; c < clusters.size(); ++c) {
         const auto members = clusters.of(c);
-        chosen.push_back(members.front());
-        if (members.size() > 1) chosen.push_back(members.back());
+        sources.push_back(members.front());
+        if (members.size() > 1) sources.push_back(members.back());
     }
-    std::vector<Second> seconds;
+    std::vector<SecondHit> second_hits;
     std::vector<Bounce> bounces;
-    follow_traced(context, chosen, seconds, bounces, counts);
+    follow_traced(context, sources, second_hits, bounces, counts);
 
-    chosen.clear();
+    // Where both hit one plane the members between them are reflected off it; the others are
+    // traced.
+    sources.clear();
     std::uint32_t end = 0;
     for (std::size_t c = 0; c < clusters.size(); ++c) {
         const auto members = clusters.of(c);
         const std::uint32_t first = end;
         end += members.size() > 1 ? 2 : 1;
         if (members.size() < 3) continue;
-        const Second& a = seconds[first];
-        const Second& b = seconds[end - 1];
-        const bool one = agree(a, b, same_plane_bins * context.bin_m);
-        const Plane plane{&a, 0.5F * (a.point + b.point),
-                          (a.point - b.point).norm() + context.bin_m};
+        const SecondHit& a = second_hits[first];
+        const SecondHit& b = second_hits[end - 1];
+        const bool flat = same_plane(a, b, same_plane_bins * context.bin_m);
+        const Plane plane{.hit = &a,
+                          .middle = 0.5F * (a.point + b.point),
+                          .radius_m = (a.point - b.point).norm() + context.bin_m};
         for (const std::uint32_t i : members.subspan(1, members.size() - 2)) {
-            if (!one || follow(context, i, first, plane, bounces, counts)) chosen.push_back(i);
+            if (!flat || follow(context, i, first, plane, bounces, counts)) sources.push_back(i);
         }
     }
-    follow_traced(context, chosen, seconds, bounces, counts);
-    drop_hidden(context, seconds, bounces, counts);
+    follow_traced(context, sources, second_hits, bounces, counts);
+    drop_hidden(context, second_hits, bounces, counts);
     counts.bounces = bounces.size();
     return bounces;
 }

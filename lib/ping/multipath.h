@@ -12,14 +12,14 @@
 
 namespace sonarsim {
 
-/// [1-3] for one sonar.
+/// How a sonar finds multipath, Eq. 1-3 and Algorithm 1.
 struct Multipath {
     bool on = false;
     ClusterLimits cluster;  ///< epsilon 0 is the exact method: every sample is traced by itself
 };
 
-/// Sound that came back by way of a sample and a second surface, and by how much it changes along
-/// the half edges of the sample's footprint.
+/// An echo by way of a sample and a second surface, and by how much it changes along the half edges
+/// of the sample's footprint.
 struct Bounce {
     std::uint32_t sample;  ///< index into Samples::items
     std::uint32_t second;  ///< the traced ray that found the second surface
@@ -28,12 +28,13 @@ struct Bounce {
     float intensity;
 };
 
-/// Follows the sound that `samples` mirror to a second surface and from there to the sonar. The
-/// first and the last sample of a cluster are traced; where they meet one plane, so do the others
-/// [2], and where they do not, the others are traced as well. An echo has the azimuth of the second
-/// point p, the range (|p_i| + |p - p_i| + |p|) / 2 and the intensity R_i R_h max(0, q . v_p).
-/// Whether the sonar sees p is asked for the traced ones, for the others inherited. What is
-/// rejected, and why, is counted.
+/// Follows the sound that `samples` mirror to a second surface h and from there to the sonar. The
+/// first and the last sample of a cluster are traced. Where both hit one plane, the others are
+/// reflected off it (Eq. 2); where they do not, the others are traced as well. An echo has the
+/// azimuth of the second point p, the range (|p_i| + |p - p_i| + |p|) / 2 (Eq. 3, whose print ends
+/// in |p_i|) and the intensity R_i R_h max(0, q . v_p). For a traced sample a ray finds out whether
+/// the sonar sees p; the others of its cluster inherit the answer. Samples without an echo are
+/// counted by what became of them.
 std::vector<Bounce> find_bounces(const Multipath& multipath, const View& view,
                                  const Samples& samples, std::span<const Material> materials,
                                  const VisibilityEngine& engine, const Pose& T_world_sensor,

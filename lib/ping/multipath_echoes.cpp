@@ -3,16 +3,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ping/footprint.h"
+
 namespace sonarsim {
 
 namespace {
 
-// Of a footprint in beams, and of its scatterer cells in a bin: more pieces change nothing that
-// can be seen.
-constexpr float most_beams = 64.0F;
-constexpr float pieces_per_bin = 16.0F;
+// More pieces than these change nothing that can be seen: along an edge of a footprint, and of its
+// scatterer cells in one bin.
+constexpr float most_pieces_per_edge = 64.0F;
+constexpr float most_pieces_per_bin = 16.0F;
 
-/// A part of a bounce that lies in one beam and in one scatterer cell.
+/// A part of a bounce that counts for one beam and one scatterer cell.
 struct Piece {
     std::uint32_t beam;
     float range_m;
@@ -22,33 +24,28 @@ struct Piece {
     std::int32_t cell_x, cell_y, cell_z;
 };
 
-int pieces(float extent, float most) {
-    return static_cast<int>(std::ceil(std::clamp(extent, 1.0F, most)));
+/// How a bounce is cut: no piece wider than a beam nor, with range noise, than a scatterer cell.
+Cut cut(const Bounce& b, const Sample& sample, float bin_m, const ScattererLattice& lattice) {
+    Pieces wanted{.u = 2.0F * std::fabs(b.beam_u), .v = 2.0F * std::fabs(b.beam_v)};
+    if (lattice.exists()) {
+        const float bins = (2.0F + 2.0F * (std::fabs(b.range_u) + std::fabs(b.range_v)) / bin_m) *
+                           (1.0F + wanted.u + wanted.v);
+        const Pieces cells = one_piece_per_cell(sample, lattice.edge_m, most_pieces_per_bin * bins);
+        wanted = {.u = std::max(wanted.u, cells.u), .v = std::max(wanted.v, cells.v)};
+    }
+    return rounded_up({.u = std::clamp(wanted.u, 1.0F, most_pieces_per_edge),
+                       .v = std::clamp(wanted.v, 1.0F, most_pieces_per_edge)});
 }
 
-/// Cuts a bounce until no piece is wider than a beam, nor, with range noise, than a cell.
-void cut(const Bounce& b, const Sample& sample, const View& view, const ScattererLattice& lattice,
-         const CellFrame& cells, std::vector<Piece>& out) {
-    const auto bin_m = static_cast<float>(view.bin_m());
+/// Adds the pieces of a bounce to `out`, without those outside the field of view.
+void add_pieces(const Bounce& b, const Sample& sample, const View& view,
+                const ScattererLattice& lattice, const CellFrame& cells, std::vector<Piece>& out) {
     const auto beams = static_cast<float>(view.beams);
-    float u = 2.0F * std::fabs(b.beam_u);
-    float v = 2.0F * std::fabs(b.beam_v);
-    if (lattice.exists()) {
-        const float bins =
-            (2.0F + 2.0F * (std::fabs(b.range_u) + std::fabs(b.range_v)) / bin_m) * (1.0F + u + v);
-        float cells_u = std::max(2.0F * sample.edge_u.norm() / lattice.edge_m, 1.0F);
-        float cells_v = std::max(2.0F * sample.edge_v.norm() / lattice.edge_m, 1.0F);
-        const float excess = cells_u * cells_v / (pieces_per_bin * bins);
-        const float shrink = excess > 1.0F ? 1.0F / std::sqrt(excess) : 1.0F;
-        u = std::max(u, cells_u * shrink);
-        v = std::max(v, cells_v * shrink);
-    }
-    const int n_u = pieces(u, most_beams);
-    const int n_v = pieces(v, most_beams);
+    const auto [n_u, n_v] = cut(b, sample, static_cast<float>(view.bin_m()), lattice);
     const float step_u = 1.0F / static_cast<float>(n_u);
     const float step_v = 1.0F / static_cast<float>(n_v);
     Piece piece{};
-    // A box of the variance of the two edges' boxes together.
+    // The box has the variance of the two edges' boxes together.
     piece.half_m = std::sqrt(b.range_u * b.range_u * step_u * step_u +
                              b.range_v * b.range_v * step_v * step_v);
     piece.weight = sample.area_m2 * step_u * step_v;
@@ -76,7 +73,7 @@ void cut(const Bounce& b, const Sample& sample, const View& view, const Scattere
     out.resize(k);
 }
 
-/// Counting sort.
+/// The pieces as arrays, sorted by beam (a counting sort).
 MultipathEchoes sorted_by_beam(const std::vector<Piece>& pieces, int beams, bool cells) {
     MultipathEchoes out;
     out.beam_begin.assign(beams + 1, 0);
@@ -109,7 +106,7 @@ MultipathEchoes multipath_echoes(std::span<const Bounce> bounces, const Samples&
     pieces.reserve(16 * bounces.size());
     const CellFrame cells(lattice);
     for (const Bounce& b : bounces)
-        cut(b, samples.items[b.sample], view, lattice, cells, pieces);
+        add_pieces(b, samples.items[b.sample], view, lattice, cells, pieces);
     return sorted_by_beam(pieces, view.beams, lattice.exists());
 }
 

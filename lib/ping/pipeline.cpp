@@ -1,108 +1,105 @@
 #include "ping/pipeline.h"
 
-#include <algorithm>
-
 #include "core/clock.h"
 #include "ping/accumulate.h"
 #include "ping/echoes.h"
 #include "ping/multipath_echoes.h"
-#include "ping/range_noise.h"
 
 namespace sonarsim {
 
-namespace {
-
-ScattererLattice lattice_for(const RangeNoise& noise, const Scene& scene,
-                             const Pose& T_world_sensor) {
-    if (noise.lambda_m <= 0.0F) return {};
-    return {noise.scatterer_m, T_world_sensor.rotation.toRotationMatrix().cast<float>(),
-            (T_world_sensor.translation - scene.origin).cast<float>()};
-}
-
-/// [beams, bins] to [bins, beams], in tiles that stay in the cache.
-void transpose(const std::vector<float>& by_beam, Ping& ping) {
-    constexpr int tile = 16;
-    for (int i0 = 0; i0 < ping.range_bins; i0 += tile) {
-        const int i1 = std::min(i0 + tile, ping.range_bins);
-        for (int j0 = 0; j0 < ping.beams; j0 += tile) {
-            const int j1 = std::min(j0 + tile, ping.beams);
-            for (int i = i0; i < i1; ++i) {
-                for (int j = j0; j < j1; ++j) {
-                    ping.intensity[static_cast<std::size_t>(i) * ping.beams + j] =
-                        by_beam[static_cast<std::size_t>(j) * ping.range_bins + i];
-                }
-            }
-        }
-    }
-}
-
-}  // namespace
-
-Ping run_pipeline(const PingSettings& settings, const Scene& scene, const VisibilityEngine& engine,
-                  const Pose& T_world_sensor, const PingKey& key) {
-    const View& view = settings.view;
-    const Streaks& streaks = settings.streaks;
-    const RangeBins bins{static_cast<float>(view.range_min_m), static_cast<float>(view.bin_m()),
-                         view.range_bins};
-    const ScattererLattice lattice = lattice_for(settings.range_noise, scene, T_world_sensor);
-    const auto stream = [&](Stream s) {
-        return stream_key(key.seed, settings.stream, key.ping, s);
-    };
-    const auto add_noise = [&](Echoes& to, Stream s) {
-        if (!lattice.exists()) return;
-        add_range_noise(to, settings.range_noise.lambda_m, settings.range_noise.fades, stream(s));
-    };
-    Ping ping{view.range_bins, view.beams, {}, {}, {}};
-    ping.intensity.resize(static_cast<std::size_t>(view.range_bins) * view.beams);
+TracedPing trace_ping(const PingSettings& settings, const Scene& scene,
+                      const VisibilityEngine& engine, const Pose& T_world_sensor,
+                      const Terms& terms) {
+    TracedPing traced;
+    traced.T_world_sensor = T_world_sensor;
     Stopwatch watch;
 
     // III-A: the visible surface.
-    const Samples samples = engine.visible_surface(view, T_world_sensor);
-    ping.counts.samples = samples.items.size();
-    ping.counts.dropped_samples = samples.dropped;
-    ping.seconds.trace = watch.lap();
+    traced.samples = engine.visible_surface(settings.view, T_world_sensor);
+    traced.counts.samples = traced.samples.items.size();
+    traced.counts.dropped_samples = traced.samples.dropped;
+    traced.seconds.trace = watch.lap();
 
-    // III-B: multipath [1-3].
-    std::vector<Bounce> bounces;
+    // III-B: multipath, Eq. 1-3.
+    if (terms.multipath) trace_multipath(settings, scene, engine, traced);
+    return traced;
+}
+
+void trace_multipath(const PingSettings& settings, const Scene& scene,
+                     const VisibilityEngine& engine, TracedPing& traced) {
+    Stopwatch watch;
+    traced.counts.multipath = {};
+    traced.bounces.clear();
     if (settings.multipath.on) {
-        bounces = find_bounces(settings.multipath, view, samples, scene.materials, engine,
-                               T_world_sensor, ping.counts.multipath);
+        traced.bounces =
+            find_bounces(settings.multipath, settings.view, traced.samples, scene.materials, engine,
+                         traced.T_world_sensor, traced.counts.multipath);
     }
-    ping.seconds.multipath = watch.lap();
+    traced.seconds.multipath = watch.lap();
+}
 
-    // III-C, III-D: echoes [4-6], their range noise [7-8] and the mean of every bin [9].
-    MultipathEchoes bounced = multipath_echoes(bounces, samples, view, lattice);
-    add_noise(bounced.echoes, Stream::multipath_range_noise);
-    std::vector<float> by_beam(ping.intensity.size());
+Ping form_image(const TracedPing& traced, const PingSettings& settings, const Scene& scene,
+                const PingKey& key, const Terms& terms) {
+    const View& view = settings.view;
+    const RangeBins bins{.min_m = static_cast<float>(view.range_min_m),
+                         .bin_m = static_cast<float>(view.bin_m()),
+                         .count = view.range_bins};
+    const RangeNoise range_noise = terms.range_noise ? settings.range_noise : RangeNoise{};
+    const Streaks streaks = terms.streaks ? settings.streaks : Streaks{};
+    const ScattererLattice lattice = scatterer_lattice(range_noise, scene, traced.T_world_sensor);
+    const auto draws = [&](Stream stream) {
+        return stream_key(key.seed, settings.stream, key.ping, stream);
+    };
+    Ping ping;
+    ping.range_bins = view.range_bins;
+    ping.beams = view.beams;
+    ping.counts = traced.counts;
+    ping.seconds = traced.seconds;
+    Stopwatch watch;
+
+    // III-C: multipath as echoes.
+    if (!terms.multipath) ping.counts.multipath = {};
+    MultipathEchoes bounced =
+        multipath_echoes(terms.multipath ? std::span(traced.bounces) : std::span<const Bounce>(),
+                         traced.samples, view, lattice);
+    add_range_noise(bounced.echoes, range_noise, draws(Stream::multipath_range_noise));
+    ping.counts.echoes = bounced.echoes.size();
+
+    // III-C, III-D: for every beam the echoes of its surface, Eq. 4-6, their range noise, Eq. 7-8,
+    // and the mean of each bin, Eq. 9.
+    std::vector<float> by_beam(static_cast<std::size_t>(view.beams) * bins.count);
     RowAreas areas(bins.count);
     Echoes echoes;
     BinSums sums;
-    const auto add_direct = [&](std::span<const Sample> from, BinSums& to) {
-        direct_echoes(from, scene.materials, bins.bin_m, lattice, echoes);
-        add_noise(echoes, Stream::range_noise);
+    const auto add_direct = [&](std::span<const Sample> samples, BinSums& to) {
+        direct_echoes(samples, scene.materials, bins.bin_m, lattice, echoes);
+        add_range_noise(echoes, range_noise, draws(Stream::range_noise));
         return accumulate(echoes, bins, to);
     };
     for (int j = 0; j < view.beams; ++j) {
         sums.clear(bins.count);
-        ping.counts.out_of_range += add_direct(samples.beam(j), sums);
-        ping.counts.echoes += echoes.size();
+        if (terms.direct) {
+            ping.counts.out_of_range += add_direct(traced.samples.beam(j), sums);
+            ping.counts.echoes += echoes.size();
+        }
         if (streaks.exist()) {
             areas.add(sums);
-            add_direct(at_normal_incidence(samples.beam(j), streaks.least_cosine), areas.normal);
+            add_direct(at_normal_incidence(traced.samples.beam(j), streaks.least_cosine),
+                       areas.normal);
         }
         ping.counts.out_of_range += accumulate(bounced.echoes, bounced.beam_begin[j],
                                                bounced.beam_begin[j + 1], bins, sums);
-        const std::size_t column = static_cast<std::size_t>(j) * bins.count;
-        ping.counts.occupied_bins +=
-            mean_of_bins(sums, std::span(by_beam).subspan(column, bins.count));
+        ping.counts.occupied_bins += mean_of_bins(
+            sums, std::span(by_beam).subspan(static_cast<std::size_t>(j) * bins.count, bins.count));
     }
-    ping.counts.echoes += bounced.echoes.size();
-    transpose(by_beam, ping);
+    ping.intensity = image_of_beams(by_beam, view.range_bins, view.beams);
     ping.seconds.accumulate = watch.lap();
 
-    // III-D: pixel noise [10-13]. III-E: streaks [14-15].
-    ping.counts.negative_pixels =
-        add_pixel_noise(ping.intensity, settings.pixel_noise, stream(Stream::pixel_noise));
+    // III-D: pixel noise, Eq. 10-13. III-E: streaks, Eq. 14-15.
+    if (terms.pixel_noise) {
+        ping.counts.negative_pixels =
+            add_pixel_noise(ping.intensity, settings.pixel_noise, draws(Stream::pixel_noise));
+    }
     if (streaks.exist()) ping.counts.streak_rows = add_streaks(ping.intensity, areas, streaks);
     ping.seconds.noise = watch.lap();
     return ping;

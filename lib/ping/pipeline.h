@@ -1,25 +1,21 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "core/pose.h"
 #include "ping/multipath.h"
 #include "ping/ping.h"
 #include "ping/pixel_noise.h"
+#include "ping/range_noise.h"
 #include "ping/streaks.h"
+#include "ping/terms.h"
 #include "scene/scene.h"
 #include "visibility/engine.h"
 
 namespace sonarsim {
 
-/// [7-8] for one sonar.
-struct RangeNoise {
-    float lambda_m = 0.0F;     ///< mean of the exponential; 0: none
-    float scatterer_m = 0.0F;  ///< edge of the cells that share a draw
-    bool fades = true;         ///< late echoes are weaker by exp(-w / lambda)
-};
-
-/// What the pipeline needs to know of a sonar.
+/// What the pipeline needs to know of a sonar, stage by stage.
 struct PingSettings {
     View view;
     Multipath multipath;
@@ -35,8 +31,31 @@ struct PingKey {
     std::uint32_t ping = 0;  ///< index of the pose on the trajectory
 };
 
-/// One ping, from what is visible to the finished image: the paper's section III.
-Ping run_pipeline(const PingSettings& settings, const Scene& scene, const VisibilityEngine& engine,
-                  const Pose& T_world_sensor, const PingKey& key);
+/// What a sonar saw from one pose. It knows nothing of noise: any number of images may be formed
+/// from it.
+struct TracedPing {
+    Pose T_world_sensor;
+    Samples samples;              ///< the visible surface
+    std::vector<Bounce> bounces;  ///< multipath by way of it
+    PingCounts counts;
+    PingSeconds seconds;
+};
+
+/// Finds the surface that a sonar sees and, if its settings and the terms have it, the multipath:
+/// the paper's sections III-A and III-B.
+TracedPing trace_ping(const PingSettings& settings, const Scene& scene,
+                      const VisibilityEngine& engine, const Pose& T_world_sensor,
+                      const Terms& terms = {});
+
+/// Finds the multipath of a traced ping anew, as `settings` have it.
+void trace_multipath(const PingSettings& settings, const Scene& scene,
+                     const VisibilityEngine& engine, TracedPing& traced);
+
+/// The image of a traced ping with those of the terms that the settings have: the paper's sections
+/// III-C to III-E. A pure function: the same arguments give the same bytes. `settings` may differ
+/// from those that the ping was traced with in all but the view. The ping counts and times the
+/// tracing as well; of multipath only what is in the image.
+Ping form_image(const TracedPing& traced, const PingSettings& settings, const Scene& scene,
+                const PingKey& key, const Terms& terms = {});
 
 }  // namespace sonarsim

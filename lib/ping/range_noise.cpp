@@ -13,12 +13,21 @@ constexpr std::size_t block = 128;
 
 }  // namespace
 
-void add_range_noise(Echoes& echoes, float lambda_m, bool fades, PhiloxKey key) {
+ScattererLattice scatterer_lattice(const RangeNoise& noise, const Scene& scene,
+                                   const Pose& T_world_sensor) {
+    if (noise.lambda_m <= 0.0F) return {};
+    return {.edge_m = noise.scatterer_m,
+            .R_world_sensor = T_world_sensor.rotation.toRotationMatrix().cast<float>(),
+            .sensor = (T_world_sensor.translation - scene.origin).cast<float>()};
+}
+
+void add_range_noise(Echoes& echoes, const RangeNoise& noise, PhiloxKey key) {
+    if (noise.lambda_m <= 0.0F) return;
     std::array<std::uint32_t, block> x{};
     std::array<std::uint32_t, block> y{};
     std::array<std::uint32_t, block> z{};
     std::array<std::uint32_t, block> last{};
-    const float keep = fades ? 0.0F : 1.0F;
+    const float keep = noise.fades ? 0.0F : 1.0F;
     for (std::size_t begin = 0; begin < echoes.size(); begin += block) {
         const std::size_t count = std::min(block, echoes.size() - begin);
         std::copy_n(echoes.cell_x.begin() + begin, count, x.begin());
@@ -31,7 +40,7 @@ void add_range_noise(Echoes& echoes, float lambda_m, bool fades, PhiloxKey key) 
         for (std::size_t k = 0; k < count; ++k) {
             // w = -lambda ln u, so that exp(-w / lambda) is u itself.
             const float u = unit_float(x[k]);
-            range[k] -= lambda_m * natural_log(u);
+            range[k] -= noise.lambda_m * natural_log(u);
             intensity[k] *= keep + (1.0F - keep) * u;
         }
     }

@@ -17,10 +17,11 @@ struct Material {
     std::string name;
     double density_kg_m3 = 0.0;
     double sound_speed_m_s = 0.0;
-    float reflection = 0.0F;  ///< power reflection coefficient at normal incidence [4]
+    float reflection = 0.0F;  ///< power reflection coefficient at normal incidence, Eq. 4
 };
 
-/// [4-5]: ((z - z_w) / (z + z_w))^2 with z = rho c.
+/// The power reflection coefficient at normal incidence, ((z - z_w) / (z + z_w))^2 with the
+/// impedance z = rho c, Eq. 4-5.
 double power_reflection(double density_kg_m3, double sound_speed_m_s, const Water& water);
 
 /// What was left out of the scene while it was read, and why.

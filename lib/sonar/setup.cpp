@@ -50,18 +50,25 @@ Sonar common_sonar(const SonarConfig& config, const AccuracyConfig& accuracy,
                      .beams = beams,
                      .relative_l1 = accuracy.relative_l1,
                      .shape = kind.shape};
-    const bool exact = config.multipath.method == MultipathMethod::exact;
-    settings.multipath = {config.multipath.method != MultipathMethod::none,
-                          {exact ? 0 : config.multipath.epsilon_bins,
-                           static_cast<float>(sincos(radians(config.multipath.delta_deg)).cos)}};
-    settings.streaks = {config.streaks.mode, static_cast<float>(config.streaks.threshold),
-                        static_cast<float>(sincos(radians(config.streaks.angle_deg)).cos)};
-    settings.range_noise = {static_cast<float>(noise.range_lambda_m),
-                            static_cast<float>(noise.scatterer_m), kind.range_noise_fades};
-    settings.pixel_noise = {static_cast<float>(kind.gain), static_cast<float>(noise.add_sigma),
-                            static_cast<float>(noise.mult_sigma),
-                            std::vector<float>(config.range_bins, 1.0F),
-                            std::vector<float>(beams, 1.0F)};
+    const auto cosine = [](double angle_deg) {
+        return static_cast<float>(sincos(radians(angle_deg)).cos);
+    };
+    const MultipathConfig& multipath = config.multipath;
+    const bool exact = multipath.method == MultipathMethod::exact;
+    settings.multipath = {.on = multipath.method != MultipathMethod::none,
+                          .cluster = {.epsilon_bins = exact ? 0 : multipath.epsilon_bins,
+                                      .delta_cosine = cosine(multipath.delta_deg)}};
+    settings.streaks = {.mode = config.streaks.mode,
+                        .threshold = static_cast<float>(config.streaks.threshold),
+                        .least_cosine = cosine(config.streaks.angle_deg)};
+    settings.range_noise = {.lambda_m = static_cast<float>(noise.range_lambda_m),
+                            .scatterer_m = static_cast<float>(noise.scatterer_m),
+                            .fades = kind.range_noise_fades};
+    settings.pixel_noise = {.gain = static_cast<float>(kind.gain),
+                            .add_sigma = static_cast<float>(noise.add_sigma),
+                            .mult_sigma = static_cast<float>(noise.mult_sigma),
+                            .range_scale = std::vector<float>(config.range_bins, 1.0F),
+                            .lobe_scale = std::vector<float>(beams, 1.0F)};
     if (noise.scale_with_range) {
         for (int i = 0; i < config.range_bins; ++i) {
             const double middle = 0.5 * (sonar.range_edges_m[i] + sonar.range_edges_m[i + 1]);

@@ -30,7 +30,7 @@ std::uint32_t stream_of(std::string_view sensor_name);
 Sonar common_sonar(const SonarConfig& config, const AccuracyConfig& accuracy,
                    const KindOfSonar& kind);
 
-/// The lobe of [10] over the beams of a fan, 1 + 0.5 exp(-phi^2 / (2 sigma^2)), if the mission
+/// The lobe of Eq. 10 over the beams of a fan, 1 + 0.5 exp(-phi^2 / (2 sigma^2)), if the mission
 /// wants it, and the azimuth edges.
 void add_azimuth(Sonar& sonar);
 

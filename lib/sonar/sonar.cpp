@@ -1,5 +1,7 @@
 #include "sonar/sonar.h"
 
+#include <algorithm>
+
 #include "sonar/kinds.h"
 #include "sonar/setup.h"
 
@@ -12,29 +14,24 @@ Sonar make_sonar(const SonarConfig& config, const AccuracyConfig& accuracy) {
     return sonar;
 }
 
-Ping render_ping(const Sonar& sonar, const Scene& scene, const VisibilityEngine& engine,
-                 const Pose& T_world_vehicle, const PingKey& key) {
-    return run_pipeline(sonar.settings, scene, engine,
-                        sensor_pose(sonar, T_world_vehicle, key.ping), key);
+TracedPing trace(const Sonar& sonar, const Scene& scene, const VisibilityEngine& engine,
+                 const Pose& T_world_vehicle, std::uint32_t pose, const Terms& terms) {
+    return trace_ping(sonar.settings, scene, engine, sensor_pose(sonar, T_world_vehicle, pose),
+                      terms);
 }
 
-std::array<Ping, 5> render_stages(const Sonar& sonar, const Scene& scene,
-                                  const VisibilityEngine& engine, const Pose& T_world_vehicle,
-                                  const PingKey& key) {
-    Sonar pruned = sonar;
-    PingSettings& settings = pruned.settings;
-    const auto render = [&] { return render_ping(pruned, scene, engine, T_world_vehicle, key); };
+Ping render_ping(const Sonar& sonar, const Scene& scene, const VisibilityEngine& engine,
+                 const Pose& T_world_vehicle, const PingKey& key, const Terms& terms) {
+    return form_image(trace(sonar, scene, engine, T_world_vehicle, key.ping, terms), sonar.settings,
+                      scene, key, terms);
+}
+
+std::array<Ping, 5> form_stages(const TracedPing& traced, const Sonar& sonar, const Scene& scene,
+                                const PingKey& key) {
     std::array<Ping, 5> stages;
-    stages[4] = render();
-    settings.streaks.mode = StreakMode::none;
-    stages[3] = render();
-    settings.pixel_noise.gain = 1.0F;
-    settings.pixel_noise.add_sigma = settings.pixel_noise.mult_sigma = 0.0F;
-    stages[2] = render();
-    settings.range_noise.lambda_m = 0.0F;
-    stages[1] = render();
-    settings.multipath.on = false;
-    stages[0] = render();
+    std::ranges::transform(term_by_term, stages.begin(), [&](const Terms& terms) {
+        return form_image(traced, sonar.settings, scene, key, terms);
+    });
     return stages;
 }
 

@@ -11,14 +11,18 @@ namespace sonarsim {
 /// A sonar of the kind that its configuration names, see sonar/kinds.h.
 Sonar make_sonar(const SonarConfig& config, const AccuracyConfig& accuracy);
 
-/// One ping with one term of the model after the other, as in the paper's Fig. 5(d): direct echoes,
-/// plus multipath, plus range noise, plus pixel noise, plus streaks. The last is the ping itself. A
-/// term that the sonar does not use changes nothing.
-std::array<Ping, 5> render_stages(const Sonar& sonar, const Scene& scene,
-                                  const VisibilityEngine& engine, const Pose& T_world_vehicle,
-                                  const PingKey& key);
+/// What the sonar sees from a pose of its vehicle; `pose` is the pose's index on the trajectory, by
+/// which a head turns.
+TracedPing trace(const Sonar& sonar, const Scene& scene, const VisibilityEngine& engine,
+                 const Pose& T_world_vehicle, std::uint32_t pose, const Terms& terms = {});
 
+/// Traces a ping and forms its image.
 Ping render_ping(const Sonar& sonar, const Scene& scene, const VisibilityEngine& engine,
-                 const Pose& T_world_vehicle, const PingKey& key);
+                 const Pose& T_world_vehicle, const PingKey& key, const Terms& terms = {});
+
+/// A traced ping with one term of the model after the other, `term_by_term`. The last is the ping
+/// itself. A term that the sonar does not use changes nothing.
+std::array<Ping, 5> form_stages(const TracedPing& traced, const Sonar& sonar, const Scene& scene,
+                                const PingKey& key);
 
 }  // namespace sonarsim

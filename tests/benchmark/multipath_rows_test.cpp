@@ -153,28 +153,4 @@ TEST_CASE("the ladder of multipath holds the mission's own way once") {
     CHECK(rows[0].current);
 }
 
-TEST_CASE("the multipath image is what multipath adds where nothing else is") {
-    const Mission mission = corner_mission({MultipathMethod::cluster, 5, 5.0});
-    const Assembly assembly = corner_assembly(mission);
-    const Sonar& sonar = assembly.sonars[0];
-    const auto engine =
-        make_engine(assembly.scene, engine_settings(mission.engine, mission.octree));
-    const Pose& pose = assembly.trajectory[0].T_world_vehicle;
-    Sonar both = direct_echoes_only(sonar);
-    const Ping direct = render_ping(both, assembly.scene, *engine, pose, {});
-    both.settings.multipath.on = true;
-    const Ping ping = render_ping(both, assembly.scene, *engine, pose, {});
-    const std::vector<float> image = multipath_image(sonar, assembly.scene, *engine, pose);
-    int alone = 0;
-    for (int j = 0; j < ping.beams; ++j) {
-        for (int i = 0; i < ping.range_bins; ++i) {
-            if (direct.at(i, j) > 0.0F) continue;
-            const float bounced = image[static_cast<std::size_t>(j) * ping.range_bins + i];
-            REQUIRE(ping.at(i, j) == bounced);
-            alone += bounced > 0.0F;
-        }
-    }
-    CHECK(alone > 10);
-}
-
 TEST_SUITE_END();

@@ -8,7 +8,6 @@
 #include "mission/resolved.h"
 #include "sonar/kinds.h"
 #include "support/small_mission.h"
-#include "visibility/rays/rays_engine.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;
@@ -76,8 +75,8 @@ TEST_SUITE("dataset") {
         ping.counts.samples = 11;
         ping.counts.dropped_samples = 14;
         ping.counts.negative_pixels = 12;
-        const auto engine = make_rays_engine(assembly.scene);
-        const FinishedPing finished{{3, 0}, ping, *engine, Json(), 13};
+        const TracedPing traced;
+        const FinishedPing finished{{3, 0}, traced, ping, Json(), 13};
         const Json json = Json::parse(json_text(describe_ping(mission, assembly, finished)));
         CHECK(json.at("sensor") == "front");
         CHECK(json.at("settings") == "mission.resolved.yaml#/sensors/front");

@@ -49,7 +49,8 @@ TEST_SUITE_BEGIN("ping");
 TEST_CASE("range noise is exponential of the stated mean and fades as exp(-w / lambda)") {
     constexpr float lambda = 0.1F;
     Echoes echoes = row_of_cells(100000);
-    add_range_noise(echoes, lambda, true, stream_key(1, 2, 3, Stream::range_noise));
+    add_range_noise(echoes, {.lambda_m = lambda, .fades = true},
+                    stream_key(1, 2, 3, Stream::range_noise));
     std::vector<double> w;
     for (std::size_t k = 0; k < echoes.size(); ++k) {
         const double late = echoes.range_m[k] - 5.0;
@@ -64,7 +65,8 @@ TEST_CASE("range noise is exponential of the stated mean and fades as exp(-w / l
 
 TEST_CASE("range noise that does not fade keeps the intensity") {
     Echoes echoes = row_of_cells(1000);
-    add_range_noise(echoes, 0.1F, false, stream_key(1, 2, 3, Stream::range_noise));
+    add_range_noise(echoes, {.lambda_m = 0.1F, .fades = false},
+                    stream_key(1, 2, 3, Stream::range_noise));
     for (std::size_t k = 0; k < echoes.size(); ++k)
         CHECK(echoes.intensity[k] == 1.0F);
 }
@@ -74,8 +76,8 @@ TEST_CASE("one cell has one draw, whatever the order and number of its echoes") 
     Echoes forward = row_of_cells(500);
     Echoes backward = row_of_cells(500);
     std::reverse(backward.cell_x.begin(), backward.cell_x.end());
-    add_range_noise(forward, 0.2F, true, key);
-    add_range_noise(backward, 0.2F, true, key);
+    add_range_noise(forward, {.lambda_m = 0.2F, .fades = true}, key);
+    add_range_noise(backward, {.lambda_m = 0.2F, .fades = true}, key);
     for (int k = 0; k < 500; ++k)
         CHECK(forward.range_m[k] == backward.range_m[499 - k]);
 }
@@ -85,8 +87,8 @@ TEST_CASE("neighbouring cells and successive pings are uncorrelated") {
     std::vector<double> now, next;
     Echoes a = row_of_cells(n);
     Echoes b = row_of_cells(n);
-    add_range_noise(a, 1.0F, true, stream_key(1, 2, 3, Stream::range_noise));
-    add_range_noise(b, 1.0F, true, stream_key(1, 2, 4, Stream::range_noise));
+    add_range_noise(a, {.lambda_m = 1.0F, .fades = true}, stream_key(1, 2, 3, Stream::range_noise));
+    add_range_noise(b, {.lambda_m = 1.0F, .fades = true}, stream_key(1, 2, 4, Stream::range_noise));
     double neighbours = 0.0;
     double pings = 0.0;
     for (int k = 0; k + 1 < n; ++k) {

@@ -56,25 +56,4 @@ TEST_CASE("streaks come from walls seen face on") {
     CHECK(rows(0.0F) == 0);
 }
 
-TEST_CASE("the stages of a ping end with the ping, and each adds one term") {
-    SonarConfig config;
-    config.name = "fls";
-    config.multipath.method = MultipathMethod::cluster;
-    config.noise.range_lambda_m = 0.04;
-    config.noise.add_sigma = 0.08;
-    config.streaks.mode = StreakMode::add;
-    const Scene scene = tank();
-    const auto engine = make_rays_engine(scene);
-    const Pose pose{Eigen::Quaterniond::Identity(), {-3.0, 0.0, 1.5}};
-    const Sonar sonar = make_sonar(config, {});
-    const auto stages = render_stages(sonar, scene, *engine, pose, {7, 3});
-    CHECK(stages[4].intensity == render_ping(sonar, scene, *engine, pose, {7, 3}).intensity);
-    for (int k = 0; k < 4; ++k)
-        CHECK(stages[k].intensity != stages[k + 1].intensity);
-    CHECK(stages[0].counts.multipath.rays == 0);
-    CHECK(stages[1].counts.multipath.bounces > 0);
-    CHECK(stages[3].counts.streak_rows == 0);
-    CHECK(stages[4].counts.streak_rows > 0);
-}
-
 TEST_SUITE_END();

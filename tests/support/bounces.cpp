@@ -8,11 +8,19 @@
 namespace sonarsim::test {
 
 View fan(double azimuth_deg, double elevation_deg) {
-    return {radians(azimuth_deg), radians(elevation_deg), 0.5, 10.0, 512, 128, 0.03};
+    return {.azimuth_rad = radians(azimuth_deg),
+            .elevation_rad = radians(elevation_deg),
+            .range_min_m = 0.5,
+            .range_max_m = 10.0,
+            .range_bins = 512,
+            .beams = 128,
+            .relative_l1 = 0.03};
 }
 
 Multipath clusters_of(int epsilon, double delta_deg) {
-    return {true, {epsilon, static_cast<float>(std::cos(radians(delta_deg)))}};
+    return {.on = true,
+            .cluster = {.epsilon_bins = epsilon,
+                        .delta_cosine = static_cast<float>(std::cos(radians(delta_deg)))}};
 }
 
 Found find(const Scene& scene, const View& view, const Multipath& multipath, const Pose& pose) {

@@ -26,11 +26,10 @@ class StagesWriter final : public Writer {
     }
 
     std::string encode(const FinishedPing& finished) const override {
-        const auto& [mission, assembly, sensor, pings] = context_;
-        const std::uint32_t pose = finished.id.pose;
+        const Mission& mission = context_.mission;
         const std::array<Ping, panels> stages =
-            render_stages(context_.sonar(), assembly.scene, finished.engine,
-                          assembly.trajectory[pose].T_world_vehicle, {mission.seed, pose});
+            form_stages(finished.traced, context_.sonar(), context_.assembly.scene,
+                        {mission.seed, finished.id.pose});
         return png_bytes(render_panels(map_, stages, mission.output.full_scale),
                          panels * map_.frame.width, map_.frame.height);
     }

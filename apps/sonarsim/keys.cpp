@@ -1,0 +1,73 @@
+#include <spdlog/fmt/fmt.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "commands.h"
+#include "logging.h"
+#include "mission/reference.h"
+#include "sonar/kinds.h"
+
+namespace sonarsim {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Numbers, flags and lists as they are, anything else as text.
+Json value_json(const std::string& yaml) {
+    Json value = Json::parse(yaml, nullptr, false);
+    return value.is_discarded() ? Json(yaml) : value;
+}
+
+Json key_json(const KeyReference& key) {
+    Json json{{"name", key.name}, {"type", key.type}};
+    if (!key.unit.empty()) json["unit"] = key.unit;
+    json["required"] = key.required;
+    for (const auto& [kind, value] : key.defaults) {
+        if (kind.empty()) {
+            json["default"] = value_json(value);
+        } else {
+            json["default_by_kind"][kind] = value_json(value);
+        }
+    }
+    if (key.limits) {
+        json["low"] = key.limits->low;
+        json["low_allowed"] = key.limits->low_allowed;
+        json["high"] = key.limits->high;
+    }
+    if (!key.choices.empty()) json["choices"] = key.choices;
+    json["meaning"] = key.meaning;
+    return json;
+}
+
+Json reference_json(const std::vector<SectionReference>& sections) {
+    Json json = Json::array();
+    for (const SectionReference& section : sections) {
+        Json keys = Json::array();
+        for (const KeyReference& key : section.keys)
+            keys.push_back(key_json(key));
+        json.push_back({{"path", section.path},
+                        {"form", section.form},
+                        {"keys", keys},
+                        {"checks", section.checks}});
+    }
+    return json;
+}
+
+}  // namespace
+
+void add_keys(CLI::App& app, int& exit_code) {
+    CLI::App& command = *app.add_subcommand(
+        "keys", "Prints every key of a mission with its default, range and meaning");
+    auto json = std::make_shared<bool>(false);
+    command.add_flag("--json", *json, "As JSON instead of Markdown");
+    command.callback([json, &exit_code] {
+        const std::vector<SectionReference> sections = mission_reference(sonar_keys());
+        fmt::print("{}",
+                   *json ? json_line(reference_json(sections)) : reference_markdown(sections));
+        exit_code = exit_done;
+    });
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,279 @@
+#include "mission/reference.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <initializer_list>
+#include <iterator>
+#include <string_view>
+#include <variant>
+
+#include "core/text.h"
+#include "mission/schema.h"
+
+namespace sonarsim {
+
+namespace {
+
+std::string unit_of(std::string_view key) {
+    using Unit = std::pair<std::string_view, const char*>;
+    // Longer endings first: a speed ends in _m_s and a length in _m.
+    constexpr std::array units{Unit{"_kg_m3", "kg/m^3"}, Unit{"_m_s", "m/s"}, Unit{"_deg", "deg"},
+                               Unit{"_hz", "Hz"},        Unit{"_mb", "MiB"},  Unit{"_px", "pixels"},
+                               Unit{"_m", "m"}};
+    for (const auto& [ending, unit] : units) {
+        if (key.ends_with(ending)) return unit;
+    }
+    return "";
+}
+
+/// The visitor that notes down what it is told of every key. It visits a sonar once for each kind
+/// and a trajectory once for each form.
+class KeyCollector {
+  public:
+    explicit KeyCollector(SonarKeyTable sonars) : sonars_(sonars) {}
+
+    std::vector<SectionReference> sections{{}};
+
+    void number(const char* key, double value, const Limits& limits, const char* meaning,
+                Presence presence = Presence::optional) {
+        add(key, "number", number_text(value), meaning, presence).limits = limits;
+    }
+    void number_or_auto(const char* key, double, const Limits& limits, const char* meaning) {
+        KeyReference& row = add(key, "number", "auto", meaning);
+        row.limits = limits;
+        row.choices = {"auto"};
+    }
+    void integer(const char* key, int value, const Limits& limits, const char* meaning) {
+        add(key, "whole number", std::to_string(value), meaning).limits = limits;
+    }
+    void integer(const char* key, std::uint64_t value, const char* meaning) {
+        // The largest double that is a 64-bit number.
+        const double largest = std::nextafter(std::ldexp(1.0, 64), 0.0);
+        add(key, "whole number", std::to_string(value), meaning).limits = between(0, largest);
+    }
+    void flag(const char* key, bool value, const char* meaning) {
+        add(key, "true or false", value ? "true" : "false", meaning);
+    }
+    void text(const char* key, const std::string&, const char* meaning) {
+        add(key, "text", "", meaning);
+    }
+    void path(const char* key, const std::filesystem::path&, const char* meaning,
+              Presence presence = Presence::optional) {
+        add(key, "path", "", meaning, presence);
+    }
+
+    template <std::size_t N>
+    void numbers(const char* key, const std::array<double, N>& values, const Limits& limits,
+                 const char* meaning, Presence presence = Presence::optional) {
+        std::string list;
+        for (const double value : values)
+            list += (list.empty() ? "[" : ", ") + number_text(value);
+        add(key, std::to_string(N) + " numbers", list + "]", meaning, presence).limits = limits;
+    }
+
+    template <class T, std::size_t N>
+    void choice(const char* key, const T& value, const std::array<Choice<T>, N>& choices,
+                const char* meaning, Presence presence = Presence::optional) {
+        std::vector<std::string> names;
+        std::string chosen;
+        for (const Choice<T>& one : choices) {
+            names.emplace_back(one.name);
+            if (one.value == value) chosen = one.name;
+        }
+        add(key, "choice", chosen, meaning, presence).choices = std::move(names);
+    }
+
+    const SonarKeys& sonar_kind(const char* key, const SonarConfig& value, const char* meaning) {
+        std::vector<std::string> names;
+        for (const SonarKeys& one : sonars_)
+            names.emplace_back(one.name);
+        const auto keys = std::ranges::find(sonars_, value.kind, &SonarKeys::kind);
+        add(key, "choice", std::string(keys->name), meaning, required).choices = std::move(names);
+        return *keys;
+    }
+
+    template <class T>
+    void section(const char* key, T& value, const char* meaning,
+                 Presence presence = Presence::optional) {
+        add(key, "section", "", meaning, presence);
+        enter(path_below(key), value);
+    }
+
+    /// A section that has several forms.
+    template <class... T>
+    void section(const char* key, std::variant<T...>& value, const char* meaning,
+                 Presence presence = Presence::optional) {
+        add(key, "section", "", meaning, presence);
+        ((value.template emplace<T>(), enter(path_below(key), value)), ...);
+    }
+
+    template <class T>
+    void list(const char* key, std::vector<T>&, std::size_t fewest, const char* meaning) {
+        const std::string type = "list of " + std::to_string(fewest) + " or more";
+        add(key, type, "", meaning, required);
+        T item;
+        enter(path_below(key) + ".0", item);
+    }
+
+    void named(const char* key, std::vector<SonarConfig>&, const char* meaning) {
+        add(key, "section per name", "", meaning, required);
+        for (const SonarKeys& kind : sonars_) {
+            SonarConfig sonar = kind.defaults;
+            kind_ = kind.name;
+            enter(path_below(key) + ".NAME", sonar);
+            kind_.clear();
+        }
+    }
+
+    template <class... T>
+    void one_of(const std::variant<T...>& value,
+                const std::array<const char*, sizeof...(T)>& keys) {
+        current_ = index_of(sections[current_].path, keys[value.index()]);
+    }
+
+    void require(bool, std::initializer_list<const char*>, const char* message) {
+        std::vector<std::string>& checks = sections[current_].checks;
+        if (std::ranges::find(checks, message) == checks.end()) checks.emplace_back(message);
+    }
+
+  private:
+    /// The key's entry in the current section. What a kind of sonar met before told of it stays.
+    KeyReference& add(const char* key, std::string type, std::string value, const char* meaning,
+                      Presence presence = Presence::optional) {
+        std::vector<KeyReference>& keys = sections[current_].keys;
+        auto row = std::ranges::find(keys, key, &KeyReference::name);
+        if (row == keys.end()) {
+            // A key that only a later kind of sonar has belongs where that kind has it.
+            const auto before = std::ranges::find(keys, last_key_, &KeyReference::name);
+            row = keys.insert(before == keys.end() ? before : std::next(before),
+                              {.name = key,
+                               .type = std::move(type),
+                               .unit = unit_of(key),
+                               .required = presence == Presence::required,
+                               .defaults = {},
+                               .limits = {},
+                               .choices = {},
+                               .meaning = meaning});
+        }
+        last_key_ = key;
+        if (!row->required && !value.empty()) row->defaults.emplace_back(kind_, std::move(value));
+        return *row;
+    }
+
+    std::string path_below(std::string_view key) const {
+        const std::string& path = sections[current_].path;
+        return path.empty() ? std::string(key) : path + "." + std::string(key);
+    }
+
+    std::size_t index_of(const std::string& path, const std::string& form) {
+        for (std::size_t i = 0; i < sections.size(); ++i) {
+            if (sections[i].path == path && sections[i].form == form) return i;
+        }
+        sections.push_back({.path = path, .form = form, .keys = {}, .checks = {}});
+        return sections.size() - 1;
+    }
+
+    template <class T>
+    void enter(const std::string& path, T& value) {
+        const std::size_t above = current_;
+        current_ = index_of(path, "");
+        describe(*this, value);
+        current_ = above;
+    }
+
+    std::size_t current_ = 0;  ///< in `sections`
+    SonarKeyTable sonars_;
+    std::string kind_;      ///< of the sonar that is visited
+    std::string last_key_;  ///< that was visited
+};
+
+/// Without the plus and the zeros that C++ puts before an exponent: 1e9, not 1e+09.
+std::string short_text(double value) {
+    std::string text = number_text(value);
+    const std::size_t e = text.find('e');
+    if (e == std::string::npos) return text;
+    std::string exponent = text.substr(e + 1);
+    const bool negative = exponent[0] == '-';
+    exponent.erase(0, exponent.find_first_of("123456789"));
+    return text.substr(0, e + 1) + (negative ? "-" : "") + exponent;
+}
+
+std::string range_text(const KeyReference& key) {
+    std::string text;
+    if (key.limits) {
+        const Limits& limits = *key.limits;
+        text = (limits.low_allowed ? "" : "above ") + short_text(limits.low) + " to ";
+        text += limits.high > 1e18 ? "2^64 - 1" : short_text(limits.high);
+    }
+    for (const std::string& choice : key.choices)
+        text += (text.empty() ? "`" : ", `") + choice + "`";
+    return text;
+}
+
+/// "120 (imaging, profiling), 170 (sidescan)", or the value alone where it holds for every kind.
+std::string default_text(const KeyReference& key, std::size_t kinds) {
+    if (key.required) return "required";
+    if (key.defaults.empty()) return "";
+    std::vector<std::pair<std::string, std::string>> kinds_by_value;
+    for (const auto& [kind, value] : key.defaults) {
+        const auto same =
+            std::ranges::find(kinds_by_value, value, &std::pair<std::string, std::string>::first);
+        if (same == kinds_by_value.end()) {
+            kinds_by_value.emplace_back(value, kind);
+        } else {
+            same->second += ", " + kind;
+        }
+    }
+    const bool for_all = key.defaults.size() == kinds || key.defaults[0].first.empty();
+    const bool bare = for_all && kinds_by_value.size() == 1;
+    std::string text;
+    for (const auto& [value, names] : kinds_by_value) {
+        text += (text.empty() ? "" : ", ") + value + (bare ? "" : " (" + names + ")");
+    }
+    return text;
+}
+
+std::string title(const SectionReference& section) {
+    if (section.path.empty()) return "The mission";
+    return "`" + section.path + "`" + (section.form.empty() ? "" : " with `" + section.form + "`");
+}
+
+}  // namespace
+
+std::vector<SectionReference> mission_reference(SonarKeyTable sonars) {
+    KeyCollector collector(sonars);
+    Mission mission;
+    describe(collector, mission);
+    // A section with several forms has its keys in these.
+    std::erase_if(collector.sections,
+                  [](const SectionReference& section) { return section.keys.empty(); });
+    return collector.sections;
+}
+
+std::string reference_markdown(const std::vector<SectionReference>& sections) {
+    std::size_t kinds = 0;
+    for (const SectionReference& section : sections) {
+        for (const KeyReference& key : section.keys)
+            kinds = std::max(kinds, key.defaults.size());
+    }
+    std::string text;
+    for (const SectionReference& section : sections) {
+        text += (text.empty() ? "### " : "\n### ") + title(section) + "\n\n";
+        text += "| key | type | default | range | meaning |\n|---|---|---|---|---|\n";
+        for (const KeyReference& key : section.keys) {
+            text += "| `" + key.name + "` | " + key.type;
+            text += (key.unit.empty() ? "" : ", " + key.unit) + " | ";
+            text += default_text(key, kinds) + " | ";
+            text += range_text(key) + " | " + key.meaning + " |\n";
+        }
+        if (!section.checks.empty()) text += "\n";
+        for (const std::string& check : section.checks)
+            text += "- " + check + "\n";
+    }
+    return text;
+}
+
+}  // namespace sonarsim

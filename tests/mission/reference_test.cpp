@@ -1,0 +1,95 @@
+#include "mission/reference.h"
+
+#include <algorithm>
+
+#include "mission/fixtures.h"
+#include "mission/resolved.h"
+#include "sonar/kinds.h"
+
+namespace sonarsim {
+
+namespace {
+
+const KeyReference& key_of(const std::vector<SectionReference>& sections, const std::string& path,
+                           const std::string& name, const std::string& form = "") {
+    for (const SectionReference& section : sections) {
+        if (section.path != path || section.form != form) continue;
+        const auto key = std::ranges::find(section.keys, name, &KeyReference::name);
+        REQUIRE(key != section.keys.end());
+        return *key;
+    }
+    FAIL("no section " << path);
+    throw;  // FAIL does not return
+}
+
+using Defaults = std::vector<std::pair<std::string, std::string>>;
+
+}  // namespace
+
+TEST_SUITE_BEGIN("mission");
+
+TEST_CASE("the reference knows limits, units and defaults by the kind of sonar") {
+    const std::vector<SectionReference> sections = mission_reference(sonar_keys());
+    const KeyReference& azimuth = key_of(sections, "sensors.NAME", "azimuth_deg");
+    CHECK(azimuth.unit == "deg");
+    CHECK(
+        azimuth.defaults ==
+        Defaults{{"imaging", "120"}, {"profiling", "120"}, {"sidescan", "170"}, {"scanning", "2"}});
+    REQUIRE(azimuth.limits);
+    CHECK(azimuth.limits->high == 360.0);
+    CHECK(key_of(sections, "sensors.NAME", "opening_deg").defaults ==
+          Defaults{{"echosounder", "30"}});
+    CHECK(key_of(sections, "sensors.NAME", "kind").required);
+    CHECK(key_of(sections, "sensors.NAME.noise", "scatterer_m").defaults.size() == 5);
+    CHECK(key_of(sections, "water", "density_kg_m3").unit == "kg/m^3");
+    CHECK(key_of(sections, "octree", "leaf_m").defaults == Defaults{{"", "auto"}});
+    // One section, three forms.
+    CHECK(key_of(sections, "trajectory", "rate_hz", "file").defaults == Defaults{{"", "0"}});
+    CHECK(key_of(sections, "trajectory", "rate_hz", "waypoints").defaults == Defaults{{"", "10"}});
+    CHECK(key_of(sections, "trajectory.lawnmower", "z_m").required);
+    CHECK(key_of(sections, "trajectory.waypoints.0", "position_m").required);
+}
+
+TEST_CASE("every key has a meaning, and a default unless it is required or free text") {
+    for (const SectionReference& section : mission_reference(sonar_keys())) {
+        for (const KeyReference& key : section.keys) {
+            CAPTURE(section.path);
+            CAPTURE(key.name);
+            CHECK(!key.meaning.empty());
+            const bool free = key.type == "text" || key.type == "path" || key.type == "section";
+            CHECK((key.required || free || !key.defaults.empty()));
+        }
+    }
+}
+
+TEST_CASE("defaults of the reference are what a mission without these keys has") {
+    const Mission mission = parse(smallest_mission, {"output.folder=/o"});
+    std::vector<std::string> settings{"output.folder=/o"};
+    for (const SectionReference& section : mission_reference(sonar_keys())) {
+        if (section.path.starts_with("trajectory")) continue;
+        std::string path = section.path.empty() ? "" : section.path + ".";
+        if (path.starts_with("sensors.NAME")) path.replace(8, 4, "fls");
+        for (const KeyReference& key : section.keys) {
+            for (const auto& [kind, value] : key.defaults) {
+                if (kind.empty() || kind == "imaging")
+                    settings.push_back(path + key.name + "=" + value);
+            }
+        }
+    }
+    CHECK(settings.size() > 40);
+    CHECK(parse(smallest_mission, settings) == mission);
+}
+
+TEST_CASE("a table shows a default once where all kinds share it") {
+    const std::string text = reference_markdown(mission_reference(sonar_keys()));
+    CHECK(text.find("| `every` | whole number | 1 | 1 to 1e9 | ") != std::string::npos);
+    CHECK(text.find("| `azimuth_bins` | whole number | 512 (imaging), 480 (profiling) | 1 to 8192 "
+                    "| ") != std::string::npos);
+    CHECK(text.find("| `rate_hz` | number, Hz | 10 | above 0 to 1e9 | ") != std::string::npos);
+    CHECK(text.find("### `trajectory` with `waypoints`\n") != std::string::npos);
+    CHECK(text.find("- range_min_m must be below range_max_m\n") != std::string::npos);
+}
+
+TEST_SUITE_END();
+
+}  // namespace sonarsim
