@@ -120,7 +120,7 @@ void lose(const std::string& path, const Pending& what) {
     if (fate == 0) return;  // the disk was fast
     if (fate == 1 || what.data_durable) {
         // The name is lost: it stands for what it stood for.
-        what.before ? put_bytes(path, *what.before) : void(unlink(path.c_str()));
+        what.before ? put_bytes(path, *what.before) : void(NEXT(unlink)(path.c_str()));
         return;
     }
     const std::string bytes = bytes_of(path).value_or("");

@@ -80,19 +80,18 @@ output:
     CHECK(std::get<LawnmowerTrajectoryConfig>(mission.trajectory) ==
           LawnmowerTrajectoryConfig{{-1, -2.5}, {10, 3}, -4, 90, 2, 0.5, 20});
     REQUIRE(mission.sensors.size() == 2);
-    CHECK(mission.sensors[0] == SonarConfig{"port-1",
-                                            SonarKind::imaging,
-                                            {{1, 2, 3}, {-4, 5, 6}},
-                                            3,
-                                            60,
-                                            12,
-                                            0.5,
-                                            8,
-                                            100,
-                                            50,
-                                            {},
-                                            {0.04, 0.01, 0.08, 0.15, false, 7},
-                                            {}});
+    SonarConfig port;
+    port.name = "port-1";
+    port.mount = {{1, 2, 3}, {-4, 5, 6}};
+    port.every = 3;
+    port.azimuth_deg = 60;
+    port.elevation_deg = 12;
+    port.range_min_m = 0.5;
+    port.range_max_m = 8;
+    port.range_bins = 100;
+    port.azimuth_bins = 50;
+    port.noise = {0.04, 0.01, 0.08, 0.15, false, 7};
+    CHECK(mission.sensors[0] == port);
     CHECK(mission.sensors[1].name == "2");
     CHECK(mission.accuracy == AccuracyConfig{0.1});
     CHECK(mission.engine == EngineKind::octree);

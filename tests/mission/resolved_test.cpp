@@ -16,26 +16,37 @@ Mission unusual_mission() {
     mission.scene = {"/s p/a'\".glb", "/m/ü.csv"};
     mission.trajectory =
         LawnmowerTrajectoryConfig{{-1.0 / 3.0, 2}, {4, 5e6}, -6.5, 45, 3, 0.1, 1e3};
-    SonarConfig sonar{"null",
-                      SonarKind::imaging,
-                      {{1e-7, -2, 0.1}, {-4, 5, 0.2 + 0.1}},
-                      7,
-                      59.5,
-                      12.25,
-                      0.3,
-                      1.0 / 0.07,
-                      33,
-                      44,
-                      {MultipathMethod::exact, 7, 0.1},
-                      {0.041, 0.013, 1e-300, 0.151, false, 3.5},
-                      {StreakMode::reduce, 0.3, 1.25}};
+    SonarConfig sonar;
+    sonar.name = "null";
+    sonar.mount = {{1e-7, -2, 0.1}, {-4, 5, 0.2 + 0.1}};
+    sonar.every = 7;
+    sonar.azimuth_deg = 59.5;
+    sonar.elevation_deg = 12.25;
+    sonar.range_min_m = 0.3;
+    sonar.range_max_m = 1.0 / 0.07;
+    sonar.range_bins = 33;
+    sonar.azimuth_bins = 44;
+    sonar.multipath = {MultipathMethod::exact, 7, 0.1};
+    sonar.noise = {0.041, 0.013, 1e-300, 0.151, false, 3.5};
+    sonar.streaks = {StreakMode::reduce, 0.3, 1.25};
     mission.sensors = {sonar, sonar};
     mission.sensors[1].name = "-";
     mission.accuracy = {0.0123};
     mission.engine = EngineKind::octree;
     mission.octree = {0.0234, 77, true};
-    mission.output = {"/o", false, false, false, false, true,
-                      99,   0.125, false, false, false, 0.375};
+    mission.output = {.folder = "/o",
+                      .polar = false,
+                      .image = false,
+                      .fan = false,
+                      .meta = false,
+                      .stages = true,
+                      .fan_width_px = 99,
+                      .full_scale = 0.125,
+                      .waterfall = false,
+                      .echogram = false,
+                      .soundings = false,
+                      .scan = false,
+                      .bathymetry_cell_m = 0.375};
     return mission;
 }
 

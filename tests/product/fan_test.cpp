@@ -7,6 +7,7 @@
 #include <random>
 
 #include "core/units.h"
+#include "sonar/sonar.h"
 
 using namespace sonarsim;
 
