@@ -30,6 +30,16 @@ def captioned(picture: Image.Image, text: str) -> Image.Image:
     return out
 
 
+def palette(picture: Image.Image, greys: int = 32, colours: int = 128) -> Image.Image:
+    """An image with a palette of even greys and of the picture's own colours."""
+    steps = [255 * i // (greys - 1) for i in range(greys)]
+    values = [step for step in steps for _ in range(3)]
+    values += picture.quantize(colours).getpalette()[:3 * colours]
+    out = Image.new("P", (1, 1))
+    out.putpalette(values)
+    return out
+
+
 def main() -> int:
     datasets = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else ROOT / "out"
     target = pathlib.Path(sys.argv[2]) if len(sys.argv) > 2 else ROOT / "docs" / "four_sonars.png"
@@ -55,8 +65,8 @@ def main() -> int:
         picture.paste(one, (left, 0))
         left += one.width + GAP
     picture.paste(last, (0, ROW + CAPTION + GAP))
-    # Noise does not compress: few colours keep the file small.
-    picture.quantize(160, dither=Image.Dither.NONE).save(target, optimize=True)
+    # Noise does not compress; a palette with greys of its own keeps the file small and the fan grey.
+    picture.quantize(palette=palette(picture), dither=Image.Dither.NONE).save(target, optimize=True)
     print(f"{target}: {picture.width} x {picture.height}, {target.stat().st_size // 1000} kB")
     return 0
 
