@@ -3,7 +3,7 @@ import pathlib
 import re
 import sys
 
-# What each folder of lib/ may include besides itself (the house rules of the README).
+# What each folder of lib/ may include besides itself (docs/development.md).
 ALLOWED = {
     "core": set(),
     "mission": {"core"},

@@ -36,11 +36,11 @@ struct MountConfig {
 
 /// The random terms of the sonar equations; zero switches a term off.
 struct NoiseConfig {
-    double range_lambda_m = 0.0;   ///< mean of the exponential range noise [7]
+    double range_lambda_m = 0.0;   ///< mean of the exponential range noise, Eq. 7
     double scatterer_m = 0.02;     ///< edge of the cells that share one draw of the range noise
-    double add_sigma = 0.0;        ///< Rayleigh scale of the additive noise [11]
-    double mult_sigma = 0.0;       ///< standard deviation of the multiplicative noise [13]
-    bool scale_with_range = true;  ///< additive noise grows with r^2 and the lobe [10]
+    double add_sigma = 0.0;        ///< Rayleigh scale of the additive noise, Eq. 11
+    double mult_sigma = 0.0;       ///< standard deviation of the multiplicative noise, Eq. 13
+    bool scale_with_range = true;  ///< additive noise grows with r^2 and the lobe, Eq. 10
     double lobe_sigma_deg = 0.0;   ///< width of that lobe; 0 means azimuth_deg / 8
 
     bool operator==(const NoiseConfig&) const = default;
@@ -48,8 +48,8 @@ struct NoiseConfig {
 
 enum class MultipathMethod { none, cluster, exact };
 
-/// Echoes by way of a second surface [1-3]. Off unless a mission asks: they take half as long again
-/// as the rest of a ping.
+/// Echoes by way of a second surface, Eq. 1-3. Off unless a mission asks: they take half as long
+/// again as the rest of a ping.
 struct MultipathConfig {
     MultipathMethod method = MultipathMethod::none;
     int epsilon_bins = 5;  ///< size of a cluster in range, beam and elevation
@@ -62,7 +62,7 @@ struct MultipathConfig {
 
 enum class StreakMode { none, add, reduce };
 
-/// Azimuth streaks [14-15].
+/// Azimuth streaks, Eq. 14-15.
 struct StreaksConfig {
     StreakMode mode = StreakMode::none;
     double threshold = 0.08;  ///< share of a range row's echoes, by area, at normal incidence

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
+
+#include "core/groups.h"
 
 namespace sonarsim {
 
@@ -109,7 +112,7 @@ Clusters cluster_samples(const View& view, const Samples& samples, const Cluster
     }
     const Tiling tiling(view, limits.epsilon_bins);
     ClusterTable table(samples.items.size(), limits.delta_cosine);
-    std::vector<std::uint32_t> cluster(samples.items.size(), none);
+    std::vector<std::uint32_t> cluster(samples.items.size(), no_group);
     for (int j = 0; j < view.beams; ++j) {
         for (std::uint32_t i = samples.beam_begin[j]; i < samples.beam_begin[j + 1]; ++i) {
             const Sample& sample = samples.items[i];
@@ -119,15 +122,9 @@ Clusters cluster_samples(const View& view, const Samples& samples, const Cluster
             cluster[i] = table.cluster_of(tiling.of(sample, range, j), sample.normal);
         }
     }
-    clusters.begin.assign(table.size() + 1, 0);
-    for (const std::uint32_t c : cluster)
-        if (c != none) ++clusters.begin[c + 1];
-    for (std::size_t c = 0; c < table.size(); ++c)
-        clusters.begin[c + 1] += clusters.begin[c];
-    clusters.members.resize(clusters.begin.back());
-    std::vector<std::uint32_t> next(clusters.begin.begin(), clusters.begin.end() - 1);
-    for (std::uint32_t i = 0; i < cluster.size(); ++i)
-        if (cluster[i] != none) clusters.members[next[cluster[i]]++] = i;
+    Groups groups = sort_into_groups(cluster, table.size());
+    clusters.members = std::move(groups.items);
+    clusters.begin = std::move(groups.begin);
     return clusters;
 }
 

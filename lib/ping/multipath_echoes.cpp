@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "core/groups.h"
 #include "ping/footprint.h"
 
 namespace sonarsim {
@@ -73,18 +75,16 @@ void add_pieces(const Bounce& b, const Sample& sample, const View& view,
     out.resize(k);
 }
 
-/// The pieces as arrays, sorted by beam (a counting sort).
+/// The pieces as arrays, sorted by beam.
 MultipathEchoes sorted_by_beam(const std::vector<Piece>& pieces, int beams, bool cells) {
+    std::vector<std::uint32_t> beam(pieces.size());
+    std::ranges::transform(pieces, beam.begin(), &Piece::beam);
+    Groups groups = sort_into_groups(beam, beams);
     MultipathEchoes out;
-    out.beam_begin.assign(beams + 1, 0);
-    for (const Piece& piece : pieces)
-        ++out.beam_begin[piece.beam + 1];
-    for (int j = 0; j < beams; ++j)
-        out.beam_begin[j + 1] += out.beam_begin[j];
-    std::vector<std::uint32_t> next(out.beam_begin.begin(), out.beam_begin.end() - 1);
+    out.beam_begin = std::move(groups.begin);
     out.echoes.resize(pieces.size(), cells);
-    for (const Piece& piece : pieces) {
-        const std::uint32_t k = next[piece.beam]++;
+    for (std::size_t k = 0; k < pieces.size(); ++k) {
+        const Piece& piece = pieces[groups.items[k]];
         out.echoes.range_m[k] = piece.range_m;
         out.echoes.half_m[k] = piece.half_m;
         out.echoes.weight[k] = piece.weight;

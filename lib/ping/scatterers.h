@@ -14,9 +14,17 @@ struct ScattererLattice {
     bool exists() const { return edge_m > 0.0F; }
 };
 
-/// From the sensor frame to the cells of a lattice.
+/// From the sensor frame to the cells of a lattice. Its constructor is inline so that loops that
+/// write echoes keep it in registers: that of one in another file might have kept its address.
 struct CellFrame {
-    explicit CellFrame(const ScattererLattice& lattice);
+    explicit CellFrame(const ScattererLattice& lattice) {
+        // In cells. Planes of a scene often lie on round coordinates. Were faces of cells to
+        // coincide with them, rounding would put neighbouring points into one cell or the other.
+        const Eigen::Vector3f offset(0.381966F, 0.618034F, 0.272019F);
+        const float per_cell = lattice.exists() ? 1.0F / lattice.edge_m : 0.0F;
+        rotation = per_cell * lattice.R_world_sensor;
+        base = per_cell * lattice.sensor + offset;
+    }
 
     Eigen::Matrix3f rotation;  ///< cells per metre
     Eigen::Vector3f base;      ///< the sensor, in cells

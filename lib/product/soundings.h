@@ -22,9 +22,9 @@ struct Sounding {
 /// One sounding per beam, in the order of the beams.
 ///
 /// The peak is sought where noise is equally strong at every range, so the growth of the additive
-/// noise with range [10] is divided out, and in the running mean over three bins, which a speckle
-/// cannot lift far. The range is the centre of mass of the run of bins around the peak that are at
-/// least half as bright. The position lies on the beam's centre, at elevation 0.
+/// noise with range, Eq. 10, is divided out, and in the running mean over three bins, which a
+/// speckle cannot lift far. The range is the centre of mass of the run of bins around the peak that
+/// are at least half as bright. The position lies on the beam's centre, at elevation 0.
 std::vector<Sounding> find_soundings(const Sonar& sonar, const Pose& T_world_vehicle,
                                      const Ping& ping);
 

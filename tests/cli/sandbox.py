@@ -108,11 +108,11 @@ def digest(folder, without=()):
             for p in sorted(folder.rglob("*")) if p.is_file() and p.name not in without}
 
 
-def python_with_matplotlib():
-    """Debian's package belongs to Debian's Python, which need not be the one of the tests."""
+def python_with(module):
+    """Debian's packages belong to Debian's Python, which need not be the one of the tests."""
     for python in (sys.executable, "/usr/bin/python3"):
         try:
-            if subprocess.run([python, "-c", "import matplotlib"], capture_output=True,
+            if subprocess.run([python, "-c", f"import {module}"], capture_output=True,
                               check=False).returncode == 0:
                 return python
         except FileNotFoundError:

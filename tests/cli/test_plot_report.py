@@ -7,13 +7,13 @@ import tempfile
 import unittest
 import xml.etree.ElementTree
 
-from sandbox import python_with_matplotlib
+from sandbox import python_with
 
 SCRIPT = pathlib.Path(__file__).parents[2] / "scripts" / "plot_report.py"
 SVG = "{http://www.w3.org/2000/svg}"
 
 
-PYTHON = python_with_matplotlib()
+PYTHON = python_with("matplotlib")
 
 
 def setting(name, ms, error, front=False, current=False, engine="rays", sensor="fls"):

@@ -5,7 +5,7 @@ import pathlib
 import subprocess
 import unittest
 
-from sandbox import Sandbox, python_with_matplotlib
+from sandbox import Sandbox, python_with
 
 PLOT_REPORT = pathlib.Path(__file__).parents[2] / "scripts" / "plot_report.py"
 
@@ -84,7 +84,7 @@ class Report(Sandbox):
             expected = [12, 48, 192, 768] if g["along"] == "detail" else [12, 108, 300]
             self.assertEqual(g["triangles"], expected)
             self.assertLess(abs(g["exponent"]), 1)
-        if python := python_with_matplotlib():
+        if python := python_with("matplotlib"):
             plotted = subprocess.run([python, PLOT_REPORT, self.folder / "report.json", self.out],
                                      text=True, capture_output=True, timeout=120, check=False)
             self.assertEqual(plotted.returncode, 0, plotted.stderr)

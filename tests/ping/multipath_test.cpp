@@ -206,7 +206,7 @@ TEST_CASE("the exact method is the paper's equations, sample by sample") {
     for (std::size_t i = 0; i < bounce_of.size(); ++i) {
         const Sample& sample = found.samples.items[i];
         const Eigen::Vector3f v = -sample.position.normalized();
-        const Eigen::Vector3f r = -v + 2.0F * sample.normal.dot(v) * sample.normal;  // [1]
+        const Eigen::Vector3f r = -v + 2.0F * sample.normal.dot(v) * sample.normal;  // Eq. 1
         const std::array<Ray, 1> ray{Ray{sample.position + 2e-3F * sample.normal, r}};
         std::array<Intersection, 1> hit;
         engine->intersect(tank_poses()[1], ray, hit);

@@ -104,10 +104,10 @@ class PlainSonar {
             const auto [draw, is_new] = draws.try_emplace({p.bounced, p.cell}, 0.0);
             if (is_new) draw->second = exponential(random);
             const double w = draw->second;
-            const double bin = std::floor((p.range + w - config_.range_min_m) / bin_m());  // [7]
+            const double bin = std::floor((p.range + w - config_.range_min_m) / bin_m());  // Eq. 7
             if (!(bin >= 0.0 && bin < rows)) continue;
             const int row = static_cast<int>(bin);
-            sum[row * beams + p.beam] += p.weight * p.intensity * std::exp(-w / lambda);  // [8]
+            sum[row * beams + p.beam] += p.weight * p.intensity * std::exp(-w / lambda);  // Eq. 8
             weight[row * beams + p.beam] += p.weight;
             if (p.bounced) continue;
             area[row] += p.weight;
@@ -118,17 +118,18 @@ class PlainSonar {
             const double r = (config_.range_min_m + (i + 0.5) * bin_m()) / config_.range_max_m;
             for (int j = 0; j < beams; ++j) {
                 const int k = i * beams + j;
-                const double mean = weight[k] > 0.0 ? sum[k] / weight[k] : 0.0;  // [9]
+                const double mean = weight[k] > 0.0 ? sum[k] / weight[k] : 0.0;  // Eq. 9
                 const double phi = (j + 0.5) / beams - 0.5;                      // of azimuth_deg
                 const double lobe = 1.0 + 0.5 * std::exp(-0.5 * phi * phi * 64.0);
                 const double x = normal(random);
                 const double y = normal(random);
-                const double rayleigh = config_.noise.add_sigma * std::sqrt(x * x + y * y);  // [11]
-                const double mult = 0.5 + config_.noise.mult_sigma * normal(random);         // [13]
+                const double rayleigh =
+                    config_.noise.add_sigma * std::sqrt(x * x + y * y);               // Eq. 11
+                const double mult = 0.5 + config_.noise.mult_sigma * normal(random);  // Eq. 13
                 double value = std::max(0.0, mean * mult + r * r * lobe * rayleigh);  // [10, 12]
                 if (area[i] > 0.0 && area_normal[i] >= config_.streaks.threshold * area[i]) {
                     value = std::min(value, 1.0);
-                    value = 1.0 - (1.0 - value) * (1.0 - value);  // [14]
+                    value = 1.0 - (1.0 - value) * (1.0 - value);  // Eq. 14
                 }
                 image[k] = value;
             }
@@ -165,7 +166,7 @@ class PlainSonar {
             points_.push_back({cell, beam, at.norm(), R * n.dot(v), area, false,
                                n.dot(v) > std::cos(radians(config_.streaks.angle_deg))});
         }
-        // To the other wall and back [1-3].
+        // To the other wall and back, Eq. 1-3.
         const Eigen::Vector3d r = -v + 2.0 * n.dot(v) * n;
         const double t = front ? (wall_y - at.y()) / r.y() : (wall_x - at.x()) / r.x();
         const Eigen::Vector3d p = at + t * r;

@@ -1,0 +1,73 @@
+"""What README.md and docs/mission.md tell a reader to type: the first mission and the Python
+snippets. The snippets need numpy; they are skipped without."""
+import pathlib
+import re
+import subprocess
+import unittest
+
+from sandbox import Sandbox, box_gltf, python_with
+
+ROOT = pathlib.Path(__file__).parents[2]
+README = (ROOT / "README.md").read_text()
+MISSION_PAGE = (ROOT / "docs" / "mission.md").read_text()
+PYTHON = python_with("numpy")
+
+
+def block(page, language):
+    return re.search(rf"```{language}\n(.*?)```", page, re.DOTALL).group(1)
+
+
+class Documents(Sandbox):
+    def run_snippet(self, page, more=""):
+        program = block(page, "python") + more
+        result = subprocess.run([PYTHON, "-c", program], cwd=self.folder, text=True,
+                                capture_output=True, check=False)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return result.stdout
+
+    def render_all_kinds(self, out, *options):
+        """Every kind of sonar, small."""
+        result = self.run_sonarsim("render", ROOT / "tests" / "four_sonars.yaml", "--out", out,
+                                   "--set", "trajectory.rate_hz=0.5", *options)
+        self.assertEqual(result.returncode, 0, result.stderr)
+
+    def first_mission(self):
+        csv = re.search(r"\n    (material,.*)\n    (Hull,.*)\n", README)
+        self.write("materials.csv", csv.group(1) + "\n" + csv.group(2) + "\n")
+        self.write("hull.gltf", box_gltf(material="Hull"))
+        self.write("hull.yaml", block(README, "yaml").replace("hull.glb", "hull.gltf"))
+
+    def test_first_mission_sees_the_mesh(self):
+        self.first_mission()
+        small = ["--set", "trajectory.rate_hz=0.2", "--set", "sensors.fls.range_bins=64",
+                 "--set", "sensors.fls.azimuth_bins=64"]
+        for command in ("validate", "render"):
+            result = self.run_sonarsim(command, "hull.yaml", *small)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertNotIn("warning", result.stderr)
+        self.assertTrue(self.dataset(self.folder / "out" / "hull")["complete"])
+
+    @unittest.skipIf(PYTHON is None, "needs numpy")
+    def test_snippet_of_the_readme_opens_every_kind(self):
+        self.render_all_kinds("out/hull")
+        lines = self.run_snippet(README, "    print(sensor['name'], image.shape)\n")
+        for name in ("fls", "mbes", "sss", "sounder"):
+            self.assertIn(name + " (", lines)
+
+    @unittest.skipIf(PYTHON is None, "needs numpy")
+    def test_snippet_of_the_page_opens_every_kind(self):
+        self.render_all_kinds("out/survey")
+        lines = self.run_snippet(MISSION_PAGE)
+        for name in ("fls", "mbes", "sss", "sounder"):
+            self.assertIn(name + " (", lines)
+
+    @unittest.skipIf(PYTHON is None, "needs numpy")
+    def test_snippets_open_what_little_was_asked_for(self):
+        for folder, page in (("out/hull", README), ("out/survey", MISSION_PAGE)):
+            self.render_all_kinds(folder, "--set", "output.meta=false", "--set",
+                                  "output.polar=false")
+            self.run_snippet(page)
+
+
+if __name__ == "__main__":
+    unittest.main()
