@@ -178,13 +178,17 @@ void remove_leftovers(const Layout& layout, const std::vector<PingId>& todo, boo
     }
 }
 
+void remove_journal_parts(const Layout& layout) {
+    fs::remove_all(layout.folder / journal_folder_name);
+}
+
 void finish_dataset(const Layout& layout, const Json& description, const JournalEntries& entries) {
     write_file_durably(layout.folder / journal_name, journal_text(entries));
     sync_file_system(layout.folder);
     Json finished = description;
     finished["complete"] = true;
     write_file_durably(layout.folder / description_name, json_text(finished));
-    fs::remove_all(layout.folder / journal_folder_name);
+    remove_journal_parts(layout);
 }
 
 }  // namespace sonarsim

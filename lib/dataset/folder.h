@@ -43,6 +43,9 @@ void begin_dataset(const Layout& layout, const CommonFiles& files);
 /// the common files when no other shard may be at work (`alone`).
 void remove_leftovers(const Layout& layout, const std::vector<PingId>& todo, bool alone);
 
+/// Removes the parts of the journal. A run that was cut off just before its end leaves them.
+void remove_journal_parts(const Layout& layout);
+
 /// Writes journal.txt and then dataset.json with `complete` set to true, both durably, after all
 /// else has become durable; then the parts of the journal go.
 void finish_dataset(const Layout& layout, const nlohmann::ordered_json& description,

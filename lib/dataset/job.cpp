@@ -194,13 +194,17 @@ RenderSummary run_job(const Mission& mission, const Assembly& assembly,
                              resolved_yaml(mission, sonar_keys()), write_tum(assembly.trajectory)};
     protect_inputs(layout, mission);
     if (options.overwrite) remove_dataset(layout.folder);
-    const FolderState state = inspect_folder(layout, common.description);
+    const FolderState state =
+        options.overwrite ? FolderState::fresh : inspect_folder(layout, common.description);
     if (state == FolderState::fresh) begin_dataset(layout, common);
     RecordFiles records = open_records(layout);
     Plan plan = make_plan(all, options, FinishedPings(layout, records));
     summary.skipped = plan.skipped;
     summary.complete = state == FolderState::complete && plan.todo.empty() && has_products(layout);
-    if (summary.complete) return summary;
+    if (summary.complete) {
+        remove_journal_parts(layout);
+        return summary;
+    }
 
     if (state != FolderState::fresh) {
         begin_dataset(layout, common);

@@ -219,6 +219,7 @@ void describe(Visitor& v, OutputConfig& c) {
     v.flag("echogram", c.echogram, "write the echograms of echosounders");
     v.flag("soundings", c.soundings,
            "write the soundings of profiling sonars and the map made of them");
+    v.flag("scan", c.scan, "write the scans of scanning sonars");
     v.number("bathymetry_cell_m", c.bathymetry_cell_m, at_least(0),
              "cell of the map of soundings; 0 means four soundings to a cell or more on average");
 }

@@ -15,7 +15,7 @@ void measure_depth(const PingView& view, nlohmann::ordered_json& json) {
 
 /// An echosounder (section VI): one beam, a cone of half-angle opening / 2. Its range noise does
 /// not fade. Looks down.
-KindOfSonar echosounder() {
+KindOfSonar echosounder_kind() {
     SonarConfig defaults;
     defaults.kind = SonarKind::echosounder;
     defaults.range_min_m = 0.5;

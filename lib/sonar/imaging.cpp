@@ -4,7 +4,7 @@
 namespace sonarsim {
 
 /// A multibeam imaging sonar (section III): range by azimuth, elevation is lost. Looks forward.
-KindOfSonar imaging() {
+KindOfSonar imaging_kind() {
     SonarConfig defaults;
     defaults.kind = SonarKind::imaging;
     return {.keys = {.kind = SonarKind::imaging,

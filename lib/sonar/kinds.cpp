@@ -7,11 +7,7 @@ namespace sonarsim {
 
 const std::vector<KindOfSonar>& kinds_of_sonar() {
     static const std::vector<KindOfSonar> kinds = {
-        imaging(),
-        profiling(),
-        sidescan(),
-        echosounder(),
-        scanning(),
+        imaging_kind(), profiling_kind(), sidescan_kind(), echosounder_kind(), scanning_kind(),
     };
     return kinds;
 }

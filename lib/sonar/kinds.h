@@ -44,11 +44,11 @@ struct KindOfSonar {
 };
 
 // One file each.
-KindOfSonar imaging();
-KindOfSonar profiling();
-KindOfSonar sidescan();
-KindOfSonar echosounder();
-KindOfSonar scanning();
+KindOfSonar imaging_kind();
+KindOfSonar profiling_kind();
+KindOfSonar sidescan_kind();
+KindOfSonar echosounder_kind();
+KindOfSonar scanning_kind();
 
 /// Every kind, in the order in which messages name them.
 const std::vector<KindOfSonar>& kinds_of_sonar();

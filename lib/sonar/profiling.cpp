@@ -20,7 +20,7 @@ void measure_soundings(const PingView& view, nlohmann::ordered_json& json) {
 
 /// A multibeam profiling sonar (section V): an imaging sonar whose elevation is so narrow that it
 /// makes one bin. Looks down.
-KindOfSonar profiling() {
+KindOfSonar profiling_kind() {
     SonarConfig defaults;
     defaults.kind = SonarKind::profiling;
     defaults.elevation_deg = 1.0;

@@ -24,7 +24,7 @@ void measure_head(const PingView& view, nlohmann::ordered_json& json) {
 /// step from ping to ping, all the way round or to and fro over a sector. Looks forward, the head
 /// turns about the vertical. The paper has none. Defaults are those of the Ping360's data sheet
 /// (Blue Robotics): beam 2 x 25 degrees, from 0.75 m, 400 steps to the turn.
-KindOfSonar scanning() {
+KindOfSonar scanning_kind() {
     SonarConfig defaults;
     defaults.kind = SonarKind::scanning;
     defaults.azimuth_deg = 2.0;

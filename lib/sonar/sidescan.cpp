@@ -17,7 +17,7 @@ void measure_first_returns(const PingView& view, nlohmann::ordered_json& json) {
 
 /// A side-scan sonar (section IV): two beams, starboard and port, of range bins alone. No range
 /// noise. Looks down.
-KindOfSonar sidescan() {
+KindOfSonar sidescan_kind() {
     SonarConfig defaults;
     defaults.kind = SonarKind::sidescan;
     defaults.azimuth_deg = 170.0;

@@ -53,7 +53,7 @@ TEST_CASE("sections that are none") {
 TEST_CASE("the kind of a sonar") {
     const std::string before =
         "scene: {file: a, materials: b}\ntrajectory: {file: c}\nsensors: {x: {kind: ";
-    const std::string known = "imaging, profiling, sidescan, echosounder";
+    const std::string known = "imaging, profiling, sidescan, echosounder, scanning";
     CHECK(refusal(before + "imagin}}\n") ==
           "m.yaml:3:21: unknown kind 'imagin' (did you mean 'imaging'?); known: " + known);
     CHECK(refusal(before + "radar}}\n") == "m.yaml:3:21: unknown kind 'radar'; known: " + known);

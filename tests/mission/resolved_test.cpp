@@ -127,6 +127,7 @@ output:
   waterfall: true
   echogram: true
   soundings: true
+  scan: true
   bathymetry_cell_m: 0
 )");
 }

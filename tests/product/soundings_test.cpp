@@ -8,6 +8,7 @@
 #include "core/units.h"
 #include "product/bathymetry.h"
 #include "sonar/kinds.h"
+#include "sonar/sonar.h"
 
 using namespace sonarsim;
 
