@@ -31,12 +31,22 @@ namespace {
 
 /// What one ping left behind besides its files.
 struct PingReport {
+    std::size_t sensor;
     PingCounts counts;
     PingSeconds seconds;
+    float brightest = 0.0F;
     double encode_seconds = 0.0;
     double write_seconds = 0.0;
     std::uint64_t clipped_pixels = 0;
 };
+
+void add(SensorSummary& sensor, const PingReport& report) {
+    ++sensor.pings;
+    sensor.dark_pings += report.counts.occupied_bins == 0;
+    sensor.counts += report.counts;
+    sensor.clipped_pixels += report.clipped_pixels;
+    sensor.brightest = std::max(sensor.brightest, report.brightest);
+}
 
 void add(RenderSummary& summary, const PingReport& report) {
     ++summary.pings;
@@ -45,6 +55,7 @@ void add(RenderSummary& summary, const PingReport& report) {
     summary.write_seconds += report.write_seconds;
     summary.counts += report.counts;
     summary.clipped_pixels += report.clipped_pixels;
+    add(summary.sensors[report.sensor], report);
 }
 
 void check(const RenderOptions& options) {
@@ -155,8 +166,8 @@ void render(const Mission& mission, const Assembly& assembly, const std::vector<
             trace(sonar, assembly.scene, *engine, assembly.trajectory[id.pose].T_world_vehicle);
         const Ping ping =
             form_image(traced, sonar.settings, assembly.scene, {mission.seed, id.pose});
-        PingReport report{ping.counts, ping.seconds};
-        brightest_pixel(ping, sonar.config.name, id.pose);
+        PingReport report{id.sensor, ping.counts, ping.seconds,
+                          brightest_pixel(ping, sonar.config.name, id.pose)};
         if (to) write_ping({mission, assembly, *engine}, *to, fans, id, traced, ping, report);
         return report;
     };
@@ -174,6 +185,7 @@ RenderSummary run_job(const Mission& mission, const Assembly& assembly,
     tbb::task_arena arena(threads);
     const std::vector<PingId> all = list_pings(mission, assembly.trajectory.size());
     RenderSummary summary;
+    summary.sensors.resize(assembly.sonars.size());
     const auto render_all = [&](const std::vector<PingId>& todo, const Destination* to) {
         arena.execute(
             [&] { render(mission, assembly, todo, to, threads, progress, stop, summary); });
