@@ -11,6 +11,8 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "core/text.h"
+
 namespace sonarsim {
 
 namespace {
@@ -23,6 +25,26 @@ std::string start_of_line() {
 std::string_view view(const spdlog::string_view_t& text) {
     return {text.data(), text.size()};
 }
+
+/// A pattern, for messages that name what a file named: control characters are shown, not sent.
+class TextFormatter : public spdlog::formatter {
+  public:
+    explicit TextFormatter(std::string pattern) : pattern_(std::move(pattern)), line_(pattern_) {}
+
+    void format(const spdlog::details::log_msg& message, spdlog::memory_buf_t& out) override {
+        const std::string text = printable(view(message.payload));
+        spdlog::details::log_msg shown = message;
+        shown.payload = text;
+        line_.format(shown, out);
+    }
+    std::unique_ptr<spdlog::formatter> clone() const override {
+        return std::make_unique<TextFormatter>(pattern_);
+    }
+
+  private:
+    std::string pattern_;
+    spdlog::pattern_formatter line_;
+};
 
 class JsonFormatter : public spdlog::formatter {
   public:
@@ -58,7 +80,7 @@ void start_logging(const LogOptions& options) {
     if (options.json) {
         logger->set_formatter(std::make_unique<JsonFormatter>());
     } else {
-        logger->set_pattern(start_of_line() + "%^%l%$: %v");
+        logger->set_formatter(std::make_unique<TextFormatter>(start_of_line() + "%^%l%$: %v"));
     }
     logger->set_level(options.quiet ? spdlog::level::warn : spdlog::level::from_str(options.level));
     spdlog::set_default_logger(std::move(logger));

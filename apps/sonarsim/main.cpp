@@ -13,6 +13,7 @@
 #include "commands.h"
 #include "core/error.h"
 #include "logging.h"
+#include "usage.h"
 
 namespace {
 
@@ -35,6 +36,7 @@ int run(int argc, char** argv) {
     app.name("sonarsim");
     app.set_version_flag("--version", "sonarsim " SONARSIM_VERSION);
     app.require_subcommand(1);
+    app.failure_message(usage_message);
     int exit_code = exit_done;
     add_render(app, exit_code);
     add_validate(app, exit_code);

@@ -10,6 +10,7 @@
 
 #include "commands.h"
 #include "core/text.h"
+#include "dataset/image_warnings.h"
 #include "dataset/job.h"
 #include "logging.h"
 #include "mission_options.h"
@@ -62,7 +63,8 @@ void print_table(const RenderSummary& summary) {
     }
 }
 
-void print_json(const RenderSummary& summary) {
+void print_json(const RenderSummary& summary, const Mission& mission,
+                const std::vector<std::string>& warnings) {
     using Json = nlohmann::ordered_json;
     Json thread_seconds = json_object<Json>(ping_timers, summary.stages);
     thread_seconds["encode"] = summary.encode_seconds;
@@ -77,6 +79,13 @@ void print_json(const RenderSummary& summary) {
     json["samples"] = summary.counts.samples;
     json["echoes"] = summary.counts.echoes;
     json["clipped_pixels"] = summary.clipped_pixels;
+    for (std::size_t i = 0; i < summary.sensors.size(); ++i) {
+        const SensorSummary& sensor = summary.sensors[i];
+        json["sensors"][mission.sensors[i].name] = {{"pings", sensor.pings},
+                                                    {"dark_pings", sensor.dark_pings},
+                                                    {"brightest", sensor.brightest}};
+    }
+    json["warnings"] = warnings;
     fmt::print("{}", json_line(json));
 }
 
@@ -98,14 +107,7 @@ void comment(const RenderSummary& summary, const Mission& mission, bool files) {
     } else if (files && !summary.stopped) {
         spdlog::info("{}: the pings of other shards are still missing", folder);
     }
-    if (summary.pings > 0 && summary.counts.echoes == 0) {
-        spdlog::warn("no sonar saw any surface within its range and field of view");
-    }
     log_dropped(summary.counts);
-    if (summary.clipped_pixels > 0) {
-        spdlog::warn("{} pixels are above output.full_scale ({}) and white in the PNG files",
-                     summary.clipped_pixels, mission.output.full_scale);
-    }
 }
 
 int render(RenderArguments arguments) {
@@ -127,7 +129,10 @@ int render(RenderArguments arguments) {
             [&](std::uint64_t done, std::uint64_t total) { line.show(done, total); }, stop);
     }
     comment(summary, mission, arguments.render.files);
-    if (!quiet) arguments.log.json ? print_json(summary) : print_table(summary);
+    const std::vector<std::string> warnings = image_warnings(mission, assembly, summary.sensors);
+    for (const std::string& warning : warnings)
+        spdlog::warn("{}", warning);
+    if (!quiet) arguments.log.json ? print_json(summary, mission, warnings) : print_table(summary);
     if (!summary.stopped) return exit_done;
     spdlog::warn("stopped after {} pings; {}", summary.pings, goes_on_from_there);
     return exit_signal + signal_received();

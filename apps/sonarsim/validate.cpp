@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "commands.h"
+#include "core/text.h"
 #include "dataset/folder.h"
 #include "dataset/metadata.h"
 #include "logging.h"
@@ -77,7 +78,7 @@ std::string text_of(const Findings& f) {
     const Trajectory& trajectory = f.assembly.trajectory;
     const Eigen::Vector3d extent = scene.bounds_max - scene.bounds_min;
     const auto line = [](std::string_view head, const std::string& rest) {
-        return fmt::format("{:<12}{}\n", head, rest);
+        return fmt::format("{:<12}{}\n", head, printable(rest));
     };
     std::string text = line("mission", f.mission.name);
     text += line("scene", fmt::format("{} triangles, {} materials, {} instances, "

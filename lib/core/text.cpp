@@ -66,6 +66,45 @@ std::string_view trim(std::string_view text) {
     return text.substr(first, text.find_last_not_of(blank) - first + 1);
 }
 
+std::size_t utf8_length(std::string_view text) {
+    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+    const unsigned lead = byte(0);
+    if (lead < 0x80) return 1;
+    const std::size_t length = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : 2;
+    if (lead < 0xc2 || lead > 0xf4 || text.size() < length) return 0;
+    for (std::size_t i = 1; i < length; ++i) {
+        if ((byte(i) & 0xc0U) != 0x80) return 0;
+    }
+    const unsigned second = byte(1);
+    const bool overlong = (lead == 0xe0 && second < 0xa0) || (lead == 0xf0 && second < 0x90);
+    const bool surrogate = lead == 0xed && second >= 0xa0;
+    const bool beyond_unicode = lead == 0xf4 && second >= 0x90;
+    return overlong || surrogate || beyond_unicode ? 0 : length;
+}
+
+std::string printable(std::string_view text) {
+    constexpr std::string_view digits = "0123456789abcdef";
+    std::string out;
+    while (!text.empty()) {
+        const auto byte = static_cast<unsigned char>(text[0]);
+        const std::size_t length = utf8_length(text);
+        // U+0080 to U+009F, which begin with the byte C2, are control characters as well.
+        const bool high_control = length == 2 && byte == 0xc2 && (text[1] & 0x60) == 0;
+        const bool shown = length > 0 && byte >= 0x20 && byte != 0x7f && !high_control;
+        const std::size_t taken = std::max<std::size_t>(length, 1);
+        for (const char c : text.substr(0, taken)) {
+            const auto value = static_cast<unsigned char>(c);
+            if (shown) {
+                out += c;
+            } else {
+                out += {'\\', 'x', digits[value >> 4U], digits[value & 15U]};
+            }
+        }
+        text.remove_prefix(taken);
+    }
+    return out;
+}
+
 std::string did_you_mean(std::string_view word, std::span<const std::string> candidates) {
     constexpr std::size_t longest = 64;
     if (word.size() > longest) return "";

@@ -21,6 +21,13 @@ std::string number_text(double value);
 
 std::string_view trim(std::string_view text);
 
+/// Length of the well-formed UTF-8 character that `text` starts with; 0 when it is none.
+std::size_t utf8_length(std::string_view text);
+
+/// `text` from a file as it may be shown: control characters, which could steer a terminal, and
+/// bytes that are not UTF-8 become "\\x1b" and the like.
+std::string printable(std::string_view text);
+
 /// " (did you mean 'x'?)" with the candidate nearest to `word` by edit distance, or "" when none
 /// is near.
 std::string did_you_mean(std::string_view word, std::span<const std::string> candidates);

@@ -56,6 +56,8 @@ Assembly assemble(const Mission& mission) {
     }
     assembly.scene = load_scene(mission.scene.file, mission.scene.materials,
                                 {mission.water.density_kg_m3, mission.water.sound_speed_m_s});
+    const std::string refusal = refusal_of(settings, assembly.scene);
+    if (!refusal.empty()) throw InputError(refusal);
     return assembly;
 }
 

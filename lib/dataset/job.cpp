@@ -34,10 +34,19 @@ struct PingReport {
     std::vector<std::string> what;  ///< for the journal: what each writer wrote
     PingCounts counts;
     PingSeconds seconds;
+    float brightest = 0.0F;
     double encode_seconds = 0.0;
     double write_seconds = 0.0;
     std::uint64_t clipped_pixels = 0;
 };
+
+void add(SensorSummary& sensor, const PingReport& report) {
+    ++sensor.pings;
+    sensor.dark_pings += report.counts.occupied_bins == 0;
+    sensor.counts += report.counts;
+    sensor.clipped_pixels += report.clipped_pixels;
+    sensor.brightest = std::max(sensor.brightest, report.brightest);
+}
 
 void add(RenderSummary& summary, const PingReport& report) {
     ++summary.pings;
@@ -46,6 +55,7 @@ void add(RenderSummary& summary, const PingReport& report) {
     summary.write_seconds += report.write_seconds;
     summary.counts += report.counts;
     summary.clipped_pixels += report.clipped_pixels;
+    add(summary.sensors[report.id.sensor], report);
 }
 
 void check(const RenderOptions& options) {
@@ -133,8 +143,11 @@ void render(const Mission& mission, const Assembly& assembly, const std::vector<
                                             assembly.trajectory[id.pose].T_world_vehicle, id.pose);
             const Ping ping =
                 form_image(traced, sonar.settings, assembly.scene, {mission.seed, id.pose});
-            PingReport report{.id = id, .what = {}, .counts = ping.counts, .seconds = ping.seconds};
-            brightest_pixel(ping, sonar.config.name, id.pose);
+            PingReport report{.id = id,
+                              .what = {},
+                              .counts = ping.counts,
+                              .seconds = ping.seconds,
+                              .brightest = brightest_pixel(ping, sonar.config.name, id.pose)};
             if (to) write_ping(mission, assembly, *engine, *to, traced, ping, report);
             return report;
         },
@@ -178,6 +191,7 @@ RenderSummary run_job(const Mission& mission, const Assembly& assembly,
     tbb::task_arena arena(threads);
     const std::vector<PingId> all = list_pings(mission, assembly.trajectory.size());
     RenderSummary summary;
+    summary.sensors.resize(assembly.sonars.size());
     const auto render_all = [&](const std::vector<PingId>& todo, const Destination* to) {
         arena.execute(
             [&] { render(mission, assembly, todo, to, threads, progress, stop, summary); });

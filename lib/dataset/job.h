@@ -3,8 +3,10 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <vector>
 
 #include "dataset/assemble.h"
+#include "dataset/sensor_summary.h"
 #include "mission/mission.h"
 #include "ping/ping.h"
 
@@ -28,8 +30,9 @@ struct RenderSummary {
     PingSeconds stages;         ///< summed over the pings, and so over threads
     double encode_seconds = 0.0;
     double write_seconds = 0.0;
-    PingCounts counts;                 ///< summed over the pings
-    std::uint64_t clipped_pixels = 0;  ///< intensities above full_scale, where files were written
+    PingCounts counts;                   ///< summed over the pings
+    std::uint64_t clipped_pixels = 0;    ///< intensities above full_scale, where files were written
+    std::vector<SensorSummary> sensors;  ///< in the order of Mission::sensors
 };
 
 /// Called after each ping with how many are done and how many this run has to do; from any

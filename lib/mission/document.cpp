@@ -9,6 +9,8 @@
 #include <sstream>
 #include <utility>
 
+#include "core/text.h"
+
 namespace sonarsim {
 
 namespace {
@@ -19,23 +21,6 @@ constexpr std::size_t most_nodes = 100'000;
 bool is_control(char byte) {
     const auto value = static_cast<unsigned char>(byte);
     return value < 0x20 || value == 0x7f;
-}
-
-/// Length of the well-formed UTF-8 character that `text` starts with; 0 when it is none.
-std::size_t utf8_length(std::string_view text) {
-    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-    const unsigned lead = byte(0);
-    if (lead < 0x80) return 1;
-    const std::size_t length = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : 2;
-    if (lead < 0xc2 || lead > 0xf4 || text.size() < length) return 0;
-    for (std::size_t i = 1; i < length; ++i) {
-        if ((byte(i) & 0xc0U) != 0x80) return 0;
-    }
-    const unsigned second = byte(1);
-    const bool overlong = (lead == 0xe0 && second < 0xa0) || (lead == 0xf0 && second < 0x90);
-    const bool surrogate = lead == 0xed && second >= 0xa0;
-    const bool beyond_unicode = lead == 0xf4 && second >= 0x90;
-    return overlong || surrogate || beyond_unicode ? 0 : length;
 }
 
 /// yaml-cpp takes the byte 4 for the end of the file and guesses at other encodings, so neither

@@ -123,7 +123,7 @@ void MissionReader::number_or_auto(const char* key, double& value, const Limits&
                                    const char* /*meaning*/) {
     const YamlNode* node = find(key, Presence::optional);
     if (node == nullptr) return;
-    if (is_plain(*node) && node->text == "auto") {
+    if (node->kind == YamlNode::Kind::scalar && node->text == "auto") {
         value = 0.0;
         return;
     }
@@ -186,7 +186,7 @@ void MissionReader::read_list(const YamlNode& node, const char* key, double* val
 
 std::size_t MissionReader::index_of(const YamlNode& node, const char* key,
                                     const std::vector<std::string>& names) {
-    if (!is_plain(node)) refuse_type(node, key, "one of: " + listed(names));
+    if (node.kind != YamlNode::Kind::scalar) refuse_type(node, key, "one of: " + listed(names));
     const auto name = std::ranges::find(names, node.text);
     if (name == names.end()) {
         refuse(node, "unknown " + std::string(key) + " " + in_quotes(node.text) +

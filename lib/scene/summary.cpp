@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <vector>
 
+#include "core/text.h"
+
 namespace sonarsim {
 
 namespace {
@@ -48,12 +50,15 @@ std::string right(const std::string& text, std::size_t width) {
 
 std::string table(const std::string& title, const std::vector<std::string>& names,
                   const std::vector<Share>& shares) {
-    std::size_t width = title.size();
+    std::vector<std::string> shown;
     for (const std::string& name : names)
+        shown.push_back(printable(name));
+    std::size_t width = title.size();
+    for (const std::string& name : shown)
         width = std::max(width, name.size());
     std::string out = "\n" + left(title, width) + "   triangles     area m^2\n";
-    for (std::size_t i = 0; i < names.size(); ++i) {
-        out += left(names[i], width) + right(std::to_string(shares[i].triangles), 12) +
+    for (std::size_t i = 0; i < shown.size(); ++i) {
+        out += left(shown[i], width) + right(std::to_string(shares[i].triangles), 12) +
                right(fixed(shares[i].area_m2), 13) + "\n";
     }
     return out;

@@ -26,6 +26,19 @@ std::unique_ptr<VisibilityEngine> make_engine(const Scene& scene, const EngineSe
     return make_rays_engine(scene);
 }
 
+std::string refusal_of(const EngineSettings& settings, const Scene& scene) {
+    if (settings.type != EngineType::octree) return "";
+    const double length_m = (scene.bounds_max - scene.bounds_min).maxCoeff();
+    const double longest_m = longest_octree_scene_m(settings.octree);
+    if (length_m <= longest_m) return "";
+    const double leaf_m = settings.octree.leaf_m;
+    return (leaf_m > 0.0 ? "octree.leaf_m of " + number_text(leaf_m)
+                         : std::string("engine: octree")) +
+           " takes scenes up to " + number_text(std::floor(longest_m)) + " m long, not " +
+           number_text(std::ceil(length_m)) + "; use engine: rays" +
+           (leaf_m > 0.0 ? " or larger leaves" : "");
+}
+
 std::string refusal_of(const EngineSettings& settings, const View& view) {
     if (settings.type != EngineType::octree) return "";
     const double width_deg = std::round(1e9 * degrees(view.elevation_rad)) / 1e9;

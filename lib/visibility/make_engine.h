@@ -20,6 +20,10 @@ struct EngineSettings {
 /// for the scene, and std::runtime_error when memory does not suffice.
 std::unique_ptr<VisibilityEngine> make_engine(const Scene& scene, const EngineSettings& settings);
 
+/// Why the engine cannot hold this scene, as a sentence that begins with the mission's key; empty
+/// when it can.
+std::string refusal_of(const EngineSettings& settings, const Scene& scene);
+
 /// Why the engine cannot see this view, as a sentence that names the mission's keys; empty when it
 /// can.
 std::string refusal_of(const EngineSettings& settings, const View& view);

@@ -20,6 +20,23 @@ class BadUsage(Sandbox):
                 self.assertNotEqual(result.stderr, "")
                 self.assertFalse(self.out.exists())
 
+    def test_what_is_misspelt_is_named(self):
+        for arguments, message in (
+                (["rendr", "mission.yaml"], "unknown subcommand 'rendr' (did you mean 'render'?)"),
+                (["--quiet"], "unknown option '--quiet'"),
+                (["frobnicate"], "unknown subcommand 'frobnicate'\n"),
+                (["render", "mission.yaml", "--overwite"],
+                 "unknown option '--overwite' (did you mean '--overwrite'?)"),
+                (["render", "mission.yaml", "--sead=3"],
+                 "unknown option '--sead' (did you mean '--seed'?)"),
+                (["inspect", "box.gltf", "box.gltf"], "one argument too many: 'box.gltf'"),
+                (["inspect", "--jsn", "box.gltf"],
+                 "unknown option '--jsn' (did you mean '--json'?)")):
+            with self.subTest(arguments=arguments):
+                result = self.run_sonarsim(*arguments)
+                self.assertEqual(result.returncode, 2)
+                self.assertTrue(result.stderr.startswith("error: " + message), result.stderr)
+
     def test_help_and_version_exit_0(self):
         for arguments in (["--help"], ["--version"], ["render", "--help"]):
             result = self.run_sonarsim(*arguments)
@@ -93,6 +110,30 @@ class BadInput(Sandbox):
     def test_malformed_scene(self):
         self.write("box.gltf", box_gltf()[:-40])
         self.refused("box.gltf")
+
+    def test_meshes_of_other_formats(self):
+        for name in ("hull.obj", "hull.STL", "hull.fbx", "hull.dae", "hull.ply"):
+            with self.subTest(name=name):
+                self.write(name, "solid\nendsolid\n")
+                self.refused(name, "convert it: assimp export " + name + " hull.glb",
+                             arguments=["--set", "scene.file=" + name])
+
+    def test_names_cannot_steer_the_terminal(self):
+        self.write("box.gltf", box_gltf(material="Con\x1b[2Jcrete"))
+        self.refused("Con\\x1b[2Jcrete")
+        for arguments in (["inspect", "box.gltf"], ["render", "mission.yaml"]):
+            result = self.run_sonarsim(*arguments)
+            self.assertNotIn("\x1b", result.stdout + result.stderr)
+        self.assertIn("Con\\x1b[2Jcrete", self.run_sonarsim("inspect", "box.gltf").stdout)
+
+    def test_leaves_too_small_for_the_scene(self):
+        self.write("box.gltf", box_gltf(half=(1e6, 1e6, 1e6)))
+        self.refused("error: octree.leaf_m of 0.001 takes scenes up to 1073741 m long, not 2e+06; "
+                     "use engine: rays or larger leaves",
+                     arguments=["--set", "engine=octree", "--set", "octree.leaf_m=0.001"])
+        self.write("box.gltf", box_gltf(half=(1e7, 1e7, 1e7)))
+        self.refused("error: engine: octree takes scenes up to 10737418 m long, not 2e+07; "
+                     "use engine: rays", arguments=["--set", "engine=octree"])
 
     def test_missing_materials(self):
         (self.folder / "materials.csv").unlink()

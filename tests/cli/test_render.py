@@ -64,6 +64,28 @@ class Render(Sandbox):
         self.assertEqual(result.returncode, 2)
         self.assertEqual(json.loads(result.stderr.splitlines()[-1])["level"], "error")
 
+    def test_a_mission_written_as_json(self):
+        """JSON is YAML, and its writers quote every text."""
+        mission = {
+            "name": "box", "seed": 7, "engine": "rays", "octree": {"leaf_m": "auto"},
+            "scene": {"file": "box.gltf", "materials": "materials.csv"},
+            "trajectory": {"file": "path.csv"},
+            "sensors": {"fls": {
+                "kind": "imaging", "azimuth_deg": 60, "elevation_deg": 12.0, "range_max_m": 6,
+                "range_bins": 48, "azimuth_bins": 32, "streaks": {"mode": "none"},
+                "multipath": {"method": "none"},
+                "noise": {"add_sigma": 0.05, "mult_sigma": 1e-1, "range_lambda_m": 0.02,
+                          "scale_with_range": True}}},
+            "output": {"folder": "out", "meta": True}}
+        self.assert_renders("--set", "engine=rays")
+        as_yaml = digest(self.out)
+        for style in ({"indent": 2}, {"indent": "\t"}, {"separators": (",", ":")}):
+            with self.subTest(style=style):
+                self.write("mission.json", json.dumps(mission, **style))
+                result = self.run_sonarsim("render", "mission.json", "--overwrite")
+                self.assertEqual(result.returncode, 0, result.stderr)
+                self.assertEqual(digest(self.out), as_yaml)
+
     def test_validate_writes_nothing(self):
         before = digest(self.folder)
         result = self.run_sonarsim("validate", "mission.yaml")

@@ -32,9 +32,12 @@ def catches_sigterm(process):
     return False
 
 
-def busy_s(process):
-    """The processor time that a process has had so far."""
-    fields = pathlib.Path(f"/proc/{process.pid}/stat").read_text().rsplit(")", 1)[1].split()
+def busy_s(pid):
+    """The processor time that a process has had so far; 0 when it is gone."""
+    try:
+        fields = pathlib.Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()
+    except (FileNotFoundError, ProcessLookupError):
+        return 0.0
     return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 
 
@@ -97,8 +100,8 @@ class Signals(Sandbox):
         with self.start("render", "mission.yaml", "-j1", *changed,
                         "--set", "accuracy.relative_l1=1e-4", "--set", "output.fan=false") as process:
             self.wait_for(lambda: (self.out / "dataset.json").exists(), process)
-            begun = busy_s(process)
-            self.wait_for(lambda: busy_s(process) > begun + 0.5, process)
+            begun = busy_s(process.pid)
+            self.wait_for(lambda: busy_s(process.pid) > begun + 0.5, process)
             self.assert_ends_at_once(process, signal.SIGTERM)
         self.assertFalse(self.dataset()["complete"])
 
@@ -129,9 +132,14 @@ class Signals(Sandbox):
     def test_during_a_report(self):
         """A report measures in processes of its own; they end with it, even one that stands."""
         self.write("path.csv", path_csv(2))
-        with self.start("report", "mission.yaml", "--quick") as process:
-            self.wait_for(lambda: children(process), process)
-            child = children(process)[0]
+        bins = ("--set", "sensors.fls.range_bins=2048", "--set", "sensors.fls.azimuth_bins=2048")
+        with self.start("report", "mission.yaml", "--quick", *bins) as process:
+            # Only once it is at work: a child that stands at its very first instruction has not
+            # asked yet to end with its parent.
+            at_work = []
+            self.wait_for(lambda: at_work.extend(pid for pid in children(process)
+                                                 if busy_s(pid) > 0.1) or at_work, process)
+            child = at_work[0]
             os.kill(child, signal.SIGSTOP)
             process.send_signal(signal.SIGTERM)
             process.communicate(timeout=120)

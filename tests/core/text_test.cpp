@@ -10,6 +10,19 @@
 using namespace sonarsim;
 
 TEST_SUITE("core") {
+    TEST_CASE("text: what could steer a terminal is shown, not sent") {
+        CHECK(printable("Steel plate 3\" \\ \xc3\xa9\xe6\xb0\xb4") ==
+              "Steel plate 3\" \\ \xc3\xa9\xe6\xb0\xb4");
+        CHECK(printable("\x1b[2J\r\n\t\x7f") == "\\x1b[2J\\x0d\\x0a\\x09\\x7f");
+        CHECK(printable(std::string_view("a\0b", 3)) == "a\\x00b");
+        CHECK(printable("\xc2\x9b"
+                        "2J") ==
+              "\\xc2\\x9b"
+              "2J");  // U+009B, an ESC [ in one
+        CHECK(printable("\xc2\xa0\xc2\xbf") == "\xc2\xa0\xc2\xbf");
+        CHECK(printable("\xff\xc3") == "\\xff\\xc3");
+    }
+
     TEST_CASE("text: a number is the whole of the text, in decimal") {
         CHECK(parse_number("1") == 1.0);
         CHECK(parse_number("+1.5") == 1.5);

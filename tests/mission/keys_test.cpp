@@ -106,8 +106,11 @@ TEST_CASE("the engine and its octree") {
     CHECK(parse(smallest_mission + "octree: {leaf_m: 0.02}\n").octree.leaf_m == 0.02);
     CHECK(refusal(smallest_mission + "octree: {leaf_m: fine}\n") ==
           "m.yaml:6:18: 'leaf_m' must be auto or a number, not 'fine'");
-    CHECK(refusal(smallest_mission + "octree: {leaf_m: \"auto\"}\n") ==
-          "m.yaml:6:18: 'leaf_m' must be auto or a number, not the quoted text 'auto'");
+    // As JSON writes them.
+    CHECK(parse(smallest_mission + "engine: \"rays\"\n").engine == EngineKind::rays);
+    CHECK(parse(smallest_mission + "octree: {leaf_m: \"auto\"}\n").octree == OctreeConfig{});
+    CHECK(refusal(smallest_mission + "octree: {leaf_m: \"0.02\"}\n") ==
+          "m.yaml:6:18: 'leaf_m' must be auto or a number, not the quoted text '0.02'");
     CHECK(refusal(smallest_mission + "octree: {leaf_m: 0}\n") ==
           "m.yaml:6:18: 'leaf_m' must be at least 0.001, not '0'");
     CHECK(refusal(smallest_mission + "octree: {leaf_m: nan}\n") ==

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cstdint>
 #include <cstring>
 #include <nlohmann/json.hpp>
@@ -81,6 +82,20 @@ bool contains(std::span<const std::string_view> list, std::string_view word) {
     return std::find(list.begin(), list.end(), word) != list.end();
 }
 
+/// Other formats of meshes, which a look at their first bytes would only call malformed.
+void check_format(const std::filesystem::path& path, std::string_view bytes) {
+    constexpr std::array<std::string_view, 5> others{".obj", ".stl", ".fbx", ".dae", ".ply"};
+    std::string extension = path.extension().string();
+    for (char& c : extension)
+        c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    if (!contains(others, extension) || bytes.starts_with("glTF")) return;
+    std::filesystem::path converted = path;
+    converted.replace_extension(".glb");
+    throw InputError(Location{path.string()},
+                     "is no glTF, the only format that is read; convert it: assimp export " +
+                         path.filename().string() + " " + converted.filename().string());
+}
+
 void check_extensions(const json& document, const std::string& file) {
     constexpr std::array<std::string_view, 3> compressed{
         "KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression"};
@@ -151,6 +166,7 @@ tinygltf::FsCallbacks callbacks_of(BufferReader& buffers) {
 tinygltf::Model read_gltf(const std::filesystem::path& path) {
     const std::string file = path.string();
     const std::string bytes = read_file(path, max_bytes);
+    check_format(path, bytes);
     const Container container = open_container(bytes, Location{file});
     json gltf = reduce_gltf_json(container.json, file);
     check_extensions(gltf, file);

@@ -9,71 +9,19 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "scene/gltf/json_parse.h"
+#include "scene/gltf/json_rules.h"
 
 namespace sonarsim {
 
 namespace {
 
+using gltf_rules::Kind;
+using gltf_rules::Rule;
 using nlohmann::json;
 
-constexpr std::size_t max_json_bytes = std::size_t{1} << 28;
 constexpr std::size_t max_objects = 2'000'000;
-constexpr int max_depth = 64;
 constexpr std::size_t max_name = 1000;
-
-enum class Kind { text, name, names, flag, size, index, indices, numbers, object, objects, extras };
-
-/// A member of a JSON object that is read; the others are left behind.
-struct Rule {
-    std::string_view key;
-    Kind kind;
-    std::size_t count = 0;               // of numbers; 0: any
-    std::span<const Rule> members = {};  // of an object, or of each object of an array
-};
-
-constexpr std::array asset{Rule{"version", Kind::name}};
-constexpr std::array scene{Rule{"nodes", Kind::indices}};
-constexpr std::array node{Rule{"name", Kind::name},           Rule{"mesh", Kind::index},
-                          Rule{"skin", Kind::index},          Rule{"children", Kind::indices},
-                          Rule{"matrix", Kind::numbers, 16},  Rule{"translation", Kind::numbers, 3},
-                          Rule{"rotation", Kind::numbers, 4}, Rule{"scale", Kind::numbers, 3},
-                          Rule{"weights", Kind::numbers},     Rule{"extras", Kind::extras}};
-constexpr std::array attributes{Rule{"POSITION", Kind::index}};
-constexpr std::array primitive{Rule{"attributes", Kind::object, 0, attributes},
-                               Rule{"indices", Kind::index}, Rule{"material", Kind::index},
-                               Rule{"mode", Kind::index}};
-constexpr std::array mesh{Rule{"name", Kind::name}, Rule{"weights", Kind::numbers},
-                          Rule{"primitives", Kind::objects, 0, primitive}};
-constexpr std::array material{Rule{"name", Kind::name}, Rule{"extras", Kind::extras}};
-constexpr std::array sparse_indices{Rule{"bufferView", Kind::index},
-                                    Rule{"byteOffset", Kind::index},
-                                    Rule{"componentType", Kind::index}};
-constexpr std::array sparse_values{Rule{"bufferView", Kind::index},
-                                   Rule{"byteOffset", Kind::index}};
-constexpr std::array sparse{Rule{"count", Kind::index},
-                            Rule{"indices", Kind::object, 0, sparse_indices},
-                            Rule{"values", Kind::object, 0, sparse_values}};
-constexpr std::array accessor{Rule{"bufferView", Kind::index},
-                              Rule{"byteOffset", Kind::size},
-                              Rule{"componentType", Kind::index},
-                              Rule{"count", Kind::size},
-                              Rule{"type", Kind::name},
-                              Rule{"normalized", Kind::flag},
-                              Rule{"sparse", Kind::object, 0, sparse}};
-constexpr std::array buffer_view{Rule{"buffer", Kind::index}, Rule{"byteOffset", Kind::size},
-                                 Rule{"byteLength", Kind::size}, Rule{"byteStride", Kind::size}};
-constexpr std::array buffer{Rule{"uri", Kind::text}, Rule{"byteLength", Kind::size}};
-constexpr std::array root{Rule{"asset", Kind::object, 0, asset},
-                          Rule{"scene", Kind::index},
-                          Rule{"scenes", Kind::objects, 0, scene},
-                          Rule{"nodes", Kind::objects, 0, node},
-                          Rule{"meshes", Kind::objects, 0, mesh},
-                          Rule{"materials", Kind::objects, 0, material},
-                          Rule{"accessors", Kind::objects, 0, accessor},
-                          Rule{"bufferViews", Kind::objects, 0, buffer_view},
-                          Rule{"buffers", Kind::objects, 0, buffer},
-                          Rule{"extensionsUsed", Kind::names},
-                          Rule{"extensionsRequired", Kind::names}};
 
 /// The place of a value in the document; its text is made only when something is wrong.
 struct Place {
@@ -127,6 +75,8 @@ struct Reducer {
                     expected(place, "a text of at most 1000 bytes", from);
                 }
                 break;
+            case Kind::anything:
+                break;
             case Kind::flag:
                 if (!from.is_boolean()) expected(place, "true or false", from);
                 break;
@@ -175,7 +125,7 @@ struct Reducer {
         return to;
     }
 
-    /// Extras belong to everyone and may be anything; `sonar` in them is ours and strict.
+    /// Extras are everyone's; `sonar` in them is strict.
     json extras(json& from, const Place& place) {
         const auto sonar = from.is_object() ? from.find("sonar") : from.end();
         if (sonar == from.end()) return json::object();
@@ -195,44 +145,6 @@ struct Reducer {
         return to;
     }
 };
-
-/// The parser's own hook for this is quadratic in the length of an array.
-void check_depth(std::string_view text, const std::string& file) {
-    int depth = 0;
-    bool is_string = false;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const char c = text[i];
-        if (is_string && c == '\\') {
-            ++i;
-        } else if (c == '"') {
-            is_string = !is_string;
-        } else if (!is_string && (c == '[' || c == '{')) {
-            if (++depth > max_depth) {
-                throw InputError(Location{file}, "the JSON is nested more than 64 deep");
-            }
-        } else if (!is_string && (c == ']' || c == '}')) {
-            --depth;
-        }
-    }
-}
-
-json parse(std::string_view text, const std::string& file) {
-    if (text.size() > max_json_bytes) {
-        throw InputError(Location{file},
-                         "holds more than 256 MiB of JSON; put the vertices into a "
-                         ".glb or a .bin file");
-    }
-    check_depth(text, file);
-    try {
-        return json::parse(text);
-    } catch (const json::exception& error) {
-        // "[json.exception.parse_error.101] parse error at line 1, column 2: ..."
-        const std::string message = error.what();
-        const std::size_t bracket = message.find("] ");
-        throw InputError(Location{file},
-                         bracket == std::string::npos ? message : message.substr(bracket + 2));
-    }
-}
 
 void check_version(const json& document, const std::string& file) {
     const json version =
@@ -266,9 +178,9 @@ void check_transforms(const json& gltf, const std::string& file) {
 }  // namespace
 
 json reduce_gltf_json(std::string_view text, const std::string& file) {
-    json document = parse(text, file);
+    json document = parse_gltf_json(text, file);
     check_version(document, file);
-    json reduced = Reducer{file}.object(document, root, {});
+    json reduced = Reducer{file}.object(document, gltf_rules::root, {});
     check_transforms(reduced, file);
     return reduced;
 }

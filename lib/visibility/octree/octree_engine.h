@@ -35,4 +35,8 @@ class OctreeEngine : public VisibilityEngine {
 /// the scene is more than 2^30 leaves long.
 std::unique_ptr<OctreeEngine> make_octree_engine(const Scene& scene, const OctreeOptions& options);
 
+/// The longest scene, along its longest side, that these options can divide into leaves: 2^30 of
+/// them, less one at either end.
+double longest_octree_scene_m(const OctreeOptions& options);
+
 }  // namespace sonarsim

@@ -258,4 +258,10 @@ OctreeStatistics Octree::statistics() const {
     return out;
 }
 
+double longest_octree_scene_m(const OctreeOptions& options) {
+    const double leaf =
+        options.leaf_m > 0.0 ? options.leaf_m : auto_tile_edge_m / auto_leaves_per_tile;
+    return (std::ldexp(1.0, 30) - 2.0) * leaf;
+}
+
 }  // namespace sonarsim

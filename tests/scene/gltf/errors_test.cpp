@@ -277,4 +277,30 @@ TEST_SUITE("scene") {
         CHECK(error_of([](json& d) { d["asset"]["version"] = "1.0"; }) ==
               "x.glb: is glTF version 1.0; expected 2.0");
     }
+
+    TEST_CASE("glTF: what is not read may be anything, as long as it is JSON") {
+        const json anything = {{"deep", {{"mesh", {1, "two", nullptr, {{"nodes", "x"}}}}}}};
+        CHECK(error_of([&](json& d) {
+                  for (const char* key : {"textures", "animations", "extras", "sonar"})
+                      d[key] = anything;
+                  d["nodes"][0]["camera"] = anything;
+                  d["nodes"][0]["extras"] = {{"other", anything}, {"sonar", {{"material", "m"}}}};
+                  d["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = anything;
+              }) == "materials.csv: lacks materials of the scene: 'm'");
+        CHECK(load_error("{\"extras\": [1, 2}").find("parse error at line 1") != std::string::npos);
+    }
+
+    TEST_CASE("glTF errors: a value of another type, whatever is in it") {
+        const json nested = {{"name", {{"name", "x"}}}};
+        CHECK(error_of([&](json& d) { d["nodes"][0]["mesh"] = nested; }) ==
+              "x.glb: nodes[0].mesh: expected a whole number from 0 to 2147483647, not object");
+        CHECK(error_of([&](json& d) { d["nodes"][0]["children"] = nested; }) ==
+              "x.glb: nodes[0].children: expected an array, not object");
+        CHECK(error_of([&](json& d) {
+                  d["nodes"] = {{"0", d["nodes"][0]}};
+              }) == "x.glb: nodes: expected an array, not object");
+        CHECK(error_of([&](json& d) {
+                  d["nodes"][0]["extras"] = {{"sonar", {1, nested}}};
+              }) == "x.glb: nodes[0].extras.sonar: expected an object, not array");
+    }
 }
