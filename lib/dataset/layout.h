@@ -24,7 +24,7 @@
 // sonars have a file of records that fills while the mission runs, one record per ping, and files
 // that are made of it once it is full:
 //
-//     side-scan    waterfall.npy   float32 [ping, 2 x range]
+//     side-scan    waterfall.npy   float32 [ping, column]: both sides, from nadir on
 //                  waterfall.png, waterfall_view.png
 //     echosounder  echogram.npy    float32 [range, ping], in Fortran order: a ping lies together
 //                  echogram.png, echogram_view.png

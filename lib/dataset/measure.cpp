@@ -35,7 +35,7 @@ Json altitude_m(const VisibilityEngine& engine, const Pose& T_world_sensor) {
 
 Measurement sidescan(const Sonar& sonar, const Ping& ping, Json altitude) {
     const FirstReturns first = first_returns(sonar, ping);
-    return {bytes_of(sidescan_row(ping)),
+    return {bytes_of(sidescan_row(sonar.config, ping)),
             {{"altitude_m", std::move(altitude)},
              {"first_return_m",
               {{"port", number_or_null(first.port_m)},
@@ -84,7 +84,7 @@ NpyFormat record_format(const Sonar& sonar, std::size_t pings) {
     const auto bins = static_cast<std::size_t>(sonar.config.range_bins);
     switch (sonar.config.kind) {
         case SonarKind::sidescan:
-            return {"<f4", {pings, 2 * bins}};
+            return {"<f4", {pings, static_cast<std::size_t>(waterfall_columns(sonar.config))}};
         case SonarKind::echosounder:
             return {"<f4", {bins, pings}, true};
         default:

@@ -2,6 +2,7 @@
 
 #include "mission/resolved.h"
 #include "product/fan.h"
+#include "product/sidescan_row.h"
 
 namespace sonarsim {
 
@@ -30,7 +31,7 @@ Json describe_scene_use(const Scene& scene) {
 Json record_axes(SonarKind kind) {
     switch (kind) {
         case SonarKind::sidescan:
-            return {"ping", "port from range_max to range_min, then starboard back"};
+            return {"ping", "port from range_max to nadir, then starboard from nadir to range_max"};
         case SonarKind::echosounder:
             return {"range", "ping"};
         default:
@@ -70,6 +71,14 @@ Json describe_sensor(const Sonar& sonar, const Mission& mission, const Layout& l
                        {"height_px", fan.height},
                        {"pixel_m", fan.pixel_m},
                        {"apex_px", {0.5 * fan.width, config.range_max_m / fan.pixel_m}}};
+    }
+    if (config.kind == SonarKind::sidescan) {
+        json["waterfall"] = {{"columns", waterfall_columns(config)},
+                             {"blank_columns_a_side", blank_columns(config)},
+                             {"column_m", sonar.settings.view.bin_m()},
+                             {"slant_range",
+                              "of the middle of column k: |k + 0.5 - columns / 2| "
+                              "column_m; blank columns lie before range_min"}};
     }
     json["range_edges_m"] = sonar.range_edges_m;
     if (!sonar.azimuth_edges_rad.empty()) json["azimuth_edges_rad"] = sonar.azimuth_edges_rad;

@@ -2,6 +2,7 @@
 #include "dataset/image_file.h"
 #include "dataset/ping_files.h"
 #include "dataset/products.h"
+#include "product/sidescan_row.h"
 #include "product/waterfall.h"
 
 namespace sonarsim {
@@ -12,7 +13,8 @@ void write_waterfall(const Sonar& sonar, double full_scale, const RecordFile& fi
     const double white = white_of(records);
     Picture axis = waterfall_axis(sonar.config);
     const int rows = static_cast<int>(records.rows());
-    ImageFile plain(folder / "waterfall.png", axis.width, rows, PixelKind::grey16);
+    ImageFile plain(folder / "waterfall.png", waterfall_columns(sonar.config), rows,
+                    PixelKind::grey16);
     ImageFile view(folder / "waterfall_view.png", axis.width, axis.height + rows, PixelKind::rgb8);
     for (int y = 0; y < axis.height; ++y)
         view.row(std::span<const Rgb>(axis.row(y), axis.width));
