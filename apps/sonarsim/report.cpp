@@ -5,13 +5,13 @@
 
 #include <memory>
 
-#include "benchmark/bench.h"
 #include "benchmark/cold_start.h"
-#include "benchmark/ladder.h"
 #include "benchmark/multipath_rows.h"
 #include "benchmark/report_files.h"
 #include "benchmark/report_text.h"
 #include "benchmark/scaling.h"
+#include "benchmark/settings.h"
+#include "benchmark/timed_pings.h"
 #include "commands.h"
 #include "core/clock.h"
 #include "core/file.h"
@@ -80,11 +80,11 @@ int report(const ReportArguments& arguments) {
         options.reference_rays = 50'000'000;
     }
     const auto progress = [](const std::string& what) { spdlog::info("{}", what); };
-    const std::vector<Setting> ladder = make_ladder(mission, arguments.quick);
+    const std::vector<Setting> settings = make_settings(mission, arguments.quick);
     progress("each setting in a process of its own");
     const std::vector<ColdStart> cold =
-        measure_cold_starts(mission, assembly, ladder, options, assembled_s);
-    Report result = make_report(mission, assembly, ladder, cold, options, progress);
+        measure_cold_starts(mission, assembly, settings, options, assembled_s);
+    Report result = make_report(mission, assembly, settings, cold, options, progress);
     result.multipath = measure_multipath(mission, assembly, options, progress);
     if (arguments.scale) {
         result.growth =

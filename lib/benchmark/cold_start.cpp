@@ -13,7 +13,7 @@
 #include <system_error>
 #include <type_traits>
 
-#include "benchmark/bench.h"
+#include "benchmark/timed_pings.h"
 #include "core/clock.h"
 #include "sonar/engine_settings.h"
 #include "visibility/octree/octree_engine.h"
@@ -90,10 +90,10 @@ ColdStart in_child(const std::function<ColdStart()>& run) {
 }  // namespace
 
 std::vector<ColdStart> measure_cold_starts(const Mission& mission, const Assembly& assembly,
-                                           std::span<const Setting> ladder,
+                                           std::span<const Setting> settings,
                                            const ReportOptions& options, double assembled_s) {
     std::vector<ColdStart> out;
-    for (const Setting& setting : ladder) {
+    for (const Setting& setting : settings) {
         for (const Sonar& sonar : assembly.sonars) {
             const Sonar ready = with_setting(sonar, setting);
             out.push_back(in_child([&] {

@@ -14,7 +14,7 @@ namespace sonarsim {
 /// does not take threads along. Throws std::system_error when a child cannot be started, and
 /// std::runtime_error when one fails.
 std::vector<ColdStart> measure_cold_starts(const Mission& mission, const Assembly& assembly,
-                                           std::span<const Setting> ladder,
+                                           std::span<const Setting> settings,
                                            const ReportOptions& options, double assembled_s);
 
 }  // namespace sonarsim

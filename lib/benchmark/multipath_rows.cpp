@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "benchmark/bench.h"
+#include "benchmark/timed_pings.h"
 #include "core/in_parallel.h"
 #include "sonar/engine_settings.h"
 #include "validation/image_error.h"
@@ -26,18 +26,18 @@ struct Trial {
 };
 
 Trial trial_of(const Sonar& sonar, const MultipathConfig& multipath, const Mission& mission,
-               const Bench& bench) {
+               const PingSet& pings) {
     SonarConfig config = sonar.config;
     config.multipath = multipath;
-    return {make_sonar(config, mission.accuracy), std::vector<PoseTimes>(bench.poses.size())};
+    return {make_sonar(config, mission.accuracy), std::vector<PoseTimes>(pings.poses.size())};
 }
 
 /// What the sonar sees from each pose, without multipath.
-std::vector<TracedPing> trace_surfaces(const Bench& bench, const Sonar& sonar,
+std::vector<TracedPing> trace_surfaces(const PingSet& pings, const Sonar& sonar,
                                        const VisibilityEngine& engine) {
-    std::vector<TracedPing> traced(bench.poses.size());
+    std::vector<TracedPing> traced(pings.poses.size());
     in_parallel(traced.size(), [&](std::size_t p) {
-        traced[p] = trace(sonar, bench.scene, engine, bench.poses[p], bench.indices[p],
+        traced[p] = trace(sonar, pings.scene, engine, pings.poses[p], pings.indices[p],
                           {.multipath = false});
     });
     return traced;
@@ -45,14 +45,14 @@ std::vector<TracedPing> trace_surfaces(const Bench& bench, const Sonar& sonar,
 
 /// The multipath echoes alone, of all poses one after the other. What is seen stays as it is in
 /// `traced`, and the sonar's way to find multipath is put on top.
-std::vector<float> multipath_images(const Bench& bench, const Sonar& sonar,
+std::vector<float> multipath_images(const PingSet& pings, const Sonar& sonar,
                                     const VisibilityEngine& engine,
                                     std::vector<TracedPing>& traced) {
     std::vector<std::vector<float>> images(traced.size());
     in_parallel(images.size(), [&](std::size_t p) {
-        trace_multipath(sonar.settings, bench.scene, engine, traced[p]);
+        trace_multipath(sonar.settings, pings.scene, engine, traced[p]);
         images[p] =
-            form_image(traced[p], sonar.settings, bench.scene, {}, multipath_alone).intensity;
+            form_image(traced[p], sonar.settings, pings.scene, {}, multipath_alone).intensity;
     });
     std::vector<float> all;
     for (const std::vector<float>& image : images)
@@ -60,43 +60,43 @@ std::vector<float> multipath_images(const Bench& bench, const Sonar& sonar,
     return all;
 }
 
-void take_turns(const Bench& bench, const VisibilityEngine& engine, std::span<Trial> trials) {
-    for (std::size_t p = 0; p < bench.poses.size(); ++p) {
+void take_turns(const PingSet& pings, const VisibilityEngine& engine, std::span<Trial> trials) {
+    for (std::size_t p = 0; p < pings.poses.size(); ++p) {
         for (Trial& trial : trials)
-            visit_pose(bench, trial.sonar, engine, p, trial.poses[p]);
+            visit_pose(pings, trial.sonar, engine, p, trial.poses[p]);
     }
 }
 
 /// All ways on one sonar.
-std::vector<MultipathRow> measure_sonar(const Mission& mission, const Bench& bench,
+std::vector<MultipathRow> measure_sonar(const Mission& mission, const PingSet& pings,
                                         const Sonar& sonar, const VisibilityEngine& engine,
                                         int rounds, const ReportProgress& progress) {
     const std::string& name = sonar.config.name;
-    const std::vector<MultipathConfig> ladder = make_multipath_ladder(sonar.config.multipath);
-    std::vector<Trial> trials{trial_of(sonar, none, mission, bench)};  // then exact, the others
-    for (const MultipathConfig& setting : ladder)
-        trials.push_back(trial_of(sonar, setting, mission, bench));
+    const std::vector<MultipathConfig> settings = multipath_settings(sonar.config.multipath);
+    std::vector<Trial> trials{trial_of(sonar, none, mission, pings)};  // then exact, the others
+    for (const MultipathConfig& setting : settings)
+        trials.push_back(trial_of(sonar, setting, mission, pings));
 
     progress(name + ": multipath, error");
-    std::vector<TracedPing> traced = trace_surfaces(bench, sonar, engine);
-    const std::vector<float> truth = multipath_images(bench, trials[1].sonar, engine, traced);
+    std::vector<TracedPing> traced = trace_surfaces(pings, sonar, engine);
+    const std::vector<float> truth = multipath_images(pings, trials[1].sonar, engine, traced);
     std::vector<MultipathRow> rows;
-    for (std::size_t k = 0; k < ladder.size(); ++k) {
+    for (std::size_t k = 0; k < settings.size(); ++k) {
         MultipathRow& row = rows.emplace_back();
         row.sensor = name;
-        row.setting = ladder[k];
-        row.current = ladder[k] == canonical(sonar.config.multipath);
+        row.setting = settings[k];
+        row.current = settings[k] == canonical(sonar.config.multipath);
         row.exact_bins = std::ranges::count_if(truth, [](float x) { return x > 0.0F; });
         const ImageError error =
-            image_error(multipath_images(bench, trials[k + 1].sonar, engine, traced), truth);
+            image_error(multipath_images(pings, trials[k + 1].sonar, engine, traced), truth);
         row.relative_l1 = error.relative_l1;
-        row.found = 1.0 - error.miss_rate;
-        row.there = 1.0 - error.false_rate;
+        row.recall = 1.0 - error.miss_rate;
+        row.precision = 1.0 - error.false_rate;
     }
     for (int round = 0; round < rounds; ++round) {
         progress(name + ": multipath, timing, round " + std::to_string(round + 1) + " of " +
                  std::to_string(rounds));
-        take_turns(bench, engine, trials);
+        take_turns(pings, engine, trials);
     }
     const double ms_exact = over_poses(trials[1].poses, &PingSeconds::multipath).centre;
     for (std::size_t k = 0; k < rows.size(); ++k) {
@@ -111,14 +111,14 @@ std::vector<MultipathRow> measure_sonar(const Mission& mission, const Bench& ben
 
 }  // namespace
 
-std::vector<MultipathConfig> make_multipath_ladder(const MultipathConfig& own) {
-    std::vector<MultipathConfig> ladder{exact};
+std::vector<MultipathConfig> multipath_settings(const MultipathConfig& own) {
+    std::vector<MultipathConfig> settings{exact};
     for (const int epsilon : {1, 3, 5, 9}) {
         for (const double delta : {5.0, 15.0, 30.0})
-            ladder.push_back({MultipathMethod::cluster, epsilon, delta});
+            settings.push_back({MultipathMethod::cluster, epsilon, delta});
     }
-    if (std::ranges::find(ladder, canonical(own)) == ladder.end()) ladder.push_back(own);
-    return ladder;
+    if (std::ranges::find(settings, canonical(own)) == settings.end()) settings.push_back(own);
+    return settings;
 }
 
 std::vector<MultipathRow> measure_multipath(const Mission& mission, const Assembly& assembly,
@@ -127,13 +127,13 @@ std::vector<MultipathRow> measure_multipath(const Mission& mission, const Assemb
     const auto has_multipath = [](const Sonar& sonar) { return sonar.settings.multipath.on; };
     std::vector<MultipathRow> out;
     if (std::ranges::none_of(assembly.sonars, has_multipath)) return out;
-    const Bench bench = make_bench(mission, assembly, options.poses);
+    const PingSet pings = make_ping_set(mission, assembly, options.poses);
     const auto engine =
         make_engine(assembly.scene, engine_settings(mission.engine, mission.octree));
     for (const Sonar& sonar : assembly.sonars) {
         if (!has_multipath(sonar)) continue;
         const std::vector<MultipathRow> rows =
-            measure_sonar(mission, bench, sonar, *engine, options.rounds, progress);
+            measure_sonar(mission, pings, sonar, *engine, options.rounds, progress);
         out.insert(out.end(), rows.begin(), rows.end());
     }
     return out;

@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <memory>
 
-#include "benchmark/bench.h"
+#include "benchmark/timed_pings.h"
 #include "core/clock.h"
 #include "core/in_parallel.h"
 #include "sonar/engine_settings.h"
@@ -29,19 +29,19 @@ struct Trial {
 };
 
 /// What all trials share.
-struct Stand {
-    Bench bench;
+struct Comparison {
+    PingSet pings;
     const Caster& caster;
     ReportOptions options;  ///< with the number of threads found out
 };
 
 /// Milliseconds of bare Embree: rays from the sensor to every sample, in the order of the samples.
-double bare_ms(const Stand& stand, const TracedPing& traced, double range_max_m) {
+double bare_ms(const Comparison& comparison, const TracedPing& traced, double range_max_m) {
     const Pose& T_world_sensor = traced.T_world_sensor;
     const std::vector<Sample>& samples = traced.samples.items;
     const Eigen::Matrix3f R = T_world_sensor.rotation.toRotationMatrix().cast<float>();
     const Eigen::Vector3f origin =
-        (T_world_sensor.translation - stand.bench.scene.origin).cast<float>();
+        (T_world_sensor.translation - comparison.pings.scene.origin).cast<float>();
     std::vector<Eigen::Vector3f> directions(samples.size());
     std::vector<std::uint32_t> facets(samples.size());
     for (std::size_t i = 0; i < directions.size(); ++i) {
@@ -49,31 +49,31 @@ double bare_ms(const Stand& stand, const TracedPing& traced, double range_max_m)
     }
     const auto reach = static_cast<float>(range_max_m) * 1.01F;
     Stopwatch watch;
-    stand.caster.cast(origin, directions, reach, facets);
+    comparison.caster.cast(origin, directions, reach, facets);
     return 1e3 * watch.lap();
 }
 
 /// Pings per second with all threads at work for about a quarter of a second.
-double rate(const Stand& stand, const Trial& trial) {
-    const Bench& bench = stand.bench;
-    const int threads = stand.options.threads;
+double rate(const Comparison& comparison, const Trial& trial) {
+    const PingSet& pings = comparison.pings;
+    const int threads = comparison.options.threads;
     const double ms = trial.poses[0].ping_ms.back();
     const int count = std::clamp(static_cast<int>(250.0 * threads / ms), 2 * threads, 2000);
     const double start = seconds_now();
     in_parallel(count, [&](std::size_t k) {
-        bench.ping(trial.sonar, *trial.engine, k % bench.poses.size());
+        pings.render(trial.sonar, *trial.engine, k % pings.poses.size());
     });
     return count / (seconds_now() - start);
 }
 
 /// The truth at each pose.
-std::vector<Reference> cast_references(const Stand& stand, const Sonar& sonar) {
-    const Bench& bench = stand.bench;
-    const ReportOptions& options = stand.options;
-    std::vector<Reference> references(bench.poses.size());
+std::vector<Reference> cast_references(const Comparison& comparison, const Sonar& sonar) {
+    const PingSet& pings = comparison.pings;
+    const ReportOptions& options = comparison.options;
+    std::vector<Reference> references(pings.poses.size());
     in_parallel(references.size(), [&](std::size_t p) {
-        references[p] = cast_reference(stand.caster, bench.scene, sonar.settings.view,
-                                       sensor_pose(sonar, bench.poses[p], bench.indices[p]),
+        references[p] = cast_reference(comparison.caster, pings.scene, sonar.settings.view,
+                                       sensor_pose(sonar, pings.poses[p], pings.indices[p]),
                                        {options.reference_moved, 64.0, options.reference_rays});
     });
     return references;
@@ -89,28 +89,28 @@ ReferenceQuality quality(const std::string& sensor, const std::vector<Reference>
     return {sensor, spread_of(moved), spread_of(rays)};
 }
 
-void measure_errors(const Bench& bench, const Trial& trial,
+void measure_errors(const PingSet& pings, const Trial& trial,
                     const std::vector<Reference>& references, ReportRow& row) {
     const std::size_t poses = references.size();
     std::vector<double> l1(poses);
     std::vector<double> l2(poses);
     std::vector<double> miss(poses);
-    std::vector<double> invented(poses);
+    std::vector<double> false_bins(poses);
     std::vector<double> samples(poses);
     in_parallel(poses, [&](std::size_t p) {
-        const Ping ping = render_ping(trial.sonar, bench.scene, *trial.engine, bench.poses[p], {},
+        const Ping ping = render_ping(trial.sonar, pings.scene, *trial.engine, pings.poses[p], {},
                                       direct_echoes_alone);
         const ImageError error = image_error(ping.intensity, references[p].intensity);
         l1[p] = error.relative_l1;
         l2[p] = error.relative_l2;
         miss[p] = error.miss_rate;
-        invented[p] = error.false_rate;
+        false_bins[p] = error.false_rate;
         samples[p] = static_cast<double>(ping.counts.samples);
     });
     row.relative_l1 = spread_of(l1);
     row.relative_l2 = spread_of(l2);
     row.miss_rate = spread_of(miss);
-    row.false_rate = spread_of(invented);
+    row.false_rate = spread_of(false_bins);
     row.samples_per_ping = spread_of(samples);
 }
 
@@ -138,45 +138,45 @@ void mark_front(std::vector<ReportRow>& rows, const std::string& sensor) {
 }
 
 /// All settings on one sonar.
-void report_sonar(const Stand& stand, std::size_t index, const Assembly& assembly,
-                  std::span<const Setting> ladder,
+void report_sonar(const Comparison& comparison, std::size_t index, const Assembly& assembly,
+                  std::span<const Setting> settings,
                   const std::vector<std::shared_ptr<const VisibilityEngine>>& engines,
                   std::span<const ColdStart> cold, const ReportProgress& progress, Report& report) {
-    const Bench& bench = stand.bench;
-    const int rounds = stand.options.rounds;
+    const PingSet& pings = comparison.pings;
+    const int rounds = comparison.options.rounds;
     const Sonar& sonar = assembly.sonars[index];
     const std::string& name = sonar.config.name;
     progress(name + ": casting the reference");
-    const std::vector<Reference> references = cast_references(stand, sonar);
+    const std::vector<Reference> references = cast_references(comparison, sonar);
     report.references.push_back(quality(name, references));
 
     std::vector<Trial> trials;
     std::vector<ReportRow> rows;
-    for (std::size_t s = 0; s < ladder.size(); ++s) {
-        progress(name + ": " + ladder[s].engine + " " + ladder[s].name + ", error");
-        trials.push_back({with_setting(sonar, ladder[s]),
+    for (std::size_t s = 0; s < settings.size(); ++s) {
+        progress(name + ": " + settings[s].engine + " " + settings[s].name + ", error");
+        trials.push_back({with_setting(sonar, settings[s]),
                           engines[s].get(),
-                          std::vector<PoseTimes>(bench.poses.size()),
+                          std::vector<PoseTimes>(pings.poses.size()),
                           {}});
         ReportRow& row = rows.emplace_back();
         row.sensor = name;
-        row.setting = ladder[s];
+        row.setting = settings[s];
         if (!cold.empty()) row.cold = cold[s * assembly.sonars.size() + index];
-        measure_errors(bench, trials.back(), references, row);
+        measure_errors(pings, trials.back(), references, row);
     }
     for (int round = 0; round < rounds; ++round) {
         progress(name + ": timing, round " + std::to_string(round + 1) + " of " +
                  std::to_string(rounds));
-        for (std::size_t p = 0; p < bench.poses.size(); ++p) {
+        for (std::size_t p = 0; p < pings.poses.size(); ++p) {
             for (Trial& trial : trials) {
                 PoseTimes& times = trial.poses[p];
-                const TracedPing traced = visit_pose(bench, trial.sonar, *trial.engine, p, times);
+                const TracedPing traced = visit_pose(pings, trial.sonar, *trial.engine, p, times);
                 times.bare_ms.push_back(
-                    bare_ms(stand, traced, trial.sonar.settings.view.range_max_m));
+                    bare_ms(comparison, traced, trial.sonar.settings.view.range_max_m));
             }
         }
         for (Trial& trial : trials)
-            trial.pings_per_s.push_back(rate(stand, trial));
+            trial.pings_per_s.push_back(rate(comparison, trial));
     }
     for (std::size_t s = 0; s < rows.size(); ++s)
         summarise_times(trials[s], rows[s]);
@@ -193,30 +193,25 @@ Sonar with_setting(const Sonar& sonar, const Setting& setting) {
 }
 
 Report make_report(const Mission& mission, const Assembly& assembly,
-                   std::span<const Setting> ladder, std::span<const ColdStart> cold,
+                   std::span<const Setting> settings, std::span<const ColdStart> cold,
                    const ReportOptions& options, const ReportProgress& progress) {
     const int threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     tbb::task_arena arena(threads);
-    Report report{mission.name,
-                  assembly.scene.triangles.size(),
-                  0,
-                  threads,
-                  mission.accuracy.relative_l1,
-                  0.0,
-                  {},
-                  {},
-                  {},
-                  {}};
+    Report report;
+    report.mission = mission.name;
+    report.triangles = assembly.scene.triangles.size();
+    report.threads = threads;
+    report.goal = mission.accuracy.relative_l1;
     ::getloadavg(&report.load, 1);
     arena.execute([&] {
         const Caster caster(assembly.scene);
-        Stand stand{make_bench(mission, assembly, options.poses), caster, options};
-        stand.options.threads = threads;
-        report.poses = static_cast<int>(stand.bench.poses.size());
+        Comparison comparison{make_ping_set(mission, assembly, options.poses), caster, options};
+        comparison.options.threads = threads;
+        report.poses = static_cast<int>(comparison.pings.poses.size());
         std::shared_ptr<const VisibilityEngine> rays;  // one tree serves every error goal
         std::vector<std::shared_ptr<const VisibilityEngine>> engines;
-        for (const Setting& setting : ladder) {
+        for (const Setting& setting : settings) {
             const bool again = setting.kind == EngineKind::rays && rays;
             engines.push_back(
                 again ? rays
@@ -224,7 +219,7 @@ Report make_report(const Mission& mission, const Assembly& assembly,
             if (setting.kind == EngineKind::rays) rays = engines.back();
         }
         for (std::size_t i = 0; i < assembly.sonars.size(); ++i) {
-            report_sonar(stand, i, assembly, ladder, engines, cold, progress, report);
+            report_sonar(comparison, i, assembly, settings, engines, cold, progress, report);
         }
     });
     return report;

@@ -58,8 +58,8 @@ struct MultipathRow {
     bool current = false;          ///< what the mission itself uses
     std::uint64_t exact_bins = 0;  ///< that the exact method lights
     double relative_l1 = 0.0;
-    double found = 1.0;       ///< share of the bins that the exact method lights
-    double there = 1.0;       ///< share of the bins lit here that the exact method lights too
+    double recall = 1.0;      ///< share of the bins that the exact method lights
+    double precision = 1.0;   ///< share of the bins lit here that the exact method lights too
     Spread ms_multipath;      ///< of this stage, over the poses; one thread
     Spread ms_per_ping;       ///< noise on, one thread
     double ms_without = 0.0;  ///< the ping without multipath, the median over the poses
@@ -109,12 +109,12 @@ struct Report {
 /// Says what the report is at.
 using ReportProgress = std::function<void(const std::string&)>;
 
-/// Measures every sonar of a mission with every setting of `ladder`, on poses spread along the
+/// Measures every sonar of a mission with every one of `settings`, on poses spread along the
 /// trajectory. Settings take turns: a machine that slows down slows them all. Errors are those of
 /// the direct echoes without noise against cast_reference. `cold` has a ColdStart per setting and
 /// sonar (sonars within settings) or is empty, for zeros.
 Report make_report(const Mission& mission, const Assembly& assembly,
-                   std::span<const Setting> ladder, std::span<const ColdStart> cold,
+                   std::span<const Setting> settings, std::span<const ColdStart> cold,
                    const ReportOptions& options, const ReportProgress& progress);
 
 /// The sonar as the setting has it.

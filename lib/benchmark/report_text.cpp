@@ -128,13 +128,13 @@ std::string multipath(const Report& report, const std::string& sensor) {
     for (const MultipathRow& row : report.multipath) {
         if (row.sensor != sensor) continue;
         if (text.empty()) {
-            text = fmt::format("\n{:<28}{:>9}{:>9}{:>9}{:>11}{:>17}{:>10}{:>10}{:>17}{:>11}\n",
-                               "multipath", "L1", "found", "there", "stage ms", "(over poses)",
+            text = fmt::format("\n{:<28}{:>9}{:>9}{:>11}{:>11}{:>17}{:>10}{:>10}{:>17}{:>11}\n",
+                               "multipath", "L1", "recall", "precision", "stage ms", "(over poses)",
                                "speed-up", "ms/ping", "(over poses)", "x without");
         }
-        text += fmt::format("{:<28}{:>9}{:>9}{:>9}{:>11}{:>17}{:>10}{:>10}{:>17}{:>11.2f}\n",
+        text += fmt::format("{:<28}{:>9}{:>9}{:>11}{:>11}{:>17}{:>10}{:>10}{:>17}{:>11.2f}\n",
                             fmt::format(" {} {}", label(row), row.current ? "<" : ""),
-                            percent(row.relative_l1), percent(row.found), percent(row.there),
+                            percent(row.relative_l1), percent(row.recall), percent(row.precision),
                             short_number(row.ms_multipath.centre), between(row.ms_multipath),
                             short_number(row.speed_up), short_number(row.ms_per_ping.centre),
                             between(row.ms_per_ping), row.times_without());

@@ -6,7 +6,7 @@
 #include <memory>
 #include <utility>
 
-#include "benchmark/bench.h"
+#include "benchmark/timed_pings.h"
 #include "core/clock.h"
 #include "sonar/engine_settings.h"
 #include "validation/fit.h"
@@ -116,8 +116,12 @@ std::vector<Growth> measure_growth(const Mission& mission, const Assembly& assem
     for (const std::string along : {"detail", "area"}) {
         const std::size_t first = out.size();
         for (const Sonar& sonar : assembly.sonars) {
-            for (const char* const engine : {"rays", "octree"})
-                out.push_back({sonar.config.name, engine, along, {}, {}, 0.0});
+            for (const char* const engine : {"rays", "octree"}) {
+                Growth& growth = out.emplace_back();
+                growth.sensor = sonar.config.name;
+                growth.engine = engine;
+                growth.along = along;
+            }
         }
         for (const Scene& scene : grown(assembly.scene, along, most_triangles)) {
             progress("growth in " + along + ": " + std::to_string(scene.triangles.size()) +

@@ -12,21 +12,13 @@ static_assert(sizeof(Rgb) == 3, "a row of colours is a row of pixels");
 
 ImageFile::ImageFile(const std::filesystem::path& path, int width, int height, PixelKind kind)
     : whole_(path), disk_(whole_.part()), width_(width) {
-    type_ = kind == PixelKind::rgb8     ? OIIO::TypeDesc::UINT8
-            : kind == PixelKind::grey16 ? OIIO::TypeDesc::UINT16
-                                        : OIIO::TypeDesc::FLOAT;
+    type_ = kind == PixelKind::rgb8 ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::UINT16;
     OIIO::ImageSpec spec(width, height, kind == PixelKind::rgb8 ? 3 : 1, type_);
-    if (kind == PixelKind::float32) {
-        spec.attribute("compression", "none");
-        spec.attribute("DateTime", "");
-        spec.attribute("Software", "sonarsim");
-    } else {
-        // The fastest that pack at all, by the figures in png.cpp.
-        spec.attribute("compression", "rle");
-        spec.attribute("png:compressionLevel", 1);
-        spec.attribute("png:filter", kind == PixelKind::rgb8 ? 0x10 : 0x08);
-    }
-    out_ = OIIO::ImageOutput::create(kind == PixelKind::float32 ? "tiff" : "png");
+    // The fastest that pack at all, by the figures in png.cpp.
+    spec.attribute("compression", "rle");
+    spec.attribute("png:compressionLevel", 1);
+    spec.attribute("png:filter", kind == PixelKind::rgb8 ? 0x10 : 0x08);
+    out_ = OIIO::ImageOutput::create("png");
     if (!out_) throw std::runtime_error("cannot write " + path.string() + ": " + OIIO::geterror());
     require(out_->set_ioproxy(&disk_) && out_->open(whole_.part().string(), spec));
 }

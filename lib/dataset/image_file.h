@@ -14,12 +14,11 @@
 namespace sonarsim {
 
 enum class PixelKind {
-    grey16,   ///< PNG
-    rgb8,     ///< PNG
-    float32,  ///< TIFF
+    grey16,
+    rgb8,
 };
 
-/// An image that is written row by row and so may be longer than memory. The bytes depend on the
+/// A PNG image that is written row by row and so may be longer than memory. The bytes depend on the
 /// pixels alone: nothing is stamped. std::runtime_error when the encoder or the disk fails.
 class ImageFile {
   public:
@@ -28,7 +27,6 @@ class ImageFile {
     // The next row; its type is that of the image.
     void row(std::span<const std::uint16_t> pixels) { put(pixels.data(), pixels.size()); }
     void row(std::span<const Rgb> pixels) { put(pixels.data(), pixels.size()); }
-    void row(std::span<const float> pixels) { put(pixels.data(), pixels.size()); }
     /// After the last row.
     void finish();
 

@@ -10,14 +10,13 @@
 
 // Where the files of a dataset lie:
 //
-//     OUT/dataset.json                what this is, the axes of every sensor, whether it is
-//     complete OUT/mission.resolved.yaml       the mission with every default written out
+//     OUT/dataset.json                what this is, axes of the sensors, whether it is complete
+//     OUT/mission.resolved.yaml       the mission with every default written out
 //     OUT/trajectory.tum              the pose of every ping number
 //     OUT/journal.txt                 the size of every other file, see dataset/journal.h; while
 //                                     the mission runs, parts of it lie in OUT/journal/
 //     OUT/<sensor>/<format>/NNNNNN.*  a file per ping
-//     OUT/<sensor>/*                  a file of records, one per ping, and the products made of
-//     them
+//     OUT/<sensor>/*                  a file of records, one per ping, and what is made of them
 //
 // Which formats there are is told by the files in dataset/writers. A record that is not written yet
 // is zero. NNNNNN is the index of the pose on the trajectory, in six digits or as many as the last

@@ -133,6 +133,11 @@ void describe(Visitor& v, SonarConfig& c) {
     v.require((c.range_max_m - c.range_min_m) / c.range_bins > 1e-6,
               {"range_min_m", "range_max_m", "range_bins"},
               "range bins must be wider than a micrometre");
+    v.require(
+        c.kind != SonarKind::sidescan ||
+            c.range_min_m <= 65536.0 * (c.range_max_m - c.range_min_m) / c.range_bins,
+        {"range_min_m", "range_max_m", "range_bins"},
+        "a side-scan's waterfall begins at nadir: range_min_m must be at most 65536 range bins");
 }
 
 template <class Visitor>

@@ -1,5 +1,7 @@
 #include "product/sidescan_row.h"
 
+#include <cmath>
+
 #include "product/bottom.h"
 
 namespace sonarsim {
@@ -23,12 +25,22 @@ std::optional<double> first_return_m(const Sonar& sonar, const Ping& ping, int b
 
 }  // namespace
 
-std::vector<float> sidescan_row(const Ping& ping) {
-    const int n = ping.range_bins;
-    std::vector<float> row(2 * static_cast<std::size_t>(n));
-    for (int i = 0; i < n; ++i) {
-        row[n - 1 - i] = ping.at(i, port);
-        row[n + i] = ping.at(i, starboard);
+int blank_columns(const SonarConfig& config) {
+    const double bin_m = (config.range_max_m - config.range_min_m) / config.range_bins;
+    return static_cast<int>(std::lround(config.range_min_m / bin_m));
+}
+
+int waterfall_columns(const SonarConfig& config) {
+    return 2 * (blank_columns(config) + config.range_bins);
+}
+
+std::vector<float> sidescan_row(const SonarConfig& config, const Ping& ping) {
+    const int blank = blank_columns(config);
+    std::vector<float> row(waterfall_columns(config));
+    const int nadir = static_cast<int>(row.size() / 2);  // the first column to starboard of it
+    for (int i = 0; i < ping.range_bins; ++i) {
+        row[nadir - 1 - blank - i] = ping.at(i, port);
+        row[nadir + blank + i] = ping.at(i, starboard);
     }
     return row;
 }

@@ -8,9 +8,18 @@
 
 namespace sonarsim {
 
-/// A side-scan ping as a row of the waterfall: port from range_max to range_min, then starboard
-/// from range_min to range_max; 2 x range_bins values.
-std::vector<float> sidescan_row(const Ping& ping);
+// A row of a side-scan waterfall runs from port at range_max over nadir to starboard at range_max,
+// in columns as wide as a range bin. So that slant range is linear in the column on both sides, the
+// columns between nadir and range_min, where the sonar does not listen, are there too; they are 0.
+
+/// Columns between nadir and range_min, on either side: range_min in bins, rounded.
+int blank_columns(const SonarConfig& config);
+
+/// Columns of the whole row.
+int waterfall_columns(const SonarConfig& config);
+
+/// A side-scan ping as a row of the waterfall.
+std::vector<float> sidescan_row(const SonarConfig& config, const Ping& ping);
 
 /// Slant range of the first bottom return on either side, m: the middle of its bin
 /// (first_return() in product/bottom.h). Nothing where a side is dark.

@@ -70,8 +70,8 @@ TEST_CASE("multipath rows of a corner are sane, as text, JSON and CSV") {
         CHECK(row.exact_bins > 20);
         // On two planes every cluster is right but for rounding at the edges of bins.
         CHECK(row.relative_l1 < 0.02);
-        CHECK(row.found > 0.98);
-        CHECK(row.there > 0.98);
+        CHECK(row.recall > 0.98);
+        CHECK(row.precision > 0.98);
         CHECK(row.ms_multipath.centre > 0.0);
         CHECK(row.ms_multipath.centre < row.ms_per_ping.centre);
         CHECK(row.ms_per_ping.min <= row.ms_per_ping.centre);
@@ -84,8 +84,8 @@ TEST_CASE("multipath rows of a corner are sane, as text, JSON and CSV") {
     const MultipathRow& exact = report.multipath[0];
     CHECK(exact.setting.method == MultipathMethod::exact);
     CHECK(exact.relative_l1 == 0.0);
-    CHECK(exact.found == 1.0);
-    CHECK(exact.there == 1.0);
+    CHECK(exact.recall == 1.0);
+    CHECK(exact.precision == 1.0);
     CHECK(exact.speed_up == 1.0);
     CHECK(current == 1);
     CHECK(row_of(report.multipath, 5, 5.0).current);
@@ -96,10 +96,11 @@ TEST_CASE("multipath rows of a corner are sane, as text, JSON and CSV") {
     CHECK(json["multipath_rows"][1]["method"] == "cluster");
     CHECK(json["multipath_rows"][1]["epsilon_bins"] == 1);
     CHECK(json["multipath_rows"][1]["delta_deg"] == 5);
-    CHECK(json["multipath_rows"][1]["found"].get<double>() == report.multipath[1].found);
+    CHECK(json["multipath_rows"][1]["recall"].get<double>() == report.multipath[1].recall);
 
     const std::string csv = multipath_csv(report);
-    CHECK(csv.starts_with("sensor,method,current,epsilon_bins,delta_deg,relative_l1,found,there,"));
+    CHECK(csv.starts_with(
+        "sensor,method,current,epsilon_bins,delta_deg,relative_l1,recall,precision,"));
     CHECK(std::ranges::count(csv, '\n') == 14);
     CHECK(std::ranges::count(csv, ',') % 14 == 0);  // as many in every line
     CHECK(csv.find("\nfront,cluster,true,5,5,") != std::string::npos);
@@ -107,7 +108,7 @@ TEST_CASE("multipath rows of a corner are sane, as text, JSON and CSV") {
     const std::string text = report_text(report);
     CHECK(text.find("\n cluster epsilon=5 delta=5 <") != std::string::npos);
     CHECK(text.find("\n cluster epsilon=9 delta=30  ") != std::string::npos);
-    const std::string title = "found    there";
+    const std::string title = "recall  precision";
     CHECK(text.find(title) == text.rfind(title));  // only for the sonar that has multipath
 }
 
@@ -121,8 +122,8 @@ TEST_CASE("multipath rows tell a coarse way from a fine one") {
     const MultipathRow& coarse = row_of(rows, 9, 30.0);
     CHECK(fine.current);
     CHECK(fine.relative_l1 < coarse.relative_l1);
-    CHECK(coarse.found < 1.0);
-    CHECK(fine.found > 0.9);
+    CHECK(coarse.recall < 1.0);
+    CHECK(fine.recall > 0.9);
 }
 
 TEST_CASE("without multipath there are no multipath rows") {
@@ -134,14 +135,14 @@ TEST_CASE("without multipath there are no multipath rows") {
     CHECK(nlohmann::json::parse(report_json(report))["multipath_rows"].empty());
 }
 
-TEST_CASE("the ladder of multipath holds the mission's own way once") {
+TEST_CASE("the settings of multipath holds the mission's own way once") {
     const auto size = [](const MultipathConfig& own) {
-        const std::vector<MultipathConfig> ladder = make_multipath_ladder(own);
+        const std::vector<MultipathConfig> settings = multipath_settings(own);
         std::set<std::tuple<MultipathMethod, int, double>> ways;
-        for (const MultipathConfig& way : ladder)
+        for (const MultipathConfig& way : settings)
             ways.insert({way.method, way.epsilon_bins, way.delta_deg});
-        CHECK(ways.size() == ladder.size());
-        return ladder.size();
+        CHECK(ways.size() == settings.size());
+        return settings.size();
     };
     CHECK(size({MultipathMethod::cluster, 5, 15.0}) == 13);
     CHECK(size({MultipathMethod::cluster, 4, 15.0}) == 14);

@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "benchmark/ladder.h"
 #include "benchmark/report_files.h"
 #include "benchmark/report_text.h"
+#include "benchmark/settings.h"
 #include "support/sanitized.h"
 #include "support/small_mission.h"
 
@@ -21,7 +21,7 @@ Report small_report() {
     Mission mission = small_mission("unused");
     mission.sensors.resize(1);
     const Assembly assembly = small_assembly(mission, 4);
-    const std::vector<Setting> ladder{
+    const std::vector<Setting> settings{
         {"rays", "relative_l1=0.3", EngineKind::rays, {}, 0.3, false},
         {"rays", "relative_l1=0.01", EngineKind::rays, {}, 0.01, true},
         {"octree", "leaf_m=0.04", EngineKind::octree, {0.04, 256, false}, 0.03, false},
@@ -32,7 +32,7 @@ Report small_report() {
     options.threads = 2;
     options.reference_moved = 0.005;
     options.reference_rays = 20'000'000;
-    return make_report(mission, assembly, ladder, {}, options, [](const std::string&) {});
+    return make_report(mission, assembly, settings, {}, options, [](const std::string&) {});
 }
 
 /// A row with the figures that the choice looks at.
@@ -115,24 +115,26 @@ TEST_CASE("auto is explained by the fastest setting that meets the goal") {
     CHECK(text.find("set engine: octree and octree.leaf_m=0.04") != std::string::npos);
 }
 
-TEST_CASE("the ladder holds the mission's own setting once, marked, and no needless leaves") {
+TEST_CASE("the settings holds the mission's own setting once, marked, and no needless leaves") {
     Mission mission = small_mission("unused");
-    const auto marked = [](const std::vector<Setting>& ladder) {
+    const auto marked = [](const std::vector<Setting>& settings) {
         std::vector<std::string> out;
-        for (const Setting& setting : ladder) {
+        for (const Setting& setting : settings) {
             if (setting.current) out.push_back(setting.engine + " " + setting.name);
         }
         return out;
     };
-    CHECK(marked(make_ladder(mission, false)) == std::vector<std::string>{"rays relative_l1=0.03"});
+    CHECK(marked(make_settings(mission, false)) ==
+          std::vector<std::string>{"rays relative_l1=0.03"});
     mission.accuracy.relative_l1 = 0.05;
-    CHECK(marked(make_ladder(mission, true)) == std::vector<std::string>{"rays relative_l1=0.05"});
+    CHECK(marked(make_settings(mission, true)) ==
+          std::vector<std::string>{"rays relative_l1=0.05"});
     mission.engine = EngineKind::octree;
-    CHECK(marked(make_ladder(mission, true)) == std::vector<std::string>{"octree leaf_m=auto"});
+    CHECK(marked(make_settings(mission, true)) == std::vector<std::string>{"octree leaf_m=auto"});
     mission.octree.leaf_m = 0.03;
-    CHECK(marked(make_ladder(mission, true)) == std::vector<std::string>{"octree leaf_m=0.03"});
+    CHECK(marked(make_settings(mission, true)) == std::vector<std::string>{"octree leaf_m=0.03"});
     // Bins of 9.9 m / 48 = 20.6 cm: leaves below 5.2 cm are left out.
-    for (const Setting& setting : make_ladder(mission, false)) {
+    for (const Setting& setting : make_settings(mission, false)) {
         CHECK(setting.name != "leaf_m=0.04");
         CHECK(setting.name != "leaf_m=0.01");
     }

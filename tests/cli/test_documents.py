@@ -1,5 +1,6 @@
 """What README.md and docs/mission.md tell a reader to type: the first mission and the Python
 snippets. The snippets need numpy; they are skipped without."""
+import json
 import pathlib
 import re
 import subprocess
@@ -67,6 +68,25 @@ class Documents(Sandbox):
             self.render_all_kinds(folder, "--set", "output.meta=false", "--set",
                                   "output.polar=false")
             self.run_snippet(page)
+
+    @unittest.skipIf(PYTHON is None, "needs numpy")
+    def test_snippet_of_the_page_places_the_columns_of_a_waterfall(self):
+        """Slant range is linear in the column, through nadir; nothing echoes before range_min."""
+        self.edit("mission.yaml", "output:\n  folder: out\n",
+                  "  sss: {kind: sidescan, range_min_m: 0.5, range_max_m: 6.5, range_bins: 60}\n"
+                  "output:\n  folder: out/survey\n")
+        self.assert_renders()
+        # The side-scan is the last of the sensors, so its are what the loop leaves behind.
+        printed = self.run_snippet(MISSION_PAGE, "print(json.dumps([ranges.tolist(), "
+                                                 "pings.tolist()]))")
+        ranges, rows = json.loads(printed.splitlines()[-1])
+        self.assertEqual((len(rows), len(rows[0])), (6, 130))
+        for column, expected in ((0, 6.45), (64, 0.05), (65, 0.05), (129, 6.45)):
+            self.assertAlmostEqual(ranges[column], expected)
+        # The floor of the box is 1.5 m below, at the edge of a bin, so nothing is nearer.
+        for side in (slice(0, 65), slice(65, 130)):
+            nearest = min(r for r, value in zip(ranges[side], rows[0][side]) if value > 0)
+            self.assertAlmostEqual(nearest, 1.55, delta=0.101)
 
 
 if __name__ == "__main__":

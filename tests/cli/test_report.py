@@ -64,14 +64,14 @@ class Report(Sandbox):
         # Inside a plain box every cluster meets planes.
         for row in rows:
             self.assertGreater(row["exact_bins"], 10)
-            self.assertGreater(row["found"], 0.95)
-            self.assertGreater(row["there"], 0.95)
+            self.assertGreater(row["recall"], 0.95)
+            self.assertGreater(row["precision"], 0.95)
             self.assertGreater(row["times_without"], 0)
         with open(self.folder / "report/multipath.csv", newline="") as file:
             table = list(csv.DictReader(file))
         self.assertEqual(len(table), len(rows))
         self.assertEqual(list(table[0]), list(rows[0]))
-        self.assertEqual(float(table[5]["found"]), rows[5]["found"])
+        self.assertEqual(float(table[5]["recall"]), rows[5]["recall"])
 
     def test_scale(self):
         result = self.run_sonarsim("report", "mission.yaml", "--quick", "--scale", "--quiet",

@@ -47,9 +47,9 @@ TEST_SUITE("dataset") {
         CHECK(first.stopped);
         // What is there can be opened; what is not yet is zero; products come at the end.
         const auto part =
-            data_of<float>(temporary.path / "stopped/sss/waterfall.npy", {"<f4", {7, 180}});
-        CHECK(std::any_of(part.begin(), part.begin() + 180, [](float v) { return v > 0.0F; }));
-        CHECK(std::all_of(part.end() - 180, part.end(), [](float v) { return v == 0.0F; }));
+            data_of<float>(temporary.path / "stopped/sss/waterfall.npy", {"<f4", {7, 192}});
+        CHECK(std::any_of(part.begin(), part.begin() + 192, [](float v) { return v > 0.0F; }));
+        CHECK(std::all_of(part.end() - 192, part.end(), [](float v) { return v == 0.0F; }));
         CHECK_FALSE(fs::exists(temporary.path / "stopped/sss/waterfall.png"));
         const RenderSummary second = run(stopped);
         CHECK(second.skipped == first.pings);

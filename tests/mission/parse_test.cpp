@@ -239,6 +239,16 @@ TEST_CASE("checks across keys stand at the key that was written last") {
     // 1e-4 m over 512 bins is 2e-7 m a bin.
     CHECK(refusal(smallest_mission + "    range_min_m: 1\n    range_max_m: 1.0001\n") ==
           "m.yaml:7:18: range bins must be wider than a micrometre");
+    // A side-scan's waterfall has a column per bin from nadir on: here of a centimetre.
+    const auto from = [](const std::string& range_min_m, const std::string& range_max_m) {
+        return refusal(smallest_mission + "    range_bins: 100\n    range_min_m: " + range_min_m +
+                           "\n    range_max_m: " + range_max_m + "\n",
+                       {"sensors.fls.kind=sidescan"});
+    };
+    CHECK(from("655", "656") == "");
+    CHECK(from("656", "657") ==
+          "m.yaml:8:18: a side-scan's waterfall begins at nadir: range_min_m "
+          "must be at most 65536 range bins");
 }
 
 TEST_CASE("paths") {

@@ -29,9 +29,21 @@ SonarConfig sidescan(int range_bins) {
 }  // namespace
 
 TEST_SUITE("product") {
-    TEST_CASE("row: port from far to near, then starboard from near to far") {
-        Ping ping{3, 2, {1, 10, 2, 20, 3, 30}, {}, {}};  // starboard 1 2 3, port 10 20 30
-        CHECK(sidescan_row(ping) == std::vector<float>{30, 20, 10, 1, 2, 3});
+    TEST_CASE("row: port from far to near, then starboard from near to far, linear through nadir") {
+        const Ping ping{3, 2, {1, 10, 2, 20, 3, 30}, {}, {}};  // starboard 1 2 3, port 10 20 30
+        SonarConfig config = sidescan(3);                      // of 10 m
+        CHECK(sidescan_row(config, ping) == std::vector<float>{30, 20, 10, 1, 2, 3});
+        // 20 m to 26 m in bins of 2 m: ten bins from nadir to range_min.
+        config.range_min_m = 20.0;
+        config.range_max_m = 26.0;
+        REQUIRE(waterfall_columns(config) == 26);
+        const std::vector<float> row = sidescan_row(config, ping);
+        for (int k = 0; k < 26; ++k) {
+            // Linear through nadir: column k shows |k + 0.5 - 13| columns of 2 m.
+            const double range = 2.0 * std::fabs(k + 0.5 - 13.0);
+            const int bin = static_cast<int>(std::floor((range - 20.0) / 2.0));
+            CHECK(row[k] == (range < 20.0 ? 0.0F : ping.at(bin, k < 13 ? 1 : 0)));
+        }
     }
 
     TEST_CASE("bottom: the leading edge, to the bin") {
@@ -103,22 +115,25 @@ TEST_SUITE("product") {
     TEST_CASE("waterfall: bright copper where it echoes, marks at their ranges") {
         const SonarConfig config = sidescan(300);  // 10 cm
         Picture axis = waterfall_axis(config);
-        CHECK(axis.width == 600);
+        CHECK(axis.width == 601);
         const Rgb* const ticks = axis.row(axis.height - 3);
-        // 10 m to starboard is bin 100, column 300 + 100; to port 299 - 100.
-        CHECK(ticks[400] == ink);
+        // 10 m to starboard is bin 100, pixel 301 + 100, after the line; to port 299 - 100.
+        CHECK(ticks[401] == ink);
         CHECK(ticks[199] == ink);
         CHECK(ticks[450] == paper);
         std::vector<float> row(600, 0.0F);
         row[10] = 0.5F;
         row[20] = 0.125F;
-        std::vector<Rgb> pixels(600);
+        row[299] = row[300] = 0.5F;
+        std::vector<Rgb> pixels(601);
         waterfall_row(row, 0.5, pixels);
         CHECK(pixels[0] == Rgb{0, 0, 0});
         CHECK(pixels[10] == Rgb{255, 199, 127});
         CHECK(pixels[20].r > pixels[20].g);  // copper
         CHECK(pixels[20].g > pixels[20].b);
         CHECK(pixels[300].b > pixels[300].r);  // the line at nadir
+        CHECK(pixels[299] == pixels[10]);      // which hides no bin
+        CHECK(pixels[301] == pixels[10]);
     }
 
     TEST_CASE("echogram: the depth axis fits the rows") {

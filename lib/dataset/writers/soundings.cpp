@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/file.h"
+#include "dataset/geotiff.h"
 #include "dataset/image_file.h"
 #include "dataset/metadata.h"
 #include "dataset/png.h"
@@ -137,10 +138,8 @@ void write_bathymetry(const SoundingSource& source, double cell_m,
     std::vector<float> z = grid.mean_z();
     if (z.empty()) z.push_back(std::nanf(""));
     const int columns = std::max(grid.columns, 1);
-    ImageFile tiff(folder / "bathymetry.tif", columns, std::max(grid.rows, 1), PixelKind::float32);
-    for (std::size_t first = 0; first < z.size(); first += columns)
-        tiff.row(std::span<const float>(z).subspan(first, columns));
-    tiff.finish();
+    write_geotiff(folder / "bathymetry.tif", z, columns,
+                  {grid.west_m, grid.north_m, grid.cell_m > 0.0 ? grid.cell_m : 1.0});
     write_file(folder / "bathymetry.json",
                json_text(georeference(grid, cell_m, bounds.count, left_out)));
     write_picture(folder / "bathymetry.png", draw_bathymetry(grid));

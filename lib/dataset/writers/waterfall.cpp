@@ -11,8 +11,8 @@ namespace sonarsim {
 
 namespace {
 
-/// waterfall.npy: float32 [ping, 2 x range]; waterfall.png the same in 16 bits, waterfall_view.png
-/// in copper tones.
+/// waterfall.npy: float32 [ping, column], both sides from nadir on; waterfall.png the same in 16
+/// bits, waterfall_view.png in copper tones.
 class WaterfallWriter final : public Writer {
   public:
     explicit WaterfallWriter(const WriterContext& context)
@@ -21,13 +21,13 @@ class WaterfallWriter final : public Writer {
           full_scale_(context.mission.output.full_scale) {}
 
     WriterOutputs outputs() const override {
-        const auto columns = 2 * static_cast<std::size_t>(sonar_.config.range_bins);
+        const auto columns = static_cast<std::size_t>(waterfall_columns(sonar_.config));
         const Picture axis = waterfall_axis(sonar_.config);
         const int rows = picture_rows(pings_);
-        WriterOutputs outputs =
-            record_outputs("waterfall.npy", {"<f4", {pings_, columns}},
-                           {"ping", "port from range_max to range_min, then starboard back"},
-                           4.0 * static_cast<double>(columns));
+        WriterOutputs outputs = record_outputs(
+            "waterfall.npy", {"<f4", {pings_, columns}},
+            {"ping", "port from range_max to nadir, then starboard from nadir to range_max"},
+            4.0 * static_cast<double>(columns));
         outputs.products = {
             {"waterfall.png", png_bytes_at_most(static_cast<int>(columns), rows, 2)},
             {"waterfall_view.png", png_bytes_at_most(axis.width, axis.height + rows, 3)}};
@@ -35,7 +35,7 @@ class WaterfallWriter final : public Writer {
     }
 
     std::string encode(const FinishedPing& finished) const override {
-        return record_bytes(sidescan_row(finished.ping));
+        return record_bytes(sidescan_row(sonar_.config, finished.ping));
     }
 
     void write_products(const RecordFile& file,
@@ -44,7 +44,8 @@ class WaterfallWriter final : public Writer {
         const double white = white_of(records);
         Picture axis = waterfall_axis(sonar_.config);
         const int rows = static_cast<int>(records.rows());
-        ImageFile plain(folder / "waterfall.png", axis.width, rows, PixelKind::grey16);
+        ImageFile plain(folder / "waterfall.png", waterfall_columns(sonar_.config), rows,
+                        PixelKind::grey16);
         ImageFile view(folder / "waterfall_view.png", axis.width, axis.height + rows,
                        PixelKind::rgb8);
         for (int y = 0; y < axis.height; ++y)
@@ -58,6 +59,15 @@ class WaterfallWriter final : public Writer {
         }
         plain.finish();
         view.finish();
+    }
+
+    void describe(nlohmann::ordered_json& sensor) const override {
+        sensor["waterfall"] = {{"columns", waterfall_columns(sonar_.config)},
+                               {"blank_columns_a_side", blank_columns(sonar_.config)},
+                               {"column_m", sonar_.settings.view.bin_m()},
+                               {"slant_range",
+                                "of the middle of column k: |k + 0.5 - columns / 2| "
+                                "column_m; blank columns lie before range_min"}};
     }
 
   private:

@@ -50,7 +50,7 @@ Difference compare(const Ping& ping, const std::vector<float>& truth) {
     double sum = 0.0;
     double total = 0.0;
     for (std::size_t k = 0; k < truth.size(); ++k) {
-        if (truth[k] == ignored) continue;
+        if (truth[k] == unchecked) continue;
         const double apart = std::fabs(static_cast<double>(ping.intensity[k]) - truth[k]);
         sum += apart;
         total += truth[k];

@@ -21,8 +21,8 @@ struct HardTrial {
     Pose T_world_vehicle;
 };
 
-/// What an expectation may look at.
-struct HardLook {
+/// What the expected image of a case may depend on.
+struct HardContext {
     const Scene& scene;
     const HardTrial& trial;
     SonarKind kind;
@@ -31,7 +31,7 @@ struct HardLook {
 };
 
 /// Pixels of an expected image that may be anything.
-inline constexpr float ignored = -1.0F;
+inline constexpr float unchecked = -1.0F;
 
 /// The largest error that each engine may make.
 struct HardBounds {
@@ -52,7 +52,7 @@ struct HardCase {
     std::function<Scene()> scene;
     std::function<HardTrial(SonarKind)> trial;
     /// The image that must come out, [range_bins, beams]; none: the invariants alone are checked.
-    std::function<std::vector<float>(const HardLook&)> truth = {};
+    std::function<std::vector<float>(const HardContext&)> truth = {};
     HardBounds bounds = {};
     bool noisy = false;      ///< may be brighter than the brightest material
     double brightest = 0.0;  ///< no pixel may be above; 0: the largest reflection of the scene
@@ -64,7 +64,7 @@ struct HardCase {
 struct HardResult {
     std::string name, stresses, expected, engine;
     std::string sonar = {};  ///< that made the error
-    double error = 0.0;      ///< sum |A - B| / sum B over the pixels that are not ignored
+    double error = 0.0;      ///< sum |A - B| / sum B over the pixels that are checked
     double bound = 0.0;
     double largest_difference = 0.0;  ///< of any pixel, max |A - B|
     double slowest_ms = 0.0;          ///< of the four pings

@@ -14,16 +14,16 @@ namespace {
 using namespace shapes;
 
 /// The floor of `plain_floor`, of R = 0.5 and 3 m below the sonar.
-std::vector<float> floor_law(const HardLook& look) {
-    return plane_law(look, 0.5, 3.0);
+std::vector<float> floor_law(const HardContext& context) {
+    return plane_law(context, 0.5, 3.0);
 }
 
-std::vector<float> plain_floor_image(const HardLook& look) {
-    return image_of(plain_floor(), look.trial, look.engine);
+std::vector<float> plain_floor_image(const HardContext& context) {
+    return image_of(plain_floor(), context.trial, context.engine);
 }
 
-std::vector<float> tank_image(const HardLook& look) {
-    return image_of(tank(), look.trial, look.engine);
+std::vector<float> tank_image(const HardContext& context) {
+    return image_of(tank(), context.trial, context.engine);
 }
 
 void add_triangle(Scene& scene, const std::array<std::uint32_t, 3>& corners) {
@@ -122,14 +122,14 @@ HardTrial tank_trial(SonarKind kind) {
 
 /// Each pole takes up 0.3 degrees of the azimuth, or of the way round the cone: a
 /// reference that has settled without them would not know, so this one takes all its rays.
-std::vector<float> thin_reference(const HardLook& look) {
-    const bool cone = look.kind == SonarKind::echosounder;
-    return reference_of(look, {0.0, 64.0, cone ? 40'000'000U : 8'000'000U});
+std::vector<float> thin_reference(const HardContext& context) {
+    const bool cone = context.kind == SonarKind::echosounder;
+    return reference_of(context, {0.0, 64.0, cone ? 40'000'000U : 8'000'000U});
 }
 
 /// Rays that suffice for what is not thin.
-std::vector<float> reference(const HardLook& look) {
-    return reference_of(look, {0.002, 64.0, 2'000'000});
+std::vector<float> reference(const HardContext& context) {
+    return reference_of(context, {0.002, 64.0, 2'000'000});
 }
 
 }  // namespace
@@ -140,106 +140,108 @@ std::vector<float> reference(const HardLook& look) {
 // no plain rectangle to it and casts a shadow that is a fifth larger; faces of opposite winding are
 // apart in a leaf, since they may be the two sides of a plate.
 std::vector<HardCase> hard_geometry() {
-    return {
-        {"triangles without area",
-         "points, lines, folded triangles",
-         "the image without them",
-         floor_with_degenerates,
-         plain,
-         plain_floor_image,
-         {0.0, 1e-6}},
-        {"needle triangles",
-         "aspect 1e6, 60 m by 60 um",
-         "R H / r",
-         floor_with_needles,
-         plain,
-         floor_law,
-         {0.02, 0.02}},
-        {"duplicated faces",
-         "every triangle twice, turned",
-         "the image with them once",
-         doubled_tank,
-         tank_trial,
-         tank_image,
-         {1e-5, 0.12}},
-        {"flipped normals",
-         "every second triangle wound the other way",
-         "the same image",
-         flipped_tank,
-         tank_trial,
-         tank_image,
-         {1e-6, 0.15}},
-        {"T-junctions, a crack",
-         "0.1 mm between unlike meshes",
-         "R H / r",
-         cracked_floor,
-         plain,
-         floor_law,
-         {0.02, 0.02}},
-        {"non-manifold edge",
-         "three plates on one edge",
-         "reference",
-         non_manifold,
-         plain,
-         reference,
-         {0.05, 0.20}},
-        {"thin plate",
-         "two faces 1 mm apart, upright",
-         "reference",
-         [] {
-             return with_plate({3.0F, -1.0F, 0.0F}, {3.001F, 1.0F, 1.0F});
-         },
-         plain,
-         reference,
-         {0.05, 0.20}},
-        {"thin plate on the floor",
-         "two faces 1 mm apart, flat",
-         "reference",
-         [] {
-             return with_plate({0.0F, -1.0F, 0.001F}, {3.0F, 1.0F, 0.002F});
-         },
-         plain,
-         reference,
-         {0.05, 0.20}},
-        {"thin poles",
-         "4 mm: thinner than leaf and ray spacing",
-         "reference",
-         floor_with_pole,
-         plain,
-         thin_reference,
-         {0.05, 0.20},
-         false,
-         0.0,
-         {"a cone has a column of rays every 4 degrees, and a pole between two of them is not seen",
-          ""}},
-        {"one triangle of 10 km",
-         "vertices 1e4 times as far as the range",
-         "R H / r",
-         [] {
-             Scene scene = empty_scene();
-             add_material(scene, 0.5F);
-             scene.instances.push_back("sea floor");
-             scene.vertices.emplace_back(-5000.0F, -4000.0F, 0.0F);
-             scene.vertices.emplace_back(5000.0F, -4000.0F, 0.0F);
-             scene.vertices.emplace_back(0.0F, 6000.0F, 0.0F);
-             add_triangle(scene, {0, 1, 2});
-             return scene;
-         },
-         plain,
-         floor_law,
-         {0.02, 0.02}},
-        {"a million triangles in a leaf",
-         "1 cm x 1 cm of the floor",
-         "R H / r",
-         [] {
-             Scene scene = plain_floor();
-             add_quad(scene, {2, 0, 0}, {2.01F, 0, 0}, {2.01F, 0.01F, 0}, {2, 0.01F, 0}, 0, 707);
-             return scene;
-         },
-         plain,
-         floor_law,
-         {0.02, 0.02}},
-    };
+    return {{.name = "triangles without area",
+             .stresses = "points, lines, folded triangles",
+             .expected = "the image without them",
+             .scene = floor_with_degenerates,
+             .trial = plain,
+             .truth = plain_floor_image,
+             .bounds = {0.0, 1e-6}},
+            {.name = "needle triangles",
+             .stresses = "aspect 1e6, 60 m by 60 um",
+             .expected = "R H / r",
+             .scene = floor_with_needles,
+             .trial = plain,
+             .truth = floor_law,
+             .bounds = {0.02, 0.02}},
+            {.name = "duplicated faces",
+             .stresses = "every triangle twice, turned",
+             .expected = "the image with them once",
+             .scene = doubled_tank,
+             .trial = tank_trial,
+             .truth = tank_image,
+             .bounds = {1e-5, 0.12}},
+            {.name = "flipped normals",
+             .stresses = "every second triangle wound the other way",
+             .expected = "the same image",
+             .scene = flipped_tank,
+             .trial = tank_trial,
+             .truth = tank_image,
+             .bounds = {1e-6, 0.15}},
+            {.name = "T-junctions, a crack",
+             .stresses = "0.1 mm between unlike meshes",
+             .expected = "R H / r",
+             .scene = cracked_floor,
+             .trial = plain,
+             .truth = floor_law,
+             .bounds = {0.02, 0.02}},
+            {.name = "non-manifold edge",
+             .stresses = "three plates on one edge",
+             .expected = "reference",
+             .scene = non_manifold,
+             .trial = plain,
+             .truth = reference,
+             .bounds = {0.05, 0.20}},
+            {.name = "thin plate",
+             .stresses = "two faces 1 mm apart, upright",
+             .expected = "reference",
+             .scene =
+                 [] {
+                     return with_plate({3.0F, -1.0F, 0.0F}, {3.001F, 1.0F, 1.0F});
+                 },
+             .trial = plain,
+             .truth = reference,
+             .bounds = {0.05, 0.20}},
+            {.name = "thin plate on the floor",
+             .stresses = "two faces 1 mm apart, flat",
+             .expected = "reference",
+             .scene =
+                 [] {
+                     return with_plate({0.0F, -1.0F, 0.001F}, {3.0F, 1.0F, 0.002F});
+                 },
+             .trial = plain,
+             .truth = reference,
+             .bounds = {0.05, 0.20}},
+            {.name = "thin poles",
+             .stresses = "4 mm: thinner than leaf and ray spacing",
+             .expected = "reference",
+             .scene = floor_with_pole,
+             .trial = plain,
+             .truth = thin_reference,
+             .bounds = {0.05, 0.20},
+             .known = {"a cone has a column of rays every 4 degrees, and a pole between two of "
+                       "them is not seen",
+                       ""}},
+            {.name = "one triangle of 10 km",
+             .stresses = "vertices 1e4 times as far as the range",
+             .expected = "R H / r",
+             .scene =
+                 [] {
+                     Scene scene = empty_scene();
+                     add_material(scene, 0.5F);
+                     scene.instances.push_back("sea floor");
+                     scene.vertices.emplace_back(-5000.0F, -4000.0F, 0.0F);
+                     scene.vertices.emplace_back(5000.0F, -4000.0F, 0.0F);
+                     scene.vertices.emplace_back(0.0F, 6000.0F, 0.0F);
+                     add_triangle(scene, {0, 1, 2});
+                     return scene;
+                 },
+             .trial = plain,
+             .truth = floor_law,
+             .bounds = {0.02, 0.02}},
+            {.name = "a million triangles in a leaf",
+             .stresses = "1 cm x 1 cm of the floor",
+             .expected = "R H / r",
+             .scene =
+                 [] {
+                     Scene scene = plain_floor();
+                     add_quad(scene, {2, 0, 0}, {2.01F, 0, 0}, {2.01F, 0.01F, 0}, {2, 0.01F, 0}, 0,
+                              707);
+                     return scene;
+                 },
+             .trial = plain,
+             .truth = floor_law,
+             .bounds = {0.02, 0.02}}};
 }
 
 }  // namespace sonarsim

@@ -13,8 +13,8 @@ using namespace shapes;
 
 const Pose motion{rotation_from_rpy(0.3, -0.2, 1.1), {20.0, -7.0, 3.0}};
 
-std::vector<float> tank_image(const HardLook& look) {
-    return image_of(tank(), in_tank(look.kind), look.engine);
+std::vector<float> tank_image(const HardContext& context) {
+    return image_of(tank(), in_tank(context.kind), context.engine);
 }
 
 HardTrial tank_trial(SonarKind kind) {
@@ -52,10 +52,10 @@ HardTrial mirrored_trial(SonarKind kind) {
 }
 
 /// Port and starboard change places.
-std::vector<float> mirrored_image(const HardLook& look) {
-    std::vector<float> image = tank_image(look);
-    for (auto row = image.begin(); row != image.end(); row += look.ping.beams)
-        std::reverse(row, row + look.ping.beams);
+std::vector<float> mirrored_image(const HardContext& context) {
+    std::vector<float> image = tank_image(context);
+    for (auto row = image.begin(); row != image.end(); row += context.ping.beams)
+        std::reverse(row, row + context.ping.beams);
     return image;
 }
 
@@ -105,36 +105,34 @@ Scene split() {
 // Under a motion the lattice of the octree lies otherwise to the scene: two images may differ by
 // what each is off, up to 0.16 in the tank.
 std::vector<HardCase> hard_invariances() {
-    return {
-        {"rigid motion",
-         "scene and trajectory moved and turned",
-         "the same image",
-         rigidly_moved,
-         rigidly_moved_trial,
-         tank_image,
-         {0.01, 0.20}},
-        {"mirror",
-         "y -> -y",
-         "port and starboard changed",
-         mirrored,
-         mirrored_trial,
-         mirrored_image,
-         {0.01, 0.20}},
-        {"permuted triangles",
-         "another order",
-         "the same image",
-         permuted,
-         tank_trial,
-         tank_image,
-         {1e-6, 0.01}},
-        {"split triangles",
-         "four for each",
-         "the same image",
-         split,
-         tank_trial,
-         tank_image,
-         {0.01, 0.02}},
-    };
+    return {{.name = "rigid motion",
+             .stresses = "scene and trajectory moved and turned",
+             .expected = "the same image",
+             .scene = rigidly_moved,
+             .trial = rigidly_moved_trial,
+             .truth = tank_image,
+             .bounds = {0.01, 0.20}},
+            {.name = "mirror",
+             .stresses = "y -> -y",
+             .expected = "port and starboard changed",
+             .scene = mirrored,
+             .trial = mirrored_trial,
+             .truth = mirrored_image,
+             .bounds = {0.01, 0.20}},
+            {.name = "permuted triangles",
+             .stresses = "another order",
+             .expected = "the same image",
+             .scene = permuted,
+             .trial = tank_trial,
+             .truth = tank_image,
+             .bounds = {1e-6, 0.01}},
+            {.name = "split triangles",
+             .stresses = "four for each",
+             .expected = "the same image",
+             .scene = split,
+             .trial = tank_trial,
+             .truth = tank_image,
+             .bounds = {0.01, 0.02}}};
 }
 
 }  // namespace sonarsim

@@ -33,17 +33,17 @@ NoiseConfig pixel_noise(double sigma) {
 }
 
 /// Where range noise moves nothing and fades nothing: the image without it.
-std::vector<float> without_noise_where_nothing_fades(const HardLook& look) {
-    const bool fades = look.kind == SonarKind::imaging || look.kind == SonarKind::profiling;
-    if (fades) return std::vector<float>(look.ping.intensity.size(), ignored);
-    return image_of(look.scene, in_tank(look.kind), look.engine);
+std::vector<float> without_noise_where_nothing_fades(const HardContext& context) {
+    const bool fades = context.kind == SonarKind::imaging || context.kind == SonarKind::profiling;
+    if (fades) return std::vector<float>(context.ping.intensity.size(), unchecked);
+    return image_of(context.scene, in_tank(context.kind), context.engine);
 }
 
 /// P(w < 10 m) = 1e-8 at lambda = 1e9 m: what has range noise sees nothing.
-std::vector<float> all_drowned(const HardLook& look) {
-    return look.kind == SonarKind::sidescan
-               ? std::vector<float>(look.ping.intensity.size(), ignored)
-               : dark(look);
+std::vector<float> all_drowned(const HardContext& context) {
+    return context.kind == SonarKind::sidescan
+               ? std::vector<float>(context.ping.intensity.size(), unchecked)
+               : dark(context);
 }
 
 std::function<HardTrial(SonarKind)> with_streaks(StreakMode mode) {
@@ -58,16 +58,16 @@ std::function<HardTrial(SonarKind)> with_streaks(StreakMode mode) {
 
 /// With threshold 0 all rows that see surface become 1 - (1 - I)^2 or I^2 of a clamped I: within
 /// [0, 1] however bright the noise is. Here only what is above 1 counts as an error.
-std::vector<float> at_most_one(const HardLook& look) {
-    std::vector<float> truth(look.ping.intensity.size(), ignored);
-    const std::vector<float> clean = image_of(look.scene, in_tank(look.kind), look.engine);
-    const auto beams = static_cast<std::size_t>(look.ping.beams);
+std::vector<float> at_most_one(const HardContext& context) {
+    std::vector<float> truth(context.ping.intensity.size(), unchecked);
+    const std::vector<float> clean = image_of(context.scene, in_tank(context.kind), context.engine);
+    const auto beams = static_cast<std::size_t>(context.ping.beams);
     for (std::size_t row = 0; row < truth.size(); row += beams) {
         bool lit = false;
         for (std::size_t k = row; k < row + beams; ++k)
             lit = lit || clean[k] > 0.0F;
         for (std::size_t k = row; lit && k < row + beams; ++k)
-            truth[k] = std::min(look.ping.intensity[k], 1.0F);
+            truth[k] = std::min(context.ping.intensity[k], 1.0F);
     }
     return truth;
 }
@@ -83,9 +83,10 @@ void clusters(SonarConfig& config) {
     config.multipath.method = MultipathMethod::cluster;
 }
 
-/// What multipath there is in the tank at home: neither a motion nor a scale can be told from it.
-std::vector<float> multipath_at_home(const HardLook& look) {
-    return image_of(tank(), in_tank(look.kind, clusters), look.engine);
+/// The multipath in the tank as it was modelled. Where scene and sonar move or grow together, it
+/// stays the same.
+std::vector<float> multipath_in_unmoved_tank(const HardContext& context) {
+    return image_of(tank(), in_tank(context.kind, clusters), context.engine);
 }
 
 HardTrial multipath_along(SonarKind kind) {
@@ -99,99 +100,93 @@ HardTrial multipath_along(SonarKind kind) {
 }  // namespace
 
 std::vector<HardCase> hard_noise() {
-    return {
-        {"lambda 1e-9 m",
-         "range noise below any float's step",
-         "unchanged where nothing fades",
-         tank,
-         tank_with(range_noise(1e-9)),
-         without_noise_where_nothing_fades,
-         {0.02, 0.02}},
-        {"lambda 100 m",
-         "range noise of ten times the range",
-         "invariants",
-         tank,
-         tank_with(range_noise(100.0)),
-         {},
-         {}},
-        {"lambda 1e9 m",
-         "all echoes drowned",
-         "dark; P(w < 10 m) = 1e-8",
-         tank,
-         tank_with(range_noise(1e9)),
-         all_drowned,
-         {0, 0}},
-        {"sigma 0",
-         "no pixel noise",
-         "the image without it",
-         tank,
-         tank_with(pixel_noise(0.0)),
-         [](const HardLook& look) { return image_of(look.scene, in_tank(look.kind), look.engine); },
-         {0, 0}},
-        {"sigma 1e9",
-         "pixel noise as large as a mission allows",
-         "invariants",
-         tank,
-         tank_with(pixel_noise(1e9)),
-         {},
-         {},
-         true},
-        {"streaks added above 1",
-         "1 - (1 - I)^2 turns around there",
-         "rows within [0, 1]",
-         tank,
-         with_streaks(StreakMode::add),
-         at_most_one,
-         {0, 0},
-         true},
-        {"streaks reduced above 1",
-         "I^2 grows there",
-         "rows within [0, 1]",
-         tank,
-         with_streaks(StreakMode::reduce),
-         at_most_one,
-         {0, 0},
-         true},
-        {"multipath edge-on",
-         "[2] divides by r . n of a wall alongside",
-         "invariants",
-         wall_along,
-         multipath_along,
-         {},
-         {}},
-        {"multipath on a surface",
-         "sources without a direction",
-         "invariants",
-         wall_along,
-         [](SonarKind kind) {
-             HardTrial trial = multipath_along(kind);
-             trial.T_world_vehicle.translation.z() = 0.0;
-             return trial;
-         },
-         {},
-         {}},
-        {"multipath, far from the origin",
-         "512345.678, 4812345.678, -43.21 m",
-         "the image at the origin",
-         [] { return moved_tank(utm_odd); },
-         [](SonarKind k) { return in_moved_tank(k, utm_odd, clusters); },
-         multipath_at_home,
-         {1e-4, 1e-4}},
-        {"multipath in a millimetre",
-         "is p hidden? in a tank 8e-4 of its size",
-         "the image in full size",
-         [] { return scaled_tank(1.25e-4); },
-         [](SonarKind k) { return in_scaled_tank(k, 1.25e-4, clusters); },
-         multipath_at_home,
-         {1e-4, 1e-4}},
-        {"multipath in 50 km",
-         "is p hidden? in a tank 6250 times its size",
-         "the image in full size",
-         [] { return scaled_tank(6250.0); },
-         [](SonarKind k) { return in_scaled_tank(k, 6250.0, clusters); },
-         multipath_at_home,
-         {1e-4, 0.25}},
-    };
+    return {{.name = "lambda 1e-9 m",
+             .stresses = "range noise below any float's step",
+             .expected = "unchanged where nothing fades",
+             .scene = tank,
+             .trial = tank_with(range_noise(1e-9)),
+             .truth = without_noise_where_nothing_fades,
+             .bounds = {0.02, 0.02}},
+            {.name = "lambda 100 m",
+             .stresses = "range noise of ten times the range",
+             .expected = "invariants",
+             .scene = tank,
+             .trial = tank_with(range_noise(100.0))},
+            {.name = "lambda 1e9 m",
+             .stresses = "all echoes drowned",
+             .expected = "dark; P(w < 10 m) = 1e-8",
+             .scene = tank,
+             .trial = tank_with(range_noise(1e9)),
+             .truth = all_drowned,
+             .bounds = {0, 0}},
+            {.name = "sigma 0",
+             .stresses = "no pixel noise",
+             .expected = "the image without it",
+             .scene = tank,
+             .trial = tank_with(pixel_noise(0.0)),
+             .truth =
+                 [](const HardContext& context) {
+                     return image_of(context.scene, in_tank(context.kind), context.engine);
+                 },
+             .bounds = {0, 0}},
+            {.name = "sigma 1e9",
+             .stresses = "pixel noise as large as a mission allows",
+             .expected = "invariants",
+             .scene = tank,
+             .trial = tank_with(pixel_noise(1e9)),
+             .noisy = true},
+            {.name = "streaks added above 1",
+             .stresses = "1 - (1 - I)^2 turns around there",
+             .expected = "rows within [0, 1]",
+             .scene = tank,
+             .trial = with_streaks(StreakMode::add),
+             .truth = at_most_one,
+             .bounds = {0, 0},
+             .noisy = true},
+            {.name = "streaks reduced above 1",
+             .stresses = "I^2 grows there",
+             .expected = "rows within [0, 1]",
+             .scene = tank,
+             .trial = with_streaks(StreakMode::reduce),
+             .truth = at_most_one,
+             .bounds = {0, 0},
+             .noisy = true},
+            {.name = "multipath edge-on",
+             .stresses = "[2] divides by r . n of a wall alongside",
+             .expected = "invariants",
+             .scene = wall_along,
+             .trial = multipath_along},
+            {.name = "multipath on a surface",
+             .stresses = "sources without a direction",
+             .expected = "invariants",
+             .scene = wall_along,
+             .trial =
+                 [](SonarKind kind) {
+                     HardTrial trial = multipath_along(kind);
+                     trial.T_world_vehicle.translation.z() = 0.0;
+                     return trial;
+                 }},
+            {.name = "multipath, far from the origin",
+             .stresses = "512345.678, 4812345.678, -43.21 m",
+             .expected = "the image at the origin",
+             .scene = [] { return moved_tank(utm_odd); },
+             .trial = [](SonarKind k) { return in_moved_tank(k, utm_odd, clusters); },
+             .truth = multipath_in_unmoved_tank,
+             .bounds = {1e-4, 1e-4}},
+            {.name = "multipath in a millimetre",
+             .stresses = "is p hidden? in a tank 8e-4 of its size",
+             .expected = "the image in full size",
+             .scene = [] { return scaled_tank(1.25e-4); },
+             .trial = [](SonarKind k) { return in_scaled_tank(k, 1.25e-4, clusters); },
+             .truth = multipath_in_unmoved_tank,
+             .bounds = {1e-4, 1e-4}},
+            {.name = "multipath in 50 km",
+             .stresses = "is p hidden? in a tank 6250 times its size",
+             .expected = "the image in full size",
+             .scene = [] { return scaled_tank(6250.0); },
+             .trial = [](SonarKind k) { return in_scaled_tank(k, 6250.0, clusters); },
+             .truth = multipath_in_unmoved_tank,
+             .bounds = {1e-4, 0.25}}};
 }
 
 }  // namespace sonarsim

@@ -16,17 +16,17 @@ Scene inside_sphere() {
     return scene;
 }
 
-HardTrial in_the_centre(SonarKind kind, const Tweak& tweak) {
-    HardTrial trial = over_floor(kind, tweak);
+HardTrial in_the_centre(SonarKind kind, const ConfigChange& change) {
+    HardTrial trial = over_floor(kind, change);
     trial.T_world_vehicle.translation.setZero();
     return trial;
 }
 
 /// All of a sphere about the sonar is seen face on, at its radius: R in that bin, else nothing. The
 /// facets' middles lie 5 (1 - cos(pi / 256)) < 0.4 mm nearer, well within the bin of 77 mm.
-std::vector<float> sphere_law(const HardLook& look) {
-    const View& view = look.trial.sonar.settings.view;
-    std::vector<float> truth(look.ping.intensity.size(), 0.0F);
+std::vector<float> sphere_law(const HardContext& context) {
+    const View& view = context.trial.sonar.settings.view;
+    std::vector<float> truth(context.ping.intensity.size(), 0.0F);
     const auto bin = static_cast<std::size_t>((5.0 - view.range_min_m) / view.bin_m());
     std::fill_n(truth.begin() + static_cast<std::ptrdiff_t>(bin * view.beams), view.beams, 0.7F);
     return truth;
@@ -61,53 +61,55 @@ HardTrial plain(SonarKind kind) {
 }  // namespace
 
 std::vector<HardCase> hard_places() {
-    return {
-        {"on a surface",
-         "height 0: no direction to the nearest point",
-         "invariants",
-         plain_floor,
-         on_the_floor,
-         {},
-         {}},
-        {"on a turned surface",
-         "height 0 up to rounding",
-         "invariants",
-         turned_floor,
-         on_turned_floor,
-         {},
-         {}},
-        {"inside a solid",
-         "walls 5 cm away all round, below range_min",
-         "dark: all is nearer than range_min",
-         [] {
-             Scene scene = empty_scene();
-             add_box(scene, {0.26F, 0.12F, 2.95F}, {0.36F, 0.22F, 3.05F},
-                     add_material(scene, 0.5F));
-             return scene;
-         },
-         plain,
-         dark,
-         {0.0, 0.0}},
-        {"empty scene", "no triangle", "dark", [] { return empty_scene(); }, plain, dark, {0, 0}},
-        {"empty field of view",
-         "all surface behind the sonar",
-         "dark",
-         [] {
-             Scene scene = empty_scene();
-             add_floor(scene, 30.0F, 8.0F, add_material(scene, 0.5F));
-             return scene;
-         },
-         plain,
-         dark,
-         {0, 0}},
-        {"a closed mesh from inside",
-         "two-sided surfaces, all round",
-         "R in one bin",
-         inside_sphere,
-         [](SonarKind kind) { return in_the_centre(kind, {}); },
-         sphere_law,
-         {0.001, 0.02}},
-    };
+    return {{.name = "on a surface",
+             .stresses = "height 0: no direction to the nearest point",
+             .expected = "invariants",
+             .scene = plain_floor,
+             .trial = on_the_floor},
+            {.name = "on a turned surface",
+             .stresses = "height 0 up to rounding",
+             .expected = "invariants",
+             .scene = turned_floor,
+             .trial = on_turned_floor},
+            {.name = "inside a solid",
+             .stresses = "walls 5 cm away all round, below range_min",
+             .expected = "dark: all is nearer than range_min",
+             .scene =
+                 [] {
+                     Scene scene = empty_scene();
+                     add_box(scene, {0.26F, 0.12F, 2.95F}, {0.36F, 0.22F, 3.05F},
+                             add_material(scene, 0.5F));
+                     return scene;
+                 },
+             .trial = plain,
+             .truth = dark,
+             .bounds = {0.0, 0.0}},
+            {.name = "empty scene",
+             .stresses = "no triangle",
+             .expected = "dark",
+             .scene = [] { return empty_scene(); },
+             .trial = plain,
+             .truth = dark,
+             .bounds = {0, 0}},
+            {.name = "empty field of view",
+             .stresses = "all surface behind the sonar",
+             .expected = "dark",
+             .scene =
+                 [] {
+                     Scene scene = empty_scene();
+                     add_floor(scene, 30.0F, 8.0F, add_material(scene, 0.5F));
+                     return scene;
+                 },
+             .trial = plain,
+             .truth = dark,
+             .bounds = {0, 0}},
+            {.name = "a closed mesh from inside",
+             .stresses = "two-sided surfaces, all round",
+             .expected = "R in one bin",
+             .scene = inside_sphere,
+             .trial = [](SonarKind kind) { return in_the_centre(kind, {}); },
+             .truth = sphere_law,
+             .bounds = {0.001, 0.02}}};
 }
 
 }  // namespace sonarsim

@@ -7,12 +7,12 @@ namespace {
 
 using namespace shapes;
 
-std::function<HardTrial(SonarKind)> floor_with(const Tweak& tweak) {
-    return [tweak](SonarKind kind) { return over_floor(kind, tweak); };
+std::function<HardTrial(SonarKind)> floor_with(const ConfigChange& change) {
+    return [change](SonarKind kind) { return over_floor(kind, change); };
 }
 
-std::vector<float> floor_law(const HardLook& look) {
-    return plane_law(look, 0.5, 3.0);
+std::vector<float> floor_law(const HardContext& context) {
+    return plane_law(context, 0.5, 3.0);
 }
 
 /// Room to all sides of the sonar over the floor.
@@ -51,12 +51,12 @@ HardTrial in_sphere_of_edge(SonarKind kind) {
 }
 
 /// The two bins that meet at 5 m are R where they are lit and no other is.
-std::vector<float> edge_law(const HardLook& look) {
-    std::vector<float> truth(look.ping.intensity.size(), 0.0F);
+std::vector<float> edge_law(const HardContext& context) {
+    std::vector<float> truth(context.ping.intensity.size(), 0.0F);
     for (int i = 4; i <= 5; ++i) {
-        for (int j = 0; j < look.ping.beams; ++j) {
-            truth[static_cast<std::size_t>(i) * look.ping.beams + j] =
-                look.ping.at(i, j) > 0.0F ? 0.7F : ignored;
+        for (int j = 0; j < context.ping.beams; ++j) {
+            truth[static_cast<std::size_t>(i) * context.ping.beams + j] =
+                context.ping.at(i, j) > 0.0F ? 0.7F : unchecked;
         }
     }
     return truth;
@@ -81,10 +81,10 @@ HardTrial over_seam(SonarKind kind) {
 }
 
 /// A cone sees both halves alike: half of R H / r. Others: all of it to port, nothing to starboard.
-std::vector<float> seam_law(const HardLook& look) {
-    const bool cone = look.kind == SonarKind::echosounder;
-    std::vector<float> truth = plane_law(look, cone ? 0.25 : 0.5, 3.0);
-    const int beams = look.ping.beams;
+std::vector<float> seam_law(const HardContext& context) {
+    const bool cone = context.kind == SonarKind::echosounder;
+    std::vector<float> truth = plane_law(context, cone ? 0.25 : 0.5, 3.0);
+    const int beams = context.ping.beams;
     for (std::size_t k = 0; k < truth.size() && !cone; ++k) {
         if (static_cast<int>(k % static_cast<std::size_t>(beams)) < beams / 2) truth[k] = 0.0F;
     }
@@ -92,8 +92,8 @@ std::vector<float> seam_law(const HardLook& look) {
 }
 
 /// Rays that suffice for what is not thin.
-std::vector<float> reference(const HardLook& look) {
-    return reference_of(look, {0.002, 64.0, 2'000'000});
+std::vector<float> reference(const HardContext& context) {
+    return reference_of(context, {0.002, 64.0, 2'000'000});
 }
 
 }  // namespace
@@ -101,79 +101,72 @@ std::vector<float> reference(const HardLook& look) {
 // The octree's cells are rows of tan(elevation), which has no end at 90 degrees: missions that look
 // there with it are refused.
 std::vector<HardCase> hard_sonar_limits() {
-    return {
-        {"range_min 0",
-         "bins from the sonar on",
-         "R H / r",
-         plain_floor,
-         floor_with([](SonarConfig& c) { c.range_min_m = 0.0; }),
-         floor_law,
-         {0.02, 0.02}},
-        {"one range bin",
-         "a bin of 9.8 m",
-         "reference",
-         plain_floor,
-         floor_with([](SonarConfig& c) { c.range_bins = 1; }),
-         reference,
-         {0.03, 0.25}},
-        {"8,192 range bins",
-         "bins of 1.2 mm",
-         "R H / r",
-         plain_floor,
-         floor_with([](SonarConfig& c) {
-             c.range_bins = 8192;
-             c.opening_deg = 30.0;
-         }),
-         floor_law,
-         {0.02, 0.02}},
-        {"azimuth of 360 degrees",
-         "a seam behind the sonar",
-         "reference",
-         room,
-         floor_with(all_azimuths),
-         reference,
-         {0.08, 0.20}},
-        {"elevation of 180 degrees",
-         "half of all directions",
-         "reference",
-         room,
-         floor_with(half_sphere),
-         reference,
-         {0.05, 0.08},
-         false,
-         0.0,
-         {},
-         true},
-        {"elevation poles",
-         "surface straight above and below",
-         "reference",
-         plain_floor,
-         [](SonarKind kind) {
-             HardTrial trial = over_floor(kind, half_sphere);
-             trial.T_world_vehicle.rotation = rotation_from_rpy(0.0, 0.0, 0.0);
-             return trial;
-         },
-         reference,
-         {0.05, 0.08},
-         false,
-         0.0,
-         {},
-         true},
-        {"samples on a bin's edge",
-         "a sphere of 5 m, bins of 1 m",
-         "R in two bins, else nothing",
-         sphere_on_an_edge,
-         in_sphere_of_edge,
-         edge_law,
-         {0.002, 0.02}},
-        {"a seam on a beam's edge",
-         "nothing may reach the beam beside",
-         "R H / r on one side",
-         halves,
-         over_seam,
-         seam_law,
-         {0.02, 0.05}},
-    };
+    return {{.name = "range_min 0",
+             .stresses = "bins from the sonar on",
+             .expected = "R H / r",
+             .scene = plain_floor,
+             .trial = floor_with([](SonarConfig& c) { c.range_min_m = 0.0; }),
+             .truth = floor_law,
+             .bounds = {0.02, 0.02}},
+            {.name = "one range bin",
+             .stresses = "a bin of 9.8 m",
+             .expected = "reference",
+             .scene = plain_floor,
+             .trial = floor_with([](SonarConfig& c) { c.range_bins = 1; }),
+             .truth = reference,
+             .bounds = {0.03, 0.25}},
+            {.name = "8,192 range bins",
+             .stresses = "bins of 1.2 mm",
+             .expected = "R H / r",
+             .scene = plain_floor,
+             .trial = floor_with([](SonarConfig& c) {
+                 c.range_bins = 8192;
+                 c.opening_deg = 30.0;
+             }),
+             .truth = floor_law,
+             .bounds = {0.02, 0.02}},
+            {.name = "azimuth of 360 degrees",
+             .stresses = "a seam behind the sonar",
+             .expected = "reference",
+             .scene = room,
+             .trial = floor_with(all_azimuths),
+             .truth = reference,
+             .bounds = {0.08, 0.20}},
+            {.name = "elevation of 180 degrees",
+             .stresses = "half of all directions",
+             .expected = "reference",
+             .scene = room,
+             .trial = floor_with(half_sphere),
+             .truth = reference,
+             .bounds = {0.05, 0.08},
+             .octree_may_refuse = true},
+            {.name = "elevation poles",
+             .stresses = "surface straight above and below",
+             .expected = "reference",
+             .scene = plain_floor,
+             .trial =
+                 [](SonarKind kind) {
+                     HardTrial trial = over_floor(kind, half_sphere);
+                     trial.T_world_vehicle.rotation = rotation_from_rpy(0.0, 0.0, 0.0);
+                     return trial;
+                 },
+             .truth = reference,
+             .bounds = {0.05, 0.08},
+             .octree_may_refuse = true},
+            {.name = "samples on a bin's edge",
+             .stresses = "a sphere of 5 m, bins of 1 m",
+             .expected = "R in two bins, else nothing",
+             .scene = sphere_on_an_edge,
+             .trial = in_sphere_of_edge,
+             .truth = edge_law,
+             .bounds = {0.002, 0.02}},
+            {.name = "a seam on a beam's edge",
+             .stresses = "nothing may reach the beam beside",
+             .expected = "R H / r on one side",
+             .scene = halves,
+             .trial = over_seam,
+             .truth = seam_law,
+             .bounds = {0.02, 0.05}}};
 }
 
 }  // namespace sonarsim

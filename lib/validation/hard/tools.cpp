@@ -12,10 +12,10 @@ namespace sonarsim {
 
 namespace {
 
-HardTrial at(SonarKind kind, const Tweak& tweak, const Eigen::Vector3d& position, double pitch_deg,
-             double yaw_deg) {
+HardTrial at(SonarKind kind, const ConfigChange& change, const Eigen::Vector3d& position,
+             double pitch_deg, double yaw_deg) {
     SonarConfig config = hard_sonar(kind);
-    if (tweak) tweak(config);
+    if (change) change(config);
     return {without_gain(config),
             {rotation_from_rpy(0.0, radians(pitch_deg), radians(yaw_deg)), position}};
 }
@@ -42,12 +42,12 @@ Sonar without_gain(const SonarConfig& config) {
     return sonar;
 }
 
-HardTrial over_floor(SonarKind kind, const Tweak& tweak) {
-    return at(kind, tweak, {0.31, 0.17, 3.0}, kind == SonarKind::imaging ? 30.0 : 0.0, 10.0);
+HardTrial over_floor(SonarKind kind, const ConfigChange& change) {
+    return at(kind, change, {0.31, 0.17, 3.0}, kind == SonarKind::imaging ? 30.0 : 0.0, 10.0);
 }
 
-HardTrial in_tank(SonarKind kind, const Tweak& tweak) {
-    return at(kind, tweak, {kind == SonarKind::imaging ? -2.4 : 1.7, -0.4, 1.5},
+HardTrial in_tank(SonarKind kind, const ConfigChange& change) {
+    return at(kind, change, {kind == SonarKind::imaging ? -2.4 : 1.7, -0.4, 1.5},
               kind == SonarKind::imaging ? 15.0 : 0.0, 4.0);
 }
 
@@ -59,8 +59,8 @@ Scene moved_tank(const Eigen::Vector3d& by) {
     return scene;
 }
 
-HardTrial in_moved_tank(SonarKind kind, const Eigen::Vector3d& by, const Tweak& tweak) {
-    HardTrial trial = in_tank(kind, tweak);
+HardTrial in_moved_tank(SonarKind kind, const Eigen::Vector3d& by, const ConfigChange& change) {
+    HardTrial trial = in_tank(kind, change);
     trial.T_world_vehicle.translation += by;
     return trial;
 }
@@ -72,9 +72,9 @@ Scene scaled_tank(double scale) {
     return scene;
 }
 
-HardTrial in_scaled_tank(SonarKind kind, double scale, const Tweak& tweak) {
+HardTrial in_scaled_tank(SonarKind kind, double scale, const ConfigChange& change) {
     HardTrial trial = in_tank(kind, [&](SonarConfig& c) {
-        if (tweak) tweak(c);
+        if (change) change(c);
         c.range_min_m *= scale;
         c.range_max_m *= scale;
     });
@@ -88,10 +88,10 @@ Scene plain_floor() {
     return scene;
 }
 
-std::vector<float> plane_law(const HardLook& look, double reflection, double height_m) {
-    const Ping& ping = look.ping;
-    const std::vector<double>& edges = look.trial.sonar.range_edges_m;
-    std::vector<float> truth(ping.intensity.size(), ignored);
+std::vector<float> plane_law(const HardContext& context, double reflection, double height_m) {
+    const Ping& ping = context.ping;
+    const std::vector<double>& edges = context.trial.sonar.range_edges_m;
+    std::vector<float> truth(ping.intensity.size(), unchecked);
     for (int j = 0; j < ping.beams; ++j) {
         for (int i = 1; i + 1 < ping.range_bins; ++i) {
             if (!(ping.at(i - 1, j) > 0.0F && ping.at(i, j) > 0.0F && ping.at(i + 1, j) > 0.0F)) {
@@ -105,15 +105,17 @@ std::vector<float> plane_law(const HardLook& look, double reflection, double hei
     return truth;
 }
 
-std::vector<float> reference_of(const HardLook& look, const ReferenceGoal& goal) {
-    const Caster caster(look.scene);
-    const Pose T_world_sensor = look.trial.T_world_vehicle * look.trial.sonar.T_vehicle_sensor;
-    return cast_reference(caster, look.scene, look.trial.sonar.settings.view, T_world_sensor, goal)
+std::vector<float> reference_of(const HardContext& context, const ReferenceGoal& goal) {
+    const Caster caster(context.scene);
+    const Pose T_world_sensor =
+        context.trial.T_world_vehicle * context.trial.sonar.T_vehicle_sensor;
+    return cast_reference(caster, context.scene, context.trial.sonar.settings.view, T_world_sensor,
+                          goal)
         .intensity;
 }
 
-std::vector<float> dark(const HardLook& look) {
-    return std::vector<float>(look.ping.intensity.size(), 0.0F);
+std::vector<float> dark(const HardContext& context) {
+    return std::vector<float>(context.ping.intensity.size(), 0.0F);
 }
 
 std::vector<float> image_of(const Scene& scene, const HardTrial& trial, EngineKind engine_kind) {

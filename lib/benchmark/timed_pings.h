@@ -14,18 +14,18 @@ namespace sonarsim {
 // that slows down slows them all.
 
 /// The pings that every setting is measured on.
-struct Bench {
+struct PingSet {
     const Scene& scene;
     std::uint64_t seed;
     std::vector<Pose> poses;             ///< T_world_vehicle
     std::vector<std::uint32_t> indices;  ///< of the poses on the trajectory
 
     /// The ping at pose `p`, whole.
-    Ping ping(const Sonar& sonar, const VisibilityEngine& engine, std::size_t p) const;
+    Ping render(const Sonar& sonar, const VisibilityEngine& engine, std::size_t p) const;
 };
 
 /// With `poses` of them spread along the trajectory. The assembly must outlive it.
-Bench make_bench(const Mission& mission, const Assembly& assembly, int poses);
+PingSet make_ping_set(const Mission& mission, const Assembly& assembly, int poses);
 
 /// The times of one setting at one pose, over all visits.
 struct PoseTimes {
@@ -36,7 +36,7 @@ struct PoseTimes {
 
 /// Pings a few times and adds the times to `times`: first a ping to warm the caches after the other
 /// settings, then the ones that count. A slow setting needs neither. Returns what was seen.
-TracedPing visit_pose(const Bench& bench, const Sonar& sonar, const VisibilityEngine& engine,
+TracedPing visit_pose(const PingSet& pings, const Sonar& sonar, const VisibilityEngine& engine,
                       std::size_t p, PoseTimes& times);
 
 /// The medians at the poses, spread over the poses; milliseconds.

@@ -1,4 +1,4 @@
-#include "benchmark/ladder.h"
+#include "benchmark/settings.h"
 
 #include <algorithm>
 #include <limits>
@@ -10,7 +10,11 @@ namespace sonarsim {
 namespace {
 
 Setting rays_with(double goal) {
-    return {"rays", "relative_l1=" + number_text(goal), EngineKind::rays, {}, goal, false};
+    return {.engine = "rays",
+            .name = "relative_l1=" + number_text(goal),
+            .kind = EngineKind::rays,
+            .octree = {},
+            .relative_l1 = goal};
 }
 
 /// `leaf_m` 0 is auto.
@@ -18,12 +22,11 @@ Setting octree_with(double leaf_m, bool literal, const Mission& mission) {
     OctreeConfig octree = mission.octree;
     octree.leaf_m = leaf_m;
     octree.literal = literal;
-    return {literal ? "literal" : "octree",
-            "leaf_m=" + (leaf_m > 0.0 ? number_text(leaf_m) : std::string("auto")),
-            EngineKind::octree,
-            octree,
-            mission.accuracy.relative_l1,
-            false};
+    return {.engine = literal ? "literal" : "octree",
+            .name = "leaf_m=" + (leaf_m > 0.0 ? number_text(leaf_m) : std::string("auto")),
+            .kind = EngineKind::octree,
+            .octree = octree,
+            .relative_l1 = mission.accuracy.relative_l1};
 }
 
 Setting own_setting(const Mission& mission) {
@@ -42,34 +45,34 @@ double finest_bin_m(const Mission& mission) {
 
 }  // namespace
 
-std::vector<Setting> make_ladder(const Mission& mission, bool quick) {
+std::vector<Setting> make_settings(const Mission& mission, bool quick) {
     const std::vector<double> goals =
         quick ? std::vector{0.1, 0.03, 0.01} : std::vector{0.3, 0.1, 0.06, 0.03, 0.01, 0.003};
     const std::vector<double> leaves =
         quick ? std::vector{0.08, 0.04} : std::vector{0.08, 0.04, 0.02, 0.01};
-    std::vector<Setting> ladder;
-    ladder.reserve(2 * leaves.size() + goals.size() + 2);
+    std::vector<Setting> settings;
+    settings.reserve(2 * leaves.size() + goals.size() + 2);
     for (const double goal : goals)
-        ladder.push_back(rays_with(goal));
+        settings.push_back(rays_with(goal));
     for (const bool literal : {true, false}) {
         for (const double leaf : leaves) {
             if (leaf >= 0.25 * finest_bin_m(mission)) {
-                ladder.push_back(octree_with(leaf, literal, mission));
+                settings.push_back(octree_with(leaf, literal, mission));
             }
         }
     }
-    ladder.push_back(octree_with(0.0, false, mission));
+    settings.push_back(octree_with(0.0, false, mission));
     Setting own = own_setting(mission);
     own.current = true;
-    const auto same = std::ranges::find_if(ladder, [&](const Setting& setting) {
+    const auto same = std::ranges::find_if(settings, [&](const Setting& setting) {
         return setting.engine == own.engine && setting.name == own.name;
     });
-    if (same == ladder.end()) {
-        ladder.push_back(own);
+    if (same == settings.end()) {
+        settings.push_back(own);
     } else {
         *same = own;
     }
-    return ladder;
+    return settings;
 }
 
 }  // namespace sonarsim

@@ -1,23 +1,23 @@
-#include "benchmark/bench.h"
+#include "benchmark/timed_pings.h"
 
 #include "core/clock.h"
 
 namespace sonarsim {
 
-Ping Bench::ping(const Sonar& sonar, const VisibilityEngine& engine, std::size_t p) const {
+Ping PingSet::render(const Sonar& sonar, const VisibilityEngine& engine, std::size_t p) const {
     return render_ping(sonar, scene, engine, poses[p], {seed, indices[p]});
 }
 
-Bench make_bench(const Mission& mission, const Assembly& assembly, int poses) {
-    Bench bench{assembly.scene, mission.seed, {}, {}};
+PingSet make_ping_set(const Mission& mission, const Assembly& assembly, int poses) {
+    PingSet pings{assembly.scene, mission.seed, {}, {}};
     for (const std::size_t pose : spread_poses(assembly.trajectory.size(), poses)) {
-        bench.poses.push_back(assembly.trajectory[pose].T_world_vehicle);
-        bench.indices.push_back(static_cast<std::uint32_t>(pose));
+        pings.poses.push_back(assembly.trajectory[pose].T_world_vehicle);
+        pings.indices.push_back(static_cast<std::uint32_t>(pose));
     }
-    return bench;
+    return pings;
 }
 
-TracedPing visit_pose(const Bench& bench, const Sonar& sonar, const VisibilityEngine& engine,
+TracedPing visit_pose(const PingSet& pings, const Sonar& sonar, const VisibilityEngine& engine,
                       std::size_t p, PoseTimes& times) {
     constexpr double slow_ms = 100.0;
     constexpr int repeats = 3;
@@ -25,9 +25,9 @@ TracedPing visit_pose(const Bench& bench, const Sonar& sonar, const VisibilityEn
     PingSeconds stages;
     const auto timed_ms = [&] {
         Stopwatch watch;
-        traced = trace(sonar, bench.scene, engine, bench.poses[p], bench.indices[p]);
+        traced = trace(sonar, pings.scene, engine, pings.poses[p], pings.indices[p]);
         const Ping ping =
-            form_image(traced, sonar.settings, bench.scene, {bench.seed, bench.indices[p]});
+            form_image(traced, sonar.settings, pings.scene, {pings.seed, pings.indices[p]});
         stages = ping.seconds;
         return 1e3 * watch.lap();
     };

@@ -1,0 +1,53 @@
+"""bathymetry.tif as GDAL, and so QGIS, sees it. Skipped without gdalinfo (Debian's gdal-bin)."""
+import json
+import math
+import shutil
+import subprocess
+import sys
+import unittest
+
+from sandbox import Sandbox
+
+PROFILER = """\
+  mbes: {kind: profiling, azimuth_deg: 60, range_max_m: 6, range_bins: 64, azimuth_bins: 16}
+output:
+  bathymetry_cell_m: 0.25
+"""
+
+
+class Map(Sandbox):
+    def test_gdal(self):
+        self.edit("mission.yaml", "output:\n", PROFILER)
+        self.assert_renders()
+        folder = self.out / "mbes"
+        map_place = json.loads((folder / "bathymetry.json").read_text())
+        result = subprocess.run(["gdalinfo", "-json", "-stats", folder / "bathymetry.tif"],
+                                capture_output=True, text=True, timeout=60, check=True)
+        self.assertEqual(result.stderr, "")
+        info = json.loads(result.stdout)
+        cell = map_place["cell_m"]
+        self.assertEqual(cell, 0.25)
+        self.assertEqual(info["size"], [map_place["columns"], map_place["rows"]])
+        # x of the upper left corner, x by column, x by row; then y.
+        self.assertEqual(info["geoTransform"],
+                         [map_place["west_m"], cell, 0, map_place["north_m"], 0, -cell])
+        band = info["bands"][0]
+        self.assertEqual(band["type"], "Float32")
+        self.assertTrue(math.isnan(float(band["noDataValue"])))
+        # The floor of the box is 1.5 m below the sonar.
+        self.assertAlmostEqual(band["mean"], -1.5, delta=0.1)
+
+        # Every sounding of the text lies in the cell that GDAL finds at its place.
+        lines = (folder / "soundings.csv").read_text().splitlines()[1:]
+        points = [[float(x) for x in line.split(",")][4:7] for line in lines]
+        for x, y, z in points[::7]:
+            found = subprocess.run(["gdallocationinfo", "-valonly", "-geoloc",
+                                    folder / "bathymetry.tif", str(x), str(y)],
+                                   capture_output=True, text=True, timeout=60, check=True)
+            self.assertAlmostEqual(float(found.stdout), z, delta=0.2)
+
+
+if __name__ == "__main__":
+    if shutil.which("gdalinfo") is None:
+        sys.exit(77)
+    unittest.main()
