@@ -145,6 +145,7 @@ void Journal::finish() {
     wake_.notify_one();
     if (thread_.joinable()) thread_.join();
     rethrow();
+    if (fd_ >= 0 && ::close(std::exchange(fd_, -1)) != 0) fail(path_);
 }
 
 void Journal::run(double checkpoint_seconds) {
