@@ -3,6 +3,8 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <string>
+#include <vector>
 
 #include "dataset/assemble.h"
 #include "mission/mission.h"
@@ -28,8 +30,9 @@ struct RenderSummary {
     PingSeconds stages;         ///< summed over the pings, and so over threads
     double encode_seconds = 0.0;
     double write_seconds = 0.0;
-    PingCounts counts;                 ///< summed over the pings
-    std::uint64_t clipped_pixels = 0;  ///< intensities above full_scale, where files were written
+    PingCounts counts;                  ///< summed over the pings
+    std::vector<std::string> warnings;  ///< of the engine
+    std::uint64_t clipped_pixels = 0;   ///< intensities above full_scale, where files were written
 };
 
 /// Called after each ping with how many are done and how many this run has to do; from any

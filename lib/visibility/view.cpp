@@ -20,14 +20,14 @@ int beam_of(const View& view, const Eigen::Vector3f& point) {
     return static_cast<int>(azimuth * view.beams);
 }
 
-FieldOfView::FieldOfView(const View& view)
+BeamLocator::BeamLocator(const View& view)
     : cone_(view.shape == ViewShape::cone),
       beams_(static_cast<float>(view.beams)),
       beams_per_rad_(cone_ ? 0.0F : static_cast<float>(view.beams / view.azimuth_rad)),
       half_sine_(static_cast<float>(sincos(0.5 * view.elevation_rad).sin)),
       half_cosine_(static_cast<float>(sincos(0.5 * view.azimuth_rad).cos)) {}
 
-float FieldOfView::beam(const Eigen::Vector3f& point, float range_m) const {
+float BeamLocator::beam(const Eigen::Vector3f& point, float range_m) const {
     if (cone_) return point.x() >= range_m * half_cosine_ ? 0.5F : -1.0F;
     const float edge = range_m * half_sine_;
     if (!(point.z() >= -edge && point.z() < edge)) return -1.0F;

@@ -18,9 +18,10 @@ class LazyOctreeEngine final : public OctreeEngine {
     Samples visible_surface(const View& view, const Pose& T_world_sensor) const override {
         const Pose T_local_sensor{T_world_sensor.rotation,
                                   T_world_sensor.translation - scene_->origin};
-        const Field field(view, T_local_sensor, options_.leaf_m);
-        return options_.literal ? literal_samples(tree_, *scene_, view, field)
-                                : leaf_samples(tree_, *scene_, view, field);
+        const ViewVolume volume(view, T_local_sensor);
+        const LeafSize leaf_size(view, options_.leaf_m);
+        return options_.literal ? literal_samples(tree_, *scene_, view, volume, leaf_size)
+                                : leaf_samples(tree_, *scene_, view, volume, leaf_size);
     }
 
     void intersect(const Pose& T_world_sensor, std::span<const Ray> rays,
@@ -34,7 +35,7 @@ class LazyOctreeEngine final : public OctreeEngine {
     const Scene* scene_;
     OctreeOptions options_;
     Caster caster_;
-    mutable Octree tree_;  ///< grows as it is looked at, under its own locks
+    mutable Octree tree_;  ///< grows with the pings, under its own locks
 };
 
 }  // namespace

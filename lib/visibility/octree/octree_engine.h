@@ -24,8 +24,8 @@ struct OctreeStatistics {
     double leaf_area_m2 = 0.0;    ///< the surface held by all leaves
 };
 
-/// The octree engine. It grows while it is looked at; what it shows does not depend on what it
-/// was asked before.
+/// The octree engine. The tree grows with the pings that it serves; what a ping sees does not
+/// depend on those before it.
 class OctreeEngine : public VisibilityEngine {
   public:
     virtual OctreeStatistics statistics() const = 0;
