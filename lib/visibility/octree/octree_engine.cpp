@@ -1,5 +1,8 @@
 #include "visibility/octree/octree_engine.h"
 
+#include <cmath>
+
+#include "core/text.h"
 #include "visibility/caster.h"
 #include "visibility/intersect.h"
 #include "visibility/octree/leaf_samples.h"
@@ -27,6 +30,16 @@ class LazyOctreeEngine final : public OctreeEngine {
     void intersect(const Pose& T_world_sensor, std::span<const Ray> rays,
                    std::span<Intersection> intersections) const override {
         intersect_rays(caster_, scene_->origin, T_world_sensor, rays, intersections);
+    }
+
+    std::vector<std::string> warnings() const override {
+        const double needed_mb = std::ceil(static_cast<double>(tree_.statistics().ping_bytes) /
+                                           static_cast<double>(1U << 20U));
+        if (needed_mb <= static_cast<double>(options_.memory_mb)) return {};
+        return {"octree.memory_mb: " + std::to_string(options_.memory_mb) +
+                " is too little: one ping needs " + number_text(needed_mb) +
+                " MB, so what it grows is dropped before the next ping can use it; set it to " +
+                number_text(needed_mb) + " or more"};
     }
 
     OctreeStatistics statistics() const override { return tree_.statistics(); }

@@ -72,6 +72,7 @@ class Search {
                 take_(LeafRun{entry.visit, entry.level, 0, 1, entry.visit.edge});
             }
         }
+        tree_.note_ping_bytes(bytes_);
     }
 
   private:
@@ -139,6 +140,7 @@ class Search {
         {
             const std::shared_lock shared(tile.lock);
             if (static_cast<int>(tile.levels.size()) > depth) {
+                bytes_ += tile.bytes;
                 enter(tile, root, depth);
                 return;
             }
@@ -146,6 +148,7 @@ class Search {
         {
             const std::unique_lock alone(tile.lock);
             tree_.grow(tile, depth + 1);
+            bytes_ += tile.bytes;
             enter(tile, root, depth);
         }
         tree_.evict();
@@ -199,6 +202,7 @@ class Search {
     Take& take_;
     std::uint64_t ping_;
     LeafRun pending_{};
+    std::size_t bytes_ = 0;  ///< of the tiles searched so far
     std::vector<Entry> entries_;
 };
 

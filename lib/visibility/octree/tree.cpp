@@ -32,21 +32,10 @@ bool overlaps(const Triangle& triangle, const Cube& cube) {
     return true;
 }
 
-std::size_t bytes_of(const Level& level) {
-    return sizeof(Level) + level.nodes.capacity() * sizeof(LevelNode) + level.facets.bytes();
-}
-
-std::size_t bytes_of(const Tile& tile) {
-    std::size_t bytes = 0;
-    for (const Level& level : tile.levels)
-        bytes += bytes_of(level);
-    return bytes;
-}
-
 std::size_t bytes_of(const TopNode& node) {
     const std::size_t triangles =
         node.triangles.capacity() + (node.tile ? node.tile->triangles.capacity() : 0);
-    return sizeof(TopNode) + bytes_of(node.level) + triangles * sizeof(std::uint32_t) +
+    return sizeof(TopNode) + node.level.bytes() + triangles * sizeof(std::uint32_t) +
            (node.tile ? sizeof(Tile) : 0);
 }
 
@@ -63,8 +52,8 @@ void close(Level& level) {
 
 Octree::Octree(const Scene& scene, const Caster& caster, const OctreeOptions& options)
     : maker_(scene, caster),
-      budget_(options.memory_mb << 20),
-      flat_levels_(options.literal ? 0 : flat_levels) {
+      flat_levels_(options.literal ? 0 : flat_levels),
+      cache_(options.memory_mb << 20) {
     if (!(options.leaf_m >= 0.0)) {
         throw InputError("octree: leaf_m must be positive, or 0 for a size that suits the bins");
     }
@@ -120,7 +109,7 @@ void Octree::add_top(const CubeIndex& index, std::vector<std::uint32_t> triangle
     } else {
         node.triangles = std::move(triangles);
     }
-    bytes_ += bytes_of(node);
+    top_bytes_ += bytes_of(node);
 }
 
 void Octree::split(std::uint32_t top_node) {
@@ -136,7 +125,7 @@ void Octree::split(std::uint32_t top_node) {
                 lists[octant].push_back(index);
         }
     }
-    bytes_ -= node.triangles.capacity() * sizeof(std::uint32_t);
+    top_bytes_ -= node.triangles.capacity() * sizeof(std::uint32_t);
     node.triangles = {};
     node.children = static_cast<std::uint32_t>(top_.size());
     for (int octant = 0; octant < 8; ++octant) {
@@ -204,38 +193,20 @@ void Octree::grow(Tile& tile, int levels) {
         close(finer);
         tile.levels.push_back(std::move(finer));
     }
-    const std::size_t bytes = bytes_of(tile);
-    bytes_ += bytes - tile.bytes;
-    tile.bytes = bytes;
+    cache_.count(tile);
 }
 
-void Octree::evict() {
-    if (bytes_ <= budget_) return;
-    const std::unique_lock only(evicting_, std::try_to_lock);
-    if (!only) return;
-    const std::shared_lock top(top_lock_);
-    std::vector<std::pair<std::uint64_t, Tile*>> tiles;
-    for (TopNode& node : top_) {
-        if (node.tile) tiles.emplace_back(node.tile->last_ping, node.tile.get());
-    }
-    std::stable_sort(tiles.begin(), tiles.end(),
-                     [](const auto& a, const auto& b) { return a.first < b.first; });
-    // A quarter at a time, so that the search for the oldest pays.
-    for (auto it = tiles.begin(); it != tiles.end() && bytes_ > budget_ / 4 * 3; ++it) {
-        Tile& tile = *it->second;
-        const std::unique_lock alone(tile.lock);
-        if (tile.levels.empty()) continue;
-        bytes_ -= tile.bytes;
-        tile.bytes = 0;
-        tile.levels = {};
-        ++evictions_;
+void Octree::note_ping_bytes(std::size_t bytes) {
+    std::size_t most = most_ping_bytes_;
+    while (bytes > most && !most_ping_bytes_.compare_exchange_weak(most, bytes)) {
     }
 }
 
 OctreeStatistics Octree::statistics() const {
     OctreeStatistics out;
-    out.bytes = bytes_;
-    out.evictions = evictions_;
+    out.bytes = top_bytes_ + cache_.bytes();
+    out.ping_bytes = top_bytes_ + most_ping_bytes_;
+    out.evictions = cache_.evictions();
     const std::shared_lock top(top_lock_);
     const auto count = [&](const Level& level, bool finest) {
         out.nodes += level.nodes.size() - 1;
