@@ -15,6 +15,7 @@
 #include "mission_options.h"
 #include "progress.h"
 #include "signals.h"
+#include "sonar/engine_settings.h"
 
 namespace sonarsim {
 
@@ -102,6 +103,8 @@ void comment(const RenderSummary& summary, const Mission& mission, bool files) {
         spdlog::warn("no sonar saw any surface within its range and field of view");
     }
     log_dropped(summary.counts);
+    for (const std::string& warning : summary.warnings)
+        spdlog::warn("{}", warning);
     if (summary.clipped_pixels > 0) {
         spdlog::warn("{} pixels are above output.full_scale ({}) and white in the PNG files",
                      summary.clipped_pixels, mission.output.full_scale);
@@ -116,6 +119,11 @@ int render(RenderArguments arguments) {
     const Mission mission = load(arguments.mission);
     const Assembly assembly = assemble(mission);
     warn_about(assembly.scene);
+    for (const Sonar& sonar : assembly.sonars) {
+        const std::string doubt = doubt_about(engine_settings(mission.engine, mission.octree),
+                                              sonar.settings.view);
+        if (!doubt.empty()) spdlog::warn("sensor '{}': {}", sonar.config.name, doubt);
+    }
     spdlog::info("{}: {} triangles, {} poses", mission.name, assembly.scene.triangles.size(),
                  assembly.trajectory.size());
     const bool quiet = arguments.log.quiet;

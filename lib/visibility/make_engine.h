@@ -24,4 +24,8 @@ std::unique_ptr<VisibilityEngine> make_engine(const Scene& scene, const EngineSe
 /// can.
 std::string refusal_of(const EngineSettings& settings, const View& view);
 
+/// Why the images of this view will probably miss its error goal, in a sentence with the figures
+/// that names the mission's keys; empty when they should meet it.
+std::string doubt_about(const EngineSettings& settings, const View& view);
+
 }  // namespace sonarsim

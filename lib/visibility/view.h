@@ -46,8 +46,7 @@ class BeamLocator {
     bool cone_;
     float beams_;
     float beams_per_rad_;
-    float half_sine_;    ///< of the elevation
-    float half_cosine_;  ///< of a cone's angle
+    float half_sine_;  ///< of the elevation; of a cone's opening
 };
 
 }  // namespace sonarsim

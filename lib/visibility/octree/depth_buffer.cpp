@@ -11,12 +11,16 @@ namespace sonarsim {
 
 namespace {
 
-// Azimuths are floats: of a facet a few beams wide, a part narrower than this share of it may as
-// well lie in the next beam.
+// Azimuths are floats: where a facet ends just beyond the border of a beam, a part narrower than
+// this share of the facet may as well lie in the next beam.
 constexpr float least_width = 1e-4F;
 
 // And of the rows that a facet spans, less than a float can tell of their sum.
 constexpr float least_share = 1e-5F;
+
+// A facet that spans more than this, as half a tangent, is not where its first-order projection
+// says.
+constexpr float widest_facet = 0.1F;
 
 /// Keeps a divisor away from zero, where only the sign of the quotient matters.
 float divisor(float x) {
@@ -87,16 +91,16 @@ void DepthBuffer::close_holes() {
 }
 
 void DepthBuffer::mask_cone(double opening_rad) {
-    const auto cosine = static_cast<float>(sincos(0.5 * opening_rad).cos);
+    // In double, and by the sine: the cosine of half an opening of a tenth of a degree is 1 in
+    // float.
+    const double sine = sincos(0.5 * opening_rad).sin;
     for (int column = 0; column < grid_.columns; ++column) {
         const double azimuth = opening_rad * ((column + 0.5) / grid_.columns - 0.5);
-        const auto x = static_cast<float>(sincos(azimuth).cos);
+        const double y = sincos(azimuth).sin;
         float* const pixels = pixels_of(column);
         for (int row = 0; row < grid_.rows; ++row) {
-            const float slope =
-                (static_cast<float>(row) + 0.5F - 0.5F * static_cast<float>(grid_.rows)) /
-                grid_.rows_per_slope;
-            if (x < cosine * std::sqrt(1.0F + slope * slope))
+            const double slope = (row + 0.5 - 0.5 * grid_.rows) / grid_.rows_per_slope;
+            if (y * y + slope * slope > sine * sine * (1.0 + slope * slope))
                 pixels[row] = std::numeric_limits<float>::infinity();
         }
     }
@@ -136,7 +140,12 @@ DepthBuffer::Visibility DepthBuffer::visible_part(const ProjectedFacet& facet, i
     part.u = 0.5F * (from + to);
     part.half_u = 0.5F * (to - from);
     if (!(part.half_u > 0.0F)) return Visibility::hidden;
-    const bool wide = part.half_u > least_width;
+    // A beam or a view much narrower than the facet leaves a small part of it that is no matter of
+    // rounding: its borders lie well inside the facet.
+    const bool well_projected = facet.half_beams < widest_facet * grid_.beams_per_rad &&
+                                facet.half_rows < widest_facet * grid_.rows_per_slope;
+    const bool fills_beam = well_projected && from > -1.0F && to < 1.0F;
+    const bool wide = fills_beam || part.half_u > least_width;
     if (clear) {
         part.share = part.half_u;
         part.v = 0.0F;
@@ -149,8 +158,8 @@ DepthBuffer::Visibility DepthBuffer::visible_part(const ProjectedFacet& facet, i
     const int begin = index_in(low, grid_.rows);
     const int end = index_in(std::floor(high) + 1.0F, grid_.rows);
     const auto per_beam = static_cast<float>(grid_.columns_per_beam);
-    const float left = per_beam * (facet.beam + (part.u - part.half_u) * facet.half_beams);
-    const float right = per_beam * (facet.beam + (part.u + part.half_u) * facet.half_beams);
+    const float left = per_beam * std::max(b, facet.beam - facet.half_beams);
+    const float right = per_beam * std::min(b + 1.0F, facet.beam + facet.half_beams);
     const int columns_begin =
         std::max(static_cast<int>(std::floor(left)), beam * grid_.columns_per_beam);
     const int columns_end =
@@ -184,7 +193,9 @@ DepthBuffer::Visibility DepthBuffer::visible_part(const ProjectedFacet& facet, i
     if (!(sum > 0.0F)) return Visibility::hidden;
     const float whole = (right - left) * (high - low);
     part.share = part.half_u * std::min(sum / whole, 1.0F);
-    if (!(wide && part.share > least_share)) return Visibility::too_small;
+    const bool fills_rows = well_projected && least > low && most < high;
+    if (!(wide && (fills_beam || fills_rows || part.share > least_share)))
+        return Visibility::too_small;
     const float per_rows = 1.0F / facet.half_rows;
     part.v = (moment / sum - row) * per_rows;
     // The visible rows are one run, or nearly: as long as their number, within what was met.

@@ -1,7 +1,9 @@
 #include "visibility/octree/leaf_samples.h"
 
 #include <algorithm>
+#include <utility>
 
+#include "core/groups.h"
 #include "visibility/octree/depth_buffer.h"
 #include "visibility/octree/projection.h"
 #include "visibility/octree/search.h"
@@ -9,24 +11,6 @@
 namespace sonarsim {
 
 namespace {
-
-constexpr float pixels_per_leaf = 3.0F;
-
-/// Samples by beam, in the order given within a beam.
-Samples sorted_by_beam(const std::vector<Sample>& from, const std::vector<std::uint32_t>& beam,
-                       int beams) {
-    Samples to;
-    to.beam_begin.assign(beams + 1, 0);
-    for (const std::uint32_t b : beam)
-        ++to.beam_begin[b + 1];
-    for (int b = 0; b < beams; ++b)
-        to.beam_begin[b + 1] += to.beam_begin[b];
-    std::vector<std::uint32_t> next(to.beam_begin.begin(), to.beam_begin.end() - 1);
-    to.items.resize(from.size());
-    for (std::size_t k = 0; k < from.size(); ++k)
-        to.items[next[beam[k]]++] = from[k];
-    return to;
-}
 
 Sample sample_of(const ProjectedFacet& facet, const VisiblePart& part, const Scene& scene) {
     Sample sample;
@@ -45,10 +29,8 @@ Sample sample_of(const ProjectedFacet& facet, const VisiblePart& part, const Sce
 
 Samples leaf_samples(Octree& tree, const Scene& scene, const View& view, const ViewVolume& volume,
                      const LeafSize& leaf_size) {
-    // A leaf halfway to the greatest range spans a few pixels.
     const auto middle = static_cast<float>(0.5 * view.range_max_m);
-    const ProjectionGrid grid =
-        projection_grid(view, leaf_size.at(middle) / middle / pixels_per_leaf);
+    const ProjectionGrid grid = projection_grid(view, leaf_size.at(middle) / middle);
     DepthBuffer depths(grid);
     std::vector<ProjectedFacet> facets;
     std::vector<Outline> outlines;
@@ -82,7 +64,12 @@ Samples leaf_samples(Octree& tree, const Scene& scene, const View& view, const V
             beams.push_back(static_cast<std::uint32_t>(beam));
         }
     }
-    Samples samples = sorted_by_beam(items, beams, view.beams);
+    Groups by_beam = sort_into_groups(beams, view.beams);
+    Samples samples;
+    samples.items.reserve(items.size());
+    for (const std::uint32_t k : by_beam.items)
+        samples.items.push_back(items[k]);
+    samples.beam_begin = std::move(by_beam.begin);
     samples.dropped = dropped;
     return samples;
 }

@@ -26,7 +26,12 @@ constexpr double axis_per_range = 1e-5;
 // A plane that passes the sensor at less than its own rounding is seen edge-on.
 constexpr double edge_on_per_range = 1e-7;
 
+// In pixels: leaves are a few wide, and a narrow view is several high, to tell what hides what.
+constexpr double pixels_per_leaf = 3.0;
+constexpr double least_rows = 16.0;
+
 constexpr int most_columns = 8192;
+constexpr int most_rows = 2048;
 
 /// A block of facets as they are projected.
 struct Lanes {
@@ -151,14 +156,16 @@ bool is_lost_on_axis(const Lanes& lanes, int k, const ProjectionGrid& grid) {
 
 }  // namespace
 
-ProjectionGrid projection_grid(const View& view, float pixel_rad) {
+ProjectionGrid projection_grid(const View& view, float leaf_rad) {
     ProjectionGrid grid{};
     grid.beams = view.beams;
+    const double pixel_rad = std::min(leaf_rad / pixels_per_leaf, view.elevation_rad / least_rows);
     const double beam = view.azimuth_rad / view.beams;
     grid.columns_per_beam = std::clamp(static_cast<int>(beam / pixel_rad + 0.5), 1,
                                        std::max(most_columns / view.beams, 1));
     grid.columns = grid.beams * grid.columns_per_beam;
-    grid.rows = std::clamp(static_cast<int>(std::ceil(view.elevation_rad / pixel_rad)), 4, 2048);
+    grid.rows =
+        std::clamp(static_cast<int>(std::ceil(view.elevation_rad / pixel_rad)), 1, most_rows);
     grid.beams_per_rad = static_cast<float>(1.0 / beam);
     grid.beams_per_revolution = static_cast<float>(2.0 * pi / beam);
     const SinCos half = sincos(0.5 * view.elevation_rad);

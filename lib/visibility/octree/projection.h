@@ -26,8 +26,8 @@ struct ProjectionGrid {
     float least_height_m;  ///< of the sensor above a plane, as a divisor
 };
 
-/// Pixels of about `pixel_rad`.
-ProjectionGrid projection_grid(const View& view, float pixel_rad);
+/// `leaf_rad` is the angle that a leaf spans as seen from the sonar.
+ProjectionGrid projection_grid(const View& view, float leaf_rad);
 
 /// A facet as the sonar sees it.
 struct ProjectedFacet {

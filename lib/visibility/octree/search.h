@@ -14,6 +14,10 @@
 
 namespace sonarsim {
 
+/// Levels of a tile below its own cube. All of a tile has one level: one more would take four times
+/// the memory. With tiles of 1 to 2 m, leaves are no smaller than 2 to 4 mm.
+inline constexpr int most_levels = 9;
+
 /// A cube that the search visits.
 struct Visit {
     CubeIndex index;
@@ -135,7 +139,7 @@ class Search {
     }
 
     void search(Tile& tile, const Visit& root) {
-        const int depth = std::min(halvings(root), 16);  // nodes count to 2^16
+        const int depth = std::min(halvings(root), most_levels);
         tile.last_ping.store(ping_, std::memory_order_relaxed);
         {
             const std::shared_lock shared(tile.lock);
