@@ -16,6 +16,7 @@
 #include "mission_options.h"
 #include "progress.h"
 #include "signals.h"
+#include "sonar/engine_settings.h"
 
 namespace sonarsim {
 
@@ -108,6 +109,8 @@ void comment(const RenderSummary& summary, const Mission& mission, bool files) {
         spdlog::info("{}: the pings of other shards are still missing", folder);
     }
     log_dropped(summary.counts);
+    for (const std::string& warning : summary.warnings)
+        spdlog::warn("{}", warning);
 }
 
 int render(RenderArguments arguments) {
@@ -118,6 +121,11 @@ int render(RenderArguments arguments) {
     const Mission mission = load(arguments.mission);
     const Assembly assembly = assemble(mission);
     warn_about(assembly.scene);
+    for (const Sonar& sonar : assembly.sonars) {
+        const std::string doubt = doubt_about(engine_settings(mission.engine, mission.octree),
+                                              sonar.settings.view);
+        if (!doubt.empty()) spdlog::warn("sensor '{}': {}", sonar.config.name, doubt);
+    }
     spdlog::info("{}: {} triangles, {} poses", mission.name, assembly.scene.triangles.size(),
                  assembly.trajectory.size());
     const bool quiet = arguments.log.quiet;

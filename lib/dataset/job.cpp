@@ -158,6 +158,7 @@ void render(const Mission& mission, const Assembly& assembly, const std::vector<
         });
     summary.seconds = watch.lap();
     summary.stopped = summary.pings < todo.size();
+    summary.warnings = engine->warnings();
 }
 
 /// "3-of-8": the name of a shard's part of the journal.

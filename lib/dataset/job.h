@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "dataset/assemble.h"
@@ -31,6 +32,7 @@ struct RenderSummary {
     double encode_seconds = 0.0;
     double write_seconds = 0.0;
     PingCounts counts;                   ///< summed over the pings
+    std::vector<std::string> warnings;   ///< of the engine
     std::uint64_t clipped_pixels = 0;    ///< intensities above full_scale, where files were written
     std::vector<SensorSummary> sensors;  ///< in the order of Mission::sensors
 };

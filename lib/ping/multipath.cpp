@@ -45,7 +45,7 @@ struct Context {
     const VisibilityEngine& engine;
     const Pose& T_world_sensor;
     float bin_m;
-    FieldOfView field;
+    BeamLocator field;
 };
 
 /// The direction in which a mirror sends on what comes along `direction`: r of Eq. 1.
@@ -228,7 +228,7 @@ std::vector<Bounce> find_bounces(const Multipath& multipath, const View& view,
                           .engine = engine,
                           .T_world_sensor = T_world_sensor,
                           .bin_m = static_cast<float>(view.bin_m()),
-                          .field = FieldOfView(view)};
+                          .field = BeamLocator(view)};
     const Clusters clusters = cluster_samples(view, samples, multipath.cluster);
     counts.samples = clusters.members.size();
     counts.clusters = clusters.size();

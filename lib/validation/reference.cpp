@@ -33,16 +33,16 @@ double solid_angle_density(ViewShape shape, double across, double along) {
 
 /// Adds `count` rays along a column, shifted by the fraction `offset` of a step.
 void cast_column(const Caster& caster, const Scene& scene, const View& view, const Pose& local,
-                 const Column& column, int count, double offset, Sums& sums) {
+                 const ViewColumn& column, int count, double offset, Sums& sums) {
     const Eigen::Matrix3f R = local.rotation.toRotationMatrix().cast<float>();
     const Eigen::Vector3f origin = local.translation.cast<float>();
-    const Turn across = turn(column.across);
+    const SinCosFloat across = sincos_float(column.across);
     const double step = (column.along_max - column.along_min) / count;
     std::vector<Eigen::Vector3f> directions(count);
     std::vector<std::uint32_t> facets(count);
     for (int i = 0; i < count; ++i) {
         const double along = column.along_min + (i + offset) * step;
-        directions[i] = R * direction(view.shape, across, turn(along));
+        directions[i] = R * direction(view.shape, across, sincos_float(along));
     }
     caster.cast(origin, directions, static_cast<float>(view.range_max_m) * 1.01F, facets);
     for (int i = 0; i < count; ++i) {
@@ -82,10 +82,10 @@ Reference cast_reference(const Caster& caster, const Scene& scene, const View& v
     double last_moved = 1.0;
     for (bool wider = false;; wider = !wider) {
         sums = {std::vector<double>(bins, 0.0), std::vector<double>(bins, 0.0), 0, 0};
-        double turns = 0.0;
-        for (const Column& column : columns(view, per_beam)) {
-            turns += golden;
-            cast_column(caster, scene, view, local, column, count, turns - std::floor(turns), sums);
+        double shift = 0.0;
+        for (const ViewColumn& column : view_columns(view, per_beam)) {
+            shift += golden;
+            cast_column(caster, scene, view, local, column, count, shift - std::floor(shift), sums);
         }
         std::vector<float> image(bins, 0.0F);
         std::size_t occupied = 0;

@@ -6,7 +6,7 @@ namespace {
 
 /// `count` columns of one beam side by side over [low, high] across.
 void add_columns(int beam, double low, double high, int count, double along_min, double along_max,
-                 std::vector<Column>& out) {
+                 std::vector<ViewColumn>& out) {
     const double width = (high - low) / count;
     for (int c = 0; c < count; ++c) {
         out.push_back({beam, low + (c + 0.5) * width, width, along_min, along_max});
@@ -15,10 +15,10 @@ void add_columns(int beam, double low, double high, int count, double along_min,
 
 }  // namespace
 
-std::vector<Column> columns(const View& view, int per_beam) {
+std::vector<ViewColumn> view_columns(const View& view, int per_beam) {
     const double half_azimuth = 0.5 * view.azimuth_rad;
     const double half_elevation = 0.5 * view.elevation_rad;
-    std::vector<Column> out;
+    std::vector<ViewColumn> out;
     switch (view.shape) {
         case ViewShape::fan:
             for (int j = 0; j < view.beams; ++j) {

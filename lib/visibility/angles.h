@@ -8,29 +8,18 @@
 
 namespace sonarsim {
 
-/// Sine and cosine of an angle in float.
-struct Turn {
-    float sin;
-    float cos;
-};
-
-inline Turn turn(double angle) {
+inline SinCosFloat sincos_float(double angle) {
     const SinCos s = sincos(angle);
     return {static_cast<float>(s.sin), static_cast<float>(s.cos)};
 }
 
-/// For |angle| <= pi, to 1e-6.
-inline Turn turn_small(float angle) {
-    const SinCosFloat s = sincos_small(angle);
-    return {s.sin, s.cos};
-}
-
-inline Turn operator+(Turn a, Turn b) {
+/// Sine and cosine of the sum of two angles, and of their difference.
+inline SinCosFloat operator+(SinCosFloat a, SinCosFloat b) {
     return {a.sin * b.cos + a.cos * b.sin, a.cos * b.cos - a.sin * b.sin};
 }
 
-inline Turn operator-(Turn a, Turn b) {
-    return a + Turn{-b.sin, b.cos};
+inline SinCosFloat operator-(SinCosFloat a, SinCosFloat b) {
+    return a + SinCosFloat{-b.sin, b.cos};
 }
 
 // A view is swept by two angles: `across` numbers its columns, `along` runs through each of them.
@@ -39,7 +28,7 @@ inline Turn operator-(Turn a, Turn b) {
 //   cone:  across is tau, the angle around the boresight, along is psi, the angle off it.
 
 /// Unit vector in the sensor frame.
-inline Eigen::Vector3f direction(ViewShape shape, Turn across, Turn along) {
+inline Eigen::Vector3f direction(ViewShape shape, SinCosFloat across, SinCosFloat along) {
     switch (shape) {
         case ViewShape::sides:
             return {across.cos * along.cos, across.cos * along.sin, across.sin};
@@ -50,8 +39,9 @@ inline Eigen::Vector3f direction(ViewShape shape, Turn across, Turn along) {
     }
 }
 
-/// A strip of a view that lies within one beam.
-struct Column {
+/// A strip of a view that lies within one beam: angles [across - width / 2, across + width / 2] by
+/// [along_min, along_max].
+struct ViewColumn {
     int beam;
     double across;  ///< of its middle, rad
     double width;   ///< rad
@@ -61,6 +51,6 @@ struct Column {
 
 /// The view cut into columns of equal width, sorted by beam. A fan has `per_beam` columns in each
 /// beam; sides have `per_beam` on either side; a cone has `per_beam` sectors.
-std::vector<Column> columns(const View& view, int per_beam);
+std::vector<ViewColumn> view_columns(const View& view, int per_beam);
 
 }  // namespace sonarsim

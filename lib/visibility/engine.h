@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/pose.h"
@@ -63,6 +64,9 @@ class VisibilityEngine {
     /// The first surface that each ray meets. `intersections` has the length of `rays`.
     virtual void intersect(const Pose& T_world_sensor, std::span<const Ray> rays,
                            std::span<Intersection> intersections) const = 0;
+
+    /// What the user should know about the answers so far: sentences that name the keys to change.
+    virtual std::vector<std::string> warnings() const { return {}; }
 };
 
 }  // namespace sonarsim

@@ -4,6 +4,7 @@
 
 #include "core/text.h"
 #include "core/units.h"
+#include "visibility/octree/leaf_size.h"
 #include "visibility/rays/rays_engine.h"
 
 namespace sonarsim {
@@ -47,6 +48,17 @@ std::string refusal_of(const EngineSettings& settings, const View& view) {
            (view.shape == ViewShape::cone ? "opening_deg" : "elevation_deg") + " up to " +
            number_text(widest_octree_deg) + ", not " + number_text(width_deg) +
            "; use engine: rays";
+}
+
+std::string doubt_about(const EngineSettings& settings, const View& view) {
+    if (settings.type != EngineType::octree || settings.octree.literal) return "";
+    const double error = estimated_octree_error(view, settings.octree.leaf_m);
+    if (error <= view.relative_l1) return "";
+    const auto percent = [](double x) { return number_text(std::ceil(1e3 * x) / 10.0) + " %"; };
+    return "engine: octree will be off by about " + percent(error) +
+           " in this view, more than accuracy.relative_l1 (" + percent(view.relative_l1) +
+           "); use engine: rays" +
+           (settings.octree.leaf_m > 0.0 ? " or a smaller octree.leaf_m" : "");
 }
 
 }  // namespace sonarsim

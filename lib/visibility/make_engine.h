@@ -28,4 +28,8 @@ std::string refusal_of(const EngineSettings& settings, const Scene& scene);
 /// can.
 std::string refusal_of(const EngineSettings& settings, const View& view);
 
+/// Why the images of this view will probably miss its error goal, in a sentence with the figures
+/// that names the mission's keys; empty when they should meet it.
+std::string doubt_about(const EngineSettings& settings, const View& view);
+
 }  // namespace sonarsim

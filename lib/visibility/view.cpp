@@ -20,16 +20,20 @@ int beam_of(const View& view, const Eigen::Vector3f& point) {
     return static_cast<int>(azimuth * view.beams);
 }
 
-FieldOfView::FieldOfView(const View& view)
+BeamLocator::BeamLocator(const View& view)
     : cone_(view.shape == ViewShape::cone),
       beams_(static_cast<float>(view.beams)),
       beams_per_rad_(cone_ ? 0.0F : static_cast<float>(view.beams / view.azimuth_rad)),
-      half_sine_(static_cast<float>(sincos(0.5 * view.elevation_rad).sin)),
-      half_cosine_(static_cast<float>(sincos(0.5 * view.azimuth_rad).cos)) {}
+      half_sine_(
+          static_cast<float>(sincos(0.5 * (cone_ ? view.azimuth_rad : view.elevation_rad)).sin)) {}
 
-float FieldOfView::beam(const Eigen::Vector3f& point, float range_m) const {
-    if (cone_) return point.x() >= range_m * half_cosine_ ? 0.5F : -1.0F;
+float BeamLocator::beam(const Eigen::Vector3f& point, float range_m) const {
     const float edge = range_m * half_sine_;
+    if (cone_) {
+        // By the sine: the cosine of a tenth of a degree is 1 in float.
+        const float off_axis2 = point.y() * point.y() + point.z() * point.z();
+        return point.x() >= 0.0F && off_axis2 <= edge * edge ? 0.5F : -1.0F;
+    }
     if (!(point.z() >= -edge && point.z() < edge)) return -1.0F;
     const float beam = arctan2_float(point.y(), point.x()) * beams_per_rad_ + 0.5F * beams_;
     return beam >= 0.0F && beam < beams_ ? beam : -1.0F;

@@ -30,24 +30,23 @@ struct View {
 /// are half-open in azimuth and elevation.
 int beam_of(const View& view, const Eigen::Vector3f& point);
 
-/// `beam_of` for many points: in float, and with the place inside the beam. The two may differ
-/// for a point within 2e-6 rad of an edge.
-class FieldOfView {
+/// `beam_of` for many points: in float, and with the fraction of the beam. The two may differ for a
+/// point within 2e-6 rad of an edge.
+class BeamLocator {
   public:
-    explicit FieldOfView(const View& view);
+    explicit BeamLocator(const View& view);
 
     /// Beam and fraction of it, in [0, beams); -1 outside. `range_m` is the norm of `point`.
     float beam(const Eigen::Vector3f& point, float range_m) const;
 
-    /// 0 for a cone: its one beam lies all around.
+    /// 0 for a cone: its one beam lies all around the boresight.
     float beams_per_rad() const { return beams_per_rad_; }
 
   private:
     bool cone_;
     float beams_;
     float beams_per_rad_;
-    float half_sine_;    ///< of the elevation
-    float half_cosine_;  ///< of a cone's angle
+    float half_sine_;  ///< of the elevation; of a cone's opening
 };
 
 }  // namespace sonarsim

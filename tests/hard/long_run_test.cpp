@@ -100,7 +100,7 @@ TEST_CASE("an echo just short of the first bin or beyond the last is dropped, on
 
 TEST_CASE("fields of view are half-open: the last edge belongs to no beam") {
     View view{radians(90.0), radians(90.0), 0.0, 10.0, 10, 3, 0.03, ViewShape::fan};
-    const FieldOfView field(view);
+    const BeamLocator field(view);
     const auto both = [&](const Eigen::Vector3f& p) {
         const float beam = field.beam(p, p.norm());
         const int fast = beam < 0.0F ? -1 : static_cast<int>(beam);

@@ -24,15 +24,15 @@ Eigen::Vector3f ray(double along) {
     return {static_cast<float>(std::cos(along)), 0.0F, static_cast<float>(std::sin(along))};
 }
 
-ChainNode nothing_at(double along) {
-    ChainNode node{ray(along), static_cast<float>(along)};
+CastRay nothing_at(double along) {
+    CastRay node{ray(along), static_cast<float>(along)};
     return node;
 }
 
 /// A ray in the plane y = 0 at an elevation, on the plane through (x, 0, z) with the given normal.
-ChainNode on_plane(double along, std::uint32_t facet, const Eigen::Vector3f& point,
-                   const Eigen::Vector3f& normal) {
-    ChainNode node = nothing_at(along);
+CastRay on_plane(double along, std::uint32_t facet, const Eigen::Vector3f& point,
+                 const Eigen::Vector3f& normal) {
+    CastRay node = nothing_at(along);
     const Eigen::Vector3f n = normal.normalized();
     node.normal = n.dot(point) > 0.0F ? Eigen::Vector3f(-n) : n;
     node.height_m = -node.normal.dot(point);
@@ -55,14 +55,14 @@ TEST_CASE("two facets that share an edge are parted by it, be it a ridge or a va
         const double below = there - share * radians(0.3);
         const double above = below + radians(0.3);
         const auto check = [&](const Eigen::Vector3f& near, const Eigen::Vector3f& far) {
-            const Between what = between(on_plane(below, 1, edge, near),
-                                         on_plane(above, 2, edge, far), usual(), reach_m);
-            CHECK(what.joined);
-            CHECK(what.border == doctest::Approx(share).epsilon(0.01));
-            CHECK(what.turns);
+            const GapEstimate gap = estimate_gap(on_plane(below, 1, edge, near),
+                                                 on_plane(above, 2, edge, far), usual(), reach_m);
+            CHECK(gap.continuous);
+            CHECK(gap.border == doctest::Approx(share).epsilon(0.01));
+            CHECK(gap.bends);
             // No more than what lies between the rays.
-            CHECK(what.at_stake_m > 0.0F);
-            CHECK(what.at_stake_m < 0.25F * 0.3F);
+            CHECK(gap.range_uncertainty_m > 0.0F);
+            CHECK(gap.range_uncertainty_m < 0.25F * 0.3F);
         };
         check(up, steep);       // a valley
         check(steep, falling);  // a ridge
@@ -71,55 +71,55 @@ TEST_CASE("two facets that share an edge are parted by it, be it a ridge or a va
 
 TEST_CASE("a surface that hides another one breaks off") {
     // A wall at 4 m in front of a floor that is met at 6 m.
-    const ChainNode wall = on_plane(-0.17, 1, {4, 0, 0}, {1, 0, 0});
-    const ChainNode floor = on_plane(-0.16, 2, {0, 0, -1}, {0, 0, 1});
+    const CastRay wall = on_plane(-0.17, 1, {4, 0, 0}, {1, 0, 0});
+    const CastRay floor = on_plane(-0.16, 2, {0, 0, -1}, {0, 0, 1});
     for (const bool swapped : {false, true}) {
-        const Between what = swapped ? between(floor, wall, usual(), reach_m)
-                                     : between(wall, floor, usual(), reach_m);
-        CHECK_FALSE(what.joined);
+        const GapEstimate gap = swapped ? estimate_gap(floor, wall, usual(), reach_m)
+                                        : estimate_gap(wall, floor, usual(), reach_m);
+        CHECK_FALSE(gap.continuous);
         // The floor runs on from 1 / sin 0.16 to 1 / sin 0.17 behind the wall, the wall hardly.
-        CHECK(what.at_stake_m ==
+        CHECK(gap.range_uncertainty_m ==
               doctest::Approx(1.0 / std::sin(0.16) - 1.0 / std::sin(0.17)).epsilon(1e-3));
     }
     // Beside nothing it might run on to the reach.
-    const Between horizon = between(floor, nothing_at(0.01), usual(), reach_m);
-    CHECK_FALSE(horizon.joined);
-    CHECK(horizon.at_stake_m == doctest::Approx(10.0 - 1.0 / std::sin(0.16)));
-    // Out of reach nothing is at stake.
-    const ChainNode far = on_plane(-0.09, 1, {0, 0, -1}, {0, 0, 1});
-    CHECK(between(far, nothing_at(0.01), usual(), reach_m).at_stake_m == 0.0F);
+    const GapEstimate horizon = estimate_gap(floor, nothing_at(0.01), usual(), reach_m);
+    CHECK_FALSE(horizon.continuous);
+    CHECK(horizon.range_uncertainty_m == doctest::Approx(10.0 - 1.0 / std::sin(0.16)));
+    // Out of reach nothing is uncertain.
+    const CastRay far = on_plane(-0.09, 1, {0, 0, -1}, {0, 0, 1});
+    CHECK(estimate_gap(far, nothing_at(0.01), usual(), reach_m).range_uncertainty_m == 0.0F);
 }
 
-TEST_CASE("facets of one plane are parted half way, and nothing is at stake") {
+TEST_CASE("facets of one plane are parted half way, and nothing is uncertain") {
     // Where planes that are equal but for rounding cross is chance.
     const Eigen::Vector3f tilt(0.1F, 0.2F, 1.0F);
     for (int k = 0; k < 100; ++k) {
         const double along = radians(-20.0 + 0.1 * k);
-        const Between what =
-            between(on_plane(along, 1, {5, 0, -1}, tilt),
-                    on_plane(along + radians(0.3), 2, {5, 0, -1}, 3.0F * tilt), usual(), 100.0F);
-        CHECK(what.joined);
-        CHECK(what.border == 0.5F);
-        CHECK(what.at_stake_m < 1e-4F);
-        CHECK_FALSE(what.turns);
+        const GapEstimate gap = estimate_gap(
+            on_plane(along, 1, {5, 0, -1}, tilt),
+            on_plane(along + radians(0.3), 2, {5, 0, -1}, 3.0F * tilt), usual(), 100.0F);
+        CHECK(gap.continuous);
+        CHECK(gap.border == 0.5F);
+        CHECK(gap.range_uncertainty_m < 1e-4F);
+        CHECK_FALSE(gap.bends);
     }
 }
 
 TEST_CASE("beside nothing, the next ray goes to where the plane leaves the reach") {
     // A floor 1 mm below the sonar leaves the reach at asin(1e-4), in one two-hundredth of the gap.
-    const ChainNode floor = on_plane(-0.01, 1, {0, 0, -1e-3F}, {0, 0, 1});
-    const ChainNode nothing = nothing_at(0.01);
-    const float next = next_along(floor, nothing, reach_m);
-    CHECK(next_along(nothing, floor, reach_m) == doctest::Approx(next));
+    const CastRay floor = on_plane(-0.01, 1, {0, 0, -1e-3F}, {0, 0, 1});
+    const CastRay nothing = nothing_at(0.01);
+    const float next = split_angle(floor, nothing, reach_m);
+    CHECK(split_angle(nothing, floor, reach_m) == doctest::Approx(next));
     const double range = 1e-3 / std::sin(-next);
     CHECK(range > 10.0);
     CHECK(range < 10.1);
     // A ray that was cast there is not cast again.
-    CHECK(next_along(floor, nothing_at(next), reach_m) == doctest::Approx(0.5 * (next - 0.01)));
+    CHECK(split_angle(floor, nothing_at(next), reach_m) == doctest::Approx(0.5 * (next - 0.01)));
     // A wall stays within reach.
-    const ChainNode wall = on_plane(-0.01, 1, {4, 0, 0}, {1, 0, 0});
-    CHECK(next_along(wall, nothing, reach_m) == doctest::Approx(0.0));
-    CHECK(next_along(wall, floor, reach_m) == doctest::Approx(-0.01));
+    const CastRay wall = on_plane(-0.01, 1, {4, 0, 0}, {1, 0, 0});
+    CHECK(split_angle(wall, nothing, reach_m) == doctest::Approx(0.0));
+    CHECK(split_angle(wall, floor, reach_m) == doctest::Approx(-0.01));
 }
 
 TEST_SUITE_END();

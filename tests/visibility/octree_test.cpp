@@ -105,7 +105,7 @@ TEST_CASE("octree leaf: the section of a cube by a plane along it is that square
     CHECK(facet.edge_u.norm() == doctest::Approx(0.25));
     CHECK(facet.edge_v.norm() == doctest::Approx(0.25));
     CHECK(facet.thickness_m < 1e-6F);
-    CHECK(is_plain(facet));
+    CHECK(is_flat_rectangle(facet));
 }
 
 TEST_CASE("octree leaf: on a sphere, normals are radial and centroids lie just inside") {

@@ -16,7 +16,7 @@ TEST_CASE("the field of view in float agrees with beam_of") {
         view.shape = shape;
         if (shape == ViewShape::sides) view.beams = 2;
         if (shape == ViewShape::cone) view.beams = 1;
-        const FieldOfView field(view);
+        const BeamLocator field(view);
         int differ = 0;
         for (int i = 0; i < 20000; ++i) {
             const Eigen::Vector3f p(static_cast<float>(std::sin(1.1 * i)),

@@ -144,7 +144,7 @@ std::size_t FacetArrays::bytes() const {
     return triangle.capacity() * (values.size() * sizeof(float) + sizeof(std::uint32_t));
 }
 
-bool is_plain(const LeafFacet& facet) {
+bool is_flat_rectangle(const LeafFacet& facet) {
     const float longest = std::max(facet.edge_u.norm(), facet.edge_v.norm());
     const float rectangle = 4.0F * facet.edge_u.norm() * facet.edge_v.norm();
     return facet.thickness_m < 1e-3F * longest &&

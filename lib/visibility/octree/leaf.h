@@ -57,6 +57,6 @@ class LeafMaker {
 };
 
 /// Whether the facet is its surface rather than a likeness of it: a flat rectangle.
-bool is_plain(const LeafFacet& facet);
+bool is_flat_rectangle(const LeafFacet& facet);
 
 }  // namespace sonarsim

@@ -2,12 +2,14 @@
 
 #include "scene/scene.h"
 #include "visibility/engine.h"
-#include "visibility/octree/search.h"
+#include "visibility/octree/leaf_size.h"
 #include "visibility/octree/tree.h"
+#include "visibility/octree/view_volume.h"
 
 namespace sonarsim {
 
-/// The visible parts of the leaves in the field of view.
-Samples leaf_samples(Octree& tree, const Scene& scene, const View& view, const Field& field);
+/// The visible parts of the leaves in view.
+Samples leaf_samples(Octree& tree, const Scene& scene, const View& view, const ViewVolume& volume,
+                     const LeafSize& leaf_size);
 
 }  // namespace sonarsim

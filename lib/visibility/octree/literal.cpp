@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/elementary.h"
+#include "visibility/octree/search.h"
 
 namespace sonarsim {
 
@@ -12,7 +13,7 @@ namespace {
 constexpr float gap_leaves = 4.0F;
 
 struct Vote {
-    std::uint64_t cell;  ///< of azimuth and elevation, azimuth first
+    std::uint64_t pixel;  ///< of azimuth and elevation, azimuth first
     int beam;
     float range_m;
     float leaf_m;
@@ -23,19 +24,20 @@ struct Vote {
 
 }  // namespace
 
-Samples literal_samples(Octree& tree, const Scene& scene, const View& view, const Field& field) {
-    // Elevation cells as high as a leaf halfway to the maximum range.
+Samples literal_samples(Octree& tree, const Scene& scene, const View& view,
+                        const ViewVolume& volume, const LeafSize& leaf_size) {
+    // Pixels as high as a leaf halfway to the greatest range.
     const auto middle = static_cast<float>(0.5 * view.range_max_m);
-    const double row_height = field.leaf_m(middle) / middle;
-    // Where beams are wider than that, shadows are told apart by cells as wide as they are high.
+    const double row_height = leaf_size.at(middle) / middle;
+    // As wide as a beam of a fan; the wide beams of other views are divided into square pixels.
     const bool fan = view.shape == ViewShape::fan;
     std::vector<Vote> votes;
     Samples samples;
-    const auto take = [&](const Run& run) {
+    const auto take = [&](const LeafRun& run) {
         for (std::uint32_t i = run.begin; i < run.end; ++i) {
             const LeafFacet facet = run.level->facets.at(run.level->nodes[i].facets);
             const Eigen::Vector3f centre =
-                field.R_sensor_local() * node_visit(run.root, run.level->nodes[i]).centre;
+                volume.R_sensor_local() * node_visit(run.root, run.level->nodes[i]).centre;
             const double range = centre.norm();
             if (!(range > 0.0)) {
                 ++samples.dropped;  // the leaf's centre is the sonar: it lies in no direction
@@ -47,22 +49,22 @@ Samples literal_samples(Octree& tree, const Scene& scene, const View& view, cons
             const double elevation = arcsin(centre.z() / range) + 0.5 * view.elevation_rad;
             const auto column = fan ? beam : static_cast<int>(std::max(azimuth, 0.0) / row_height);
             const auto row = static_cast<int>(std::max(elevation, 0.0) / row_height);
-            const Eigen::Vector3f normal = field.R_sensor_local() * facet.normal;
+            const Eigen::Vector3f normal = volume.R_sensor_local() * facet.normal;
             votes.push_back(
                 {static_cast<std::uint64_t>(column) << 32U | static_cast<std::uint64_t>(row), beam,
                  static_cast<float>(range), run.leaf_m, centre,
                  normal.dot(centre) > 0.0F ? Eigen::Vector3f(-normal) : normal, facet.triangle});
         }
     };
-    Search(tree, field, take).run();
+    Search(tree, volume, leaf_size, take).run();
     std::stable_sort(votes.begin(), votes.end(), [](const Vote& a, const Vote& b) {
-        return a.cell != b.cell ? a.cell < b.cell : a.range_m < b.range_m;
+        return a.pixel != b.pixel ? a.pixel < b.pixel : a.range_m < b.range_m;
     });
     samples.beam_begin.assign(view.beams + 1, 0);
     bool kept = false;
     for (std::size_t k = 0; k < votes.size(); ++k) {
         const Vote& vote = votes[k];
-        const bool first = k == 0 || votes[k - 1].cell != vote.cell;
+        const bool first = k == 0 || votes[k - 1].pixel != vote.pixel;
         kept = first || (kept && vote.range_m - votes[k - 1].range_m <= gap_leaves * vote.leaf_m);
         if (!kept) continue;
         Sample& sample = samples.items.emplace_back();

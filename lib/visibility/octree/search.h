@@ -8,47 +8,22 @@
 #include <span>
 #include <vector>
 
-#include "visibility/engine.h"
+#include "visibility/octree/leaf_size.h"
 #include "visibility/octree/tree.h"
+#include "visibility/octree/view_volume.h"
 
 namespace sonarsim {
 
-enum class Side { outside, across, inside };
+/// Levels of a tile below its own cube. All of a tile has one level: one more would take four times
+/// the memory. With tiles of 1 to 2 m, leaves are no smaller than 2 to 4 mm.
+inline constexpr int most_levels = 9;
 
-/// The field of view of a ping. Points are given in local axes relative to the sensor.
-class Field {
-  public:
-    Field(const View& view, const Pose& T_local_sensor, double leaf_m);
-
-    /// Where the ball lies. `outside` and `inside` are certain.
-    Side side(const Eigen::Vector3f& centre, float radius) const;
-
-    /// The edge that a leaf may have at a distance from the sensor, m.
-    float leaf_m(float distance) const;
-
-    /// More than by what a place within the range may be off: four roundings of 6e-8 of it.
-    float rounding_m() const { return 1e-6F * reach_; }
-
-    const Eigen::Vector3d& position() const { return position_; }
-    const Eigen::Matrix3f& R_sensor_local() const { return R_sensor_local_; }
-
-  private:
-    Eigen::Matrix3f R_sensor_local_;
-    Eigen::Vector3d position_;  ///< scene-local
-    float reach_;
-    float sin_azimuth_, cos_azimuth_;  ///< of the half angles
-    float sin_elevation_, cos_elevation_;
-    float fixed_leaf_;
-    float leaf_per_m_;
-    float least_leaf_;
-};
-
-/// A node on the way down.
+/// A cube that the search visits.
 struct Visit {
-    Cell cell;
+    CubeIndex index;
     Eigen::Vector3f centre;  ///< in local axes, relative to the sensor
     float edge;
-    Side side;
+    Containment containment;
 };
 
 /// A node of a tile whose own cube is `root`.
@@ -56,11 +31,11 @@ inline Visit node_visit(const Visit& root, const LevelNode& node) {
     const float edge = root.edge / static_cast<float>(1U << node.level);
     const Eigen::Vector3f at(node.x, node.y, node.z);
     const Eigen::Vector3f corner = root.centre.array() - 0.5F * root.edge;
-    return {{}, corner.array() + edge * (at.array() + 0.5F), edge, root.side};
+    return {{}, corner.array() + edge * (at.array() + 0.5F), edge, root.containment};
 }
 
-/// Leaves in view: a run of nodes of a level. Some of them may be out of sight.
-struct Run {
+/// Leaves in view: a run of nodes of a level. Some of them may be hidden.
+struct LeafRun {
     Visit root;  ///< of the tile that the level belongs to
     const Level* level;
     std::uint32_t begin, end;
@@ -70,13 +45,17 @@ struct Run {
     std::uint32_t facets_end() const { return level->nodes[end].facets; }
 };
 
-/// Finds the leaves in the field of view. `take(run)` is called for each run of them, near tiles
+/// Finds the leaves in the volume of view. `take(run)` is called for each run of them, near tiles
 /// before far ones, roughly; a run lives as long as the call.
 template <class Take>
 class Search {
   public:
-    Search(Octree& tree, const Field& field, Take& take)
-        : tree_(tree), field_(field), take_(take), look_(tree.next_look()) {}
+    Search(Octree& tree, const ViewVolume& volume, const LeafSize& leaf_size, Take& take)
+        : tree_(tree),
+          volume_(volume),
+          leaf_size_(leaf_size),
+          take_(take),
+          ping_(tree.next_ping()) {}
 
     void run() {
         const Visit root = start({});
@@ -94,9 +73,10 @@ class Search {
             if (entry.tile) {
                 search(*entry.tile, entry.visit);
             } else {
-                take_(Run{entry.visit, entry.level, 0, 1, entry.visit.edge});
+                take_(LeafRun{entry.visit, entry.level, 0, 1, entry.visit.edge});
             }
         }
+        tree_.note_ping_bytes(bytes_);
     }
 
   private:
@@ -106,33 +86,34 @@ class Search {
         Tile* tile;
     };
 
-    Visit start(const Cell& cell) const {
-        const Cube cube = tree_.cube(cell);
+    Visit start(const CubeIndex& index) const {
+        const Cube cube = tree_.cube(index);
         const Eigen::Vector3d centre = cube.min.array() + 0.5 * cube.edge;
-        return {cell, (centre - field_.position()).cast<float>(), static_cast<float>(cube.edge),
-                Side::across};
+        return {index, (centre - volume_.position()).cast<float>(), static_cast<float>(cube.edge),
+                Containment::partly};
     }
 
     /// False when the node is not in view. The radius of the ball around a cube is a little more
     /// than half its diagonal, for rounding.
-    bool look_at(Visit& visit) const {
-        if (visit.side != Side::inside)
-            visit.side = field_.side(visit.centre, 0.8661F * visit.edge + field_.rounding_m());
-        return visit.side != Side::outside;
+    bool is_in_view(Visit& visit) const {
+        if (visit.containment != Containment::inside)
+            visit.containment =
+                volume_.containment(visit.centre, 0.8661F * visit.edge + volume_.rounding_m());
+        return visit.containment != Containment::outside;
     }
 
     /// How many times a node must be halved until it is as small as a leaf there may be.
     int halvings(const Visit& visit) const {
-        const float leaf = field_.leaf_m(visit.centre.norm()) * 1.0001F;
+        const float leaf = leaf_size_.at(visit.centre.norm()) * 1.0001F;
         int count = 0;
-        for (float edge = visit.edge; edge > leaf && visit.cell.level + count < 30; edge *= 0.5F)
+        for (float edge = visit.edge; edge > leaf && visit.index.level + count < 30; edge *= 0.5F)
             ++count;
         return count;
     }
 
     /// Lists what lies below the top. False when a node must be split and `grower` is null.
     bool enter_top(std::uint32_t index, Visit visit, Octree* grower) {
-        if (!look_at(visit)) return true;
+        if (!is_in_view(visit)) return true;
         const TopNode& node = tree_.top(index);
         if (node.level.nodes.empty()) return true;
         if (node.tile || halvings(visit) == 0) {
@@ -150,19 +131,20 @@ class Search {
             if (!(node.octants >> octant & 1U)) continue;
             const auto before = static_cast<std::uint32_t>(
                 __builtin_popcount(node.octants & ((1U << octant) - 1U)));
-            Visit child = start(visit.cell.child(static_cast<int>(octant)));
-            child.side = visit.side;
+            Visit child = start(visit.index.child(static_cast<int>(octant)));
+            child.containment = visit.containment;
             if (!enter_top(node.children + before, child, grower)) return false;
         }
         return true;
     }
 
     void search(Tile& tile, const Visit& root) {
-        const int depth = std::min(halvings(root), 16);  // nodes count to 2^16
-        tile.seen.store(look_, std::memory_order_relaxed);
+        const int depth = std::min(halvings(root), most_levels);
+        tile.last_ping.store(ping_, std::memory_order_relaxed);
         {
             const std::shared_lock shared(tile.lock);
             if (static_cast<int>(tile.levels.size()) > depth) {
+                bytes_ += tile.bytes;
                 enter(tile, root, depth);
                 return;
             }
@@ -170,6 +152,7 @@ class Search {
         {
             const std::unique_lock alone(tile.lock);
             tree_.grow(tile, depth + 1);
+            bytes_ += tile.bytes;
             enter(tile, root, depth);
         }
         tree_.evict();
@@ -187,10 +170,10 @@ class Search {
         const std::vector<LevelNode>& nodes = tile.levels[level].nodes;
         for (std::uint32_t i = begin; i < end; ++i) {
             Visit visit = node_visit(root, nodes[i]);
-            if (!look_at(visit)) continue;
+            if (!is_in_view(visit)) continue;
             if (level == depth) {
                 add(i, i + 1);
-            } else if (visit.side == Side::inside) {
+            } else if (visit.containment == Containment::inside) {
                 std::uint32_t from = i;
                 std::uint32_t to = i + 1;
                 for (int l = level; l < depth; ++l) {
@@ -218,10 +201,12 @@ class Search {
     }
 
     Octree& tree_;
-    const Field& field_;
+    const ViewVolume& volume_;
+    const LeafSize& leaf_size_;
     Take& take_;
-    std::uint64_t look_;
-    Run pending_{};
+    std::uint64_t ping_;
+    LeafRun pending_{};
+    std::size_t bytes_ = 0;  ///< of the tiles searched so far
     std::vector<Entry> entries_;
 };
 

@@ -16,8 +16,8 @@ constexpr double leaves_per_tile_edge = 32.0;
 constexpr double auto_tile_edge_m = 2.0;
 constexpr double auto_leaves_per_tile = 200.0;
 
-/// A plain node is this many times larger than the leaves of its level, at most, as a power of 2.
-constexpr int plain_levels = 1;
+/// A flat node is this many times larger than the leaves of its level, at most, as a power of 2.
+constexpr int flat_levels = 1;
 
 // Planes of a scene like round coordinates. Cubes whose faces coincide with them would hold their
 // surface or not by a rounding; these offsets, in units of a leaf, keep them apart.
@@ -32,21 +32,10 @@ bool overlaps(const Triangle& triangle, const Cube& cube) {
     return true;
 }
 
-std::size_t bytes_of(const Level& level) {
-    return sizeof(Level) + level.nodes.capacity() * sizeof(LevelNode) + level.facets.bytes();
-}
-
-std::size_t bytes_of(const Tile& tile) {
-    std::size_t bytes = 0;
-    for (const Level& level : tile.levels)
-        bytes += bytes_of(level);
-    return bytes;
-}
-
 std::size_t bytes_of(const TopNode& node) {
     const std::size_t triangles =
         node.triangles.capacity() + (node.tile ? node.tile->triangles.capacity() : 0);
-    return sizeof(TopNode) + bytes_of(node.level) + triangles * sizeof(std::uint32_t) +
+    return sizeof(TopNode) + node.level.bytes() + triangles * sizeof(std::uint32_t) +
            (node.tile ? sizeof(Tile) : 0);
 }
 
@@ -63,8 +52,8 @@ void close(Level& level) {
 
 Octree::Octree(const Scene& scene, const Caster& caster, const OctreeOptions& options)
     : maker_(scene, caster),
-      budget_(options.memory_mb << 20),
-      plain_levels_(options.literal ? 0 : plain_levels) {
+      flat_levels_(options.literal ? 0 : flat_levels),
+      cache_(options.memory_mb << 20) {
     if (!(options.leaf_m >= 0.0)) {
         throw InputError("octree: leaf_m must be positive, or 0 for a size that suits the bins");
     }
@@ -100,27 +89,27 @@ double Octree::edge_m(int level) const {
     return std::ldexp(edge_m_, -level);
 }
 
-Cube Octree::cube(const Cell& cell) const {
-    const double edge = edge_m(cell.level);
-    return {min_ + edge * Eigen::Vector3d(cell.x, cell.y, cell.z), edge};
+Cube Octree::cube(const CubeIndex& index) const {
+    const double edge = edge_m(index.level);
+    return {min_ + edge * Eigen::Vector3d(index.x, index.y, index.z), edge};
 }
 
-void Octree::add_top(const Cell& cell, std::vector<std::uint32_t> triangles) {
+void Octree::add_top(const CubeIndex& index, std::vector<std::uint32_t> triangles) {
     TopNode& node = top_.emplace_back();
-    node.cell = cell;
-    if (add_node(cell, {}, triangles, node.level)) close(node.level);
-    const double edge = edge_m(cell.level);
+    node.index = index;
+    if (add_node(index, {}, triangles, node.level)) close(node.level);
+    const double edge = edge_m(index.level);
     const bool small = edge <= tile_edge_m_;
     const bool few = triangles.size() <= triangles_per_tile;
     // Where triangles are tiny, a tile holds many of them rather than the top growing forever.
     if ((small && few) || edge <= tile_edge_m_ / 16.0) {
         node.tile = std::make_unique<Tile>();
-        node.tile->cell = cell;
+        node.tile->index = index;
         node.tile->triangles = std::move(triangles);
     } else {
         node.triangles = std::move(triangles);
     }
-    bytes_ += bytes_of(node);
+    top_bytes_ += bytes_of(node);
 }
 
 void Octree::split(std::uint32_t top_node) {
@@ -128,7 +117,7 @@ void Octree::split(std::uint32_t top_node) {
     std::array<std::vector<std::uint32_t>, 8> lists;
     std::array<Cube, 8> cubes;
     for (int octant = 0; octant < 8; ++octant)
-        cubes[octant] = cube(node.cell.child(octant));
+        cubes[octant] = cube(node.index.child(octant));
     for (const std::uint32_t index : node.triangles) {
         const Triangle triangle = maker_.triangle(index);
         for (int octant = 0; octant < 8; ++octant) {
@@ -136,37 +125,38 @@ void Octree::split(std::uint32_t top_node) {
                 lists[octant].push_back(index);
         }
     }
-    bytes_ -= node.triangles.capacity() * sizeof(std::uint32_t);
+    top_bytes_ -= node.triangles.capacity() * sizeof(std::uint32_t);
     node.triangles = {};
     node.children = static_cast<std::uint32_t>(top_.size());
     for (int octant = 0; octant < 8; ++octant) {
         if (lists[octant].empty()) continue;
         lists[octant].shrink_to_fit();
         node.octants |= static_cast<std::uint8_t>(1 << octant);
-        add_top(node.cell.child(octant), std::move(lists[octant]));
+        add_top(node.index.child(octant), std::move(lists[octant]));
     }
 }
 
-bool Octree::add_node(const Cell& tile, const LevelNode& node,
+bool Octree::add_node(const CubeIndex& tile, const LevelNode& node,
                       std::span<const std::uint32_t> triangles, Level& level) const {
-    const Cell cell{(tile.x << node.level) + node.x, (tile.y << node.level) + node.y,
-                    (tile.z << node.level) + node.z, tile.level + node.level};
+    const CubeIndex index{(tile.x << node.level) + node.x, (tile.y << node.level) + node.y,
+                          (tile.z << node.level) + node.z, tile.level + node.level};
     LevelNode added = node;
     added.facets = level.facets.size();
-    const int count = maker_.append(cube(cell), triangles, level.facets);
+    const int count = maker_.append(cube(index), triangles, level.facets);
     if (count == 0) return false;
-    added.plain = count == 1 && is_plain(level.facets.at(added.facets));
+    added.flat = count == 1 && is_flat_rectangle(level.facets.at(added.facets));
     level.nodes.push_back(added);
     return true;
 }
 
 void Octree::split(const Tile& tile, const LevelNode& node, Level& finer) const {
-    const Cell cell{(tile.cell.x << node.level) + node.x, (tile.cell.y << node.level) + node.y,
-                    (tile.cell.z << node.level) + node.z, tile.cell.level + node.level};
-    const Cube parent = cube(cell);
+    const CubeIndex index{(tile.index.x << node.level) + node.x,
+                          (tile.index.y << node.level) + node.y,
+                          (tile.index.z << node.level) + node.z, tile.index.level + node.level};
+    const Cube parent = cube(index);
     std::vector<std::uint32_t> near;
-    for (const std::uint32_t index : tile.triangles) {
-        if (overlaps(maker_.triangle(index), parent)) near.push_back(index);
+    for (const std::uint32_t triangle : tile.triangles) {
+        if (overlaps(maker_.triangle(triangle), parent)) near.push_back(triangle);
     }
     for (int octant = 0; octant < 8; ++octant) {
         LevelNode child{};
@@ -174,13 +164,13 @@ void Octree::split(const Tile& tile, const LevelNode& node, Level& finer) const 
         child.y = static_cast<std::uint16_t>(2 * node.y + (octant >> 1 & 1));
         child.z = static_cast<std::uint16_t>(2 * node.z + (octant >> 2));
         child.level = static_cast<std::uint8_t>(node.level + 1);
-        add_node(tile.cell, child, near, finer);
+        add_node(tile.index, child, near, finer);
     }
 }
 
 void Octree::grow(Tile& tile, int levels) {
     if (tile.levels.empty()) {
-        add_node(tile.cell, {}, tile.triangles, tile.levels.emplace_back());
+        add_node(tile.index, {}, tile.triangles, tile.levels.emplace_back());
         close(tile.levels.back());
     }
     while (static_cast<int>(tile.levels.size()) < levels) {
@@ -190,7 +180,7 @@ void Octree::grow(Tile& tile, int levels) {
         for (std::size_t i = 0; i + 1 < level.nodes.size(); ++i) {
             LevelNode& node = level.nodes[i];
             node.children = static_cast<std::uint32_t>(finer.nodes.size());
-            if (node.plain && next - node.level <= plain_levels_) {
+            if (node.flat && next - node.level <= flat_levels_) {
                 LevelNode same = node;
                 same.facets = finer.facets.size();
                 finer.facets.push_back(level.facets.at(node.facets));
@@ -203,38 +193,20 @@ void Octree::grow(Tile& tile, int levels) {
         close(finer);
         tile.levels.push_back(std::move(finer));
     }
-    const std::size_t bytes = bytes_of(tile);
-    bytes_ += bytes - tile.bytes;
-    tile.bytes = bytes;
+    cache_.count(tile);
 }
 
-void Octree::evict() {
-    if (bytes_ <= budget_) return;
-    const std::unique_lock only(evicting_, std::try_to_lock);
-    if (!only) return;
-    const std::shared_lock top(top_lock_);
-    std::vector<std::pair<std::uint64_t, Tile*>> tiles;
-    for (TopNode& node : top_) {
-        if (node.tile) tiles.emplace_back(node.tile->seen, node.tile.get());
-    }
-    std::stable_sort(tiles.begin(), tiles.end(),
-                     [](const auto& a, const auto& b) { return a.first < b.first; });
-    // A quarter at a time, so that the search for the oldest pays.
-    for (auto it = tiles.begin(); it != tiles.end() && bytes_ > budget_ / 4 * 3; ++it) {
-        Tile& tile = *it->second;
-        const std::unique_lock alone(tile.lock);
-        if (tile.levels.empty()) continue;
-        bytes_ -= tile.bytes;
-        tile.bytes = 0;
-        tile.levels = {};
-        ++evictions_;
+void Octree::note_ping_bytes(std::size_t bytes) {
+    std::size_t most = most_ping_bytes_;
+    while (bytes > most && !most_ping_bytes_.compare_exchange_weak(most, bytes)) {
     }
 }
 
 OctreeStatistics Octree::statistics() const {
     OctreeStatistics out;
-    out.bytes = bytes_;
-    out.evictions = evictions_;
+    out.bytes = top_bytes_ + cache_.bytes();
+    out.ping_bytes = top_bytes_ + most_ping_bytes_;
+    out.evictions = cache_.evictions();
     const std::shared_lock top(top_lock_);
     const auto count = [&](const Level& level, bool finest) {
         out.nodes += level.nodes.size() - 1;

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <deque>
 #include <memory>
-#include <mutex>
 #include <shared_mutex>
 #include <span>
 #include <vector>
@@ -13,53 +12,14 @@
 #include "visibility/octree/clip.h"
 #include "visibility/octree/leaf.h"
 #include "visibility/octree/octree_engine.h"
+#include "visibility/octree/tile.h"
+#include "visibility/octree/tile_cache.h"
 
 namespace sonarsim {
 
-/// Where a node lies: cube (x, y, z) of the 8^level cubes of its level.
-struct Cell {
-    std::int32_t x = 0;
-    std::int32_t y = 0;
-    std::int32_t z = 0;
-    int level = 0;
-
-    Cell child(int octant) const {
-        return {2 * x + (octant & 1), 2 * y + (octant >> 1 & 1), 2 * z + (octant >> 2), level + 1};
-    }
-};
-
-/// A node of a level. Its cube may be larger than the level's: a node whose surface is one flat
-/// rectangle is not split before the level is a few times finer, its parts would say the same.
-struct LevelNode {
-    std::uint16_t x, y, z;       ///< which of the cubes of its size within the tile
-    std::uint8_t level;          ///< of its cube, below the tile's
-    bool plain;                  ///< one flat rectangle
-    std::uint32_t facets;        ///< index of its first
-    std::uint32_t children = 0;  ///< index of its first in the next level, where there is one
-};
-
-/// All surface of a tile in cubes of one size. Nodes lie in the order of their parents, so what is
-/// below a node is one run of nodes and of facets in every finer level. The last node is a
-/// sentinel.
-struct Level {
-    std::vector<LevelNode> nodes;
-    FacetArrays facets;
-};
-
-/// A subtree over few triangles, the unit of growth and eviction. Readers hold `lock` shared; who
-/// grows or drops it, alone.
-struct Tile {
-    Cell cell;
-    std::vector<std::uint32_t> triangles;
-    std::shared_mutex lock;
-    std::vector<Level> levels;           ///< [0] is the tile's own cube; none when dropped
-    std::size_t bytes = 0;               ///< as last counted
-    std::atomic<std::uint64_t> seen{0};  ///< the last look that passed
-};
-
 /// A node above the tiles.
 struct TopNode {
-    Cell cell;
+    CubeIndex index;
     Level level;                           ///< the node alone
     std::vector<std::uint32_t> triangles;  ///< until it is split
     std::uint32_t children = 0;
@@ -73,7 +33,7 @@ class Octree {
   public:
     Octree(const Scene& scene, const Caster& caster, const OctreeOptions& options);
 
-    Cube cube(const Cell& cell) const;
+    Cube cube(const CubeIndex& index) const;
     double edge_m(int level) const;
 
     /// The top; index 0 is the root. Under `top_lock`, except that the level and the tile of a
@@ -87,31 +47,33 @@ class Octree {
     /// Grows a tile until it has `levels` levels. Needs its lock alone.
     void grow(Tile& tile, int levels);
 
-    /// Drops what has not been seen for longest when memory is short. No lock may be held.
-    void evict();
+    /// Drops what no ping has searched for longest when memory is short. No lock may be held.
+    void evict() { cache_.evict(top_bytes_); }
 
-    std::uint64_t next_look() { return ++looks_; }
+    std::uint64_t next_ping() { return ++pings_; }
+
+    /// Notes how many bytes of tiles a ping has searched.
+    void note_ping_bytes(std::size_t bytes);
 
     OctreeStatistics statistics() const;
 
   private:
-    void add_top(const Cell& cell, std::vector<std::uint32_t> triangles);
-    bool add_node(const Cell& tile, const LevelNode& node, std::span<const std::uint32_t> triangles,
-                  Level& level) const;
+    void add_top(const CubeIndex& index, std::vector<std::uint32_t> triangles);
+    bool add_node(const CubeIndex& tile, const LevelNode& node,
+                  std::span<const std::uint32_t> triangles, Level& level) const;
     void split(const Tile& tile, const LevelNode& node, Level& finer) const;
 
     LeafMaker maker_;
     Eigen::Vector3d min_;
     double edge_m_ = 0.0;
     double tile_edge_m_ = 0.0;
-    std::size_t budget_;
-    int plain_levels_;  ///< how much larger than a leaf a plain node may be, as a power of 2
+    int flat_levels_;  ///< how much larger than a leaf a flat node may be, as a power of 2
     mutable std::shared_mutex top_lock_;
     std::deque<TopNode> top_;
-    std::atomic<std::size_t> bytes_{0};
-    std::atomic<std::uint64_t> looks_{0};
-    std::atomic<std::uint64_t> evictions_{0};
-    std::mutex evicting_;
+    std::atomic<std::size_t> top_bytes_{0};
+    std::atomic<std::size_t> most_ping_bytes_{0};
+    std::atomic<std::uint64_t> pings_{0};
+    TileCache cache_;
 };
 
 }  // namespace sonarsim

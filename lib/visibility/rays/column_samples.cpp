@@ -7,174 +7,180 @@ namespace sonarsim {
 
 namespace {
 
-// A node that stands for less than this share of a step has seen its plane along the chain only.
-constexpr float sliver = 0.1F;
+// A ray whose segment is shorter than this share of a step tells little about its plane across the
+// column.
+constexpr float short_segment = 0.1F;
 
-/// Where two cells of a chain meet, and how far away the surface is on either side.
+/// Where the segments of two neighbouring rays meet, and the ranges of the two planes there.
 struct Border {
     Eigen::Vector3f direction;
     float along;
     float below_m;
     float above_m;
-    bool joined;
+    bool continuous;
 };
 
-/// The two sides of a chain, as angles across.
-struct Sides {
-    Turn low;
-    Turn high;
+/// The two sides of a column, as angles across.
+struct ColumnSides {
+    SinCosFloat low;
+    SinCosFloat high;
 };
 
-/// The part of a chain that a node stands for.
-struct Cell {
+/// The part of a column that a ray stands for.
+struct Segment {
     Border from;
     Border to;
-    bool alone;  ///< the surface may end beside the chain
+    bool may_end_beside;  ///< the surface may end beside the column
 };
 
 struct Context {
     ViewShape shape;
     const Sampling& sampling;
-    const Chains& chains;
+    const RayColumns& columns;
 };
 
-/// Where a direction meets the node's plane, no farther than `most_m` from `about_m`: a plane seen
-/// at grazing incidence may run far out over the edge of what was seen of it.
-float range_on_plane(const ChainNode& node, const Eigen::Vector3f& ray, float about_m,
+/// The range at which `direction` meets the plane of `ray`, kept within `most_m` of `about_m`: a
+/// plane at grazing incidence would run far beyond the edge of the surface that was seen of it.
+float range_on_plane(const CastRay& ray, const Eigen::Vector3f& direction, float about_m,
                      float most_m) {
-    const float cosine = -node.normal.dot(ray);
+    const float cosine = -ray.normal.dot(direction);
     const float farthest = about_m + most_m;
-    return cosine * farthest > node.height_m ? std::max(node.height_m / cosine, about_m - most_m)
-                                             : farthest;
+    return cosine * farthest > ray.height_m ? std::max(ray.height_m / cosine, about_m - most_m)
+                                            : farthest;
 }
 
-/// The border between two neighbours, either of which may be missing at a chain's end.
-Border border(const Context& context, const Chain& chain, int below, int above) {
-    const ChainNode* const a = below == ChainNode::none ? nullptr : &context.chains.nodes[below];
-    const ChainNode* const b = above == ChainNode::none ? nullptr : &context.chains.nodes[above];
+/// The border between two neighbours; at a column's ends one of them is CastRay::none.
+Border border(const Context& context, const RayColumn& column, int below, int above) {
+    const CastRay* const a = below == CastRay::none ? nullptr : &context.columns.rays[below];
+    const CastRay* const b = above == CastRay::none ? nullptr : &context.columns.rays[above];
     Border out{};
-    out.along = !a   ? chain.along_min
-                : !b ? chain.along_max
+    out.along = !a   ? column.along_min
+                : !b ? column.along_max
                      : a->along + a->border * (b->along - a->along);
-    out.direction = direction(context.shape, chain.across, turn_small(out.along));
-    // A column ends with the view, where the surface most likely goes on; a margin of one ends
-    // where its neighbours begin to agree.
-    out.joined = a && b ? a->joined : chain.whole;
-    const bool between_two = a && b && !a->missed() && !b->missed();
-    const auto seen = [&](const ChainNode* node) {
-        if (!node || node->missed()) return 0.0F;
-        const float range = node->range_m;
+    out.direction = direction(context.shape, column.across, sincos_small(out.along));
+    // A whole column ends with the view, where the surface most likely continues; an edge strip
+    // ends where its column begins to agree with the neighbour.
+    out.continuous = a && b ? a->continuous : column.whole;
+    const bool both_met = a && b && !a->missed() && !b->missed();
+    const auto range_of = [&](const CastRay* ray) {
+        if (!ray || ray->missed()) return 0.0F;
+        const float range = ray->range_m;
         float most = context.sampling.tolerance_m;
-        if (out.joined) most = between_two ? a->range_m + b->range_m : range;
-        return range_on_plane(*node, out.direction, range, most);
+        if (out.continuous) most = both_met ? a->range_m + b->range_m : range;
+        return range_on_plane(*ray, out.direction, range, most);
     };
-    out.below_m = seen(a);
-    out.above_m = seen(b);
+    out.below_m = range_of(a);
+    out.above_m = range_of(b);
     return out;
 }
 
-/// The surface in a node's cell, as a parallelogram.
-Sample piece(const Context& context, const ChainNode& node, const Sides& sides, const Cell& cell) {
-    const Turn middle = turn_small(0.5F * (cell.from.along + cell.to.along));
-    const float about = 0.5F * (cell.from.above_m + cell.to.below_m);
-    const float most = cell.alone ? context.sampling.tolerance_m : about;
-    const auto beside = [&](Turn turned) -> Eigen::Vector3f {
-        const Eigen::Vector3f ray = direction(context.shape, turned, middle);
-        return ray * range_on_plane(node, ray, about, most);
+/// The surface in a ray's segment, as a parallelogram.
+Sample piece(const Context& context, const CastRay& ray, const ColumnSides& sides,
+             const Segment& segment) {
+    const SinCosFloat middle = sincos_small(0.5F * (segment.from.along + segment.to.along));
+    const float about = 0.5F * (segment.from.above_m + segment.to.below_m);
+    const float most = segment.may_end_beside ? context.sampling.tolerance_m : about;
+    const auto at_side = [&](SinCosFloat across) -> Eigen::Vector3f {
+        const Eigen::Vector3f beside = direction(context.shape, across, middle);
+        return beside * range_on_plane(ray, beside, about, most);
     };
-    // A range that is held back leaves the plane, and multipath would start from there.
+    // A point whose range was limited lies off the plane, and multipath would start from there.
     const auto onto_plane = [&](const Eigen::Vector3f& p) -> Eigen::Vector3f {
-        return p - (node.normal.dot(p) + node.height_m) * node.normal;
+        return p - (ray.normal.dot(p) + ray.height_m) * ray.normal;
     };
-    const Eigen::Vector3f from = onto_plane(cell.from.direction * cell.from.above_m);
-    const Eigen::Vector3f to = onto_plane(cell.to.direction * cell.to.below_m);
+    const Eigen::Vector3f from = onto_plane(segment.from.direction * segment.from.above_m);
+    const Eigen::Vector3f to = onto_plane(segment.to.direction * segment.to.below_m);
     Sample sample;
     sample.position = 0.5F * (from + to);
-    sample.edge_u = 0.5F * (beside(sides.high) - beside(sides.low));
+    sample.edge_u = 0.5F * (at_side(sides.high) - at_side(sides.low));
     sample.edge_v = 0.5F * (to - from);
-    sample.normal = node.normal;
-    sample.height_m = node.height_m;
+    sample.normal = ray.normal;
+    sample.height_m = ray.height_m;
     sample.area_m2 = 4.0F * sample.edge_u.cross(sample.edge_v).norm();
-    sample.material = node.material;
-    sample.instance = node.instance;
+    sample.material = ray.material;
+    sample.instance = ray.instance;
     return sample;
 }
 
-// A parallelogram is as wide at its far end as at its near end, which the surface is not.
-constexpr float longest = 2.0F;  // far range over near range
+// A parallelogram is as wide at its far end as at its near end, which the surface is not. A piece
+// may therefore reach from one range to this many times that range, no farther.
+constexpr float longest_ratio = 2.0F;
 
 bool too_long(float from_m, float to_m) {
-    return to_m > longest * from_m || from_m > longest * to_m;
+    return to_m > longest_ratio * from_m || from_m > longest_ratio * to_m;
 }
 
-/// Cuts a cell wherever its range doubles and adds all pieces but the last, which is left over.
-/// Only at grazing incidence there are any.
-void cut_off(const Context& context, const Chain& chain, const ChainNode& node, const Sides& sides,
-             Cell& cell, std::vector<Sample>& items) {
-    const Border end = cell.to;
+/// Cuts a segment wherever its range doubles and adds all pieces but the last, which `segment` is
+/// left with. Only surface at grazing incidence reaches so far.
+void cut_off(const Context& context, const RayColumn& column, const CastRay& ray,
+             const ColumnSides& sides, Segment& segment, std::vector<Sample>& items) {
+    const Border end = segment.to;
     const float to_m = end.below_m;
-    while (too_long(cell.from.above_m, to_m)) {
-        const float from_m = cell.from.above_m;
-        const float next_m = to_m > from_m ? longest * from_m : from_m / longest;
-        // Cosines on a plane, and so the inverse ranges, are linear in a small angle.
+    while (too_long(segment.from.above_m, to_m)) {
+        const float from_m = segment.from.above_m;
+        const float next_m = to_m > from_m ? longest_ratio * from_m : from_m / longest_ratio;
+        // On a plane the cosine, and so the inverse of the range, is linear in a small angle.
         const float share = (1.0F / from_m - 1.0F / next_m) / (1.0F / from_m - 1.0F / to_m);
-        cell.to.along = cell.from.along + share * (end.along - cell.from.along);
-        cell.to.direction = direction(context.shape, chain.across, turn_small(cell.to.along));
-        cell.to.below_m = cell.to.above_m = next_m;
-        items.push_back(piece(context, node, sides, cell));
-        cell.from = cell.to;
+        segment.to.along = segment.from.along + share * (end.along - segment.from.along);
+        segment.to.direction =
+            direction(context.shape, column.across, sincos_small(segment.to.along));
+        segment.to.below_m = segment.to.above_m = next_m;
+        items.push_back(piece(context, ray, sides, segment));
+        segment.from = segment.to;
     }
-    cell.to = end;
+    segment.to = end;
 }
 
-/// Adds the samples of one chain. `split` tells which of a column's cells are seen in strips.
-void collect(const Context& context, const Chain& chain, const std::uint8_t* split,
+/// Adds the samples of one column. `narrowed` tells for which of a whole column's rays only the
+/// middle strip is left; null for an edge strip.
+void collect(const Context& context, const RayColumn& column, const std::uint8_t* narrowed,
              std::vector<Sample>& items) {
-    const int n = context.sampling.chain;
-    const float first = chain.along_min + context.sampling.inset * chain.step;
-    const auto sides_at = [&](float half_width) -> Sides {
-        const Turn side = turn_small(half_width);
-        return {chain.across - side, chain.across + side};
+    const int n = context.sampling.rays;
+    const float first = column.along_min + context.sampling.inset * column.step;
+    const auto sides_at = [&](float half_width) -> ColumnSides {
+        const SinCosFloat side = sincos_small(half_width);
+        return {column.across - side, column.across + side};
     };
-    const Sides full = sides_at(chain.half_width);
-    const Sides narrow = sides_at(chain.half_width * (1.0F - 2.0F * margin));
-    Cell cell{};
-    cell.from = border(context, chain, ChainNode::none, chain.first);
-    for (int i = chain.first; i != ChainNode::none; i = context.chains.nodes[i].next) {
-        const ChainNode& node = context.chains.nodes[i];
-        cell.to = border(context, chain, i, node.next);
-        if (!node.missed()) {
-            const int at = static_cast<int>((node.along - first) / chain.step + 0.5F);
-            const bool strip = !chain.whole || split[std::clamp(at, 0, n - 1)];
-            const Sides& sides = chain.whole && strip ? narrow : full;
-            cell.alone = strip || !cell.from.joined || !cell.to.joined ||
-                         cell.to.along - cell.from.along < sliver * chain.step;
-            if (too_long(cell.from.above_m, cell.to.below_m)) {
-                cut_off(context, chain, node, sides, cell, items);
+    const ColumnSides full = sides_at(column.half_width);
+    const ColumnSides middle = sides_at(column.half_width * (1.0F - 2.0F * edge_strip_share));
+    Segment segment{};
+    segment.from = border(context, column, CastRay::none, column.first);
+    for (int i = column.first; i != CastRay::none; i = context.columns.rays[i].next) {
+        const CastRay& ray = context.columns.rays[i];
+        segment.to = border(context, column, i, ray.next);
+        if (!ray.missed()) {
+            const int at = static_cast<int>((ray.along - first) / column.step + 0.5F);
+            const bool strip = !column.whole || narrowed[std::clamp(at, 0, n - 1)];
+            const ColumnSides& sides = column.whole && strip ? middle : full;
+            segment.may_end_beside =
+                strip || !segment.from.continuous || !segment.to.continuous ||
+                segment.to.along - segment.from.along < short_segment * column.step;
+            if (too_long(segment.from.above_m, segment.to.below_m)) {
+                cut_off(context, column, ray, sides, segment, items);
             }
-            items.push_back(piece(context, node, sides, cell));
+            items.push_back(piece(context, ray, sides, segment));
         }
-        cell.from = cell.to;
+        segment.from = segment.to;
     }
 }
 
 }  // namespace
 
-Samples chain_samples(const View& view, const Sampling& sampling, const Chains& chains) {
-    const Context context{view.shape, sampling, chains};
+Samples column_samples(const View& view, const Sampling& sampling, const RayColumns& columns) {
+    const Context context{view.shape, sampling, columns};
     Samples samples;
-    samples.dropped = chains.dropped;
-    samples.items.reserve(chains.nodes.size());
+    samples.dropped = columns.dropped;
+    samples.items.reserve(columns.rays.size());
     samples.beam_begin.assign(view.beams + 1, 0);
     std::size_t column = 0;
-    std::size_t strip = chains.columns;
+    std::size_t strip = columns.whole_columns;
     for (int j = 0; j < view.beams; ++j) {
-        for (; column < chains.columns && chains.chains[column].beam == j; ++column) {
-            collect(context, chains.chains[column], chains.split.data() + column * sampling.chain,
-                    samples.items);
+        for (; column < columns.whole_columns && columns.columns[column].beam == j; ++column) {
+            collect(context, columns.columns[column],
+                    columns.narrowed.data() + column * sampling.rays, samples.items);
         }
-        for (; strip < chains.chains.size() && chains.chains[strip].beam == j; ++strip) {
-            collect(context, chains.chains[strip], nullptr, samples.items);
+        for (; strip < columns.columns.size() && columns.columns[strip].beam == j; ++strip) {
+            collect(context, columns.columns[strip], nullptr, samples.items);
         }
         samples.beam_begin[j + 1] = static_cast<std::uint32_t>(samples.items.size());
     }

@@ -5,9 +5,10 @@
 
 namespace sonarsim {
 
-/// The surface that chains have seen. Every ray stands for a part of its chain, as a flat piece of
-/// the plane that it met. Where the surface goes on to the next ray, the pieces meet where the two
-/// planes do, and a surface of facets is seen as it is; where it breaks off, they end half way.
-Samples chain_samples(const View& view, const Sampling& sampling, const Chains& chains);
+/// The surface that the columns of rays have seen. Each ray stands for a segment of its column, as
+/// a flat piece of the plane that it met. Where the surface is continuous from one ray to the next,
+/// the pieces meet where the two planes do, so that a surface of facets is seen exactly; where it
+/// breaks off, they end half way.
+Samples column_samples(const View& view, const Sampling& sampling, const RayColumns& columns);
 
 }  // namespace sonarsim

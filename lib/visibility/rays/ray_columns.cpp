@@ -11,146 +11,154 @@ namespace sonarsim {
 
 namespace {
 
-// Less than the narrowest bin.
-constexpr float nearest_m = 1e-6F;
+// A surface nearer than this share of the greatest range touches the sonar: a float cannot tell
+// its distance from 0 (positions in view are rounded to 2^-24 of that range), nor its direction.
+constexpr float nearest_share = 0x1p-23F;
 
-/// Two neighbours on a chain between which too much is at stake.
+/// Two neighbouring rays of a column between which the surface is too uncertain.
 struct Gap {
-    int chain;
+    int column;
     int below;
     int above;
 };
 
-/// Casts the chains of one view. Holds what its steps share; lives for one call.
-class ChainCaster {
+/// Casts the columns of one view. Holds what its steps share; lives for one call.
+class ColumnCaster {
   public:
-    ChainCaster(const Caster& caster, const View& view, const LocalPose& pose,
-                const Sampling& sampling, Chains& out)
+    ColumnCaster(const Caster& caster, const View& view, const LocalPose& pose,
+                 const Sampling& sampling, RayColumns& out)
         : caster_(caster),
           view_(view),
           pose_(pose),
           sampling_(sampling),
           reach_m_(static_cast<float>(view.range_max_m)),
-          columns_(columns(view, sampling.columns)),
+          view_columns_(view_columns(view, sampling.columns)),
           out_(out) {
-        out_.columns = columns_.size();
+        out_.whole_columns = view_columns_.size();
     }
 
-    void cast_columns() {
-        // Room for the strips and the gaps, so that the nodes are seldom moved.
-        out_.nodes.reserve(4 * columns_.size() * sampling_.chain);
-        for (const Column& column : columns_) {
-            add_chain(column, column.across, 0.5 * column.width, 0, sampling_.chain, true);
+    void cast_whole_columns() {
+        // Room for the edge strips and the splits, so that the rays are seldom moved.
+        out_.rays.reserve(4 * view_columns_.size() * sampling_.rays);
+        for (const ViewColumn& column : view_columns_) {
+            add_column(column, column.across, 0.5 * column.width, 0, sampling_.rays, true);
         }
-        cast_nodes(in_tiles());
+        cast(in_tiles());
     }
 
-    /// Splits each column into strips over the part where it and a neighbour disagree.
-    void split_columns() {
-        const int n = sampling_.chain;
-        out_.split.assign(out_.columns * n, 0);
-        if (!sampling_.split) return;
-        for (std::size_t c = 0; c < out_.columns; ++c) {
+    /// Casts edge strips over the part of each column where it disagrees with a neighbour.
+    void cast_edge_strips() {
+        const int n = sampling_.rays;
+        out_.narrowed.assign(out_.whole_columns * n, 0);
+        if (!sampling_.edge_strips) return;
+        for (std::size_t c = 0; c < out_.whole_columns; ++c) {
             const std::size_t beside = neighbour(c);
             if (beside == c) continue;
             for (int i = 0; i < n; ++i) {
                 const std::size_t a = c * n + i;
                 const std::size_t b = beside * n + i;
-                if (disagree(out_.nodes[a], out_.nodes[b], sampling_, reach_m_))
-                    out_.split[a] = out_.split[b] = 1;
+                if (disagree(out_.rays[a], out_.rays[b], sampling_, reach_m_))
+                    out_.narrowed[a] = out_.narrowed[b] = 1;
             }
         }
-        for (std::size_t c = 0; c < out_.columns; ++c) {
-            const auto* row = out_.split.data() + c * n;
+        for (std::size_t c = 0; c < out_.whole_columns; ++c) {
+            const auto* narrowed = out_.narrowed.data() + c * n;
             for (int i = 0; i < n; ++i) {
-                if (!row[i]) continue;
+                if (!narrowed[i]) continue;
                 const int first = i;
-                while (i < n && row[i])
+                while (i < n && narrowed[i])
                     ++i;
-                const double half = 0.5 * columns_[c].width;
+                const double half = 0.5 * view_columns_[c].width;
                 for (const double side : {-1.0, 1.0}) {
-                    add_chain(columns_[c], columns_[c].across + side * (1.0 - margin) * half,
-                              margin * half, first, i, false);
+                    add_column(view_columns_[c],
+                               view_columns_[c].across + side * (1.0 - edge_strip_share) * half,
+                               edge_strip_share * half, first, i, false);
                 }
             }
         }
-        cast_new_nodes();
+        cast_new_rays();
     }
 
-    /// Splits the gaps between neighbours on a chain.
+    /// Splits the gaps between neighbouring rays until each is certain enough.
     void split_gaps() {
         std::vector<Gap> gaps;
-        const auto note_above = [&](int chain, int below) {
-            const int above = out_.nodes[below].next;
-            if (above != ChainNode::none) note_gap({chain, below, above}, 0, gaps);
+        const auto estimate_above = [&](int column, int below) {
+            const int above = out_.rays[below].next;
+            if (above != CastRay::none) estimate({column, below, above}, 0, gaps);
         };
-        for (const int node : in_tiles())
-            note_above(node / sampling_.chain, node);
-        for (std::size_t c = out_.columns; c < out_.chains.size(); ++c) {
-            for (int i = out_.chains[c].first; i != ChainNode::none; i = out_.nodes[i].next) {
-                note_above(static_cast<int>(c), i);
+        for (const int ray : in_tiles())
+            estimate_above(ray / sampling_.rays, ray);
+        for (std::size_t c = out_.whole_columns; c < out_.columns.size(); ++c) {
+            for (int i = out_.columns[c].first; i != CastRay::none; i = out_.rays[i].next) {
+                estimate_above(static_cast<int>(c), i);
             }
         }
-        std::vector<Gap> halves;
-        for (int level = 0; level < sampling_.levels && !gaps.empty(); ++level) {
-            const int first = static_cast<int>(out_.nodes.size());
+        std::vector<Gap> next_gaps;
+        for (int level = 0; level < sampling_.split_levels && !gaps.empty(); ++level) {
+            const int first = static_cast<int>(out_.rays.size());
             for (const Gap& gap : gaps) {
                 const float along =
-                    next_along(out_.nodes[gap.below], out_.nodes[gap.above], reach_m_);
-                add_node(out_.chains[gap.chain].across, turn_small(along), along);
+                    split_angle(out_.rays[gap.below], out_.rays[gap.above], reach_m_);
+                add_ray(out_.columns[gap.column].across, sincos_small(along), along);
             }
-            cast_new_nodes();
-            halves.clear();
+            cast_new_rays();
+            next_gaps.clear();
             for (int k = 0; k < static_cast<int>(gaps.size()); ++k) {
                 const Gap& gap = gaps[k];
-                out_.nodes[gap.below].next = first + k;
-                out_.nodes[first + k].next = gap.above;
-                note_gap({gap.chain, gap.below, first + k}, level + 1, halves);
-                note_gap({gap.chain, first + k, gap.above}, level + 1, halves);
+                out_.rays[gap.below].next = first + k;
+                out_.rays[first + k].next = gap.above;
+                estimate({gap.column, gap.below, first + k}, level + 1, next_gaps);
+                estimate({gap.column, first + k, gap.above}, level + 1, next_gaps);
             }
-            std::swap(gaps, halves);
+            std::swap(gaps, next_gaps);
         }
     }
 
   private:
     /// The column beside column c, on its positive side; c itself where there is none.
     std::size_t neighbour(std::size_t c) const {
-        if (view_.shape == ViewShape::cone) return (c + 1) % out_.columns;
-        const bool last = c + 1 == out_.columns;
-        const bool other_side =
-            !last && view_.shape == ViewShape::sides && columns_[c].beam != columns_[c + 1].beam;
+        if (view_.shape == ViewShape::cone) return (c + 1) % out_.whole_columns;
+        const bool last = c + 1 == out_.whole_columns;
+        const bool other_side = !last && view_.shape == ViewShape::sides &&
+                                view_columns_[c].beam != view_columns_[c + 1].beam;
         return last || other_side ? c : c + 1;
     }
 
-    void add_chain(const Column& column, double across, double half_width, int begin, int end,
-                   bool whole) {
+    /// Adds the rays [begin, end) of a column, at the angle `across`.
+    void add_column(const ViewColumn& column, double across, double half_width, int begin, int end,
+                    bool whole) {
         const double step = sampling_.step(column.along_max - column.along_min);
         const auto at = [&](double i) {
             return static_cast<float>(column.along_min + (sampling_.inset + i) * step);
         };
-        const Turn middle = turn(across);
+        const SinCosFloat middle = sincos_float(across);
         const float along_min = begin == 0 ? static_cast<float>(column.along_min) : at(begin - 0.5);
         const float along_max =
-            end == sampling_.chain ? static_cast<float>(column.along_max) : at(end - 0.5);
-        out_.chains.push_back({column.beam, static_cast<float>(half_width), middle, along_min,
-                               along_max, static_cast<float>(step),
-                               static_cast<int>(out_.nodes.size()), whole});
+            end == sampling_.rays ? static_cast<float>(column.along_max) : at(end - 0.5);
+        out_.columns.push_back({.beam = column.beam,
+                                .half_width = static_cast<float>(half_width),
+                                .across = middle,
+                                .along_min = along_min,
+                                .along_max = along_max,
+                                .step = static_cast<float>(step),
+                                .first = static_cast<int>(out_.rays.size()),
+                                .whole = whole});
         for (int i = begin; i < end; ++i) {
-            add_node(middle, turn_small(at(i)), at(i));
-            if (i + 1 < end) out_.nodes.back().next = static_cast<int>(out_.nodes.size());
+            add_ray(middle, sincos_small(at(i)), at(i));
+            if (i + 1 < end) out_.rays.back().next = static_cast<int>(out_.rays.size());
         }
     }
 
-    void add_node(Turn across, Turn along, float angle) {
-        out_.nodes.push_back({direction(view_.shape, across, along), angle});
+    void add_ray(SinCosFloat across, SinCosFloat along, float angle) {
+        out_.rays.push_back({direction(view_.shape, across, along), angle});
     }
 
-    /// The nodes of the columns in tiles of columns x nodes, each of which fills a packet: rays
-    /// that leave close together walk the tree together, twice as fast as in chains.
+    /// The rays of the whole columns, in tiles of 4 columns by 4 rays. Rays that leave close
+    /// together walk Embree's tree together, twice as fast as column by column.
     std::vector<int> in_tiles() const {
         constexpr int side = 4;
-        const int columns = static_cast<int>(out_.columns);
-        const int n = sampling_.chain;
+        const int columns = static_cast<int>(out_.whole_columns);
+        const int n = sampling_.rays;
         std::vector<int> order;
         order.reserve(static_cast<std::size_t>(columns) * n);
         for (int c0 = 0; c0 < columns; c0 += side) {
@@ -165,55 +173,57 @@ class ChainCaster {
         return order;
     }
 
-    void cast_new_nodes() {
-        std::vector<int> order(out_.nodes.size() - cast_);
-        std::iota(order.begin(), order.end(), static_cast<int>(cast_));
-        cast_nodes(order);
+    void cast_new_rays() {
+        std::vector<int> order(out_.rays.size() - cast_count_);
+        std::iota(order.begin(), order.end(), static_cast<int>(cast_count_));
+        cast(order);
     }
 
-    /// Casts the nodes that have not been cast, in the given order.
-    void cast_nodes(const std::vector<int>& order) {
+    /// Casts the rays that have not been cast, in the given order.
+    void cast(const std::vector<int>& order) {
         const std::size_t count = order.size();
         directions_.resize(count);
         facets_.resize(count);
         for (std::size_t i = 0; i < count; ++i) {
-            directions_[i] = pose_.rotation * out_.nodes[order[i]].direction;
+            directions_[i] = pose_.rotation * out_.rays[order[i]].direction;
         }
-        caster_.cast(pose_.position, directions_, reach_m_ * (1.0F + beyond), facets_);
+        caster_.cast(pose_.position, directions_, reach_m_ * (1.0F + overreach), facets_);
         const Eigen::Matrix3f R_sensor_local = pose_.rotation.transpose();
+        const float nearest_m = nearest_share * reach_m_;
         for (std::size_t i = 0; i < count; ++i) {
-            // The facets of a large scene lie in main memory, all over the place.
+            // The facets of a large scene are scattered over main memory.
             constexpr std::size_t ahead = 16;
             if (i + ahead < count) caster_.prefetch(facets_[i + ahead]);
-            ChainNode& node = out_.nodes[order[i]];
-            node.facet = facets_[i];
-            if (node.missed()) continue;
-            const Facet& facet = caster_.facet(node.facet);
+            CastRay& ray = out_.rays[order[i]];
+            ray.facet = facets_[i];
+            if (ray.missed()) continue;
+            const Facet& facet = caster_.facet(ray.facet);
             const float height = facet.normal.dot(pose_.position - facet.vertex);
             const float side = height < 0.0F ? -1.0F : 1.0F;
-            node.normal = R_sensor_local * (side * facet.normal);
-            node.height_m = side * height;
-            node.cosine = -node.normal.dot(node.direction);
-            node.range_m = node.height_m / node.cosine;
-            node.material = facet.material;
-            node.instance = facet.instance;
-            // A plane seen edge-on to within rounding has no range and reflects nothing; one that
-            // the sonar touches has no direction.
-            if (!(node.cosine > 1e-7F && node.range_m > nearest_m)) {
-                node.facet = Caster::nothing;
+            ray.normal = R_sensor_local * (side * facet.normal);
+            ray.height_m = side * height;
+            ray.cosine = -ray.normal.dot(ray.direction);
+            ray.range_m = ray.height_m / ray.cosine;
+            ray.material = facet.material;
+            ray.instance = facet.instance;
+            // A plane seen edge-on to within rounding has no range and reflects nothing.
+            if (!(ray.cosine > 1e-7F && ray.range_m > nearest_m)) {
+                ray.facet = Caster::nothing;
                 ++out_.dropped;
             }
         }
-        cast_ = out_.nodes.size();
+        cast_count_ = out_.rays.size();
     }
 
-    /// Finds out what lies between two neighbours, and whether to split it after `level` times.
-    void note_gap(const Gap& gap, int level, std::vector<Gap>& gaps) {
-        ChainNode& below = out_.nodes[gap.below];
-        const Between what = between(below, out_.nodes[gap.above], sampling_, reach_m_);
-        below.joined = what.joined;
-        below.border = what.border;
-        if (what.at_stake_m > sampling_.at_stake_m || (what.turns && level < sampling_.turns)) {
+    /// Enters the estimate of a gap that has been split `level` times, and lists the gap in `gaps`
+    /// when it must be split.
+    void estimate(const Gap& gap, int level, std::vector<Gap>& gaps) {
+        CastRay& below = out_.rays[gap.below];
+        const GapEstimate found = estimate_gap(below, out_.rays[gap.above], sampling_, reach_m_);
+        below.continuous = found.continuous;
+        below.border = found.border;
+        if (found.range_uncertainty_m > sampling_.range_uncertainty_m ||
+            (found.bends && level < sampling_.bend_levels)) {
             gaps.push_back(gap);
         }
     }
@@ -223,22 +233,22 @@ class ChainCaster {
     const LocalPose& pose_;
     const Sampling& sampling_;
     const float reach_m_;
-    const std::vector<Column> columns_;
-    Chains& out_;
-    std::size_t cast_ = 0;  ///< nodes that have been cast
+    const std::vector<ViewColumn> view_columns_;
+    RayColumns& out_;
+    std::size_t cast_count_ = 0;  ///< rays that have been cast
     std::vector<Eigen::Vector3f> directions_;
     std::vector<std::uint32_t> facets_;
 };
 
 }  // namespace
 
-Chains cast_chains(const Caster& caster, const View& view, const LocalPose& pose,
-                   const Sampling& sampling) {
-    Chains out;
-    ChainCaster cast(caster, view, pose, sampling, out);
-    cast.cast_columns();
-    cast.split_columns();
-    cast.split_gaps();
+RayColumns cast_ray_columns(const Caster& caster, const View& view, const LocalPose& pose,
+                            const Sampling& sampling) {
+    RayColumns out;
+    ColumnCaster columns(caster, view, pose, sampling, out);
+    columns.cast_whole_columns();
+    columns.cast_edge_strips();
+    columns.split_gaps();
     return out;
 }
 

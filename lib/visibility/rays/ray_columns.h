@@ -12,51 +12,53 @@
 
 namespace sonarsim {
 
-/// A ray and the plane of what it met, in the sensor frame.
-struct ChainNode {
+/// A ray of a column and the plane of the facet that it met, in the sensor frame.
+struct CastRay {
     static constexpr int none = -1;
 
     Eigen::Vector3f direction;
-    float along;                                       ///< angle, rad
+    float along;                                       ///< its angle along the column, rad
     Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< towards the sensor
     float height_m = 0.0F;                             ///< of the sensor above the plane
-    float cosine = 0.0F;                               ///< of incidence
+    float cosine = 0.0F;                               ///< of the angle of incidence
     float range_m = 0.0F;
     std::uint32_t facet = Caster::nothing;
     std::uint32_t material = 0;
     std::uint32_t instance = 0;
-    int next = none;      ///< the next node along the chain
-    bool joined = true;   ///< the surface goes on from this node to the next, as far as is known
-    float border = 0.5F;  ///< where this node gives way to the next, as a share of the way
+    int next = none;         ///< index of the next ray along the column
+    bool continuous = true;  ///< the surface continues from this ray to the next, as far as known
+    float border = 0.5F;     ///< where this ray's part ends, as a share of the way to the next
 
     bool missed() const { return facet == Caster::nothing; }
 };
 
-/// A chain of nodes that sweeps a strip of a beam.
-struct Chain {
+/// Rays that sweep one column of the view, or an edge strip over a part of one.
+struct RayColumn {
     int beam;
-    float half_width;  ///< across, rad
-    Turn across;       ///< of the chain's rays
+    float half_width;    ///< across, rad
+    SinCosFloat across;  ///< of the angle across that its rays share
     float along_min;
     float along_max;
-    float step;  ///< between its rays before refinement, rad
-    int first;   ///< node
-    bool whole;  ///< a whole column, not a margin over part of it
+    float step;  ///< between its rays before gaps are split, rad
+    int first;   ///< index of its first ray
+    bool whole;  ///< a whole column of the view, not an edge strip
 };
 
-/// All that was seen of a view. The first chains are the columns in order, each with
-/// `Sampling::chain` nodes in a row; the margins of columns follow, sorted by beam.
-struct Chains {
-    std::vector<ChainNode> nodes;
-    std::vector<Chain> chains;
-    std::vector<std::uint8_t> split;  ///< [columns, Sampling::chain]: seen in strips
-    std::size_t columns = 0;
+/// All rays that were cast for a view. The first `whole_columns` columns are those of the view, in
+/// order, each with `Sampling::rays` rays in a row; edge strips follow, sorted by beam.
+struct RayColumns {
+    std::vector<CastRay> rays;
+    std::vector<RayColumn> columns;
+    /// [whole_columns, Sampling::rays]: not 0 where edge strips leave the column its middle strip.
+    std::vector<std::uint8_t> narrowed;
+    std::size_t whole_columns = 0;
     std::uint64_t dropped = 0;  ///< as in Samples
 };
 
-/// Sees the view as chains of rays: along each column a chain, split between two neighbours for as
-/// long as too much is at stake there; where neighbouring columns disagree, their margins as well.
-Chains cast_chains(const Caster& caster, const View& view, const LocalPose& pose,
-                   const Sampling& sampling);
+/// Casts rays along every column of the view. Where neighbouring columns disagree, edge strips are
+/// cast as well; the gap between two neighbouring rays is split for as long as its estimate is too
+/// uncertain.
+RayColumns cast_ray_columns(const Caster& caster, const View& view, const LocalPose& pose,
+                            const Sampling& sampling);
 
 }  // namespace sonarsim

@@ -17,8 +17,8 @@ class RaysEngine final : public VisibilityEngine {
     Samples visible_surface(const View& view, const Pose& T_world_sensor) const override {
         const Sampling sampling = sampling_for(view);
         const LocalPose pose = local_pose(T_world_sensor, origin_);
-        const Chains chains = cast_chains(caster_, view, pose, sampling);
-        return chain_samples(view, sampling, chains);
+        const RayColumns columns = cast_ray_columns(caster_, view, pose, sampling);
+        return column_samples(view, sampling, columns);
     }
 
     void intersect(const Pose& T_world_sensor, std::span<const Ray> rays,

@@ -1,85 +1,78 @@
+#include "visibility/octree/projection.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "core/elementary.h"
 #include "core/units.h"
-#include "visibility/octree/shadow.h"
 
 namespace sonarsim {
 
 namespace {
 
-/// Footprints are parallelograms in place of polygons, so neighbours leave gaps. As a screen they
-/// are larger by this factor, which closes them. Rectangles fit without.
-constexpr float closing = 1.25F;
-constexpr float closing_plain = 1.05F;
+/// Footprints are parallelograms in place of polygons, so neighbours leave gaps. What they hide is
+/// larger by this factor, which closes the gaps. Surface that is a rectangle needs hardly any.
+constexpr float grow_likeness = 1.25F;
+constexpr float grow_rectangle = 1.05F;
 
 /// A surface hides what lies behind it by more than this many leaves.
 constexpr float slack_leaves = 0.25F;
 
-/// The angle of the point (x, y) in [-pi, pi], absolute error below 1e-6: half the angle's tangent,
-/// at most tan(pi / 8), then the Taylor series.
-float azimuth_of(float x, float y) {
-    const float ax = std::fabs(x);
-    const float ay = std::fabs(y);
-    const float high = std::max(ax, ay);
-    const float low = std::min(ax, ay);
-    float t = low / high;
-    t /= 1.0F + std::sqrt(1.0F + t * t);
-    const float t2 = t * t;
-    const float series =
-        1.0F -
-        t2 * (1.0F / 3 -
-              t2 * (1.0F / 5 -
-                    t2 * (1.0F / 7 - t2 * (1.0F / 9 - t2 * (1.0F / 11 - t2 * (1.0F / 13))))));
-    float angle = 2.0F * t * series;
-    if (ay > ax) angle = static_cast<float>(0.5 * pi) - angle;
-    if (x < 0.0F) angle = static_cast<float>(pi) - angle;
-    return y < 0.0F ? -angle : angle;
-}
+// Positions are floats, off by some 1e-7 of the range. Within a hundred times that of the sensor's
+// z axis an azimuth is a matter of rounding.
+constexpr double axis_per_range = 1e-5;
 
-}  // namespace
+// A plane that passes the sensor at less than its own rounding is seen edge-on.
+constexpr double edge_on_per_range = 1e-7;
+
+// In pixels: leaves are a few wide, and a narrow view is several high, to tell what hides what.
+constexpr double pixels_per_leaf = 3.0;
+constexpr double least_rows = 16.0;
+
+constexpr int most_columns = 8192;
+constexpr int most_rows = 2048;
 
 /// A block of facets as they are projected.
-struct AngularCells::Lanes {
+struct Lanes {
     static constexpr int width = 32;
     using Lane = std::array<float, width>;
     std::array<Lane, 3> centre, normal, u, v;
     Lane in_sight, beams_u, beams_v, rows_u, rows_v;
-    Lane beam, half_beams, row, turn_u, turn_v;
-    Lane depth, depth_beam, depth_row, depth_range, slack, closing;
+    Lane beam, half_beams, row, mix_u, mix_v;
+    Lane depth, depth_beam, depth_row, depth_range, slack, grow;
 };
 
-void AngularCells::project(const FacetArrays& facets, std::uint32_t begin, int count,
-                           const Field& field, float leaf_m, Lanes& out) const {
-    const Eigen::Matrix3f R = field.R_sensor_local();
-    const Eigen::Vector3f at = R * field.position().cast<float>();
+void project_block(const FacetArrays& facets, std::uint32_t begin, int count,
+                   const ViewVolume& volume, const ProjectionGrid& grid, float leaf_m, Lanes& out) {
+    const Eigen::Matrix3f R = volume.R_sensor_local();
+    const Eigen::Vector3f at = R * volume.position().cast<float>();
     for (int axis = 0; axis < 3; ++axis) {
         const float a = R(axis, 0);
         const float b = R(axis, 1);
         const float c = R(axis, 2);
         const float shift = at[axis];
-        const auto turn = [&](int field_index, float minus, float* to) {
-            const float* const x = facets.values[field_index].data() + begin;
-            const float* const y = facets.values[field_index + 1].data() + begin;
-            const float* const z = facets.values[field_index + 2].data() + begin;
+        const auto to_sensor = [&](int first_value, float minus, float* to) {
+            const float* const x = facets.values[first_value].data() + begin;
+            const float* const y = facets.values[first_value + 1].data() + begin;
+            const float* const z = facets.values[first_value + 2].data() + begin;
             for (int k = 0; k < count; ++k)
                 to[k] = a * x[k] + b * y[k] + c * z[k] - minus;
         };
-        turn(FacetArrays::centre, shift, out.centre[axis].data());
-        turn(FacetArrays::normal, 0.0F, out.normal[axis].data());
-        turn(FacetArrays::edge_u, 0.0F, out.u[axis].data());
-        turn(FacetArrays::edge_v, 0.0F, out.v[axis].data());
+        to_sensor(FacetArrays::centre, shift, out.centre[axis].data());
+        to_sensor(FacetArrays::normal, 0.0F, out.normal[axis].data());
+        to_sensor(FacetArrays::edge_u, 0.0F, out.u[axis].data());
+        to_sensor(FacetArrays::edge_v, 0.0F, out.v[axis].data());
     }
     const float* const area = facets.values[FacetArrays::area].data() + begin;
     const float* const thickness = facets.values[FacetArrays::thickness].data() + begin;
-    const float beams_per_rad = beams_per_rad_;
-    const float rows_per_slope = rows_per_slope_;
-    const auto beams = static_cast<float>(beams_);
-    const auto rows = static_cast<float>(rows_);
-    const float columns_per_beam = static_cast<float>(columns_per_beam_);
-    const float least_rho2 = least_rho2_;
-    const float least_height = least_height_;
+    const float beams_per_rad = grid.beams_per_rad;
+    const float rows_per_slope = grid.rows_per_slope;
+    const auto beams = static_cast<float>(grid.beams);
+    const auto rows = static_cast<float>(grid.rows);
+    const float columns_per_beam = static_cast<float>(grid.columns_per_beam);
+    const float least_rho2 = grid.least_rho2_m2;
+    const float least_height = grid.least_height_m;
     for (int k = 0; k < count; ++k) {
         const float x = out.centre[0][k];
         const float y = out.centre[1][k];
@@ -95,7 +88,7 @@ void AngularCells::project(const FacetArrays& facets, std::uint32_t begin, int c
         const float rows_u = rows_per_slope * per_rho * (out.u[2][k] - slope * rho_u);
         const float rows_v = rows_per_slope * per_rho * (out.v[2][k] - slope * rho_v);
         const float half_beams = std::sqrt(beams_u * beams_u + beams_v * beams_v) + 1e-6F;
-        const float beam = beams_per_rad * azimuth_of(x, y) + 0.5F * beams;
+        const float beam = beams_per_rad * arctan2_float(y, x) + 0.5F * beams;
         const float row = rows_per_slope * slope + 0.5F * rows;
         const float half_rows = std::fabs(rows_u) + std::fabs(rows_v);
         const float out_of_sight = std::max(std::max(-half_beams - beam, beam - half_beams - beams),
@@ -109,8 +102,8 @@ void AngularCells::project(const FacetArrays& facets, std::uint32_t begin, int c
         out.beam[k] = beam;
         out.half_beams[k] = half_beams;
         out.row[k] = row;
-        out.turn_u[k] = beams_u / half_beams;
-        out.turn_v[k] = beams_v / half_beams;
+        out.mix_u[k] = beams_u / half_beams;
+        out.mix_v[k] = beams_v / half_beams;
         const float signed_height =
             -(out.normal[0][k] * x + out.normal[1][k] * y + out.normal[2][k] * z);
         const float facing = signed_height < 0.0F ? -1.0F : 1.0F;
@@ -131,35 +124,60 @@ void AngularCells::project(const FacetArrays& facets, std::uint32_t begin, int c
             out.v[0][k] * out.v[0][k] + out.v[1][k] * out.v[1][k] + out.v[2][k] * out.v[2][k];
         const float rectangle = 4.0F * std::sqrt(uu * vv);
         const float grow =
-            std::fabs(area[k] - rectangle) < 1e-3F * rectangle ? closing_plain : closing;
-        out.closing[k] = grow;
+            std::fabs(area[k] - rectangle) < 1e-3F * rectangle ? grow_rectangle : grow_likeness;
+        out.grow[k] = grow;
         const float leaf_depth = leaf_m * per_rho2;
         const float cosine = std::max(height * per_rho / std::sqrt(1.0F + slope * slope), 0.1F);
-        const float cell_slope = std::fabs(depth_row) + std::fabs(depth_beam) / columns_per_beam;
+        const float pixel_slope = std::fabs(depth_row) + std::fabs(depth_beam) / columns_per_beam;
         out.depth[k] = per_rho;
         out.depth_row[k] = depth_row;
         out.depth_beam[k] = depth_beam;
         out.depth_range[k] =
             grow * per_rho2 * (std::fabs(rho_u) + std::fabs(rho_v)) + 0.5F * leaf_depth;
         out.slack[k] = slack_leaves * leaf_depth + per_rho2 * thickness[k] / cosine +
-                       std::min(0.5F * cell_slope, 0.25F * leaf_depth);
+                       std::min(0.5F * pixel_slope, 0.25F * leaf_depth);
     }
 }
 
-bool AngularCells::is_lost_on_axis(const Lanes& lanes, int k) const {
+/// Whether a facet is out of sight only because its azimuth cannot be told, although the view
+/// reaches it.
+bool is_lost_on_axis(const Lanes& lanes, int k, const ProjectionGrid& grid) {
     const float x = lanes.centre[0][k];
     const float y = lanes.centre[1][k];
-    if (x * x + y * y > least_rho2_) return false;
+    if (x * x + y * y > grid.least_rho2_m2) return false;
     const auto aside = [&](const std::array<Lanes::Lane, 3>& v) {
         return std::sqrt(v[0][k] * v[0][k] + v[1][k] * v[1][k]);
     };
-    const float farthest = std::sqrt(least_rho2_) + aside(lanes.u) + aside(lanes.v);
+    const float farthest = std::sqrt(grid.least_rho2_m2) + aside(lanes.u) + aside(lanes.v);
     const float lowest =
         std::fabs(lanes.centre[2][k]) - std::fabs(lanes.u[2][k]) - std::fabs(lanes.v[2][k]);
-    return rows_per_slope_ * lowest < 0.5F * static_cast<float>(rows_) * farthest;
+    return grid.rows_per_slope * lowest < 0.5F * static_cast<float>(grid.rows) * farthest;
 }
 
-int AngularCells::see(const Run& run, const Field& field, std::vector<SeenFacet>& seen) {
+}  // namespace
+
+ProjectionGrid projection_grid(const View& view, float leaf_rad) {
+    ProjectionGrid grid{};
+    grid.beams = view.beams;
+    const double pixel_rad = std::min(leaf_rad / pixels_per_leaf, view.elevation_rad / least_rows);
+    const double beam = view.azimuth_rad / view.beams;
+    grid.columns_per_beam = std::clamp(static_cast<int>(beam / pixel_rad + 0.5), 1,
+                                       std::max(most_columns / view.beams, 1));
+    grid.columns = grid.beams * grid.columns_per_beam;
+    grid.rows =
+        std::clamp(static_cast<int>(std::ceil(view.elevation_rad / pixel_rad)), 1, most_rows);
+    grid.beams_per_rad = static_cast<float>(1.0 / beam);
+    grid.beams_per_revolution = static_cast<float>(2.0 * pi / beam);
+    const SinCos half = sincos(0.5 * view.elevation_rad);
+    grid.rows_per_slope = static_cast<float>(0.5 * grid.rows * half.cos / half.sin);
+    const double least_rho = axis_per_range * view.range_max_m;
+    grid.least_rho2_m2 = static_cast<float>(least_rho * least_rho);
+    grid.least_height_m = static_cast<float>(edge_on_per_range * view.range_max_m);
+    return grid;
+}
+
+int project(const LeafRun& run, const ViewVolume& volume, const ProjectionGrid& grid,
+            std::vector<ProjectedFacet>& projected, std::vector<Outline>& outlines) {
     const FacetArrays& facets = run.level->facets;
     Lanes lanes;
     int lost = 0;
@@ -167,10 +185,10 @@ int AngularCells::see(const Run& run, const Field& field, std::vector<SeenFacet>
          begin += Lanes::width) {
         const int count =
             static_cast<int>(std::min<std::uint32_t>(run.facets_end() - begin, Lanes::width));
-        project(facets, begin, count, field, run.leaf_m, lanes);
+        project_block(facets, begin, count, volume, grid, run.leaf_m, lanes);
         for (int k = 0; k < count; ++k) {
             if (!(lanes.in_sight[k] > 0.0F)) {
-                lost += is_lost_on_axis(lanes, k);
+                lost += is_lost_on_axis(lanes, k, grid);
                 continue;
             }
             const auto vector = [&](const std::array<Lanes::Lane, 3>& v) {
@@ -178,9 +196,9 @@ int AngularCells::see(const Run& run, const Field& field, std::vector<SeenFacet>
             };
             const Eigen::Vector3f u = vector(lanes.u);
             const Eigen::Vector3f v = vector(lanes.v);
-            const float a = lanes.turn_u[k];
-            const float b = lanes.turn_v[k];
-            SeenFacet& next = seen.emplace_back();
+            const float a = lanes.mix_u[k];
+            const float b = lanes.mix_v[k];
+            ProjectedFacet& next = projected.emplace_back();
             next.centre = vector(lanes.centre);
             next.normal = vector(lanes.normal);
             // Mixing conjugate half edges by a rotation leaves the second moments as they are.
@@ -201,22 +219,20 @@ int AngularCells::see(const Run& run, const Field& field, std::vector<SeenFacet>
             next.depth_row = lanes.depth_row[k];
             next.depth_range = lanes.depth_range[k];
             next.slack = lanes.slack[k];
-            const auto cover_with = [&](const SeenFacet& facet) {
-                cover(facet, lanes.beams_u[k], lanes.beams_v[k], lanes.rows_u[k], lanes.rows_v[k],
-                      lanes.closing[k]);
-            };
-            cover_with(next);
-            // What reaches over the half plane behind the sonar goes on at the other end of the
-            // view.
+            outlines.push_back({lanes.beams_u[k], lanes.beams_v[k], lanes.rows_u[k],
+                                lanes.rows_v[k], lanes.grow[k]});
             const float beam = next.beam;
             const float half = next.half_beams;
-            if (half > 0.5F * turn_beams_) continue;  // all round, or so it seems near the axis
-            for (const float other : {beam - turn_beams_, beam + turn_beams_}) {
-                if (other + half <= 0.0F || other - half >= static_cast<float>(beams_)) continue;
-                SeenFacet over = seen.back();
+            // So near the axis the facet seems to lie all around, its ends where they are not.
+            if (half > 0.5F * grid.beams_per_revolution) continue;
+            for (const float other :
+                 {beam - grid.beams_per_revolution, beam + grid.beams_per_revolution}) {
+                if (other + half <= 0.0F || other - half >= static_cast<float>(grid.beams))
+                    continue;
+                ProjectedFacet over = projected.back();
                 over.beam = other;
-                cover_with(over);
-                seen.push_back(over);
+                projected.push_back(over);
+                outlines.push_back(Outline(outlines.back()));
             }
         }
     }

@@ -1,0 +1,206 @@
+#include "visibility/octree/depth_buffer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/elementary.h"
+#include "core/units.h"
+
+namespace sonarsim {
+
+namespace {
+
+// Azimuths are floats: where a facet ends just beyond the border of a beam, a part narrower than
+// this share of the facet may as well lie in the next beam.
+constexpr float least_width = 1e-4F;
+
+// And of the rows that a facet spans, less than a float can tell of their sum.
+constexpr float least_share = 1e-5F;
+
+// A facet that spans more than this, as half a tangent, is not where its first-order projection
+// says.
+constexpr float widest_facet = 0.1F;
+
+/// Keeps a divisor away from zero, where only the sign of the quotient matters.
+float divisor(float x) {
+    return std::fabs(x) > 1e-9F ? x : std::copysign(1e-9F, x);
+}
+
+/// An index in [0, count]; a facet close to the sonar reaches far beyond the view.
+int index_in(float x, int count) {
+    return static_cast<int>(std::clamp(x, 0.0F, static_cast<float>(count)));
+}
+
+}  // namespace
+
+DepthBuffer::DepthBuffer(const ProjectionGrid& grid)
+    : grid_(grid), depth_(static_cast<std::size_t>(grid.columns) * grid.rows, 0.0F) {}
+
+void DepthBuffer::draw(const ProjectedFacet& facet, const Outline& outline) {
+    const auto& [beams_u, beams_v, rows_u, rows_v, grow] = outline;
+    const auto per_beam = static_cast<float>(grid_.columns_per_beam);
+    const float u = per_beam * beams_u;
+    const float v = per_beam * beams_v;
+    const float reach = grow * (std::fabs(u) + std::fabs(v));
+    const float centre = per_beam * facet.beam - 0.5F;
+    const int first = index_in(std::ceil(centre - reach), grid_.columns);
+    const int last = index_in(std::floor(centre + reach) + 1.0F, grid_.columns);
+    const float determinant = grow * std::fabs(u * rows_v - v * rows_u);
+    const float per_u = 1.0F / divisor(u);
+    const float per_v = 1.0F / divisor(v);
+    const float wide_u = std::fabs(determinant * per_u);
+    const float wide_v = std::fabs(determinant * per_v);
+    const float nearest = facet.depth + facet.depth_range;
+    const float farthest = facet.depth - facet.depth_range;
+    for (int column = first; column < last; ++column) {
+        // Within the parallelogram: both coordinates along its edges within [-1, 1].
+        const float d = static_cast<float>(column) - centre;
+        const float middle_u = d * rows_u * per_u;
+        const float middle_v = d * rows_v * per_v;
+        const float low = std::max(middle_u - wide_u, middle_v - wide_v) + facet.row - 0.5F;
+        const float high = std::min(middle_u + wide_u, middle_v + wide_v) + facet.row - 0.5F;
+        const int begin = index_in(std::ceil(low), grid_.rows);
+        const int end = index_in(std::floor(high) + 1.0F, grid_.rows);
+        float* const pixels = pixels_of(column);
+        const float base =
+            facet.depth + facet.depth_beam * d / per_beam + facet.depth_row * (0.5F - facet.row);
+        for (int row = begin; row < end; ++row) {
+            const float depth =
+                std::clamp(base + facet.depth_row * static_cast<float>(row), farthest, nearest);
+            pixels[row] = std::max(pixels[row], depth);
+        }
+    }
+}
+
+void DepthBuffer::close_holes() {
+    std::vector<float> closed = depth_;
+    const auto rows = static_cast<std::size_t>(grid_.rows);
+    for (std::size_t column = 1; column + 1 < static_cast<std::size_t>(grid_.columns); ++column) {
+        const float* const here = depth_.data() + column * rows;
+        const float* const left = here - rows;
+        const float* const right = here + rows;
+        float* const to = closed.data() + column * rows;
+        for (std::size_t r = 1; r + 1 < rows; ++r) {
+            const float across = std::min(left[r], right[r]);
+            const float along = std::min(here[r - 1], here[r + 1]);
+            to[r] = std::max(here[r], std::max(across, along));
+        }
+    }
+    depth_ = std::move(closed);
+}
+
+void DepthBuffer::mask_cone(double opening_rad) {
+    // In double, and by the sine: the cosine of half an opening of a tenth of a degree is 1 in
+    // float.
+    const double sine = sincos(0.5 * opening_rad).sin;
+    for (int column = 0; column < grid_.columns; ++column) {
+        const double azimuth = opening_rad * ((column + 0.5) / grid_.columns - 0.5);
+        const double y = sincos(azimuth).sin;
+        float* const pixels = pixels_of(column);
+        for (int row = 0; row < grid_.rows; ++row) {
+            const double slope = (row + 0.5 - 0.5 * grid_.rows) / grid_.rows_per_slope;
+            if (y * y + slope * slope > sine * sine * (1.0 + slope * slope))
+                pixels[row] = std::numeric_limits<float>::infinity();
+        }
+    }
+}
+
+bool DepthBuffer::is_clear(const ProjectedFacet& facet) const {
+    const float tall = facet.half_rows + std::fabs(facet.rows_u);
+    if (facet.row - tall < 0.0F || facet.row + tall >= static_cast<float>(grid_.rows)) return false;
+    const auto per_beam = static_cast<float>(grid_.columns_per_beam);
+    const int begin = static_cast<int>(facet.row - tall);
+    const int end = static_cast<int>(facet.row + tall) + 1;
+    const int columns_begin = index_in(per_beam * (facet.beam - facet.half_beams), grid_.columns);
+    const int columns_end =
+        index_in(per_beam * (facet.beam + facet.half_beams) + 1.0F, grid_.columns);
+    const float nearest = facet.depth + facet.depth_range + facet.slack;
+    const float farthest = facet.depth - facet.depth_range + facet.slack;
+    for (int column = columns_begin; column < columns_end; ++column) {
+        const float* const pixels = pixels_of(column);
+        const float d = (static_cast<float>(column) + 0.5F) / per_beam - facet.beam;
+        const float base =
+            facet.depth + facet.depth_beam * d + facet.depth_row * (0.5F - facet.row) + facet.slack;
+        for (int r = begin; r < end; ++r) {
+            const float depth =
+                std::clamp(base + facet.depth_row * static_cast<float>(r), farthest, nearest);
+            if (pixels[r] > depth) return false;
+        }
+    }
+    return true;
+}
+
+DepthBuffer::Visibility DepthBuffer::visible_part(const ProjectedFacet& facet, int beam, bool clear,
+                                                  VisiblePart& part) const {
+    const auto b = static_cast<float>(beam);
+    const float per_half = 1.0F / facet.half_beams;
+    const float from = std::max((b - facet.beam) * per_half, -1.0F);
+    const float to = std::min((b + 1.0F - facet.beam) * per_half, 1.0F);
+    part.u = 0.5F * (from + to);
+    part.half_u = 0.5F * (to - from);
+    if (!(part.half_u > 0.0F)) return Visibility::hidden;
+    // A beam or a view much narrower than the facet leaves a small part of it that is no matter of
+    // rounding: its borders lie well inside the facet.
+    const bool well_projected = facet.half_beams < widest_facet * grid_.beams_per_rad &&
+                                facet.half_rows < widest_facet * grid_.rows_per_slope;
+    const bool fills_beam = well_projected && from > -1.0F && to < 1.0F;
+    const bool wide = fills_beam || part.half_u > least_width;
+    if (clear) {
+        part.share = part.half_u;
+        part.v = 0.0F;
+        part.half_v = 1.0F;
+        return wide ? Visibility::visible : Visibility::too_small;
+    }
+    const float row = facet.row + part.u * facet.rows_u;
+    const float low = row - facet.half_rows;
+    const float high = row + facet.half_rows;
+    const int begin = index_in(low, grid_.rows);
+    const int end = index_in(std::floor(high) + 1.0F, grid_.rows);
+    const auto per_beam = static_cast<float>(grid_.columns_per_beam);
+    const float left = per_beam * std::max(b, facet.beam - facet.half_beams);
+    const float right = per_beam * std::min(b + 1.0F, facet.beam + facet.half_beams);
+    const int columns_begin =
+        std::max(static_cast<int>(std::floor(left)), beam * grid_.columns_per_beam);
+    const int columns_end =
+        std::min(static_cast<int>(std::floor(right)) + 1, (beam + 1) * grid_.columns_per_beam);
+    const float nearest = facet.depth + facet.depth_range + facet.slack;
+    const float farthest = facet.depth - facet.depth_range + facet.slack;
+    float sum = 0.0F;
+    float moment = 0.0F;
+    float least = high;
+    float most = low;
+    for (int column = columns_begin; column < columns_end; ++column) {
+        const float* const pixels = pixels_of(column);
+        const float width = std::min(right, static_cast<float>(column + 1)) -
+                            std::max(left, static_cast<float>(column));
+        const float d = (static_cast<float>(column) + 0.5F) / per_beam - facet.beam;
+        const float base =
+            facet.depth + facet.depth_beam * d + facet.depth_row * (0.5F - facet.row) + facet.slack;
+        for (int r = begin; r < end; ++r) {
+            const float depth =
+                std::clamp(base + facet.depth_row * static_cast<float>(r), farthest, nearest);
+            if (pixels[r] > depth) continue;
+            const float bottom = std::max(low, static_cast<float>(r));
+            const float top = std::min(high, static_cast<float>(r + 1));
+            const float weight = width * (top - bottom);
+            sum += weight;
+            moment += weight * 0.5F * (bottom + top);
+            least = std::min(least, bottom);
+            most = std::max(most, top);
+        }
+    }
+    if (!(sum > 0.0F)) return Visibility::hidden;
+    const float whole = (right - left) * (high - low);
+    part.share = part.half_u * std::min(sum / whole, 1.0F);
+    const bool fills_rows = well_projected && least > low && most < high;
+    if (!(wide && (fills_beam || fills_rows || part.share > least_share)))
+        return Visibility::too_small;
+    const float per_rows = 1.0F / facet.half_rows;
+    part.v = (moment / sum - row) * per_rows;
+    // The visible rows are one run, or nearly: as long as their number, within what was met.
+    part.half_v = 0.5F * (most - least) * per_rows;
+    return Visibility::visible;
+}
+
+}  // namespace sonarsim
