@@ -171,13 +171,13 @@ class BadInput(Sandbox):
 class BadFolder(Sandbox):
     def test_folder_holds_something_else(self):
         kept = self.write("out/thesis.txt", "years of work")
-        self.assert_refused(self.render(), "out", "--overwrite")
+        self.assert_refused(self.render(), "out", "no sonarsim dataset", "another output.folder")
         self.assertEqual(kept.read_text(), "years of work")
         self.assertEqual([p.name for p in self.out.iterdir()], ["thesis.txt"])
 
     def test_overwrite_never_deletes_what_is_no_dataset(self):
         kept = self.write("out/thesis.txt", "years of work")
-        self.render("--overwrite")
+        self.assert_refused(self.render("--overwrite"), "out", "no sonarsim dataset")
         self.assertEqual(kept.read_text(), "years of work")
 
     def test_folder_is_a_file(self):

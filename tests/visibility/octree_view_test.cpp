@@ -64,11 +64,12 @@ TEST_CASE("octree view: few wide beams, few long bins") {
 
 TEST_CASE("octree view: the narrowest views see a wall") {
     // The plane through (5, 0, 0) with a normal 20 degrees off the boresight: v . n = cos(20
-    // degrees) all over the view, at a range of 5 m.
+    // degrees) on the boresight, at a range of 5 m. At 30 degrees to starboard the plane is met
+    // 2.5 m from there, at 30 degrees to port 3.9 m: six metres to either side fill every view.
     Scene scene = test::empty_scene();
     const auto material = test::add_material(scene, 0.5F);
-    const auto across = static_cast<float>(2.0 * std::cos(radians(20.0)));
-    const auto away = static_cast<float>(2.0 * std::sin(radians(20.0)));
+    const auto across = static_cast<float>(6.0 * std::cos(radians(20.0)));
+    const auto away = static_cast<float>(6.0 * std::sin(radians(20.0)));
     test::add_quad(scene, {5.0F - away, -across, -2.0F}, {5.0F + away, across, -2.0F},
                    {5.0F + away, across, 2.0F}, {5.0F - away, -across, 2.0F}, material);
     const auto truth = static_cast<float>(0.5 * std::cos(radians(20.0)));
