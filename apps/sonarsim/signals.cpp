@@ -31,8 +31,8 @@ extern "C" void on_signal(int number) {
 }
 
 /// The second is over. Files get their names when all of their bytes are written, and a ping counts
-/// when its last file has its name; so the program may end between any two instructions, as it may
-/// by a kill or a power cut, and the next run goes on from what is whole.
+/// once the journal names it, after that; so the program may end between any two instructions, as
+/// it may by a kill or a power cut, and the next run goes on from what is whole.
 extern "C" void on_alarm(int) {
     const ssize_t written = ::write(STDERR_FILENO, last_text.data(), last_size);
     static_cast<void>(written);  // there is nobody left to tell

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "product/fan.h"
+#include "sonar/kinds.h"
 
 namespace sonarsim {
 
@@ -124,18 +125,20 @@ void judge_brightness(const OutputConfig& output, const Sonar& sonar, const Sens
                         "black: the materials there reflect nothing in this water",
                         name, summary.counts.occupied_bins));
     } else if (fan_greys < fewest_fan_greys) {
+        const bool has_fans = kind_of(sonar.config.kind).has_images;
+        const std::string fans =
+            has_fans ? fmt::format(" in images and {:.0f} of 255 in fans", fan_greys) : "";
         out.push_back(
-            fmt::format("sensor '{}': its brightest pixel is {:.3g}, grey level {:.0f} of "
-                        "65535 in images and {:.0f} of 255 in fans: lower "
-                        "output.full_scale from {:.4g} to about {:.1g}",
-                        name, summary.brightest, 65535.0 * of_white, fan_greys, output.full_scale,
+            fmt::format("sensor '{}': its brightest pixel is {:.3g}, grey level {:.0f} "
+                        "of 65535{}: lower output.full_scale from {:.4g} to about {:.1g}",
+                        name, summary.brightest, 65535.0 * of_white, fans, output.full_scale,
                         summary.brightest));
     }
 }
 
 /// A sector too thin for a picture of it.
 void judge_fan(const OutputConfig& output, const Sonar& sonar, std::vector<std::string>& out) {
-    if (!output.fan || sonar.azimuth_edges_rad.empty()) return;
+    if (!output.fan || !kind_of(sonar.config.kind).has_images) return;
     const double pixel_m = fan_frame(sonar, output.fan_width_px).pixel_m;
     const double width_m = sonar.settings.view.azimuth_rad * sonar.config.range_max_m;
     if (width_m >= pixel_m) return;
