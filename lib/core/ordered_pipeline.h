@@ -4,7 +4,9 @@
 
 #include <atomic>
 #include <cstddef>
+#include <optional>
 #include <type_traits>
+#include <vector>
 
 #include "core/handover.h"
 
@@ -23,6 +25,7 @@ void ordered_pipeline(std::size_t count, std::size_t in_flight, const std::atomi
     char done = 0;
     const auto feed = [&](tbb::flow_control& flow) -> std::size_t {
         received(&next);
+        received(&done);  // the place of the result that has left
         const HandOverAtEnd fed{&done};
         if (next == count || stop) {
             flow.stop();
@@ -31,22 +34,29 @@ void ordered_pipeline(std::size_t count, std::size_t in_flight, const std::atomi
         const HandOverAtEnd more{&next};
         return next++;
     };
+    // Results wait in places of their own: TBB does not destroy what it still holds when an
+    // exception ends the pipeline. Results leave in order, so those in flight have places that
+    // differ.
+    std::vector<std::optional<Result>> results(in_flight);
     const auto run = [&](std::size_t i) {
         received(&next);
         const HandOverAtEnd ran{&done};
-        return work(i);
+        results[i % in_flight].emplace(work(i));
+        return i;
     };
-    const auto take = [&](const Result& result) {
+    const auto take = [&](std::size_t i) {
         received(&done);
         const HandOverAtEnd taken{&done};
-        finish(result);
+        finish(*results[i % in_flight]);
+        results[i % in_flight].reset();
     };
     const ReceiveAtEnd all{&done};
     handed_over(&next);
     tbb::parallel_pipeline(
-        in_flight, tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order, feed) &
-                       tbb::make_filter<std::size_t, Result>(tbb::filter_mode::parallel, run) &
-                       tbb::make_filter<Result, void>(tbb::filter_mode::serial_in_order, take));
+        in_flight,
+        tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order, feed) &
+            tbb::make_filter<std::size_t, std::size_t>(tbb::filter_mode::parallel, run) &
+            tbb::make_filter<std::size_t, void>(tbb::filter_mode::serial_in_order, take));
 }
 
 }  // namespace sonarsim
