@@ -15,7 +15,7 @@ void in_parallel(std::size_t count, const Body& body) {
     char done = 0;
     const ReceiveAtEnd all{&done};
     handed_over(&begun);
-    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) SONARSIM_CALLED_BY_TBB {
         received(&begun);
         const HandOverAtEnd one{&done};
         body(i);

@@ -23,7 +23,7 @@ void ordered_pipeline(std::size_t count, std::size_t in_flight, const std::atomi
     // Besides their use, the addresses of these two name what is handed from thread to thread.
     std::size_t next = 0;
     char done = 0;
-    const auto feed = [&](tbb::flow_control& flow) -> std::size_t {
+    const auto feed = [&](tbb::flow_control& flow) SONARSIM_CALLED_BY_TBB -> std::size_t {
         received(&next);
         received(&done);  // the place of the result that has left
         const HandOverAtEnd fed{&done};
@@ -38,13 +38,13 @@ void ordered_pipeline(std::size_t count, std::size_t in_flight, const std::atomi
     // exception ends the pipeline. Results leave in order, so those in flight have places that
     // differ.
     std::vector<std::optional<Result>> results(in_flight);
-    const auto run = [&](std::size_t i) {
+    const auto run = [&](std::size_t i) SONARSIM_CALLED_BY_TBB {
         received(&next);
         const HandOverAtEnd ran{&done};
         results[i % in_flight].emplace(work(i));
         return i;
     };
-    const auto take = [&](std::size_t i) {
+    const auto take = [&](std::size_t i) SONARSIM_CALLED_BY_TBB {
         received(&done);
         const HandOverAtEnd taken{&done};
         finish(*results[i % in_flight]);

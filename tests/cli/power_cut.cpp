@@ -11,6 +11,7 @@
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <cstdarg>
@@ -133,7 +134,7 @@ void count() {
     if (++disk().calls != disk().cut) return;
     for (const auto& [path, what] : disk().pending)
         lose(path, what);
-    _exit(99);
+    syscall(SYS_exit_group, 99);  // at once: no sanitizer has a last word
 }
 
 /// The file gets new bytes, or is new.
