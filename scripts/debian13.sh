@@ -22,7 +22,7 @@ if [ ! -e "$chroot/etc/debian_version" ]; then
         "deb [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] http://deb.debian.org/debian trixie main" ||
         skip "Debian 13 cannot be fetched"
 fi
-./scripts/setup.sh
+./scripts/setup.sh python3-pil
 
 # The mounts go with the process that made them. The checkout is where it is outside, because
 # mission.resolved.yaml holds the scene's absolute path.
@@ -39,10 +39,12 @@ exec chroot "$chroot" "$@"
 END
 enter=(unshare --mount bash "$chroot/enter" "$chroot" "$root")
 "${enter[@]}" env SONARSIM_BUILD=no "$root/scripts/setup.sh"
-"${enter[@]}" bash -c "cd '$root' && cmake --preset release -B build-debian13 && cmake --build build-debian13 --target sonarsim"
+"${enter[@]}" bash -c "cd '$root' && cmake --preset program -B build-debian13 && cmake --build build-debian13 --target sonarsim"
 
 configs=$root/configs
-exec ./scripts/same_bytes.py --folder "$root/build-debian13" \
+# Another OpenImageIO and zlib compress the same pixels otherwise.
+# Debian's Pillow belongs to Debian's Python, which need not be the first on the PATH.
+exec /usr/bin/python3 ./scripts/same_bytes.py --pixels --folder "$root/build-debian13" \
     --mission "$root/tests/four_sonars.yaml,engine=rays" --mission "$root/tests/four_sonars.yaml,engine=octree" \
     --mission "$configs/tank_imaging.yaml,trajectory.rate_hz=1" \
     --mission "$configs/tank_multipath.yaml,trajectory.rate_hz=1" \

@@ -4,6 +4,7 @@
 tank      a concrete tank, 8 x 6 x 3 m, with a few objects (the default; scenes/tank.glb)
 seafloor  200 x 200 m of sand and silt with a hundred boulders, a million triangles
 wreck     a broken hull with ribs on a rippled bottom, 60 x 60 m
+lifeboat  a hull with rails, ropes and gear, of one material, for comparisons of the engines
 
 The same command writes the same bytes on every machine.
 """
@@ -11,7 +12,7 @@ import argparse
 import pathlib
 import sys
 
-from scenes import seafloor, tank, wreck
+from scenes import lifeboat, seafloor, tank, wreck
 from scenes.glb import write_glb
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
@@ -20,21 +21,26 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("names", nargs="*", metavar="name", help="tank, seafloor or wreck")
+    parser.add_argument("names", nargs="*", metavar="name", help="tank, seafloor, wreck or lifeboat")
     parser.add_argument("--out", type=pathlib.Path, metavar="DIR",
                         help="default: scenes/ for the tank, scenes/generated/ for the others")
     parser.add_argument("--cells", type=int, default=708, metavar="N",
                         help="the sea floor has N x N cells of two triangles (default 708)")
     parser.add_argument("--area", type=float, default=200.0, metavar="M",
                         help="the sea floor is M x M metres (default 200)")
+    parser.add_argument("--quarterings", type=int, default=0, metavar="N",
+                        help="every triangle of the lifeboat is cut into four, N times (default 0)")
     arguments = parser.parse_args()
     if not 1 <= arguments.cells <= 10000 or not 1.0 <= arguments.area <= 1e5:
         parser.error("--cells takes 1 to 10000, --area 1 to 100000 metres")
+    if not 0 <= arguments.quarterings <= 4:
+        parser.error("--quarterings takes 0 to 4")
 
     builders = {
         "tank": tank.build,
         "seafloor": lambda: seafloor.build(arguments.cells, arguments.area),
         "wreck": wreck.build,
+        "lifeboat": lambda: lifeboat.build(arguments.quarterings),
     }
     for name in arguments.names or ["tank"]:
         if name not in builders:

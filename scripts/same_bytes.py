@@ -4,8 +4,9 @@
     ./scripts/same_bytes.py [--mission FILE[,KEY=VALUE...]]... PROGRAM PROGRAM...
 
 A program may be a command of several words. Without --mission it is tests/four_sonars.yaml, once
-with each engine. In dataset.json, `build` may differ: it says how the program was built. Exit code
-0: all alike; 1: not.
+with each engine. In dataset.json, `build` may differ: it says how the program was built. With
+--pixels PNG files count as alike when their pixels are (needs python3-pil), and journal.txt, which
+holds their sizes, is left out. Exit code 0: all alike; 1: not.
 """
 import argparse
 import hashlib
@@ -18,10 +19,16 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-MISSIONS = [f"{ROOT}/tests/four_sonars.yaml,engine={engine}" for engine in ("rays", "octree")]
+MISSIONS = [f"{ROOT}/tests/four_sonars.yaml,engine={engine}" for engine in ("rays", "octree", "slices")]
 
 
-def content(path):
+def content(path, pixels):
+    if pixels and path.suffix == ".png":
+        from PIL import Image
+        with Image.open(path) as image:
+            return repr((image.mode, image.size)).encode() + image.tobytes()
+    if pixels and path.name == "journal.txt":
+        return b""
     if path.name != "dataset.json":
         return path.read_bytes()
     description = json.loads(path.read_text())
@@ -29,13 +36,13 @@ def content(path):
     return json.dumps(description).encode()
 
 
-def render(program, mission, folder):
+def render(program, mission, folder, pixels):
     """SHA-256 of every file that the program makes of the mission, by name within the dataset."""
     file, *settings = mission.split(",")
     arguments = [word for setting in settings for word in ("--set", setting)]
     subprocess.run([*shlex.split(program), "render", file, "--quiet", *arguments,
                     "--set", f"output.folder={folder}"], check=True)
-    files = {str(path.relative_to(folder)): hashlib.sha256(content(path)).hexdigest()
+    files = {str(path.relative_to(folder)): hashlib.sha256(content(path, pixels)).hexdigest()
              for path in sorted(folder.rglob("*")) if path.is_file()}
     shutil.rmtree(folder)
     return files
@@ -45,6 +52,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
     parser.add_argument("--mission", action="append", metavar="FILE[,KEY=VALUE...]")
     parser.add_argument("--folder", type=pathlib.Path, help="where to render, for a moment")
+    parser.add_argument("--pixels", action="store_true", help="compare PNG files by their pixels")
     parser.add_argument("programs", nargs="+", metavar="PROGRAM")
     options = parser.parse_args()
     failed = False
@@ -52,9 +60,9 @@ def main():
         # One name for all, since mission.resolved.yaml holds it.
         folder = pathlib.Path(temporary) / "dataset"
         for mission in options.mission or MISSIONS:
-            expected = render(options.programs[0], mission, folder)
+            expected = render(options.programs[0], mission, folder, options.pixels)
             for program in options.programs[1:]:
-                found = render(program, mission, folder)
+                found = render(program, mission, folder, options.pixels)
                 differing = sorted(name for name in expected.keys() | found.keys()
                                    if expected.get(name) != found.get(name))
                 failed |= bool(differing)

@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
 # Installs the Debian packages that are missing, then configures and builds.
 #   ./scripts/setup.sh [more packages]
-# SONARSIM_PRESET picks the CMake preset (default: release); SONARSIM_BUILD=no only installs.
+# SONARSIM_PRESET picks the CMake preset (default: program, build/sonarsim without the tests);
+# SONARSIM_BUILD=no only installs.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-preset=${SONARSIM_PRESET:-release}
+preset=${SONARSIM_PRESET:-program}
 
 install() {
     local package missing=() as_root=()
@@ -22,7 +23,7 @@ install() {
 
 install g++ cmake ninja-build ccache make pkg-config python3 \
     libeigen3-dev libembree-dev libtbb-dev librandom123-dev libopenimageio-dev libtinygltf-dev \
-    libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libspdlog-dev doctest-dev "$@"
+    libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libspdlog-dev "$@"
 case $preset in
     asan | tsan)
         install clang

@@ -2,5 +2,6 @@
 # Installs, builds and runs every test. SONARSIM_PRESET=asan or tsan runs them under sanitizers.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-./scripts/setup.sh
-exec ctest --preset "${SONARSIM_PRESET:-release}" -j2
+export SONARSIM_PRESET=${SONARSIM_PRESET:-release}
+./scripts/setup.sh doctest-dev
+exec ctest --preset "$SONARSIM_PRESET" -j2

@@ -1,9 +1,17 @@
-"""Walks the includes and fails when an arrow of the architecture runs the wrong way."""
+"""Walks the includes and fails when an arrow of the architecture runs the wrong way.
+
+    python3 tests/layering.py <root of the repository>
+
+Three rules: a folder of lib/ includes only the folders below it, a part of a folder only the parts
+below it, and no files include each other in a circle; x.h and x.cpp count as one. Each rule is first
+tried on made-up files that break it.
+"""
 import pathlib
 import re
 import sys
+import tempfile
 
-# What each folder of lib/ may include besides itself (docs/development.md).
+# What each folder of lib/ may include besides itself, as the table of docs/development.md says.
 ALLOWED = {
     "core": set(),
     "mission": {"core"},
@@ -13,11 +21,19 @@ ALLOWED = {
     "ping": {"core", "mission", "scene", "visibility"},
     "product": {"core", "mission", "ping"},
     "sonar": {"core", "mission", "scene", "visibility", "ping", "product"},
-    "dataset": {"core", "mission", "scene", "trajectory", "visibility", "ping", "sonar", "product"},
-    "validation": {"core", "mission", "scene", "trajectory", "visibility", "ping", "sonar", "product",
-                   "dataset"},
-    "benchmark": {"core", "mission", "scene", "trajectory", "visibility", "ping", "sonar", "product",
-                  "dataset", "validation"},
+    "assembly": {"core", "mission", "scene", "trajectory", "visibility", "ping", "product", "sonar"},
+}
+for upper in ("dataset", "validation", "benchmark"):
+    ALLOWED[upper] = set(ALLOWED)
+
+# The parts of the folders that have subfolders, from the bottom up; those in one row do not know
+# each other. "x/" is a subfolder, "x" the files x.h and x.cpp, "*" every other file of the folder.
+PARTS = {
+    "dataset": [["*"], ["writers/"], ["writers"],
+                ["layout"], ["journal", "listed_files", "metadata"], ["folder", "resume"], ["job"]],
+    "scene": [["*"], ["gltf/"]],
+    "validation": [["*"], ["hard/"]],
+    "visibility": [["*"], ["octree/", "rays/", "slices/"], ["make_engine"]],
 }
 # Which folder alone may use a library.
 OWNERS = {
@@ -30,33 +46,142 @@ OWNERS = {
 }
 
 
-def main(root: pathlib.Path) -> int:
-    faults = []
+def part_of(unit: str) -> tuple[str, int] | None:
+    """The part of its folder that a unit, "folder/sub/file", belongs to, and its height; None where
+    the folder has no such part."""
+    folder, *rest = unit.split("/")
+    name = rest[0] + "/" if len(rest) > 1 else rest[0]
+    rows = PARTS.get(folder, [["*"]])
+    for height, row in enumerate(rows):
+        if name in row:
+            return name, height
+    return ("*", 0) if len(rest) == 1 else None
+
+
+def fault_of(here: str, unit: str, name: str, quoted: bool) -> str | None:
+    """What is wrong with `#include name` in a unit of the folder `here`."""
+    for prefix, owner in OWNERS.items():
+        if name.startswith(prefix) and here != owner:
+            return f"{name} belongs to {owner} alone"
+    if not quoted or here == "apps":
+        return None
+    target = name.split("/")[0]
+    if "/" not in name or target not in ALLOWED:
+        return f'write "folder/file.h", not "{name}"'
+    if target != here:
+        return None if target in ALLOWED[here] else f"{here} may not include {target}"
+    own, other = part_of(unit), part_of(name.removesuffix(".h"))
+    if own and other and own != other and other[1] >= own[1]:
+        return f"{here}: {own[0]} may not include {other[0]} ({name})"
+    return None
+
+
+def circles_of(includes: dict[str, list[str]]) -> list[str]:
+    """The circles that a walk along the includes runs into, each as "a -> b -> a"."""
+    circles, done, path = [], set(), []
+
+    def walk(unit):
+        if unit in path:
+            circles.append(" -> ".join(path[path.index(unit):] + [unit]))
+        elif unit not in done:
+            path.append(unit)
+            for other in includes.get(unit, []):
+                if other != unit:
+                    walk(other)
+            done.add(path.pop())
+
+    for unit in includes:
+        walk(unit)
+    return circles
+
+
+def faults_in_code(root: pathlib.Path) -> tuple[int, list[str]]:
+    """How many files there are, and what is wrong with them."""
     files = sorted(p for top in ("lib", "apps") for p in (root / top).rglob("*")
                    if p.suffix in (".h", ".cpp"))
-    if not files:
-        faults.append(f"no sources under {root}")
+    faults = [] if files else [f"no sources under {root}"]
+    includes = {}
     for path in files:
-        parts = path.relative_to(root).parts
-        here = parts[1] if parts[0] == "lib" else "apps"
+        relative = path.relative_to(root)
+        unit = relative.with_suffix("").as_posix().removeprefix("lib/")
+        here = unit.split("/")[0]
+        if here != "apps" and here not in ALLOWED:
+            faults.append(f"{relative}: ALLOWED has no folder {here}")
+            continue
+        if here != "apps" and not part_of(unit):
+            faults.append(f"{relative}: PARTS does not say where {here}/{unit.split('/')[1]}/ lies")
         for number, line in enumerate(path.read_text().splitlines(), 1):
             match = re.match(r'\s*#\s*include\s*([<"])([^">]+)[">]', line)
             if not match:
                 continue
-            name = match.group(2)
-            where = f"{path.relative_to(root)}:{number}"
-            for prefix, owner in OWNERS.items():
-                if name.startswith(prefix) and here != owner:
-                    faults.append(f"{where}: {name} belongs to {owner} alone")
-            if match.group(1) == "<":
-                continue
-            target = name.split("/")[0]
-            if "/" not in name or (here != "apps" and target not in ALLOWED):
-                if here != "apps":
-                    faults.append(f'{where}: write "folder/file.h", not "{name}"')
-            elif here != "apps" and target != here and target not in ALLOWED[here]:
-                faults.append(f"{where}: {here} may not include {target}")
-    print("\n".join(faults) if faults else f"{len(files)} files, no arrow runs the wrong way")
+            name, quoted = match.group(2), match.group(1) == '"'
+            fault = fault_of(here, unit, name, quoted)
+            if fault:
+                faults.append(f"{relative}:{number}: {fault}")
+            if quoted:
+                includes.setdefault(unit, []).append(name.removesuffix(".h"))
+    return len(files), faults + [f"a circle: {circle}" for circle in circles_of(includes)]
+
+
+def faults_in_table(text: str) -> list[str]:
+    """Where the table of docs/development.md differs from ALLOWED."""
+    faults, told = [], {}
+    for folder, row in re.findall(r"^\| `lib/(\w+)` \|.*\| *([^|]*?) *\|$", text, re.MULTILINE):
+        words = set(told) if row == "all of the above" else set(row.split(", ")) - {""}
+        told[folder] = words
+        if words != ALLOWED.get(folder):
+            faults.append(f"docs/development.md: the row of lib/{folder} is not what ALLOWED says")
+    return faults + [f"docs/development.md: no row for lib/{folder}"
+                     for folder in ALLOWED if folder not in told]
+
+
+def fault_when(files: dict[str, str]) -> list[str]:
+    """What is wrong with made-up files."""
+    with tempfile.TemporaryDirectory() as folder:
+        root = pathlib.Path(folder)
+        for name, text in files.items():
+            (root / name).parent.mkdir(parents=True, exist_ok=True)
+            (root / name).write_text(text)
+        return faults_in_code(root)[1]
+
+
+def try_the_rules():
+    """Each rule finds what breaks it, and nothing else."""
+    sound = {
+        "lib/core/text.h": "#include <string>\n",
+        "lib/visibility/engine.h": '#include "visibility/view.h"\n',
+        "lib/visibility/view.h": '#include "core/text.h"\n',
+        "lib/visibility/rays/rays.h": '#include "visibility/engine.h"\n',
+        "lib/visibility/make_engine.cpp": '#include "visibility/rays/rays.h"\n',
+        "apps/sonarsim/main.cpp": '#include <CLI/CLI.hpp>\n#include "visibility/make_engine.h"\n',
+    }
+    assert fault_when(sound) == [], fault_when(sound)
+    for name, text, fault in (
+            ("lib/core/file.h", '#include "visibility/view.h"', "core may not include visibility"),
+            ("lib/visibility/view.h", '#include "visibility/rays/rays.h"', "* may not include rays/"),
+            ("lib/visibility/view.h", '#include "visibility/make_engine.h"',
+             "* may not include make_engine"),
+            ("lib/visibility/octree/tree.h", '#include "visibility/rays/rays.h"',
+             "octree/ may not include rays/"),
+            ("lib/visibility/view.cpp", '#include "visibility/engine.h"',
+             "a circle: visibility/engine -> visibility/view -> visibility/engine"),
+            ("lib/visibility/lamps/lamp.h", "", "does not say where visibility/lamps/ lies"),
+            ("lib/lamps/lamp.h", "", "no folder lamps"),
+            ("lib/core/file.h", '#include "text.h"', 'write "folder/file.h"'),
+            ("lib/core/file.h", "#include <yaml-cpp/yaml.h>", "belongs to mission alone"),
+    ):
+        found = fault_when({**sound, name: text + "\n"})
+        assert any(fault in line for line in found), f"not found: {fault}; but {found}"
+    row = "| `lib/core` | | |\n| `lib/mission` | | core |\n"
+    assert len(faults_in_table(row)) == len(ALLOWED) - 2, faults_in_table(row)
+    assert any("row of lib/mission" in line for line in faults_in_table(row.replace("| core", "| ping")))
+
+
+def main(root: pathlib.Path) -> int:
+    try_the_rules()
+    files, faults = faults_in_code(root)
+    faults += faults_in_table((root / "docs/development.md").read_text())
+    print("\n".join(faults) if faults else f"{files} files, no arrow runs the wrong way")
     return 1 if faults else 0
 
 

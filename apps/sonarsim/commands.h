@@ -2,15 +2,9 @@
 
 #include <CLI/CLI.hpp>
 
-namespace sonarsim {
+#include "exit_codes.h"
 
-/// What the program tells the shell.
-enum ExitCode : int {
-    exit_done = 0,
-    exit_failed = 1,     ///< the machine could not: disk, memory
-    exit_bad_input = 2,  ///< the user's input or usage is wrong
-    exit_signal = 128,   ///< plus the number of the signal that ended the run
-};
+namespace sonarsim {
 
 // Each adds one subcommand. What it runs leaves its exit code in `exit_code` and may throw.
 

@@ -27,8 +27,10 @@ constexpr const char* out_of_memory =
 /// back to the kernel each time and faulting them in again takes a third of the ping's time.
 void keep_freed_memory() {
     constexpr int most = 32 << 20;  // what the C library takes
+    // NOLINTBEGIN(concurrency-mt-unsafe): there are no other threads yet
     mallopt(M_MMAP_THRESHOLD, most);
     mallopt(M_TRIM_THRESHOLD, 1 << 30);
+    // NOLINTEND(concurrency-mt-unsafe)
 }
 
 int run(int argc, char** argv) {

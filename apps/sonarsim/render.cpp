@@ -2,16 +2,20 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
 #include "commands.h"
+#include "core/error.h"
 #include "core/text.h"
 #include "dataset/image_warnings.h"
 #include "dataset/job.h"
+#include "dataset/layout.h"
 #include "logging.h"
 #include "mission_options.h"
 #include "progress.h"
@@ -21,6 +25,8 @@
 namespace sonarsim {
 
 namespace {
+
+using Json = nlohmann::ordered_json;
 
 constexpr const char* goes_on_from_there =
     "what is written is whole, and the same command run again goes on from there";
@@ -51,6 +57,7 @@ double pings_per_s(const RenderSummary& summary) {
 
 void print_table(const RenderSummary& summary) {
     std::vector<std::pair<std::string_view, double>> stages;
+    stages.reserve(ping_timers.size() + 2);
     for (const auto& timer : ping_timers)
         stages.emplace_back(timer.name, summary.stages.*timer.member);
     stages.emplace_back("encode", summary.encode_seconds);
@@ -66,7 +73,6 @@ void print_table(const RenderSummary& summary) {
 
 void print_json(const RenderSummary& summary, const Mission& mission,
                 const std::vector<std::string>& warnings) {
-    using Json = nlohmann::ordered_json;
     Json thread_seconds = json_object<Json>(ping_timers, summary.stages);
     thread_seconds["encode"] = summary.encode_seconds;
     thread_seconds["write"] = summary.write_seconds;
@@ -113,17 +119,27 @@ void comment(const RenderSummary& summary, const Mission& mission, bool files) {
         spdlog::warn("{}", warning);
 }
 
+/// A dataset's own mission.resolved.yaml may be rendered again; overwriting would replace it.
+void spare_mission(const std::filesystem::path& file, const Mission& mission) {
+    const std::filesystem::path written = mission.output.folder / mission_name;
+    std::error_code absent;
+    if (!std::filesystem::equivalent(written, file, absent)) return;
+    throw InputError({file.string()},
+                     "--overwrite would replace the mission itself; copy it out of the folder "
+                     "first, or choose another --out");
+}
+
 int render(RenderArguments arguments) {
     start_logging(arguments.log);
     arguments.render.files = !arguments.no_files;
     const std::atomic<bool>& stop = stop_on_signal(
         warning_line(arguments.log, std::string("stopped at once; ") + goes_on_from_there));
     const Mission mission = load(arguments.mission);
+    if (arguments.render.overwrite) spare_mission(arguments.mission.file, mission);
     const Assembly assembly = assemble(mission);
     warn_about(assembly.scene);
     for (const Sonar& sonar : assembly.sonars) {
-        const std::string doubt = doubt_about(engine_settings(mission.engine, mission.octree),
-                                              sonar.settings.view);
+        const std::string doubt = doubt_about(engine_settings(mission), sonar.settings.view);
         if (!doubt.empty()) spdlog::warn("sensor '{}': {}", sonar.config.name, doubt);
     }
     spdlog::info("{}: {} triangles, {} poses", mission.name, assembly.scene.triangles.size(),

@@ -41,7 +41,7 @@ extern "C" void on_alarm(int) {
 
 }  // namespace
 
-std::atomic<bool>& stop_on_signal(const std::string& last_words) {
+std::atomic<bool>& stop_on_signal(std::string_view last_words) {
     last_size = last_words.copy(last_text.data(), last_text.size());
     std::signal(SIGALRM, on_alarm);
     for (const int number : {SIGINT, SIGTERM}) {

@@ -32,7 +32,8 @@ ColdStart run_cold(const Mission& mission, const Assembly& assembly, const Setti
                    const Sonar& sonar, int poses, double assembled_s) {
     ColdStart cold;
     const double start = seconds_now();
-    const auto engine = make_engine(assembly.scene, engine_settings(setting.kind, setting.octree));
+    const auto engine =
+        make_engine(assembly.scene, engine_settings(setting.kind, setting.octree, setting.slices));
     cold.build_s = seconds_now() - start;
     bool first = true;
     for (const std::size_t pose : spread_poses(assembly.trajectory.size(), poses)) {

@@ -20,13 +20,13 @@ MultipathConfig canonical(const MultipathConfig& config) {
 }
 
 /// A sonar with one way to find multipath, on its way through the rounds.
-struct Trial {
+struct MultipathTrial {
     Sonar sonar;
     std::vector<PoseTimes> poses;
 };
 
-Trial trial_of(const Sonar& sonar, const MultipathConfig& multipath, const Mission& mission,
-               const PingSet& pings) {
+MultipathTrial trial_of(const Sonar& sonar, const MultipathConfig& multipath,
+                        const Mission& mission, const PingSet& pings) {
     SonarConfig config = sonar.config;
     config.multipath = multipath;
     return {make_sonar(config, mission.accuracy), std::vector<PoseTimes>(pings.poses.size())};
@@ -60,9 +60,10 @@ std::vector<float> multipath_images(const PingSet& pings, const Sonar& sonar,
     return all;
 }
 
-void take_turns(const PingSet& pings, const VisibilityEngine& engine, std::span<Trial> trials) {
+void take_turns(const PingSet& pings, const VisibilityEngine& engine,
+                std::span<MultipathTrial> trials) {
     for (std::size_t p = 0; p < pings.poses.size(); ++p) {
-        for (Trial& trial : trials)
+        for (MultipathTrial& trial : trials)
             visit_pose(pings, trial.sonar, engine, p, trial.poses[p]);
     }
 }
@@ -73,7 +74,8 @@ std::vector<MultipathRow> measure_sonar(const Mission& mission, const PingSet& p
                                         int rounds, const ReportProgress& progress) {
     const std::string& name = sonar.config.name;
     const std::vector<MultipathConfig> settings = multipath_settings(sonar.config.multipath);
-    std::vector<Trial> trials{trial_of(sonar, none, mission, pings)};  // then exact, the others
+    std::vector<MultipathTrial> trials{
+        trial_of(sonar, none, mission, pings)};  // then exact, the others
     for (const MultipathConfig& setting : settings)
         trials.push_back(trial_of(sonar, setting, mission, pings));
 
@@ -128,8 +130,7 @@ std::vector<MultipathRow> measure_multipath(const Mission& mission, const Assemb
     std::vector<MultipathRow> out;
     if (std::ranges::none_of(assembly.sonars, has_multipath)) return out;
     const PingSet pings = make_ping_set(mission, assembly, options.poses);
-    const auto engine =
-        make_engine(assembly.scene, engine_settings(mission.engine, mission.octree));
+    const auto engine = make_engine(assembly.scene, engine_settings(mission));
     for (const Sonar& sonar : assembly.sonars) {
         if (!has_multipath(sonar)) continue;
         const std::vector<MultipathRow> rows =

@@ -215,7 +215,8 @@ Report make_report(const Mission& mission, const Assembly& assembly,
             const bool again = setting.kind == EngineKind::rays && rays;
             engines.push_back(
                 again ? rays
-                      : make_engine(assembly.scene, engine_settings(setting.kind, setting.octree)));
+                      : make_engine(assembly.scene,
+                                    engine_settings(setting.kind, setting.octree, setting.slices)));
             if (setting.kind == EngineKind::rays) rays = engines.back();
         }
         for (std::size_t i = 0; i < assembly.sonars.size(); ++i) {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "benchmark/spread.h"
-#include "dataset/assemble.h"
+#include "assembly/assemble.h"
 #include "mission/mission.h"
 
 namespace sonarsim {
@@ -18,12 +18,14 @@ namespace sonarsim {
 
 /// One engine at one degree of fineness.
 struct Setting {
-    std::string engine;  ///< "rays", "octree", or "literal": the octree to the letter of the paper
+    /// "rays", "slices", "octree", or "literal": the octree to the letter of the paper.
+    std::string engine;
     std::string name;    ///< the key of the mission that makes it, "relative_l1=0.03"
     EngineKind kind = EngineKind::rays;
     OctreeConfig octree;       ///< what an octree is built with
-    double relative_l1 = 0.0;  ///< the error goal that rays follow
+    double relative_l1 = 0.0;  ///< the error goal that rays and slices follow
     bool current = false;      ///< what the mission itself uses
+    SlicesConfig slices = {};  ///< what slices are built with
 };
 
 /// What a setting costs in a process of its own.

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
+#include <string_view>
 #include <utility>
 
 namespace sonarsim {
@@ -164,10 +166,14 @@ std::string growth_text(const Report& report) {
 }  // namespace
 
 std::string explain_auto(const Report& report, const std::string& sensor) {
-    const ReportRow* const rays =
-        best(report, sensor, [](const ReportRow& row) { return row.setting.engine == "rays"; });
-    const ReportRow* const octree =
-        best(report, sensor, [](const ReportRow& row) { return row.setting.engine != "rays"; });
+    const auto best_of = [&](std::initializer_list<std::string_view> engines) {
+        return best(report, sensor, [&](const ReportRow& row) {
+            return std::ranges::find(engines, row.setting.engine) != engines.end();
+        });
+    };
+    const ReportRow* const rays = best_of({"rays"});
+    const ReportRow* const octree = best_of({"octree", "literal"});
+    const ReportRow* const slices = best_of({"slices"});
     const ReportRow* const all = best(report, sensor, [](const ReportRow&) { return true; });
     if (all == nullptr || rays == nullptr) return "";
     std::string text = fmt::format(
@@ -175,10 +181,15 @@ std::string explain_auto(const Report& report, const std::string& sensor) {
         "are {}",
         sensor, percent(report.goal), figures(*rays));
     if (octree != nullptr) text += fmt::format(", the best octree is {}", figures(*octree));
+    if (slices != nullptr) text += fmt::format(", the best slices are {}", figures(*slices));
     text += ".";
     if (all == octree) {
         text += fmt::format(" Here the octree is better: set engine: octree and octree.{}.",
                             octree->setting.name);
+    }
+    if (all == slices) {
+        text += fmt::format(" Here the slices are better: set engine: slices and slices.{}.",
+                            slices->setting.name);
     }
     return text;
 }

@@ -17,6 +17,17 @@ Setting rays_with(double goal) {
             .relative_l1 = goal};
 }
 
+/// `per_beam` 0 follows the goal.
+Setting slices_with(int per_beam, double goal) {
+    return {.engine = "slices",
+            .name = per_beam > 0 ? "per_beam=" + std::to_string(per_beam)
+                                 : "relative_l1=" + number_text(goal),
+            .kind = EngineKind::slices,
+            .octree = {},
+            .relative_l1 = goal,
+            .slices = {per_beam}};
+}
+
 /// `leaf_m` 0 is auto.
 Setting octree_with(double leaf_m, bool literal, const Mission& mission) {
     OctreeConfig octree = mission.octree;
@@ -30,9 +41,14 @@ Setting octree_with(double leaf_m, bool literal, const Mission& mission) {
 }
 
 Setting own_setting(const Mission& mission) {
-    return mission.engine == EngineKind::octree
-               ? octree_with(mission.octree.leaf_m, mission.octree.literal, mission)
-               : rays_with(mission.accuracy.relative_l1);
+    switch (mission.engine) {
+        case EngineKind::octree:
+            return octree_with(mission.octree.leaf_m, mission.octree.literal, mission);
+        case EngineKind::slices:
+            return slices_with(mission.slices.per_beam, mission.accuracy.relative_l1);
+        default:
+            return rays_with(mission.accuracy.relative_l1);
+    }
 }
 
 double finest_bin_m(const Mission& mission) {
@@ -51,9 +67,11 @@ std::vector<Setting> make_settings(const Mission& mission, bool quick) {
     const std::vector<double> leaves =
         quick ? std::vector{0.08, 0.04} : std::vector{0.08, 0.04, 0.02, 0.01};
     std::vector<Setting> settings;
-    settings.reserve(2 * leaves.size() + goals.size() + 2);
+    settings.reserve(2 * leaves.size() + goals.size() + 6);
     for (const double goal : goals)
         settings.push_back(rays_with(goal));
+    for (const int per_beam : {1, 2, 4})
+        settings.push_back(slices_with(per_beam, mission.accuracy.relative_l1));
     for (const bool literal : {true, false}) {
         for (const double leaf : leaves) {
             if (leaf >= 0.25 * finest_bin_m(mission)) {

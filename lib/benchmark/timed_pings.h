@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "benchmark/spread.h"
-#include "dataset/assemble.h"
+#include "assembly/assemble.h"
 #include "mission/mission.h"
 
 namespace sonarsim {

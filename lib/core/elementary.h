@@ -15,6 +15,16 @@
 
 namespace sonarsim {
 
+/// c0 + c1 x + c2 x^2 + ... by Horner's rule, rounded once per term. The fused multiply-add is
+/// asked for by name, since the build does not let compilers choose it.
+constexpr float polynomial(float, float c0) {
+    return c0;
+}
+template <class... Rest>
+inline float polynomial(float x, float c0, Rest... rest) {
+    return std::fma(x, polynomial(x, rest...), c0);
+}
+
 struct SinCos {
     double sin;
     double cos;
@@ -78,10 +88,8 @@ inline float arctan2_float(float y, float x) {
     const float below = high + std::sqrt(high * high + low * low);
     const float t = below > 0.0F ? low / below : 0.0F;
     const float t2 = t * t;
-    constexpr float c3 = -1.0F / 3, c5 = 1.0F / 5, c7 = -1.0F / 7, c9 = 1.0F / 9, c11 = -1.0F / 11,
-                    c13 = 1.0F / 13;
     const float series =
-        1.0F + t2 * (c3 + t2 * (c5 + t2 * (c7 + t2 * (c9 + t2 * (c11 + t2 * c13)))));
+        polynomial(t2, 1.0F, -1.0F / 3, 1.0F / 5, -1.0F / 7, 1.0F / 9, -1.0F / 11, 1.0F / 13);
     float angle = 2.0F * t * series;
     if (ay > ax) angle = static_cast<float>(0.5 * pi) - angle;
     if (std::signbit(x) && high > 0.0F) angle = static_cast<float>(pi) - angle;
@@ -125,9 +133,8 @@ inline float natural_log(float x) {
     const float m = std::bit_cast<float>(bits - exponent * (1 << 23));
     const float s = (m - 1.0F) / (m + 1.0F);
     const float s2 = s * s;
-    const float series =
-        1.0F + s2 * (1.0F / 3 + s2 * (1.0F / 5 + s2 * (1.0F / 7 + s2 * (1.0F / 9))));
-    return 2.0F * s * series + static_cast<float>(exponent) * 0.69314718056F;
+    const float series = polynomial(s2, 1.0F, 1.0F / 3, 1.0F / 5, 1.0F / 7, 1.0F / 9);
+    return std::fma(2.0F * s, series, static_cast<float>(exponent) * 0.69314718056F);
 }
 
 struct SinCosFloat {
@@ -140,12 +147,10 @@ struct SinCosFloat {
 inline SinCosFloat sincos_small(float x) {
     const float y = 0.5F * x;
     const float t = y * y;
-    constexpr float s3 = -1.0F / 6, s5 = 1.0F / 120, s7 = -1.0F / 5040, s9 = 1.0F / 362880,
-                    s11 = -1.0F / 39916800;
-    constexpr float c2 = -1.0F / 2, c4 = 1.0F / 24, c6 = -1.0F / 720, c8 = 1.0F / 40320,
-                    c10 = -1.0F / 3628800, c12 = 1.0F / 479001600;
-    const float s = y * (1.0F + t * (s3 + t * (s5 + t * (s7 + t * (s9 + t * s11)))));
-    const float c = 1.0F + t * (c2 + t * (c4 + t * (c6 + t * (c8 + t * (c10 + t * c12)))));
+    const float s = y * polynomial(t, 1.0F, -1.0F / 6, 1.0F / 120, -1.0F / 5040, 1.0F / 362880,
+                                   -1.0F / 39916800);
+    const float c = polynomial(t, 1.0F, -1.0F / 2, 1.0F / 24, -1.0F / 720, 1.0F / 40320,
+                               -1.0F / 3628800, 1.0F / 479001600);
     return {2.0F * s * c, 1.0F - 2.0F * s * s};
 }
 

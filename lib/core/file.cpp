@@ -38,37 +38,33 @@ std::string reason() {
     return std::generic_category().message(errno);
 }
 
-[[noreturn]] void fail_to_write(const std::filesystem::path& path) {
-    throw std::system_error(errno, std::generic_category(), "cannot write " + path.string());
-}
-
 enum class Durable { no, yes };
 
 /// A new file: what bears the name already, a link included, is not written to.
 void write_bytes(const std::filesystem::path& path, std::string_view bytes, Durable durable) {
     Descriptor file(path, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW);
-    if (file.get() < 0) fail_to_write(path);
+    if (file.get() < 0) throw_errno("cannot write", path);
     while (!bytes.empty()) {
         const ssize_t put = ::write(file.get(), bytes.data(), bytes.size());
         if (put < 0 && errno == EINTR) continue;
-        if (put < 0) fail_to_write(path);
+        if (put < 0) throw_errno("cannot write", path);
         bytes.remove_prefix(static_cast<std::size_t>(put));
     }
-    if (durable == Durable::yes && ::fsync(file.get()) != 0) fail_to_write(path);
-    if (!file.close()) fail_to_write(path);
+    if (durable == Durable::yes && ::fsync(file.get()) != 0) throw_errno("cannot write", path);
+    if (!file.close()) throw_errno("cannot write", path);
 }
 
 /// The names in a folder become durable.
 void sync_folder(const std::filesystem::path& folder) {
     const Descriptor names(folder.empty() ? "." : folder, O_RDONLY | O_DIRECTORY);
-    if (names.get() < 0 || ::fsync(names.get()) != 0) fail_to_write(folder);
+    if (names.get() < 0 || ::fsync(names.get()) != 0) throw_errno("cannot write", folder);
 }
 
 void write_and_rename(const std::filesystem::path& path, std::string_view bytes, Durable durable) {
     const std::filesystem::path part = temporary_name(path);
     try {
         write_bytes(part, bytes, durable);
-        if (::rename(part.c_str(), path.c_str()) != 0) fail_to_write(path);
+        if (::rename(part.c_str(), path.c_str()) != 0) throw_errno("cannot write", path);
     } catch (...) {
         ::unlink(part.c_str());
         throw;
@@ -80,6 +76,10 @@ constexpr std::size_t random_bytes = 8;
 constexpr std::string_view temporary_ending = ".part";
 
 }  // namespace
+
+void throw_errno(const char* what, const std::filesystem::path& path) {
+    throw std::system_error(errno, std::generic_category(), what + (" " + path.string()));
+}
 
 std::string read_file(const std::filesystem::path& path, std::size_t limit) {
     const Location where{path.string()};
@@ -108,7 +108,8 @@ std::string read_file(const std::filesystem::path& path, std::size_t limit) {
 
 std::filesystem::path temporary_name(const std::filesystem::path& path) {
     std::array<unsigned char, random_bytes> random;
-    if (::getrandom(random.data(), random.size(), 0) != random_bytes) fail_to_write(path);
+    if (::getrandom(random.data(), random.size(), 0) != random_bytes)
+        throw_errno("cannot write", path);
     std::string digits;
     for (const unsigned byte : random) {
         digits += "0123456789abcdef"[byte >> 4];
@@ -118,7 +119,12 @@ std::filesystem::path temporary_name(const std::filesystem::path& path) {
 }
 
 bool is_temporary_name(std::string_view name) {
-    return name.starts_with('.') && name.ends_with(temporary_ending);
+    if (!name.starts_with('.') || !name.ends_with(temporary_ending)) return false;
+    name.remove_suffix(temporary_ending.size());
+    const std::size_t dot = name.rfind('.');
+    const std::string_view digits = name.substr(dot + 1);
+    return dot > 0 && digits.size() == 2 * random_bytes &&
+           digits.find_first_not_of("0123456789abcdef") == std::string_view::npos;
 }
 
 std::string final_name(std::string_view name) {
@@ -138,7 +144,7 @@ void write_file_durably(const std::filesystem::path& path, std::string_view byte
 
 void sync_file_system(const std::filesystem::path& folder) {
     const Descriptor any(folder, O_RDONLY | O_DIRECTORY);
-    if (any.get() < 0 || ::syncfs(any.get()) != 0) fail_to_write(folder);
+    if (any.get() < 0 || ::syncfs(any.get()) != 0) throw_errno("cannot write", folder);
 }
 
 }  // namespace sonarsim

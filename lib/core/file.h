@@ -25,6 +25,10 @@ void write_file_durably(const std::filesystem::path& path, std::string_view byte
 /// did not take it all.
 void sync_file_system(const std::filesystem::path& folder);
 
+/// Throws std::system_error for errno: "cannot write PATH: No space left on device", where `what`
+/// is "cannot write".
+[[noreturn]] void throw_errno(const char* what, const std::filesystem::path& path);
+
 /// A new name for a file until it is whole: a hidden sibling of `path`, so that a rename stays
 /// within one file system, ".<name>.<16 random hex digits>.part", so that two processes may write
 /// the same file, also where both have the same process id (in containers).

@@ -1,6 +1,7 @@
 #include "dataset/folder.h"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 
 #include "core/error.h"
@@ -8,6 +9,7 @@
 #include "core/text.h"
 #include "dataset/listed_files.h"
 #include "dataset/metadata.h"
+#include "dataset/ping_metadata.h"
 
 namespace sonarsim {
 
@@ -56,6 +58,17 @@ Json read_description(const fs::path& folder) {
     } catch (const Json::exception&) {
     }
     refuse(folder, "holds a dataset.json that is not sonarsim's", or_nothing);
+}
+
+/// What the bytes of a dataset depend on in the build that wrote it.
+std::string bytes_of_build(const Json& description) {
+    const Json build = description.value("build", Json());
+    std::string text;
+    for (const char* key : {"arithmetic", "png_encoder"}) {
+        const bool told = build.is_object() && build.contains(key) && build[key].is_string();
+        text += (text.empty() ? "" : ", ") + (told ? build[key].get<std::string>() : "unknown");
+    }
+    return text;
 }
 
 /// Whether there is nothing in the folder but what a run that was killed at its beginning left.
@@ -109,6 +122,14 @@ FolderState inspect_folder(const Layout& layout, const Json& description) {
         refuse(folder, "holds a dataset of this mission made by another version of sonarsim",
                or_overwrite);
     }
+    const std::string theirs = bytes_of_build(found);
+    const std::string ours = bytes_of_build(description);
+    if (theirs != ours) {
+        refuse(folder,
+               "holds a dataset of this mission made by a build of sonarsim whose bytes differ (" +
+                   theirs + "; this one: " + ours + ")",
+               or_overwrite);
+    }
     return found.value("complete", Json()) == true ? FolderState::complete
                                                    : FolderState::unfinished;
 }
@@ -136,14 +157,16 @@ void protect_inputs(const Layout& layout, const Mission& mission) {
     }
 }
 
-void remove_dataset(const fs::path& folder) {
+void remove_dataset(const Layout& layout, const Mission& mission) {
+    const fs::path& folder = layout.folder;
     if (!fs::exists(folder)) return;
     require_folder(folder);
     if (!fs::exists(folder / description_name)) {
         if (is_unused(folder)) return;
         refuse(folder, "holds files that are no sonarsim dataset", or_nothing);
     }
-    remove_listed_files(folder, read_description(folder));
+    remove_listed_files(folder, read_description(folder), files_read_by(mission));
+    sync_file_system(folder);
 }
 
 void begin_dataset(const Layout& layout, const CommonFiles& files) {
@@ -154,6 +177,13 @@ void begin_dataset(const Layout& layout, const CommonFiles& files) {
     write_file(layout.folder / trajectory_name, files.trajectory);
     for (const fs::path& folder : layout.folders())
         fs::create_directories(folder);
+}
+
+bool has_common_files(const Layout& layout) {
+    std::error_code absent;
+    return std::ranges::all_of(std::array{mission_name, trajectory_name}, [&](const char* name) {
+        return fs::symlink_status(layout.folder / name, absent).type() == fs::file_type::regular;
+    });
 }
 
 void remove_leftovers(const Layout& layout, const std::vector<PingId>& todo, bool alone) {
@@ -179,7 +209,12 @@ void remove_leftovers(const Layout& layout, const std::vector<PingId>& todo, boo
 }
 
 void remove_journal_parts(const Layout& layout) {
-    fs::remove_all(layout.folder / journal_folder_name);
+    const fs::path folder = layout.folder / journal_folder_name;
+    std::error_code ignored;  // another run may be removing them, too
+    for (fs::directory_iterator part(folder, ignored), end; part != end; part.increment(ignored)) {
+        if (is_journal_part(part->path().filename().string())) fs::remove(part->path(), ignored);
+    }
+    fs::remove(folder, ignored);  // where nothing else is in it
 }
 
 void finish_dataset(const Layout& layout, const Json& description, const JournalEntries& entries) {

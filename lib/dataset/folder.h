@@ -25,8 +25,9 @@ FolderState inspect_folder(const Layout& layout, const nlohmann::ordered_json& d
 void protect_inputs(const Layout& layout, const Mission& mission);
 
 /// Removes the files that the folder's dataset.json lists, and nothing else; no link is followed.
-/// InputError when the folder holds files and no dataset of sonarsim.
-void remove_dataset(const std::filesystem::path& folder);
+/// Durably, so that what comes after it is never found beside an old journal. InputError when the
+/// folder holds files and no dataset of sonarsim, or when that lists a file that the mission reads.
+void remove_dataset(const Layout& layout, const Mission& mission);
 
 /// The text of the files that stand beside the pings.
 struct CommonFiles {
@@ -39,11 +40,15 @@ struct CommonFiles {
 /// with `complete` set to false. std::system_error when the disk does not take them.
 void begin_dataset(const Layout& layout, const CommonFiles& files);
 
+/// Whether the files beside dataset.json are there that begin_dataset() writes.
+bool has_common_files(const Layout& layout);
+
 /// Removes the temporary files that an interrupted run left of the pings in `todo` (sorted), and of
 /// the common files when no other shard may be at work (`alone`).
 void remove_leftovers(const Layout& layout, const std::vector<PingId>& todo, bool alone);
 
-/// Removes the parts of the journal. A run that was cut off just before its end leaves them.
+/// Removes the parts of the journal, and no other file. A run that was cut off just before its end
+/// leaves them.
 void remove_journal_parts(const Layout& layout);
 
 /// Writes journal.txt and then dataset.json with `complete` set to true, both durably, after all

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "dataset/assemble.h"
+#include "assembly/assemble.h"
 #include "dataset/sensor_summary.h"
 #include "mission/mission.h"
 

@@ -132,7 +132,7 @@ void render(const Mission& mission, const Assembly& assembly, const std::vector<
             const std::atomic<bool>& stop, RenderSummary& summary) {
     if (todo.empty()) return;
     const std::unique_ptr<VisibilityEngine> engine =
-        make_engine(assembly.scene, engine_settings(mission.engine, mission.octree));
+        make_engine(assembly.scene, engine_settings(mission));
     Stopwatch watch;
     ordered_pipeline(
         todo.size(), 2 * static_cast<std::size_t>(threads), stop,
@@ -161,21 +161,21 @@ void render(const Mission& mission, const Assembly& assembly, const std::vector<
     summary.warnings = engine->warnings();
 }
 
-/// "3-of-8": the name of a shard's part of the journal.
-std::string part_name(const RenderOptions& options) {
-    return std::to_string(options.shard + 1) + "-of-" + std::to_string(options.shards);
-}
-
 /// Makes the products when every ping is there, and says so in the folder.
 void complete_dataset(const Layout& layout, const std::vector<Writers>& writers,
                       RecordFiles& records, const CommonFiles& common) {
-    for (std::size_t i = 0; i < writers.size(); ++i) {
-        for (std::size_t k = 0; k < writers[i].size(); ++k) {
-            if (!records[i][k]) continue;
-            writers[i][k]->write_products(*records[i][k], layout.sensor_folder(i));
-            records[i][k]->close();
+    const auto for_each_record = [&](const auto& visit) {
+        for (std::size_t i = 0; i < writers.size(); ++i) {
+            for (std::size_t k = 0; k < writers[i].size(); ++k) {
+                if (records[i][k]) visit(i, k);
+            }
         }
-    }
+    };
+    for_each_record([&](std::size_t i, std::size_t k) {
+        writers[i][k]->write_products(*records[i][k], layout.sensor_folder(i));
+    });
+    require_records(records);
+    for_each_record([&](std::size_t i, std::size_t k) { records[i][k]->close(); });
     JournalEntries entries = read_journal(layout.folder);
     entries.products = require_products(layout);
     finish_dataset(layout, common.description, entries);
@@ -208,14 +208,15 @@ RenderSummary run_job(const Mission& mission, const Assembly& assembly,
     const CommonFiles common{describe_dataset(mission, assembly, layout, writers),
                              resolved_yaml(mission, sonar_keys()), write_tum(assembly.trajectory)};
     protect_inputs(layout, mission);
-    if (options.overwrite) remove_dataset(layout.folder);
+    if (options.overwrite) remove_dataset(layout, mission);
     const FolderState state =
         options.overwrite ? FolderState::fresh : inspect_folder(layout, common.description);
     if (state == FolderState::fresh) begin_dataset(layout, common);
     RecordFiles records = open_records(layout);
     Plan plan = make_plan(all, options, FinishedPings(layout, records));
     summary.skipped = plan.skipped;
-    summary.complete = state == FolderState::complete && plan.todo.empty() && has_products(layout);
+    summary.complete = state == FolderState::complete && plan.todo.empty() &&
+                       has_common_files(layout) && has_products(layout);
     if (summary.complete) {
         remove_journal_parts(layout);
         return summary;
@@ -225,12 +226,14 @@ RenderSummary run_job(const Mission& mission, const Assembly& assembly,
         begin_dataset(layout, common);
         remove_leftovers(layout, plan.todo, options.shards == 1);
     }
-    Journal journal(layout.folder, part_name(options), options.checkpoint_s);
+    Journal journal(layout.folder, journal_part(options.shard + 1, options.shards),
+                    options.checkpoint_s);
     const Destination to{layout, writers, records, journal};
     render_all(plan.todo, &to);
     journal.finish();
     if (summary.stopped) return summary;
     // What was there, or written by this run, may be gone by now: all of it is looked at once more.
+    require_records(records);
     const FinishedPings finished(layout, records);
     require_files(layout, plan.todo, finished);
     summary.complete = std::ranges::all_of(all, finished);

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "dataset/assemble.h"
+#include "assembly/assemble.h"
 #include "dataset/sensor_summary.h"
 #include "mission/mission.h"
 #include "ping/ping.h"
@@ -17,7 +17,7 @@ struct RenderOptions {
     int threads = 0;            ///< 0: one per core
     int shard = 0;              ///< renders the pings whose index i has i % shards == shard
     int shards = 1;             ///< 1: all of them
-    bool overwrite = false;     ///< begins anew, whatever the output folder holds
+    bool overwrite = false;     ///< begins anew where the folder holds another dataset
     bool files = true;          ///< false: renders and throws away, to measure
     double checkpoint_s = 5.0;  ///< between checkpoints; what a power cut costs at the most
 };

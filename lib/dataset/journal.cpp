@@ -81,10 +81,6 @@ void read_part(const fs::path& path, JournalEntries& entries) {
         read_line(line, entries);
 }
 
-[[noreturn]] void fail(const fs::path& path) {
-    throw std::system_error(errno, std::generic_category(), "cannot write " + path.string());
-}
-
 }  // namespace
 
 JournalEntries read_journal(const fs::path& folder) {
@@ -93,8 +89,8 @@ JournalEntries read_journal(const fs::path& folder) {
     const fs::path parts = folder / journal_folder_name;
     if (fs::is_directory(parts)) {
         for (const fs::directory_entry& part : fs::directory_iterator(parts)) {
-            const bool text = part.path().extension() == ".txt";
-            if (text && part.symlink_status().type() == fs::file_type::regular)
+            const bool ours = is_journal_part(part.path().filename().string());
+            if (ours && part.symlink_status().type() == fs::file_type::regular)
                 read_part(part, entries);
         }
     }
@@ -115,9 +111,9 @@ std::string journal_text(const JournalEntries& entries) {
 
 Journal::Journal(const fs::path& folder, const std::string& name, double checkpoint_seconds)
     : folder_(folder),
-      path_(folder / journal_folder_name / (name + ".txt")),
+      path_(folder / journal_folder_name / name),
       fd_(::open(path_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW, 0666)) {
-    if (fd_ < 0) fail(path_);
+    if (fd_ < 0) throw_errno("cannot write", path_);
     // What an interrupted run left may end in the middle of a line.
     if (::lseek(fd_, 0, SEEK_END) > 0) pending_ = "\n";
     thread_ = std::thread([this, checkpoint_seconds] { run(checkpoint_seconds); });
@@ -145,7 +141,7 @@ void Journal::finish() {
     wake_.notify_one();
     if (thread_.joinable()) thread_.join();
     rethrow();
-    if (fd_ >= 0 && ::close(std::exchange(fd_, -1)) != 0) fail(path_);
+    if (fd_ >= 0 && ::close(std::exchange(fd_, -1)) != 0) throw_errno("cannot write", path_);
 }
 
 void Journal::run(double checkpoint_seconds) {
@@ -178,10 +174,10 @@ void Journal::checkpoint() {
     for (std::string_view rest = lines; !rest.empty();) {
         const ssize_t put = ::write(fd_, rest.data(), rest.size());
         if (put < 0 && errno == EINTR) continue;
-        if (put < 0) fail(path_);
+        if (put < 0) throw_errno("cannot write", path_);
         rest.remove_prefix(static_cast<std::size_t>(put));
     }
-    if (::fdatasync(fd_) != 0) fail(path_);
+    if (::fdatasync(fd_) != 0) throw_errno("cannot write", path_);
 }
 
 void Journal::rethrow() {

@@ -32,8 +32,8 @@ struct JournalEntries {
     ProductSizes products;
 };
 
-/// Reads OUT/journal.txt and all parts in OUT/journal/ (those of shards that ran in other folders
-/// are copied there when these are merged). Lines that are torn are left out.
+/// Reads OUT/journal.txt and all parts in OUT/journal.d/ (those of shards that ran in other
+/// folders are copied there when these are merged). Lines that are torn are left out.
 JournalEntries read_journal(const std::filesystem::path& folder);
 
 /// The text of OUT/journal.txt: the same for all ways in which a dataset may have come about.
@@ -44,7 +44,7 @@ std::string journal_text(const JournalEntries& entries);
 /// were finished before. So a power cut costs the pings since the last checkpoint and nothing else.
 class Journal {
   public:
-    /// Adds to OUT/journal/`name`.txt. std::system_error when the disk does not allow it.
+    /// Adds to OUT/journal.d/`name`. std::system_error when the disk does not allow it.
     Journal(const std::filesystem::path& folder, const std::string& name,
             double checkpoint_seconds);
     ~Journal();

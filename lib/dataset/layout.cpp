@@ -2,7 +2,21 @@
 
 #include <algorithm>
 
+#include "core/text.h"
+
 namespace sonarsim {
+
+std::string journal_part(int shard, int shards) {
+    return std::to_string(shard) + "-of-" + std::to_string(shards) + ".txt";
+}
+
+bool is_journal_part(std::string_view name) {
+    const std::size_t of = name.find("-of-");
+    if (of == std::string_view::npos || !name.ends_with(".txt")) return false;
+    const auto shard = parse_unsigned(name.substr(0, of));
+    name.remove_suffix(4);
+    return shard && parse_unsigned(name.substr(of + 4));
+}
 
 std::string Layout::number(std::uint32_t pose) const {
     std::string text = std::to_string(pose);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "dataset/writers.h"
@@ -14,7 +15,7 @@
 //     OUT/mission.resolved.yaml       the mission with every default written out
 //     OUT/trajectory.tum              the pose of every ping number
 //     OUT/journal.txt                 the size of every other file, see dataset/journal.h; while
-//                                     the mission runs, parts of it lie in OUT/journal/
+//                                     the mission runs, parts of it lie in OUT/journal.d/
 //     OUT/<sensor>/<format>/NNNNNN.*  a file per ping
 //     OUT/<sensor>/*                  a file of records, one per ping, and what is made of them
 //
@@ -28,7 +29,13 @@ inline constexpr const char* description_name = "dataset.json";
 inline constexpr const char* mission_name = "mission.resolved.yaml";
 inline constexpr const char* trajectory_name = "trajectory.tum";
 inline constexpr const char* journal_name = "journal.txt";
-inline constexpr const char* journal_folder_name = "journal";
+/// With a dot, which the name of a sensor cannot have.
+inline constexpr const char* journal_folder_name = "journal.d";
+
+/// "3-of-8.txt": the part of the journal that a shard, counted from 1, writes.
+std::string journal_part(int shard, int shards);
+/// Whether journal_part() made this name.
+bool is_journal_part(std::string_view name);
 
 /// The files of one sensor.
 struct SensorLayout {

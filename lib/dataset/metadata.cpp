@@ -1,5 +1,8 @@
 #include "dataset/metadata.h"
 
+#include "core/build_info.h"
+#include "dataset/ping_metadata.h"
+#include "dataset/png.h"
 #include "mission/resolved.h"
 #include "sonar/kinds.h"
 
@@ -9,13 +12,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json describe_pose(const Pose& pose) {
-    const Eigen::Vector3d& p = pose.translation;
-    const Eigen::Quaterniond& q = pose.rotation;
-    return {{"position_m", {p.x(), p.y(), p.z()}},
-            {"quaternion_xyzw", {q.x(), q.y(), q.z(), q.w()}}};
-}
-
 /// What of the scene's files is rendered, how well it is known, and what is left out.
 Json describe_scene_use(const Scene& scene) {
     return {{"triangles", scene.triangles.size()},
@@ -24,6 +20,14 @@ Json describe_scene_use(const Scene& scene) {
              {{"degenerate_triangles", scene.rejects.degenerate_triangles},
               {"non_finite_triangles", scene.rejects.non_finite_triangles},
               {"skipped_primitives", scene.rejects.skipped_primitives}}}};
+}
+
+Json describe_build() {
+    const BuildInfo build = build_info();
+    return {{"compiler", build.compiler},
+            {"flags", build.flags},
+            {"arithmetic", build.arithmetic},
+            {"png_encoder", png_encoder()}};
 }
 
 Json describe_sensor(const Sonar& sonar, const Mission& mission, const Layout& layout,
@@ -63,6 +67,7 @@ Json describe_dataset(const Mission& mission, const Assembly& assembly, const La
     Json json = {{"format", dataset_format},
                  {"format_version", dataset_format_version},
                  {"program_version", SONARSIM_VERSION},
+                 {"build", describe_build()},
                  {"complete", false},
                  {"mission", mission.name},
                  {"mission_hash", mission_hash(mission, sonar_keys())},
@@ -77,33 +82,6 @@ Json describe_dataset(const Mission& mission, const Assembly& assembly, const La
     }
     json["sensors"] = std::move(sensors);
     return json;
-}
-
-Json describe_ping(const Mission& mission, const Assembly& assembly, const FinishedPing& finished) {
-    const PingId& id = finished.id;
-    const PingCounts& counts = finished.ping.counts;
-    const Sonar& sonar = assembly.sonars[id.sensor];
-    const TimedPose& pose = assembly.trajectory[id.pose];
-    const Pose T_world_sensor = sensor_pose(sonar, pose.T_world_vehicle, id.pose);
-    Json json = {
-        {"sensor", sonar.config.name},
-        {"settings", "mission.resolved.yaml#/sensors/" + sonar.config.name},
-        {"ping", id.pose},
-        {"time_s", pose.t_s},
-        {"T_world_vehicle", describe_pose(pose.T_world_vehicle)},
-        {"T_world_sensor", describe_pose(T_world_sensor)},
-        {"random", {{"seed", mission.seed}, {"stream", sonar.settings.stream}, {"ping", id.pose}}},
-        {"full_scale", mission.output.full_scale},
-        {"clipped_pixels", finished.clipped_pixels},
-        {"counts", json_object<Json>(ping_counters, counts)}};
-    json["counts"]["multipath"] = json_object<Json>(multipath_counters, counts.multipath);
-    if (!finished.measured.is_null()) json["measured"] = finished.measured;
-    return json;
-}
-
-std::string json_text(const Json& json) {
-    // A mission's name may be any bytes; what is no UTF-8 becomes U+FFFD.
-    return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace sonarsim

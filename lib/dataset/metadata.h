@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "dataset/assemble.h"
+#include "assembly/assemble.h"
 #include "dataset/layout.h"
 #include "mission/mission.h"
 
@@ -17,12 +17,5 @@ inline constexpr int dataset_format_version = 2;
 /// lowest bin to the highest: bin i lies between edges i and i + 1. `writers` by sensor.
 nlohmann::ordered_json describe_dataset(const Mission& mission, const Assembly& assembly,
                                         const Layout& layout, const std::vector<Writers>& writers);
-
-/// The metadata of one ping. Positions in metres; quaternions as x, y, z, w.
-nlohmann::ordered_json describe_ping(const Mission& mission, const Assembly& assembly,
-                                     const FinishedPing& finished);
-
-/// JSON as it is written: indented, with a line feed at the end.
-std::string json_text(const nlohmann::ordered_json& json);
 
 }  // namespace sonarsim

@@ -17,7 +17,7 @@ constexpr int filter_none = 0x08;
 constexpr int filter_sub = 0x10;
 
 std::string encode(const void* pixels, std::size_t values, int width, int height, int channels,
-                   OIIO::TypeDesc type, int level, int filter) {
+                   const OIIO::TypeDesc& type, int level, int filter) {
     if (values != static_cast<std::size_t>(width) * height * channels) {
         throw std::logic_error("the number of pixels does not suit the size of the image");
     }
@@ -69,6 +69,12 @@ double png_bytes_at_most(int width, int height, int bytes_per_pixel) {
     const double raw =
         static_cast<double>(height) * (1.0 + static_cast<double>(width) * bytes_per_pixel);
     return 200.0 + 1.01 * raw;
+}
+
+std::string png_encoder() {
+    const int version = OIIO::openimageio_version();  // 20407 is 2.4.7
+    return "OpenImageIO " + std::to_string(version / 10000) + "." +
+           std::to_string(version / 100 % 100) + "." + std::to_string(version % 100);
 }
 
 }  // namespace sonarsim

@@ -11,15 +11,12 @@
 #include <system_error>
 #include <utility>
 
+#include "core/file.h"
 #include "core/hash.h"
 
 namespace sonarsim {
 
 namespace {
-
-[[noreturn]] void fail(const std::filesystem::path& path, const char* what) {
-    throw std::system_error(errno, std::generic_category(), what + (" " + path.string()));
-}
 
 /// Writes or reads all of `size` bytes at `offset`; pread() and pwrite() may do it in parts.
 template <class Transfer, class Byte>
@@ -52,7 +49,7 @@ RecordFile::RecordFile(const std::filesystem::path& path, const NpyFormat& forma
     header_bytes_ = header.size();
     std::filesystem::create_directories(path.parent_path());
     fd_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
-    if (fd_ < 0) fail(path, "cannot open");
+    if (fd_ < 0) throw_errno("cannot open", path);
     // No temporary name and no truncation: two shards that begin at once make the same file, and
     // neither can take away what the other has written into it.
     struct stat status {};
@@ -66,15 +63,27 @@ RecordFile::RecordFile(const std::filesystem::path& path, const NpyFormat& forma
     const int reason = errno;
     ::close(fd_);
     errno = reason;
-    fail(path, "cannot write");
+    throw_errno("cannot write", path);
 }
 
 RecordFile::~RecordFile() {
     if (fd_ >= 0) ::close(fd_);
 }
 
+void RecordFile::require_in_place() const {
+    struct stat opened {};
+    struct stat named {};
+    if (::fstat(fd_, &opened) != 0) throw_errno("cannot read", path_);
+    if (::lstat(path_.c_str(), &named) == 0 && named.st_dev == opened.st_dev &&
+        named.st_ino == opened.st_ino)
+        return;
+    throw std::runtime_error(path_.string() +
+                             " was removed or replaced during the run; the same command run again "
+                             "renders what is missing");
+}
+
 void RecordFile::close() {
-    if (::close(std::exchange(fd_, -1)) != 0) fail(path_, "cannot write");
+    if (::close(std::exchange(fd_, -1)) != 0) throw_errno("cannot write", path_);
 }
 
 void RecordFile::write(std::size_t record, std::span<const std::byte> bytes) const {
@@ -82,13 +91,13 @@ void RecordFile::write(std::size_t record, std::span<const std::byte> bytes) con
         throw std::logic_error("a record does not fit " + path_.string());
     }
     if (!transfer_all(::pwrite, fd_, bytes.data(), bytes.size(), offset(record))) {
-        fail(path_, "cannot write");
+        throw_errno("cannot write", path_);
     }
 }
 
 void RecordFile::read(std::size_t record, std::span<std::byte> bytes) const {
     if (!transfer_all(::pread, fd_, bytes.data(), bytes.size(), offset(record))) {
-        fail(path_, "cannot read");
+        throw_errno("cannot read", path_);
     }
 }
 

@@ -44,6 +44,10 @@ class RecordFile {
     /// The hash of a record's bytes, as hash_of_record().
     std::string hash(std::size_t record) const;
 
+    /// std::runtime_error when the file's name has been removed, or given to another file, since it
+    /// was opened: what is written goes nowhere then.
+    void require_in_place() const;
+
     /// After the last record. std::system_error when the disk did not take them all: some file
     /// systems say so only here.
     void close();

@@ -62,6 +62,14 @@ bool FinishedPings::operator()(const PingId& ping) const {
     return true;
 }
 
+void require_records(const RecordFiles& records) {
+    for (const auto& sensor : records) {
+        for (const auto& file : sensor) {
+            if (file) file->require_in_place();
+        }
+    }
+}
+
 void require_files(const Layout& layout, const std::vector<PingId>& written,
                    const FinishedPings& finished) {
     for (const PingId& ping : written) {

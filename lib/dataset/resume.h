@@ -29,6 +29,9 @@ class FinishedPings {
     JournalEntries entries_;
 };
 
+/// std::runtime_error when the files of records are not those that were opened any more.
+void require_records(const RecordFiles& records);
+
 /// std::runtime_error when one of the pings that this run has written is not there any more.
 void require_files(const Layout& layout, const std::vector<PingId>& written,
                    const FinishedPings& finished);

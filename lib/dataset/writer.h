@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "dataset/assemble.h"
+#include "assembly/assemble.h"
 #include "dataset/npy.h"
 #include "dataset/record_file.h"
 #include "mission/mission.h"
@@ -22,7 +22,7 @@ struct PingId {
     std::uint32_t pose = 0;
     std::uint32_t sensor = 0;
 
-    auto operator<=>(const PingId&) const = default;
+    auto operator<=>(const PingId&) const = default;  // NOLINT(modernize-use-nullptr): no pointer
 };
 
 /// The sensor that a writer writes for.
@@ -52,7 +52,7 @@ struct PingFile {
 };
 
 /// A record per ping, in one file for all pings of the sensor.
-struct PingRecord {
+struct PingRecord {  // NOLINT(bugprone-exception-escape): moving JSON throws nothing
     std::string file;
     NpyFormat format;
     nlohmann::ordered_json axes;  ///< what the indices count, for dataset.json
@@ -70,6 +70,10 @@ struct WriterOutputs {
     double bytes_per_ping = 0.0;  ///< at most; noise hardly compresses, so PNG files count in full
     std::vector<Product> products;
 };
+
+/// The outputs of a writer that leaves a record of `bytes` per ping in `file`.
+WriterOutputs record_outputs(std::string file, NpyFormat format, nlohmann::ordered_json axes,
+                             double bytes);
 
 /// One output format of one sensor. Writers are immutable: any number of threads may encode at a
 /// time. What is there already at a resume is told by the journal, by the size of each file and the

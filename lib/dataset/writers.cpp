@@ -1,6 +1,7 @@
 #include "dataset/writers.h"
 
 #include "core/error.h"
+#include "dataset/writers/formats.h"
 
 namespace sonarsim {
 
@@ -30,17 +31,6 @@ std::vector<std::size_t> count_pings(const Mission& mission, std::size_t poses) 
         pings.push_back((poses + every - 1) / every);
     }
     return pings;
-}
-
-WriterOutputs record_outputs(std::string file, NpyFormat format, nlohmann::ordered_json axes,
-                             double bytes) {
-    WriterOutputs outputs;
-    PingRecord& record = outputs.per_ping.emplace<PingRecord>();
-    record.file = std::move(file);
-    record.format = std::move(format);
-    record.axes = std::move(axes);
-    outputs.bytes_per_ping = bytes;
-    return outputs;
 }
 
 std::vector<Writers> make_writers(const Mission& mission, const Assembly& assembly) {

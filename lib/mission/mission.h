@@ -148,7 +148,13 @@ struct AccuracyConfig {
 };
 
 /// What a sonar's view of the scene is found with.
-enum class EngineKind { automatic, rays, octree };
+enum class EngineKind { automatic, rays, octree, slices };
+
+struct SlicesConfig {
+    int per_beam = 0;  ///< slices to a beam; 0: what accuracy.relative_l1 calls for
+
+    bool operator==(const SlicesConfig&) const = default;
+};
 
 struct OctreeConfig {
     double leaf_m = 0.0;   ///< edge of the leaves; 0: what the bins of the sonar call for
@@ -188,6 +194,7 @@ struct Mission {
     AccuracyConfig accuracy;
     EngineKind engine = EngineKind::automatic;
     OctreeConfig octree;
+    SlicesConfig slices;
     OutputConfig output;
 
     bool operator==(const Mission&) const = default;

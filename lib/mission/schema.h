@@ -25,7 +25,8 @@ inline constexpr std::array streak_modes{Choice<StreakMode>{"none", StreakMode::
                                          Choice<StreakMode>{"reduce", StreakMode::reduce}};
 inline constexpr std::array engine_kinds{Choice<EngineKind>{"auto", EngineKind::automatic},
                                          Choice<EngineKind>{"rays", EngineKind::rays},
-                                         Choice<EngineKind>{"octree", EngineKind::octree}};
+                                         Choice<EngineKind>{"octree", EngineKind::octree},
+                                         Choice<EngineKind>{"slices", EngineKind::slices}};
 
 /// Fit for the name of a folder that holds nothing but one mission.
 inline bool is_folder_name(std::string_view name) {
@@ -207,6 +208,13 @@ void describe(Visitor& v, OctreeConfig& c) {
 }
 
 template <class Visitor>
+void describe(Visitor& v, SlicesConfig& c) {
+    v.integer("per_beam", c.per_beam, between(0, 64),
+              "slices to a beam, one of them on its border; 0 means what accuracy.relative_l1 calls "
+              "for. A wide beam, a side and a cone have more");
+}
+
+template <class Visitor>
 void describe(Visitor& v, OutputConfig& c) {
     v.path("folder", c.folder,
            "folder of the dataset; out/NAME in the current directory where left out");
@@ -243,8 +251,9 @@ void describe(Visitor& v, Mission& c) {
     v.section("accuracy", c.accuracy, "how exact the images are");
     v.choice("engine", c.engine, engine_kinds,
              "what finds the visible surface; `auto` takes the rays. The octree sees up to 160 "
-             "degrees of elevation or opening");
+             "degrees of elevation or opening; slices do not yet check the goal");
     v.section("octree", c.octree, "settings of the octree");
+    v.section("slices", c.slices, "settings of the slices");
     v.section("output", c.output, "what is written, and where");
 }
 

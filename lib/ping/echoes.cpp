@@ -26,8 +26,28 @@ using Lanes = std::array<float, lanes>;
 void cells_along(float c, float u, float v, const Lanes& s, const Lanes& t,
                  std::int32_t* __restrict out) {
     for (int lane = 0; lane < lanes; ++lane) {
-        out[lane] = static_cast<std::int32_t>(std::floor(c + s[lane] * u + t[lane] * v));
+        out[lane] =
+            static_cast<std::int32_t>(std::floor(std::fma(s[lane], u, std::fma(t[lane], v, c))));
     }
+}
+
+/// How far the range of a piece reaches before and after that of its centre.
+struct Extent {
+    float before;
+    float after;
+};
+
+Extent operator+(const Extent& a, const Extent& b) {
+    return {a.before + b.before, a.after + b.after};
+}
+
+/// Along a half edge e of depth d the range is r + d s + c s^2, s in [-1, 1], with
+/// c = (e^2 - d^2) / (2 r): both ends lie farther than the depth says, and beside the foot of the
+/// perpendicular there is no near end.
+Extent extent_of(const Eigen::Vector3f& edge, float depth_m, float range_m) {
+    const float bend = std::max(edge.squaredNorm() - depth_m * depth_m, 0.0F) / (2.0F * range_m);
+    return {.before = depth_m >= 2.0F * bend ? depth_m - bend : 0.25F * depth_m * depth_m / bend,
+            .after = depth_m + bend};
 }
 
 /// How a footprint is cut whose half edges span `depth_u_m` and `depth_v_m` of range.
@@ -77,15 +97,18 @@ void direct_echoes(std::span<const Sample> samples, std::span<const Material> ma
         const Cut grid = cut(sample, range, depth_u, depth_v, bin_m, lattice.edge_m);
         const float u_step = 2.0F / static_cast<float>(grid.u);
         const float v_step = 2.0F / static_cast<float>(grid.v);
-        const float half =
-            std::max(depth_u / static_cast<float>(grid.u), depth_v / static_cast<float>(grid.v));
+        const float per_column = 1.0F / static_cast<float>(grid.u);
+        const float per_row = 1.0F / static_cast<float>(grid.v);
+        const Extent extent = extent_of(sample.edge_u * per_column, depth_u * per_column, range) +
+                              extent_of(sample.edge_v * per_row, depth_v * per_row, range);
+        const float half = 0.5F * (extent.after + extent.before);
+        const float shift = 0.5F * (extent.after - extent.before);
         const float weight = sample.area_m2 / static_cast<float>(grid.pieces());
         const float reflection = materials[sample.material].reflection;
         const float height = sample.height_m;
         const Eigen::Vector3f centre = sample.position;
         const Eigen::Vector3f edge_u = sample.edge_u;
         const Eigen::Vector3f edge_v = sample.edge_v;
-        const float per_row = 1.0F / static_cast<float>(grid.v);
         const Eigen::Vector3f cell = cells.rotation * sample.position + cells.base;
         const Eigen::Vector3f cell_u = cells.rotation * sample.edge_u;
         const Eigen::Vector3f cell_v = cells.rotation * sample.edge_v;
@@ -107,11 +130,15 @@ void direct_echoes(std::span<const Sample> samples, std::span<const Material> ma
             float* const __restrict range_m = echoes.range_m.data() + to;
             float* const __restrict intensity = echoes.intensity.data() + to;
             for (int lane = 0; lane < lanes; ++lane) {
-                const float x = centre.x() + s[lane] * edge_u.x() + t[lane] * edge_v.x();
-                const float y = centre.y() + s[lane] * edge_u.y() + t[lane] * edge_v.y();
-                const float z = centre.z() + s[lane] * edge_u.z() + t[lane] * edge_v.z();
-                range_m[lane] = std::sqrt(x * x + y * y + z * z);
-                intensity[lane] = reflection * std::min(height / range_m[lane], 1.0F);
+                const float x =
+                    std::fma(s[lane], edge_u.x(), std::fma(t[lane], edge_v.x(), centre.x()));
+                const float y =
+                    std::fma(s[lane], edge_u.y(), std::fma(t[lane], edge_v.y(), centre.y()));
+                const float z =
+                    std::fma(s[lane], edge_u.z(), std::fma(t[lane], edge_v.z(), centre.z()));
+                const float r = std::sqrt(std::fma(x, x, std::fma(y, y, z * z)));
+                range_m[lane] = r + shift;
+                intensity[lane] = reflection * std::min(height / r, 1.0F);
             }
             std::fill_n(echoes.half_m.data() + to, lanes, half);
             std::fill_n(echoes.weight.data() + to, lanes, weight);

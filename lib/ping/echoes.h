@@ -12,7 +12,7 @@ namespace sonarsim {
 
 /// The echoes of one beam, one entry per piece of surface. Arrays, so that loops vectorise.
 struct Echoes {
-    std::vector<float> range_m;                        ///< slant range of the piece's centre
+    std::vector<float> range_m;                        ///< slant range, of the middle of its extent
     std::vector<float> half_m;                         ///< half its extent in range
     std::vector<float> weight;                         ///< the area that it stands for, m^2
     std::vector<float> intensity;                      ///< I, Eq. 6

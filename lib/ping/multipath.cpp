@@ -156,7 +156,7 @@ Outcome reflect(const Context& context, const Sample& sample, const Plane& plane
 bool follow(const Context& context, std::uint32_t sample, std::uint32_t second, const Plane& plane,
             std::vector<Bounce>& bounces, MultipathCounts& counts) {
     const Sample& source = context.samples.items[sample];
-    Bounce b;
+    Bounce b{};
     b.sample = sample;
     b.second = second;
     const Outcome outcome = reflect(context, source, plane, b);

@@ -14,7 +14,7 @@ namespace {
 // More pieces than these change nothing that can be seen: along an edge of a footprint, and of its
 // scatterer cells in one bin.
 constexpr float most_pieces_per_edge = 64.0F;
-constexpr float most_pieces_per_bin = 16.0F;
+constexpr float most_bounce_pieces_per_bin = 16.0F;
 
 /// A part of a bounce that counts for one beam and one scatterer cell.
 struct Piece {
@@ -32,7 +32,8 @@ Cut cut(const Bounce& b, const Sample& sample, float bin_m, const ScattererLatti
     if (lattice.exists()) {
         const float bins = (2.0F + 2.0F * (std::fabs(b.range_u) + std::fabs(b.range_v)) / bin_m) *
                            (1.0F + wanted.u + wanted.v);
-        const Pieces cells = one_piece_per_cell(sample, lattice.edge_m, most_pieces_per_bin * bins);
+        const Pieces cells =
+            one_piece_per_cell(sample, lattice.edge_m, most_bounce_pieces_per_bin * bins);
         wanted = {.u = std::max(wanted.u, cells.u), .v = std::max(wanted.v, cells.v)};
     }
     return rounded_up({.u = std::clamp(wanted.u, 1.0F, most_pieces_per_edge),

@@ -7,6 +7,50 @@
 
 namespace sonarsim {
 
+namespace {
+
+RangeBins range_bins(const View& view) {
+    return {.min_m = static_cast<float>(view.range_min_m),
+            .bin_m = static_cast<float>(view.bin_m()),
+            .count = view.range_bins};
+}
+
+/// A ping without an image, with what was counted and timed while it was traced.
+Ping blank_ping(const TracedPing& traced, const View& view, const Terms& terms) {
+    Ping ping;
+    ping.range_bins = view.range_bins;
+    ping.beams = view.beams;
+    ping.counts = traced.counts;
+    ping.seconds = traced.seconds;
+    if (!terms.multipath) ping.counts.multipath = {};
+    return ping;
+}
+
+/// Adds the echoes of the visible surface to the bins of a beam. Holds what all beams share.
+struct DirectEchoes {
+    const Scene& scene;
+    const RangeBins& bins;
+    const ScattererLattice& lattice;
+    const RangeNoise& range_noise;
+    PhiloxKey draws;
+    Echoes echoes = {};  ///< of the samples that were added last
+
+    /// Eq. 4-8. Returns how many echoes lie out of range.
+    std::uint64_t add(std::span<const Sample> samples, BinSums& sums) {
+        direct_echoes(samples, scene.materials, bins.bin_m, lattice, echoes);
+        add_range_noise(echoes, range_noise, draws);
+        return accumulate(echoes, bins, sums);
+    }
+};
+
+/// Adds the multipath echoes of beam j to its bins. Returns how many lie out of range.
+std::uint64_t accumulate_beam(const MultipathEchoes& bounced, int j, const RangeBins& bins,
+                              BinSums& sums) {
+    return accumulate(bounced.echoes, bounced.beam_begin[j], bounced.beam_begin[j + 1], bins, sums);
+}
+
+}  // namespace
+
 TracedPing trace_ping(const PingSettings& settings, const Scene& scene,
                       const VisibilityEngine& engine, const Pose& T_world_sensor,
                       const Terms& terms) {
@@ -14,13 +58,13 @@ TracedPing trace_ping(const PingSettings& settings, const Scene& scene,
     traced.T_world_sensor = T_world_sensor;
     Stopwatch watch;
 
-    // III-A: the visible surface.
+    // 1. The visible surface.
     traced.samples = engine.visible_surface(settings.view, T_world_sensor);
     traced.counts.samples = traced.samples.items.size();
     traced.counts.dropped_samples = traced.samples.dropped;
     traced.seconds.trace = watch.lap();
 
-    // III-B: multipath, Eq. 1-3.
+    // 2. Multipath, Eq. 1-3.
     if (terms.multipath) trace_multipath(settings, scene, engine, traced);
     return traced;
 }
@@ -40,62 +84,45 @@ void trace_multipath(const PingSettings& settings, const Scene& scene,
 
 Ping form_image(const TracedPing& traced, const PingSettings& settings, const Scene& scene,
                 const PingKey& key, const Terms& terms) {
-    const View& view = settings.view;
-    const RangeBins bins{.min_m = static_cast<float>(view.range_min_m),
-                         .bin_m = static_cast<float>(view.bin_m()),
-                         .count = view.range_bins};
+    const RangeBins bins = range_bins(settings.view);
     const RangeNoise range_noise = terms.range_noise ? settings.range_noise : RangeNoise{};
     const Streaks streaks = terms.streaks ? settings.streaks : Streaks{};
     const ScattererLattice lattice = scatterer_lattice(range_noise, scene, traced.T_world_sensor);
-    const auto draws = [&](Stream stream) {
-        return stream_key(key.seed, settings.stream, key.ping, stream);
-    };
-    Ping ping;
-    ping.range_bins = view.range_bins;
-    ping.beams = view.beams;
-    ping.counts = traced.counts;
-    ping.seconds = traced.seconds;
+    const auto draws = [&](Stream s) { return stream_key(key.seed, settings.stream, key.ping, s); };
+    Ping ping = blank_ping(traced, settings.view, terms);
     Stopwatch watch;
 
-    // III-C: multipath as echoes.
-    if (!terms.multipath) ping.counts.multipath = {};
-    MultipathEchoes bounced =
-        multipath_echoes(terms.multipath ? std::span(traced.bounces) : std::span<const Bounce>(),
-                         traced.samples, view, lattice);
+    // 3, 4. The echoes of the multipath and their range noise.
+    const auto bounces =
+        std::span(traced.bounces).first(terms.multipath ? traced.bounces.size() : 0);
+    MultipathEchoes bounced = multipath_echoes(bounces, traced.samples, settings.view, lattice);
     add_range_noise(bounced.echoes, range_noise, draws(Stream::multipath_range_noise));
     ping.counts.echoes = bounced.echoes.size();
 
-    // III-C, III-D: for every beam the echoes of its surface, Eq. 4-6, their range noise, Eq. 7-8,
-    // and the mean of each bin, Eq. 9.
-    std::vector<float> by_beam(static_cast<std::size_t>(view.beams) * bins.count);
+    // 3, 4, 5. Beam by beam the same for the visible surface, Eq. 4-8; the mean of bins, Eq. 9.
+    DirectEchoes direct{scene, bins, lattice, range_noise, draws(Stream::range_noise)};
+    std::vector<float> by_beam(static_cast<std::size_t>(ping.beams) * bins.count);
     RowAreas areas(bins.count);
-    Echoes echoes;
     BinSums sums;
-    const auto add_direct = [&](std::span<const Sample> samples, BinSums& to) {
-        direct_echoes(samples, scene.materials, bins.bin_m, lattice, echoes);
-        add_range_noise(echoes, range_noise, draws(Stream::range_noise));
-        return accumulate(echoes, bins, to);
-    };
-    for (int j = 0; j < view.beams; ++j) {
+    for (int j = 0; j < ping.beams; ++j) {
         sums.clear(bins.count);
         if (terms.direct) {
-            ping.counts.out_of_range += add_direct(traced.samples.beam(j), sums);
-            ping.counts.echoes += echoes.size();
+            ping.counts.out_of_range += direct.add(traced.samples.beam(j), sums);
+            ping.counts.echoes += direct.echoes.size();
         }
         if (streaks.exist()) {
             areas.add(sums);
-            add_direct(at_normal_incidence(traced.samples.beam(j), streaks.least_cosine),
+            direct.add(at_normal_incidence(traced.samples.beam(j), streaks.least_cosine),
                        areas.normal);
         }
-        ping.counts.out_of_range += accumulate(bounced.echoes, bounced.beam_begin[j],
-                                               bounced.beam_begin[j + 1], bins, sums);
+        ping.counts.out_of_range += accumulate_beam(bounced, j, bins, sums);
         ping.counts.occupied_bins += mean_of_bins(
             sums, std::span(by_beam).subspan(static_cast<std::size_t>(j) * bins.count, bins.count));
     }
-    ping.intensity = image_of_beams(by_beam, view.range_bins, view.beams);
+    ping.intensity = image_of_beams(by_beam, ping.range_bins, ping.beams);
     ping.seconds.accumulate = watch.lap();
 
-    // III-D: pixel noise, Eq. 10-13. III-E: streaks, Eq. 14-15.
+    // 6. Pixel noise, Eq. 10-13. 7. Streaks, Eq. 14-15.
     if (terms.pixel_noise) {
         ping.counts.negative_pixels =
             add_pixel_noise(ping.intensity, settings.pixel_noise, draws(Stream::pixel_noise));

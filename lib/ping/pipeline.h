@@ -42,7 +42,7 @@ struct TracedPing {
 };
 
 /// Finds the surface that a sonar sees and, if its settings and the terms have it, the multipath:
-/// the paper's sections III-A and III-B.
+/// steps 1 and 2 of docs/model.md.
 TracedPing trace_ping(const PingSettings& settings, const Scene& scene,
                       const VisibilityEngine& engine, const Pose& T_world_sensor,
                       const Terms& terms = {});
@@ -51,8 +51,8 @@ TracedPing trace_ping(const PingSettings& settings, const Scene& scene,
 void trace_multipath(const PingSettings& settings, const Scene& scene,
                      const VisibilityEngine& engine, TracedPing& traced);
 
-/// The image of a traced ping with those of the terms that the settings have: the paper's sections
-/// III-C to III-E. A pure function: the same arguments give the same bytes. `settings` may differ
+/// The image of a traced ping with those of the terms that the settings have: steps 3 to 7 of
+/// docs/model.md. A pure function: the same arguments give the same bytes. `settings` may differ
 /// from those that the ping was traced with in all but the view. The ping counts and times the
 /// tracing as well; of multipath only what is in the image.
 Ping form_image(const TracedPing& traced, const PingSettings& settings, const Scene& scene,

@@ -43,8 +43,9 @@ int apply(std::span<float> pixels, const PixelNoise& noise, float range_scale, c
           const Lane& normal, const Lane& rayleigh) {
     int negative = 0;
     for (std::size_t k = 0; k < pixels.size(); ++k) {
-        const float value = pixels[k] * (noise.gain + noise.mult_sigma * normal[k]) +
-                            range_scale * lobe[k] * noise.add_sigma * rayleigh[k];
+        const float gain = std::fma(noise.mult_sigma, normal[k], noise.gain);
+        const float value =
+            std::fma(pixels[k], gain, range_scale * lobe[k] * noise.add_sigma * rayleigh[k]);
         negative += value < 0.0F ? 1 : 0;
         pixels[k] = value < 0.0F ? 0.0F : value;
     }

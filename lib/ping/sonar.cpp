@@ -9,7 +9,7 @@ double head_angle_rad(const Sonar& sonar, std::uint32_t pose) {
 }
 
 Pose sensor_pose(const Sonar& sonar, const Pose& T_world_vehicle, std::uint32_t pose) {
-    const Pose T_world_mount = T_world_vehicle * sonar.T_vehicle_sensor;
+    Pose T_world_mount = T_world_vehicle * sonar.T_vehicle_sensor;
     if (sonar.head_angles_rad.empty()) return T_world_mount;
     const Pose T_mount_head{rotation_from_rpy(0.0, 0.0, head_angle_rad(sonar, pose)),
                             Eigen::Vector3d::Zero()};

@@ -19,6 +19,9 @@ struct Sonar {
     /// Of a head that turns from ping to ping, about the sensor's z axis, positive to port: its
     /// angles, over and over again. Empty for a sonar that is fixed.
     std::vector<double> head_angles_rad;
+    /// Of a sonar that makes soundings: what range noise adds to a range, m, by the length in bins
+    /// of the run that shows the surface. Empty: nothing.
+    std::vector<double> run_offsets_m;
 };
 
 /// The angle of the head at the pose with this index on the trajectory; 0 for a fixed sonar.

@@ -93,9 +93,7 @@ Rgb scaled(Rgb colour, float by) {
 void draw_scale_bar(Picture& picture, int y, double pixels_per_m) {
     // The longest of 1, 2, 5, 10, ... metres within a third of the map.
     const double room_m = (picture.width - legend_width) / (3.0 * pixels_per_m);
-    double length = round_up_125(room_m);
-    while (length > room_m)
-        length = round_up_125(0.4 * length);
+    const double length = round_down_125(room_m);
     const int width = std::max(1, static_cast<int>(std::lround(length * pixels_per_m)));
     fill(picture, margin, y + 4, width, 3, ink);
     fill(picture, margin, y, 1, 11, ink);

@@ -68,8 +68,11 @@ bool is_near_edge(const View& view, const FanFrame& frame, const PixelPlace& pla
 /// The ring of pixels that are `extent` beams wide; ring 0 holds those of up to one beam.
 std::size_t ring_of(double extent) {
     std::size_t ring = 0;
-    for (double limit = 1.0; limit < std::min(extent, most_bins); limit *= ring_step)
+    double limit = 1.0;
+    while (limit < std::min(extent, most_bins)) {
+        limit *= ring_step;
         ++ring;
+    }
     return ring;
 }
 

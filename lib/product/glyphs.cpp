@@ -59,14 +59,14 @@ constexpr std::array<Glyph, letters.size()> glyphs{{
     {0x00, 0x04, 0x04, 0x1f, 0x04, 0x04, 0x00},  // +
 }};
 
-constexpr Glyph blank{};
+constexpr Glyph no_glyph{};
 
 }  // namespace
 
 const Glyph& glyph_of(char letter) {
     const bool small = letter >= 'a' && letter <= 'z';
     const std::size_t i = letters.find(small ? static_cast<char>(letter - 'a' + 'A') : letter);
-    return i == std::string_view::npos ? blank : glyphs[i];
+    return i == std::string_view::npos ? no_glyph : glyphs[i];
 }
 
 }  // namespace sonarsim

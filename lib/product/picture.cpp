@@ -60,16 +60,34 @@ void write(Picture& picture, int x, int y, std::string_view text, Align align, R
     }
 }
 
-double round_up_125(double value) {
+namespace {
+
+/// The largest power of ten that is not above `value`.
+double power_of_ten_in(double value) {
     double power = 1.0;
     while (power > value)
         power /= 10.0;
     while (power * 10.0 <= value)
         power *= 10.0;
+    return power;
+}
+
+}  // namespace
+
+double round_up_125(double value) {
+    const double power = power_of_ten_in(value);
     for (const double factor : {1.0, 2.0, 5.0}) {
         if (power * factor >= value) return power * factor;
     }
     return power * 10.0;
+}
+
+double round_down_125(double value) {
+    const double power = power_of_ten_in(value);
+    for (const double factor : {5.0, 2.0}) {
+        if (power * factor <= value) return power * factor;
+    }
+    return power;
 }
 
 std::vector<double> axis_marks(double low, double high, double wanted) {

@@ -51,4 +51,7 @@ std::vector<double> axis_marks(double low, double high, double wanted);
 /// which must be positive.
 double round_up_125(double value);
 
+/// The greatest of those numbers that is not above `value`, which must be positive.
+double round_down_125(double value);
+
 }  // namespace sonarsim

@@ -51,6 +51,7 @@ std::string right(const std::string& text, std::size_t width) {
 std::string table(const std::string& title, const std::vector<std::string>& names,
                   const std::vector<Share>& shares) {
     std::vector<std::string> shown;
+    shown.reserve(names.size());
     for (const std::string& name : names)
         shown.push_back(printable(name));
     std::size_t width = title.size();

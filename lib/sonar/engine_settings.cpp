@@ -2,11 +2,32 @@
 
 namespace sonarsim {
 
-EngineSettings engine_settings(EngineKind kind, const OctreeConfig& octree) {
-    return {.type = kind == EngineKind::octree ? EngineType::octree : EngineType::rays,
+namespace {
+
+EngineType type_of(EngineKind kind) {
+    switch (kind) {
+        case EngineKind::octree:
+            return EngineType::octree;
+        case EngineKind::slices:
+            return EngineType::slices;
+        default:
+            return EngineType::rays;
+    }
+}
+
+}  // namespace
+
+EngineSettings engine_settings(EngineKind kind, const OctreeConfig& octree,
+                               const SlicesConfig& slices) {
+    return {.type = type_of(kind),
             .octree = {.leaf_m = octree.leaf_m,
                        .memory_mb = static_cast<std::size_t>(octree.memory_mb),
-                       .literal = octree.literal}};
+                       .literal = octree.literal},
+            .slices = {.per_beam = slices.per_beam}};
+}
+
+EngineSettings engine_settings(const Mission& mission) {
+    return engine_settings(mission.engine, mission.octree, mission.slices);
 }
 
 }  // namespace sonarsim

@@ -1,6 +1,4 @@
-#include <algorithm>
-#include <cmath>
-
+#include "product/run_offsets.h"
 #include "product/soundings.h"
 #include "sonar/kinds.h"
 #include "sonar/setup.h"
@@ -11,9 +9,14 @@ namespace {
 
 /// How many beams have a sounding.
 void measure_soundings(const PingView& view, nlohmann::ordered_json& json) {
-    const auto soundings = find_soundings(view.sonar, view.T_world_vehicle, view.ping);
-    json["soundings"] =
-        std::ranges::count_if(soundings, [](const Sounding& s) { return !std::isnan(s.range_m); });
+    json["soundings"] = lit_beams(view.ping);
+}
+
+void add_azimuth_and_offsets(Sonar& sonar) {
+    add_azimuth(sonar);
+    const View& view = sonar.settings.view;
+    sonar.run_offsets_m =
+        run_offsets_m(sonar.settings.range_noise.lambda_m, view.bin_m(), view.range_bins);
 }
 
 }  // namespace
@@ -38,7 +41,7 @@ KindOfSonar profiling_kind() {
             .range_noise_fades = true,
             .has_images = true,
             .record = RecordKind::soundings,
-            .finish = add_azimuth,
+            .finish = add_azimuth_and_offsets,
             .measure = measure_soundings};
 }
 

@@ -126,6 +126,7 @@ void check_names(std::span<const std::string> header, const Location& where) {
         }
         if (has(with_quaternion, header[i]) || has(with_angles, header[i])) continue;
         std::vector<std::string> known;
+        known.reserve(with_quaternion.size() + with_angles.size());
         for (const Column& column : with_quaternion)
             known.emplace_back(column.name);
         for (const Column& column : std::span(with_angles).subspan(attitude_begin)) {

@@ -79,13 +79,14 @@ void add_box(Scene& scene, const Eigen::Vector3f& min, const Eigen::Vector3f& ma
 void add_sphere(Scene& scene, const Eigen::Vector3f& centre, float radius, std::uint32_t material,
                 int n) {
     scene.instances.push_back("sphere" + std::to_string(scene.instances.size()));
+    const int parallels = n / 2;
     const auto at = [&](int i, int j) -> Eigen::Vector3f {
-        return centre + polar(radius, 2.0 * pi * i / n, -0.5 * pi + pi * j / (n / 2));
+        return centre + polar(radius, 2.0 * pi * i / n, -0.5 * pi + pi * j / parallels);
     };
     for (int i = 0; i < n; ++i) {
-        for (int j = 0; j < n / 2; ++j) {
+        for (int j = 0; j < parallels; ++j) {
             if (j > 0) add_triangle(scene, at(i, j), at(i + 1, j), at(i + 1, j + 1), material);
-            if (j + 1 < n / 2)
+            if (j + 1 < parallels)
                 add_triangle(scene, at(i, j), at(i + 1, j + 1), at(i, j + 1), material);
         }
     }

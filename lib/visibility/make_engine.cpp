@@ -5,6 +5,7 @@
 #include "core/text.h"
 #include "core/units.h"
 #include "visibility/octree/leaf_size.h"
+#include "visibility/octree/tree.h"
 #include "visibility/rays/rays_engine.h"
 
 namespace sonarsim {
@@ -21,6 +22,8 @@ std::unique_ptr<VisibilityEngine> make_engine(const Scene& scene, const EngineSe
     switch (settings.type) {
         case EngineType::octree:
             return make_octree_engine(scene, settings.octree);
+        case EngineType::slices:
+            return make_slices_engine(scene, settings.slices);
         case EngineType::rays:
             break;
     }

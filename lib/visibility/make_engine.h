@@ -6,14 +6,16 @@
 #include "scene/scene.h"
 #include "visibility/engine.h"
 #include "visibility/octree/octree_engine.h"
+#include "visibility/slices/slices_engine.h"
 
 namespace sonarsim {
 
-enum class EngineType { rays, octree };
+enum class EngineType { rays, octree, slices };
 
 struct EngineSettings {
     EngineType type = EngineType::rays;
     OctreeOptions octree;  ///< read by the octree alone
+    SlicesOptions slices = {};  ///< read by the slices alone
 };
 
 /// The engine over a scene that must outlive it. Throws InputError when octree.leaf_m is too small

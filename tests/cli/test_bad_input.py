@@ -1,7 +1,7 @@
 """Bad input ends with exit code 2, a message that names file, place and cure, and no dataset."""
 import unittest
 
-from sandbox import MATERIALS, Sandbox, box_gltf, path_csv
+from sandbox import MATERIALS, Sandbox, box_gltf, digest, path_csv
 
 
 class BadUsage(Sandbox):
@@ -174,6 +174,14 @@ class BadFolder(Sandbox):
         self.assert_refused(self.render(), "out", "no sonarsim dataset", "another output.folder")
         self.assertEqual(kept.read_text(), "years of work")
         self.assertEqual([p.name for p in self.out.iterdir()], ["thesis.txt"])
+
+    def test_overwrite_never_replaces_the_mission_itself(self):
+        self.assert_renders()
+        own = self.out / "mission.resolved.yaml"
+        before = digest(self.out)
+        result = self.run_sonarsim("render", str(own), "--overwrite", "--seed", "9")
+        self.assert_refused(result, "mission.resolved.yaml", "the mission itself")
+        self.assertEqual(digest(self.out), before)
 
     def test_overwrite_never_deletes_what_is_no_dataset(self):
         kept = self.write("out/thesis.txt", "years of work")

@@ -180,9 +180,9 @@ def write_mission(draw, keys, folder):
     at = [far * draw.choice([-1, 0.1, 1]) for _ in range(3)]
     wild = draw.choice([0.0, 0.2, 0.6])
     mission = {name: section(draw, keys, name, wild, 0.3)
-               for name in ("water", "accuracy", "octree", "output") if draw.random() < 0.5}
+               for name in ("water", "accuracy", "octree", "slices", "output") if draw.random() < 0.5}
     mission["seed"] = draw.choice([0, 7, 2**64 - 1])
-    mission["engine"] = draw.choice(["auto", "rays", "octree"])
+    mission["engine"] = draw.choice(["auto", "rays", "octree", "slices"])
     mission["name"] = "random"
     mission["scene"] = {"file": "scene.gltf", "materials": "materials.csv"}
     mission["trajectory"] = trajectory(draw, size, at, folder)

@@ -23,7 +23,7 @@ class Report(Sandbox):
         report = json.loads((self.folder / "elsewhere.json").read_text())
         self.assertEqual(report, json.loads((self.folder / "report/report.json").read_text()))
         engines = {row["engine"] for row in report["rows"]}
-        self.assertEqual(engines, {"rays", "octree", "literal"})
+        self.assertEqual(engines, {"rays", "slices", "octree", "literal"})
         for row in report["rows"]:
             self.assertEqual(set(row), ROW | {"spread"})
             self.assertGreater(row["ms_per_ping"], 0)
@@ -95,7 +95,7 @@ class Report(Sandbox):
         result = self.run_sonarsim("report", "--hard", "UTM", "--quiet")
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
         self.assertIn("UTM, off the grid", result.stdout)
-        self.assertIn("4 verdicts: 0 fail", result.stdout)
+        self.assertIn("6 verdicts: 0 fail", result.stdout)
 
     def test_bad_input(self):
         self.assertEqual(self.run_sonarsim("report").returncode, 2)

@@ -93,6 +93,11 @@ TEST_SUITE("core") {
         CHECK(temporary_name("a.png").parent_path().empty());
         CHECK_FALSE(is_temporary_name("a.png"));
         CHECK_FALSE(is_temporary_name("a.part"));
+        // What other programs call their own.
+        for (const char* name : {".part", ".a.mkv.part", ".a.mkv.0123456789ABCDEF.part",
+                                 ".a.mkv.0123456789abcde.part", ".0123456789abcdef.part"})
+            CHECK_FALSE(is_temporary_name(name));
+        CHECK(is_temporary_name(".a.mkv.0123456789abcdef.part"));
         CHECK(final_name("a.png") == "a.png");
     }
 

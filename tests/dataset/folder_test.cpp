@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "dataset/job.h"
+#include "dataset/png.h"
 #include "support/small_mission.h"
 #include "support/temporary_folder.h"
 
@@ -49,7 +50,7 @@ TEST_SUITE("dataset") {
     TEST_CASE("folder: an empty folder and one with a crash's first breath are fresh") {
         const TemporaryFolder temporary;
         const Mission mission = small_mission(temporary.path);
-        write_file(temporary.path / ".dataset.json.77.part", "{");
+        write_file(temporary.path / ".dataset.json.0123456789abcdef.part", "{");
         CHECK(run(mission, 2, false).complete);
     }
 
@@ -95,6 +96,28 @@ TEST_SUITE("dataset") {
             mission, 4, "holds a dataset of this mission made by another version of sonarsim");
     }
 
+    TEST_CASE("folder: builds are mixed where their arithmetic agrees, and only there") {
+        const TemporaryFolder temporary;
+        const Mission mission = small_mission(temporary.path / "out");
+        run(mission, 4, false);
+        const fs::path description = mission.output.folder / "dataset.json";
+        edit(description, "\"compiler\": \"", "\"compiler\": \"another ");
+        CHECK(run(mission, 4, false).complete);
+        const std::string ours = "x86-64-v3, " + png_encoder();
+        edit(description, "\"arithmetic\": \"x86-64-v3", "\"arithmetic\": \"AVX-512");
+        check_refused_unless_overwritten(
+            mission, 4,
+            "holds a dataset of this mission made by a build of sonarsim whose bytes differ "
+            "(AVX-512, " +
+                png_encoder() + "; this one: " + ours + ")");
+        edit(description, "\"png_encoder\"", "\"nothing\"");
+        check_refused_unless_overwritten(
+            mission, 4,
+            "holds a dataset of this mission made by a build of sonarsim whose bytes differ "
+            "(AVX-512, unknown; this one: " +
+                ours + ")");
+    }
+
     TEST_CASE("folder: overwrite replaces a whole dataset and nothing else") {
         const TemporaryFolder temporary;
         Mission mission = small_mission(temporary.path / "out");
@@ -103,7 +126,7 @@ TEST_SUITE("dataset") {
         run(mission, 8, false);
         write_file(out / "notes.txt", "mine");
         write_file(out / "gone/meta/notes.txt", "mine");
-        write_file(out / "front/polar/.000007.npy.5.part", "half");
+        write_file(out / "front/polar/.000007.npy.0123456789abcdef.part", "half");
         mission.sensors[1].name = "left";
         CHECK(run(mission, 3, true).complete);
         const auto files = contents(out);
@@ -125,6 +148,44 @@ TEST_SUITE("dataset") {
         CHECK(run(mission, 4, true).complete);
         CHECK(read_file(out / "front/meta/20240101.json", 100) == "a log");
         CHECK(read_file(out / "camera/image/000001.png", 100) == "a photograph");
+    }
+
+    TEST_CASE("folder: what others put beside a dataset stays, whatever it is called") {
+        const TemporaryFolder temporary;
+        Mission mission = small_mission(temporary.path / "out");
+        const fs::path& out = mission.output.folder;
+        run(mission, 4, false);
+        const std::vector<fs::path> notes{out / ".film.mkv.part", out / "front/.film.mkv.part",
+                                          out / "journal.d/2024.txt"};
+        fs::create_directory(out / "journal.d");
+        for (const fs::path& note : notes)
+            write_file(note, "mine");
+        fs::remove(out / "front/polar/000000.npy");
+        CHECK(run(mission, 4, false).pings == 1);
+        CHECK(run(mission, 4, true).complete);
+        for (const fs::path& note : notes)
+            CHECK(read_file(note, 100) == "mine");
+    }
+
+    TEST_CASE("folder: whatever a description lists, overwriting ends, and spares what is read") {
+        const TemporaryFolder temporary;
+        Mission mission = small_mission(temporary.path / "out");
+        const fs::path& out = mission.output.folder;
+        run(mission, 4, false);
+        write_file(temporary.path / "victim", "mine");
+        const std::string path = (temporary.path / "victim").string();
+        edit(out / "dataset.json", "front/image/%06d.png", path);
+        edit(out / "dataset.json", "\"pings\": 4", "\"pings\": 1000000000000000000");
+        edit(out / "dataset.json", "\"files\"", "\"products\": [\"" + path + "\"], \"files\"");
+        CHECK(run(mission, 4, true).complete);
+        CHECK(read_file(path, 100) == "mine");
+
+        write_file(out / "scene.glb", "mine");
+        edit(out / "dataset.json", "\"files\"", "\"products\": [\"scene.glb\"], \"files\"");
+        mission.scene.file = out / "scene.glb";
+        const auto before = contents(out);
+        CHECK_THROWS_AS(run(mission, 4, true), InputError);
+        CHECK(contents(out) == before);
     }
 
     TEST_CASE("folder: neither overwriting nor writing goes through a link") {

@@ -108,9 +108,9 @@ TEST_SUITE("dataset") {
         const Mission mission = small_mission(out);
         run_until(mission, 6);
         fs::remove(out / "front/polar/000001.npy");
-        write_file(out / "front/polar/.000001.npy.123.part", "half");
-        write_file(out / "left/meta/.000006.json.123.part", "half");
-        write_file(out / ".dataset.json.123.part", "half");
+        write_file(out / "front/polar/.000001.npy.0123456789abcdef.part", "half");
+        write_file(out / "left/meta/.000006.json.0123456789abcdef.part", "half");
+        write_file(out / ".dataset.json.0123456789abcdef.part", "half");
         CHECK(run(mission).complete);
         CHECK(dataset(out) == whole_dataset());
     }
@@ -173,6 +173,49 @@ TEST_SUITE("dataset") {
         CHECK(dataset(out) == whole_dataset());
     }
 
+    TEST_CASE("job: records that go away during the run are no part of a complete dataset") {
+        const TemporaryFolder temporary;
+        const Mission mission = survey_mission(temporary.path / "out");
+        const fs::path file = mission.output.folder / "mbes/soundings.npy";
+        for (const bool replaced : {false, true}) {
+            fs::remove_all(mission.output.folder);
+            const auto thief = [&](std::uint64_t done, std::uint64_t) {
+                if (done != 1) return;
+                if (replaced) fs::copy_file(file, temporary.path / "copy");
+                fs::remove(file);
+                if (replaced) fs::rename(temporary.path / "copy", file);
+            };
+            CHECK_THROWS_AS(run_job(mission, small_assembly(mission, poses), {}, thief,
+                                    std::atomic<bool>(false)),
+                            std::runtime_error);
+            CHECK_FALSE(is_complete(mission.output.folder));
+            CHECK(run(mission).complete);
+            CHECK(fs::exists(file));
+        }
+    }
+
+    TEST_CASE("job: a sensor may be called journal") {
+        const TemporaryFolder temporary;
+        Mission mission = small_mission(temporary.path / "out");
+        mission.sensors[0].name = "journal";
+        CHECK(run(mission).complete);
+        CHECK(fs::exists(mission.output.folder / "journal/polar/000000.npy"));
+        CHECK(run(mission).pings == 0);
+    }
+
+    TEST_CASE("job: common files that went away are written again") {
+        const TemporaryFolder temporary;
+        const fs::path out = temporary.path / "out";
+        const Mission mission = small_mission(out);
+        run(mission);
+        fs::remove(out / "mission.resolved.yaml");
+        fs::remove(out / "trajectory.tum");
+        const RenderSummary again = run(mission);
+        CHECK(again.pings == 0);
+        CHECK(again.complete);
+        CHECK(dataset(out) == whole_dataset());
+    }
+
     TEST_CASE("job: a file of another size than the journal's is rendered again") {
         const TemporaryFolder temporary;
         const fs::path out = temporary.path / "out";
@@ -189,7 +232,7 @@ TEST_SUITE("dataset") {
         const fs::path out = temporary.path / "out";
         const Mission mission = small_mission(out);
         run_until(mission, 4);
-        const fs::path part = out / "journal/1-of-1.txt";
+        const fs::path part = out / "journal.d/1-of-1.txt";
         const std::string lines = read_file(part, 1 << 20);
         write_file(part, lines.substr(0, lines.size() - 3) + "\nping 0 6 1 1 1 1 00000000\nping\n");
         const RenderSummary rest = run(mission);
@@ -208,12 +251,14 @@ TEST_SUITE("dataset") {
         CHECK_FALSE(third.complete);
         CHECK_FALSE(is_complete(out));
         // A shard leaves the temporary files of another one that may be at work.
-        write_file(out / "front/polar/.000001.npy.123.part", "at work");  // index 2, shard 2
-        write_file(out / "front/polar/.000000.npy.123.part", "stale");    // index 0, shard 0
+        write_file(out / "front/polar/.000001.npy.0123456789abcdef.part",
+                   "at work");  // index 2, shard 2
+        write_file(out / "front/polar/.000000.npy.0123456789abcdef.part",
+                   "stale");  // index 0, shard 0
         CHECK(run(mission, {.shard = 0, .shards = 3}).pings == 4);
-        CHECK(fs::exists(out / "front/polar/.000001.npy.123.part"));
-        CHECK_FALSE(fs::exists(out / "front/polar/.000000.npy.123.part"));
-        fs::remove(out / "front/polar/.000001.npy.123.part");
+        CHECK(fs::exists(out / "front/polar/.000001.npy.0123456789abcdef.part"));
+        CHECK_FALSE(fs::exists(out / "front/polar/.000000.npy.0123456789abcdef.part"));
+        fs::remove(out / "front/polar/.000001.npy.0123456789abcdef.part");
         const RenderSummary last = run(mission, {.shard = 1, .shards = 3});
         CHECK(last.complete);
         CHECK(is_complete(out));

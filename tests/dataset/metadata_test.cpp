@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/units.h"
+#include "dataset/ping_metadata.h"
 #include "mission/resolved.h"
 #include "sonar/kinds.h"
 #include "support/small_mission.h"
@@ -105,29 +106,5 @@ TEST_SUITE("dataset") {
         CHECK(json_text({{"x", 0.1}}) == "{\n \"x\": 0.1\n}\n");
         CHECK(json_text({{"x", 1.0 / 3.0}}) == "{\n \"x\": 0.3333333333333333\n}\n");
         CHECK(json_text({{"x", "a\xff"}}) == "{\n \"x\": \"a\xef\xbf\xbd\"\n}\n");
-    }
-
-    TEST_CASE("metadata: the inputs' hash tells scenes, materials and poses apart") {
-        const Mission mission = small_mission("out");
-        const Assembly assembly = small_assembly(mission, 7);
-        const std::string hash = inputs_hash(assembly);
-        CHECK(hash.size() == 32);
-        CHECK(inputs_hash(assembly) == hash);
-        const auto changed = [&](auto change) {
-            Assembly other = assembly;
-            change(other);
-            return inputs_hash(other) != hash;
-        };
-        CHECK(changed([](Assembly& a) { a.scene.vertices[0].x() += 1e-3F; }));
-        CHECK(changed([](Assembly& a) { a.scene.origin.x() += 1e-3; }));
-        CHECK(changed(
-            [](Assembly& a) { std::swap(a.scene.triangles[0][0], a.scene.triangles[0][1]); }));
-        CHECK(changed([](Assembly& a) { ++a.scene.triangle_material[0]; }));
-        CHECK(changed([](Assembly& a) { ++a.scene.triangle_instance[0]; }));
-        CHECK(changed([](Assembly& a) { a.scene.materials[0].density_kg_m3 += 1.0; }));
-        CHECK(changed([](Assembly& a) { a.scene.materials[0].sound_speed_m_s += 1.0; }));
-        CHECK(changed([](Assembly& a) { a.scene.instances[0] += "x"; }));
-        CHECK(changed([](Assembly& a) { a.trajectory[6].t_s += 1e-6; }));
-        CHECK(changed([](Assembly& a) { a.trajectory.pop_back(); }));
     }
 }

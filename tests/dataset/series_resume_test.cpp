@@ -89,7 +89,7 @@ TEST_SUITE("dataset") {
 
         fs::remove(out / "sss/waterfall.npy");
         fs::remove(out / "mbes/bathymetry.tif");
-        write_file(out / "mbes/.soundings.csv.123.part", "half");
+        write_file(out / "mbes/.soundings.csv.0123456789abcdef.part", "half");
         const RenderSummary again = run(mission);
         CHECK(again.pings == 7);
         CHECK(again.complete);

@@ -11,6 +11,7 @@
 #include "dataset/folded_records.h"
 #include "dataset/job.h"
 #include "dataset/writers.h"
+#include "dataset/writers/formats.h"
 #include "product/sidescan_row.h"
 #include "product/soundings.h"
 #include "sonar/kinds.h"

@@ -115,6 +115,8 @@ octree:
   leaf_m: auto
   memory_mb: 512
   literal: false
+slices:
+  per_beam: 0
 output:
   folder: "/o"
   polar: true

@@ -100,6 +100,11 @@ TEST_SUITE("product") {
         CHECK(round_up_125(1.1) == 2.0);
         CHECK(round_up_125(0.03) == doctest::Approx(0.05));
         CHECK(round_up_125(60.0) == 100.0);
+        CHECK(round_down_125(1.0) == 1.0);
+        CHECK(round_down_125(4.9) == 2.0);
+        CHECK(round_down_125(0.07) == doctest::Approx(0.05));
+        CHECK(round_down_125(0.02) == doctest::Approx(0.02));
+        CHECK(round_down_125(60.0) == 50.0);
         CHECK(axis_marks(0.5, 10.0, 4.0) == std::vector<double>{5.0, 10.0});
         CHECK(axis_marks(-0.25, 0.35, 6.0) == std::vector<double>{-0.2, -0.1, 0.0, 0.1, 0.2, 0.3});
         const Rgb stops[] = {{0, 0, 0}, {200, 100, 0}, {200, 100, 200}};

@@ -33,15 +33,15 @@ Ping dark(const Sonar& sonar) {
 }  // namespace
 
 TEST_SUITE("product") {
-    TEST_CASE("soundings: the centre of mass around the peak, in the world") {
+    TEST_CASE("soundings: the middle of the strongest run, in the world") {
         const Sonar sonar = three_beams();
         Ping ping = dark(sonar);
-        // Beam 1, straight down: bins 50 and 51 of weights 3 and 1: 5.05 + 0.025... the second one
-        // is below half and left out of the run, so it counts as outside.
+        // Beam 1, straight down: bins 50 and 51 of 0.3 and 0.1. Bin 50 alone stands out by 0.296
+        // over the beam's mean of 0.004, both by (0.4 - 0.008) / sqrt(2) = 0.277.
         ping.intensity[50 * 3 + 1] = 0.3F;
         ping.intensity[51 * 3 + 1] = 0.1F;
-        // Beam 2, 40 degrees to port: three bins 60, 61, 62 of weights 2, 4, 3: centre of mass
-        // (2 * 6.05 + 4 * 6.15 + 3 * 6.25) / 9 = 6.16111.
+        // Beam 2, 40 degrees to port: bins 60, 61, 62 of 0.2, 0.4, 0.3: all three stand out by
+        // (0.9 - 0.027) / sqrt(3) = 0.504, the last two by (0.7 - 0.018) / sqrt(2) = 0.482.
         ping.intensity[60 * 3 + 2] = 0.2F;
         ping.intensity[61 * 3 + 2] = 0.4F;
         ping.intensity[62 * 3 + 2] = 0.3F;
@@ -53,8 +53,8 @@ TEST_SUITE("product") {
         CHECK(soundings[0].quality == 0.0);
         CHECK(soundings[1].range_m == doctest::Approx(5.05));
         CHECK((soundings[1].position - Eigen::Vector3d(100.0, 200.0, 1.95)).norm() < 1e-9);
-        CHECK(soundings[1].quality == doctest::Approx(1.0 - (0.1 / 99.0) / 0.3));
-        const double range = (2 * 6.05 + 4 * 6.15 + 3 * 6.25) / 9.0;
+        CHECK(soundings[1].quality == doctest::Approx(1.0));
+        const double range = 6.15;
         CHECK(soundings[2].range_m == doctest::Approx(range));
         CHECK(soundings[2].quality == doctest::Approx(1.0));
         const Eigen::Vector3d expected(100.0 - range * std::sin(radians(40.0)), 200.0,
@@ -153,6 +153,18 @@ TEST_SUITE("product") {
             grid.add({far, far, far});
             CHECK(draw_bathymetry(grid).width > 0);
         }
+    }
+
+    TEST_CASE("bathymetry: cells of any size have a scale bar") {
+        // 0.4 * 0.05 is above 0.02 in doubles: halving the bar that way never ended.
+        for (double cell_m = 1e-3; cell_m < 1e3; cell_m *= 1.07) {
+            SoundingBounds bounds;
+            bounds.add({0, 0, 0});
+            bounds.add({cell_m, 0, 0});
+            CHECK(draw_bathymetry(make_bathymetry(bounds, cell_m)).width > 0);
+        }
+        for (const double cell_m : {0.0685851289138515, 0.05, 0.5})
+            CHECK(round_down_125(cell_m) <= cell_m);
     }
 
     TEST_CASE("bathymetry: the finest cell that a mission can ask for") {

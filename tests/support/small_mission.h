@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-#include "dataset/assemble.h"
+#include "assembly/assemble.h"
 #include "mission/mission.h"
 
 namespace sonarsim::test {

@@ -5,7 +5,7 @@
 #include "dataset/folded_records.h"
 #include "dataset/image_file.h"
 #include "dataset/png.h"
-#include "dataset/writers.h"
+#include "dataset/writers/formats.h"
 #include "product/grey.h"
 
 namespace sonarsim {

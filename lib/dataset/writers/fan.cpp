@@ -1,7 +1,7 @@
 #include "product/fan.h"
 
 #include "dataset/png.h"
-#include "dataset/writers.h"
+#include "dataset/writers/formats.h"
 
 namespace sonarsim {
 

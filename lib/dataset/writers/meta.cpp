@@ -1,5 +1,5 @@
-#include "dataset/metadata.h"
-#include "dataset/writers.h"
+#include "dataset/ping_metadata.h"
+#include "dataset/writers/formats.h"
 
 namespace sonarsim {
 

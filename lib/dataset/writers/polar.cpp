@@ -1,4 +1,4 @@
-#include "dataset/writers.h"
+#include "dataset/writers/formats.h"
 
 namespace sonarsim {
 

@@ -4,7 +4,7 @@
 #include "dataset/npy.h"
 #include "dataset/png.h"
 #include "dataset/whole_file.h"
-#include "dataset/writers.h"
+#include "dataset/writers/formats.h"
 #include "product/fan.h"
 #include "product/grey.h"
 

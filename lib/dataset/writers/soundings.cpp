@@ -9,10 +9,10 @@
 #include "core/file.h"
 #include "dataset/geotiff.h"
 #include "dataset/image_file.h"
-#include "dataset/metadata.h"
+#include "dataset/ping_metadata.h"
 #include "dataset/png.h"
 #include "dataset/whole_file.h"
-#include "dataset/writers.h"
+#include "dataset/writers/formats.h"
 #include "product/bathymetry.h"
 
 namespace sonarsim {

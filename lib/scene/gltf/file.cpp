@@ -148,8 +148,25 @@ struct BufferReader {
     }
 };
 
+/// tinygltf 2.9 wants to be told the sizes of files as well; 2.8 knows no such callback.
+template <class Callbacks>
+void tell_sizes(Callbacks& callbacks) {
+    if constexpr (requires { callbacks.GetFileSizeInBytes; }) {
+        callbacks.GetFileSizeInBytes = [](std::size_t* size, std::string*, const std::string& name,
+                                          void* user) {
+            const auto* buffers = static_cast<const BufferReader*>(user);
+            *size = buffers->buffers.at(std::stoul(name)).byte_length;
+            return true;
+        };
+    }
+}
+
 tinygltf::FsCallbacks callbacks_of(BufferReader& buffers) {
     tinygltf::FsCallbacks callbacks{};
+    tell_sizes(callbacks);
+    // Never called, but tinygltf 2.9 takes all callbacks or none.
+    callbacks.WriteWholeFile = [](std::string*, const std::string&,
+                                  const std::vector<unsigned char>&, void*) { return false; };
     callbacks.FileExists = [](const std::string&, void*) { return true; };
     callbacks.ExpandFilePath = [](const std::string& name, void*) { return name; };
     callbacks.ReadWholeFile = [](std::vector<unsigned char>* out, std::string*,

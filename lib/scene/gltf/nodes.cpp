@@ -12,7 +12,7 @@ namespace sonarsim {
 
 namespace {
 
-constexpr int max_depth = 256;
+constexpr int deepest_node = 256;
 constexpr int no_parent = -1;
 
 struct Graph {
@@ -199,7 +199,7 @@ std::vector<PlacedMesh> place_meshes(const tinygltf::Model& model, const std::st
     while (!pending.empty()) {
         const Visit visit = std::move(pending.back());
         pending.pop_back();
-        if (visit.depth > max_depth) {
+        if (visit.depth > deepest_node) {
             graph.fail(visit.node, "lies deeper than 256 levels in the hierarchy");
         }
         const tinygltf::Node& node = graph.node(visit.node);

@@ -37,7 +37,8 @@ double brightest_of(const HardCase& hard, const Scene& scene) {
             most = std::max(most, static_cast<double>(material.reflection));
     }
     // Room for the rounding of a mean.
-    return most * (1.0 + 1e-5);
+    // A mean of many thousand echoes is off by that much in float.
+    return most * (1.0 + 5e-5);
 }
 
 struct Difference {
@@ -60,11 +61,30 @@ Difference compare(const Ping& ping, const std::vector<float>& truth) {
     return out;
 }
 
+/// What an engine is held to.
+struct Standard {
+    std::string engine;
+    double bound;
+    std::string known_fault;
+};
+
+Standard standard_of(const HardCase& hard, EngineKind engine) {
+    const HardBounds& bounds = hard.bounds;
+    switch (engine) {
+        case EngineKind::octree:
+            return {"octree", bounds.octree, hard.known.octree};
+        case EngineKind::slices:
+            return {"slices", bounds.slices < 0.0 ? bounds.rays : bounds.slices, hard.known.slices};
+        default:
+            return {"rays", bounds.rays, hard.known.rays};
+    }
+}
+
 HardResult run(const HardCase& hard, const Scene& scene, EngineKind engine_kind) {
-    const bool rays = engine_kind == EngineKind::rays;
-    HardResult result{hard.name, hard.stresses, hard.expected, rays ? "rays" : "octree"};
-    result.bound = rays ? hard.bounds.rays : hard.bounds.octree;
-    result.known_fault = rays ? hard.known.rays : hard.known.octree;
+    const Standard standard = standard_of(hard, engine_kind);
+    HardResult result{hard.name, hard.stresses, hard.expected, standard.engine};
+    result.bound = standard.bound;
+    result.known_fault = standard.known_fault;
     const double brightest = brightest_of(hard, scene);
     const EngineSettings settings = engine_settings(engine_kind);
     const std::unique_ptr<VisibilityEngine> engine = make_engine(scene, settings);
@@ -74,7 +94,8 @@ HardResult run(const HardCase& hard, const Scene& scene, EngineKind engine_kind)
         const std::string refused = refusal_of(settings, trial.sonar.settings.view);
         if (!refused.empty()) {
             result.refused = refused;
-            if (rays || !hard.octree_may_refuse) result.broken = "refused: " + refused;
+            if (engine_kind != EngineKind::octree || !hard.octree_may_refuse)
+                result.broken = "refused: " + refused;
             continue;
         }
         Stopwatch watch;
@@ -115,7 +136,8 @@ std::vector<HardCase> hard_cases() {
 
 std::vector<HardResult> run_hard_case(const HardCase& hard) {
     const Scene scene = hard.scene();
-    return {run(hard, scene, EngineKind::rays), run(hard, scene, EngineKind::octree)};
+    return {run(hard, scene, EngineKind::rays), run(hard, scene, EngineKind::octree),
+            run(hard, scene, EngineKind::slices)};
 }
 
 std::string hard_table(const std::vector<HardResult>& results) {

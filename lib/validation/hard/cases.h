@@ -13,7 +13,7 @@
 namespace sonarsim {
 
 // Scenes that are hard on the arithmetic, each with what must come out of it. Every case is run
-// for all four kinds of sonar and with both engines.
+// for all four kinds of sonar and with all engines.
 
 /// One sonar in the scene of a case.
 struct HardTrial {
@@ -37,12 +37,14 @@ inline constexpr float unchecked = -1.0F;
 struct HardBounds {
     double rays = 0.0;
     double octree = 0.0;
+    double slices = -1.0;  ///< below 0: that of the rays
 };
 
 /// What is known to be wrong, and why; empty: nothing.
 struct KnownFaults {
     std::string rays;
     std::string octree;
+    std::string slices = {};
 };
 
 struct HardCase {
@@ -84,8 +86,8 @@ std::vector<HardCase> hard_sonar_limits();
 std::vector<HardCase> hard_noise();
 std::vector<HardCase> hard_invariances();
 
-/// Runs a case with the rays and with the octree. What a mission would be refused for is refused
-/// here, by the same check, and is not rendered. Invariants of every image: no NaN, nothing
+/// Runs a case with the rays, the octree and the slices. What a mission would be refused for is
+/// refused here, by the same check, and is not rendered. Invariants of every image: no NaN, nothing
 /// infinite or negative, and nothing brighter than physics allows.
 std::vector<HardResult> run_hard_case(const HardCase& hard);
 

@@ -172,7 +172,7 @@ std::vector<HardCase> hard_noise() {
              .scene = [] { return moved_tank(utm_odd); },
              .trial = [](SonarKind k) { return in_moved_tank(k, utm_odd, clusters); },
              .truth = multipath_in_unmoved_tank,
-             .bounds = {1e-4, 1e-4}},
+             .bounds = {1e-4, 1e-4, 1e-3}},
             {.name = "multipath in a millimetre",
              .stresses = "is p hidden? in a tank 8e-4 of its size",
              .expected = "the image in full size",

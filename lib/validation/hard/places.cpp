@@ -54,10 +54,6 @@ HardTrial on_turned_floor(SonarKind kind) {
     return trial;
 }
 
-HardTrial plain(SonarKind kind) {
-    return over_floor(kind);
-}
-
 }  // namespace
 
 std::vector<HardCase> hard_places() {
@@ -81,14 +77,14 @@ std::vector<HardCase> hard_places() {
                              add_material(scene, 0.5F));
                      return scene;
                  },
-             .trial = plain,
+             .trial = plain_sonar_over_floor,
              .truth = dark,
              .bounds = {0.0, 0.0}},
             {.name = "empty scene",
              .stresses = "no triangle",
              .expected = "dark",
              .scene = [] { return empty_scene(); },
-             .trial = plain,
+             .trial = plain_sonar_over_floor,
              .truth = dark,
              .bounds = {0, 0}},
             {.name = "empty field of view",
@@ -100,7 +96,7 @@ std::vector<HardCase> hard_places() {
                      add_floor(scene, 30.0F, 8.0F, add_material(scene, 0.5F));
                      return scene;
                  },
-             .trial = plain,
+             .trial = plain_sonar_over_floor,
              .truth = dark,
              .bounds = {0, 0}},
             {.name = "a closed mesh from inside",

@@ -51,6 +51,14 @@ HardTrial in_tank(SonarKind kind, const ConfigChange& change) {
               kind == SonarKind::imaging ? 15.0 : 0.0, 4.0);
 }
 
+HardTrial plain_sonar_over_floor(SonarKind kind) {
+    return over_floor(kind);
+}
+
+HardTrial plain_sonar_in_tank(SonarKind kind) {
+    return in_tank(kind);
+}
+
 Scene moved_tank(const Eigen::Vector3d& by) {
     Scene scene = shapes::tank();
     scene.origin = 10.0 * (by / 10.0).array().round().matrix();
@@ -105,6 +113,10 @@ std::vector<float> plane_law(const HardContext& context, double reflection, doub
     return truth;
 }
 
+std::vector<float> floor_law(const HardContext& context) {
+    return plane_law(context, 0.5, 3.0);
+}
+
 std::vector<float> reference_of(const HardContext& context, const ReferenceGoal& goal) {
     const Caster caster(context.scene);
     const Pose T_world_sensor =
@@ -112,6 +124,10 @@ std::vector<float> reference_of(const HardContext& context, const ReferenceGoal&
     return cast_reference(caster, context.scene, context.trial.sonar.settings.view, T_world_sensor,
                           goal)
         .intensity;
+}
+
+std::vector<float> settled_reference(const HardContext& context) {
+    return reference_of(context, {0.002, 64.0, 2'000'000});
 }
 
 std::vector<float> dark(const HardContext& context) {

@@ -19,9 +19,11 @@ using ConfigChange = std::function<void(SonarConfig&)>;
 
 /// Three metres over z = 0; an imaging sonar pitched down by 30 degrees.
 HardTrial over_floor(SonarKind kind, const ConfigChange& change = {});
+HardTrial plain_sonar_over_floor(SonarKind kind);
 
 /// In the tank of shapes.h.
 HardTrial in_tank(SonarKind kind, const ConfigChange& change = {});
+HardTrial plain_sonar_in_tank(SonarKind kind);
 
 /// The tank somewhere else, as a file that says so would be read: positions are rounded to float
 /// about an origin on a grid of 10 m; and a sonar in it, where in_tank has it.
@@ -43,8 +45,14 @@ Scene plain_floor();
 /// last lit bin of a beam, which the plane fills in part.
 std::vector<float> plane_law(const HardContext& context, double reflection, double height_m);
 
+/// That law three metres over plain_floor().
+std::vector<float> floor_law(const HardContext& context);
+
 /// The brute-force reference of this very scene.
 std::vector<float> reference_of(const HardContext& context, const ReferenceGoal& goal);
+
+/// The same with rays that suffice for what is not thin.
+std::vector<float> settled_reference(const HardContext& context);
 
 std::vector<float> dark(const HardContext& context);
 

@@ -32,6 +32,27 @@ int index_in(float x, int count) {
     return static_cast<int>(std::clamp(x, 0.0F, static_cast<float>(count)));
 }
 
+/// What hides a facet in the pixels of one column is nearer than this, by row: the depth of the
+/// facet's plane at the pixel's centre, within the depths of the facet, and its slack.
+class ColumnDepths {
+  public:
+    ColumnDepths(const ProjectedFacet& facet, int column, float columns_per_beam)
+        : nearest_(facet.depth + facet.depth_range + facet.slack),
+          farthest_(facet.depth - facet.depth_range + facet.slack),
+          per_row_(facet.depth_row) {
+        const float d = (static_cast<float>(column) + 0.5F) / columns_per_beam - facet.beam;
+        first_ =
+            facet.depth + facet.depth_beam * d + facet.depth_row * (0.5F - facet.row) + facet.slack;
+    }
+
+    float at(int row) const {
+        return std::clamp(first_ + per_row_ * static_cast<float>(row), farthest_, nearest_);
+    }
+
+  private:
+    float nearest_, farthest_, per_row_, first_;
+};
+
 }  // namespace
 
 DepthBuffer::DepthBuffer(const ProjectionGrid& grid)
@@ -115,17 +136,11 @@ bool DepthBuffer::is_clear(const ProjectedFacet& facet) const {
     const int columns_begin = index_in(per_beam * (facet.beam - facet.half_beams), grid_.columns);
     const int columns_end =
         index_in(per_beam * (facet.beam + facet.half_beams) + 1.0F, grid_.columns);
-    const float nearest = facet.depth + facet.depth_range + facet.slack;
-    const float farthest = facet.depth - facet.depth_range + facet.slack;
     for (int column = columns_begin; column < columns_end; ++column) {
         const float* const pixels = pixels_of(column);
-        const float d = (static_cast<float>(column) + 0.5F) / per_beam - facet.beam;
-        const float base =
-            facet.depth + facet.depth_beam * d + facet.depth_row * (0.5F - facet.row) + facet.slack;
+        const ColumnDepths depths(facet, column, per_beam);
         for (int r = begin; r < end; ++r) {
-            const float depth =
-                std::clamp(base + facet.depth_row * static_cast<float>(r), farthest, nearest);
-            if (pixels[r] > depth) return false;
+            if (pixels[r] > depths.at(r)) return false;
         }
     }
     return true;
@@ -164,8 +179,6 @@ DepthBuffer::Visibility DepthBuffer::visible_part(const ProjectedFacet& facet, i
         std::max(static_cast<int>(std::floor(left)), beam * grid_.columns_per_beam);
     const int columns_end =
         std::min(static_cast<int>(std::floor(right)) + 1, (beam + 1) * grid_.columns_per_beam);
-    const float nearest = facet.depth + facet.depth_range + facet.slack;
-    const float farthest = facet.depth - facet.depth_range + facet.slack;
     float sum = 0.0F;
     float moment = 0.0F;
     float least = high;
@@ -174,13 +187,9 @@ DepthBuffer::Visibility DepthBuffer::visible_part(const ProjectedFacet& facet, i
         const float* const pixels = pixels_of(column);
         const float width = std::min(right, static_cast<float>(column + 1)) -
                             std::max(left, static_cast<float>(column));
-        const float d = (static_cast<float>(column) + 0.5F) / per_beam - facet.beam;
-        const float base =
-            facet.depth + facet.depth_beam * d + facet.depth_row * (0.5F - facet.row) + facet.slack;
+        const ColumnDepths depths(facet, column, per_beam);
         for (int r = begin; r < end; ++r) {
-            const float depth =
-                std::clamp(base + facet.depth_row * static_cast<float>(r), farthest, nearest);
-            if (pixels[r] > depth) continue;
+            if (pixels[r] > depths.at(r)) continue;
             const float bottom = std::max(low, static_cast<float>(r));
             const float top = std::min(high, static_cast<float>(r + 1));
             const float weight = width * (top - bottom);

@@ -29,11 +29,11 @@ struct Group {
     std::uint32_t material;
 };
 
-class Groups {
+class FacetGroups {
   public:
     void add(const Moments& moments, const Facet& facet, std::uint32_t triangle) {
         const Eigen::Vector3d normal = facet.normal.cast<double>();
-        Group* home = nullptr;
+        Group* home = group_.data();
         double best = -2.0;
         for (int i = 0; i < count_; ++i) {
             Group& group = group_[i];
@@ -162,7 +162,7 @@ int LeafMaker::append(const Cube& cube, std::span<const std::uint32_t> triangles
                       FacetArrays& facets) const {
     const Eigen::Vector3d centre = cube.min.array() + 0.5 * cube.edge;
     const double sliver = 1e-12 * cube.edge * cube.edge;
-    Groups groups;
+    FacetGroups groups;
     for (const std::uint32_t index : triangles) {
         const Triangle whole = triangle(index);
         const Moments m = moments(clip(whole, cube), centre);

@@ -11,7 +11,7 @@
 
 #include "visibility/octree/clip.h"
 #include "visibility/octree/leaf.h"
-#include "visibility/octree/octree_engine.h"
+#include "visibility/octree/options.h"
 #include "visibility/octree/tile.h"
 #include "visibility/octree/tile_cache.h"
 
@@ -75,5 +75,9 @@ class Octree {
     std::atomic<std::uint64_t> pings_{0};
     TileCache cache_;
 };
+
+/// The longest scene, along its longest side, that these options can divide into leaves: 2^30 of
+/// them, less one at either end.
+double longest_octree_scene_m(const OctreeOptions& options);
 
 }  // namespace sonarsim

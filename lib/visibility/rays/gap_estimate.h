@@ -1,6 +1,6 @@
 #pragma once
 
-#include "visibility/rays/ray_columns.h"
+#include "visibility/rays/cast_ray.h"
 #include "visibility/rays/sampling.h"
 
 namespace sonarsim {

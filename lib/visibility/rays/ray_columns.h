@@ -1,36 +1,16 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <cstdint>
 #include <vector>
 
 #include "visibility/angles.h"
 #include "visibility/caster.h"
 #include "visibility/local_pose.h"
+#include "visibility/rays/cast_ray.h"
 #include "visibility/rays/sampling.h"
 #include "visibility/view.h"
 
 namespace sonarsim {
-
-/// A ray of a column and the plane of the facet that it met, in the sensor frame.
-struct CastRay {
-    static constexpr int none = -1;
-
-    Eigen::Vector3f direction;
-    float along;                                       ///< its angle along the column, rad
-    Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< towards the sensor
-    float height_m = 0.0F;                             ///< of the sensor above the plane
-    float cosine = 0.0F;                               ///< of the angle of incidence
-    float range_m = 0.0F;
-    std::uint32_t facet = Caster::nothing;
-    std::uint32_t material = 0;
-    std::uint32_t instance = 0;
-    int next = none;         ///< index of the next ray along the column
-    bool continuous = true;  ///< the surface continues from this ray to the next, as far as known
-    float border = 0.5F;     ///< where this ray's part ends, as a share of the way to the next
-
-    bool missed() const { return facet == Caster::nothing; }
-};
 
 /// Rays that sweep one column of the view, or an edge strip over a part of one.
 struct RayColumn {

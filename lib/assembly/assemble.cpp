@@ -1,4 +1,4 @@
-#include "dataset/assemble.h"
+#include "assembly/assemble.h"
 
 #include <variant>
 
@@ -48,7 +48,7 @@ Assembly assemble(const Mission& mission) {
     Assembly assembly;
     assembly.trajectory =
         std::visit([](const auto& config) { return poses_of(config); }, mission.trajectory);
-    const EngineSettings settings = engine_settings(mission.engine, mission.octree);
+    const EngineSettings settings = engine_settings(mission);
     for (const SonarConfig& sensor : mission.sensors) {
         const Sonar& sonar = assembly.sonars.emplace_back(make_sonar(sensor, mission.accuracy));
         const std::string refusal = refusal_of(settings, sonar.settings.view);

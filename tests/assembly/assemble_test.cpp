@@ -1,4 +1,4 @@
-#include "dataset/assemble.h"
+#include "assembly/assemble.h"
 
 #include <doctest/doctest.h>
 
@@ -71,7 +71,7 @@ struct MissionOnDisk {
 
 }  // namespace
 
-TEST_SUITE("dataset") {
+TEST_SUITE("assembly") {
     TEST_CASE("assemble: a mission's files become a scene, poses and sonars") {
         const MissionOnDisk disk;
         const Assembly assembly = assemble(disk.load("{file: poses.csv}"));
@@ -143,5 +143,29 @@ TEST_SUITE("dataset") {
                    "material,density_kg_m3,sound_speed_m_s\nconcrete,2401,3100\n");
         CHECK_THROWS_AS(run_job(mission, {}, {}, stop), InputError);
         CHECK(run_job(mission, {.overwrite = true}, {}, stop).pings == 2);
+    }
+
+    TEST_CASE("assemble: the inputs' hash tells scenes, materials and poses apart") {
+        const Mission mission = small_mission("out");
+        const Assembly assembly = small_assembly(mission, 7);
+        const std::string hash = inputs_hash(assembly);
+        CHECK(hash.size() == 32);
+        CHECK(inputs_hash(assembly) == hash);
+        const auto changed = [&](auto change) {
+            Assembly other = assembly;
+            change(other);
+            return inputs_hash(other) != hash;
+        };
+        CHECK(changed([](Assembly& a) { a.scene.vertices[0].x() += 1e-3F; }));
+        CHECK(changed([](Assembly& a) { a.scene.origin.x() += 1e-3; }));
+        CHECK(changed(
+            [](Assembly& a) { std::swap(a.scene.triangles[0][0], a.scene.triangles[0][1]); }));
+        CHECK(changed([](Assembly& a) { ++a.scene.triangle_material[0]; }));
+        CHECK(changed([](Assembly& a) { ++a.scene.triangle_instance[0]; }));
+        CHECK(changed([](Assembly& a) { a.scene.materials[0].density_kg_m3 += 1.0; }));
+        CHECK(changed([](Assembly& a) { a.scene.materials[0].sound_speed_m_s += 1.0; }));
+        CHECK(changed([](Assembly& a) { a.scene.instances[0] += "x"; }));
+        CHECK(changed([](Assembly& a) { a.trajectory[6].t_s += 1e-6; }));
+        CHECK(changed([](Assembly& a) { a.trajectory.pop_back(); }));
     }
 }

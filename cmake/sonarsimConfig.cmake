@@ -1,0 +1,13 @@
+# Gives sonarsim::sonarsim, the library. It is static, so that its packages are needed as well.
+include(CMakeFindDependencyMacro)
+find_dependency(Threads)
+find_dependency(Eigen3 3.4)
+find_dependency(embree)
+find_dependency(TBB)
+find_dependency(spdlog)
+find_dependency(yaml-cpp)
+find_dependency(nlohmann_json)
+find_dependency(TinyGLTF)
+find_dependency(PkgConfig)
+pkg_check_modules(OIIO REQUIRED IMPORTED_TARGET OpenImageIO)
+include(${CMAKE_CURRENT_LIST_DIR}/sonarsimTargets.cmake)

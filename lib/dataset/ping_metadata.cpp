@@ -1,0 +1,41 @@
+#include "dataset/ping_metadata.h"
+
+namespace sonarsim {
+
+using Json = nlohmann::ordered_json;
+
+Json describe_pose(const Pose& pose) {
+    const Eigen::Vector3d& p = pose.translation;
+    const Eigen::Quaterniond& q = pose.rotation;
+    return {{"position_m", {p.x(), p.y(), p.z()}},
+            {"quaternion_xyzw", {q.x(), q.y(), q.z(), q.w()}}};
+}
+
+Json describe_ping(const Mission& mission, const Assembly& assembly, const FinishedPing& finished) {
+    const PingId& id = finished.id;
+    const PingCounts& counts = finished.ping.counts;
+    const Sonar& sonar = assembly.sonars[id.sensor];
+    const TimedPose& pose = assembly.trajectory[id.pose];
+    const Pose T_world_sensor = sensor_pose(sonar, pose.T_world_vehicle, id.pose);
+    Json json = {
+        {"sensor", sonar.config.name},
+        {"settings", "mission.resolved.yaml#/sensors/" + sonar.config.name},
+        {"ping", id.pose},
+        {"time_s", pose.t_s},
+        {"T_world_vehicle", describe_pose(pose.T_world_vehicle)},
+        {"T_world_sensor", describe_pose(T_world_sensor)},
+        {"random", {{"seed", mission.seed}, {"stream", sonar.settings.stream}, {"ping", id.pose}}},
+        {"full_scale", mission.output.full_scale},
+        {"clipped_pixels", finished.clipped_pixels},
+        {"counts", json_object<Json>(ping_counters, counts)}};
+    json["counts"]["multipath"] = json_object<Json>(multipath_counters, counts.multipath);
+    if (!finished.measured.is_null()) json["measured"] = finished.measured;
+    return json;
+}
+
+std::string json_text(const Json& json) {
+    // A mission's name may be any bytes; what is no UTF-8 becomes U+FFFD.
+    return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,184 @@
+#include "visibility/slices/envelope.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sonarsim {
+
+namespace {
+
+constexpr float never = std::numeric_limits<float>::infinity();
+constexpr Extent everywhere{-never, never};
+
+// Along edges that triangles share without sharing their corners, cracks open that are as wide as
+// floats are coarse. What shows through them is not there.
+constexpr float narrowest_span = 2e-6F;
+
+/// A sweep over w with one segment on top and those under it open.
+class Sweep {
+  public:
+    Sweep(std::span<const Segment> segments, const SliceScene& scene, const Slice& slice,
+          std::vector<std::uint32_t>& open, std::vector<VisibleSpan>& out)
+        : segments_(segments), scene_(scene), slice_(slice), open_(open), out_(out) {
+        open_.clear();
+    }
+
+    void run() {
+        std::uint32_t next = 0;
+        const auto count = static_cast<std::uint32_t>(segments_.size());
+        while (next < count || top_ != none) {
+            const float start =
+                next < count ? std::max(segments_[next].w_low, slice_.w_low) : never;
+            const float end = top_ == none ? never : std::min(top().w_high, slice_.w_high);
+            if (start <= std::min(end, crossing_)) {
+                if (start >= slice_.w_high) {
+                    if (top_ == none) return;
+                    next = count;
+                    continue;
+                }
+                begin_segment(next++, start);
+            } else if (crossing_ < end) {
+                const std::uint32_t above = crosses_;
+                replace_top(above, crossing_, crossing_border(top_, above));
+            } else {
+                end_top(end);
+            }
+        }
+    }
+
+  private:
+    static constexpr std::uint32_t none = 0xFFFFFFFFU;
+
+    const Segment& top() const { return segments_[top_]; }
+
+    void begin_segment(std::uint32_t s, float w) {
+        const Segment& segment = segments_[s];
+        if (segment.w_high <= w) return;
+        const bool at_border = segment.w_low < w;
+        const Trapezoid& trapezoid = scene_.trapezoids[segment.trapezoid];
+        const Border border = at_border
+                                  ? Border{slice_.w_low_slope, never, everywhere}
+                                  : Border{trapezoid.slope[0], segment.q_at(w), trapezoid.low};
+        if (top_ == none) {
+            set_top(s, w, border);
+            return;
+        }
+        const float q = segment.q_at(w);
+        const float q_top = top().q_at(w);
+        if (q > q_top || (q == q_top && segment.q_slope > top().q_slope)) {
+            replace_top(s, w, border);
+        } else {
+            open_.push_back(s);
+            note_crossing(s, w);
+        }
+    }
+
+    void set_top(std::uint32_t s, float w, const Border& border) {
+        top_ = s;
+        begin_ = w;
+        begin_border_ = border;
+        crossing_ = never;
+    }
+
+    /// `s` rises above the top at w; where that is, moves with `border`.
+    void replace_top(std::uint32_t s, float w, const Border& border) {
+        emit(w, border);
+        const std::uint32_t below = top_;
+        set_top(s, w, border);
+        if (segments_[below].w_high > w) open_.push_back(below);
+        find_crossing(w);
+    }
+
+    void end_top(float w) {
+        const bool at_border = top().w_high > w;
+        const Trapezoid& trapezoid = scene_.trapezoids[top().trapezoid];
+        const Border border = at_border ? Border{slice_.w_high_slope, never, everywhere}
+                                        : Border{trapezoid.slope[1], top().q_at(w), trapezoid.high};
+        emit(w, border);
+        top_ = none;
+        crossing_ = never;
+        if (at_border) {
+            open_.clear();
+            return;
+        }
+        float best = -never;
+        float best_slope = -never;
+        std::uint32_t next = none;
+        std::erase_if(open_, [&](std::uint32_t s) { return segments_[s].w_high <= w; });
+        for (const std::uint32_t s : open_) {
+            const float q = segments_[s].q_at(w);
+            const float q_slope = segments_[s].q_slope;
+            if (q > best || (q == best && q_slope > best_slope)) {
+                best = q;
+                best_slope = q_slope;
+                next = s;
+            }
+        }
+        if (next == none) return;
+        set_top(next, w, border);
+        find_crossing(w);
+    }
+
+    /// Finds the first open segment that rises above the top after w.
+    void find_crossing(float w) {
+        std::erase_if(open_,
+                      [&](std::uint32_t s) { return s == top_ || segments_[s].w_high <= w; });
+        for (const std::uint32_t s : open_)
+            note_crossing(s, w);
+    }
+
+    void note_crossing(std::uint32_t s, float w) {
+        const Segment& segment = segments_[s];
+        const float faster = segment.q_slope - top().q_slope;
+        if (!(faster > 0.0F)) return;
+        const float behind = std::max(top().q_at(w) - segment.q_at(w), 0.0F);
+        const float at = w + behind / faster;
+        if (at < crossing_ && at < std::min(segment.w_high, top().w_high)) {
+            crossing_ = at;
+            crosses_ = s;
+        }
+    }
+
+    /// The line where two planes cross. On a plane -h q = n . (1, u, w).
+    Border crossing_border(std::uint32_t a, std::uint32_t b) const {
+        const Trapezoid& s = scene_.trapezoids[segments_[a].trapezoid];
+        const Trapezoid& t = scene_.trapezoids[segments_[b].trapezoid];
+        const SeenFacet& f = scene_.facets[s.seen];
+        const SeenFacet& g = scene_.facets[t.seen];
+        const Eigen::Vector3f apart = f.normal * g.height_m - g.normal * f.height_m;
+        const float slope = -apart.y() / apart.z();
+        return {std::isfinite(slope) ? slope : 0.0F,
+                segments_[b].q_at(crossing_),
+                {std::max(s.ends.from, t.ends.from), std::min(s.ends.to, t.ends.to)}};
+    }
+
+    void emit(float w, const Border& border) {
+        if (!(w - begin_ > narrowest_span * (1.0F + std::fabs(w)))) return;
+        const Trapezoid& trapezoid = scene_.trapezoids[top().trapezoid];
+        const SeenFacet& seen = scene_.facets[trapezoid.seen];
+        out_.push_back({begin_, w, top().q_at(begin_), top().q_at(w), begin_border_, border,
+                        trapezoid.ends, seen.range_m, top().trapezoid});
+    }
+
+    std::span<const Segment> segments_;
+    const SliceScene& scene_;
+    const Slice& slice_;
+    std::vector<std::uint32_t>& open_;  ///< under the top; some may have ended
+    std::vector<VisibleSpan>& out_;
+    std::uint32_t top_ = none;
+    float begin_ = 0.0F;  ///< of the top's visible span
+    Border begin_border_{};
+    float crossing_ = never;  ///< where an open segment rises above the top
+    std::uint32_t crosses_ = none;
+};
+
+}  // namespace
+
+void visible_spans(std::span<const Segment> segments, const SliceScene& scene, const Slice& slice,
+                   EnvelopeScratch& scratch, std::vector<VisibleSpan>& out) {
+    out.clear();
+    Sweep(segments, scene, slice, scratch.open, out).run();
+}
+
+}  // namespace sonarsim

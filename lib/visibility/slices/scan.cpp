@@ -1,0 +1,167 @@
+#include "visibility/slices/scan.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/elementary.h"
+
+namespace sonarsim {
+
+namespace {
+
+// The picture plane stretches by 1 / cos^2 towards the edges of a sector.
+constexpr double widest_sector = 2.1;  // rad
+
+// A strip of sides follows a line of constant elevation, its slice a great circle: over this
+// azimuth the two differ by 2 % of the elevation.
+constexpr double widest_side = 0.4;  // rad
+
+constexpr double widest_gap = 0.0088;      // between the slices of a fan, rad
+constexpr double widest_side_gap = 0.035;  // between those of sides
+constexpr int cone_slices = 96;            // at one per beam
+
+// The poles of a view lie at w = infinity. Within 1e-3 rad of them nothing is looked for.
+constexpr double steepest = 1e3;
+
+double tangent(double angle) {
+    const SinCos s = sincos(angle);
+    return s.cos > 0.0 ? std::clamp(s.sin / s.cos, -steepest, steepest)
+                       : std::copysign(steepest, s.sin);
+}
+
+/// How far slice `g` lies beside its place, in gaps: a little, and each by another share, so that
+/// no edge of a scene that is built along the sonar's axes runs along a slice.
+double aside(int g) {
+    constexpr double golden = 0.6180339887498949;
+    const double turns = golden * (g + 1);
+    return 1e-3 * (0.5 + 0.5 * (turns - std::floor(turns)));
+}
+
+/// Equal gaps over an angle across, numbered through all sectors.
+struct Gaps {
+    double low;  ///< rad
+    double width;
+    int count;
+    int per_beam;
+    int first_beam;
+
+    double at(double g) const { return low + g * width; }
+    int beam(int g) const { return first_beam + g / per_beam; }
+};
+
+/// The slice before gap `g`, of those in a sector of the gaps [first, last), whose middle lies at
+/// `centre`.
+Slice slice_at(const Gaps& gaps, int g, int first, int last, double centre) {
+    const auto u = [&](double at) { return static_cast<float>(tangent(gaps.at(at) - centre)); };
+    Slice slice{};
+    slice.u = u(g + aside(g));
+    const float border = u(g);
+    if (g > first) slice.strip[slice.strips++] = {gaps.beam(g - 1), u(g - 0.5), border};
+    if (g < last) slice.strip[slice.strips++] = {gaps.beam(g), border, u(g + 0.5)};
+    if (slice.strips == 2 && slice.strip[0].beam == slice.strip[1].beam) {
+        slice.strip[0].u_high = slice.strip[1].u_high;
+        slice.strips = 1;
+    }
+    return slice;
+}
+
+/// Frames whose axis along is the pole of the view: slices are meridians between two latitudes.
+void add_meridians(const Gaps& gaps, double latitude_low, double latitude_high,
+                   const Eigen::Matrix3d& axes, std::vector<SliceFrame>& frames) {
+    const int sectors =
+        std::max(1, static_cast<int>(std::ceil(gaps.count * gaps.width / widest_sector - 1e-9)));
+    const double low = tangent(latitude_low);
+    const double high = tangent(latitude_high);
+    for (int s = 0; s < sectors; ++s) {
+        const int first = static_cast<int>(static_cast<long>(gaps.count) * s / sectors);
+        const int last = static_cast<int>(static_cast<long>(gaps.count) * (s + 1) / sectors);
+        if (first == last) continue;
+        const double centre = gaps.at(0.5 * (first + last));
+        const SinCos turn = sincos(centre);
+        SliceFrame frame;
+        Eigen::Matrix3d R;
+        R.row(0) = turn.cos * axes.row(0) + turn.sin * axes.row(1);
+        R.row(1) = turn.cos * axes.row(1) - turn.sin * axes.row(0);
+        R.row(2) = axes.row(2);
+        frame.R_frame_sensor = R.cast<float>();
+        frame.w_low = frame.w_high = static_cast<float>(low);
+        for (int g = first; g <= last; ++g) {
+            Slice slice = slice_at(gaps, g, first, last, centre);
+            const double u = slice.u;
+            const double secant = std::sqrt(1.0 + u * u);
+            slice.w_low = static_cast<float>(low * secant);
+            slice.w_high = static_cast<float>(high * secant);
+            slice.w_low_slope = static_cast<float>(low * u / secant);
+            slice.w_high_slope = static_cast<float>(high * u / secant);
+            frame.w_low = std::min({frame.w_low, slice.w_low, static_cast<float>(low)});
+            frame.w_high = std::max({frame.w_high, slice.w_high, static_cast<float>(high)});
+            frame.slices.push_back(slice);
+        }
+        frames.push_back(frame);
+    }
+}
+
+/// Frames whose slices run from `azimuth_low` to `azimuth_high` one above the other.
+void add_parallels(const Gaps& gaps, double azimuth_low, double azimuth_high,
+                   std::vector<SliceFrame>& frames) {
+    const int sectors =
+        std::max(1, static_cast<int>(std::ceil((azimuth_high - azimuth_low) / widest_side - 1e-9)));
+    const double width = (azimuth_high - azimuth_low) / sectors;
+    for (int s = 0; s < sectors; ++s) {
+        const SinCos turn = sincos(azimuth_low + (s + 0.5) * width);
+        SliceFrame frame;
+        frame.widens = true;
+        Eigen::Matrix3d R;
+        R << turn.cos, turn.sin, 0.0, 0.0, 0.0, 1.0, -turn.sin, turn.cos, 0.0;
+        frame.R_frame_sensor = R.cast<float>();
+        frame.w_high = static_cast<float>(tangent(0.5 * width));
+        frame.w_low = -frame.w_high;
+        for (int g = 0; g <= gaps.count; ++g) {
+            Slice slice = slice_at(gaps, g, 0, gaps.count, 0.0);
+            slice.w_low = frame.w_low;
+            slice.w_high = frame.w_high;
+            frame.slices.push_back(slice);
+        }
+        frames.push_back(frame);
+    }
+}
+
+Gaps gaps_over(double low, double width, int beams, int per_beam, int first_beam = 0) {
+    return {low, width / (static_cast<double>(beams) * per_beam), beams * per_beam, per_beam,
+            first_beam};
+}
+
+}  // namespace
+
+std::vector<SliceFrame> slice_frames(const View& view, int per_beam) {
+    std::vector<SliceFrame> frames;
+    const double half_azimuth = 0.5 * view.azimuth_rad;
+    const double half_elevation = 0.5 * view.elevation_rad;
+    const auto enough = [&](double width, double widest) {
+        return per_beam * std::max(1, static_cast<int>(std::ceil(width / widest - 1e-9)));
+    };
+    Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+    switch (view.shape) {
+        case ViewShape::fan:
+            add_meridians(gaps_over(-half_azimuth, view.azimuth_rad, view.beams,
+                                    enough(view.azimuth_rad / view.beams, widest_gap)),
+                          -half_elevation, half_elevation, axes, frames);
+            break;
+        case ViewShape::sides:
+            for (const int side : {0, 1}) {
+                const Gaps gaps = gaps_over(-half_elevation, view.elevation_rad, 1,
+                                            enough(view.elevation_rad, widest_side_gap), side);
+                add_parallels(gaps, side == 0 ? -half_azimuth : 0.0, side == 0 ? 0.0 : half_azimuth,
+                              frames);
+            }
+            break;
+        case ViewShape::cone:
+            axes << 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0;
+            add_meridians(gaps_over(-pi, 2.0 * pi, 1, cone_slices * per_beam),
+                          0.5 * pi - half_azimuth, 0.5 * pi, axes, frames);
+            break;
+    }
+    return frames;
+}
+
+}  // namespace sonarsim

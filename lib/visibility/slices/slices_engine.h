@@ -1,0 +1,19 @@
+#pragma once
+
+#include <memory>
+
+#include "scene/scene.h"
+#include "visibility/engine.h"
+
+namespace sonarsim {
+
+struct SlicesOptions {
+    int per_beam = 0;  ///< slices to a beam; 0: what the view's error goal calls for
+};
+
+/// The slices engine: half-planes through the sensor, exact along each. `scene` must outlive it.
+/// Throws std::runtime_error when Embree, which traces the secondary rays, cannot build its tree.
+std::unique_ptr<VisibilityEngine> make_slices_engine(const Scene& scene,
+                                                     const SlicesOptions& options);
+
+}  // namespace sonarsim

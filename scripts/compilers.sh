@@ -1,0 +1,25 @@
+#!/usr/bin/env bash
+# ./scripts/compilers.sh: builds the program with g++ -O3, g++ -O2 and clang++ -O3 (below
+# build-compilers/) and compares the bytes that they render.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+SONARSIM_BUILD=no ./scripts/setup.sh clang
+
+programs=()
+for build in "g++ -O3" "g++ -O2" "clang++ -O3"; do
+    read -r compiler level <<<"$build"
+    folder=build-compilers/$compiler$level
+    # No warning ends this build: where a folder is one file to the compiler, a name of one file
+    # shadows that of another. The other builds look at warnings file by file.
+    cmake --preset program -B "$folder" -DCMAKE_CXX_COMPILER="$compiler" -DSONARSIM_WERROR=OFF \
+        -DCMAKE_CXX_FLAGS_RELEASE="$level -DNDEBUG" >&2
+    cmake --build "$folder" --target sonarsim >&2
+    programs+=("$folder/sonarsim")
+done
+exec ./scripts/same_bytes.py \
+    --mission tests/four_sonars.yaml,engine=rays --mission tests/four_sonars.yaml,engine=octree \
+    --mission tests/four_sonars.yaml,engine=slices \
+    --mission configs/tank_imaging.yaml,trajectory.rate_hz=0.5 \
+    --mission configs/tank_multipath.yaml,trajectory.rate_hz=0.5 \
+    --mission configs/tank_scanning.yaml \
+    "${programs[@]}"

@@ -1,0 +1,137 @@
+"""A lifeboat in close-up: a hull with rails, ropes and gear, all of one material."""
+import math
+
+from .glb import Part
+from .shapes import add_box, add_cylinder, add_sphere, add_torus
+
+LENGTH, BEAM, DEPTH = 7.5, 2.6, 1.5
+
+
+def half_breadth(u, v):
+    """Of the hull at u along it (-1 stern, 1 bow) and v up it (0 keel, 1 gunwale), in metres."""
+    return BEAM / 2 * max(0.0, 1 - abs(u) ** 2.6) ** 0.75 * v ** 0.45
+
+
+def hull_point(u, v, side, inset=0.0):
+    sheer = 0.35 * u * u
+    return (LENGTH / 2 * u, side * max(0.0, half_breadth(u, v) - inset),
+            DEPTH * v + sheer * v)
+
+
+def hull():
+    part = Part("hull", "steel")
+    along, up = 46, 11
+    for side in (-1, 1):
+        rows = [[part.add_vertex(*hull_point(2 * i / along - 1, j / up, side))
+                 for i in range(along + 1)] for j in range(up + 1)]
+        for j in range(up):
+            for i in range(along):
+                part.add_quad(rows[j][i], rows[j][i + 1], rows[j + 1][i + 1], rows[j + 1][i])
+    return part
+
+
+def thwarts():
+    """Benches across the boat, and the deck at bow and stern."""
+    part = Part("thwarts", "steel")
+    for k in range(5):
+        u = -0.6 + 0.28 * k
+        breadth = 2 * half_breadth(u, 0.7)
+        add_box(part, (LENGTH / 2 * u, 0.0, 0.75 * DEPTH), (0.22, breadth, 0.03))
+        for side in (-1, 1):
+            add_cylinder(part, (LENGTH / 2 * u, 0.4 * side, 0.05),
+                         (LENGTH / 2 * u, 0.4 * side, 0.75 * DEPTH), 0.02, 6)
+    return part
+
+
+def rails():
+    """Stanchions with two rails along both sides, and a roof of hoops."""
+    part = Part("rails", "steel")
+    posts = [-0.86 + 1.72 * k / 14 for k in range(15)]
+    for side in (-1, 1):
+        feet = [hull_point(u, 1.0, side) for u in posts]
+        for x, y, z in feet:
+            add_cylinder(part, (x, y, z), (x, y, z + 0.6), 0.012, 6)
+        for a, b in zip(feet, feet[1:]):
+            for height in (0.3, 0.6):
+                add_cylinder(part, (a[0], a[1], a[2] + height), (b[0], b[1], b[2] + height),
+                             0.01, 6)
+    for u in (-0.4, -0.1, 0.2):
+        x, y, z = hull_point(u, 1.0, 1)
+        arc = [(x, y * math.cos(math.pi * k / 10), z + 0.9 * math.sin(math.pi * k / 10))
+               for k in range(11)]
+        for a, b in zip(arc, arc[1:]):
+            add_cylinder(part, a, b, 0.015, 6)
+    return part
+
+
+def ropes():
+    """Grab lines that hang in bights along the hull, and a line from bow to stern."""
+    part = Part("ropes", "steel")
+    steps = 4
+    for side in (-1, 1):
+        for k in range(10):
+            points = []
+            for i in range(steps + 1):
+                u = -0.8 + 1.6 * (k + i / steps) / 10
+                x, y, z = hull_point(u, 0.95, side)
+                sag = 0.18 * (1 - (2 * i / steps - 1) ** 2)
+                points.append((x, y + 0.02 * side, z - sag))
+            for a, b in zip(points, points[1:]):
+                add_cylinder(part, a, b, 0.006, 4)
+    bow, stern = hull_point(0.97, 1.0, 1), hull_point(-0.97, 1.0, 1)
+    add_cylinder(part, (bow[0], 0.0, bow[2]), (0.4, 0.0, 3.1), 0.005, 4)
+    add_cylinder(part, (0.4, 0.0, 3.1), (stern[0], 0.0, stern[2]), 0.005, 4)
+    add_cylinder(part, (0.4, 0.0, 0.05), (0.4, 0.0, 3.1), 0.03, 10)
+    return part
+
+
+def gear():
+    """Engine, propeller, barrels, life buoys and fenders."""
+    part = Part("gear", "steel")
+    add_box(part, (-2.6, 0.0, 0.6), (0.9, 0.6, 0.7))
+    add_cylinder(part, (-3.0, 0.0, 0.2), (-3.9, 0.0, 0.1), 0.03, 10)
+    for k in range(4):
+        angle = math.radians(90 * k)
+        add_box(part, (-3.9, 0.14 * math.cos(angle), 0.1 + 0.14 * math.sin(angle)),
+                (0.02, 0.12, 0.2), 20.0)
+    for x, y in ((1.6, 0.4), (1.6, -0.4), (2.1, 0.0)):
+        add_cylinder(part, (x, y, 0.15), (x, y, 0.85), 0.2, 20)
+    for x in (-1.2, 0.9):
+        add_torus(part, (x, 0.0, 1.25), 0.3, 0.05, 20, 8)
+    for side in (-1, 1):
+        for u in (-0.5, 0.0, 0.5):
+            x, y, z = hull_point(u, 0.75, side)
+            add_sphere(part, (x, y + 0.12 * side, z), (0.12, 0.12, 0.25), 1)
+    return part
+
+
+def quartered(part, levels):
+    """The same surface with every triangle cut into four, `levels` times."""
+    for _ in range(levels):
+        finer = Part(part.name, part.material)
+        middles = {}
+
+        finer.vertices.extend(part.vertices)
+
+        def middle(a, b):
+            key = (min(a, b), max(a, b))
+            if key not in middles:
+                middles[key] = len(finer.vertices) // 3
+                # Not rounded to 0.1 mm: the surface must stay what it is.
+                finer.vertices.extend((part.vertices[3 * a + k] + part.vertices[3 * b + k]) / 2
+                                      for k in range(3))
+            return middles[key]
+
+        for material, numbers in part.indices.items():
+            for k in range(0, len(numbers), 3):
+                a, b, c = numbers[k:k + 3]
+                ab, bc, ca = middle(a, b), middle(b, c), middle(c, a)
+                for triangle in ((a, ab, ca), (b, bc, ab), (c, ca, bc), (ab, bc, ca)):
+                    finer.add_triangle(*triangle, material)
+        part = finer
+    return part
+
+
+def build(levels=0):
+    return [quartered(part, levels)
+            for part in (hull(), thwarts(), rails(), ropes(), gear())]

@@ -1,0 +1,42 @@
+"""Installs a build into a temporary folder, and builds and runs a project that uses it there.
+
+    python3 tests/consumer/test_install.py <build folder> <compiler>
+"""
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+
+def run(*command):
+    result = subprocess.run([str(word) for word in command], capture_output=True, text=True)
+    assert result.returncode == 0, f"{command}\n{result.stdout}{result.stderr}"
+    return result.stdout
+
+
+def main(build, compiler):
+    consumer = pathlib.Path(__file__).resolve().parent
+    with tempfile.TemporaryDirectory() as folder:
+        prefix, own = pathlib.Path(folder, "prefix"), pathlib.Path(folder, "build")
+        run("cmake", "--install", build, "--prefix", prefix)
+        for name in ("bin/sonarsim", "share/doc/sonarsim/README.md", "share/doc/sonarsim/docs/model.md",
+                     "share/sonarsim/scenes/tank.glb"):
+            assert (prefix / name).exists(), f"not installed: {name}"
+        run(prefix / "bin/sonarsim", "validate", prefix / "share/sonarsim/configs/tank_imaging.yaml")
+        run("cmake", "-S", consumer, "-B", own, f"-DCMAKE_PREFIX_PATH={prefix}",
+            f"-DCMAKE_CXX_COMPILER={compiler}", "-DCMAKE_BUILD_TYPE=Release",
+            "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON")
+        # The project itself asks for no standard and no instruction set.
+        command = (own / "compile_commands.json").read_text()
+        for option in ("-std=gnu++20", "-march=x86-64-v3", "-DEIGEN_MPL2_ONLY"):
+            assert option in command, f"{option} is missing in {command}"
+        assert "-Wall" not in command, command
+        run("cmake", "--build", own)
+        # 512 bins from 0.1 to 10 m: the wall at 5 m lies in bin 253, which begins at 4.992 m.
+        range_m = float(run(own / "one_ping"))
+        assert 5.0 - 9.9 / 512 < range_m <= 5.0, range_m
+        print(f"installed, found, built and run: the wall echoes from {range_m} m on")
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
