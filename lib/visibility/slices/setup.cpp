@@ -257,6 +257,7 @@ class Setup {
         }
         const float side = height < 0.0F ? -1.0F : 1.0F;
         out_.facets.push_back({side * normal, side * height, facet, range_of(c, side * height)});
+        out_.met[mesh_.facets[facet].piece] = true;
         return true;
     }
 
