@@ -41,14 +41,15 @@ int find_boxes(const Echoes& echoes, std::size_t begin, std::size_t count, const
     for (std::size_t k = 0; k < count; ++k) {
         const float centre = (range_m[k] - range_min_m) * per_bin;
         const float half = std::max(half_m[k] * per_bin, least_half);
-        const float density = weight[k] / (2.0F * half);
-        const float echo = density * intensity[k];
         const float low = std::max(centre - half, 0.0F);
         const float high = std::min(centre + half, end);
         const bool inside = low < high;
         outside += inside ? 0 : 1;
         const float from = inside ? low : 0.0F;
         const float to = inside ? high : 0.0F;
+        // Not by its empty box alone: an echo that is no number is outside, too.
+        const float density = inside ? weight[k] / (2.0F * half) : 0.0F;
+        const float echo = inside ? density * intensity[k] : 0.0F;
         const float first = std::floor(from);
         const float last = std::min(std::floor(to), end - 1.0F);
         // A box within one bin is all head.
