@@ -31,43 +31,44 @@ inline PhiloxBlock philox(PhiloxBlock c, PhiloxKey key) {
     return c;
 }
 
-/// Philox for a batch of counters, in place: counter k is (x0[k], x1[k], x2[k], x3[k]) and becomes
-/// its random block. `count` is a multiple of 8. Eight counters at a time in AVX2 registers; what a
-/// compiler makes of a loop over `philox` takes more than twice as long.
-inline void philox_batch(std::uint32_t* x0, std::uint32_t* x1, std::uint32_t* x2, std::uint32_t* x3,
-                         std::size_t count, PhiloxKey first_key) {
-    const __m256i a = _mm256_set1_epi64x(0xD2511F53);
-    const __m256i b = _mm256_set1_epi64x(0xCD9E8D57);
+/// Rounds of the draws that come by the million. The authors know of no statistical flaw of
+/// Philox2x32 from 6 rounds on; with 10 it would take 1.4 times as long.
+constexpr int pair_rounds = 7;
+
+/// Philox2x32 of the same paper for a batch of counters, in place: counter k is (x0[k], x1[k]) and
+/// becomes two random words. `count` is a multiple of 8. Philox2x32 has a key of one word: the
+/// second goes into the counter. Two families of draws meet only when their first words are equal,
+/// and then in other counters. Eight counters at a time in AVX2 registers; what a compiler makes of
+/// the plain loop takes more than twice as long.
+inline void philox_pairs(std::uint32_t* x0, std::uint32_t* x1, std::size_t count, PhiloxKey key) {
+    const __m256i multiplier = _mm256_set1_epi64x(0xD256D193);
+    const __m256i second_key = _mm256_set1_epi32(static_cast<int>(key.k1));
     const auto at = [](std::uint32_t* x, std::size_t k) {
         return reinterpret_cast<__m256i*>(x + k);
     };
     for (std::size_t k = 0; k < count; k += 8) {
-        __m256i c0 = _mm256_loadu_si256(at(x0, k));
-        __m256i c1 = _mm256_loadu_si256(at(x1, k));
-        __m256i c2 = _mm256_loadu_si256(at(x2, k));
-        __m256i c3 = _mm256_loadu_si256(at(x3, k));
-        PhiloxKey key = first_key;
-        for (int round = 0; round < 10; ++round) {
-            // Products of the even and of the odd lanes: 64 bits each, low and high halves apart.
-            const __m256i a_even = _mm256_mul_epu32(c0, a);
-            const __m256i a_odd = _mm256_mul_epu32(_mm256_srli_epi64(c0, 32), a);
-            const __m256i b_even = _mm256_mul_epu32(c2, b);
-            const __m256i b_odd = _mm256_mul_epu32(_mm256_srli_epi64(c2, 32), b);
-            const __m256i a_high = _mm256_blend_epi32(_mm256_srli_epi64(a_even, 32), a_odd, 0xAA);
-            const __m256i b_high = _mm256_blend_epi32(_mm256_srli_epi64(b_even, 32), b_odd, 0xAA);
-            const __m256i k0 = _mm256_set1_epi32(static_cast<int>(key.k0));
-            const __m256i k1 = _mm256_set1_epi32(static_cast<int>(key.k1));
-            c0 = _mm256_xor_si256(_mm256_xor_si256(b_high, c1), k0);
-            c1 = _mm256_blend_epi32(b_even, _mm256_slli_epi64(b_odd, 32), 0xAA);
-            c2 = _mm256_xor_si256(_mm256_xor_si256(a_high, c3), k1);
-            c3 = _mm256_blend_epi32(a_even, _mm256_slli_epi64(a_odd, 32), 0xAA);
-            key.k0 += 0x9E3779B9U;
-            key.k1 += 0xBB67AE85U;
+        // Even and odd counters apart, each in the lower half of 64 bits. A product looks at no
+        // more, so the upper halves may hold anything.
+        __m256i even0 = _mm256_loadu_si256(at(x0, k));
+        __m256i odd0 = _mm256_srli_epi64(even0, 32);
+        __m256i even1 = _mm256_xor_si256(_mm256_loadu_si256(at(x1, k)), second_key);
+        __m256i odd1 = _mm256_srli_epi64(even1, 32);
+        std::uint32_t round_key = key.k0;
+        for (int round = 0; round < pair_rounds; ++round) {
+            const __m256i even = _mm256_mul_epu32(even0, multiplier);
+            const __m256i odd = _mm256_mul_epu32(odd0, multiplier);
+            const __m256i k0 = _mm256_set1_epi32(static_cast<int>(round_key));
+            even0 = _mm256_xor_si256(_mm256_srli_epi64(even, 32), _mm256_xor_si256(even1, k0));
+            odd0 = _mm256_xor_si256(_mm256_srli_epi64(odd, 32), _mm256_xor_si256(odd1, k0));
+            even1 = even;
+            odd1 = odd;
+            round_key += 0x9E3779B9U;
         }
-        _mm256_storeu_si256(at(x0, k), c0);
-        _mm256_storeu_si256(at(x1, k), c1);
-        _mm256_storeu_si256(at(x2, k), c2);
-        _mm256_storeu_si256(at(x3, k), c3);
+        const auto woven = [](__m256i even, __m256i odd) {
+            return _mm256_blend_epi32(even, _mm256_slli_epi64(odd, 32), 0xAA);
+        };
+        _mm256_storeu_si256(at(x0, k), woven(even0, odd0));
+        _mm256_storeu_si256(at(x1, k), woven(even1, odd1));
     }
 }
 

@@ -201,7 +201,7 @@ template <class Visitor>
 void describe(Visitor& v, OctreeConfig& c) {
     // Leaves below a millimetre are finer than any sonar's bins.
     v.number_or_auto("leaf_m", c.leaf_m, between(1e-3, 1e3),
-                     "edge of the octree's leaves; `auto`: what the range bins call for");
+                     "edge of the octree's leaves; `auto`: what accuracy.relative_l1 calls for");
     v.integer("memory_mb", c.memory_mb, between(1, 1e6),
               "above this the octree drops what has not been seen for longest");
     v.flag("literal", c.literal, "the octree of the paper to the letter, as a baseline");

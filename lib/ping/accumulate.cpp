@@ -1,13 +1,95 @@
 #include "ping/accumulate.h"
 
+#include <immintrin.h>
+
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace sonarsim {
 
+namespace {
+
+constexpr std::size_t boxes_per_block = 64;
+
+struct Pair {
+    float first, second;
+};
+
+/// The boxes of a block of echoes.
+struct Boxes {
+    std::array<int, boxes_per_block> first, last;   ///< bin
+    std::array<Pair, boxes_per_block> density;      ///< per bin: area, and area times intensity
+    std::array<Pair, boxes_per_block> share;        ///< of the first and of the second bin
+    std::array<float, boxes_per_block> last_share;  ///< of the last bin
+};
+
+/// The boxes of the echoes [begin, begin + count). Those wholly outside the range add 0 to the
+/// first bin; returns how many they are. No branches, so that the loop becomes vectors.
+int find_boxes(const Echoes& echoes, std::size_t begin, std::size_t count, const RangeBins& bins,
+               Boxes& boxes) {
+    const float per_bin = 1.0F / bins.bin_m;
+    const float range_min_m = bins.min_m;
+    const auto end = static_cast<float>(bins.count);
+    // In bins: an echo without depth still needs a width to be divided by.
+    constexpr float least_half = 1e-3F;
+    const float* const __restrict range_m = echoes.range_m.data() + begin;
+    const float* const __restrict half_m = echoes.half_m.data() + begin;
+    const float* const __restrict weight = echoes.weight.data() + begin;
+    const float* const __restrict intensity = echoes.intensity.data() + begin;
+    int outside = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+        const float centre = (range_m[k] - range_min_m) * per_bin;
+        const float half = std::max(half_m[k] * per_bin, least_half);
+        const float low = std::max(centre - half, 0.0F);
+        const float high = std::min(centre + half, end);
+        const bool inside = low < high;
+        outside += inside ? 0 : 1;
+        const float from = inside ? low : 0.0F;
+        const float to = inside ? high : 0.0F;
+        // Not by its empty box alone: an echo that is no number is outside, too.
+        const float density = inside ? weight[k] / (2.0F * half) : 0.0F;
+        const float echo = inside ? density * intensity[k] : 0.0F;
+        const float first = std::floor(from);
+        const float last = std::min(std::floor(to), end - 1.0F);
+        // A box within one bin is all head.
+        const float head = std::min(first + 1.0F, to) - from;
+        const float tail = first < last ? to - last : 0.0F;
+        const float next = last - first > 1.0F ? 1.0F : tail;
+        boxes.first[k] = static_cast<int>(first);
+        boxes.last[k] = static_cast<int>(last);
+        boxes.density[k] = {density, echo};
+        boxes.share[k] = {head, next};
+        boxes.last_share[k] = tail;
+    }
+    return outside;
+}
+
+/// Adds the parts of box k that lie in its first two bins: four products and four sums at once.
+/// Compilers make two additions of it, or put the four together one by one.
+void add_two(const Boxes& boxes, std::size_t k, BinSum& to) {
+    const auto twice = [](const Pair& pair) {
+        return _mm_castpd_ps(_mm_loaddup_pd(reinterpret_cast<const double*>(&pair)));
+    };
+    const __m128 density = twice(boxes.density[k]);
+    const __m128 share = _mm_permute_ps(twice(boxes.share[k]), _MM_SHUFFLE(1, 1, 0, 0));
+    _mm_store_ps(&to.weight, _mm_add_ps(_mm_load_ps(&to.weight), _mm_mul_ps(density, share)));
+}
+
+/// Adds the part of box k that lies beyond its first two bins. `first` is its first bin.
+void add_rest(const Boxes& boxes, std::size_t k, BinSum* first) {
+    const int more = boxes.last[k] - boxes.first[k];
+    for (int i = 2; i <= more; ++i) {
+        const float share = i < more ? 1.0F : boxes.last_share[k];
+        first[i].weight += boxes.density[k].first * share;
+        first[i].echo += boxes.density[k].second * share;
+    }
+}
+
+}  // namespace
+
 void BinSums::clear(int bins) {
-    weight.assign(bins, 0.0F);
-    echo.assign(bins, 0.0F);
+    begins.assign(bins + 1, BinSum{});
 }
 
 std::uint64_t accumulate(const Echoes& echoes, const RangeBins& bins, BinSums& sums) {
@@ -16,73 +98,42 @@ std::uint64_t accumulate(const Echoes& echoes, const RangeBins& bins, BinSums& s
 
 std::uint64_t accumulate(const Echoes& echoes, std::size_t begin, std::size_t end,
                          const RangeBins& bins, BinSums& sums) {
-    const float per_bin = 1.0F / bins.bin_m;
-    const auto count = static_cast<float>(bins.count);
-    // In bins: an echo without depth still needs a width to be divided by.
-    constexpr float least_half = 1e-3F;
     std::uint64_t outside = 0;
-    // The boxes of a block are computed in vectors; the sums have to be added one by one.
-    constexpr std::size_t block = 64;
-    std::array<float, block> low, high, density;
-    for (std::size_t from = begin; from < end; from += block) {
-        const std::size_t boxes = std::min(block, end - from);
-        for (std::size_t k = 0; k < boxes; ++k) {
-            const float centre = (echoes.range_m[from + k] - bins.min_m) * per_bin;
-            const float half = std::max(echoes.half_m[from + k] * per_bin, least_half);
-            low[k] = std::max(centre - half, 0.0F);
-            high[k] = std::min(centre + half, count);
-            density[k] = echoes.weight[from + k] / (2.0F * half);
-        }
-        for (std::size_t k = 0; k < boxes; ++k) {
-            if (!(low[k] < high[k])) {
-                ++outside;
-                continue;
-            }
-            const float echo = density[k] * echoes.intensity[from + k];
-            const int first = static_cast<int>(low[k]);
-            const int last = std::min(static_cast<int>(high[k]), bins.count - 1);
-            // A box within one bin is all head. No branch: it would be mispredicted half the time.
-            const float head = std::min(static_cast<float>(first + 1), high[k]) - low[k];
-            const float tail = first < last ? high[k] - static_cast<float>(last) : 0.0F;
-            sums.weight[first] += density[k] * head;
-            sums.echo[first] += echo * head;
-            sums.weight[last] += density[k] * tail;
-            sums.echo[last] += echo * tail;
-            for (int i = first + 1; i < last; ++i) {
-                sums.weight[i] += density[k];
-                sums.echo[i] += echo;
-            }
+    Boxes boxes;
+    BinSum* const bin_0 = sums.begins.data() + 1;
+    for (std::size_t from = begin; from < end; from += boxes_per_block) {
+        const std::size_t count = std::min(boxes_per_block, end - from);
+        outside += find_boxes(echoes, from, count, bins, boxes);
+        // The sums have to be added to one by one. Most boxes cover two bins or one, which is the
+        // same here: to tell them apart would be mispredicted half the time.
+        for (std::size_t k = 0; k < count; ++k) {
+            BinSum* const first = bin_0 + boxes.first[k];
+            add_two(boxes, k, *first);
+            if (boxes.last[k] - boxes.first[k] > 1) add_rest(boxes, k, first);
         }
     }
     return outside;
 }
 
 std::uint64_t mean_of_bins(const BinSums& sums, std::span<float> intensity) {
-    std::uint64_t occupied = 0;
+    int occupied = 0;
     for (std::size_t i = 0; i < intensity.size(); ++i) {
-        const bool seen = sums.weight[i] > 0.0F;
-        intensity[i] = seen ? sums.echo[i] / sums.weight[i] : 0.0F;
-        occupied += seen;
+        const float weight = sums.weight(i);
+        const bool seen = weight > 0.0F;
+        intensity[i] = seen ? sums.echo(i) / weight : 0.0F;
+        occupied += seen ? 1 : 0;
     }
     return occupied;
 }
 
-std::vector<float> image_of_beams(std::span<const float> by_beam, int range_bins, int beams) {
-    std::vector<float> image(by_beam.size());
-    constexpr int tile = 16;  // stays in the cache
-    for (int i0 = 0; i0 < range_bins; i0 += tile) {
-        const int i1 = std::min(i0 + tile, range_bins);
-        for (int j0 = 0; j0 < beams; j0 += tile) {
-            const int j1 = std::min(j0 + tile, beams);
-            for (int i = i0; i < i1; ++i) {
-                for (int j = j0; j < j1; ++j) {
-                    image[static_cast<std::size_t>(i) * beams + j] =
-                        by_beam[static_cast<std::size_t>(j) * range_bins + i];
-                }
-            }
-        }
+void write_beams(std::span<const float> by_beam, int beams, int first, int columns,
+                 std::span<float> image) {
+    const std::size_t rows = image.size() / columns;
+    for (std::size_t i = 0; i < rows; ++i) {
+        float* const row = image.data() + i * columns + first;
+        for (int j = 0; j < beams; ++j)
+            row[j] = by_beam[j * rows + i];
     }
-    return image;
 }
 
 }  // namespace sonarsim

@@ -15,12 +15,22 @@ struct RangeBins {
     int count = 0;
 };
 
-/// The sums of one beam's bins, whose quotient is the mean of Eq. 9.
+/// What the boxes that begin in bin i add to it and to bin i + 1. In one place, so that a box costs
+/// one addition of four floats; additions to overlapping places would wait for each other.
+struct alignas(16) BinSum {
+    float weight;  ///< area, m^2
+    float echo;    ///< area times intensity
+    float next_weight;
+    float next_echo;
+};
+
+/// The sums of one beam's bins, whose quotients are the means of Eq. 9.
 struct BinSums {
-    std::vector<float> weight;  ///< area, m^2
-    std::vector<float> echo;    ///< area times intensity
+    std::vector<BinSum> begins = {BinSum{}};  ///< by bin + 1; the first one stays 0
 
     void clear(int bins);
+    float weight(std::size_t bin) const { return begins[bin + 1].weight + begins[bin].next_weight; }
+    float echo(std::size_t bin) const { return begins[bin + 1].echo + begins[bin].next_echo; }
 };
 
 /// Adds every echo to the bins that its box in range covers, in proportion to the overlap. Parts
@@ -34,7 +44,9 @@ std::uint64_t accumulate(const Echoes& echoes, std::size_t begin, std::size_t en
 /// The area-weighted mean of each bin, Eq. 9; 0 where it saw no surface. Returns how many did.
 std::uint64_t mean_of_bins(const BinSums& sums, std::span<float> intensity);
 
-/// The means of all beams, [beams, range bins], as an image, [range bins, beams].
-std::vector<float> image_of_beams(std::span<const float> by_beam, int range_bins, int beams);
+/// Writes the means of `beams` beams, `by_beam` [beams, range bins], into as many columns of
+/// `image`, [range bins, columns], from the column `first` on.
+void write_beams(std::span<const float> by_beam, int beams, int first, int columns,
+                 std::span<float> image);
 
 }  // namespace sonarsim

@@ -12,11 +12,11 @@ namespace sonarsim {
 
 /// The echoes of one beam, one entry per piece of surface. Arrays, so that loops vectorise.
 struct Echoes {
-    std::vector<float> range_m;                        ///< slant range, of the middle of its extent
-    std::vector<float> half_m;                         ///< half its extent in range
-    std::vector<float> weight;                         ///< the area that it stands for, m^2
-    std::vector<float> intensity;                      ///< I, Eq. 6
-    std::vector<std::int32_t> cell_x, cell_y, cell_z;  ///< scatterer cell, when there is noise
+    std::vector<float> range_m;                      ///< slant range, of the middle of its extent
+    std::vector<float> half_m;                       ///< half its extent in range
+    std::vector<float> weight;                       ///< the area that it stands for, m^2
+    std::vector<float> intensity;                    ///< I, Eq. 6
+    std::vector<std::uint32_t> cell_low, cell_high;  ///< CellName, when there is noise
 
     std::size_t size() const { return range_m.size(); }
     void resize(std::size_t count, bool cells);

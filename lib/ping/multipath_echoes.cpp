@@ -23,7 +23,13 @@ struct Piece {
     float half_m;
     float weight;
     float intensity;
-    std::int32_t cell_x, cell_y, cell_z;
+    CellName cell;
+};
+
+/// A footprint cut into u by v equal pieces.
+struct Cut {
+    int u = 1;
+    int v = 1;
 };
 
 /// How a bounce is cut: no piece wider than a beam nor, with range noise, than a scatterer cell.
@@ -32,12 +38,14 @@ Cut cut(const Bounce& b, const Sample& sample, float bin_m, const ScattererLatti
     if (lattice.exists()) {
         const float bins = (2.0F + 2.0F * (std::fabs(b.range_u) + std::fabs(b.range_v)) / bin_m) *
                            (1.0F + wanted.u + wanted.v);
-        const Pieces cells =
-            one_piece_per_cell(sample, lattice.edge_m, most_bounce_pieces_per_bin * bins);
+        const Pieces cells = one_piece_per_cell(sample.edge_u.norm(), sample.edge_v.norm(),
+                                                lattice.edge_m, most_bounce_pieces_per_bin * bins);
         wanted = {.u = std::max(wanted.u, cells.u), .v = std::max(wanted.v, cells.v)};
     }
-    return rounded_up({.u = std::clamp(wanted.u, 1.0F, most_pieces_per_edge),
-                       .v = std::clamp(wanted.v, 1.0F, most_pieces_per_edge)});
+    const auto rounded_up = [](float pieces) {
+        return static_cast<int>(std::ceil(std::clamp(pieces, 1.0F, most_pieces_per_edge)));
+    };
+    return {.u = rounded_up(wanted.u), .v = rounded_up(wanted.v)};
 }
 
 /// Adds the pieces of a bounce to `out`, without those outside the field of view.
@@ -67,9 +75,10 @@ void add_pieces(const Bounce& b, const Sample& sample, const View& view,
             if (!(beam >= 0.0F && beam < beams)) continue;
             piece.beam = static_cast<std::uint32_t>(beam);
             piece.range_m = b.range_m + s * b.range_u + t * b.range_v;
-            piece.cell_x = static_cast<std::int32_t>(std::floor(row.x() + t * cell_v.x()));
-            piece.cell_y = static_cast<std::int32_t>(std::floor(row.y() + t * cell_v.y()));
-            piece.cell_z = static_cast<std::int32_t>(std::floor(row.z() + t * cell_v.z()));
+            const auto cell_along = [&](int axis) {
+                return static_cast<std::int32_t>(std::floor(row[axis] + t * cell_v[axis]));
+            };
+            piece.cell = cell_name(cell_along(0), cell_along(1), cell_along(2));
             out[k++] = piece;
         }
     }
@@ -91,9 +100,8 @@ MultipathEchoes sorted_by_beam(const std::vector<Piece>& pieces, int beams, bool
         out.echoes.weight[k] = piece.weight;
         out.echoes.intensity[k] = piece.intensity;
         if (cells) {
-            out.echoes.cell_x[k] = piece.cell_x;
-            out.echoes.cell_y[k] = piece.cell_y;
-            out.echoes.cell_z[k] = piece.cell_z;
+            out.echoes.cell_low[k] = piece.cell.low;
+            out.echoes.cell_high[k] = piece.cell.high;
         }
     }
     return out;

@@ -1,5 +1,7 @@
 #include "ping/pipeline.h"
 
+#include <algorithm>
+
 #include "core/clock.h"
 #include "ping/accumulate.h"
 #include "ping/echoes.h"
@@ -8,6 +10,9 @@
 namespace sonarsim {
 
 namespace {
+
+// As many floats as a cache line holds: images are written a line at a time.
+constexpr int beams_at_once = 16;
 
 RangeBins range_bins(const View& view) {
     return {.min_m = static_cast<float>(view.range_min_m),
@@ -101,7 +106,9 @@ Ping form_image(const TracedPing& traced, const PingSettings& settings, const Sc
 
     // 3, 4, 5. Beam by beam the same for the visible surface, Eq. 4-8; the mean of bins, Eq. 9.
     DirectEchoes direct{scene, bins, lattice, range_noise, draws(Stream::range_noise)};
-    std::vector<float> by_beam(static_cast<std::size_t>(ping.beams) * bins.count);
+    ping.intensity.resize(static_cast<std::size_t>(bins.count) * ping.beams);
+    std::vector<float> by_beam(static_cast<std::size_t>(std::min(ping.beams, beams_at_once)) *
+                               bins.count);
     RowAreas areas(bins.count);
     BinSums sums;
     for (int j = 0; j < ping.beams; ++j) {
@@ -116,10 +123,14 @@ Ping form_image(const TracedPing& traced, const PingSettings& settings, const Sc
                        areas.normal);
         }
         ping.counts.out_of_range += accumulate_beam(bounced, j, bins, sums);
+        const int column = j % beams_at_once;
         ping.counts.occupied_bins += mean_of_bins(
-            sums, std::span(by_beam).subspan(static_cast<std::size_t>(j) * bins.count, bins.count));
+            sums,
+            std::span(by_beam).subspan(static_cast<std::size_t>(column) * bins.count, bins.count));
+        if (column + 1 == beams_at_once || j + 1 == ping.beams) {
+            write_beams(by_beam, column + 1, j - column, ping.beams, ping.intensity);
+        }
     }
-    ping.intensity = image_of_beams(by_beam, ping.range_bins, ping.beams);
     ping.seconds.accumulate = watch.lap();
 
     // 6. Pixel noise, Eq. 10-13. 7. Streaks, Eq. 14-15.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 
 #include "core/elementary.h"
 
@@ -11,41 +10,87 @@ namespace sonarsim {
 
 namespace {
 
-constexpr std::size_t pairs_per_block = 128;
+constexpr std::size_t pixels_per_block = 128;
+constexpr std::size_t half_block = pixels_per_block / 2;
 
-using Lane = std::array<float, pairs_per_block>;
+using Lane = std::array<float, pixels_per_block>;
 
-/// Unit draws for as many pairs of pixels as a block holds.
-struct Draws {
-    std::array<Lane, 2> normal;
-    std::array<Lane, 2> rayleigh;
-};
+// What a counter of Philox is for; its other word is the number of the draw.
+constexpr std::uint32_t additive = 0;
+constexpr std::uint32_t multiplicative = 1;
 
-/// One Philox block serves two pixels: two Rayleigh draws by inversion, sqrt(-2 ln u), and two
-/// normal ones by Box and Muller.
-void draw(std::uint32_t row, std::uint32_t first_pair, PhiloxKey key, Draws& draws) {
-    std::array<std::uint32_t, pairs_per_block> x0, x1, x2{}, x3{};
-    std::iota(x0.begin(), x0.end(), first_pair);
-    x1.fill(row);
-    philox_batch(x0.data(), x1.data(), x2.data(), x3.data(), pairs_per_block, key);
-    for (std::size_t k = 0; k < pairs_per_block; ++k) {
-        draws.rayleigh[0][k] = std::sqrt(-2.0F * natural_log(unit_float(x0[k])));
-        draws.rayleigh[1][k] = std::sqrt(-2.0F * natural_log(unit_float(x1[k])));
-        const float radius = std::sqrt(-2.0F * natural_log(unit_float(x2[k])));
-        const SinCosFloat angle =
-            sincos_small(static_cast<float>(2.0 * pi) * (unit_float(x3[k]) - 0.5F));
-        draws.normal[0][k] = radius * angle.cos;
-        draws.normal[1][k] = radius * angle.sin;
+/// `count` pairs of random words from counter number `first` on.
+template <std::size_t count>
+void draw_words(std::uint32_t first, std::uint32_t purpose, PhiloxKey key,
+                std::array<std::uint32_t, count>& a, std::array<std::uint32_t, count>& b) {
+    for (std::size_t k = 0; k < count; ++k)
+        a[k] = first + static_cast<std::uint32_t>(k);
+    b.fill(purpose);
+    philox_pairs(a.data(), b.data(), count, key);
+}
+
+/// A draw of Rayleigh(1) for each pixel of a block, by inversion: sqrt(-2 ln u). One counter serves
+/// two pixels.
+void draw_rayleigh(std::uint32_t block, PhiloxKey key, Lane& out) {
+    std::array<std::uint32_t, half_block> a, b;
+    draw_words(block * half_block, additive, key, a, b);
+    for (std::size_t k = 0; k < half_block; ++k) {
+        out[k] = std::sqrt(-2.0F * natural_log(unit_float(a[k])));
+        out[half_block + k] = std::sqrt(-2.0F * natural_log(unit_float(b[k])));
     }
 }
 
-int apply(std::span<float> pixels, const PixelNoise& noise, float range_scale, const float* lobe,
-          const Lane& normal, const Lane& rayleigh) {
+/// Two draws of normal(0, 1) from each word, by Box and Muller: 20 bits make the radius, 12 the
+/// angle. The greatest radius is 5.4; one draw in 15 million would lie beyond.
+template <std::size_t count>
+void box_muller(const std::array<std::uint32_t, count>& words, float* __restrict cosines,
+                float* __restrict sines) {
+    for (std::size_t k = 0; k < count; ++k) {
+        const auto upper = static_cast<float>(static_cast<std::int32_t>(words[k] >> 12));
+        const auto lower = static_cast<float>(static_cast<std::int32_t>(words[k] & 0xFFFU));
+        const float radius = std::sqrt(-2.0F * natural_log((upper + 0.5F) * 0x1p-20F));
+        const SinCosFloat angle =
+            sincos_small(static_cast<float>(2.0 * pi) * ((lower + 0.5F) * 0x1p-12F - 0.5F));
+        cosines[k] = radius * angle.cos;
+        sines[k] = radius * angle.sin;
+    }
+}
+
+/// A draw of normal(0, 1) for each pixel of a block. One counter serves four pixels.
+void draw_normal(std::uint32_t block, PhiloxKey key, Lane& out) {
+    constexpr std::size_t quarter = pixels_per_block / 4;
+    std::array<std::uint32_t, quarter> a, b;
+    draw_words(block * quarter, multiplicative, key, a, b);
+    box_muller(a, out.data(), out.data() + quarter);
+    box_muller(b, out.data() + 2 * quarter, out.data() + 3 * quarter);
+}
+
+bool any_signal(std::span<const float> pixels) {
+    // No early end: all of a block in vectors is faster than to stop at the first.
+    int lit = 0;
+    for (const float pixel : pixels)
+        lit |= pixel != 0.0F ? 1 : 0;
+    return lit != 0;
+}
+
+/// s sigma_a of the pixels from number `first` on.
+void add_scales(const PixelNoise& noise, std::size_t first, std::size_t count, Lane& out) {
+    const std::size_t columns = noise.lobe_scale.size();
+    std::size_t row = first / columns;
+    std::size_t column = first % columns;
+    for (std::size_t k = 0; k < count; ++row, column = 0) {
+        const std::size_t end = std::min(k + columns - column, count);
+        for (; k < end; ++k, ++column)
+            out[k] = noise.range_scale[row] * noise.lobe_scale[column] * noise.add_sigma;
+    }
+}
+
+int apply(std::span<float> pixels, const PixelNoise& noise, const Lane& scale, const Lane& normal,
+          const Lane& rayleigh) {
     int negative = 0;
     for (std::size_t k = 0; k < pixels.size(); ++k) {
         const float gain = std::fma(noise.mult_sigma, normal[k], noise.gain);
-        const float value =
-            std::fma(pixels[k], gain, range_scale * lobe[k] * noise.add_sigma * rayleigh[k]);
+        const float value = std::fma(pixels[k], gain, scale[k] * rayleigh[k]);
         negative += value < 0.0F ? 1 : 0;
         pixels[k] = value < 0.0F ? 0.0F : value;
     }
@@ -55,22 +100,18 @@ int apply(std::span<float> pixels, const PixelNoise& noise, float range_scale, c
 }  // namespace
 
 std::uint64_t add_pixel_noise(std::span<float> image, const PixelNoise& noise, PhiloxKey key) {
-    const std::size_t columns = noise.lobe_scale.size();
     std::uint64_t negative = 0;
-    Draws draws;
-    for (std::size_t row = 0; row < noise.range_scale.size(); ++row) {
-        const std::span<float> line = image.subspan(row * columns, columns);
-        for (std::size_t begin = 0; begin < columns; begin += 2 * pairs_per_block) {
-            draw(static_cast<std::uint32_t>(row), static_cast<std::uint32_t>(begin / 2), key,
-                 draws);
-            for (std::size_t lane = 0; lane < 2; ++lane) {
-                const std::size_t from = std::min(begin + lane * pairs_per_block, columns);
-                const std::size_t to = std::min(from + pairs_per_block, columns);
-                negative +=
-                    apply(line.subspan(from, to - from), noise, noise.range_scale[row],
-                          noise.lobe_scale.data() + from, draws.normal[lane], draws.rayleigh[lane]);
-            }
-        }
+    Lane scale{};
+    Lane normal{};
+    Lane rayleigh{};
+    for (std::size_t begin = 0; begin < image.size(); begin += pixels_per_block) {
+        const auto block = static_cast<std::uint32_t>(begin / pixels_per_block);
+        const auto pixels = image.subspan(begin, std::min(pixels_per_block, image.size() - begin));
+        add_scales(noise, begin, pixels.size(), scale);
+        draw_rayleigh(block, key, rayleigh);
+        // Where nothing came back there is nothing to multiply: the draws are left as they are.
+        if (any_signal(pixels)) draw_normal(block, key, normal);
+        negative += apply(pixels, noise, scale, normal, rayleigh);
     }
     return negative;
 }

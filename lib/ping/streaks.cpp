@@ -11,7 +11,7 @@ RowAreas::RowAreas(int rows) : all(rows, 0.0F) {
 
 void RowAreas::add(const BinSums& beam) {
     for (std::size_t i = 0; i < all.size(); ++i)
-        all[i] += beam.weight[i];
+        all[i] += beam.weight(i);
 }
 
 std::vector<Sample> at_normal_incidence(std::span<const Sample> samples, float least_cosine) {
@@ -26,7 +26,7 @@ std::uint64_t add_streaks(std::span<float> image, const RowAreas& areas, const S
     std::uint64_t rows = 0;
     for (std::size_t i = 0; i < areas.all.size(); ++i) {
         const float needed = streaks.threshold * areas.all[i];
-        if (!(areas.all[i] > 0.0F && areas.normal.weight[i] >= needed)) continue;
+        if (!(areas.all[i] > 0.0F && areas.normal.weight(i) >= needed)) continue;
         ++rows;
         for (float& pixel : image.subspan(i * columns, columns)) {
             const float x = std::clamp(pixel, 0.0F, 1.0F);

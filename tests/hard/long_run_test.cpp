@@ -58,8 +58,8 @@ TEST_CASE("float sums against double sums: a bin of a million echoes") {
         std::vector<float> mean(1);
         mean_of_bins(sums, mean);
         const double bound = static_cast<double>(n) * 0x1p-24;
-        CHECK(std::fabs(sums.weight[0] - weight) < bound * weight);
-        CHECK(std::fabs(sums.echo[0] - echo) < bound * echo);
+        CHECK(std::fabs(sums.weight(0) - weight) < bound * weight);
+        CHECK(std::fabs(sums.echo(0) - echo) < bound * echo);
         const double off = std::fabs(mean[0] * weight / echo - 1.0);
         MESSAGE(n << " echoes in one bin: the mean is off by " << off);
         CHECK(off < (n > 100'000 ? 1e-3 : 2e-5));
@@ -78,7 +78,7 @@ TEST_CASE("an echo that is not a number is dropped and counted") {
     sums.clear(4);
     CHECK(accumulate(echoes, {0.0F, 0.5F, 4}, sums) == 4);
     for (int i = 0; i < 4; ++i)
-        CHECK(sums.weight[i] == 0.0F);
+        CHECK(sums.weight(i) == 0.0F);
 }
 
 TEST_CASE("an echo just short of the first bin or beyond the last is dropped, one across is cut") {
@@ -92,10 +92,10 @@ TEST_CASE("an echo just short of the first bin or beyond the last is dropped, on
     BinSums sums;
     sums.clear(4);
     CHECK(accumulate(echoes, {2.0F, 0.25F, 4}, sums) == 3);
-    CHECK(sums.weight[0] == doctest::Approx(0.5));  // the half of 1.9 to 2.1 m that lies within
-    CHECK(sums.weight[1] == 0.0F);
-    CHECK(sums.weight[2] == 0.0F);
-    CHECK(sums.weight[3] == doctest::Approx(0.55));  // of 2.89 to 3.09 m up to 3
+    CHECK(sums.weight(0) == doctest::Approx(0.5));  // the half of 1.9 to 2.1 m that lies within
+    CHECK(sums.weight(1) == 0.0F);
+    CHECK(sums.weight(2) == 0.0F);
+    CHECK(sums.weight(3) == doctest::Approx(0.55));  // of 2.89 to 3.09 m up to 3
 }
 
 TEST_CASE("fields of view are half-open: the last edge belongs to no beam") {

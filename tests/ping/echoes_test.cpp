@@ -33,10 +33,10 @@ TEST_CASE("echoes: a sample without edges is one echo without extent") {
     // The paper's literal leaves are points.
     const Echoes echoes = echoes_of({3, 0, 4}, {0, 0, 0}, {0, 0, 0}, 0.1F);
     REQUIRE(echoes.size() == 1);
-    CHECK(echoes.range_m[0] == doctest::Approx(5.0));
+    CHECK(echoes.range_m[0] == 5.0F);
     CHECK(echoes.half_m[0] == 0.0F);
-    CHECK(echoes.weight[0] == doctest::Approx(0.5));
-    CHECK(echoes.intensity[0] == doctest::Approx(0.25));
+    CHECK(echoes.weight[0] == 0.5F);
+    CHECK(echoes.intensity[0] == 0.25F);
 }
 
 TEST_CASE("echoes: a piece reaches from its nearest to its farthest corner") {

@@ -33,24 +33,24 @@ int index_in(float x, int count) {
 }
 
 /// What hides a facet in the pixels of one column is nearer than this, by row: the depth of the
-/// facet's plane at the pixel's centre, within the depths of the facet, and its slack.
+/// facet's plane at the pixel's centre and its slack, but no farther than the facet. It may be much
+/// nearer: at grazing incidence many facets of one plane share a pixel, and the one that is drawn
+/// at its centre hides none of them.
 class ColumnDepths {
   public:
     ColumnDepths(const ProjectedFacet& facet, int column, float columns_per_beam)
-        : nearest_(facet.depth + facet.depth_range + facet.slack),
-          farthest_(facet.depth - facet.depth_range + facet.slack),
-          per_row_(facet.depth_row) {
+        : farthest_(facet.depth - facet.depth_range + facet.slack), per_row_(facet.depth_row) {
         const float d = (static_cast<float>(column) + 0.5F) / columns_per_beam - facet.beam;
         first_ =
             facet.depth + facet.depth_beam * d + facet.depth_row * (0.5F - facet.row) + facet.slack;
     }
 
     float at(int row) const {
-        return std::clamp(first_ + per_row_ * static_cast<float>(row), farthest_, nearest_);
+        return std::max(first_ + per_row_ * static_cast<float>(row), farthest_);
     }
 
   private:
-    float nearest_, farthest_, per_row_, first_;
+    float farthest_, per_row_, first_;
 };
 
 }  // namespace
@@ -59,15 +59,15 @@ DepthBuffer::DepthBuffer(const ProjectionGrid& grid)
     : grid_(grid), depth_(static_cast<std::size_t>(grid.columns) * grid.rows, 0.0F) {}
 
 void DepthBuffer::draw(const ProjectedFacet& facet, const Outline& outline) {
-    const auto& [beams_u, beams_v, rows_u, rows_v, grow] = outline;
+    const auto& [beams_u, beams_v, rows_u, rows_v] = outline;
     const auto per_beam = static_cast<float>(grid_.columns_per_beam);
     const float u = per_beam * beams_u;
     const float v = per_beam * beams_v;
-    const float reach = grow * (std::fabs(u) + std::fabs(v));
+    const float reach = std::fabs(u) + std::fabs(v);
     const float centre = per_beam * facet.beam - 0.5F;
     const int first = index_in(std::ceil(centre - reach), grid_.columns);
     const int last = index_in(std::floor(centre + reach) + 1.0F, grid_.columns);
-    const float determinant = grow * std::fabs(u * rows_v - v * rows_u);
+    const float determinant = std::fabs(u * rows_v - v * rows_u);
     const float per_u = 1.0F / divisor(u);
     const float per_v = 1.0F / divisor(v);
     const float wide_u = std::fabs(determinant * per_u);
@@ -92,23 +92,6 @@ void DepthBuffer::draw(const ProjectedFacet& facet, const Outline& outline) {
             pixels[row] = std::max(pixels[row], depth);
         }
     }
-}
-
-void DepthBuffer::close_holes() {
-    std::vector<float> closed = depth_;
-    const auto rows = static_cast<std::size_t>(grid_.rows);
-    for (std::size_t column = 1; column + 1 < static_cast<std::size_t>(grid_.columns); ++column) {
-        const float* const here = depth_.data() + column * rows;
-        const float* const left = here - rows;
-        const float* const right = here + rows;
-        float* const to = closed.data() + column * rows;
-        for (std::size_t r = 1; r + 1 < rows; ++r) {
-            const float across = std::min(left[r], right[r]);
-            const float along = std::min(here[r - 1], here[r + 1]);
-            to[r] = std::max(here[r], std::max(across, along));
-        }
-    }
-    depth_ = std::move(closed);
 }
 
 void DepthBuffer::mask_cone(double opening_rad) {

@@ -16,17 +16,14 @@ struct VisiblePart {
 };
 
 /// Tells hidden surface from visible surface: each pixel knows the nearest surface at its centre.
-/// First all facets are drawn, then the holes are closed, then facets are asked for.
+/// First all facets are drawn, then facets are asked for. Facets are parallelograms in place of
+/// polygons and leave gaps between them: what is hidden here is hidden, what is visible may not be.
 class DepthBuffer {
   public:
     explicit DepthBuffer(const ProjectionGrid& grid);
 
     /// Enters a facet as what may hide others.
     void draw(const ProjectedFacet& facet, const Outline& outline);
-
-    /// Gives a pixel the depth of its two neighbours to either side where both are nearer. The
-    /// outlines of a surface leave no larger holes.
-    void close_holes();
 
     /// Hides all that lies outside a cone of this full angle.
     void mask_cone(double opening_rad);

@@ -7,10 +7,19 @@
 #include "visibility/octree/depth_buffer.h"
 #include "visibility/octree/projection.h"
 #include "visibility/octree/search.h"
+#include "visibility/octree/sight_lines.h"
 
 namespace sonarsim {
 
 namespace {
+
+/// What the depth buffer lets through, in the order of the leaves.
+struct LeafParts {
+    std::vector<Sample> samples;
+    std::vector<std::uint32_t> beams;  ///< of each sample
+    std::vector<float> thickness_m;    ///< by how much its surface strays from its plane
+    std::uint64_t dropped = 0;
+};
 
 Sample sample_of(const ProjectedFacet& facet, const VisiblePart& part, const Scene& scene) {
     Sample sample;
@@ -25,31 +34,27 @@ Sample sample_of(const ProjectedFacet& facet, const VisiblePart& part, const Sce
     return sample;
 }
 
-}  // namespace
-
-Samples leaf_samples(Octree& tree, const Scene& scene, const View& view, const ViewVolume& volume,
+LeafParts find_parts(Octree& tree, const Scene& scene, const View& view, const ViewVolume& volume,
                      const LeafSize& leaf_size) {
     const auto middle = static_cast<float>(0.5 * view.range_max_m);
     const ProjectionGrid grid = projection_grid(view, leaf_size.at(middle) / middle);
     DepthBuffer depths(grid);
     std::vector<ProjectedFacet> facets;
     std::vector<Outline> outlines;
-    std::uint64_t dropped = 0;
+    LeafParts parts;
     const auto take = [&](const LeafRun& run) {
         const std::size_t first = facets.size();
         outlines.clear();
-        dropped += project(run, volume, grid, facets, outlines);
+        parts.dropped += project(run, volume, grid, facets, outlines);
         for (std::size_t k = 0; k < outlines.size(); ++k)
             depths.draw(facets[first + k], outlines[k]);
     };
     Search(tree, volume, leaf_size, take).run();
-    depths.close_holes();
     if (view.shape == ViewShape::cone) depths.mask_cone(view.azimuth_rad);
 
-    std::vector<Sample> items;
-    std::vector<std::uint32_t> beams;
-    items.reserve(2 * facets.size());
-    beams.reserve(2 * facets.size());
+    parts.samples.reserve(2 * facets.size());
+    parts.beams.reserve(2 * facets.size());
+    parts.thickness_m.reserve(2 * facets.size());
     const auto most = static_cast<float>(view.beams - 1);
     for (const ProjectedFacet& facet : facets) {
         const bool clear = depths.is_clear(facet);
@@ -58,19 +63,43 @@ Samples leaf_samples(Octree& tree, const Scene& scene, const View& view, const V
         for (int beam = first; beam <= last; ++beam) {
             VisiblePart part;
             const auto visibility = depths.visible_part(facet, beam, clear, part);
-            dropped += visibility == DepthBuffer::Visibility::too_small;
+            parts.dropped += visibility == DepthBuffer::Visibility::too_small;
             if (visibility != DepthBuffer::Visibility::visible) continue;
-            items.push_back(sample_of(facet, part, scene));
-            beams.push_back(static_cast<std::uint32_t>(beam));
+            parts.samples.push_back(sample_of(facet, part, scene));
+            parts.beams.push_back(static_cast<std::uint32_t>(beam));
+            parts.thickness_m.push_back(facet.thickness_m);
         }
     }
-    Groups by_beam = sort_into_groups(beams, view.beams);
+    return parts;
+}
+
+/// Leaves out what the sight lines meet other surface before.
+void drop_hidden(const Caster& caster, const View& view, const ViewVolume& volume,
+                 LeafParts& parts) {
+    const LocalPose pose{volume.R_sensor_local().transpose(), volume.position().cast<float>()};
+    const std::vector<std::uint32_t> seen = in_sight(
+        caster, pose, static_cast<float>(view.range_max_m), parts.samples, parts.thickness_m);
+    for (std::size_t k = 0; k < seen.size(); ++k) {
+        parts.samples[k] = parts.samples[seen[k]];
+        parts.beams[k] = parts.beams[seen[k]];
+    }
+    parts.samples.resize(seen.size());
+    parts.beams.resize(seen.size());
+}
+
+}  // namespace
+
+Samples leaf_samples(Octree& tree, const Caster& caster, const Scene& scene, const View& view,
+                     const ViewVolume& volume, const LeafSize& leaf_size) {
+    LeafParts parts = find_parts(tree, scene, view, volume, leaf_size);
+    drop_hidden(caster, view, volume, parts);
+    Groups by_beam = sort_into_groups(parts.beams, view.beams);
     Samples samples;
-    samples.items.reserve(items.size());
+    samples.items.reserve(parts.samples.size());
     for (const std::uint32_t k : by_beam.items)
-        samples.items.push_back(items[k]);
+        samples.items.push_back(parts.samples[k]);
     samples.beam_begin = std::move(by_beam.begin);
-    samples.dropped = dropped;
+    samples.dropped = parts.dropped;
     return samples;
 }
 

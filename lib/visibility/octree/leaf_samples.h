@@ -9,7 +9,7 @@
 namespace sonarsim {
 
 /// The visible parts of the leaves in view.
-Samples leaf_samples(Octree& tree, const Scene& scene, const View& view, const ViewVolume& volume,
-                     const LeafSize& leaf_size);
+Samples leaf_samples(Octree& tree, const Caster& caster, const Scene& scene, const View& view,
+                     const ViewVolume& volume, const LeafSize& leaf_size);
 
 }  // namespace sonarsim

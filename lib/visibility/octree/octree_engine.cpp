@@ -1,10 +1,14 @@
 #include "visibility/octree/octree_engine.h"
 
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "core/text.h"
 #include "visibility/caster.h"
 #include "visibility/intersect.h"
+#include "visibility/octree/goal_check.h"
+#include "visibility/octree/image_change.h"
 #include "visibility/octree/leaf_samples.h"
 #include "visibility/octree/literal.h"
 #include "visibility/octree/tree.h"
@@ -12,6 +16,11 @@
 namespace sonarsim {
 
 namespace {
+
+/// The relative L1 of an image as a share of what changes when its leaves are twice as large.
+/// Measured on five scenes with leaves from 1 to 8 cm, as means over eight poses: 0.39 to 0.76, the
+/// least on a sphere; of a single ping 0.25 to 1.
+constexpr double error_per_change = 0.7;
 
 class LazyOctreeEngine final : public OctreeEngine {
   public:
@@ -23,8 +32,15 @@ class LazyOctreeEngine final : public OctreeEngine {
                                   T_world_sensor.translation - scene_->origin};
         const ViewVolume volume(view, T_local_sensor);
         const LeafSize leaf_size(view, options_.leaf_m);
-        return options_.literal ? literal_samples(tree_, *scene_, view, volume, leaf_size)
-                                : leaf_samples(tree_, *scene_, view, volume, leaf_size);
+        if (options_.literal) return literal_samples(tree_, *scene_, view, volume, leaf_size);
+        Samples samples = leaf_samples(tree_, caster_, *scene_, view, volume, leaf_size);
+        if (goal_check_.wants(view, T_world_sensor)) {
+            const Samples coarse =
+                leaf_samples(tree_, caster_, *scene_, view, volume, leaf_size.twice());
+            goal_check_.add(view, T_world_sensor,
+                            error_per_change * image_change(*scene_, view, coarse, samples));
+        }
+        return samples;
     }
 
     void intersect(const Pose& T_world_sensor, std::span<const Ray> rays,
@@ -33,13 +49,16 @@ class LazyOctreeEngine final : public OctreeEngine {
     }
 
     std::vector<std::string> warnings() const override {
+        std::vector<std::string> all = goal_check_.warnings(options_.leaf_m);
         const double needed_mb = std::ceil(static_cast<double>(tree_.statistics().ping_bytes) /
                                            static_cast<double>(1U << 20U));
-        if (needed_mb <= static_cast<double>(options_.memory_mb)) return {};
-        return {"octree.memory_mb: " + std::to_string(options_.memory_mb) +
-                " is too little: one ping needs " + number_text(needed_mb) +
-                " MB, so what it grows is dropped before the next ping can use it; set it to " +
-                number_text(needed_mb) + " or more"};
+        if (needed_mb <= static_cast<double>(options_.memory_mb)) return all;
+        all.push_back(
+            "octree.memory_mb: " + std::to_string(options_.memory_mb) +
+            " is too little: one ping needs " + number_text(needed_mb) +
+            " MB, so what it grows is dropped before the next ping can use it; set it to " +
+            number_text(needed_mb) + " or more");
+        return all;
     }
 
     OctreeStatistics statistics() const override { return tree_.statistics(); }
@@ -48,7 +67,8 @@ class LazyOctreeEngine final : public OctreeEngine {
     const Scene* scene_;
     OctreeOptions options_;
     Caster caster_;
-    mutable Octree tree_;  ///< grows with the pings, under its own locks
+    mutable Octree tree_;           ///< grows with the pings, under its own locks
+    mutable GoalCheck goal_check_;  ///< under its own lock
 };
 
 }  // namespace

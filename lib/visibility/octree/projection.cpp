@@ -11,13 +11,9 @@ namespace sonarsim {
 
 namespace {
 
-/// Footprints are parallelograms in place of polygons, so neighbours leave gaps. What they hide is
-/// larger by this factor, which closes the gaps. Surface that is a rectangle needs hardly any.
-constexpr float grow_likeness = 1.25F;
-constexpr float grow_rectangle = 1.05F;
-
-/// A surface hides what lies behind it by more than this many leaves.
-constexpr float slack_leaves = 0.25F;
+/// A surface hides what lies behind it by more than this many leaves. What is nearer than that, a
+/// sight line tells.
+constexpr float slack_leaves = 0.5F;
 
 // Positions are floats, off by some 1e-7 of the range. Within a hundred times that of the sensor's
 // z axis an azimuth is a matter of rounding.
@@ -27,7 +23,7 @@ constexpr double axis_per_range = 1e-5;
 constexpr double edge_on_per_range = 1e-7;
 
 // In pixels: leaves are a few wide, and a narrow view is several high, to tell what hides what.
-constexpr double pixels_per_leaf = 3.0;
+constexpr double pixels_per_leaf = 4.0;
 constexpr double least_rows = 16.0;
 
 constexpr int most_columns = 8192;
@@ -40,7 +36,7 @@ struct Lanes {
     std::array<Lane, 3> centre, normal, u, v;
     Lane in_sight, beams_u, beams_v, rows_u, rows_v;
     Lane beam, half_beams, row, mix_u, mix_v;
-    Lane depth, depth_beam, depth_row, depth_range, slack, grow;
+    Lane depth, depth_beam, depth_row, depth_range, slack;
 };
 
 void project_block(const FacetArrays& facets, std::uint32_t begin, int count,
@@ -66,7 +62,6 @@ void project_block(const FacetArrays& facets, std::uint32_t begin, int count,
         to_sensor(FacetArrays::edge_u, 0.0F, out.u[axis].data());
         to_sensor(FacetArrays::edge_v, 0.0F, out.v[axis].data());
     }
-    const float* const area = facets.values[FacetArrays::area].data() + begin;
     const float* const thickness = facets.values[FacetArrays::thickness].data() + begin;
     const float beams_per_rad = grid.beams_per_rad;
     const float rows_per_slope = grid.rows_per_slope;
@@ -120,22 +115,13 @@ void project_block(const FacetArrays& facets, std::uint32_t begin, int count,
         const float per_height = 1.0F / height;
         const float depth_row = -nz * per_height / rows_per_slope;
         const float depth_beam = (nx * y - ny * x) * per_rho * per_height / beams_per_rad;
-        const float uu =
-            out.u[0][k] * out.u[0][k] + out.u[1][k] * out.u[1][k] + out.u[2][k] * out.u[2][k];
-        const float vv =
-            out.v[0][k] * out.v[0][k] + out.v[1][k] * out.v[1][k] + out.v[2][k] * out.v[2][k];
-        const float rectangle = 4.0F * std::sqrt(uu * vv);
-        const float grow =
-            std::fabs(area[k] - rectangle) < 1e-3F * rectangle ? grow_rectangle : grow_likeness;
-        out.grow[k] = grow;
         const float leaf_depth = leaf_m * per_rho2;
         const float cosine = std::max(height * per_rho / std::sqrt(1.0F + slope * slope), 0.1F);
         const float pixel_slope = std::fabs(depth_row) + std::fabs(depth_beam) / columns_per_beam;
         out.depth[k] = per_rho;
         out.depth_row[k] = depth_row;
         out.depth_beam[k] = depth_beam;
-        out.depth_range[k] =
-            grow * per_rho2 * (std::fabs(rho_u) + std::fabs(rho_v)) + 0.5F * leaf_depth;
+        out.depth_range[k] = per_rho2 * (std::fabs(rho_u) + std::fabs(rho_v)) + 0.5F * leaf_depth;
         out.slack[k] = slack_leaves * leaf_depth + per_rho2 * thickness[k] / cosine +
                        std::min(0.5F * pixel_slope, 0.25F * leaf_depth);
     }
@@ -212,6 +198,7 @@ int project(const LeafRun& run, const ViewVolume& volume, const ProjectionGrid& 
             if (rows < 0.0F) next.edge_v = -next.edge_v;
             next.half_rows = std::max(std::fabs(rows), 1e-4F);
             next.area_m2 = facets.values[FacetArrays::area][begin + k];
+            next.thickness_m = facets.values[FacetArrays::thickness][begin + k];
             next.triangle = facets.triangle[begin + k];
             next.beam = lanes.beam[k];
             next.half_beams = lanes.half_beams[k];
@@ -221,8 +208,8 @@ int project(const LeafRun& run, const ViewVolume& volume, const ProjectionGrid& 
             next.depth_row = lanes.depth_row[k];
             next.depth_range = lanes.depth_range[k];
             next.slack = lanes.slack[k];
-            outlines.push_back({lanes.beams_u[k], lanes.beams_v[k], lanes.rows_u[k],
-                                lanes.rows_v[k], lanes.grow[k]});
+            outlines.push_back(
+                {lanes.beams_u[k], lanes.beams_v[k], lanes.rows_u[k], lanes.rows_v[k]});
             const float beam = next.beam;
             const float half = next.half_beams;
             // So near the axis the facet seems to lie all around, its ends where they are not.

@@ -36,6 +36,7 @@ struct ProjectedFacet {
     Eigen::Vector3f edge_u;  ///< half edges of the footprint; edge_v has no extent in azimuth
     Eigen::Vector3f edge_v;
     float area_m2;
+    float thickness_m;  ///< by how much the surface strays from the facet's plane
     std::uint32_t triangle;
     float beam;         ///< of the centre
     float half_beams;   ///< along edge_u
@@ -55,7 +56,6 @@ struct Outline {
     float beams_v;
     float rows_u;
     float rows_v;
-    float grow;  ///< factor by which neighbouring parallelograms overlap enough to leave no gaps
 };
 
 /// Projects the facets of a run and appends those that the view may see to `facets`, with their

@@ -1,0 +1,116 @@
+#include "visibility/octree/goal_check.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+
+#include "core/random.h"
+#include "core/text.h"
+#include "core/units.h"
+
+namespace sonarsim {
+
+namespace {
+
+/// Pings of a view whose error is estimated. Each costs a third of a ping.
+constexpr std::size_t checked_pings = 8;
+
+/// A number that says nothing of where the pose is, but is the same for the same pose.
+std::uint64_t number_of(const Pose& pose) {
+    const auto& q = pose.rotation.coeffs();
+    const auto& t = pose.translation;
+    std::uint64_t number = 0;
+    for (const double x : {q[0], q[1], q[2], q[3], t[0], t[1], t[2]}) {
+        const auto bits = std::bit_cast<std::uint64_t>(x);
+        const PhiloxBlock block =
+            philox({static_cast<std::uint32_t>(bits), static_cast<std::uint32_t>(bits >> 32U),
+                    static_cast<std::uint32_t>(number), static_cast<std::uint32_t>(number >> 32U)},
+                   {0, 0});
+        number = std::uint64_t{block.x0} << 32U | block.x1;
+    }
+    return number;
+}
+
+bool same_view(const View& a, const View& b) {
+    return a.azimuth_rad == b.azimuth_rad && a.elevation_rad == b.elevation_rad &&
+           a.range_min_m == b.range_min_m && a.range_max_m == b.range_max_m &&
+           a.range_bins == b.range_bins && a.beams == b.beams && a.relative_l1 == b.relative_l1 &&
+           a.shape == b.shape;
+}
+
+std::string percent_text(double x) {
+    return number_text(std::ceil(1e3 * x) / 10.0) + " %";
+}
+
+/// To two digits.
+double rounded_down(double x) {
+    const double step = std::pow(10.0, std::floor(std::log10(x)) - 1.0);
+    return std::floor(x / step) * step;
+}
+
+std::string name_of_view(const View& view) {
+    const auto deg = [](double rad) { return number_text(std::round(1e3 * degrees(rad)) / 1e3); };
+    if (view.shape == ViewShape::cone) return "a cone of " + deg(view.azimuth_rad) + " degrees";
+    return deg(view.azimuth_rad) + " x " + deg(view.elevation_rad) + " degrees";
+}
+
+}  // namespace
+
+const GoalCheck::OfView* GoalCheck::find(const View& view) const {
+    const auto found = std::find_if(views_.begin(), views_.end(),
+                                    [&](const OfView& one) { return same_view(one.view, view); });
+    return found == views_.end() ? nullptr : &*found;
+}
+
+bool GoalCheck::wants(const View& view, const Pose& T_world_sensor) const {
+    const std::uint64_t number = number_of(T_world_sensor);
+    const std::scoped_lock held(lock_);
+    const OfView* const of_view = find(view);
+    if (!of_view) return true;
+    const auto& errors = of_view->errors;
+    if (errors.contains(number)) return false;
+    return errors.size() < checked_pings || number < errors.rbegin()->first;
+}
+
+void GoalCheck::add(const View& view, const Pose& T_world_sensor, double error) {
+    const std::uint64_t number = number_of(T_world_sensor);
+    const std::scoped_lock held(lock_);
+    const OfView* const known = find(view);
+    const std::ptrdiff_t at = known ? known - views_.data() : std::ssize(views_);
+    if (!known) views_.push_back({view, {}});
+    auto& errors = views_[at].errors;
+    errors.emplace(number, error);
+    if (errors.size() > checked_pings) errors.erase(std::prev(errors.end()));
+}
+
+std::vector<std::string> GoalCheck::warnings(double fixed_leaf_m) const {
+    std::vector<std::string> all;
+    const std::scoped_lock held(lock_);
+    for (const auto& [view, errors] : views_) {
+        double sum = 0.0;
+        double worst = 0.0;
+        int above = 0;
+        for (const auto& [number, error] : errors) {
+            sum += error;
+            worst = std::max(worst, error);
+            above += error > view.relative_l1;
+        }
+        if (worst <= view.relative_l1) continue;
+        const double mean = sum / static_cast<double>(errors.size());
+        all.push_back(
+            "engine: octree misses accuracy.relative_l1 (" + percent_text(view.relative_l1) +
+            ") in " + std::to_string(above) + " of the " + std::to_string(errors.size()) +
+            " pings that were checked in views of " + name_of_view(view) + ": off by about " +
+            percent_text(mean) + " on average and " + percent_text(worst) + " at worst; " +
+            (fixed_leaf_m > 0.0
+                 ? "octree.leaf_m of " +
+                       number_text(rounded_down(fixed_leaf_m * view.relative_l1 / worst)) +
+                       " or engine: rays should meet it"
+                 : "a lower accuracy.relative_l1 makes leaves smaller, or use engine: rays"));
+    }
+    std::sort(all.begin(), all.end());
+    return all;
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,65 @@
+#include "visibility/octree/image_change.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sonarsim {
+
+namespace {
+
+/// The sums of a beam's bins, whose quotient is the mean.
+struct BeamSums {
+    std::vector<double> weight;
+    std::vector<double> echo;
+
+    double mean(int bin) const { return weight[bin] > 0.0 ? echo[bin] / weight[bin] : 0.0; }
+};
+
+/// Adds a sample to the bins that it covers, in proportion to the overlap.
+void add_box(const Sample& sample, double reflection, const View& view, BeamSums& sums) {
+    const double range = static_cast<double>(sample.position.norm());
+    const double half = static_cast<double>(std::fabs(sample.position.dot(sample.edge_u)) +
+                                            std::fabs(sample.position.dot(sample.edge_v))) /
+                        range;
+    const double bin = view.bin_m();
+    const double low = (range - half - view.range_min_m) / bin;
+    const double high = std::max((range + half - view.range_min_m) / bin, low + 1e-6);
+    if (!(high > 0.0 && low < view.range_bins)) return;
+    const double density = static_cast<double>(sample.area_m2) / (high - low);
+    const double intensity = reflection * static_cast<double>(sample.height_m) / range;
+    const int last = static_cast<int>(std::min(high, view.range_bins - 0.5));
+    for (int i = static_cast<int>(std::max(low, 0.0)); i <= last; ++i) {
+        const double overlap = std::min(high, i + 1.0) - std::max(low, static_cast<double>(i));
+        if (!(overlap > 0.0)) continue;
+        sums.weight[i] += density * overlap;
+        sums.echo[i] += density * overlap * intensity;
+    }
+}
+
+BeamSums sum_beam(const Scene& scene, const View& view, const Samples& samples, int beam) {
+    BeamSums sums{std::vector<double>(view.range_bins), std::vector<double>(view.range_bins)};
+    for (const Sample& sample : samples.beam(beam))
+        add_box(sample, static_cast<double>(scene.materials[sample.material].reflection), view,
+                sums);
+    return sums;
+}
+
+}  // namespace
+
+double image_change(const Scene& scene, const View& view, const Samples& coarse,
+                    const Samples& fine) {
+    double change = 0.0;
+    double whole = 0.0;
+    for (int beam = 0; beam < view.beams; ++beam) {
+        const BeamSums a = sum_beam(scene, view, coarse, beam);
+        const BeamSums b = sum_beam(scene, view, fine, beam);
+        for (int bin = 0; bin < view.range_bins; ++bin) {
+            change += std::fabs(a.mean(bin) - b.mean(bin));
+            whole += b.mean(bin);
+        }
+    }
+    if (whole > 0.0) return change / whole;
+    return change > 0.0 ? 1.0 : 0.0;
+}
+
+}  // namespace sonarsim
