@@ -13,6 +13,8 @@ namespace sonarsim {
 struct ImageSums {
     double error = 0.0;
     double signal = 0.0;
+
+    double share() const { return signal > 0.0 ? error / signal : 0.0; }
 };
 
 /// The slices of one beam within a frame. They are added until what lies between them is known as

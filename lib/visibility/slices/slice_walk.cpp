@@ -7,9 +7,12 @@ namespace sonarsim {
 namespace {
 
 /// By place; equal places by number, so that the order is the same whatever came before.
-bool before(const Segment& a, const Segment& b) {
-    return a.w_low < b.w_low || (a.w_low == b.w_low && a.trapezoid < b.trapezoid);
-}
+struct Before {
+    bool operator()(const Segment& a, const Segment& b) const {
+        return a.w_low < b.w_low || (a.w_low == b.w_low && a.trapezoid < b.trapezoid);
+    }
+};
+constexpr Before before;
 
 /// Nearly sorted lists take linear time.
 void insertion_sort(std::vector<Segment>& segments) {

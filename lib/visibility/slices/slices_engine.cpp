@@ -47,7 +47,7 @@ class SlicesEngine final : public VisibilityEngine {
         ImageSums sums;
         for (const SliceFrame& frame : slice_frames(view, per_beam))
             see_frame(view, pose, frame, goal, samples, sums);
-        if (getenv("EST")) fprintf(stderr, "est %.4f\n", shape_error(view.relative_l1) + sums.error / sums.signal);
+        samples.estimated_l1 = shape_error(view.relative_l1) + sums.share();
         return samples;
     }
 
