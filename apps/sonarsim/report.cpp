@@ -79,7 +79,7 @@ int report(const ReportArguments& arguments) {
         options.poses = std::min(options.poses, 3);
         options.rounds = 2;
         options.reference_moved = 0.005;
-        options.reference_rays = 50'000'000;
+        options.reference_rays = std::min(options.reference_rays, std::uint64_t{50'000'000});
     }
     const auto progress = [](const std::string& what) { spdlog::info("{}", what); };
     std::vector<Setting> settings = make_settings(mission, arguments.quick);
@@ -118,6 +118,11 @@ void add_report(CLI::App& app, int& exit_code) {
     command.add_flag("--quick", arguments->quick, "Fewer settings, poses and rounds");
     command.add_option("--poses", arguments->report.poses, "Poses, spread along the trajectory")
         ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
+    command
+        .add_option("--reference-rays", arguments->report.reference_rays,
+                    "Rays per image at which the reference gives up settling")
+        ->check(CLI::Range(std::uint64_t{1'000'000}, std::uint64_t{1'000'000'000'000}))
         ->capture_default_str();
     command
         .add_option("--engines", arguments->engines,

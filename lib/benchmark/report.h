@@ -53,11 +53,13 @@ struct ReportRow {
     bool warned = false;  ///< the engine warned at one of the poses
     Spread samples_per_ping;
     ColdStart cold;
-    PingSeconds stages;       ///< medians over the poses
-    double ms_bare = 0.0;     ///< the same: Embree alone, one ray to every sample
-    double ms_rays = 0.0;     ///< the same: Embree alone, view_rays_count rays over the view
-    double times_rays = 0.0;  ///< a ping over those rays, in turns at each pose; median over poses
-    bool on_front = false;    ///< no setting of this sonar is both faster and more accurate
+    PingSeconds stages;    ///< medians over the poses
+    double ms_bare = 0.0;  ///< the same: Embree alone, one ray to every sample
+    /// Embree alone, view_rays_count rays over the view, and a ping over them: both of the
+    /// processor, in turns at each pose. Medians over the poses.
+    double ms_rays = 0.0;
+    double times_rays = 0.0;
+    bool on_front = false;  ///< no setting of this sonar is both faster and more accurate
 
     /// Whether the setting kept its promise: "met" at the worst pose, too, "warned" that it was
     /// not, or "missed" it in silence; "-" where it makes none.

@@ -50,27 +50,36 @@ struct Cast {
     float reach_m() const { return static_cast<float>(looking.view.range_max_m) * 1.01F; }
 };
 
+/// Where in its cell of a column ray i goes: shares of the column's width and of a step along it.
+struct Place {
+    double across;
+    double along;
+};
+
+Place place_of(const RayLayout& layout, std::uint32_t column, std::uint32_t i) {
+    if (layout.start == 0) {
+        // A lattice that stands askew to columns and rows: an edge that runs along either is met at
+        // every phase.
+        constexpr double golden = 0.6180339887498949;
+        constexpr double root_two = 0.4142135623730950;
+        const double across = golden * i;
+        const double along = root_two * column;
+        return {across - std::floor(across), along - std::floor(along)};
+    }
+    const PhiloxBlock draw = philox({i, column, layout.start, 0}, {0x72617973U, 0});
+    return {unit_float(draw.x0), unit_float(draw.x1)};
+}
+
 /// The directions of one column, in the sensor frame.
 void column_directions(const Cast& cast, const ViewColumn& column, std::uint32_t index,
                        std::vector<Eigen::Vector3f>& directions) {
-    // Of the fraction of a step by which each column's lattice is shifted, so that edges that run
-    // along the lattice are met at every phase.
-    constexpr double golden = 0.6180339887498949;
-    const RayLayout& layout = cast.layout;
-    const ViewShape shape = cast.looking.view.shape;
-    const double step = (column.along_max - column.along_min) / layout.count;
-    const double shift = golden * (index + 1) - std::floor(golden * (index + 1));
+    const double step = (column.along_max - column.along_min) / cast.layout.count;
     const SinCosFloat middle = sincos_float(column.across);
     for (std::uint32_t i = 0; i < directions.size(); ++i) {
-        if (layout.start == 0) {
-            const SinCosFloat along = sincos_float(column.along_min + (i + shift) * step);
-            directions[i] = direction(shape, middle, along);
-            continue;
-        }
-        const PhiloxBlock draw = philox({i, index, layout.start, 0}, {0x72617973U, 0});
-        const double off = (unit_float(draw.x0) - 0.5) * column.width;
-        const SinCosFloat along = sincos_float(column.along_min + (i + unit_float(draw.x1)) * step);
-        directions[i] = direction(shape, middle + sincos_small(static_cast<float>(off)), along);
+        const Place place = place_of(cast.layout, index, i);
+        const auto off = static_cast<float>((place.across - 0.5) * column.width);
+        const SinCosFloat along = sincos_float(column.along_min + (i + place.along) * step);
+        directions[i] = direction(cast.looking.view.shape, middle + sincos_small(off), along);
     }
 }
 

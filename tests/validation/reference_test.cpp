@@ -53,7 +53,7 @@ TEST_CASE("where two surfaces share a bin the reference weighs them by area" *
     const Caster caster(scene);
     View view = small_view();
     view.range_bins = 200;
-    const Reference reference = cast_reference(caster, scene, view, Pose{}, {0.002, 64.0});
+    const Reference reference = cast_reference(caster, scene, view, Pose{}, {0.004, 64.0});
     for (int j = 0; j < view.beams; ++j) {
         const int i = static_cast<int>((4.0 / std::cos(radians(-20.0 + 2.0 * (j + 0.5))) - 0.5) /
                                        view.bin_m()) +
