@@ -5,6 +5,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <span>
 #include <vector>
@@ -152,7 +153,9 @@ void render(const Mission& mission, const Assembly& assembly, const std::vector<
                               .what = {},
                               .counts = ping.counts,
                               .seconds = ping.seconds,
-                              .brightest = brightest_pixel(ping, sonar.config.name, id.pose)};
+                              .brightest = brightest_pixel(ping, sonar.config.name, id.pose),
+                              .estimated_l1 = ping.estimated_l1,
+                              .goal_l1 = sonar.settings.view.relative_l1};
             if (to) write_ping(mission, assembly, *engine, *to, traced, ping, report);
             return report;
         },

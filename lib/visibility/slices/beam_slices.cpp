@@ -9,13 +9,11 @@ namespace sonarsim {
 
 namespace {
 
-// The error of a beam's column by a gap that takes up `share` of the beam is this times
-// share^share_exponent of the difference midway between its slices. At the slices there is none, so
-// a gap as wide as the beam is off by a quarter to a half of it. Of bins that other gaps light as
-// well, its error counts by its share; of bins that it alone lights it counts in full: a bin is as
-// bright for a sliver as for a wall. Both figures fit the errors of a lifeboat of 7,920 triangles,
-// eight poses by 1, 2, 4 and 8 slices per beam, to within a third.
-constexpr float error_of_difference = 0.33F;
+// Two slices that differ midway disagree, in a gap that takes up `share` of a beam, by this times
+// share^share_exponent of the difference. At the slices there is none, hence a third of it. Of bins
+// that other gaps light as well, a gap's difference counts by its share; of bins that it alone
+// lights it counts in full: a bin is as bright for a sliver as for a wall.
+constexpr float mean_of_difference = 0.33F;
 constexpr float share_exponent = 0.65F;
 
 // Over the width of a piece that no slice met: the facets of a wire face all ways, and its
@@ -39,7 +37,7 @@ BeamSlices::BeamSlices(const View& view, std::span<const Material> materials, Fr
     scan_.see_next(seen_[0]);
 }
 
-std::uint32_t BeamSlices::see(std::uint32_t gap, double goal) {
+std::uint32_t BeamSlices::see(std::uint32_t gap, double most) {
     const std::vector<Gap>& gaps = scan_.frame().gaps;
     std::uint32_t end = gap;
     while (end < gaps.size() && gaps[end].beam == gaps[gap].beam)
@@ -56,7 +54,7 @@ std::uint32_t BeamSlices::see(std::uint32_t gap, double goal) {
         see_gap(g);
         split_hidden(g);
     }
-    refine(goal);
+    refine(most);
     put_in_order();
     return end;
 }
@@ -85,7 +83,7 @@ void BeamSlices::split_hidden(std::uint32_t gap) {
 void BeamSlices::split(std::size_t i, float u) {
     const Between old = between_[i];
     if (!(seen_[old.low].slice.u < u && u < seen_[old.high].slice.u)) {
-        between_[i].error = 0.0F;
+        between_[i].apart = 0.0F;
         return;
     }
     Around& around = around_[old.gap - first_gap_];
@@ -99,23 +97,23 @@ void BeamSlices::split(std::size_t i, float u) {
     estimate(between_.back());
 }
 
-void BeamSlices::refine(double goal) {
+void BeamSlices::refine(double most) {
     beams_ += 1.0;
     while (true) {
-        ImageSums beam;
+        Disagreement beam;
         std::size_t worst = between_.size();
         for (std::size_t i = 0; i < between_.size(); ++i) {
             const Between& b = between_[i];
-            beam.error += b.error;
+            beam.apart += b.apart;
             beam.signal += b.signal;
-            if (!(b.error > 0.0F) || width(b) < least_share * beam_width_) continue;
-            if (worst == between_.size() || b.error > between_[worst].error) worst = i;
+            if (!(b.apart > 0.0F) || width(b) < least_share * beam_width_) continue;
+            if (worst == between_.size() || b.apart > between_[worst].apart) worst = i;
         }
         // A dim beam may have a larger share of its signal in error than a bright one.
-        const double mean = 0.5 * (beam.signal + (sums_.signal + beam.signal) / beams_);
-        if (beam.error <= goal * mean || worst == between_.size()) {
-            sums_.error += beam.error;
-            sums_.signal += beam.signal;
+        const double mean = 0.5 * (beam.signal + (sum_.signal + beam.signal) / beams_);
+        if (beam.apart <= most * mean || worst == between_.size()) {
+            sum_.apart += beam.apart;
+            sum_.signal += beam.signal;
             return;
         }
         const Between& b = between_[worst];
@@ -132,7 +130,7 @@ void BeamSlices::estimate(Between& between) {
     move_ends(a.slice, a.spans, u, ends_of_low_);
     move_ends(b.slice, b.spans, u, ends_of_high_);
     if (alike(a, b)) {
-        between.error = 0.0F;
+        between.apart = 0.0F;
         between.signal = share * last_signal_;
         return;
     }
@@ -140,7 +138,7 @@ void BeamSlices::estimate(Between& between) {
     high_.set(scan_, materials_, b.spans, ends_of_high_);
     last_signal_ = 0.5F * (low_.sum() + high_.sum());
     between.signal = share * last_signal_;
-    between.error = error_of_difference * std::pow(share, share_exponent) *
+    between.apart = mean_of_difference * std::pow(share, share_exponent) *
                     RangeProfile::difference(low_, high_);
 }
 

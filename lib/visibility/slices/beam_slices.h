@@ -9,16 +9,17 @@
 
 namespace sonarsim {
 
-/// The error of an image and what it is a share of, in intensities summed over bins and beams.
-struct ImageSums {
-    double error = 0.0;
-    double signal = 0.0;
+/// How far neighbouring slices disagree about what lies between them, in intensities summed over
+/// bins and beams.
+struct Disagreement {
+    double apart = 0.0;
+    double signal = 0.0;  ///< what it is a share of
 
-    double share() const { return signal > 0.0 ? error / signal : 0.0; }
+    double share() const { return signal > 0.0 ? apart / signal : 0.0; }
 };
 
-/// The slices of one beam within a frame. They are added until what lies between them is known as
-/// well as the goal asks for.
+/// The slices of one beam within a frame. They are added until they agree about what lies
+/// between them.
 class BeamSlices {
   public:
     /// All arguments must outlive it.
@@ -27,13 +28,13 @@ class BeamSlices {
     /// Sees the beam that begins with gap `gap` of the frame, as far as the frame reaches. `goal`
     /// is the error as a share of the signal. Returns the gap after the beam's last. Beams are to
     /// be seen in order.
-    std::uint32_t see(std::uint32_t gap, double goal);
+    std::uint32_t see(std::uint32_t gap, double most);
 
     /// The slices of the beam, from low u to high.
     std::span<const SeenSlice* const> slices() const { return in_order_; }
 
     /// Of all beams so far.
-    const ImageSums& sums() const { return sums_; }
+    const Disagreement& sum() const { return sum_; }
 
   private:
     /// What lies between two neighbouring slices; indices into seen_.
@@ -41,7 +42,7 @@ class BeamSlices {
         std::uint32_t low;
         std::uint32_t high;
         std::uint32_t gap;   ///< of the frame, in which it lies
-        float error = 0.0F;  ///< of the beam's column: intensity summed over bins
+        float apart = 0.0F;  ///< as of Disagreement
         float signal = 0.0F;
     };
 
@@ -54,7 +55,7 @@ class BeamSlices {
     void see_gap(std::uint32_t gap);
     void split_hidden(std::uint32_t gap);
     void split(std::size_t i, float u);
-    void refine(double goal);
+    void refine(double most);
     void estimate(Between& between);
     bool alike(const SeenSlice& a, const SeenSlice& b) const;
     float width(const Between& between) const;
@@ -76,7 +77,7 @@ class BeamSlices {
     RangeProfile low_;
     RangeProfile high_;
     float last_signal_ = 0.0F;  ///< of a whole beam
-    ImageSums sums_;
+    Disagreement sum_;
     double beams_ = 0.0;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace sonarsim {
@@ -131,7 +132,8 @@ void SliceSetup::add_triangle(const Corners& corners, std::uint32_t facet) {
 void SliceSetup::add_part_in_front(const Corners& corners, std::uint32_t facet) {
     const FrontPart part = part_in_front(corners, nearest_m_);
     std::array<EdgeLine, 4> lines;
-    std::array<float, 4> u{};
+    std::array<float, 4> u;
+    u.fill(std::numeric_limits<float>::infinity());
     for (int i = 0; i < part.count; ++i) {
         const Corner& a = part.corners[i];
         const Corner& b = part.corners[(i + 1) % part.count];
@@ -142,7 +144,7 @@ void SliceSetup::add_part_in_front(const Corners& corners, std::uint32_t facet) 
         lines[i].extent = {std::min(a.u, b.u), std::max(a.u, b.u)};
         u[i] = a.u;
     }
-    std::sort(u.begin(), u.begin() + part.count);
+    std::ranges::sort(u);
     if (!(u[0] <= u_high_ && u[part.count - 1] > u_low_) || !see(facet, corners[0])) return;
     for (int k = 0; k + 1 < part.count; ++k) {
         const float middle = 0.5F * (u[k] + u[k + 1]);

@@ -17,16 +17,34 @@ namespace sonarsim {
 namespace {
 
 // With a number of slices that is given, gaps are split for hidden pieces alone.
-constexpr double no_goal = 1e9;
+constexpr double unlimited = 1e9;
 
-/// Slices to a beam that an error goal begins with: one where few beams have to be refined.
+/// Slices to a beam that an error goal begins with.
 int slices_for(double relative_l1) {
     return relative_l1 >= 0.02 ? 1 : relative_l1 >= 0.005 ? 2 : 4;
 }
 
+// How far the slices of an image disagree says how far the image is off. Fitted to the errors of a
+// lifeboat of 7,920 triangles and a tank, eight poses each at goals of 10, 3, 1 and 0.3 %, within a
+// factor of 1.6. The square root: where slices are added they are added where they disagree most,
+// and the rest of the error does not fall along with it.
+constexpr double error_of_disagreement = 0.16;
+
 /// Error of an image whose slices see everything: pieces of surface become boxes in range.
-double shape_error(double relative_l1) {
+double error_of_shapes(double relative_l1) {
     return 0.002 + 0.002 * std::clamp(relative_l1 / 0.03, 0.1, 1.0);
+}
+
+double estimated_error(double relative_l1, double disagreement) {
+    return error_of_shapes(relative_l1) + error_of_disagreement * std::sqrt(disagreement);
+}
+
+/// What slices may disagree by for an error goal. Goals near the error of shapes are not met by
+/// more slices: they end at an eighth of the goal.
+double disagreement_for(double relative_l1) {
+    const double left = std::max(relative_l1 - error_of_shapes(relative_l1), 0.0);
+    return std::max(left * left / (error_of_disagreement * error_of_disagreement),
+                    0.125 * relative_l1);
 }
 
 class SlicesEngine final : public VisibilityEngine {
@@ -40,14 +58,11 @@ class SlicesEngine final : public VisibilityEngine {
         const LocalPose pose = local_pose(T_world_sensor, scene_->origin);
         Samples samples;
         samples.beam_begin.assign(view.beams + 1, 0);
-        const double goal = options_.per_beam > 0
-                                ? no_goal
-                                : std::max(view.relative_l1 - shape_error(view.relative_l1),
-                                           0.5 * view.relative_l1);
-        ImageSums sums;
+        const double most = options_.per_beam > 0 ? unlimited : disagreement_for(view.relative_l1);
+        Disagreement sum;
         for (const SliceFrame& frame : slice_frames(view, per_beam))
-            see_frame(view, pose, frame, goal, samples, sums);
-        samples.estimated_l1 = shape_error(view.relative_l1) + sums.share();
+            see_frame(view, pose, frame, most, samples, sum);
+        samples.estimated_l1 = estimated_error(view.relative_l1, sum.share());
         return samples;
     }
 
@@ -57,14 +72,14 @@ class SlicesEngine final : public VisibilityEngine {
     }
 
   private:
-    void see_frame(const View& view, const LocalPose& pose, const SliceFrame& frame, double goal,
-                   Samples& samples, ImageSums& sums) const {
+    void see_frame(const View& view, const LocalPose& pose, const SliceFrame& frame, double most,
+                   Samples& samples, Disagreement& sum) const {
         const PieceLimits limits = piece_limits(view);
         FrameScan scan(mesh_, *scene_, frame, pose, limits.range_max_m);
         BeamSlices beam(view, scene_->materials, scan);
         SpanSampler sampler(scan, limits, samples.items);
         for (std::uint32_t gap = 0; gap < frame.gaps.size();) {
-            const std::uint32_t next = beam.see(gap, goal);
+            const std::uint32_t next = beam.see(gap, most);
             const std::span<const SeenSlice* const> slices = beam.slices();
             float from = frame.gaps[gap].u_low;
             for (std::size_t i = 0; i < slices.size(); ++i) {
@@ -79,8 +94,8 @@ class SlicesEngine final : public VisibilityEngine {
             gap = next;
         }
         samples.dropped += scan.scene().dropped;
-        sums.error += beam.sums().error;
-        sums.signal += beam.sums().signal;
+        sum.apart += beam.sum().apart;
+        sum.signal += beam.sum().signal;
     }
 
     const Scene* scene_;
