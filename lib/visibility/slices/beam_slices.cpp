@@ -16,16 +16,12 @@ namespace {
 constexpr float mean_of_difference = 0.33F;
 constexpr float share_exponent = 0.65F;
 
-// Over the width of a piece that no slice met: the facets of a wire face all ways, and its
-// brightness is their mean.
-constexpr int slices_per_hidden_piece = 4;
-
 // A gap is split a little beside its middle, so that no edge of a scene that is built along the
 // sonar's axes runs along a slice.
 constexpr float middle = 0.4937F;
 
-// No gap is split below this share of its beam.
-constexpr float least_share = 1.0F / 128.0F;
+// Slices are no nearer to each other than this share of their beam.
+constexpr float least_share = 1.0F / 256.0F;
 
 // Two ends are one where they differ by less than this share of the slice.
 constexpr float same_place = 2e-4F;
@@ -52,7 +48,7 @@ std::uint32_t BeamSlices::see(std::uint32_t gap, double most) {
     between_.clear();
     for (std::uint32_t g = gap; g < end; ++g) {
         see_gap(g);
-        split_hidden(g);
+        split_where_wanted(g);
     }
     refine(most);
     put_in_order();
@@ -71,11 +67,11 @@ void BeamSlices::see_gap(std::uint32_t gap) {
     estimate(between_.back());
 }
 
-void BeamSlices::split_hidden(std::uint32_t gap) {
-    for (const HiddenPlace& place : scan_.hidden_in(gap)) {
-        const float step = (place.u.to - place.u.from) / slices_per_hidden_piece;
-        for (int k = 0; k < slices_per_hidden_piece; ++k)
-            split(between_.size() - 1, place.u.from + (static_cast<float>(k) + 0.5F) * step);
+void BeamSlices::split_where_wanted(std::uint32_t gap) {
+    for (const WantedSlice& wanted : scan_.wanted_in(gap)) {
+        const Between& last = between_.back();
+        if (wanted.u - seen_[last.low].slice.u < least_share * beam_width_) continue;
+        split(between_.size() - 1, wanted.u);
     }
 }
 
@@ -106,7 +102,7 @@ void BeamSlices::refine(double most) {
             const Between& b = between_[i];
             beam.apart += b.apart;
             beam.signal += b.signal;
-            if (!(b.apart > 0.0F) || width(b) < least_share * beam_width_) continue;
+            if (!(b.apart > 0.0F) || width(b) < 2.0F * least_share * beam_width_) continue;
             if (worst == between_.size() || b.apart > between_[worst].apart) worst = i;
         }
         // A dim beam may have a larger share of its signal in error than a bright one.

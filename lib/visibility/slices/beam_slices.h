@@ -53,7 +53,7 @@ class BeamSlices {
     };
 
     void see_gap(std::uint32_t gap);
-    void split_hidden(std::uint32_t gap);
+    void split_where_wanted(std::uint32_t gap);
     void split(std::size_t i, float u);
     void refine(double most);
     void estimate(Between& between);

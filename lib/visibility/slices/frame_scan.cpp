@@ -25,7 +25,7 @@ FrameScan::FrameScan(const ClusterMesh& mesh, const Scene& scene, const SliceFra
       setup_(mesh, frame, pose, range_max_m, scene_),
       reaches_(mesh, scene.vertices, setup_, scene_) {
     setup_.run();
-    hidden_ = find_hidden_pieces(mesh_, setup_, scene_);
+    wanted_ = slices_through_narrow_pieces(scene_, frame_);
     walk_.start(scene_, frame_);
 }
 
@@ -65,8 +65,8 @@ bool FrameScan::one_plane(const VisibleSpan& a, const VisibleSpan& b) const {
     return a.seen == b.seen || sonarsim::one_plane(mesh_, scene_, a, b);
 }
 
-std::span<const HiddenPlace> FrameScan::hidden_in(std::uint32_t gap) const {
-    const auto [from, to] = std::ranges::equal_range(hidden_, gap, {}, &HiddenPlace::gap);
+std::span<const WantedSlice> FrameScan::wanted_in(std::uint32_t gap) const {
+    const auto [from, to] = std::ranges::equal_range(wanted_, gap, {}, &WantedSlice::gap);
     return {from, to};
 }
 

@@ -7,7 +7,7 @@
 #include "scene/scene.h"
 #include "visibility/local_pose.h"
 #include "visibility/slices/envelope.h"
-#include "visibility/slices/hidden_pieces.h"
+#include "visibility/slices/narrow_pieces.h"
 #include "visibility/slices/reach.h"
 #include "visibility/slices/setup.h"
 #include "visibility/slices/slice_walk.h"
@@ -39,8 +39,8 @@ class FrameScan {
     /// Sees the slice at u, of which `trapezoids` are all that it may meet.
     void see(float u, std::span<const std::uint32_t> trapezoids, SeenSlice& out);
 
-    /// Where a gap holds what no slice of the frame meets.
-    std::span<const HiddenPlace> hidden_in(std::uint32_t gap) const;
+    /// The slices that are wanted within a gap, from low u to high.
+    std::span<const WantedSlice> wanted_in(std::uint32_t gap) const;
 
     /// Whether two spans lie on one plane, of one material and instance.
     bool one_plane(const VisibleSpan& a, const VisibleSpan& b) const;
@@ -56,7 +56,7 @@ class FrameScan {
     const SliceFrame& frame_;
     SliceScene scene_;
     SliceSetup setup_;
-    std::vector<HiddenPlace> hidden_;
+    std::vector<WantedSlice> wanted_;
     Reaches reaches_;
     SliceWalk walk_;
     int next_ = 0;

@@ -2,11 +2,16 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace sonarsim {
 
 namespace {
+
+// Beside a triangle that its neighbours go on from, as a share of the range: its plane is followed
+// no farther than this.
+constexpr float neighbour_share = 0.002F;
 
 constexpr float unbounded = std::numeric_limits<float>::infinity();
 constexpr Reach unknown{{0.0F, 0.0F}, {-1.0F, -1.0F}};
@@ -48,10 +53,12 @@ const Reach& Reaches::of(std::uint32_t seen) {
         const SeenFacet& facet = scene_.facets[seen];
         const Corners corners = setup_.corners_of(facet.facet);
         reach = {u_of(corners, facet.facet), range_of(corners, facet.height_m)};
-        if (!scene_.piece_u.empty()) {
-            const Extent& piece = scene_.piece_u[mesh_.facets[facet.facet].piece];
-            reach.u = {std::max(reach.u.from, piece.from), std::min(reach.u.to, piece.to)};
+        if (std::isinf(reach.u.from) || std::isinf(reach.u.to)) {
+            reach.range_m.from /= 1.0F + neighbour_share;
+            reach.range_m.to *= 1.0F + neighbour_share;
         }
+        const Extent& piece = scene_.piece_u[mesh_.facets[facet.facet].piece];
+        reach.u = {std::max(reach.u.from, piece.from), std::min(reach.u.to, piece.to)};
     }
     return reach;
 }

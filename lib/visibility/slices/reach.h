@@ -10,8 +10,8 @@ namespace sonarsim {
 
 /// How far a triangle's surface reaches.
 struct Reach {
-    Extent u;        ///< where it ends; infinite where it goes on with a neighbour
-    Extent range_m;  ///< within which all of the triangle lies
+    Extent u;        ///< where it ends, or the whole piece where it goes on with a neighbour
+    Extent range_m;  ///< within which all of it lies; of a triangle that goes on, nearly all
 };
 
 /// Works out the reach of a scene's facets when it is asked for: few are visible.

@@ -16,6 +16,8 @@ constexpr float nearest_share = 1e-5F;
 // edge-on to within rounding.
 constexpr float edge_on_share = 1e-7F;
 
+constexpr float unbounded = std::numeric_limits<float>::infinity();
+
 /// The line of the near plane between two corners on it.
 EdgeLine near_line(const Corner& a, const Corner& b) {
     const float slope = b.u != a.u ? (b.w - a.w) / (b.u - a.u) : 0.0F;
@@ -28,8 +30,7 @@ void SliceScene::clear(std::uint32_t pieces) {
     facets.clear();
     trapezoids.clear();
     between.clear();
-    met.assign(pieces, false);
-    piece_u.clear();
+    piece_u.assign(pieces, {unbounded, -unbounded});
     dropped = 0;
 }
 
@@ -111,6 +112,7 @@ void SliceSetup::add_triangle(const Corners& corners, std::uint32_t facet) {
     if (!(first->u <= u_high_ && last->u > u_low_)) return;
     if (std::max({a.w, b.w, c.w}) <= frame_.w_low || std::min({a.w, b.w, c.w}) >= frame_.w_high)
         return;
+    widen_piece(facet, {first->u, last->u});
     const std::uint32_t begin = find_slice_(first->u);
     const std::uint32_t end = find_slice_(last->u);
     if (begin == end && !lazy_) {
@@ -133,7 +135,7 @@ void SliceSetup::add_part_in_front(const Corners& corners, std::uint32_t facet) 
     const FrontPart part = part_in_front(corners, nearest_m_);
     std::array<EdgeLine, 4> lines;
     std::array<float, 4> u;
-    u.fill(std::numeric_limits<float>::infinity());
+    u.fill(unbounded);
     for (int i = 0; i < part.count; ++i) {
         const Corner& a = part.corners[i];
         const Corner& b = part.corners[(i + 1) % part.count];
@@ -145,6 +147,7 @@ void SliceSetup::add_part_in_front(const Corners& corners, std::uint32_t facet) 
         u[i] = a.u;
     }
     std::ranges::sort(u);
+    widen_piece(facet, {-unbounded, unbounded});
     if (!(u[0] <= u_high_ && u[part.count - 1] > u_low_) || !see(facet, corners[0])) return;
     for (int k = 0; k + 1 < part.count; ++k) {
         const float middle = 0.5F * (u[k] + u[k + 1]);
@@ -158,6 +161,11 @@ void SliceSetup::add_part_in_front(const Corners& corners, std::uint32_t facet) 
         }
         if (low != high) add_trapezoid(*low, *high, u[k], u[k + 1]);
     }
+}
+
+void SliceSetup::widen_piece(std::uint32_t facet, const Extent& by) {
+    Extent& piece = out_.piece_u[mesh_.facets[facet].piece];
+    piece = {std::min(piece.from, by.from), std::max(piece.to, by.to)};
 }
 
 /// Enters a facet that some slice meets; false when it is seen edge-on.
@@ -187,10 +195,7 @@ void SliceSetup::add_trapezoid(const EdgeLine& low, const EdgeLine& high, float 
         out_.between.push_back({facet, first - 1});
         return;
     }
-    if (met) {
-        first_slice_.push_back(first);
-        out_.met[mesh_.facets[facet].piece] = true;
-    }
+    if (met) first_slice_.push_back(first);
     out_.trapezoids.push_back({low, high, from, to, seen});
 }
 

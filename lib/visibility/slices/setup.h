@@ -43,8 +43,7 @@ struct SliceScene {
     std::vector<Trapezoid> trapezoids;
     Groups by_slice;  ///< trapezoids by the first slice that meets them
     std::vector<Between> between;
-    std::vector<bool> met;        ///< pieces of the mesh that some slice meets
-    std::vector<Extent> piece_u;  ///< of the pieces that none meets; empty when there are none
+    std::vector<Extent> piece_u;  ///< of the triangles in view; of the other pieces from > to
     std::uint64_t dropped = 0;    ///< triangles seen edge-on to within rounding
 
     void clear(std::uint32_t pieces);
@@ -78,6 +77,7 @@ class SliceSetup {
     void add_cluster(const Cluster& cluster);
     void add_triangle(const Corners& corners, std::uint32_t facet);
     void add_part_in_front(const Corners& corners, std::uint32_t facet);
+    void widen_piece(std::uint32_t facet, const Extent& by);
     bool see(std::uint32_t facet, const Corner& corner);
     void add_trapezoid(const EdgeLine& low, const EdgeLine& high, float from, float to);
 

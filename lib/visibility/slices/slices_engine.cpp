@@ -16,7 +16,7 @@ namespace sonarsim {
 
 namespace {
 
-// With a number of slices that is given, gaps are split for hidden pieces alone.
+// With a number of slices that is given, gaps are split for narrow pieces alone.
 constexpr double unlimited = 1e9;
 
 /// Slices to a beam that an error goal begins with.

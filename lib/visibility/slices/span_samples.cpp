@@ -14,10 +14,6 @@ constexpr float most_sag = 0.03F;
 constexpr float shortest_piece = 0.25F;
 constexpr float most_excess = 0.15F;
 
-// Beside a triangle that its neighbours go on from, as a share of the range: its plane is followed
-// no farther than this.
-constexpr float neighbour_share = 0.002F;
-
 // A plane beside the slice: where its q would fall below this share, it has run away to infinity.
 constexpr float least_q_share = 1e-3F;
 
@@ -105,11 +101,9 @@ void SpanSampler::add_span(const Slice& slice, const VisibleSpan& span, std::siz
     quad.q_u = -seen.normal.y() / seen.height_m;
     quad.q_w = -seen.normal.z() / seen.height_m;
     // Beside the slice a plane may run away from the sensor, but its triangle does not.
-    const bool goes_on = std::isinf(span.reach.u.from) || std::isinf(span.reach.u.to);
-    const float margin = goes_on ? 1.0F + neighbour_share : 1.0F;
     quad.q_least = least_q_share * quad.q;
-    quad.nearest_m = span.reach.range_m.from / margin;
-    quad.farthest_m = span.reach.range_m.to * margin;
+    quad.nearest_m = span.reach.range_m.from;
+    quad.farthest_m = span.reach.range_m.to;
     const QuadSide on_slice{slice.u, span.w_low, span.w_high};
     quad.low = quad_side(slice, low_, index);
     quad.high = quad_side(slice, high_, index);
