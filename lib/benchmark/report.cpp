@@ -123,6 +123,7 @@ void measure_errors(const PingSet& pings, const Trial& trial,
     std::vector<double> miss(poses);
     std::vector<double> false_bins(poses);
     std::vector<double> samples(poses);
+    std::vector<double> estimated_l1(poses);
     in_parallel(poses, [&](std::size_t p) {
         const Ping ping =
             render_ping(trial.sonar, pings.scene, *engine, pings.poses[p], {}, direct_echoes_alone);
@@ -132,8 +133,11 @@ void measure_errors(const PingSet& pings, const Trial& trial,
         miss[p] = error.miss_rate;
         false_bins[p] = error.false_rate;
         samples[p] = static_cast<double>(ping.counts.samples);
+        estimated_l1[p] = ping.estimated_l1;
     });
-    row.warned = !engine->warnings().empty();
+    const double goal = trial.sonar.settings.view.relative_l1;
+    row.warned = !engine->warnings().empty() ||
+                 std::ranges::any_of(estimated_l1, [&](double l1) { return l1 > goal; });
     row.relative_l1 = spread_of(l1);
     row.relative_l2 = spread_of(l2);
     row.miss_rate = spread_of(miss);

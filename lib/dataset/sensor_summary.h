@@ -14,7 +14,7 @@ struct SensorSummary {
     std::uint64_t clipped_pixels = 0;
     std::uint64_t missed_goals = 0;  ///< pings whose estimated error is above the goal
     double worst_l1 = 0.0;           ///< the greatest of the estimates
-    float brightest = 0.0F;  ///< intensity of the brightest pixel of all
+    float brightest = 0.0F;          ///< intensity of the brightest pixel of all
 };
 
 }  // namespace sonarsim

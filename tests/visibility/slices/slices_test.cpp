@@ -1,5 +1,7 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 
@@ -188,8 +190,11 @@ TEST_CASE("slices: a wire of 4 mm is seen in every ping, as bright as a cylinder
         }
         REQUIRE(area > 0.0);
         // Of a width of 4 mm and a height of 2 * 5 tan 10; facets of eight sides.
-        CHECK(echo / (0.004 * 1.763) == doctest::Approx(1.0).epsilon(0.4));
-        CHECK(echo / area / 0.64 == doctest::Approx(1.0).epsilon(0.35));
+        // Four slices show four facets; what is missing lies between the last of them and the limb.
+        CHECK(echo / (0.004 * 1.763) > 0.7);
+        CHECK(echo / (0.004 * 1.763) < 1.05);
+        CHECK(echo / area / 0.637 > 0.9);
+        CHECK(echo / area / 0.637 < 1.1);
     }
 }
 
@@ -201,8 +206,9 @@ TEST_CASE("slices: a ball of 2 cm is seen in every ping") {
         const Pose pose{rotation_from_rpy(0.0, 0.0, radians(-20.0 + 0.677 * k)),
                         Eigen::Vector3d::Zero()};
         const double cap = 2.0 * pi * 1e-4;
-        CHECK(area_of(engine->visible_surface(fan_view(), pose)) / cap ==
-              doctest::Approx(1.0).epsilon(0.5));
+        const double share = area_of(engine->visible_surface(fan_view(), pose)) / cap;
+        CHECK(share > 0.9);
+        CHECK(share < 1.05);
     }
 }
 
@@ -248,6 +254,49 @@ TEST_CASE("slices: rays see the same tank") {
                   filled(rays->visible_surface(view, pose)) ==
               doctest::Approx(1.0).epsilon(0.03));
     }
+}
+
+TEST_CASE("slices: three planes that cross in one slice are each seen where they are nearest") {
+    // Planes through (5, y, 0) that lean by -1, 0 and 1: the outer two are nearer above and below.
+    Scene scene = test::empty_scene();
+    std::array<std::uint32_t, 3> material;
+    for (int k = 0; k < 3; ++k) {
+        const auto lean = static_cast<float>(k - 1);
+        material[k] = test::add_material(scene, 0.3F + 0.1F * static_cast<float>(k));
+        test::add_quad(scene, {5 - 4 * lean, -9, -4}, {5 - 4 * lean, 9, -4}, {5 + 4 * lean, 9, 4},
+                       {5 + 4 * lean, -9, 4}, material[k]);
+    }
+    std::array<double, 3> area{};
+    for (const Sample& sample : seen(scene, fan_view(), {}).items) {
+        const auto k = std::ranges::find(material, sample.material) - material.begin();
+        area[k] += sample.area_m2;
+        // The plane that leans towards the sonar above z = 0 has normal.z > 0.
+        if (k != 1) CHECK(sample.position.z() * static_cast<float>(1 - k) > -1e-4F);
+    }
+    CHECK(area[1] < 1e-4);
+    CHECK(area[0] > 1.0);
+    CHECK(area[2] / area[0] == doctest::Approx(1.0).epsilon(1e-4));
+}
+
+TEST_CASE("slices: a finer goal asks for more slices and promises less error") {
+    const Scene scene = test::tank();
+    const auto engine = make_slices_engine(scene, {});
+    const Pose pose = pitched(15.0, {-2.4, 0.4, 1.5});
+    double last = 1.0;
+    std::size_t samples = 0;
+    for (const double goal : {0.1, 0.03, 0.01}) {
+        View view = fan_view();
+        view.relative_l1 = goal;
+        const Samples seen_now = engine->visible_surface(view, pose);
+        CHECK(seen_now.estimated_l1 < goal);
+        CHECK(seen_now.estimated_l1 < last);
+        CHECK(seen_now.items.size() >= samples);
+        last = seen_now.estimated_l1;
+        samples = seen_now.items.size();
+    }
+    View view = fan_view();
+    view.relative_l1 = 0.001;
+    CHECK(engine->visible_surface(view, pose).estimated_l1 > 0.001);
 }
 
 TEST_SUITE_END();
