@@ -20,7 +20,7 @@ constexpr float share_exponent = 0.65F;
 // sonar's axes runs along a slice.
 constexpr float middle = 0.4937F;
 
-// Slices are no nearer to each other than this share of their beam.
+// Slices are no nearer to each other than this share of the gap of the frame that they lie in.
 constexpr float least_share = 1.0F / 256.0F;
 
 // Two ends are one where they differ by less than this share of the slice.
@@ -70,7 +70,7 @@ void BeamSlices::see_gap(std::uint32_t gap) {
 void BeamSlices::split_where_wanted(std::uint32_t gap) {
     for (const WantedSlice& wanted : scan_.wanted_in(gap)) {
         const Between& last = between_.back();
-        if (wanted.u - seen_[last.low].slice.u < least_share * beam_width_) continue;
+        if (wanted.u - seen_[last.low].slice.u < least_width(gap)) continue;
         split(between_.size() - 1, wanted.u);
     }
 }
@@ -102,7 +102,7 @@ void BeamSlices::refine(double most) {
             const Between& b = between_[i];
             beam.apart += b.apart;
             beam.signal += b.signal;
-            if (!(b.apart > 0.0F) || width(b) < 2.0F * least_share * beam_width_) continue;
+            if (!(b.apart > 0.0F) || width(b) < 2.0F * least_width(b.gap)) continue;
             if (worst == between_.size() || b.apart > between_[worst].apart) worst = i;
         }
         // A dim beam may have a larger share of its signal in error than a bright one.
@@ -150,6 +150,11 @@ bool BeamSlices::alike(const SeenSlice& a, const SeenSlice& b) const {
         }
     }
     return true;
+}
+
+float BeamSlices::least_width(std::uint32_t gap) const {
+    const Gap& whole = scan_.frame().gaps[gap];
+    return least_share * (whole.u_high - whole.u_low);
 }
 
 float BeamSlices::width(const Between& between) const {

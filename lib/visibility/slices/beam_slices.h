@@ -59,6 +59,7 @@ class BeamSlices {
     void estimate(Between& between);
     bool alike(const SeenSlice& a, const SeenSlice& b) const;
     float width(const Between& between) const;
+    float least_width(std::uint32_t gap) const;
     std::uint32_t new_slice();
     void put_in_order();
 
