@@ -66,7 +66,8 @@ bool FrameScan::one_plane(const VisibleSpan& a, const VisibleSpan& b) const {
 }
 
 std::span<const WantedSlice> FrameScan::wanted_in(std::uint32_t gap) const {
-    const auto [from, to] = std::ranges::equal_range(wanted_, gap, {}, &WantedSlice::gap);
+    const auto from = std::ranges::lower_bound(wanted_, gap, {}, &WantedSlice::gap);
+    const auto to = std::ranges::upper_bound(wanted_, gap, {}, &WantedSlice::gap);
     return {from, to};
 }
 
