@@ -88,7 +88,7 @@ TEST_SUITE("dataset") {
             mission, 5,
             "holds a dataset of this mission made from other scene, material or trajectory files");
         ++mission.seed;
-        check_refused_unless_overwritten(mission, 4, "holds the dataset of another mission");
+        check_refused_unless_overwritten(mission, 4, "holds a dataset of another mission");
         --mission.seed;
         edit(mission.output.folder / "dataset.json", "\"program_version\": \"",
              "\"program_version\": \"9");
