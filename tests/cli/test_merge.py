@@ -97,7 +97,8 @@ class Merge(Sandbox):
         self.assert_refused(self.merge("part1", "part2", "part3", "all"), "sensor 'sss'")
 
     def test_mistakes(self):
-        self.assert_refused(self.merge("part1", "part2", "part3"), "part3", "one of the parts")
+        self.assert_refused(self.merge("part1", "part2", "part3", "part1"), "part1",
+                            "one of the parts")
         self.assert_refused(self.merge("part1", "none", "all"), "none", "no dataset.json")
         self.write("taken/thesis.txt", "years of work")
         self.assert_refused(self.merge("part1", "part2", "part3", "taken"), "taken",

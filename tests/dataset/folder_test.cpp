@@ -130,7 +130,7 @@ TEST_SUITE("dataset") {
         mission.sensors[1].name = "left";
         CHECK(run(mission, 3, true).complete);
         const auto files = contents(out);
-        CHECK(files.size() == 4 + 4 * 4 + 2);  // front at 0, 1, 2 and left at 0; the notes
+        CHECK(files.size() == 5 + 4 * 4 + 2);  // front at 0, 1, 2 and left at 0; the notes
         CHECK(files.contains("notes.txt"));
         CHECK(files.contains("gone/meta/notes.txt"));
         CHECK_FALSE(fs::exists(out / "gone/fan"));

@@ -109,7 +109,7 @@ TEST_SUITE("dataset") {
         Mission mission = small_mission(temporary.path / "out");
         mission.output.polar = mission.output.image = mission.output.meta = false;
         run(mission);
-        CHECK(contents(temporary.path / "out").size() == 4 + pings);
+        CHECK(contents(temporary.path / "out").size() == 5 + pings);
         CHECK(fs::exists(temporary.path / "out/left/fan/000006.png"));
         CHECK_FALSE(fs::exists(temporary.path / "out/left/polar"));
     }
