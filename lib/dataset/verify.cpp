@@ -106,6 +106,13 @@ std::vector<Task> list_tasks(const fs::path& folder, const Json& description,
     return tasks;
 }
 
+/// Of a file that is there and not what it should be. Without dataset.json a folder would not be
+/// known as a dataset any more.
+std::string cure_of(const std::string& name) {
+    if (name != description_name) return std::string("remove it, and ") + render_again;
+    return std::string("remove ") + checksums_name + ", and " + render_again;
+}
+
 /// What looking at one file gave.
 struct Look {
     std::uint64_t bytes = 0;
@@ -154,7 +161,7 @@ void look_at_all(const fs::path& folder, const std::vector<Task>& tasks, int thr
                     "is " + shape_text(look.shape) + ", and the others are " + shape_text(first);
             }
             if (!fault.empty()) {
-                add_fault(check, task.name + ": " + fault + "; remove it, and " + render_again);
+                add_fault(check, task.name + ": " + fault + "; " + cure_of(task.name));
             }
             if (progress) progress(check.files, tasks.size());
         });
