@@ -209,9 +209,10 @@ void describe(Visitor& v, OctreeConfig& c) {
 
 template <class Visitor>
 void describe(Visitor& v, SlicesConfig& c) {
-    v.integer("per_beam", c.per_beam, between(0, 64),
-              "slices to a beam, one of them on its border; 0 means what accuracy.relative_l1 calls "
-              "for. A wide beam, a side and a cone have more");
+    v.integer(
+        "per_beam", c.per_beam, between(0, 64),
+        "slices to a beam, one of them on its border; 0 means what accuracy.relative_l1 calls "
+        "for. A wide beam, a side and a cone have more");
 }
 
 template <class Visitor>
@@ -251,7 +252,7 @@ void describe(Visitor& v, Mission& c) {
     v.section("accuracy", c.accuracy, "how exact the images are");
     v.choice("engine", c.engine, engine_kinds,
              "what finds the visible surface; `auto` takes the rays. The octree sees up to 160 "
-             "degrees of elevation or opening; slices do not yet check the goal");
+             "degrees of elevation or opening; the slices estimate the error of every ping");
     v.section("octree", c.octree, "settings of the octree");
     v.section("slices", c.slices, "settings of the slices");
     v.section("output", c.output, "what is written, and where");

@@ -9,8 +9,8 @@ namespace {
 constexpr float most_pieces_per_bin = 64.0F;
 
 // A piece has one intensity. On a plane v . n = H / r: where a piece spans no more than this share
-// of its range, its ends are off by 1 % and its mean is right.
-constexpr float most_depth_by_range = 0.02F;
+// of its range, its ends are off by 0.25 % and its mean is right.
+constexpr float most_depth_by_range = 0.005F;
 
 /// The squared length of (x, y, z) in the order in which Eigen adds.
 float squared(float x, float y, float z) {
@@ -18,8 +18,8 @@ float squared(float x, float y, float z) {
 }
 
 void load(std::span<const Sample> samples, std::span<const Material> materials, Footprints& f) {
-    constexpr std::size_t lanes = 8;
-    const std::size_t count = (samples.size() + lanes - 1) / lanes * lanes;
+    constexpr std::size_t whole = 8;
+    const std::size_t count = (samples.size() + whole - 1) / whole * whole;
     f.count = static_cast<int>(count);
     for (std::size_t k = 0; k < count; ++k) {
         const Sample& sample = samples[std::min(k, samples.size() - 1)];
