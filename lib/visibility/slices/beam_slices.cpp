@@ -18,7 +18,7 @@ constexpr float share_exponent = 0.65F;
 
 // A gap is split a little beside its middle, so that no edge of a scene that is built along the
 // sonar's axes runs along a slice.
-constexpr float middle = 0.4937F;
+constexpr float split_share = 0.4937F;
 
 // Slices are no nearer to each other than this share of the gap of the frame that they lie in.
 constexpr float least_share = 1.0F / 256.0F;
@@ -113,7 +113,7 @@ void BeamSlices::refine(double most) {
             return;
         }
         const Between& b = between_[worst];
-        split(worst, seen_[b.low].slice.u + middle * width(b));
+        split(worst, seen_[b.low].slice.u + split_share * width(b));
     }
 }
 

@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace sonarsim {
 
@@ -13,7 +12,6 @@ namespace {
 // no farther than this.
 constexpr float neighbour_share = 0.002F;
 
-constexpr float unbounded = std::numeric_limits<float>::infinity();
 constexpr Reach unknown{{0.0F, 0.0F}, {-1.0F, -1.0F}};
 
 Eigen::Vector3f place(const Corner& c) {

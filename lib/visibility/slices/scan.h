@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <vector>
 
 #include "visibility/view.h"
@@ -19,6 +20,9 @@ struct Extent {
     float from;
     float to;
 };
+
+/// An end of an Extent where it has none.
+inline constexpr float unbounded = std::numeric_limits<float>::infinity();
 
 struct Slice {
     float u;

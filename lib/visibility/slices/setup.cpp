@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace sonarsim {
@@ -15,8 +14,6 @@ constexpr float nearest_share = 1e-5F;
 // A plane whose distance from the sensor is less than this share of the triangle's own is seen
 // edge-on to within rounding.
 constexpr float edge_on_share = 1e-7F;
-
-constexpr float unbounded = std::numeric_limits<float>::infinity();
 
 /// The line of the near plane between two corners on it.
 EdgeLine near_line(const Corner& a, const Corner& b) {
