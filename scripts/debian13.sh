@@ -24,8 +24,8 @@ if [ ! -e "$chroot/etc/debian_version" ]; then
 fi
 ./scripts/setup.sh python3-pil
 
-# The mounts go with the process that made them. The checkout is where it is outside, because
-# mission.resolved.yaml holds the scene's absolute path.
+# The mounts go with the process that made them. The checkout is where it is outside, so that one
+# command line serves both.
 cat >"$chroot/enter" <<'END'
 #!/usr/bin/env bash
 set -euo pipefail

@@ -4,9 +4,9 @@
     ./scripts/same_bytes.py [--mission FILE[,KEY=VALUE...]]... PROGRAM PROGRAM...
 
 A program may be a command of several words. Without --mission it is tests/four_sonars.yaml, once
-with each engine. In dataset.json, `build` may differ: it says how the program was built. With
---pixels PNG files count as alike when their pixels are (needs python3-pil), and journal.txt, which
-holds their sizes, is left out. Exit code 0: all alike; 1: not.
+with each engine. In dataset.json, and so in the line of SHA256SUMS on it, `build` may differ: it says
+how the program was built. With --pixels PNG files count as alike when their pixels are (needs
+python3-pil), and journal.txt and SHA256SUMS, which hold their sizes and sums, are left out. Exit code 0: all alike; 1: not.
 """
 import argparse
 import hashlib
@@ -27,8 +27,11 @@ def content(path, pixels):
         from PIL import Image
         with Image.open(path) as image:
             return repr((image.mode, image.size)).encode() + image.tobytes()
-    if pixels and path.name == "journal.txt":
+    if pixels and path.name in ("journal.txt", "SHA256SUMS"):
         return b""
+    if path.name == "SHA256SUMS":
+        return b"".join(line for line in path.read_bytes().splitlines(True)
+                        if not line.endswith(b"  dataset.json\n"))
     if path.name != "dataset.json":
         return path.read_bytes()
     description = json.loads(path.read_text())
@@ -57,7 +60,6 @@ def main():
     options = parser.parse_args()
     failed = False
     with tempfile.TemporaryDirectory(prefix="same_bytes-", dir=options.folder) as temporary:
-        # One name for all, since mission.resolved.yaml holds it.
         folder = pathlib.Path(temporary) / "dataset"
         for mission in options.mission or MISSIONS:
             expected = render(options.programs[0], mission, folder, options.pixels)

@@ -37,6 +37,12 @@ points :=
 $(foreach axis,$(axes),$(eval points := $(call cross,$(points),$(axis))))
 points := $(sort $(points))
 
+# Bins that no scene lights hold noise alone, and the same draws where the seed is the same.
+seeds := $(if $(filter seed,$(axes)),$(sort $(seed)),one)
+$(if $(filter-out $(words $(seeds)),$(words $(points))),$(warning points that share a seed have the \
+same noise, bit for bit, in every bin that nothing lights. To train with one and test with another \
+is a leak: give each a seed of its own, or keep those of one seed on the same side))
+
 targets := $(points:%=$(OUT)/%/dataset.json)
 done := $(if $(targets),$(shell grep -ls '"complete": *true' $(targets)))
 

@@ -30,7 +30,8 @@ for upper in ("dataset", "validation", "benchmark"):
 # each other. "x/" is a subfolder, "x" the files x.h and x.cpp, "*" every other file of the folder.
 PARTS = {
     "dataset": [["*"], ["writers/"], ["writers"],
-                ["layout"], ["journal", "listed_files", "metadata"], ["folder", "resume"], ["job"]],
+                ["layout"], ["journal", "metadata"], ["description", "checksums"], ["listed_files"],
+                ["folder", "resume"], ["completion"], ["job", "merge", "verify"]],
     "scene": [["*"], ["gltf/"]],
     "validation": [["*"], ["hard/"]],
     "visibility": [["*"], ["octree/", "rays/", "slices/"], ["make_engine"]],

@@ -9,6 +9,8 @@ namespace sonarsim {
 // Each adds one subcommand. What it runs leaves its exit code in `exit_code` and may throw.
 
 void add_render(CLI::App& app, int& exit_code);
+void add_verify(CLI::App& app, int& exit_code);
+void add_merge(CLI::App& app, int& exit_code);
 void add_validate(CLI::App& app, int& exit_code);
 void add_inspect(CLI::App& app, int& exit_code);
 void add_report(CLI::App& app, int& exit_code);

@@ -41,6 +41,8 @@ int run(int argc, char** argv) {
     app.failure_message(usage_message);
     int exit_code = exit_done;
     add_render(app, exit_code);
+    add_verify(app, exit_code);
+    add_merge(app, exit_code);
     add_validate(app, exit_code);
     add_inspect(app, exit_code);
     add_report(app, exit_code);

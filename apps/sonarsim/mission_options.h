@@ -15,11 +15,14 @@ struct MissionOptions {
     std::vector<std::string> settings;
     std::string seed;
     std::filesystem::path out;
+    std::filesystem::path
+        paths_from;  ///< where relative paths start; empty: at the mission's folder
 };
 
 void add_mission_options(CLI::App& command, MissionOptions& options);
 
-/// The mission with --set, --seed and --out applied, in this order. InputError as load_mission.
+/// The mission with --set, --seed and --out applied, in this order. InputError as load_mission, and
+/// when the mission comes from a dataset and it is not said where its files are.
 Mission load(const MissionOptions& options);
 
 }  // namespace sonarsim

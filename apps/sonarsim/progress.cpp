@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 namespace sonarsim {
 
@@ -14,8 +15,11 @@ std::string duration_text(double seconds) {
     return fmt::format("{} h {} min", whole / 3600, whole % 3600 / 60);
 }
 
-ProgressLine::ProgressLine(bool visible)
-    : visible_(visible), start_(Clock::now()), next_(start_ + std::chrono::milliseconds(300)) {}
+ProgressLine::ProgressLine(bool visible, std::string what)
+    : visible_(visible),
+      what_(std::move(what)),
+      start_(Clock::now()),
+      next_(start_ + std::chrono::milliseconds(300)) {}
 
 ProgressLine::~ProgressLine() {
     if (visible_) std::fputs("\r\x1b[K", stderr);
@@ -27,7 +31,7 @@ void ProgressLine::show(std::uint64_t done, std::uint64_t total) {
     next_ = now + std::chrono::milliseconds(100);
     const double rate =
         static_cast<double>(done) / std::chrono::duration<double>(now - start_).count();
-    fmt::print(stderr, "\r\x1b[K{} of {} pings, {:.0f} pings/s, {} left", done, total, rate,
+    fmt::print(stderr, "\r\x1b[K{} of {} {}, {:.0f} {}/s, {} left", done, total, what_, rate, what_,
                duration_text(static_cast<double>(total - done) / rate));
     std::fflush(stderr);
 }

@@ -9,10 +9,11 @@ namespace sonarsim {
 /// "12 s", "3 min 20 s", "2 h 5 min".
 std::string duration_text(double seconds);
 
-/// One line on a terminal that is written anew as pings are done; nothing where `visible` is false.
+/// One line on a terminal that is written anew as `what` ("pings") are done; nothing where
+/// `visible` is false.
 class ProgressLine {
   public:
-    explicit ProgressLine(bool visible);
+    explicit ProgressLine(bool visible, std::string what = "pings");
     ~ProgressLine();
     ProgressLine(const ProgressLine&) = delete;
     ProgressLine& operator=(const ProgressLine&) = delete;
@@ -23,6 +24,7 @@ class ProgressLine {
     using Clock = std::chrono::steady_clock;
 
     bool visible_;
+    std::string what_;
     Clock::time_point start_;
     Clock::time_point next_;
 };

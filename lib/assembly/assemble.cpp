@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "core/hash.h"
+#include "core/sha256.h"
 #include "core/text.h"
 #include "core/units.h"
 #include "scene/gltf/load.h"
@@ -37,6 +38,15 @@ Trajectory poses_of(const LawnmowerTrajectoryConfig& config) {
                       config.line_spacing_m, config.speed_m_s, config.rate_hz});
 }
 
+std::vector<InputFile> inputs_of(const Mission& mission) {
+    std::vector<InputFile> inputs{{mission.scene.file, {}}, {mission.scene.materials, {}}};
+    if (const auto* poses = std::get_if<FileTrajectoryConfig>(&mission.trajectory))
+        inputs.push_back({poses->file, {}});
+    for (InputFile& input : inputs)
+        input.sha256 = sha256_of_file(input.path);
+    return inputs;
+}
+
 template <class T>
 std::string hash_of(const std::vector<T>& values) {
     return fnv1a_128({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)});
@@ -58,6 +68,7 @@ Assembly assemble(const Mission& mission) {
                                 {mission.water.density_kg_m3, mission.water.sound_speed_m_s});
     const std::string refusal = refusal_of(settings, assembly.scene);
     if (!refusal.empty()) throw InputError(refusal);
+    assembly.inputs = inputs_of(mission);
     return assembly;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -10,11 +11,18 @@
 
 namespace sonarsim {
 
+/// A file that a mission names, as it was when it was read.
+struct InputFile {
+    std::filesystem::path path;
+    std::string sha256;
+};
+
 /// All that a mission names, read, checked and ready to render.
 struct Assembly {
     Scene scene;
     Trajectory trajectory;
-    std::vector<Sonar> sonars;  ///< in the order of Mission::sensors
+    std::vector<Sonar> sonars;      ///< in the order of Mission::sensors
+    std::vector<InputFile> inputs;  ///< scene, materials and, where it is a file, trajectory
 };
 
 /// Reads the files of a mission and works out its poses. Writes nothing. InputError for whatever

@@ -7,8 +7,9 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/text.h"
+#include "dataset/checksums.h"
+#include "dataset/description.h"
 #include "dataset/listed_files.h"
-#include "dataset/metadata.h"
 #include "dataset/ping_metadata.h"
 
 namespace sonarsim {
@@ -17,8 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-
-constexpr std::size_t largest_description = std::size_t{1} << 28;
 
 /// The number at the start of a ping's file name, when the rest of it is `ending`.
 std::optional<std::uint32_t> ping_number(std::string_view name, std::string_view ending) {
@@ -51,24 +50,9 @@ void require_folder(const fs::path& path) {
 constexpr const char* or_overwrite = ", or replace it with --overwrite";
 constexpr const char* or_nothing = "";
 
-Json read_description(const fs::path& folder) {
-    try {
-        Json json = Json::parse(read_file(folder / description_name, largest_description));
-        if (json.is_object() && json.value("format", "") == dataset_format) return json;
-    } catch (const Json::exception&) {
-    }
+Json own_description(const fs::path& folder) {
+    if (auto json = read_description(folder)) return *std::move(json);
     refuse(folder, "holds a dataset.json that is not sonarsim's", or_nothing);
-}
-
-/// What the bytes of a dataset depend on in the build that wrote it.
-std::string bytes_of_build(const Json& description) {
-    const Json build = description.value("build", Json());
-    std::string text;
-    for (const char* key : {"arithmetic", "png_encoder"}) {
-        const bool told = build.is_object() && build.contains(key) && build[key].is_string();
-        text += (text.empty() ? "" : ", ") + (told ? build[key].get<std::string>() : "unknown");
-    }
-    return text;
 }
 
 /// Whether there is nothing in the folder but what a run that was killed at its beginning left.
@@ -106,30 +90,9 @@ FolderState inspect_folder(const Layout& layout, const Json& description) {
         if (unused) return FolderState::fresh;
         refuse(folder, "holds files that are no sonarsim dataset", or_nothing);
     }
-    const Json found = read_description(folder);
-    const auto differs = [&](const char* key) {
-        return found.value(key, Json()) != description[key];
-    };
-    if (differs("mission_hash"))
-        refuse(folder, "holds the dataset of another mission", or_overwrite);
-    if (differs("inputs_hash")) {
-        refuse(folder,
-               "holds a dataset of this mission made from other scene, material or "
-               "trajectory files",
-               or_overwrite);
-    }
-    if (differs("program_version") || differs("format_version")) {
-        refuse(folder, "holds a dataset of this mission made by another version of sonarsim",
-               or_overwrite);
-    }
-    const std::string theirs = bytes_of_build(found);
-    const std::string ours = bytes_of_build(description);
-    if (theirs != ours) {
-        refuse(folder,
-               "holds a dataset of this mission made by a build of sonarsim whose bytes differ (" +
-                   theirs + "; this one: " + ours + ")",
-               or_overwrite);
-    }
+    const Json found = own_description(folder);
+    const std::string difference = difference_between(found, description);
+    if (!difference.empty()) refuse(folder, "holds a dataset " + difference, or_overwrite);
     return found.value("complete", Json()) == true ? FolderState::complete
                                                    : FolderState::unfinished;
 }
@@ -143,7 +106,8 @@ void protect_inputs(const Layout& layout, const Mission& mission) {
                              "own; remove the link or choose another output.folder");
         }
     }
-    for (const char* name : {description_name, mission_name, trajectory_name, journal_name})
+    for (const char* name :
+         {description_name, mission_name, trajectory_name, journal_name, checksums_name})
         own.push_back(layout.folder / name);
     for (const fs::path& input : files_read_by(mission)) {
         if (input.empty()) continue;
@@ -165,7 +129,7 @@ void remove_dataset(const Layout& layout, const Mission& mission) {
         if (is_unused(folder)) return;
         refuse(folder, "holds files that are no sonarsim dataset", or_nothing);
     }
-    remove_listed_files(folder, read_description(folder), files_read_by(mission));
+    remove_listed_files(folder, own_description(folder), files_read_by(mission));
     sync_file_system(folder);
 }
 
@@ -173,6 +137,8 @@ void begin_dataset(const Layout& layout, const CommonFiles& files) {
     fs::create_directories(layout.folder);
     // First and durably: a folder without it that holds anything else is not ours to write into.
     write_file_durably(layout.folder / description_name, json_text(files.description));
+    // What it promises holds again at the end only.
+    fs::remove(layout.folder / checksums_name);
     write_file(layout.folder / mission_name, files.mission);
     write_file(layout.folder / trajectory_name, files.trajectory);
     for (const fs::path& folder : layout.folders())
@@ -181,9 +147,11 @@ void begin_dataset(const Layout& layout, const CommonFiles& files) {
 
 bool has_common_files(const Layout& layout) {
     std::error_code absent;
-    return std::ranges::all_of(std::array{mission_name, trajectory_name}, [&](const char* name) {
-        return fs::symlink_status(layout.folder / name, absent).type() == fs::file_type::regular;
-    });
+    return std::ranges::all_of(std::array{mission_name, trajectory_name, checksums_name},
+                               [&](const char* name) {
+                                   return fs::symlink_status(layout.folder / name, absent).type() ==
+                                          fs::file_type::regular;
+                               });
 }
 
 void remove_leftovers(const Layout& layout, const std::vector<PingId>& todo, bool alone) {
@@ -222,7 +190,9 @@ void finish_dataset(const Layout& layout, const Json& description, const Journal
     sync_file_system(layout.folder);
     Json finished = description;
     finished["complete"] = true;
-    write_file_durably(layout.folder / description_name, json_text(finished));
+    const std::string text = json_text(finished);
+    write_file_durably(layout.folder / checksums_name, checksums_text(layout, entries, text));
+    write_file_durably(layout.folder / description_name, text);
     remove_journal_parts(layout);
 }
 

@@ -40,7 +40,7 @@ struct CommonFiles {
 /// with `complete` set to false. std::system_error when the disk does not take them.
 void begin_dataset(const Layout& layout, const CommonFiles& files);
 
-/// Whether the files beside dataset.json are there that begin_dataset() writes.
+/// Whether the files beside dataset.json and the journal are there.
 bool has_common_files(const Layout& layout);
 
 /// Removes the temporary files that an interrupted run left of the pings in `todo` (sorted), and of
@@ -51,8 +51,8 @@ void remove_leftovers(const Layout& layout, const std::vector<PingId>& todo, boo
 /// leaves them.
 void remove_journal_parts(const Layout& layout);
 
-/// Writes journal.txt and then dataset.json with `complete` set to true, both durably, after all
-/// else has become durable; then the parts of the journal go.
+/// Writes journal.txt, SHA256SUMS and then dataset.json with `complete` set to true, all durably,
+/// after all else has become durable; then the parts of the journal go.
 void finish_dataset(const Layout& layout, const nlohmann::ordered_json& description,
                     const JournalEntries& entries);
 

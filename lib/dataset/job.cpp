@@ -14,14 +14,14 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/ordered_pipeline.h"
+#include "core/sha256.h"
+#include "dataset/completion.h"
 #include "dataset/finite_image.h"
 #include "dataset/folder.h"
 #include "dataset/journal.h"
 #include "dataset/metadata.h"
 #include "dataset/resume.h"
-#include "mission/resolved.h"
 #include "sonar/engine_settings.h"
-#include "sonar/kinds.h"
 #include "sonar/measured.h"
 #include "trajectory/files.h"
 
@@ -121,7 +121,7 @@ void write_ping(const Mission& mission, const Assembly& assembly, const Visibili
         const auto& part = to.layout.sensors[id.sensor].per_ping[k];
         if (const auto* file = std::get_if<PingFile>(&part)) {
             write_file(to.layout.file(id, *file), encoded[k]);
-            report.what.push_back(std::to_string(encoded[k].size()));
+            report.what.push_back(entry_text({encoded[k].size(), sha256(encoded[k])}));
         } else {
             to.records[id.sensor][k]->write(to.layout.record_of(id),
                                             std::as_bytes(std::span(encoded[k])));
@@ -169,26 +169,6 @@ void render(const Mission& mission, const Assembly& assembly, const std::vector<
     summary.warnings = engine->warnings();
 }
 
-/// Makes the products when every ping is there, and says so in the folder.
-void complete_dataset(const Layout& layout, const std::vector<Writers>& writers,
-                      RecordFiles& records, const CommonFiles& common) {
-    const auto for_each_record = [&](const auto& visit) {
-        for (std::size_t i = 0; i < writers.size(); ++i) {
-            for (std::size_t k = 0; k < writers[i].size(); ++k) {
-                if (records[i][k]) visit(i, k);
-            }
-        }
-    };
-    for_each_record([&](std::size_t i, std::size_t k) {
-        writers[i][k]->write_products(*records[i][k], layout.sensor_folder(i));
-    });
-    require_records(records);
-    for_each_record([&](std::size_t i, std::size_t k) { records[i][k]->close(); });
-    JournalEntries entries = read_journal(layout.folder);
-    entries.products = require_products(layout);
-    finish_dataset(layout, common.description, entries);
-}
-
 }  // namespace
 
 RenderSummary run_job(const Mission& mission, const Assembly& assembly,
@@ -214,7 +194,7 @@ RenderSummary run_job(const Mission& mission, const Assembly& assembly,
     const std::vector<Writers> writers = make_writers(mission, assembly);
     const Layout layout = make_layout(mission, writers, assembly.trajectory.size());
     const CommonFiles common{describe_dataset(mission, assembly, layout, writers),
-                             resolved_yaml(mission, sonar_keys()), write_tum(assembly.trajectory)};
+                             resolved_text(mission, assembly), write_tum(assembly.trajectory)};
     protect_inputs(layout, mission);
     if (options.overwrite) remove_dataset(layout, mission);
     const FolderState state =

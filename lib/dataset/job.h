@@ -46,9 +46,9 @@ using ProgressCallback = std::function<void(std::uint64_t done, std::uint64_t to
 /// A folder with an unfinished dataset of the same mission, inputs and program version is resumed:
 /// pings that its journal lists, and whose files are there with the sizes that it tells, are not
 /// rendered again, and the bytes come out the same. If nothing is missing, nothing is done. Shards
-/// may run at the same time, in one folder or in folders that are merged later by copying them over
-/// each other; whichever run finds that no ping is missing makes the products and marks the dataset
-/// as complete (after a merge, one more run without shards does that).
+/// may run at the same time, in one folder or in folders that are merged later (dataset/merge.h);
+/// whichever run finds that no ping is missing makes the products and marks the dataset as
+/// complete.
 ///
 /// When `stop` becomes true, pings in flight are finished and the rest is left for a later run.
 /// InputError when the folder holds something else and `overwrite` is off, or when the dataset

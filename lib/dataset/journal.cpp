@@ -83,6 +83,17 @@ void read_part(const fs::path& path, JournalEntries& entries) {
 
 }  // namespace
 
+std::string entry_text(const FileEntry& entry) {
+    return std::to_string(entry.bytes) + ':' + entry.sha256;
+}
+
+std::optional<FileEntry> parse_entry(const std::string& text) {
+    const std::size_t colon = text.find(':');
+    const auto bytes = parse_unsigned(std::string_view(text).substr(0, colon));
+    if (colon == std::string::npos || !bytes) return std::nullopt;
+    return FileEntry{*bytes, text.substr(colon + 1)};
+}
+
 JournalEntries read_journal(const fs::path& folder) {
     JournalEntries entries;
     // Parts first: the run that completes a dataset writes the whole before it removes them.

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <utility>
@@ -21,8 +22,8 @@ using ProductSizes = std::map<std::pair<std::uint32_t, std::string>, std::uint64
 /// What a dataset holds, as its journal tells: a ping stands in it once all of its files are
 /// durable. A text, one line each:
 ///
-///     ping SENSOR POSE WHAT...  of each of the sensor's writers the size of the ping's file in
-///                               bytes, or the hash of its record
+///     ping SENSOR POSE WHAT...  of each of the sensor's writers SIZE:SHA256 of the ping's file,
+///                               size in bytes, or the hash of its record
 ///     product SENSOR FILE SIZE  in the finished dataset
 ///
 /// SENSOR is the index in dataset.json, POSE that of the pose. Each line ends in a hash of what
@@ -31,6 +32,15 @@ struct JournalEntries {
     std::map<PingId, std::vector<std::string>> pings;
     ProductSizes products;
 };
+
+/// What the journal says of a ping's file.
+struct FileEntry {
+    std::uint64_t bytes = 0;
+    std::string sha256;
+};
+std::string entry_text(const FileEntry& entry);
+/// Nothing when the text is no such entry.
+std::optional<FileEntry> parse_entry(const std::string& text);
 
 /// Reads OUT/journal.txt and all parts in OUT/journal.d/ (those of shards that ran in other
 /// folders are copied there when these are merged). Lines that are torn are left out.

@@ -13,8 +13,10 @@
 //
 //     OUT/dataset.json                what this is, axes of the sensors, whether it is complete
 //     OUT/mission.resolved.yaml       the mission with every default written out
+//     OUT/SHA256SUMS                  of every other file, once all of them are there
 //     OUT/trajectory.tum              the pose of every ping number
-//     OUT/journal.txt                 the size of every other file, see dataset/journal.h; while
+//     OUT/journal.txt                 the size and hash of every file of a ping, see
+//     dataset/journal.h; while
 //                                     the mission runs, parts of it lie in OUT/journal.d/
 //     OUT/<sensor>/<format>/NNNNNN.*  a file per ping
 //     OUT/<sensor>/*                  a file of records, one per ping, and what is made of them
@@ -28,6 +30,7 @@ namespace sonarsim {
 inline constexpr const char* description_name = "dataset.json";
 inline constexpr const char* mission_name = "mission.resolved.yaml";
 inline constexpr const char* trajectory_name = "trajectory.tum";
+inline constexpr const char* checksums_name = "SHA256SUMS";
 inline constexpr const char* journal_name = "journal.txt";
 /// With a dot, which the name of a sensor cannot have.
 inline constexpr const char* journal_folder_name = "journal.d";

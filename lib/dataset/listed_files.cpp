@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/text.h"
+#include "dataset/description.h"
 #include "dataset/layout.h"
 
 namespace sonarsim {
@@ -19,18 +20,6 @@ using Json = nlohmann::ordered_json;
 
 /// Relative to the folder of the dataset.
 using Files = std::set<fs::path>;
-
-/// "fls/polar/%06d.npy" with a ping number in it; empty for any other text.
-std::string numbered(const std::string& pattern, std::uint64_t number) {
-    const std::size_t percent = pattern.find('%');
-    if (percent == std::string::npos) return {};
-    const std::size_t end = pattern.find('d', percent);
-    if (end == std::string::npos || end != percent + 3 || pattern[percent + 1] != '0') return {};
-    const int digits = pattern[percent + 2] - '0';
-    std::string text = std::to_string(number);
-    text.insert(0, std::max(0, digits - static_cast<int>(text.size())), '0');
-    return pattern.substr(0, percent) + text + pattern.substr(end + 1);
-}
 
 /// Whether every folder between `folder` and a file below it is one, and no link.
 bool is_reached_directly(const fs::path& folder, const fs::path& relative) {
@@ -117,7 +106,7 @@ void tidy(const fs::path& folder, const fs::path& relative, const Files& files) 
 
 void remove_listed_files(const fs::path& folder, const Json& description,
                          const std::vector<fs::path>& inputs) {
-    Files files{mission_name, trajectory_name, journal_name};
+    Files files{mission_name, trajectory_name, journal_name, checksums_name};
     try {
         for (const Json& sensor : description.value("sensors", Json::array()))
             list_sensor(folder, sensor, files);

@@ -12,6 +12,18 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+/// The name of an input in mission.resolved.yaml.
+std::string portable_name(const Mission& mission, const InputFile& input) {
+    return input.path.lexically_proximate(mission.scene.file.parent_path()).string();
+}
+
+Json describe_inputs(const Mission& mission, const Assembly& assembly) {
+    Json inputs = Json::array();
+    for (const InputFile& input : assembly.inputs)
+        inputs.push_back({{"file", portable_name(mission, input)}, {"sha256", input.sha256}});
+    return inputs;
+}
+
 /// What of the scene's files is rendered, how well it is known, and what is left out.
 Json describe_scene_use(const Scene& scene) {
     return {{"triangles", scene.triangles.size()},
@@ -72,6 +84,7 @@ Json describe_dataset(const Mission& mission, const Assembly& assembly, const La
                  {"mission", mission.name},
                  {"mission_hash", mission_hash(mission, sonar_keys())},
                  {"inputs_hash", inputs_hash(assembly)},
+                 {"inputs", describe_inputs(mission, assembly)},
                  {"seed", mission.seed},
                  {"poses", assembly.trajectory.size()}};
     json["scene"] = describe_scene_use(assembly.scene);
@@ -82,6 +95,16 @@ Json describe_dataset(const Mission& mission, const Assembly& assembly, const La
     }
     json["sensors"] = std::move(sensors);
     return json;
+}
+
+std::string resolved_text(const Mission& mission, const Assembly& assembly) {
+    std::string text =
+        "# Every key of the mission. Paths start at the folder of the scene file, FOLDER:\n"
+        "#     sonarsim render mission.resolved.yaml --paths-from FOLDER\n"
+        "# SHA-256 of what was read:\n";
+    for (const InputFile& input : assembly.inputs)
+        text += "#     " + input.sha256 + "  " + portable_name(mission, input) + '\n';
+    return text + resolved_yaml(portable(mission), sonar_keys());
 }
 
 }  // namespace sonarsim

@@ -4,6 +4,8 @@
 #include <bit>
 #include <cstdint>
 #include <cstring>
+#include <sstream>
+#include <stdexcept>
 
 #include "core/error.h"
 #include "core/file.h"
@@ -46,6 +48,24 @@ std::string npy_header(const NpyFormat& format) {
     out += static_cast<char>(text.size() & 0xff);
     out += static_cast<char>(text.size() >> 8);
     return out + text;
+}
+
+NpyFormat npy_format(std::string_view start) {
+    const std::string text(start.substr(0, start.find('\n')));
+    NpyFormat format;
+    format.type = text.find("'<f8'") == std::string::npos ? "<f4" : "<f8";
+    format.fortran_order = text.find("'fortran_order': True") != std::string::npos;
+    const std::string mark = "'shape': (";
+    const std::size_t first = text.find(mark);
+    const std::size_t last = text.find(')', std::min(first, text.size()));
+    if (first != std::string::npos && last != std::string::npos) {
+        std::istringstream lengths(text.substr(first + mark.size(), last - first - mark.size()));
+        for (std::string length; std::getline(lengths >> std::ws, length, ',');)
+            format.shape.push_back(parse_unsigned(length).value_or(0));
+    }
+    if (format.shape.empty() || !start.starts_with(npy_header(format)))
+        throw std::runtime_error("is no .npy file, format 1.0, of floats");
+    return format;
 }
 
 std::string npy_bytes(std::span<const float> values, std::size_t rows, std::size_t columns) {

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace sonarsim {
@@ -24,6 +25,10 @@ struct NpyFormat {
 
 /// What stands before the data, format 1.0; its length is a multiple of 64 bytes.
 std::string npy_header(const NpyFormat& format);
+
+/// The format that a file with this beginning has. std::runtime_error when that is not what
+/// npy_header() writes.
+NpyFormat npy_format(std::string_view start);
 
 /// A float32 matrix as a NumPy file, format 1.0, little endian, C order; the data begin at a
 /// multiple of 64 bytes.

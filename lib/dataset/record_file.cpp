@@ -40,15 +40,17 @@ std::string hash_of_record(std::string_view bytes) {
 }
 
 RecordFile::RecordFile(const std::filesystem::path& path, const NpyFormat& format,
-                       std::size_t records)
+                       std::size_t records, RecordAccess access)
     : path_(path), records_(records), record_bytes_(format.type == "<f8" ? 8 : 4) {
     for (const std::size_t length : format.shape)
         record_bytes_ *= length;
     record_bytes_ /= std::max<std::size_t>(records, 1);
     const std::string header = npy_header(format);
     header_bytes_ = header.size();
-    std::filesystem::create_directories(path.parent_path());
-    fd_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
+    const bool writes = access == RecordAccess::write;
+    if (writes) std::filesystem::create_directories(path.parent_path());
+    fd_ =
+        ::open(path.c_str(), (writes ? O_RDWR | O_CREAT : O_RDONLY) | O_CLOEXEC | O_NOFOLLOW, 0666);
     if (fd_ < 0) throw_errno("cannot open", path);
     // No temporary name and no truncation: two shards that begin at once make the same file, and
     // neither can take away what the other has written into it.
@@ -57,6 +59,10 @@ RecordFile::RecordFile(const std::filesystem::path& path, const NpyFormat& forma
     const bool whole = ::fstat(fd_, &status) == 0 &&
                        static_cast<std::uint64_t>(status.st_size) == offset(records) &&
                        transfer_all(::pread, fd_, found.data(), found.size(), 0) && found == header;
+    if (!whole && !writes) {
+        ::close(fd_);
+        throw std::runtime_error(path.string() + " has not the format and length that it should");
+    }
     const bool ready = whole || (transfer_all(::pwrite, fd_, header.data(), header.size(), 0) &&
                                  ::ftruncate(fd_, static_cast<off_t>(offset(records))) == 0);
     if (ready) return;

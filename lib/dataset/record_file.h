@@ -21,15 +21,21 @@ std::string record_bytes(const std::vector<T>& values) {
 /// 16 hexadecimal digits by which the journal knows a record again.
 std::string hash_of_record(std::string_view bytes);
 
+enum class RecordAccess {
+    write,  ///< opens the file, or makes it and the folders above
+    read,   ///< opens a file that is there
+};
+
 /// A NumPy file of equal records, one per ping, that is filled while the mission runs, by any
 /// thread and any process in any order. From the beginning it has its full length, and records that
 /// are not written yet are zero; the file system gives those no room.
 class RecordFile {
   public:
-    /// Opens the file, or makes it and the folders above. The data of `format` are `records`
-    /// records of equal size. std::system_error when the disk does not allow it, or when the name
-    /// belongs to a symbolic link.
-    RecordFile(const std::filesystem::path& path, const NpyFormat& format, std::size_t records);
+    /// The data of `format` are `records` records of equal size. std::system_error when the disk
+    /// does not allow it, or when the name belongs to a symbolic link; std::runtime_error when a
+    /// file to be read is not of this format and length.
+    RecordFile(const std::filesystem::path& path, const NpyFormat& format, std::size_t records,
+               RecordAccess access = RecordAccess::write);
     ~RecordFile();
     RecordFile(const RecordFile&) = delete;
     RecordFile& operator=(const RecordFile&) = delete;

@@ -28,7 +28,7 @@ void for_each_product(const Layout& layout, const Visit& visit) {
 
 }  // namespace
 
-RecordFiles open_records(const Layout& layout) {
+RecordFiles open_records(const Layout& layout, RecordAccess access) {
     RecordFiles files(layout.sensors.size());
     for (std::size_t i = 0; i < files.size(); ++i) {
         const SensorLayout& sensor = layout.sensors[i];
@@ -36,7 +36,7 @@ RecordFiles open_records(const Layout& layout) {
             const auto* record = std::get_if<PingRecord>(&part);
             files[i].push_back(
                 record ? std::make_unique<RecordFile>(layout.sensor_folder(i) / record->file,
-                                                      record->format, sensor.pings)
+                                                      record->format, sensor.pings, access)
                        : nullptr);
         }
     }
@@ -53,8 +53,8 @@ bool FinishedPings::operator()(const PingId& ping) const {
     for (std::size_t k = 0; k < parts.size(); ++k) {
         const std::string& expected = entry->second[k];
         if (const auto* file = std::get_if<PingFile>(&parts[k])) {
-            const auto size = size_of(layout_.file(ping, *file));
-            if (!size || std::to_string(*size) != expected) return false;
+            const auto told = parse_entry(expected);
+            if (!told || size_of(layout_.file(ping, *file)) != told->bytes) return false;
         } else if (records_[ping.sensor][k]->hash(layout_.record_of(ping)) != expected) {
             return false;
         }

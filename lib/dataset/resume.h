@@ -13,7 +13,7 @@ namespace sonarsim {
 using RecordFiles = std::vector<std::vector<std::unique_ptr<RecordFile>>>;
 
 /// Opens the record files of a dataset, or makes them.
-RecordFiles open_records(const Layout& layout);
+RecordFiles open_records(const Layout& layout, RecordAccess access = RecordAccess::write);
 
 /// Tells which pings need not be rendered: those that the journal lists, and whose files and
 /// records are what it says. References must outlive it.

@@ -15,8 +15,13 @@ constexpr std::size_t largest_file = std::size_t{1} << 20;
 
 Mission load_mission(const std::filesystem::path& file, std::span<const std::string> overrides,
                      SonarKeyTable sonars) {
-    return parse_mission(read_file(file, largest_file), file.string(), file.parent_path(),
-                         overrides, sonars);
+    return load_mission(file, file.parent_path(), overrides, sonars);
+}
+
+Mission load_mission(const std::filesystem::path& file, const std::filesystem::path& base_folder,
+                     std::span<const std::string> overrides, SonarKeyTable sonars) {
+    return parse_mission(read_file(file, largest_file), file.string(), base_folder, overrides,
+                         sonars);
 }
 
 Mission parse_mission(std::string_view text, const std::string& file_name,

@@ -20,6 +20,10 @@ namespace sonarsim {
 Mission load_mission(const std::filesystem::path& file, std::span<const std::string> overrides,
                      SonarKeyTable sonars);
 
+/// The same with relative paths that start at `base_folder`.
+Mission load_mission(const std::filesystem::path& file, const std::filesystem::path& base_folder,
+                     std::span<const std::string> overrides, SonarKeyTable sonars);
+
 /// The same for a mission in memory. `file_name` is used in messages and for the default name.
 Mission parse_mission(std::string_view text, const std::string& file_name,
                       const std::filesystem::path& base_folder,

@@ -13,7 +13,7 @@ std::string resolved_yaml(const Mission& mission, SonarKeyTable sonars) {
     return writer.yaml();
 }
 
-std::string mission_hash(const Mission& mission, SonarKeyTable sonars) {
+Mission portable(const Mission& mission) {
     Mission copy = mission;
     const std::filesystem::path scene_folder = mission.scene.file.parent_path();
     const auto relative = [&](std::filesystem::path& path) {
@@ -23,7 +23,11 @@ std::string mission_hash(const Mission& mission, SonarKeyTable sonars) {
     relative(copy.scene.materials);
     if (auto* poses = std::get_if<FileTrajectoryConfig>(&copy.trajectory)) relative(poses->file);
     copy.output.folder.clear();
-    return fnv1a_128(resolved_yaml(copy, sonars));
+    return copy;
+}
+
+std::string mission_hash(const Mission& mission, SonarKeyTable sonars) {
+    return fnv1a_128(resolved_yaml(portable(mission), sonars));
 }
 
 }  // namespace sonarsim

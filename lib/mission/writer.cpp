@@ -41,7 +41,7 @@ void MissionWriter::text(const char* key, std::string_view value, const char* /*
 
 void MissionWriter::path(const char* key, const std::filesystem::path& value,
                          const char* /*meaning*/, Presence) {
-    line(key, scalar_text(value.string()));
+    if (!value.empty()) line(key, scalar_text(value.string()));
 }
 
 /// Text stands in quotes always: a sensor named "null" stays one.

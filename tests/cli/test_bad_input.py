@@ -179,7 +179,8 @@ class BadFolder(Sandbox):
         self.assert_renders()
         own = self.out / "mission.resolved.yaml"
         before = digest(self.out)
-        result = self.run_sonarsim("render", str(own), "--overwrite", "--seed", "9")
+        result = self.run_sonarsim("render", str(own), "--overwrite", "--seed", "9",
+                                   "--paths-from", ".", "--out", "out")
         self.assert_refused(result, "mission.resolved.yaml", "the mission itself")
         self.assertEqual(digest(self.out), before)
 

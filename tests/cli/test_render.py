@@ -43,7 +43,7 @@ class Render(Sandbox):
     def test_resolved_mission_renders_the_same_pings(self):
         self.assert_renders()
         result = self.run_sonarsim("render", "out/mission.resolved.yaml", "--out",
-                                   self.folder / "again")
+                                   self.folder / "again", "--paths-from", self.folder)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(digest(self.out / "fls"), digest(self.folder / "again/fls"))
 
@@ -110,7 +110,6 @@ class Render(Sandbox):
 
 class SameBytes(Sandbox):
     def render_anew(self, *arguments):
-        """Always to the same folder, whose name stands in the resolved mission."""
         shutil.rmtree(self.out, ignore_errors=True)
         self.assert_renders(*arguments)
         return digest(self.out)

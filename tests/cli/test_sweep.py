@@ -46,6 +46,17 @@ class Sweep(Sandbox):
         self.assertEqual(resumed.stdout.count(" render "), 1, resumed.stdout)
         self.assertIs(self.dataset(spoilt.parent)["complete"], True)
 
+    def test_a_seed_that_is_shared(self):
+        (self.folder / "grid").mkdir()
+        for arguments, shared in ((["SENSOR=fls", "add_sigma=0 0.1"], True),
+                                  (["SENSOR=fls", "add_sigma=0 0.1", "seed=1 2"], True),
+                                  (["SENSOR=fls", "add_sigma=0.1", "seed=1 2"], False),
+                                  (["seed=1 2 3"], False), (["SENSOR=fls", "add_sigma=0.1"], False)):
+            with self.subTest(arguments=arguments):
+                result = self.sweep("-n", *arguments)
+                self.assertEqual(result.returncode, 0, result.stderr)
+                self.assertEqual("share a seed" in result.stderr, shared, result.stderr)
+
     def test_mistakes(self):
         for arguments, message in ((["add_sgma=0"], "unknown: add_sgma"),
                                    (["add_sigma=0"], "SENSOR"),

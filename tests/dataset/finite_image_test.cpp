@@ -15,7 +15,11 @@ using namespace sonarsim::test;
 namespace {
 
 Ping image_of(std::vector<float> pixels) {
-    return {1, static_cast<int>(pixels.size()), std::move(pixels), {}, {}};
+    Ping image;
+    image.range_bins = 1;
+    image.beams = static_cast<int>(pixels.size());
+    image.intensity = std::move(pixels);
+    return image;
 }
 
 }  // namespace

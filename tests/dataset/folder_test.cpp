@@ -88,7 +88,7 @@ TEST_SUITE("dataset") {
             mission, 5,
             "holds a dataset of this mission made from other scene, material or trajectory files");
         ++mission.seed;
-        check_refused_unless_overwritten(mission, 4, "holds the dataset of another mission");
+        check_refused_unless_overwritten(mission, 4, "holds a dataset of another mission");
         --mission.seed;
         edit(mission.output.folder / "dataset.json", "\"program_version\": \"",
              "\"program_version\": \"9");
@@ -130,7 +130,7 @@ TEST_SUITE("dataset") {
         mission.sensors[1].name = "left";
         CHECK(run(mission, 3, true).complete);
         const auto files = contents(out);
-        CHECK(files.size() == 4 + 4 * 4 + 2);  // front at 0, 1, 2 and left at 0; the notes
+        CHECK(files.size() == 5 + 4 * 4 + 2);  // front at 0, 1, 2 and left at 0; the notes
         CHECK(files.contains("notes.txt"));
         CHECK(files.contains("gone/meta/notes.txt"));
         CHECK_FALSE(fs::exists(out / "gone/fan"));

@@ -35,18 +35,11 @@ bool is_complete(const fs::path& folder) {
     return Json::parse(read_file(folder / "dataset.json", 1 << 20)).at("complete");
 }
 
-/// The files of a dataset without the one that names its folder.
-std::map<std::string, std::string> dataset(const fs::path& folder) {
-    auto files = contents(folder);
-    CHECK(files.erase("mission.resolved.yaml") == 1);
-    return files;
-}
-
 /// What a whole render of the small mission gives.
 std::map<std::string, std::string> whole_dataset() {
     const TemporaryFolder folder;
     run(small_mission(folder.path / "out"));
-    return dataset(folder.path / "out");
+    return contents(folder.path / "out");
 }
 
 }  // namespace
@@ -72,7 +65,7 @@ TEST_SUITE("dataset") {
         for (const int threads : {1, 2, 5}) {
             const fs::path out = temporary.path / std::to_string(threads);
             run(small_mission(out), {.threads = threads});
-            CHECK(dataset(out) == whole);
+            CHECK(contents(out) == whole);
         }
         const fs::path out = temporary.path / "interrupted";
         const Mission mission = small_mission(out);
@@ -87,7 +80,7 @@ TEST_SUITE("dataset") {
         CHECK(second.skipped == first.pings);
         CHECK(second.pings == pings - first.pings);
         CHECK(second.complete);
-        CHECK(dataset(out) == whole);
+        CHECK(contents(out) == whole);
     }
 
     TEST_CASE("job: a stop before the first ping leaves a folder that can be resumed") {
@@ -99,7 +92,7 @@ TEST_SUITE("dataset") {
         CHECK(none.pings == 0);
         CHECK_FALSE(is_complete(temporary.path / "out"));
         CHECK(run(mission).complete);
-        CHECK(dataset(temporary.path / "out") == whole_dataset());
+        CHECK(contents(temporary.path / "out") == whole_dataset());
     }
 
     TEST_CASE("job: what a crash left behind is put right") {
@@ -112,7 +105,7 @@ TEST_SUITE("dataset") {
         write_file(out / "left/meta/.000006.json.0123456789abcdef.part", "half");
         write_file(out / ".dataset.json.0123456789abcdef.part", "half");
         CHECK(run(mission).complete);
-        CHECK(dataset(out) == whole_dataset());
+        CHECK(contents(out) == whole_dataset());
     }
 
     TEST_CASE("job: a finished dataset is left alone, a gap in it is filled") {
@@ -131,7 +124,7 @@ TEST_SUITE("dataset") {
         const RenderSummary filled = run(mission);
         CHECK(filled.pings == 1);
         CHECK(filled.complete);
-        CHECK(dataset(out) == whole_dataset());
+        CHECK(contents(out) == whole_dataset());
     }
 
     TEST_CASE("job: a ping that saw nothing is there like any other") {
@@ -170,7 +163,7 @@ TEST_SUITE("dataset") {
             std::runtime_error);
         CHECK_FALSE(is_complete(out));
         CHECK(run(mission).pings == 1);
-        CHECK(dataset(out) == whole_dataset());
+        CHECK(contents(out) == whole_dataset());
     }
 
     TEST_CASE("job: records that go away during the run are no part of a complete dataset") {
@@ -213,7 +206,7 @@ TEST_SUITE("dataset") {
         const RenderSummary again = run(mission);
         CHECK(again.pings == 0);
         CHECK(again.complete);
-        CHECK(dataset(out) == whole_dataset());
+        CHECK(contents(out) == whole_dataset());
     }
 
     TEST_CASE("job: a file of another size than the journal's is rendered again") {
@@ -224,7 +217,7 @@ TEST_SUITE("dataset") {
         write_file(out / "front/fan/000002.png", "");
         write_file(out / "left/meta/000003.json", "{}");
         CHECK(run(mission).pings == 2);
-        CHECK(dataset(out) == whole_dataset());
+        CHECK(contents(out) == whole_dataset());
     }
 
     TEST_CASE("job: lines of the journal that are torn or made up do not count") {
@@ -238,7 +231,7 @@ TEST_SUITE("dataset") {
         const RenderSummary rest = run(mission);
         CHECK(rest.complete);
         CHECK(rest.skipped > 0);
-        CHECK(dataset(out) == whole_dataset());
+        CHECK(contents(out) == whole_dataset());
     }
 
     TEST_CASE("job: shards share a folder, and the last one completes it") {
@@ -262,7 +255,7 @@ TEST_SUITE("dataset") {
         const RenderSummary last = run(mission, {.shard = 1, .shards = 3});
         CHECK(last.complete);
         CHECK(is_complete(out));
-        CHECK(dataset(out) == whole_dataset());
+        CHECK(contents(out) == whole_dataset());
     }
 
     TEST_CASE("job: shards in folders of their own are merged, and one more run completes them") {
@@ -278,7 +271,7 @@ TEST_SUITE("dataset") {
         const RenderSummary summary = run(small_mission(merged));
         CHECK(summary.pings == 0);
         CHECK(summary.complete);
-        CHECK(dataset(merged) == whole_dataset());
+        CHECK(contents(merged) == whole_dataset());
     }
 
     TEST_CASE("job: more shards than pings leave some with nothing to do") {
@@ -314,6 +307,6 @@ TEST_SUITE("dataset") {
         }
         fs::remove(out / "front/fan/000006.png");
         CHECK(run(mission).complete);
-        CHECK(dataset(out) == whole_dataset());
+        CHECK(contents(out) == whole_dataset());
     }
 }

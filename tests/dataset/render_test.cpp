@@ -7,8 +7,8 @@
 
 #include "core/file.h"
 #include "dataset/job.h"
+#include "dataset/metadata.h"
 #include "dataset/npy.h"
-#include "mission/resolved.h"
 #include "product/fan.h"
 #include "sonar/kinds.h"
 #include "support/small_mission.h"
@@ -59,9 +59,9 @@ TEST_SUITE("dataset") {
         CHECK(summary.encode_seconds > 0.0);
         CHECK(summary.write_seconds > 0.0);
         CHECK(summary.counts.samples > 0);
-        CHECK(contents(out).size() == 4 + pings * 4);
+        CHECK(contents(out).size() == 5 + pings * 4);
         CHECK(read_file(out / "mission.resolved.yaml", 1 << 20) ==
-              resolved_yaml(mission, sonar_keys()));
+              resolved_text(mission, assembly));
         CHECK(read_file(out / "trajectory.tum", 1 << 20) == write_tum(assembly.trajectory));
 
         const auto engine = make_rays_engine(assembly.scene);
@@ -109,7 +109,7 @@ TEST_SUITE("dataset") {
         Mission mission = small_mission(temporary.path / "out");
         mission.output.polar = mission.output.image = mission.output.meta = false;
         run(mission);
-        CHECK(contents(temporary.path / "out").size() == 4 + pings);
+        CHECK(contents(temporary.path / "out").size() == 5 + pings);
         CHECK(fs::exists(temporary.path / "out/left/fan/000006.png"));
         CHECK_FALSE(fs::exists(temporary.path / "out/left/polar"));
     }

@@ -20,13 +20,6 @@ RenderSummary run(const Mission& mission, const RenderOptions& options = {}) {
     return run_job(mission, small_assembly(mission, poses), options, {}, std::atomic<bool>(false));
 }
 
-/// The files of a dataset but for the resolved mission, which names its own folder.
-std::map<std::string, std::string> dataset(const fs::path& folder) {
-    auto files = contents(folder);
-    CHECK(files.erase("mission.resolved.yaml") == 1);
-    return files;
-}
-
 }  // namespace
 
 TEST_SUITE("dataset") {
@@ -34,10 +27,10 @@ TEST_SUITE("dataset") {
         const TemporaryFolder temporary;
         const auto whole = [&] {
             run(survey_mission(temporary.path / "whole"), {.threads = 1});
-            return dataset(temporary.path / "whole");
+            return contents(temporary.path / "whole");
         }();
         run(survey_mission(temporary.path / "two"), {.threads = 2});
-        CHECK(dataset(temporary.path / "two") == whole);
+        CHECK(contents(temporary.path / "two") == whole);
 
         const Mission stopped = survey_mission(temporary.path / "stopped");
         std::atomic<bool> stop = false;
@@ -53,12 +46,12 @@ TEST_SUITE("dataset") {
         CHECK_FALSE(fs::exists(temporary.path / "stopped/sss/waterfall.png"));
         const RenderSummary second = run(stopped);
         CHECK(second.skipped == first.pings);
-        CHECK(dataset(temporary.path / "stopped") == whole);
+        CHECK(contents(temporary.path / "stopped") == whole);
 
         const Mission shared = survey_mission(temporary.path / "shared");
         CHECK_FALSE(run(shared, {.shard = 1, .shards = 2}).complete);
         CHECK(run(shared, {.shard = 0, .shards = 2}).complete);
-        CHECK(dataset(temporary.path / "shared") == whole);
+        CHECK(contents(temporary.path / "shared") == whole);
     }
 
     TEST_CASE("series: shards merged by copying lose records, and one more run brings them back") {
@@ -74,7 +67,7 @@ TEST_SUITE("dataset") {
         const RenderSummary summary = run(survey_mission(merged));
         CHECK(summary.pings > 0);
         CHECK(summary.complete);
-        CHECK(dataset(merged) == dataset(temporary.path / "whole"));
+        CHECK(contents(merged) == contents(temporary.path / "whole"));
     }
 
     TEST_CASE("series: what is missing is made again, a finished dataset is left alone") {
@@ -82,7 +75,7 @@ TEST_SUITE("dataset") {
         const fs::path out = temporary.path / "out";
         const Mission mission = survey_mission(out);
         run(mission);
-        const auto whole = dataset(out);
+        const auto whole = contents(out);
         const auto before = fs::last_write_time(out / "sss/waterfall.npy");
         CHECK(run(mission).pings == 0);
         CHECK(fs::last_write_time(out / "sss/waterfall.npy") == before);
@@ -93,16 +86,16 @@ TEST_SUITE("dataset") {
         const RenderSummary again = run(mission);
         CHECK(again.pings == 7);
         CHECK(again.complete);
-        CHECK(dataset(out) == whole);
+        CHECK(contents(out) == whole);
 
         fs::remove(out / "sounder/echogram_view.png");
         CHECK(run(mission).pings == 0);
-        CHECK(dataset(out) == whole);
+        CHECK(contents(out) == whole);
 
         write_file(out / "sss/mine.txt", "mine");
         const RenderSummary anew = run(mission, {.overwrite = true});
         CHECK(anew.pings == 25);
         CHECK(fs::remove(out / "sss/mine.txt"));
-        CHECK(dataset(out) == whole);
+        CHECK(contents(out) == whole);
     }
 }

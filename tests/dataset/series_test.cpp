@@ -59,7 +59,7 @@ TEST_SUITE("dataset") {
         CHECK(summary.complete);
         CHECK(summary.pings == 3 * 7 + 4);
         // 4 common; front 7 x 4; mbes 7 x 4 and 6; sss 7 and 3; sounder 4 and 3.
-        CHECK(contents(out).size() == 4 + 28 + 34 + 10 + 7);
+        CHECK(contents(out).size() == 5 + 28 + 34 + 10 + 7);
 
         const auto engine = make_rays_engine(assembly.scene);
         const auto ping = [&](int sensor, std::uint32_t pose) {

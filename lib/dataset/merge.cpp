@@ -1,0 +1,247 @@
+#include "dataset/merge.h"
+
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+
+#include "assembly/assemble.h"
+#include "core/error.h"
+#include "core/file.h"
+#include "core/ordered_pipeline.h"
+#include "core/sha256.h"
+#include "core/text.h"
+#include "dataset/completion.h"
+#include "dataset/description.h"
+#include "dataset/folder.h"
+#include "dataset/resume.h"
+#include "mission/parse.h"
+#include "mission/resolved.h"
+#include "sonar/kinds.h"
+#include "sonar/sonar.h"
+#include "trajectory/files.h"
+
+namespace sonarsim {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t largest_common_file = std::size_t{1} << 32;
+/// A ping's file is an image or JSON.
+constexpr std::size_t largest_ping_file = std::size_t{1} << 32;
+
+/// Beside the pings, what a part holds. `complete` is set to false, as at the beginning of a run.
+CommonFiles read_common(const fs::path& folder) {
+    if (!fs::is_regular_file(folder / description_name)) {
+        throw InputError({folder.string()},
+                         "is no dataset: it has no dataset.json; give the output folders of the "
+                         "shards, and then the folder to write to");
+    }
+    std::optional<Json> description = read_description(folder);
+    if (!description)
+        throw InputError({(folder / description_name).string()}, "is not sonarsim's, or damaged");
+    (*description)["complete"] = false;
+    return {*std::move(description), read_file(folder / mission_name, largest_common_file),
+            read_file(folder / trajectory_name, largest_common_file)};
+}
+
+void require_same(const fs::path& part, const CommonFiles& found, const fs::path& first,
+                  const CommonFiles& expected) {
+    std::string difference = difference_between(found.description, expected.description);
+    if (difference.empty() &&
+        (found.mission != expected.mission || found.trajectory != expected.trajectory))
+        difference = "of this mission whose inputs or poses were changed since";
+    if (difference.empty()) return;
+    throw InputError({part.string()}, "holds a dataset " + difference + ", seen from " +
+                                          first.string() +
+                                          "; only parts of one mission can be merged");
+}
+
+/// What the products of a dataset are made with: all that the mission names but the scene.
+struct MergeContext {
+    Mission mission;
+    Assembly assembly;
+};
+
+MergeContext read_context(const fs::path& part, const CommonFiles& common, const fs::path& out) {
+    MergeContext context;
+    const std::string file = (part / mission_name).string();
+    context.mission = parse_mission(common.mission, file, part, {}, sonar_keys());
+    if (mission_hash(context.mission, sonar_keys()) != common.description["mission_hash"]) {
+        throw InputError({file},
+                         "is not the mission that dataset.json was made of, or not by this version "
+                         "of sonarsim; copy the part again, or merge with the version that "
+                         "rendered it");
+    }
+    context.mission.output.folder = fs::absolute(out).lexically_normal();
+    context.assembly.trajectory = parse_tum(common.trajectory, (part / trajectory_name).string());
+    for (const SonarConfig& sensor : context.mission.sensors)
+        context.assembly.sonars.push_back(make_sonar(sensor, context.mission.accuracy));
+    return context;
+}
+
+/// A folder that pings are taken from.
+struct Part {
+    Part(Layout of, const fs::path& folder) : layout(std::move(of)) {
+        layout.folder = folder;
+        records = open_records(layout, RecordAccess::read);
+        entries = read_journal(folder);
+        finished = std::make_unique<FinishedPings>(layout, records);
+    }
+
+    Layout layout;
+    RecordFiles records;
+    JournalEntries entries;
+    std::unique_ptr<FinishedPings> finished;  ///< refers to the two above
+};
+
+/// A ping that is to be copied, and where from.
+struct Copy {
+    PingId id;
+    const Part* from;
+};
+
+/// "shards 2/3, 3/3" of the pings that are missing, where the parts' journals tell of shards.
+std::string missing_shards(const std::vector<std::unique_ptr<Part>>& parts,
+                           const std::vector<std::size_t>& missing) {
+    std::optional<std::uint64_t> shards;
+    for (const auto& part : parts) {
+        const fs::path folder = part->layout.folder / journal_folder_name;
+        if (!fs::is_directory(folder)) continue;
+        for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+            const std::string name = entry.path().stem().string();
+            const std::size_t of = name.find("-of-");
+            if (is_journal_part(entry.path().filename().string()))
+                shards = parse_unsigned(std::string_view(name).substr(of + 4));
+        }
+    }
+    if (!shards || *shards < 2) return {};
+    std::set<std::uint64_t> which;
+    for (const std::size_t ping : missing)
+        which.insert(ping % *shards + 1);
+    std::string text;
+    for (const std::uint64_t shard : which)
+        text += (text.empty() ? "" : ", ") + std::to_string(shard) + "/" + std::to_string(*shards);
+    return " (--shard " + text + ")";
+}
+
+std::vector<Copy> plan_copies(const std::vector<PingId>& all,
+                              const std::vector<std::unique_ptr<Part>>& parts,
+                              const FinishedPings& there) {
+    std::vector<Copy> copies;
+    std::vector<std::size_t> missing;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        if (there(all[i])) continue;
+        const auto part =
+            std::ranges::find_if(parts, [&](const auto& p) { return (*p->finished)(all[i]); });
+        part != parts.end() ? copies.push_back({all[i], part->get()}) : missing.push_back(i);
+    }
+    if (missing.empty()) return copies;
+    throw InputError(std::to_string(missing.size()) + " of " + std::to_string(all.size()) +
+                     " pings are in none of the parts" + missing_shards(parts, missing) +
+                     ": the first is ping " + std::to_string(all[missing[0]].pose) +
+                     " of sensor '" + parts[0]->layout.sensors[all[missing[0]].sensor].name +
+                     "'; render what is missing, or name its folder, too");
+}
+
+void copy_ping(const Copy& copy, const Layout& to, const RecordFiles& records) {
+    const Part& from = *copy.from;
+    const std::vector<std::string>& told = from.entries.pings.at(copy.id);
+    const auto& parts = to.sensors[copy.id.sensor].per_ping;
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+        if (const auto* file = std::get_if<PingFile>(&parts[k])) {
+            const fs::path path = from.layout.file(copy.id, *file);
+            const std::string bytes = read_file(path, largest_ping_file);
+            if (entry_text({bytes.size(), sha256(bytes)}) != told[k]) {
+                throw InputError({path.string()},
+                                 "is not what the journal of its part tells; copy the part again, "
+                                 "or remove the file and render that shard again");
+            }
+            write_file(to.file(copy.id, *file), bytes);
+        } else {  // FinishedPings has compared it with the journal
+            const RecordFile& source = *from.records[copy.id.sensor][k];
+            std::vector<std::byte> bytes(source.record_bytes());
+            source.read(to.record_of(copy.id), bytes);
+            records[copy.id.sensor][k]->write(to.record_of(copy.id), bytes);
+        }
+    }
+}
+
+/// `out` may hold an unfinished merge, and none of the parts.
+void require_apart(const std::vector<fs::path>& parts, const fs::path& out) {
+    for (const fs::path& part : parts) {
+        std::error_code absent;
+        if (fs::equivalent(part, out, absent)) {
+            throw InputError({out.string()},
+                             "is one of the parts; name another folder to write to");
+        }
+    }
+}
+
+}  // namespace
+
+MergeSummary merge_datasets(const std::vector<fs::path>& folders, const fs::path& out, int threads,
+                            const std::function<void(std::uint64_t, std::uint64_t)>& progress,
+                            const std::atomic<bool>& stop) {
+    require_apart(folders, out);
+    const CommonFiles common = read_common(folders.at(0));
+    for (const fs::path& folder : folders)
+        require_same(folder, read_common(folder), folders[0], common);
+    const MergeContext context = read_context(folders[0], common, out);
+    const std::size_t poses = context.assembly.trajectory.size();
+    const std::vector<Writers> writers = make_writers(context.mission, context.assembly);
+    const Layout layout = make_layout(context.mission, writers, poses);
+    std::vector<std::unique_ptr<Part>> parts;
+    for (const fs::path& folder : folders)
+        parts.push_back(std::make_unique<Part>(layout, folder));
+
+    protect_inputs(layout, context.mission);
+    const std::vector<PingId> all = list_pings(context.mission, poses);
+    const FolderState state = inspect_folder(layout, common.description);
+    if (state == FolderState::fresh) {
+        // What is missing is told before anything is written.
+        plan_copies(all, parts, *parts[0]->finished);
+        begin_dataset(layout, common);
+    }
+    RecordFiles records = open_records(layout);
+    const std::vector<Copy> copies = plan_copies(all, parts, FinishedPings(layout, records));
+    MergeSummary summary{.skipped = all.size() - copies.size()};
+    summary.complete = state == FolderState::complete && copies.empty() &&
+                       has_common_files(layout) && has_products(layout);
+    if (summary.complete) return summary;
+    if (state != FolderState::fresh) begin_dataset(layout, common);
+
+    if (threads <= 0) threads = tbb::info::default_concurrency();
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    tbb::task_arena arena(threads);
+    constexpr double checkpoint_s = 5.0;
+    Journal journal(layout.folder, journal_part(1, 1), checkpoint_s);
+    arena.execute([&] {
+        ordered_pipeline(
+            copies.size(), 2 * static_cast<std::size_t>(threads), stop,
+            [&](std::size_t i) {
+                copy_ping(copies[i], layout, records);
+                return copies[i];
+            },
+            [&](const Copy& copy) {
+                journal.add(copy.id, copy.from->entries.pings.at(copy.id));
+                ++summary.pings;
+                if (progress) progress(summary.pings, copies.size());
+            });
+    });
+    journal.finish();
+    if (summary.pings < copies.size()) return summary;
+    complete_dataset(layout, writers, records, common);
+    summary.complete = true;
+    return summary;
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,220 @@
+#include "dataset/verify.h"
+
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
+#include <stdexcept>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "core/ordered_pipeline.h"
+#include "core/sha256.h"
+#include "dataset/checksums.h"
+#include "dataset/description.h"
+#include "dataset/layout.h"
+#include "dataset/metadata.h"
+#include "dataset/open_file.h"
+
+namespace sonarsim {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+using Shape = std::vector<std::size_t>;
+
+constexpr std::size_t largest_checksums = std::size_t{1} << 32;
+/// A description may claim any number of pings; nobody reads more lines than this.
+constexpr std::size_t most_faults = 1000;
+
+constexpr const char* render_again =
+    "the render command that made the dataset, run again, makes it anew";
+
+void add_fault(DatasetCheck& check, const std::string& fault) {
+    check.faults.size() < most_faults ? check.faults.push_back(fault) : void(++check.more_faults);
+}
+
+Json require_dataset(const fs::path& folder) {
+    if (!fs::is_regular_file(folder / description_name)) {
+        throw InputError({folder.string()},
+                         "is no dataset: it has no dataset.json; give the output folder of a "
+                         "render");
+    }
+    std::optional<Json> description = read_description(folder);
+    if (!description) {
+        throw InputError({(folder / description_name).string()},
+                         "is not sonarsim's, or damaged; give the output folder of a render");
+    }
+    const Json version = description->value("format_version", Json());
+    if (version != dataset_format_version) {
+        throw InputError({(folder / description_name).string()},
+                         "has format_version " + version.dump() + ", and this program knows " +
+                             std::to_string(dataset_format_version) +
+                             "; use the version that made the dataset");
+    }
+    return *std::move(description);
+}
+
+/// A file that is to be looked at.
+struct Task {
+    std::string name;
+    std::string kind;  ///< "sensor/polar": those of one kind have one shape; empty for single files
+    std::string sum;
+    Shape shape;  ///< that it should have, where dataset.json tells
+};
+
+/// The shape that dataset.json tells; none where it does not.
+Shape told_shape(const DescribedFile& file) {
+    if (!file.sensor) return {};
+    const Json& sensor = *file.sensor;
+    const auto bins = [&](const char* key) { return sensor.at(key).size() - 1; };
+    if (file.kind == "polar" || file.kind == "image")
+        return {bins("range_edges_m"), bins("azimuth_edges_rad")};
+    if (file.kind == "fan")
+        return {sensor.at("fan").at("height_px"), sensor.at("fan").at("width_px")};
+    return {};
+}
+
+/// What is to be looked at; what is missing is a fault already.
+std::vector<Task> list_tasks(const fs::path& folder, const Json& description,
+                             const std::map<std::string, std::string>& sums,
+                             std::set<std::string>& expected, DatasetCheck& check) {
+    std::vector<Task> tasks;
+    for_each_described(description, [&](const DescribedFile& file) {
+        expected.insert(file.name);
+        const auto sum = sums.find(file.name);
+        if (!fs::is_regular_file(folder / file.name)) {
+            add_fault(check, file.name + ": is missing; " + render_again);
+        } else if (sum != sums.end()) {
+            const bool alike = file.sensor && !file.kind.empty() && file.kind != "records";
+            tasks.push_back({file.name,
+                             alike ? file.sensor->at("name").get<std::string>() + "/" + file.kind
+                                   : std::string(),
+                             sum->second, told_shape(file)});
+        } else if (file.name != checksums_name && !sums.empty()) {
+            add_fault(check, file.name +
+                                 ": SHA256SUMS does not list it; remove SHA256SUMS, and the render "
+                                 "command that made the dataset writes it again");
+        }
+        return check.more_faults == 0;
+    });
+    return tasks;
+}
+
+/// Of a file that is there and not what it should be. Without dataset.json a folder would not be
+/// known as a dataset any more.
+std::string cure_of(const std::string& name) {
+    if (name != description_name) return std::string("remove it, and ") + render_again;
+    return std::string("remove ") + checksums_name + ", and " + render_again;
+}
+
+/// What looking at one file gave.
+struct Look {
+    std::uint64_t bytes = 0;
+    std::string fault;
+    Shape shape;
+};
+
+Look look_at(const fs::path& folder, const Task& task) {
+    const fs::path path = folder / task.name;
+    Look look;
+    look.bytes = fs::file_size(path);
+    try {
+        look.shape = open_file(path);
+        if (!task.shape.empty() && look.shape != task.shape) {
+            look.fault = "is " + shape_text(look.shape) + ", and dataset.json says " +
+                         shape_text(task.shape);
+        }
+    } catch (const std::system_error&) {
+        throw;
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception& error) {
+        look.fault = std::string("does not open: ") + error.what();
+    }
+    if (sha256_of_file(path) != task.sum) {
+        look.fault = "its bytes are not those that SHA256SUMS tells" +
+                     (look.fault.empty() ? "" : ", and it " + look.fault);
+    }
+    return look;
+}
+
+void look_at_all(const fs::path& folder, const std::vector<Task>& tasks, int threads,
+                 const std::function<void(std::uint64_t, std::uint64_t)>& progress,
+                 const std::atomic<bool>& stop, DatasetCheck& check) {
+    std::map<std::string, Shape> shapes;  // of the first file of each kind
+    ordered_pipeline(
+        tasks.size(), 4 * static_cast<std::size_t>(threads), stop,
+        [&](std::size_t i) { return look_at(folder, tasks[i]); },
+        [&](const Look& look) {
+            const Task& task = tasks[check.files++];
+            check.bytes += look.bytes;
+            std::string fault = look.fault;
+            const Shape& first = shapes.try_emplace(task.kind, look.shape).first->second;
+            if (fault.empty() && !task.kind.empty() && look.shape != first) {
+                fault =
+                    "is " + shape_text(look.shape) + ", and the others are " + shape_text(first);
+            }
+            if (!fault.empty()) {
+                add_fault(check, task.name + ": " + fault + "; " + cure_of(task.name));
+            }
+            if (progress) progress(check.files, tasks.size());
+        });
+    check.stopped = check.files < tasks.size();
+}
+
+/// No link is followed: what it leads to is not in the folder.
+std::vector<std::string> strangers_in(const fs::path& folder,
+                                      const std::set<std::string>& expected) {
+    std::vector<std::string> strangers;
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
+        std::string name = entry.path().lexically_relative(folder).string();
+        const bool is_folder = entry.symlink_status().type() == fs::file_type::directory;
+        if (!is_folder && !expected.contains(name)) strangers.push_back(std::move(name));
+    }
+    std::ranges::sort(strangers);
+    return strangers;
+}
+
+}  // namespace
+
+DatasetCheck verify_dataset(const fs::path& folder, int threads,
+                            const std::function<void(std::uint64_t, std::uint64_t)>& progress,
+                            const std::atomic<bool>& stop) {
+    const Json description = require_dataset(folder);
+    const bool complete = description.value("complete", Json()) == true;
+    DatasetCheck check;
+    if (!complete) {
+        add_fault(check, std::string(description_name) +
+                             ": the dataset is not complete; the render command that made it, run "
+                             "again, goes on with it");
+    }
+    std::map<std::string, std::string> sums;
+    const fs::path sums_file = folder / checksums_name;
+    if (fs::is_regular_file(sums_file))
+        sums = parse_checksums(read_file(sums_file, largest_checksums), sums_file.string());
+    std::set<std::string> expected;
+    const std::vector<Task> tasks = list_tasks(folder, description, sums, expected, check);
+    if (check.more_faults == 0) {
+        for (const auto& [name, sum] : sums) {
+            if (!expected.contains(name)) {
+                add_fault(check, name +
+                                     ": SHA256SUMS lists it, and dataset.json does not; one of "
+                                     "them was changed: render the dataset anew (--overwrite)");
+            }
+        }
+        check.strangers = strangers_in(folder, expected);
+    }
+    if (threads <= 0) threads = tbb::info::default_concurrency();
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    tbb::task_arena arena(threads);
+    arena.execute([&] { look_at_all(folder, tasks, threads, progress, stop, check); });
+    return check;
+}
+
+}  // namespace sonarsim
