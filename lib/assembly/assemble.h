@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "mission/mission.h"
+#include "scene/objects.h"
 #include "scene/scene.h"
 #include "sonar/sonar.h"
 #include "trajectory/trajectory.h"
@@ -13,6 +14,7 @@ namespace sonarsim {
 /// All that a mission names, read, checked and ready to render.
 struct Assembly {
     Scene scene;
+    SceneObjects objects;  ///< what labels tell apart in the scene
     Trajectory trajectory;
     std::vector<Sonar> sonars;  ///< in the order of Mission::sensors
 };
