@@ -17,8 +17,7 @@ class ElevationFinder {
         : materials_(materials), bins_(bins) {}
 
     /// The mean elevation of the echo of each bin and its standard deviation, rad, both NaN where
-    /// the samples give none. Within a sample's footprint sin(theta) is taken to change evenly with
-    /// range; means are of the sine, weighted with area times intensity.
+    /// the samples give none. Means are of sin(theta), weighted with area times intensity.
     void find(std::span<const Sample> samples, std::span<float> elevation_rad,
               std::span<float> spread_rad);
 

@@ -145,12 +145,12 @@ class BeamLabeller {
     void write_objects(std::size_t at, PingLabels& out) const {
         for (int i = 0; i < bins_.count; ++i) {
             const float total = shares_.total[i];
-            const float per_echo = total > 0.0F ? 1.0F / total : 0.0F;
+            const float whole = total > 0.0F ? total : 1.0F;
             out.object[at + i] = id_16(strongest_.key[i]);
-            out.share[at + i] = std::min(strongest_.echo[i] * per_echo, 1.0F);
+            out.share[at + i] = std::min(strongest_.echo[i] / whole, 1.0F);
             out.second[at + i] = id_16(strongest_.second_key[i]);
-            out.second_share[at + i] = std::min(strongest_.second_echo[i] * per_echo, 1.0F);
-            out.multipath[at + i] = std::clamp((total - direct_[i]) * per_echo, 0.0F, 1.0F);
+            out.second_share[at + i] = std::min(strongest_.second_echo[i] / whole, 1.0F);
+            out.multipath[at + i] = std::clamp((total - direct_[i]) / whole, 0.0F, 1.0F);
         }
     }
 
@@ -201,8 +201,7 @@ PingLabels label_ping(const TracedPing& traced, const PingSettings& settings, co
     PingLabels labels = blank_labels(view, request);
     BeamLabeller labeller(traced, view, scene, objects, request);
     ShadowFinder shadows(traced, view, objects, engine, request.shadow);
-    const bool shares =
-        request.objects || request.classes || request.materials || request.shadow;
+    const bool shares = request.objects || request.classes || request.materials || request.shadow;
     ElevationFinder elevations(scene.materials, range_bins(view));
     for (int j = 0; j < view.beams; ++j) {
         const auto own = [&](auto& all) {
