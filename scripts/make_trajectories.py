@@ -36,6 +36,33 @@ def seafloor_pass():
         yield k / rate_hz, x, 0, 8, 0, 15, 0
 
 
+def wreck_pass():
+    """A pass along the wreck, 16 m beside its keel and 7 m up: sideways, the bow 15 degrees down."""
+    count, rate_hz, speed = 80, 5, 2
+    for k in range(count):
+        x = (k - (count - 1) / 2) * speed / rate_hz
+        yield k / rate_hz, x, -16, 7, 0, 15, 90
+
+
+def orbit(radius, middle, rise):
+    """Seven eighths of a way round an object at the origin, the bow on its middle, x = y = 0,
+    z = `middle`; the vehicle is `rise` higher and lower than that, twice on its way."""
+    count, rate_hz = 80, 5
+    for k in range(count):
+        angle = 7 / 4 * math.pi * k / (count - 1)
+        up = rise * math.sin(2 * angle)
+        yield (k / rate_hz, radius * math.cos(angle), radius * math.sin(angle), middle + up, 0,
+               math.degrees(math.atan2(up, radius)), math.degrees(angle) - 180)
+
+
+def lifeboat_orbit():
+    return orbit(7, 1, 2)
+
+
+def motorbike_orbit():
+    return orbit(5, 1.2, 1.5)
+
+
 def text(value):
     """At most 6 decimals, and no more zeros than needed ("-0" is 0)."""
     return f"{round(value, 6) + 0.0:.6f}".rstrip("0").rstrip(".")
@@ -45,7 +72,7 @@ def main():
     root = pathlib.Path(__file__).resolve().parent.parent
     folder = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else root / "trajectories"
     folder.mkdir(parents=True, exist_ok=True)
-    for poses in (tank_loop, seafloor_pass):
+    for poses in (tank_loop, seafloor_pass, wreck_pass, lifeboat_orbit, motorbike_orbit):
         lines = [HEADER] + [",".join(map(text, pose)) for pose in poses()]
         (folder / f"{poses.__name__}.csv").write_text("\n".join(lines) + "\n", newline="\n")
 

@@ -10,7 +10,10 @@ fi
 if [[ -f $1 ]]; then
     name=$(sed -n 's#^ *file: *\.\./scenes/generated/\([a-z]*\)\.glb.*#\1#p' "$1")
     if [[ -n $name && ! -e $root/scenes/generated/$name.glb ]]; then
-        "$root/scripts/make_scenes.py" "$name"
+        case $name in
+            motorbike) "$root/scripts/foreign_mesh.sh" ;;
+            *) "$root/scripts/make_scenes.py" "$name" ;;
+        esac
     fi
 fi
 exec "$root/build/sonarsim" render "$@"

@@ -1,17 +1,45 @@
 #!/usr/bin/env bash
 # ./scripts/report.sh [options of `sonarsim report`]: measures the tank and the sea floor and puts
 # the tables into docs/performance.md and the plots beside it. Takes some minutes on an idle machine.
+# SCENES="tank seafloor wreck lifeboat motorbike" ./scripts/report.sh: measures these, into
+# out/report_SCENE; tables and plots of those that docs/performance.md has a place for go there.
+# QUARTERINGS="0 1 2 3": the lifeboat once for each, its triangles cut into four as often.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 "$root/scripts/setup.sh" python3-matplotlib
-python3 "$root/scripts/make_scenes.py" seafloor
 tables=()
-for scene in tank seafloor; do
-    out=$root/out/report_$scene
+
+measure() { # scene, the name of its report, options of `sonarsim report`
+    local scene=$1 name=$2 out=$root/out/report_$2
+    shift 2
     "$root/build/sonarsim" report "$root/configs/${scene}_imaging.yaml" --out "$out" "$@"
     # Debian's matplotlib belongs to Debian's Python, which need not be the first on the PATH.
     /usr/bin/python3 "$root/scripts/plot_report.py" "$out/report.json" "$out"
-    cp "$out/error_fls.svg" "$root/docs/error_$scene.svg"
-    tables+=("$scene=$out/report.md")
+    if grep -q "<!-- report $name -->" "$root/docs/performance.md"; then
+        cp "$out/error_fls.svg" "$root/docs/error_$name.svg"
+        tables+=("$name=$out/report.md")
+    fi
+}
+
+for scene in ${SCENES:-tank seafloor}; do
+    case $scene in
+        tank) measure tank tank "$@" ;;
+        motorbike)
+            "$root/scripts/foreign_mesh.sh"
+            measure motorbike motorbike "$@"
+            ;;
+        lifeboat)
+            for times in ${QUARTERINGS:-0}; do
+                python3 "$root/scripts/make_scenes.py" lifeboat --quarterings "$times"
+                measure lifeboat "lifeboat_$times" "$@"
+            done
+            ;;
+        *)
+            python3 "$root/scripts/make_scenes.py" "$scene"
+            measure "$scene" "$scene" "$@"
+            ;;
+    esac
 done
-python3 "$root/scripts/insert_tables.py" "$root/docs/performance.md" "${tables[@]}"
+if ((${#tables[@]})); then
+    python3 "$root/scripts/insert_tables.py" "$root/docs/performance.md" "${tables[@]}"
+fi

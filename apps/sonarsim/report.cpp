@@ -3,6 +3,7 @@
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "benchmark/cold_start.h"
@@ -32,6 +33,7 @@ struct ReportArguments {
     bool scale = false;
     bool hard = false;
     std::string hard_name;
+    std::vector<std::string> engines;
     std::size_t most_triangles = 5'000'000;
     LogOptions log;
 };
@@ -77,10 +79,14 @@ int report(const ReportArguments& arguments) {
         options.poses = std::min(options.poses, 3);
         options.rounds = 2;
         options.reference_moved = 0.005;
-        options.reference_rays = 50'000'000;
+        options.reference_rays = std::min(options.reference_rays, std::uint64_t{50'000'000});
     }
     const auto progress = [](const std::string& what) { spdlog::info("{}", what); };
-    const std::vector<Setting> settings = make_settings(mission, arguments.quick);
+    std::vector<Setting> settings = make_settings(mission, arguments.quick);
+    std::erase_if(settings, [&](const Setting& setting) {
+        return !arguments.engines.empty() &&
+               std::ranges::find(arguments.engines, setting.engine) == arguments.engines.end();
+    });
     progress("each setting in a process of its own");
     const std::vector<ColdStart> cold =
         measure_cold_starts(mission, assembly, settings, options, assembled_s);
@@ -113,6 +119,17 @@ void add_report(CLI::App& app, int& exit_code) {
     command.add_option("--poses", arguments->report.poses, "Poses, spread along the trajectory")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
+    command
+        .add_option("--reference-rays", arguments->report.reference_rays,
+                    "Rays per image at which the reference gives up settling")
+        ->check(CLI::Range(std::uint64_t{1'000'000}, std::uint64_t{1'000'000'000'000}))
+        ->capture_default_str();
+    command
+        .add_option("--engines", arguments->engines,
+                    "Measures only these, with commas between: rays, slices, octree, literal")
+        ->delimiter(',')
+        ->check(CLI::IsMember({"rays", "slices", "octree", "literal"}))
+        ->type_name("NAMES");
     command
         .add_option("-j,--threads", arguments->report.threads,
                     "Threads for pings/s (default: one per core)")

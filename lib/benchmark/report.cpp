@@ -8,13 +8,16 @@
 #include <cstdlib>
 #include <memory>
 
+#include "benchmark/thread_clock.h"
 #include "benchmark/timed_pings.h"
+#include "benchmark/view_rays.h"
 #include "core/clock.h"
 #include "core/in_parallel.h"
 #include "sonar/engine_settings.h"
 #include "validation/fit.h"
 #include "validation/image_error.h"
 #include "validation/reference.h"
+#include "visibility/local_pose.h"
 
 namespace sonarsim {
 
@@ -53,6 +56,23 @@ double bare_ms(const Comparison& comparison, const TracedPing& traced, double ra
     return 1e3 * watch.lap();
 }
 
+/// Embree alone, rays over the view: once to warm the caches, then once per ping of a visit.
+void time_view_rays(const Comparison& comparison, std::span<const Eigen::Vector3f> in_sensor,
+                    const TracedPing& traced, double range_max_m, PoseTimes& times) {
+    constexpr int repeats = 3;
+    const LocalPose pose = local_pose(traced.T_world_sensor, comparison.pings.scene.origin);
+    std::vector<Eigen::Vector3f> directions(in_sensor.size());
+    std::vector<std::uint32_t> facets(in_sensor.size());
+    for (std::size_t i = 0; i < directions.size(); ++i)
+        directions[i] = pose.rotation * in_sensor[i];
+    const auto reach = static_cast<float>(range_max_m) * 1.01F;
+    for (int k = 0; k <= repeats; ++k) {
+        const double start = thread_seconds_now();
+        comparison.caster.cast(pose.position, directions, reach, facets);
+        if (k > 0) times.rays_thread_ms.push_back(1e3 * (thread_seconds_now() - start));
+    }
+}
+
 /// Pings per second with all threads at work for about a quarter of a second.
 double rate(const Comparison& comparison, const Trial& trial) {
     const PingSet& pings = comparison.pings;
@@ -81,32 +101,43 @@ std::vector<Reference> cast_references(const Comparison& comparison, const Sonar
 
 ReferenceQuality quality(const std::string& sensor, const std::vector<Reference>& references) {
     std::vector<double> moved;
+    std::vector<double> apart;
     std::vector<double> rays;
     for (const Reference& reference : references) {
         moved.push_back(reference.moved);
+        apart.push_back(reference.apart);
         rays.push_back(reference.rays_per_bin);
     }
-    return {sensor, spread_of(moved), spread_of(rays)};
+    return {sensor, spread_of(moved), spread_of(apart), spread_of(rays)};
 }
 
+/// With an engine that has seen nothing yet, so that its warnings are those of these pings.
 void measure_errors(const PingSet& pings, const Trial& trial,
                     const std::vector<Reference>& references, ReportRow& row) {
+    const Setting& setting = row.setting;
+    const auto engine =
+        make_engine(pings.scene, engine_settings(setting.kind, setting.octree, setting.slices));
     const std::size_t poses = references.size();
     std::vector<double> l1(poses);
     std::vector<double> l2(poses);
     std::vector<double> miss(poses);
     std::vector<double> false_bins(poses);
     std::vector<double> samples(poses);
+    std::vector<double> estimated_l1(poses);
     in_parallel(poses, [&](std::size_t p) {
-        const Ping ping = render_ping(trial.sonar, pings.scene, *trial.engine, pings.poses[p], {},
-                                      direct_echoes_alone);
+        const Ping ping =
+            render_ping(trial.sonar, pings.scene, *engine, pings.poses[p], {}, direct_echoes_alone);
         const ImageError error = image_error(ping.intensity, references[p].intensity);
         l1[p] = error.relative_l1;
         l2[p] = error.relative_l2;
         miss[p] = error.miss_rate;
         false_bins[p] = error.false_rate;
         samples[p] = static_cast<double>(ping.counts.samples);
+        estimated_l1[p] = ping.estimated_l1;
     });
+    const double goal = trial.sonar.settings.view.relative_l1;
+    row.warned = !engine->warnings().empty() ||
+                 std::ranges::any_of(estimated_l1, [&](double l1) { return l1 > goal; });
     row.relative_l1 = spread_of(l1);
     row.relative_l2 = spread_of(l2);
     row.miss_rate = spread_of(miss);
@@ -119,6 +150,13 @@ void summarise_times(const Trial& trial, ReportRow& row) {
     for (const auto& timer : ping_timers)
         row.stages.*timer.member = 1e-3 * over_poses(trial.poses, timer.member).centre;
     row.ms_bare = over_poses(trial.poses, &PoseTimes::bare_ms).centre;
+    row.ms_rays = over_poses(trial.poses, &PoseTimes::rays_thread_ms).centre;
+    std::vector<double> times_rays;
+    for (const PoseTimes& pose : trial.poses) {
+        times_rays.push_back(spread_of_times(pose.ping_thread_ms).centre /
+                             spread_of_times(pose.rays_thread_ms).centre);
+    }
+    row.times_rays = spread_of_times(times_rays).centre;
     row.pings_per_s = spread_of_times(trial.pings_per_s).centre;
 }
 
@@ -150,6 +188,7 @@ void report_sonar(const Comparison& comparison, std::size_t index, const Assembl
     const std::vector<Reference> references = cast_references(comparison, sonar);
     report.references.push_back(quality(name, references));
 
+    const std::vector<Eigen::Vector3f> over_view = view_rays(sonar.settings.view);
     std::vector<Trial> trials;
     std::vector<ReportRow> rows;
     for (std::size_t s = 0; s < settings.size(); ++s) {
@@ -171,8 +210,9 @@ void report_sonar(const Comparison& comparison, std::size_t index, const Assembl
             for (Trial& trial : trials) {
                 PoseTimes& times = trial.poses[p];
                 const TracedPing traced = visit_pose(pings, trial.sonar, *trial.engine, p, times);
-                times.bare_ms.push_back(
-                    bare_ms(comparison, traced, trial.sonar.settings.view.range_max_m));
+                const double range_max_m = trial.sonar.settings.view.range_max_m;
+                times.bare_ms.push_back(bare_ms(comparison, traced, range_max_m));
+                time_view_rays(comparison, over_view, traced, range_max_m, times);
             }
         }
         for (Trial& trial : trials)

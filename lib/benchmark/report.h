@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "benchmark/spread.h"
 #include "assembly/assemble.h"
+#include "benchmark/spread.h"
 #include "mission/mission.h"
 
 namespace sonarsim {
@@ -20,12 +20,18 @@ namespace sonarsim {
 struct Setting {
     /// "rays", "slices", "octree", or "literal": the octree to the letter of the paper.
     std::string engine;
-    std::string name;    ///< the key of the mission that makes it, "relative_l1=0.03"
+    std::string name;  ///< the key of the mission that makes it, "relative_l1=0.03"
     EngineKind kind = EngineKind::rays;
     OctreeConfig octree;       ///< what an octree is built with
     double relative_l1 = 0.0;  ///< the error goal that rays and slices follow
     bool current = false;      ///< what the mission itself uses
     SlicesConfig slices = {};  ///< what slices are built with
+
+    /// Rays and slices promise an error of at most relative_l1 on every ping, unless the mission
+    /// says how many slices there are.
+    bool promises() const {
+        return kind == EngineKind::rays || (kind == EngineKind::slices && slices.per_beam == 0);
+    }
 };
 
 /// What a setting costs in a process of its own.
@@ -44,11 +50,24 @@ struct ReportRow {
     Spread ms_per_ping;                                      ///< noise on, one thread
     double pings_per_s = 0.0;                                ///< noise on, all threads
     Spread relative_l1, relative_l2, miss_rate, false_rate;  ///< noise off
+    bool warned = false;  ///< the engine warned at one of the poses
     Spread samples_per_ping;
     ColdStart cold;
-    PingSeconds stages;     ///< medians over the poses
-    double ms_bare = 0.0;   ///< the same: Embree alone, one ray to every sample
+    PingSeconds stages;    ///< medians over the poses
+    double ms_bare = 0.0;  ///< the same: Embree alone, one ray to every sample
+    /// Embree alone, view_rays_count rays over the view, and a ping over them: both of the
+    /// processor, in turns at each pose. Medians over the poses.
+    double ms_rays = 0.0;
+    double times_rays = 0.0;
     bool on_front = false;  ///< no setting of this sonar is both faster and more accurate
+
+    /// Whether the setting kept its promise: "met" at the worst pose, too, "warned" that it was
+    /// not, or "missed" it in silence; "-" where it makes none.
+    const char* promise() const {
+        if (!setting.promises()) return "-";
+        if (relative_l1.max <= setting.relative_l1) return "met";
+        return warned ? "warned" : "missed";
+    }
 };
 
 /// One sonar with one way to find its multipath echoes, against tracing every sample by itself. The
@@ -73,7 +92,8 @@ struct MultipathRow {
 /// How far the truth of a sonar's images has converged.
 struct ReferenceQuality {
     std::string sensor;
-    Spread moved;         ///< relative L1 by which the last doubling of the rays moved the image
+    Spread moved;         ///< Reference::moved
+    Spread apart;         ///< Reference::apart
     Spread rays_per_bin;  ///< rays that echoed, per occupied bin
 };
 

@@ -27,7 +27,10 @@ Json json_of(const ReportRow& row) {
               {"setting", row.setting.name},
               {"ms_per_ping", row.ms_per_ping.centre},
               {"pings_per_s", row.pings_per_s},
+              {"times_131k_rays", row.times_rays},
               {"relative_l1", row.relative_l1.centre},
+              {"worst_relative_l1", row.relative_l1.max},
+              {"promise", row.promise()},
               {"relative_l2", row.relative_l2.centre},
               {"miss_rate", row.miss_rate.centre},
               {"false_rate", row.false_rate.centre},
@@ -50,6 +53,7 @@ Json stages_of(const ReportRow& row) {
     for (const auto& timer : ping_timers)
         json["ms_" + std::string(timer.name)] = 1e3 * row.stages.*timer.member;
     json["ms_bare_embree"] = row.ms_bare;
+    json["ms_131k_rays"] = row.ms_rays;
     json["ms_slowest_ping"] = row.cold.slowest_ms;
     json["engine_memory_mb"] = row.cold.engine_memory_mb;
     return json;
@@ -60,6 +64,8 @@ Json reference_of(const Report& report, const ReferenceQuality& reference) {
             {"poses", report.poses},
             {"moved_mean", reference.moved.centre},
             {"moved_max", reference.moved.max},
+            {"apart_mean", reference.apart.centre},
+            {"apart_max", reference.apart.max},
             {"rays_per_bin_mean", reference.rays_per_bin.centre},
             {"auto", explain_auto(report, reference.sensor)}};
 }
@@ -129,19 +135,21 @@ std::string report_json(const Report& report) {
 
 std::string report_csv(const Report& report) {
     std::string text =
-        "sensor,engine,setting,ms_per_ping,pings_per_s,relative_l1,relative_l2,miss_rate,"
-        "false_rate,samples_per_ping,build_s,first_ping_s,peak_memory_mb";
+        "sensor,engine,setting,promise,ms_per_ping,pings_per_s,times_131k_rays,relative_l1,"
+        "worst_relative_l1,relative_l2,miss_rate,false_rate,samples_per_ping,build_s,first_ping_s,"
+        "peak_memory_mb";
     for (const auto& [name, spread] : spreads(ReportRow{})) {
         text += "," + std::string(name) + "_min," + name + "_max";
     }
     text += "\n";
     for (const ReportRow& row : report.rows) {
-        text += row.sensor + "," + row.setting.engine + "," + row.setting.name;
+        text +=
+            row.sensor + "," + row.setting.engine + "," + row.setting.name + "," + row.promise();
         for (const double value :
-             {row.ms_per_ping.centre, row.pings_per_s, row.relative_l1.centre,
-              row.relative_l2.centre, row.miss_rate.centre, row.false_rate.centre,
-              row.samples_per_ping.centre, row.cold.build_s, row.cold.first_ping_s,
-              row.cold.peak_memory_mb}) {
+             {row.ms_per_ping.centre, row.pings_per_s, row.times_rays, row.relative_l1.centre,
+              row.relative_l1.max, row.relative_l2.centre, row.miss_rate.centre,
+              row.false_rate.centre, row.samples_per_ping.centre, row.cold.build_s,
+              row.cold.first_ping_s, row.cold.peak_memory_mb}) {
             text += "," + number_text(value);
         }
         for (const auto& [name, spread] : spreads(row)) {

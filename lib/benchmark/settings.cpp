@@ -63,15 +63,15 @@ double finest_bin_m(const Mission& mission) {
 
 std::vector<Setting> make_settings(const Mission& mission, bool quick) {
     const std::vector<double> goals =
-        quick ? std::vector{0.1, 0.03, 0.01} : std::vector{0.3, 0.1, 0.06, 0.03, 0.01, 0.003};
+        quick ? std::vector{0.1, 0.03, 0.01} : std::vector{0.1, 0.03, 0.01, 0.003};
     const std::vector<double> leaves =
         quick ? std::vector{0.08, 0.04} : std::vector{0.08, 0.04, 0.02, 0.01};
     std::vector<Setting> settings;
-    settings.reserve(2 * leaves.size() + goals.size() + 6);
+    settings.reserve(2 * leaves.size() + 2 * goals.size() + 3);
     for (const double goal : goals)
         settings.push_back(rays_with(goal));
-    for (const int per_beam : {1, 2, 4})
-        settings.push_back(slices_with(per_beam, mission.accuracy.relative_l1));
+    for (const double goal : goals)
+        settings.push_back(slices_with(0, goal));
     for (const bool literal : {true, false}) {
         for (const double leaf : leaves) {
             if (leaf >= 0.25 * finest_bin_m(mission)) {

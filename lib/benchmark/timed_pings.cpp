@@ -1,5 +1,6 @@
 #include "benchmark/timed_pings.h"
 
+#include "benchmark/thread_clock.h"
 #include "core/clock.h"
 
 namespace sonarsim {
@@ -23,12 +24,15 @@ TracedPing visit_pose(const PingSet& pings, const Sonar& sonar, const Visibility
     constexpr int repeats = 3;
     TracedPing traced;
     PingSeconds stages;
+    double thread_ms = 0.0;
     const auto timed_ms = [&] {
+        const double thread_start = thread_seconds_now();
         Stopwatch watch;
         traced = trace(sonar, pings.scene, engine, pings.poses[p], pings.indices[p]);
         const Ping ping =
             form_image(traced, sonar.settings, pings.scene, {pings.seed, pings.indices[p]});
         stages = ping.seconds;
+        thread_ms = 1e3 * (thread_seconds_now() - thread_start);
         return 1e3 * watch.lap();
     };
     double ms = timed_ms();
@@ -36,6 +40,7 @@ TracedPing visit_pose(const PingSet& pings, const Sonar& sonar, const Visibility
     for (int k = 0; k < count; ++k) {
         if (count > 1) ms = timed_ms();
         times.ping_ms.push_back(ms);
+        times.ping_thread_ms.push_back(thread_ms);
         times.stages.push_back(stages);
     }
     return traced;

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "benchmark/spread.h"
 #include "assembly/assemble.h"
+#include "benchmark/spread.h"
 #include "mission/mission.h"
 
 namespace sonarsim {
@@ -31,6 +31,8 @@ PingSet make_ping_set(const Mission& mission, const Assembly& assembly, int pose
 struct PoseTimes {
     std::vector<double> ping_ms;
     std::vector<double> bare_ms;
+    std::vector<double> ping_thread_ms;  ///< the same pings, of the processor
+    std::vector<double> rays_thread_ms;  ///< Embree, view_rays() over the view, of the processor
     std::vector<PingSeconds> stages;
 };
 

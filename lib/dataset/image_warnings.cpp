@@ -106,6 +106,18 @@ void judge_sight(const Assembly& assembly, const Sonar& sonar, const SensorSumma
     }
 }
 
+/// Pings whose error, as the engine estimates it, is above the goal.
+void judge_error(const AccuracyConfig& accuracy, const Sonar& sonar, const SensorSummary& summary,
+                 std::vector<std::string>& out) {
+    if (summary.missed_goals == 0) return;
+    out.push_back(
+        fmt::format("sensor '{}': {} of {} pings miss accuracy.relative_l1 of {:.4g}, the worst by "
+                    "an estimated {:.2g}: the scene has more detail between neighbouring beams "
+                    "than the engine can follow",
+                    sonar.config.name, summary.missed_goals, summary.pings, accuracy.relative_l1,
+                    summary.worst_l1));
+}
+
 /// Images that are too dark or too bright for the scale of the pictures.
 void judge_brightness(const OutputConfig& output, const Sonar& sonar, const SensorSummary& summary,
                       std::vector<std::string>& out) {
@@ -171,6 +183,7 @@ std::vector<std::string> image_warnings(const Mission& mission, const Assembly& 
     for (std::size_t i = 0; i < sensors.size(); ++i) {
         if (sensors[i].pings == 0) continue;
         judge_sight(assembly, assembly.sonars[i], sensors[i], out);
+        judge_error(mission.accuracy, assembly.sonars[i], sensors[i], out);
         judge_brightness(mission.output, assembly.sonars[i], sensors[i], out);
         judge_fan(mission.output, assembly.sonars[i], out);
     }

@@ -5,6 +5,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <span>
 #include <vector>
@@ -39,6 +40,8 @@ struct PingReport {
     double encode_seconds = 0.0;
     double write_seconds = 0.0;
     std::uint64_t clipped_pixels = 0;
+    double estimated_l1 = 0.0;  ///< NaN when the engine has no estimate
+    double goal_l1 = 0.0;
 };
 
 void add(SensorSummary& sensor, const PingReport& report) {
@@ -47,6 +50,9 @@ void add(SensorSummary& sensor, const PingReport& report) {
     sensor.counts += report.counts;
     sensor.clipped_pixels += report.clipped_pixels;
     sensor.brightest = std::max(sensor.brightest, report.brightest);
+    if (std::isnan(report.estimated_l1)) return;
+    sensor.missed_goals += report.estimated_l1 > report.goal_l1;
+    sensor.worst_l1 = std::max(sensor.worst_l1, report.estimated_l1);
 }
 
 void add(RenderSummary& summary, const PingReport& report) {
@@ -155,7 +161,9 @@ void render(const Mission& mission, const Assembly& assembly, const std::vector<
                               .what = {},
                               .counts = ping.counts,
                               .seconds = ping.seconds,
-                              .brightest = brightest_pixel(ping, sonar.config.name, id.pose)};
+                              .brightest = brightest_pixel(ping, sonar.config.name, id.pose),
+                              .estimated_l1 = ping.estimated_l1,
+                              .goal_l1 = sonar.settings.view.relative_l1};
             if (to) write_ping(mission, assembly, *engine, *to, traced, ping, report);
             return report;
         },

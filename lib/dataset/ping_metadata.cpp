@@ -1,5 +1,7 @@
 #include "dataset/ping_metadata.h"
 
+#include <cmath>
+
 namespace sonarsim {
 
 using Json = nlohmann::ordered_json;
@@ -29,6 +31,9 @@ Json describe_ping(const Mission& mission, const Assembly& assembly, const Finis
         {"clipped_pixels", finished.clipped_pixels},
         {"counts", json_object<Json>(ping_counters, counts)}};
     json["counts"]["multipath"] = json_object<Json>(multipath_counters, counts.multipath);
+    // To three digits: it is an estimate.
+    if (const double error = finished.ping.estimated_l1; !std::isnan(error))
+        json["estimated_error"] = std::round(1e5 * error) / 1e5;
     if (!finished.measured.is_null()) json["measured"] = finished.measured;
     return json;
 }

@@ -279,7 +279,7 @@ void describe(Visitor& v, Mission& c) {
     v.section("accuracy", c.accuracy, "how exact the images are");
     v.choice("engine", c.engine, engine_kinds,
              "what finds the visible surface; `auto` takes the rays. The octree sees up to 160 "
-             "degrees of elevation or opening; slices do not yet check the goal");
+             "degrees of elevation or opening; the slices estimate the error of every ping");
     v.section("octree", c.octree, "settings of the octree");
     v.section("slices", c.slices, "settings of the slices");
     v.list("classes", c.classes, 0,

@@ -9,8 +9,8 @@ namespace {
 constexpr float most_pieces_per_bin = 64.0F;
 
 // A piece has one intensity. On a plane v . n = H / r: where a piece spans no more than this share
-// of its range, its ends are off by 1 % and its mean is right.
-constexpr float most_depth_by_range = 0.02F;
+// of its range, its ends are off by 0.25 % and its mean is right.
+constexpr float most_depth_by_range = 0.005F;
 
 /// The squared length of (x, y, z) in the order in which Eigen adds.
 float squared(float x, float y, float z) {

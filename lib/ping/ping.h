@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "ping/counters.h"
@@ -12,6 +13,8 @@ struct Ping {
     int range_bins = 0;
     int beams = 0;
     std::vector<float> intensity;  ///< [range_bins, beams], 0 where nothing is seen
+    /// What the engine thinks of its own error, see Samples::estimated_l1.
+    double estimated_l1 = std::numeric_limits<double>::quiet_NaN();
     PingCounts counts;
     PingSeconds seconds;
 

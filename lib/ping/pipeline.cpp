@@ -19,6 +19,7 @@ Ping blank_ping(const TracedPing& traced, const View& view, const Terms& terms) 
     Ping ping;
     ping.range_bins = view.range_bins;
     ping.beams = view.beams;
+    ping.estimated_l1 = traced.samples.estimated_l1;
     ping.counts = traced.counts;
     ping.seconds = traced.seconds;
     if (!terms.multipath) ping.counts.multipath = {};

@@ -10,24 +10,31 @@
 
 namespace sonarsim {
 
-/// The truth that both engines approximate: the area-weighted mean over the visible surface of
+/// The truth that all engines approximate: the area-weighted mean over the visible surface of
 /// every bin, by brute force.
 struct Reference {
     int range_bins = 0;
     int beams = 0;
     std::vector<float> intensity;  ///< [range_bins, beams], noise-free, before pixel noise
-    double moved = 1.0;            ///< relative L1 by which doubling the rays last moved the image
-    double rays_per_bin = 0.0;     ///< rays that echoed, per occupied bin
+    /// Relative L1 by which it may still be off: the largest of `apart` and of what doubling the
+    /// rays moved it by, along the columns and across them.
+    double moved = 1.0;
+    double apart = 1.0;         ///< relative L1 between it and the farther one of its two starts
+    double rays_per_bin = 0.0;  ///< rays that echoed, per occupied bin
 };
 
 struct ReferenceGoal {
-    double moved = 0.002;        ///< stop when a doubling moves the image by less
+    double moved = 0.002;        ///< stop when Reference::moved is less
     double rays_per_bin = 64.0;  ///< and each occupied bin has had this many rays on average
     std::uint64_t rays_max = 400'000'000;  ///< give up here; `moved` then says how far it got
 };
 
-/// Casts rays on a lattice over the view, doubling their number until the goal is met. Every ray
-/// stands for r^2 dOmega / (v . n) of surface and counts in the one bin where it ends.
+/// Looks at the scene from two unlike starts, rays on a lattice and rays strewn at random, each
+/// with points of the surface of its own, and doubles the rays until the goal is met. The
+/// image is that of both together. A lattice alone settles on a wrong image where the scene repeats
+/// at its step, and before it has met what is thinner than the step; it is the random start that
+/// then disagrees, and the points of the surface that find what is thin
+/// (validation/reference_cast.h). Every ray counts in the one bin where it ends.
 Reference cast_reference(const Caster& caster, const Scene& scene, const View& view,
                          const Pose& T_world_sensor, const ReferenceGoal& goal);
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -31,6 +32,8 @@ struct Samples {
     /// no distance. Octree: parts of leaves too small, or too near the sensor's z axis, to be told
     /// from rounding.
     std::uint64_t dropped = 0;
+    /// The engine's own estimate of the relative L1 of the noise-free image; NaN when it has none.
+    double estimated_l1 = std::numeric_limits<double>::quiet_NaN();
 
     std::span<const Sample> beam(int j) const {
         return {items.data() + beam_begin[j], items.data() + beam_begin[j + 1]};

@@ -14,7 +14,7 @@ enum class EngineType { rays, octree, slices };
 
 struct EngineSettings {
     EngineType type = EngineType::rays;
-    OctreeOptions octree;  ///< read by the octree alone
+    OctreeOptions octree;       ///< read by the octree alone
     SlicesOptions slices = {};  ///< read by the slices alone
 };
 

@@ -58,8 +58,8 @@ TEST_SUITE_BEGIN("benchmark");
 TEST_CASE("multipath rows of a corner are sane, as text, JSON and CSV") {
     const Mission mission = corner_mission({MultipathMethod::cluster, 5, 5.0});
     Report report;
-    report.references.push_back({mission.sensors[0].name, {}, {}});
-    report.references.push_back({mission.sensors[1].name, {}, {}});
+    report.references.push_back({mission.sensors[0].name, {}, {}, {}});
+    report.references.push_back({mission.sensors[1].name, {}, {}, {}});
     report.multipath = measure(mission, corner_assembly(mission));
     REQUIRE(report.multipath.size() == 13);  // exact, 4 x 3 clusters
     int current = 0;

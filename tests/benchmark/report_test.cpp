@@ -8,6 +8,8 @@
 #include "benchmark/report_files.h"
 #include "benchmark/report_text.h"
 #include "benchmark/settings.h"
+#include "benchmark/view_rays.h"
+#include "core/units.h"
 #include "support/sanitized.h"
 #include "support/small_mission.h"
 
@@ -69,6 +71,8 @@ TEST_CASE("a report has a sane row per setting, as text, JSON and CSV" *
         const PingSeconds& s = row.stages;
         CHECK(1e3 * (s.trace + s.accumulate + s.noise) <= 2.0 * row.ms_per_ping.max);
         CHECK(row.ms_bare > 0.0);
+        CHECK(row.ms_rays > 0.0);
+        CHECK(row.times_rays > 0.0);
     }
     // A finer goal takes more samples and errs less.
     CHECK(report.rows[1].samples_per_ping.centre > report.rows[0].samples_per_ping.centre);
@@ -80,9 +84,10 @@ TEST_CASE("a report has a sane row per setting, as text, JSON and CSV" *
     const auto json = nlohmann::json::parse(report_json(report));
     REQUIRE(json["rows"].size() == 4);
     const std::set<std::string> keys{
-        "sensor",      "engine",       "setting",        "ms_per_ping", "pings_per_s",
-        "relative_l1", "relative_l2",  "miss_rate",      "false_rate",  "samples_per_ping",
-        "build_s",     "first_ping_s", "peak_memory_mb", "spread"};
+        "sensor",         "engine",          "setting",           "ms_per_ping", "pings_per_s",
+        "promise",        "times_131k_rays", "worst_relative_l1", "relative_l1", "relative_l2",
+        "miss_rate",      "false_rate",      "samples_per_ping",  "build_s",     "first_ping_s",
+        "peak_memory_mb", "spread"};
     for (const auto& row : json["rows"]) {
         std::set<std::string> found;
         for (const auto& [key, value] : row.items())
@@ -138,6 +143,43 @@ TEST_CASE("the settings holds the mission's own setting once, marked, and no nee
         CHECK(setting.name != "leaf_m=0.04");
         CHECK(setting.name != "leaf_m=0.01");
     }
+}
+
+TEST_CASE("a promise is kept at the worst pose, or warned of") {
+    ReportRow row = row_of("rays", "relative_l1=0.03", 1.0, 0.02);
+    row.setting.relative_l1 = 0.03;
+    CHECK(std::string(row.promise()) == "met");
+    row.relative_l1.max = 0.031;
+    CHECK(std::string(row.promise()) == "missed");
+    row.warned = true;
+    CHECK(std::string(row.promise()) == "warned");
+    row.setting.kind = EngineKind::slices;
+    row.setting.slices.per_beam = 2;
+    CHECK(std::string(row.promise()) == "-");
+    row.setting.slices.per_beam = 0;
+    CHECK(std::string(row.promise()) == "warned");
+    row.setting.kind = EngineKind::octree;
+    CHECK(std::string(row.promise()) == "-");
+}
+
+TEST_CASE("the rays that pings are measured by lie evenly in the view") {
+    View view{radians(60.0), radians(12.0), 0.5, 10.0, 100, 1, 0.03};
+    SUBCASE("fan") {}
+    SUBCASE("sides") {
+        view.shape = ViewShape::sides;
+        view.beams = 2;
+    }
+    SUBCASE("cone") {
+        view.shape = ViewShape::cone;
+        view.elevation_rad = view.azimuth_rad;
+    }
+    const std::vector<Eigen::Vector3f> rays = view_rays(view);
+    CHECK(rays.size() == view_rays_count);
+    CHECK(std::ranges::all_of(rays, [&](const Eigen::Vector3f& d) {
+        return std::fabs(d.norm() - 1.0F) < 1e-6F && beam_of(view, d) >= 0;
+    }));
+    CHECK(std::ranges::count_if(rays, [](const Eigen::Vector3f& d) { return d.y() > 0.0F; }) ==
+          view_rays_count / 2);
 }
 
 TEST_CASE("poses are spread from end to end") {

@@ -9,8 +9,9 @@ from sandbox import Sandbox, python_with
 
 PLOT_REPORT = pathlib.Path(__file__).parents[2] / "scripts" / "plot_report.py"
 
-ROW = {"sensor", "engine", "setting", "ms_per_ping", "pings_per_s", "relative_l1", "relative_l2",
-       "miss_rate", "false_rate", "samples_per_ping", "build_s", "first_ping_s", "peak_memory_mb"}
+ROW = {"sensor", "engine", "setting", "promise", "ms_per_ping", "pings_per_s", "times_131k_rays",
+       "relative_l1", "worst_relative_l1", "relative_l2", "miss_rate",
+       "false_rate", "samples_per_ping", "build_s", "first_ping_s", "peak_memory_mb"}
 
 
 class Report(Sandbox):
@@ -28,12 +29,17 @@ class Report(Sandbox):
             self.assertEqual(set(row), ROW | {"spread"})
             self.assertGreater(row["ms_per_ping"], 0)
             self.assertGreater(row["pings_per_s"], 0)
+            self.assertGreater(row["times_131k_rays"], 0)
+            self.assertGreaterEqual(row["worst_relative_l1"], row["relative_l1"])
+            self.assertIn(row["promise"], ("met", "warned", "missed")
+                          if row["engine"] in ("rays", "slices") else ("-",))
             self.assertGreater(row["first_ping_s"], row["build_s"])
             # A process with a scene of twelve triangles needs some MiB, not some GiB.
             self.assertGreater(row["peak_memory_mb"], 1)
             self.assertLess(row["peak_memory_mb"], 1000)
         # Inside a plain box the rays have no trouble.
-        finest = [r for r in report["rows"] if r["setting"] == "relative_l1=0.01"]
+        finest = [r for r in report["rows"]
+                  if (r["engine"], r["setting"]) == ("rays", "relative_l1=0.01")]
         self.assertLess(finest[0]["relative_l1"], 0.05)
 
         with open(self.folder / "report/report.csv", newline="") as file:
@@ -54,7 +60,8 @@ class Report(Sandbox):
         self.assertIn("cluster epsilon=5 delta=15 <", result.stdout)
         report = json.loads((self.folder / "report/report.json").read_text())
         # The reference knows direct echoes only; multipath and streaks are no error against it.
-        finest = [r for r in report["rows"] if r["setting"] == "relative_l1=0.01"]
+        finest = [r for r in report["rows"]
+                  if (r["engine"], r["setting"]) == ("rays", "relative_l1=0.01")]
         self.assertLess(finest[0]["relative_l1"], 0.05)
 
         rows = report["multipath_rows"]
@@ -96,6 +103,17 @@ class Report(Sandbox):
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
         self.assertIn("UTM, off the grid", result.stdout)
         self.assertIn("6 verdicts: 0 fail", result.stdout)
+
+    def test_engines(self):
+        result = self.run_sonarsim("report", "mission.yaml", "--quick", "--quiet", "--engines",
+                                   "slices,rays", "--json", "report.json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        rows = json.loads((self.folder / "report.json").read_text())["rows"]
+        self.assertEqual([(r["engine"], r["setting"]) for r in rows],
+                         [(engine, f"relative_l1={goal}") for engine in ("rays", "slices")
+                          for goal in (0.1, 0.03, 0.01)])
+        self.assertEqual(self.run_sonarsim("report", "mission.yaml", "--engines", "sonar").returncode,
+                         2)
 
     def test_bad_input(self):
         self.assertEqual(self.run_sonarsim("report").returncode, 2)

@@ -101,7 +101,8 @@ TEST_CASE("the engine and its octree") {
     CHECK(parse(smallest_mission).engine == EngineKind::automatic);
     CHECK(parse(smallest_mission + "engine: rays\n").engine == EngineKind::rays);
     CHECK(refusal(smallest_mission + "engine: octre\n") ==
-          "m.yaml:6:9: unknown engine 'octre' (did you mean 'octree'?); known: auto, rays, octree, slices");
+          "m.yaml:6:9: unknown engine 'octre' (did you mean 'octree'?); known: auto, rays, octree, "
+          "slices");
     CHECK(parse(smallest_mission + "octree: {leaf_m: auto}\n").octree == OctreeConfig{});
     CHECK(parse(smallest_mission + "octree: {leaf_m: 0.02}\n").octree.leaf_m == 0.02);
     CHECK(refusal(smallest_mission + "octree: {leaf_m: fine}\n") ==

@@ -8,6 +8,7 @@
 #include "support/sanitized.h"
 #include "support/scenes.h"
 #include "validation/image_error.h"
+#include "validation/reference_cast.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;
@@ -52,7 +53,7 @@ TEST_CASE("where two surfaces share a bin the reference weighs them by area" *
     const Caster caster(scene);
     View view = small_view();
     view.range_bins = 200;
-    const Reference reference = cast_reference(caster, scene, view, Pose{}, {0.0005, 64.0});
+    const Reference reference = cast_reference(caster, scene, view, Pose{}, {0.004, 64.0});
     for (int j = 0; j < view.beams; ++j) {
         const int i = static_cast<int>((4.0 / std::cos(radians(-20.0 + 2.0 * (j + 0.5))) - 0.5) /
                                        view.bin_m()) +
@@ -60,6 +61,85 @@ TEST_CASE("where two surfaces share a bin the reference weighs them by area" *
         const double r = view.range_min_m + (i + 0.5) * view.bin_m();
         CHECK(reference.intensity[i * 20 + j] == doctest::Approx(0.5 * 4.0 / r).epsilon(5e-3));
     }
+}
+
+TEST_CASE("the reference sees a ball of 2 cm at 8 m and a wire of 4 mm at 5 m") {
+    // In water alone, each within one range bin and one beam. As seen from afar, v . n of a ball is
+    // 1/2 on average over the hemisphere in view, by area, and that of a wire 2 / pi over its half
+    // times cos(elevation), which over |z| <= D t is asinh(t) / t on average.
+    constexpr float R = 0.7F;
+    Scene scene = empty_scene();
+    const std::uint32_t material = add_material(scene, R);
+    add_sphere(scene, {8.0F, 0.05F, 0.1F}, 0.01F, material, 64);
+    constexpr float height = 0.6F;
+    const double t = 0.5 * height / std::hypot(5.0, 0.3);
+    add_pole(scene, {5.0F, -0.3F, -0.5F * height}, 0.002F, height, material);
+    const Caster caster(scene);
+    const double wire = R * 2.0 / pi * std::asinh(t) / t;
+    View view{radians(60.0), radians(12.0), 0.96, 9.96, 150, 256, 0.03};
+    SUBCASE("imaging") {}
+    SUBCASE("a beam") {
+        view.beams = 1;
+    }
+    SUBCASE("echosounder") {
+        view.elevation_rad = view.azimuth_rad = radians(20.0);
+        view.shape = ViewShape::cone;
+        view.beams = 1;
+    }
+    SUBCASE("side-scan") {
+        view.shape = ViewShape::sides;
+        view.beams = 2;
+    }
+    // The fewest rays that it takes, 64 to a bin of a whole image.
+    const Reference reference = cast_reference(caster, scene, view, Pose{}, {0.01, 64.0});
+    std::vector<float> lit;
+    for (const float x : reference.intensity) {
+        if (x > 0.0F) lit.push_back(x);
+    }
+    REQUIRE(lit.size() == 2);
+    CHECK(lit[0] / wire == doctest::Approx(1.0).epsilon(0.01));
+    CHECK(lit[1] / (0.5 * R) == doctest::Approx(1.0).epsilon(0.01));
+    CHECK(reference.moved < 0.01);
+}
+
+TEST_CASE("rays and points of the surface together add up to its area") {
+    // Two plates that face the sonar, one of them behind the other, of which a known part shows.
+    Scene scene = empty_scene();
+    const std::uint32_t material = add_material(scene, 0.5F);
+    add_quad(scene, {4, -0.3F, -0.3F}, {4, 0.1F, -0.3F}, {4, 0.1F, 0.2F}, {4, -0.3F, 0.2F},
+             material, 3);
+    add_quad(scene, {6, -0.6F, -0.6F}, {6, 0.6F, -0.6F}, {6, 0.6F, 0.6F}, {6, -0.6F, 0.6F},
+             material, 50);
+    const Caster caster(scene);
+    const View view{radians(60.0), radians(60.0), 0.5, 8.0, 15, 16, 0.03};
+    const LocalPose pose = local_pose(Pose{}, scene.origin);
+    const std::vector<SurfaceShare> shares = surface_shares(scene, view, pose);
+    CHECK(shares.size() == scene.triangles.size());
+    for (const std::uint32_t start : {0U, 1U}) {
+        CAPTURE(start);
+        const SurfaceSums sums =
+            cast_over_surface({caster, scene, view, pose, shares}, {64, 256, start});
+        double near = 0.0;
+        double far = 0.0;
+        for (std::size_t k = 0; k < sums.area.size(); ++k)
+            (k / view.beams < 9 ? near : far) += sums.area[k];
+        CHECK(near / (0.4 * 0.5) == doctest::Approx(1.0).epsilon(5e-3));
+        // The near plate hides 1.5 times its size.
+        CHECK(far / (1.2 * 1.2 - 0.6 * 0.75) == doctest::Approx(1.0).epsilon(5e-3));
+    }
+}
+
+TEST_CASE("points fill a triangle evenly") {
+    int corner = 0;
+    constexpr int count = 4000;
+    for (int i = 0; i < count; ++i) {
+        const Eigen::Vector2d at = point_of_triangle(7, i, 1);
+        CHECK(at.minCoeff() >= 0.0);
+        CHECK(at.sum() <= 1.0);
+        corner += at.x() > 0.5;
+    }
+    // The part beyond the middle of an edge is a quarter of the triangle.
+    CHECK(corner / (0.25 * count) == doctest::Approx(1.0).epsilon(0.02));
 }
 
 TEST_CASE("image errors by hand") {

@@ -6,7 +6,8 @@
 
 namespace sonarsim {
 
-// One maker per format, in the file of its name; null when the mission does not ask for it or the sonar has no such output.
+// One maker per format, in the file of its name; null when the mission does not ask for it or the
+// sonar has no such output.
 
 std::unique_ptr<Writer> make_polar_writer(const WriterContext& context);
 std::unique_ptr<Writer> make_image_writer(const WriterContext& context);

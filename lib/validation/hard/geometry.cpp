@@ -108,13 +108,6 @@ Scene floor_with_pole() {
     return scene;
 }
 
-/// Each pole takes up 0.3 degrees of the azimuth, or of the way round the cone: a
-/// reference that has settled without them would not know, so this one takes all its rays.
-std::vector<float> thin_reference(const HardContext& context) {
-    const bool cone = context.kind == SonarKind::echosounder;
-    return reference_of(context, {0.0, 64.0, cone ? 40'000'000U : 8'000'000U});
-}
-
 }  // namespace
 
 // What the octree is off by on its own, with leaves that suit the bins: 0.15 in the cone over a
@@ -190,7 +183,7 @@ std::vector<HardCase> hard_geometry() {
              .expected = "reference",
              .scene = floor_with_pole,
              .trial = plain_sonar_over_floor,
-             .truth = thin_reference,
+             .truth = settled_reference,
              .bounds = {0.05, 0.20},
              .known = {"a cone has a column of rays every 4 degrees, and a pole between two of "
                        "them is not seen",

@@ -51,7 +51,7 @@ std::vector<float> floor_law(const HardContext& context);
 /// The brute-force reference of this very scene.
 std::vector<float> reference_of(const HardContext& context, const ReferenceGoal& goal);
 
-/// The same with rays that suffice for what is not thin.
+/// The same, settled to 0.2 % or after two million rays.
 std::vector<float> settled_reference(const HardContext& context);
 
 std::vector<float> dark(const HardContext& context);

@@ -11,6 +11,14 @@ namespace {
 // Of an edge from behind the sensor: what is less of it lies across the picture is rounding.
 constexpr float flattest = 1e-12F;
 
+/// Where the edge from a, in front, to b comes nearest.
+Corner crossing(const Corner& a, const Corner& b, float nearest_m) {
+    const float share = (nearest_m - a.X) / (b.X - a.X);
+    const float U = a.U + share * (b.U - a.U);
+    const float W = a.W + share * (b.W - a.W);
+    return {nearest_m, U, W, U / nearest_m, W / nearest_m};
+}
+
 }  // namespace
 
 EdgeLine edge_line(const Corner& p, const Corner& q, float nearest_m) {
@@ -34,6 +42,24 @@ EdgeLine edge_line(const Corner& p, const Corner& q, float nearest_m) {
     line.w_slope = (a.X * dW - a.W * dX) / across;
     line.q_slope = -dX / across;
     return line;
+}
+
+FrontPart part_in_front(const Corners& c, float nearest_m) {
+    FrontPart part;
+    const auto add = [&](const Corner& corner, int side) {
+        part.corners[part.count] = corner;
+        part.sides[part.count++] = side;
+    };
+    for (int i = 0; i < 3; ++i) {
+        const Corner& a = c[i];
+        const Corner& b = c[(i + 1) % 3];
+        const bool a_in = a.X > nearest_m;
+        const bool b_in = b.X > nearest_m;
+        if (a_in) add(a, i);
+        if (a_in && !b_in) add(crossing(a, b, nearest_m), FrontPart::cut);
+        if (b_in && !a_in) add(crossing(b, a, nearest_m), i);
+    }
+    return part;
 }
 
 }  // namespace sonarsim

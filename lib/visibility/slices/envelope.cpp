@@ -19,8 +19,13 @@ constexpr float narrowest_span = 2e-6F;
 class Sweep {
   public:
     Sweep(std::span<const Segment> segments, const SliceScene& scene, const Slice& slice,
-          std::vector<std::uint32_t>& open, std::vector<VisibleSpan>& out)
-        : segments_(segments), scene_(scene), slice_(slice), open_(open), out_(out) {
+          Reaches& reaches, std::vector<std::uint32_t>& open, std::vector<VisibleSpan>& out)
+        : segments_(segments),
+          scene_(scene),
+          slice_(slice),
+          reaches_(reaches),
+          open_(open),
+          out_(out) {
         open_.clear();
     }
 
@@ -57,9 +62,9 @@ class Sweep {
         if (segment.w_high <= w) return;
         const bool at_border = segment.w_low < w;
         const Trapezoid& trapezoid = scene_.trapezoids[segment.trapezoid];
-        const Border border = at_border
-                                  ? Border{slice_.w_low_slope, never, everywhere}
-                                  : Border{trapezoid.slope[0], segment.q_at(w), trapezoid.low};
+        const Border border =
+            at_border ? Border{slice_.w_low_slope, never, everywhere}
+                      : Border{trapezoid.low.w_slope, segment.q_at(w), trapezoid.low.extent};
         if (top_ == none) {
             set_top(s, w, border);
             return;
@@ -93,8 +98,9 @@ class Sweep {
     void end_top(float w) {
         const bool at_border = top().w_high > w;
         const Trapezoid& trapezoid = scene_.trapezoids[top().trapezoid];
-        const Border border = at_border ? Border{slice_.w_high_slope, never, everywhere}
-                                        : Border{trapezoid.slope[1], top().q_at(w), trapezoid.high};
+        const Border border =
+            at_border ? Border{slice_.w_high_slope, never, everywhere}
+                      : Border{trapezoid.high.w_slope, top().q_at(w), trapezoid.high.extent};
         emit(w, border);
         top_ = none;
         crossing_ = never;
@@ -142,28 +148,30 @@ class Sweep {
 
     /// The line where two planes cross. On a plane -h q = n . (1, u, w).
     Border crossing_border(std::uint32_t a, std::uint32_t b) const {
-        const Trapezoid& s = scene_.trapezoids[segments_[a].trapezoid];
-        const Trapezoid& t = scene_.trapezoids[segments_[b].trapezoid];
-        const SeenFacet& f = scene_.facets[s.seen];
-        const SeenFacet& g = scene_.facets[t.seen];
+        const std::uint32_t s = scene_.trapezoids[segments_[a].trapezoid].seen;
+        const std::uint32_t t = scene_.trapezoids[segments_[b].trapezoid].seen;
+        const SeenFacet& f = scene_.facets[s];
+        const SeenFacet& g = scene_.facets[t];
         const Eigen::Vector3f apart = f.normal * g.height_m - g.normal * f.height_m;
         const float slope = -apart.y() / apart.z();
+        const Extent u = reaches_.of(s).u;
+        const Extent v = reaches_.of(t).u;
         return {std::isfinite(slope) ? slope : 0.0F,
                 segments_[b].q_at(crossing_),
-                {std::max(s.ends.from, t.ends.from), std::min(s.ends.to, t.ends.to)}};
+                {std::max(u.from, v.from), std::min(u.to, v.to)}};
     }
 
     void emit(float w, const Border& border) {
         if (!(w - begin_ > narrowest_span * (1.0F + std::fabs(w)))) return;
-        const Trapezoid& trapezoid = scene_.trapezoids[top().trapezoid];
-        const SeenFacet& seen = scene_.facets[trapezoid.seen];
+        const std::uint32_t seen = scene_.trapezoids[top().trapezoid].seen;
         out_.push_back({begin_, w, top().q_at(begin_), top().q_at(w), begin_border_, border,
-                        trapezoid.ends, seen.range_m, top().trapezoid});
+                        reaches_.of(seen), seen});
     }
 
     std::span<const Segment> segments_;
     const SliceScene& scene_;
     const Slice& slice_;
+    Reaches& reaches_;
     std::vector<std::uint32_t>& open_;  ///< under the top; some may have ended
     std::vector<VisibleSpan>& out_;
     std::uint32_t top_ = none;
@@ -176,9 +184,9 @@ class Sweep {
 }  // namespace
 
 void visible_spans(std::span<const Segment> segments, const SliceScene& scene, const Slice& slice,
-                   EnvelopeScratch& scratch, std::vector<VisibleSpan>& out) {
+                   Reaches& reaches, EnvelopeScratch& scratch, std::vector<VisibleSpan>& out) {
     out.clear();
-    Sweep(segments, scene, slice, scratch.open, out).run();
+    Sweep(segments, scene, slice, reaches, scratch.open, out).run();
 }
 
 }  // namespace sonarsim

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "visibility/slices/reach.h"
 #include "visibility/slices/setup.h"
 
 namespace sonarsim {
@@ -33,9 +34,8 @@ struct VisibleSpan {
     float w_low, w_high;
     float q_low, q_high;
     Border low, high;
-    Extent ends;     ///< u where its surface ends, as of Trapezoid
-    Extent range_m;  ///< of its surface
-    std::uint32_t trapezoid;
+    Reach reach;         ///< of its surface
+    std::uint32_t seen;  ///< index of its SeenFacet
 };
 
 struct EnvelopeScratch {
@@ -43,8 +43,8 @@ struct EnvelopeScratch {
 };
 
 /// The upper envelope of q over the segments, which are sorted by w_low: what is nearest at each w
-/// of the slice. `u` is the slice's.
+/// of the slice.
 void visible_spans(std::span<const Segment> segments, const SliceScene& scene, const Slice& slice,
-                   EnvelopeScratch& scratch, std::vector<VisibleSpan>& out);
+                   Reaches& reaches, EnvelopeScratch& scratch, std::vector<VisibleSpan>& out);
 
 }  // namespace sonarsim

@@ -49,20 +49,14 @@ struct Gaps {
     int beam(int g) const { return first_beam + g / per_beam; }
 };
 
-/// The slice before gap `g`, of those in a sector of the gaps [first, last), whose middle lies at
+/// Adds the slices and gaps of a sector that holds the gaps [first, last) and whose middle lies at
 /// `centre`.
-Slice slice_at(const Gaps& gaps, int g, int first, int last, double centre) {
+void add_slices(const Gaps& gaps, int first, int last, double centre, SliceFrame& frame) {
     const auto u = [&](double at) { return static_cast<float>(tangent(gaps.at(at) - centre)); };
-    Slice slice{};
-    slice.u = u(g + aside(g));
-    const float border = u(g);
-    if (g > first) slice.strip[slice.strips++] = {gaps.beam(g - 1), u(g - 0.5), border};
-    if (g < last) slice.strip[slice.strips++] = {gaps.beam(g), border, u(g + 0.5)};
-    if (slice.strips == 2 && slice.strip[0].beam == slice.strip[1].beam) {
-        slice.strip[0].u_high = slice.strip[1].u_high;
-        slice.strips = 1;
-    }
-    return slice;
+    for (int g = first; g <= last; ++g)
+        frame.slices.push_back(slice_at(frame, u(g + aside(g))));
+    for (int g = first; g < last; ++g)
+        frame.gaps.push_back({gaps.beam(g), u(g), u(g + 1)});
 }
 
 /// Frames whose axis along is the pole of the view: slices are meridians between two latitudes.
@@ -70,8 +64,6 @@ void add_meridians(const Gaps& gaps, double latitude_low, double latitude_high,
                    const Eigen::Matrix3d& axes, std::vector<SliceFrame>& frames) {
     const int sectors =
         std::max(1, static_cast<int>(std::ceil(gaps.count * gaps.width / widest_sector - 1e-9)));
-    const double low = tangent(latitude_low);
-    const double high = tangent(latitude_high);
     for (int s = 0; s < sectors; ++s) {
         const int first = static_cast<int>(static_cast<long>(gaps.count) * s / sectors);
         const int last = static_cast<int>(static_cast<long>(gaps.count) * (s + 1) / sectors);
@@ -79,23 +71,20 @@ void add_meridians(const Gaps& gaps, double latitude_low, double latitude_high,
         const double centre = gaps.at(0.5 * (first + last));
         const SinCos turn = sincos(centre);
         SliceFrame frame;
+        frame.meridians = true;
+        frame.tan_low = static_cast<float>(tangent(latitude_low));
+        frame.tan_high = static_cast<float>(tangent(latitude_high));
         Eigen::Matrix3d R;
         R.row(0) = turn.cos * axes.row(0) + turn.sin * axes.row(1);
         R.row(1) = turn.cos * axes.row(1) - turn.sin * axes.row(0);
         R.row(2) = axes.row(2);
         frame.R_frame_sensor = R.cast<float>();
-        frame.w_low = frame.w_high = static_cast<float>(low);
-        for (int g = first; g <= last; ++g) {
-            Slice slice = slice_at(gaps, g, first, last, centre);
-            const double u = slice.u;
-            const double secant = std::sqrt(1.0 + u * u);
-            slice.w_low = static_cast<float>(low * secant);
-            slice.w_high = static_cast<float>(high * secant);
-            slice.w_low_slope = static_cast<float>(low * u / secant);
-            slice.w_high_slope = static_cast<float>(high * u / secant);
-            frame.w_low = std::min({frame.w_low, slice.w_low, static_cast<float>(low)});
-            frame.w_high = std::max({frame.w_high, slice.w_high, static_cast<float>(high)});
-            frame.slices.push_back(slice);
+        add_slices(gaps, first, last, centre, frame);
+        frame.w_low = frame.tan_low;
+        frame.w_high = frame.tan_high;
+        for (const Slice& slice : frame.slices) {
+            frame.w_low = std::min(frame.w_low, slice.w_low);
+            frame.w_high = std::max(frame.w_high, slice.w_high);
         }
         frames.push_back(frame);
     }
@@ -110,18 +99,13 @@ void add_parallels(const Gaps& gaps, double azimuth_low, double azimuth_high,
     for (int s = 0; s < sectors; ++s) {
         const SinCos turn = sincos(azimuth_low + (s + 0.5) * width);
         SliceFrame frame;
-        frame.widens = true;
+        frame.meridians = false;
         Eigen::Matrix3d R;
         R << turn.cos, turn.sin, 0.0, 0.0, 0.0, 1.0, -turn.sin, turn.cos, 0.0;
         frame.R_frame_sensor = R.cast<float>();
-        frame.w_high = static_cast<float>(tangent(0.5 * width));
-        frame.w_low = -frame.w_high;
-        for (int g = 0; g <= gaps.count; ++g) {
-            Slice slice = slice_at(gaps, g, 0, gaps.count, 0.0);
-            slice.w_low = frame.w_low;
-            slice.w_high = frame.w_high;
-            frame.slices.push_back(slice);
-        }
+        frame.w_high = frame.tan_high = static_cast<float>(tangent(0.5 * width));
+        frame.w_low = frame.tan_low = -frame.w_high;
+        add_slices(gaps, 0, gaps.count, 0.0, frame);
         frames.push_back(frame);
     }
 }
@@ -132,6 +116,14 @@ Gaps gaps_over(double low, double width, int beams, int per_beam, int first_beam
 }
 
 }  // namespace
+
+Slice slice_at(const SliceFrame& frame, float u) {
+    if (!frame.meridians) return {u, frame.tan_low, frame.tan_high, 0.0F, 0.0F};
+    // A parallel of the view is a hyperbola of the picture: w = tan(latitude) sqrt(1 + u^2).
+    const float secant = std::sqrt(1.0F + u * u);
+    return {u, frame.tan_low * secant, frame.tan_high * secant, frame.tan_low * u / secant,
+            frame.tan_high * u / secant};
+}
 
 std::vector<SliceFrame> slice_frames(const View& view, int per_beam) {
     std::vector<SliceFrame> frames;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <vector>
 
 #include "visibility/view.h"
@@ -21,36 +20,42 @@ struct Extent {
     float to;
 };
 
-/// The part of a slice's surroundings that it stands for within one beam.
-struct Strip {
-    int beam;
-    float u_low;
-    float u_high;
-};
-
 struct Slice {
     float u;
     float w_low;  ///< where it enters the view, and where it leaves it
     float w_high;
     float w_low_slope;  ///< dw/du of the view's borders there
     float w_high_slope;
-    int strips;  ///< 2 on the border of two beams
-    std::array<Strip, 2> strip;
-    bool extra = false;  ///< shows only the pieces of the scene that no other slice meets
 };
 
-/// The slices of one sector, from low u to high.
+/// What lies between two neighbouring slices of a frame.
+struct Gap {
+    int beam;
+    float u_low;   ///< where it begins: a hair beside its first slice, see slice_frames()
+    float u_high;  ///< where it ends
+};
+
+/// The slices of one sector, from low u to high, and the gaps between them.
 struct SliceFrame {
     Eigen::Matrix3f R_frame_sensor;
     std::vector<Slice> slices;
-    float w_low;  ///< the least and the greatest w of all slices and strips
+    std::vector<Gap> gaps;  ///< one fewer than slices
+    float w_low;            ///< the least and the greatest w of all slices and gaps
     float w_high;
-    /// Sides: a strip's border at w is its u times sqrt(1 + w^2), a line of constant elevation.
-    bool widens = false;
+    float tan_low;  ///< w of the view's borders at u = 0
+    float tan_high;
+    /// Whether a line of constant u is a great circle along the view's own lines. Sides: it is not;
+    /// a gap's border at w is its u times sqrt(1 + w^2), a line of constant elevation.
+    bool meridians;
 };
 
+/// The slice of a frame at u.
+Slice slice_at(const SliceFrame& frame, float u);
+
 /// Cuts `view` by slices on the borders of the beams and `per_beam` - 1 inside each. Where a beam
-/// is wide there are more. Frames are in the order of their beams.
+/// is wide there are more. Frames are in the order of their beams. Slices lie a hair beside the
+/// borders, each by another share of the gap, so that no edge of a scene that is built along the
+/// sonar's axes runs along a slice.
 std::vector<SliceFrame> slice_frames(const View& view, int per_beam);
 
 }  // namespace sonarsim

@@ -1,14 +1,16 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "core/groups.h"
 #include "visibility/local_pose.h"
 #include "visibility/slices/clusters.h"
+#include "visibility/slices/edge_line.h"
 #include "visibility/slices/scan.h"
+#include "visibility/slices/slice_finder.h"
 
 namespace sonarsim {
 
@@ -17,54 +19,81 @@ struct SeenFacet {
     Eigen::Vector3f normal;  ///< towards the sensor
     float height_m;          ///< of the sensor above the plane
     std::uint32_t facet;     ///< of ClusterMesh::facets
-    Extent range_m;          ///< within which all of the triangle lies
 };
 
-/// Part of a triangle between two verticals of the picture plane. `at` and `slope` are lines over
-/// u: w of the lower edge, w of the upper, and q = 1 / X along either. On a plane q is linear in u
-/// and w, and an edge is a straight line.
-struct alignas(16) Trapezoid {
-    std::array<float, 4> at;  ///< at a corner of the edge, whose u is `anchor`
-    std::array<float, 4> slope;
-    std::array<float, 4> anchor;
-    Extent low;          ///< of the lower edge
-    Extent high;         ///< of the upper edge
-    Extent ends;         ///< of the surface; infinite where it goes on with a neighbour
+/// Part of a triangle between two verticals of the picture plane. Its lower and its upper edge are
+/// lines over u, and so is q = 1 / X along either: on a plane q is linear in u and w.
+struct Trapezoid {
+    EdgeLine low;
+    EdgeLine high;
+    float u_from;
+    float u_to;          ///< exclusive
     std::uint32_t seen;  ///< index of its SeenFacet
-    std::int32_t end;    ///< the first slice after it
+};
+
+/// A triangle that lies between two slices.
+struct Between {
+    std::uint32_t facet;  ///< of ClusterMesh::facets
+    std::uint32_t gap;
 };
 
 /// What the slices of a frame meet.
-/// A triangle that lies between two slices.
-struct Between {
-    std::int32_t slice;  ///< the one after it
-    std::uint32_t piece;
-    Extent u;
-    Extent w;
-};
-
 struct SliceScene {
     std::vector<SeenFacet> facets;
     std::vector<Trapezoid> trapezoids;
-    std::vector<std::uint32_t> order;  ///< of `trapezoids`, by the first slice that meets them
-    std::vector<std::uint32_t> begin;  ///< slices + 1 offsets into `order`
+    Groups by_slice;  ///< trapezoids by the first slice that meets them
     std::vector<Between> between;
-    std::vector<bool> met;      ///< pieces of the mesh that some slice meets
-    std::uint64_t dropped = 0;  ///< triangles seen edge-on to within rounding
+    std::vector<Extent> piece_u;  ///< of the triangles in view; of the other pieces from > to
+    std::uint64_t dropped = 0;    ///< triangles seen edge-on to within rounding
 
-    void clear();
+    void clear(std::uint32_t pieces);
 };
 
-/// Memory that the setup of one frame after the other reuses.
-struct SetupScratch {
-    std::vector<Eigen::Vector3f> points;
-    std::vector<std::int32_t> first;  ///< slice of each trapezoid
-    std::vector<std::int32_t> table;
-};
+/// Projects the triangles of a mesh into a frame.
+class SliceSetup {
+  public:
+    /// All arguments must outlive it. Nothing beyond `range_max_m` is projected.
+    SliceSetup(const ClusterMesh& mesh, const SliceFrame& frame, const LocalPose& pose,
+               float range_max_m, SliceScene& out);
 
-/// Projects all triangles within `range_max_m` into the frame. `vertices` are the scene's.
-void set_up_slices(const ClusterMesh& mesh, std::span<const Eigen::Vector3f> vertices,
-                   const SliceFrame& frame, const LocalPose& pose, float range_max_m,
-                   SetupScratch& scratch, SliceScene& out);
+    /// Fills `out`: trapezoids for what a slice of the frame meets, notes for what lies between.
+    void run();
+
+    /// Adds the trapezoids of triangles that lie between two slices.
+    void add_between(std::span<const std::uint32_t> facets);
+
+    /// The corners of a triangle of the mesh in the frame.
+    Corners corners_of(std::uint32_t facet) const;
+
+    float nearest_m() const { return nearest_m_; }
+
+    /// A point of the scene in the frame.
+    Eigen::Vector3f in_frame(const Eigen::Vector3f& local) const {
+        return R_frame_local_ * (local - position_);
+    }
+
+  private:
+    bool in_view(const Cluster& cluster) const;
+    void add_cluster(const Cluster& cluster);
+    void add_triangle(const Corners& corners, std::uint32_t facet);
+    void add_part_in_front(const Corners& corners, std::uint32_t facet);
+    void widen_piece(std::uint32_t facet, const Extent& by);
+    bool see(std::uint32_t facet, const Corner& corner);
+    void add_trapezoid(const EdgeLine& low, const EdgeLine& high, float from, float to);
+
+    const ClusterMesh& mesh_;
+    const SliceFrame& frame_;
+    const Eigen::Matrix3f R_frame_local_;
+    const Eigen::Vector3f position_;
+    const float reach_m_;
+    const float nearest_m_;
+    const float u_low_;
+    const float u_high_;
+    const SliceFinder find_slice_;
+    SliceScene& out_;
+    std::vector<Corner> cluster_corners_;
+    std::vector<std::uint32_t> first_slice_;  ///< of each trapezoid
+    bool lazy_ = false;                       ///< triangles between slices are wanted
+};
 
 }  // namespace sonarsim

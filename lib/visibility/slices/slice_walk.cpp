@@ -1,16 +1,18 @@
 #include "visibility/slices/slice_walk.h"
 
 #include <algorithm>
-#include <array>
 
 namespace sonarsim {
 
 namespace {
 
 /// By place; equal places by number, so that the order is the same whatever came before.
-bool before(const Segment& a, const Segment& b) {
-    return a.w_low < b.w_low || (a.w_low == b.w_low && a.trapezoid < b.trapezoid);
-}
+struct Before {
+    bool operator()(const Segment& a, const Segment& b) const {
+        return a.w_low < b.w_low || (a.w_low == b.w_low && a.trapezoid < b.trapezoid);
+    }
+};
+constexpr Before before;
 
 /// Nearly sorted lists take linear time.
 void insertion_sort(std::vector<Segment>& segments) {
@@ -24,31 +26,16 @@ void insertion_sort(std::vector<Segment>& segments) {
     }
 }
 
-}  // namespace
-
-void SliceWalk::start(const SliceScene& scene, const SliceFrame& frame) {
-    scene_ = &scene;
-    frame_ = &frame;
-    active_.clear();
-}
-
-void SliceWalk::drop_ended(int s) {
-    std::erase_if(active_, [&](const Segment& segment) {
-        return scene_->trapezoids[segment.trapezoid].end <= s;
-    });
-}
-
-void SliceWalk::evaluate(float u, std::vector<Segment>& segments) const {
+void evaluate(const SliceScene& scene, float u, std::vector<Segment>& segments) {
     for (Segment& segment : segments) {
-        const Trapezoid& t = scene_->trapezoids[segment.trapezoid];
-        std::array<float, 4> at;
-        for (int k = 0; k < 4; ++k)
-            at[k] = t.at[k] + t.slope[k] * (u - t.anchor[k]);
-        segment.w_low = at[0];
+        const Trapezoid& t = scene.trapezoids[segment.trapezoid];
+        const float low_aside = u - t.low.anchor;
+        const float high_aside = u - t.high.anchor;
+        segment.w_low = t.low.w + t.low.w_slope * low_aside;
         // Next to a corner the edges may cross by rounding.
-        segment.w_high = std::max(at[1], at[0]);
-        const float q_low = at[2];
-        const float q_high = at[3];
+        segment.w_high = std::max(t.high.w + t.high.w_slope * high_aside, segment.w_low);
+        const float q_low = t.low.q + t.low.q_slope * low_aside;
+        const float q_high = t.high.q + t.high.q_slope * high_aside;
         const float width = segment.w_high - segment.w_low;
         segment.q_slope = width > 0.0F ? (q_high - q_low) / width : 0.0F;
         segment.w_anchor = q_low < q_high ? segment.w_low : segment.w_high;
@@ -56,20 +43,57 @@ void SliceWalk::evaluate(float u, std::vector<Segment>& segments) const {
     }
 }
 
+Segment not_evaluated(std::uint32_t trapezoid) {
+    Segment segment{};
+    segment.trapezoid = trapezoid;
+    return segment;
+}
+
+}  // namespace
+
+void segments_at(const SliceScene& scene, float u, std::span<const std::uint32_t> trapezoids,
+                 std::vector<Segment>& out) {
+    out.clear();
+    for (const std::uint32_t i : trapezoids) {
+        const Trapezoid& t = scene.trapezoids[i];
+        if (t.u_from <= u && u < t.u_to) out.push_back(not_evaluated(i));
+    }
+    evaluate(scene, u, out);
+    std::ranges::sort(out, before);
+}
+
+void SliceWalk::start(const SliceScene& scene, const SliceFrame& frame) {
+    scene_ = &scene;
+    frame_ = &frame;
+    before_.clear();
+    active_.clear();
+}
+
 const std::vector<Segment>& SliceWalk::step(int s) {
     const float u = frame_->slices[s].u;
-    drop_ended(s);
-    evaluate(u, active_);
-    insertion_sort(active_);
+    std::swap(before_, active_);
+    old_.clear();
+    for (const Segment& segment : before_) {
+        if (scene_->trapezoids[segment.trapezoid].u_to > u) old_.push_back(segment);
+    }
+    evaluate(*scene_, u, old_);
+    insertion_sort(old_);
     fresh_.clear();
-    for (std::uint32_t k = scene_->begin[s]; k < scene_->begin[s + 1]; ++k)
-        fresh_.push_back({0.0F, 0.0F, 0.0F, 0.0F, 0.0F, scene_->order[k]});
-    evaluate(u, fresh_);
+    const Groups& by_slice = scene_->by_slice;
+    for (std::uint32_t k = by_slice.begin[s]; k < by_slice.begin[s + 1]; ++k)
+        fresh_.push_back(not_evaluated(by_slice.items[k]));
+    evaluate(*scene_, u, fresh_);
     std::ranges::sort(fresh_, before);
-    merged_.resize(active_.size() + fresh_.size());
-    std::ranges::merge(active_, fresh_, merged_.begin(), before);
-    std::swap(active_, merged_);
+    active_.resize(old_.size() + fresh_.size());
+    std::ranges::merge(old_, fresh_, active_.begin(), before);
     return active_;
+}
+
+void SliceWalk::around_last_gap(std::vector<std::uint32_t>& out) const {
+    for (const Segment& segment : before_)
+        out.push_back(segment.trapezoid);
+    for (const Segment& segment : fresh_)
+        out.push_back(segment.trapezoid);
 }
 
 }  // namespace sonarsim

@@ -7,6 +7,10 @@
 
 namespace sonarsim {
 
+/// The segments of a slice at u, sorted by w_low: of those among `trapezoids` that it meets.
+void segments_at(const SliceScene& scene, float u, std::span<const std::uint32_t> trapezoids,
+                 std::vector<Segment>& out);
+
 /// Walks the slices of a frame in order and keeps the segments that each of them meets sorted.
 class SliceWalk {
   public:
@@ -15,15 +19,16 @@ class SliceWalk {
     /// Steps to the next slice, of index `s`, and returns its segments, sorted by w_low.
     const std::vector<Segment>& step(int s);
 
-  private:
-    void drop_ended(int s);
-    void evaluate(float u, std::vector<Segment>& segments) const;
+    /// The trapezoids that the last slice or the one before it meets.
+    void around_last_gap(std::vector<std::uint32_t>& out) const;
 
+  private:
     const SliceScene* scene_ = nullptr;
     const SliceFrame* frame_ = nullptr;
+    std::vector<Segment> before_;  ///< of the slice before
     std::vector<Segment> active_;
+    std::vector<Segment> old_;
     std::vector<Segment> fresh_;
-    std::vector<Segment> merged_;
 };
 
 }  // namespace sonarsim

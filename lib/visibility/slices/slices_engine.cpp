@@ -6,22 +6,45 @@
 #include "visibility/caster.h"
 #include "visibility/intersect.h"
 #include "visibility/local_pose.h"
+#include "visibility/slices/beam_slices.h"
 #include "visibility/slices/clusters.h"
-#include "visibility/slices/envelope.h"
-#include "visibility/slices/extra_slices.h"
-#include "visibility/slices/merge_spans.h"
+#include "visibility/slices/frame_scan.h"
 #include "visibility/slices/scan.h"
-#include "visibility/slices/setup.h"
-#include "visibility/slices/slice_walk.h"
 #include "visibility/slices/span_samples.h"
 
 namespace sonarsim {
 
 namespace {
 
-/// Slices to a beam for an error goal.
+// With a number of slices that is given, gaps are split for narrow pieces alone.
+constexpr double unlimited = 1e9;
+
+/// Slices to a beam that an error goal begins with.
 int slices_for(double relative_l1) {
-    return std::clamp(static_cast<int>(std::ceil(0.04 / relative_l1)), 1, 32);
+    return relative_l1 >= 0.02 ? 1 : relative_l1 >= 0.005 ? 2 : 4;
+}
+
+// How far the slices of an image disagree says how far the image is off. Fitted to the errors of a
+// lifeboat of 7,920 triangles and a tank, eight poses each at goals of 10, 3, 1 and 0.3 %, within a
+// factor of 1.6. The square root: where slices are added they are added where they disagree most,
+// and the rest of the error does not fall along with it.
+constexpr double error_of_disagreement = 0.16;
+
+/// Error of an image whose slices see everything: pieces of surface become boxes in range.
+double error_of_shapes(double relative_l1) {
+    return 0.002 + 0.002 * std::clamp(relative_l1 / 0.03, 0.1, 1.0);
+}
+
+double estimated_error(double relative_l1, double disagreement) {
+    return error_of_shapes(relative_l1) + error_of_disagreement * std::sqrt(disagreement);
+}
+
+/// What slices may disagree by for an error goal. Goals near the error of shapes are not met by
+/// more slices: they end at an eighth of the goal.
+double disagreement_for(double relative_l1) {
+    const double left = std::max(relative_l1 - error_of_shapes(relative_l1), 0.0);
+    return std::max(left * left / (error_of_disagreement * error_of_disagreement),
+                    0.125 * relative_l1);
 }
 
 class SlicesEngine final : public VisibilityEngine {
@@ -35,9 +58,11 @@ class SlicesEngine final : public VisibilityEngine {
         const LocalPose pose = local_pose(T_world_sensor, scene_->origin);
         Samples samples;
         samples.beam_begin.assign(view.beams + 1, 0);
-        Scratch scratch;
-        for (SliceFrame& frame : slice_frames(view, per_beam))
-            see_frame(view, pose, frame, scratch, samples);
+        const double most = options_.per_beam > 0 ? unlimited : disagreement_for(view.relative_l1);
+        Disagreement sum;
+        for (const SliceFrame& frame : slice_frames(view, per_beam))
+            see_frame(view, pose, frame, most, samples, sum);
+        samples.estimated_l1 = estimated_error(view.relative_l1, sum.share());
         return samples;
     }
 
@@ -47,47 +72,30 @@ class SlicesEngine final : public VisibilityEngine {
     }
 
   private:
-    /// Memory that one frame after the other reuses.
-    struct Scratch {
-        SetupScratch setup;
-        SliceScene scene;
-        SliceWalk walk;
-        EnvelopeScratch envelope;
-        std::vector<VisibleSpan> spans;
-        std::vector<bool> met;  ///< pieces that a regular slice meets
-    };
-
-    void see_frame(const View& view, const LocalPose& pose, SliceFrame& frame, Scratch& scratch,
-                   Samples& samples) const {
+    void see_frame(const View& view, const LocalPose& pose, const SliceFrame& frame, double most,
+                   Samples& samples, Disagreement& sum) const {
         const PieceLimits limits = piece_limits(view);
-        SliceScene& scene = scratch.scene;
-        set_up_slices(mesh_, scene_->vertices, frame, pose, limits.range_max_m, scratch.setup,
-                      scene);
-        if (add_extra_slices(scene, frame)) {
-            scratch.met = scene.met;
-            set_up_slices(mesh_, scene_->vertices, frame, pose, limits.range_max_m, scratch.setup,
-                          scene);
-        }
-        samples.dropped += scene.dropped;
-        scratch.walk.start(scene, frame);
-        SpanSampler sampler(mesh_, frame, scene, limits, samples.items);
-        for (int s = 0; s < static_cast<int>(frame.slices.size()); ++s) {
-            const Slice& slice = frame.slices[s];
-            std::vector<VisibleSpan>& spans = scratch.spans;
-            visible_spans(scratch.walk.step(s), scene, slice, scratch.envelope, spans);
-            if (slice.extra) {
-                std::erase_if(spans, [&](const VisibleSpan& span) {
-                    const SeenFacet& seen = scene.facets[scene.trapezoids[span.trapezoid].seen];
-                    return scratch.met[mesh_.facets[seen.facet].piece];
-                });
+        FrameScan scan(mesh_, *scene_, frame, pose, limits.range_max_m);
+        BeamSlices beam(view, scene_->materials, scan);
+        SpanSampler sampler(scan, limits, samples.items);
+        for (std::uint32_t gap = 0; gap < frame.gaps.size();) {
+            const std::uint32_t next = beam.see(gap, most);
+            const std::span<const SeenSlice* const> slices = beam.slices();
+            float from = frame.gaps[gap].u_low;
+            for (std::size_t i = 0; i < slices.size(); ++i) {
+                const float to = i + 1 < slices.size()
+                                     ? 0.5F * (slices[i]->slice.u + slices[i + 1]->slice.u)
+                                     : frame.gaps[next - 1].u_high;
+                sampler.add(slices[i]->slice, from, to, slices[i]->spans);
+                from = to;
             }
-            merge_coplanar_spans(mesh_, scene, spans);
-            for (int k = 0; k < slice.strips; ++k) {
-                sampler.add(slice, slice.strip[k], spans);
-                samples.beam_begin[slice.strip[k].beam + 1] =
-                    static_cast<std::uint32_t>(samples.items.size());
-            }
+            samples.beam_begin[frame.gaps[gap].beam + 1] =
+                static_cast<std::uint32_t>(samples.items.size());
+            gap = next;
         }
+        samples.dropped += scan.scene().dropped;
+        sum.apart += beam.sum().apart;
+        sum.signal += beam.sum().signal;
     }
 
     const Scene* scene_;

@@ -14,10 +14,6 @@ constexpr float most_sag = 0.03F;
 constexpr float shortest_piece = 0.25F;
 constexpr float most_excess = 0.15F;
 
-// Beside a triangle that its neighbours go on from, as a share of the range: its plane is followed
-// no farther than this.
-constexpr float neighbour_share = 0.002F;
-
 // A plane beside the slice: where its q would fall below this share, it has run away to infinity.
 constexpr float least_q_share = 1e-3F;
 
@@ -32,7 +28,9 @@ constexpr float longest_ratio = 1.5F;
 
 PieceLimits piece_limits(const View& view) {
     const auto bin_m = static_cast<float>(view.bin_m());
-    return {most_sag * bin_m, most_excess * bin_m, shortest_piece * bin_m,
+    const auto finer = static_cast<float>(std::clamp(view.relative_l1 / 0.03, 0.1, 1.0));
+    const float of_bin = finer * bin_m;
+    return {most_sag * of_bin, most_excess * of_bin, shortest_piece * of_bin,
             static_cast<float>(view.range_max_m)};
 }
 
@@ -61,62 +59,28 @@ struct SpanSampler::Quad {
     }
 };
 
-SpanSampler::SpanSampler(const ClusterMesh& mesh, const SliceFrame& frame, const SliceScene& scene,
-                         const PieceLimits& limits, std::vector<Sample>& out)
-    : mesh_(mesh),
-      frame_(frame),
-      scene_(scene),
+SpanSampler::SpanSampler(const FrameScan& scan, const PieceLimits& limits, std::vector<Sample>& out)
+    : scan_(scan),
       limits_(limits),
       out_(out),
-      R_sensor_frame_(frame.R_frame_sensor.transpose()) {}
+      R_sensor_frame_(scan.frame().R_frame_sensor.transpose()) {}
 
-void SpanSampler::add(const Slice& slice, const Strip& strip, std::span<const VisibleSpan> spans) {
-    move_ends(slice, spans, strip.u_low, low_);
-    move_ends(slice, spans, strip.u_high, high_);
+void SpanSampler::add(const Slice& slice, float u_low, float u_high,
+                      std::span<const VisibleSpan> spans) {
+    move_ends(slice, spans, u_low, low_);
+    move_ends(slice, spans, u_high, high_);
     for (std::size_t i = 0; i < spans.size(); ++i)
         add_span(slice, spans[i], i);
 }
 
-/// Where two ends cross, the one of the nearer surface goes on and the other follows it.
-void SpanSampler::move_ends(const Slice& slice, std::span<const VisibleSpan> spans, float u,
-                            Side& side) {
-    side.u = u;
-    std::vector<End>& ends = side.ends;
-    ends.resize(2 * spans.size());
-    const float aside = u - slice.u;
-    const float lowest = slice.w_low + slice.w_low_slope * aside;
-    const float highest = slice.w_high + slice.w_high_slope * aside;
-    const auto move = [&](float w, const Border& border, std::size_t i) {
-        const float to = std::clamp(u, border.extent.from, border.extent.to) - slice.u;
-        const float alone = std::clamp(w + border.slope * to, lowest, highest);
-        ends[i] = {w, alone, alone, border.q, static_cast<std::uint32_t>(i)};
-    };
-    for (std::size_t i = 0; i < spans.size(); ++i) {
-        move(spans[i].w_low, spans[i].low, 2 * i);
-        move(spans[i].w_high, spans[i].high, 2 * i + 1);
-    }
-    for (std::size_t i = 1; i < ends.size(); ++i) {
-        std::size_t first = i;  // of the ends that end up at one place
-        while (first > 0 && ends[first - 1].w > ends[i].w && ends[first - 1].q <= ends[i].q)
-            --first;
-        const bool stopped = first > 0 && ends[first - 1].w > ends[i].w;
-        const End leader = ends[stopped ? first - 1 : i];
-        for (std::size_t k = first; k <= i; ++k) {
-            ends[k].w = leader.w;
-            ends[k].q = leader.q;
-            ends[k].by = leader.by;
-        }
-    }
-}
-
 /// The border of a span's quadrilateral on one side: at the side itself, or on the way to it where
 /// the ends meet each other, or one of them the end that both follow.
-SpanSampler::QuadSide SpanSampler::quad_side(const Slice& slice, const Side& side,
+SpanSampler::QuadSide SpanSampler::quad_side(const Slice& slice, const MovedEnds& side,
                                              std::size_t span) {
-    const End& low = side.ends[2 * span];
-    const End& high = side.ends[2 * span + 1];
+    const MovedEnd& low = side.ends[2 * span];
+    const MovedEnd& high = side.ends[2 * span + 1];
     if (low.w < high.w || low.by != high.by) return {side.u, low.w, high.w};
-    const End& leader = side.ends[low.by];
+    const MovedEnd& leader = side.ends[low.by];
     const bool from_below = low.by <= 2 * span;
     const float before =
         from_below ? high.at_slice - leader.at_slice : leader.at_slice - low.at_slice;
@@ -127,27 +91,24 @@ SpanSampler::QuadSide SpanSampler::quad_side(const Slice& slice, const Side& sid
 }
 
 void SpanSampler::add_span(const Slice& slice, const VisibleSpan& span, std::size_t index) {
-    const Trapezoid& trapezoid = scene_.trapezoids[span.trapezoid];
-    const SeenFacet& seen = scene_.facets[trapezoid.seen];
+    const SeenFacet& seen = scan_.scene().facets[span.seen];
     Quad quad;
     quad.seen = &seen;
-    quad.widens = frame_.widens;
+    quad.widens = !scan_.frame().meridians;
     quad.u = slice.u;
     quad.w = span.q_low < span.q_high ? span.w_low : span.w_high;
     quad.q = std::min(span.q_low, span.q_high);
     quad.q_u = -seen.normal.y() / seen.height_m;
     quad.q_w = -seen.normal.z() / seen.height_m;
     // Beside the slice a plane may run away from the sensor, but its triangle does not.
-    const bool goes_on = std::isinf(span.ends.from) || std::isinf(span.ends.to);
-    const float margin = goes_on ? 1.0F + neighbour_share : 1.0F;
     quad.q_least = least_q_share * quad.q;
-    quad.nearest_m = span.range_m.from / margin;
-    quad.farthest_m = span.range_m.to * margin;
+    quad.nearest_m = span.reach.range_m.from;
+    quad.farthest_m = span.reach.range_m.to;
     const QuadSide on_slice{slice.u, span.w_low, span.w_high};
     quad.low = quad_side(slice, low_, index);
     quad.high = quad_side(slice, high_, index);
     const auto keep = [&](QuadSide& side) {
-        const float u = std::clamp(side.u, span.ends.from, span.ends.to);
+        const float u = std::clamp(side.u, span.reach.u.from, span.reach.u.to);
         if (u == side.u) return;
         const float share = (u - slice.u) / (side.u - slice.u);
         side.low = span.w_low + share * (side.low - span.w_low);
@@ -273,7 +234,7 @@ void SpanSampler::add_piece(const Quad& quad, float from, float to) {
 
 void SpanSampler::add_sample(const Quad& quad, const Eigen::Vector3f& a, const Eigen::Vector3f& b,
                              const Eigen::Vector3f& c, const Eigen::Vector3f& d) {
-    const SliceFacet& facet = mesh_.facets[quad.seen->facet];
+    const SliceFacet& facet = scan_.mesh().facets[quad.seen->facet];
     const float area = 0.5F * (c - a).cross(d - b).norm();
     if (!(area > 0.0F)) return;
     Sample& sample = out_.emplace_back();

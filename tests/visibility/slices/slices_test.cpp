@@ -1,5 +1,7 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 
@@ -52,6 +54,16 @@ double area_of(const Samples& samples) {
     return area;
 }
 
+/// The solid angle that the samples cover.
+double filled(const Samples& samples) {
+    double sum = 0.0;
+    for (const Sample& sample : samples.items) {
+        const double r = sample.position.norm();
+        sum += sample.area_m2 * (sample.height_m / r) / (r * r);
+    }
+    return sum;
+}
+
 Pose pitched(double pitch_deg, const Eigen::Vector3d& position = Eigen::Vector3d::Zero()) {
     return {rotation_from_rpy(0.0, radians(pitch_deg), 0.0), position};
 }
@@ -79,9 +91,7 @@ TEST_CASE("slices: a wall seen face on has its area, whole or in many triangles"
     for (const int n : {1, 7, 200}) {
         CAPTURE(n);
         const Samples samples = seen(wall(5.0F, n), view, {});
-        // Triangles narrower than the gap between two slices leave slivers of their neighbours out.
-        const double tolerance = n < 100 ? 0.002 : 0.006;
-        CHECK(area_of(samples) == doctest::Approx(area_of_wall(5.0, view)).epsilon(tolerance));
+        CHECK(area_of(samples) / area_of_wall(5.0, view) == doctest::Approx(1.0).epsilon(1e-5));
         for (const Sample& sample : samples.items) {
             CHECK(sample.position.x() == doctest::Approx(5.0).epsilon(1e-3));
             CHECK(sample.height_m == doctest::Approx(5.0).epsilon(1e-5));
@@ -116,12 +126,9 @@ TEST_CASE("slices: a sphere fills the solid angle that it should") {
     test::add_sphere(scene, {5, 0, 0}, 0.5F, test::add_material(scene, 0.5F), 256);
     const double expected = 2.0 * pi * (1.0 - std::sqrt(1.0 - 0.01));
     for (const View& view : {fan_view(), cone_view()}) {
-        double filled = 0.0;
-        for (const Sample& sample : seen(scene, view, {}, 4).items) {
-            const double r = sample.position.norm();
-            filled += sample.area_m2 * (sample.height_m / r) / (r * r);
-        }
-        CHECK(filled == doctest::Approx(expected).epsilon(0.03));
+        // What is missing are the ends of facets beside the limb; it falls with the gaps' width.
+        CHECK(filled(seen(scene, view, {}, 4)) / expected == doctest::Approx(1.0).epsilon(0.015));
+        CHECK(filled(seen(scene, view, {}, 16)) / expected == doctest::Approx(1.0).epsilon(0.004));
     }
 }
 
@@ -129,7 +136,8 @@ TEST_CASE("slices: a cone sees a disc, whatever it is cut into") {
     // A plane at d across the boresight, opening 60 degrees: pi (d tan 30)^2.
     const double disc = pi * 16.0 / 3.0;
     for (const int n : {1, 40}) {
-        CHECK(area_of(seen(wall(4.0F, n), cone_view(), {})) == doctest::Approx(disc).epsilon(0.01));
+        CHECK(area_of(seen(wall(4.0F, n), cone_view(), {})) / disc ==
+              doctest::Approx(1.0).epsilon(5e-4));
     }
 }
 
@@ -138,7 +146,7 @@ TEST_CASE("slices: the two sides see a strip of the floor") {
     View view = sides_view();
     view.range_max_m = 30.0;
     const Samples samples = seen(wall(3.0F, 3), view, {});
-    CHECK(area_of(samples) == doctest::Approx(area_of_wall(3.0, view)).epsilon(0.003));
+    CHECK(area_of(samples) / area_of_wall(3.0, view) == doctest::Approx(1.0).epsilon(0.003));
     double starboard = 0.0;
     for (const Sample& sample : samples.beam(0)) {
         CHECK(sample.position.y() < 1e-3);
@@ -182,8 +190,11 @@ TEST_CASE("slices: a wire of 4 mm is seen in every ping, as bright as a cylinder
         }
         REQUIRE(area > 0.0);
         // Of a width of 4 mm and a height of 2 * 5 tan 10; facets of eight sides.
-        CHECK(echo == doctest::Approx(0.004 * 1.763).epsilon(0.4));
-        CHECK(echo / area == doctest::Approx(0.64).epsilon(0.35));
+        // Four slices show four facets; what is missing lies between the last of them and the limb.
+        CHECK(echo / (0.004 * 1.763) > 0.7);
+        CHECK(echo / (0.004 * 1.763) < 1.05);
+        CHECK(echo / area / 0.637 > 0.9);
+        CHECK(echo / area / 0.637 < 1.1);
     }
 }
 
@@ -195,8 +206,9 @@ TEST_CASE("slices: a ball of 2 cm is seen in every ping") {
         const Pose pose{rotation_from_rpy(0.0, 0.0, radians(-20.0 + 0.677 * k)),
                         Eigen::Vector3d::Zero()};
         const double cap = 2.0 * pi * 1e-4;
-        CHECK(area_of(engine->visible_surface(fan_view(), pose)) ==
-              doctest::Approx(cap).epsilon(0.5));
+        const double share = area_of(engine->visible_surface(fan_view(), pose)) / cap;
+        CHECK(share > 0.9);
+        CHECK(share < 1.05);
     }
 }
 
@@ -235,21 +247,56 @@ TEST_CASE("slices: rays see the same tank") {
     const Scene scene = test::tank();
     const auto slices = make_slices_engine(scene, {});
     const auto rays = make_rays_engine(scene);
-    const auto filled = [](const Samples& samples) {
-        double sum = 0.0;
-        for (const Sample& sample : samples.items) {
-            const double r = sample.position.norm();
-            sum += sample.area_m2 * (sample.height_m / r) / (r * r);
-        }
-        return sum;
-    };
     for (View view : {fan_view(), cone_view(), sides_view()}) {
         view.relative_l1 = 0.01;
         const Pose pose = pitched(15.0, {-2.4, 0.4, 1.5});
-        // A slice that meets a limb shows it as wide as its strip: up to 6 % too much is filled.
-        CHECK(filled(slices->visible_surface(view, pose)) ==
-              doctest::Approx(filled(rays->visible_surface(view, pose))).epsilon(0.08));
+        CHECK(filled(slices->visible_surface(view, pose)) /
+                  filled(rays->visible_surface(view, pose)) ==
+              doctest::Approx(1.0).epsilon(0.03));
     }
+}
+
+TEST_CASE("slices: three planes that cross in one slice are each seen where they are nearest") {
+    // Planes through (5, y, 0) that lean by -1, 0 and 1: the outer two are nearer above and below.
+    Scene scene = test::empty_scene();
+    std::array<std::uint32_t, 3> material;
+    for (int k = 0; k < 3; ++k) {
+        const auto lean = static_cast<float>(k - 1);
+        material[k] = test::add_material(scene, 0.3F + 0.1F * static_cast<float>(k));
+        test::add_quad(scene, {5 - 4 * lean, -9, -4}, {5 - 4 * lean, 9, -4}, {5 + 4 * lean, 9, 4},
+                       {5 + 4 * lean, -9, 4}, material[k]);
+    }
+    std::array<double, 3> area{};
+    for (const Sample& sample : seen(scene, fan_view(), {}).items) {
+        const auto k = std::ranges::find(material, sample.material) - material.begin();
+        area[k] += sample.area_m2;
+        // The plane that leans towards the sonar above z = 0 has normal.z > 0.
+        if (k != 1) CHECK(sample.position.z() * static_cast<float>(1 - k) > -1e-4F);
+    }
+    CHECK(area[1] < 1e-4);
+    CHECK(area[0] > 1.0);
+    CHECK(area[2] / area[0] == doctest::Approx(1.0).epsilon(1e-4));
+}
+
+TEST_CASE("slices: a finer goal asks for more slices and promises less error") {
+    const Scene scene = test::tank();
+    const auto engine = make_slices_engine(scene, {});
+    const Pose pose = pitched(15.0, {-2.4, 0.4, 1.5});
+    double last = 1.0;
+    std::size_t samples = 0;
+    for (const double goal : {0.1, 0.03, 0.01}) {
+        View view = fan_view();
+        view.relative_l1 = goal;
+        const Samples seen_now = engine->visible_surface(view, pose);
+        CHECK(seen_now.estimated_l1 < goal);
+        CHECK(seen_now.estimated_l1 < last);
+        CHECK(seen_now.items.size() >= samples);
+        last = seen_now.estimated_l1;
+        samples = seen_now.items.size();
+    }
+    View view = fan_view();
+    view.relative_l1 = 0.001;
+    CHECK(engine->visible_surface(view, pose).estimated_l1 > 0.001);
 }
 
 TEST_SUITE_END();

@@ -1,0 +1,188 @@
+#include "validation/reference_cast.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "core/random.h"
+#include "visibility/angles.h"
+
+namespace sonarsim {
+
+namespace {
+
+// Rays to points for each ray over directions.
+constexpr double points_per_ray = 0.5;
+
+/// dOmega / (d across d along) of a direction of the sensor frame.
+double solid_angle_density(ViewShape shape, const Eigen::Vector3f& d) {
+    const float x = shape == ViewShape::cone ? d.z() : d.x();
+    return std::sqrt(static_cast<double>(x) * x + static_cast<double>(d.y()) * d.y());
+}
+
+/// One cast under way.
+struct Cast {
+    const ReferenceView& looking;
+    const RayLayout& layout;
+    double cell_rad2 = 0.0;                 ///< of a ray: step across times step along
+    std::vector<float> points_per_m2 = {};  ///< [triangles]
+    SurfaceSums sums = {};
+
+    /// Adds what a ray has met. `density` is solid_angle_density() of its direction.
+    void add(const Eigen::Vector3f& direction, double density, int beam, std::uint32_t triangle) {
+        const View& view = looking.view;
+        const Facet& facet = looking.caster.facet(triangle);
+        const Eigen::Vector3d normal = facet.normal.cast<double>();
+        const double facing = normal.dot(direction.cast<double>());
+        const double range =
+            normal.dot((facet.vertex - looking.pose.position).cast<double>()) / facing;
+        const double bin = std::floor((range - view.range_min_m) / view.bin_m());
+        if (!(bin >= 0.0 && bin < view.range_bins)) return;
+        const double cosine = std::fabs(facing);
+        const double rays_per_m2 = cosine / (range * range * density * cell_rad2);
+        const double area = 1.0 / (rays_per_m2 + points_per_m2[triangle]);
+        const std::size_t k = static_cast<std::size_t>(bin) * view.beams + beam;
+        sums.area[k] += area;
+        sums.echo[k] += area * cosine * looking.scene.materials[facet.material].reflection;
+        ++sums.hits;
+    }
+
+    float reach_m() const { return static_cast<float>(looking.view.range_max_m) * 1.01F; }
+};
+
+/// Where in its cell of a column ray i goes: shares of the column's width and of a step along it.
+struct Place {
+    double across;
+    double along;
+};
+
+Place place_of(const RayLayout& layout, std::uint32_t column, std::uint32_t i) {
+    if (layout.start == 0) {
+        // A lattice that stands askew to columns and rows: an edge that runs along either is met at
+        // every phase.
+        constexpr double golden = 0.6180339887498949;
+        constexpr double root_two = 0.4142135623730950;
+        const double across = golden * i;
+        const double along = root_two * column;
+        return {across - std::floor(across), along - std::floor(along)};
+    }
+    const PhiloxBlock draw = philox({i, column, layout.start, 0}, {0x72617973U, 0});
+    return {unit_float(draw.x0), unit_float(draw.x1)};
+}
+
+/// The directions of one column, in the sensor frame.
+void column_directions(const Cast& cast, const ViewColumn& column, std::uint32_t index,
+                       std::vector<Eigen::Vector3f>& directions) {
+    const double step = (column.along_max - column.along_min) / cast.layout.count;
+    const SinCosFloat middle = sincos_float(column.across);
+    for (std::uint32_t i = 0; i < directions.size(); ++i) {
+        const Place place = place_of(cast.layout, index, i);
+        const auto off = static_cast<float>((place.across - 0.5) * column.width);
+        const SinCosFloat along = sincos_float(column.along_min + (i + place.along) * step);
+        directions[i] = direction(cast.looking.view.shape, middle + sincos_small(off), along);
+    }
+}
+
+void cast_directions(Cast& cast) {
+    const ReferenceView& looking = cast.looking;
+    std::vector<Eigen::Vector3f> in_sensor(cast.layout.count);
+    std::vector<Eigen::Vector3f> directions(cast.layout.count);
+    std::vector<std::uint32_t> met(cast.layout.count);
+    std::uint32_t index = 0;
+    for (const ViewColumn& column : view_columns(looking.view, cast.layout.per_beam)) {
+        cast.cell_rad2 = column.width * (column.along_max - column.along_min) / cast.layout.count;
+        column_directions(cast, column, index++, in_sensor);
+        std::ranges::transform(in_sensor, directions.begin(), [&](const Eigen::Vector3f& d) {
+            return Eigen::Vector3f(looking.pose.rotation * d);
+        });
+        looking.caster.cast(looking.pose.position, directions, cast.reach_m(), met);
+        for (std::size_t i = 0; i < met.size(); ++i) {
+            if (met[i] == Caster::nothing) continue;
+            const double density = solid_angle_density(looking.view.shape, in_sensor[i]);
+            cast.add(directions[i], density, column.beam, met[i]);
+        }
+        cast.sums.rays += met.size();
+    }
+}
+
+/// Rays to points of the surface, collected to be cast together.
+struct PointRays {
+    std::vector<Eigen::Vector3f> directions = {};  ///< scene-local frame
+    std::vector<double> densities = {};
+    std::vector<int> beams = {};
+    std::vector<std::uint32_t> triangles = {};
+    std::vector<std::uint32_t> met = {};
+};
+
+/// Casts what was collected. A point is visible where the ray to it meets its own triangle.
+void cast_points(Cast& cast, PointRays& rays) {
+    rays.met.resize(rays.directions.size());
+    cast.looking.caster.cast(cast.looking.pose.position, rays.directions, cast.reach_m(), rays.met);
+    for (std::size_t i = 0; i < rays.met.size(); ++i) {
+        if (rays.met[i] != rays.triangles[i]) continue;
+        cast.add(rays.directions[i], rays.densities[i], rays.beams[i], rays.met[i]);
+    }
+    cast.sums.rays += rays.met.size();
+    rays = {};
+}
+
+void collect_points(const Cast& cast, const SurfaceShare& share, std::uint32_t count,
+                    PointRays& rays) {
+    const ReferenceView& looking = cast.looking;
+    const auto& corners = looking.scene.triangles[share.triangle];
+    const Eigen::Vector3d a = looking.scene.vertices[corners[0]].cast<double>();
+    const Eigen::Vector3d ab = looking.scene.vertices[corners[1]].cast<double>() - a;
+    const Eigen::Vector3d ac = looking.scene.vertices[corners[2]].cast<double>() - a;
+    const Eigen::Vector3d from_sonar = a - looking.pose.position.cast<double>();
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const Eigen::Vector2d at = point_of_triangle(share.triangle, i, cast.layout.start);
+        const Eigen::Vector3d point = from_sonar + at.x() * ab + at.y() * ac;
+        const Eigen::Vector3f direction = point.normalized().cast<float>();
+        const Eigen::Vector3f in_sensor = looking.pose.rotation.transpose() * direction;
+        const int beam = beam_of(looking.view, in_sensor);
+        if (beam < 0) continue;
+        rays.directions.push_back(direction);
+        rays.densities.push_back(solid_angle_density(looking.view.shape, in_sensor));
+        rays.beams.push_back(beam);
+        rays.triangles.push_back(share.triangle);
+    }
+}
+
+std::vector<std::uint32_t> counts_of(std::span<const SurfaceShare> shares, double points) {
+    double sum = 0.0;
+    for (const SurfaceShare& share : shares)
+        sum += share.share;
+    std::vector<std::uint32_t> counts;
+    counts.reserve(shares.size());
+    for (const SurfaceShare& share : shares)
+        counts.push_back(static_cast<std::uint32_t>(std::ceil(points * share.share / sum)));
+    return counts;
+}
+
+}  // namespace
+
+SurfaceSums cast_over_surface(const ReferenceView& looking, const RayLayout& layout) {
+    constexpr std::size_t together = 4096;
+    const std::size_t bins = static_cast<std::size_t>(looking.view.range_bins) * looking.view.beams;
+    const std::size_t rays = view_columns(looking.view, layout.per_beam).size() * layout.count;
+    const std::vector<std::uint32_t> counts =
+        counts_of(looking.shares, points_per_ray * static_cast<double>(rays));
+    Cast cast{looking, layout};
+    cast.sums.area.assign(bins, 0.0);
+    cast.sums.echo.assign(bins, 0.0);
+    cast.points_per_m2.assign(looking.scene.triangles.size(), 0.0F);
+    for (std::size_t s = 0; s < counts.size(); ++s) {
+        const SurfaceShare& share = looking.shares[s];
+        cast.points_per_m2[share.triangle] = static_cast<float>(counts[s]) / share.area_m2;
+    }
+    cast_directions(cast);
+    PointRays points;
+    for (std::size_t s = 0; s < counts.size(); ++s) {
+        collect_points(cast, looking.shares[s], counts[s], points);
+        if (points.directions.size() >= together) cast_points(cast, points);
+    }
+    cast_points(cast, points);
+    return std::move(cast.sums);
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,108 @@
+#include "visibility/slices/range_profile.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sonarsim {
+
+namespace {
+
+/// A point of a plane of the scene, seen in the direction (1, u, w).
+struct PlanePoint {
+    float q;
+    float range_m;
+};
+
+PlanePoint plane_point(const SeenFacet& seen, const Extent& range_m, float u, float w) {
+    const float secant = std::sqrt(1.0F + u * u + w * w);
+    const float q = -(seen.normal.x() + seen.normal.y() * u + seen.normal.z() * w) / seen.height_m;
+    const float nearest_q = secant / range_m.to;
+    const float farthest_q = secant / range_m.from;
+    const float clamped = std::clamp(q, nearest_q, std::max(farthest_q, nearest_q));
+    return {clamped, secant / clamped};
+}
+
+}  // namespace
+
+RangeProfile::RangeProfile(const View& view)
+    : min_bins_(static_cast<float>(view.range_min_m / view.bin_m())),
+      per_m_(static_cast<float>(1.0 / view.bin_m())),
+      bins_(view.range_bins),
+      per_range_(view.range_bins),
+      weight_(view.range_bins, 0.0F),
+      echo_(view.range_bins, 0.0F) {
+    for (int i = 0; i < bins_; ++i)
+        per_range_[i] = per_m_ / (min_bins_ + static_cast<float>(i) + 0.5F);
+}
+
+void RangeProfile::clear() {
+    std::fill(weight_.begin() + first_, weight_.begin() + last_, 0.0F);
+    std::fill(echo_.begin() + first_, echo_.begin() + last_, 0.0F);
+    first_ = last_ = 0;
+    sum_ = 0.0F;
+}
+
+void RangeProfile::set(const FrameScan& scan, std::span<const Material> materials,
+                       std::span<const VisibleSpan> spans, const MovedEnds& ends) {
+    clear();
+    for (std::size_t i = 0; i < spans.size(); ++i) {
+        const VisibleSpan& span = spans[i];
+        const float low = ends.ends[2 * i].w;
+        const float high = ends.ends[2 * i + 1].w;
+        if (!(low < high) || ends.u < span.reach.u.from || ends.u > span.reach.u.to) continue;
+        const SeenFacet& seen = scan.scene().facets[span.seen];
+        const auto point = [&](float w) {
+            const float u = scan.frame().meridians ? ends.u : ends.u * std::sqrt(1.0F + w * w);
+            return plane_point(seen, span.reach.range_m, u, w);
+        };
+        const PlanePoint a = point(low);
+        const PlanePoint b = point(high);
+        const float middle = point(0.5F * (low + high)).range_m;
+        // dA = X^3 du dw / h, and 1 / X = q is linear in w.
+        const float weight =
+            (high - low) * (a.q + b.q) / (2.0F * a.q * a.q * b.q * b.q * seen.height_m);
+        add(std::min({a.range_m, b.range_m, middle}), std::max(a.range_m, b.range_m), weight,
+            seen.height_m, materials[scan.mesh().facets[seen.facet].material].reflection);
+    }
+    finish();
+}
+
+/// Adds a surface that spans a part of the range evenly.
+void RangeProfile::add(float from_m, float to_m, float weight, float height_m, float reflection) {
+    constexpr float least_bins = 1e-3F;
+    const float low = from_m * per_m_ - min_bins_;
+    const float high = std::max(to_m * per_m_ - min_bins_, low + least_bins);
+    const float density = weight / (high - low);
+    const float from = std::max(low, 0.0F);
+    const float to = std::min(high, static_cast<float>(bins_));
+    if (!(from < to)) return;
+    const int first = static_cast<int>(from);
+    const int last = std::min(static_cast<int>(std::ceil(to)), bins_);
+    first_ = last_ == 0 ? first : std::min(first_, first);
+    last_ = std::max(last_, last);
+    for (int i = first; i < last; ++i) {
+        const float share =
+            std::min(to, static_cast<float>(i + 1)) - std::max(from, static_cast<float>(i));
+        const float w = density * share;
+        weight_[i] += w;
+        echo_[i] += w * reflection * std::min(height_m * per_range_[i], 1.0F);
+    }
+}
+
+void RangeProfile::finish() {
+    for (int i = first_; i < last_; ++i) {
+        echo_[i] = weight_[i] > 0.0F ? echo_[i] / weight_[i] : 0.0F;
+        sum_ += echo_[i];
+    }
+}
+
+float RangeProfile::difference(const RangeProfile& a, const RangeProfile& b) {
+    float sum = 0.0F;
+    const int first = std::min(a.first_, b.first_);
+    const int last = std::max(a.last_, b.last_);
+    for (int i = first; i < last; ++i)
+        sum += std::fabs(a.echo_[i] - b.echo_[i]);
+    return sum;
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "scene/scene.h"
+#include "visibility/slices/frame_scan.h"
+#include "visibility/slices/moved_ends.h"
+#include "visibility/view.h"
+
+namespace sonarsim {
+
+/// The noise-free echo of one vertical of the picture plane, bin by bin: the column of the image
+/// that a beam would have in which everything were as it is there.
+class RangeProfile {
+  public:
+    explicit RangeProfile(const View& view);
+
+    /// Replaces the profile by that of a slice's spans, moved to the vertical at ends.u.
+    void set(const FrameScan& scan, std::span<const Material> materials,
+             std::span<const VisibleSpan> spans, const MovedEnds& ends);
+
+    /// The sum of the bins' intensities.
+    float sum() const { return sum_; }
+
+    /// The sum over the bins of how far two profiles differ.
+    static float difference(const RangeProfile& a, const RangeProfile& b);
+
+  private:
+    void clear();
+    void add(float from, float to, float weight, float height_m, float reflection);
+    void finish();
+
+    float min_bins_;  ///< the least range, in bins
+    float per_m_;     ///< bins
+    int bins_;
+    int first_ = 0;  ///< the bins that are not empty lie in [first_, last_)
+    int last_ = 0;
+    float sum_ = 0.0F;
+    std::vector<float> per_range_;  ///< 1 / range of each bin, 1/m
+    std::vector<float> weight_;
+    std::vector<float> echo_;  ///< in the end the intensity
+};
+
+}  // namespace sonarsim
