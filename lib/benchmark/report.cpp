@@ -137,7 +137,7 @@ void measure_errors(const PingSet& pings, const Trial& trial,
     });
     const double goal = trial.sonar.settings.view.relative_l1;
     row.warned = !engine->warnings().empty() ||
-                 std::ranges::any_of(estimated_l1, [&](double l1) { return l1 > goal; });
+                 std::ranges::any_of(estimated_l1, [&](double error) { return error > goal; });
     row.relative_l1 = spread_of(l1);
     row.relative_l2 = spread_of(l2);
     row.miss_rate = spread_of(miss);

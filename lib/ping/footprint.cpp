@@ -18,8 +18,8 @@ float squared(float x, float y, float z) {
 }
 
 void load(std::span<const Sample> samples, std::span<const Material> materials, Footprints& f) {
-    constexpr std::size_t lanes = 8;
-    const std::size_t count = (samples.size() + lanes - 1) / lanes * lanes;
+    constexpr std::size_t whole = 8;
+    const std::size_t count = (samples.size() + whole - 1) / whole * whole;
     f.count = static_cast<int>(count);
     for (std::size_t k = 0; k < count; ++k) {
         const Sample& sample = samples[std::min(k, samples.size() - 1)];
