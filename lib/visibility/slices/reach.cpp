@@ -13,7 +13,7 @@ namespace {
 // no farther than this.
 constexpr float neighbour_share = 0.002F;
 
-constexpr float unbounded = std::numeric_limits<float>::infinity();
+constexpr float without_end = std::numeric_limits<float>::infinity();
 constexpr Reach unknown{{0.0F, 0.0F}, {-1.0F, -1.0F}};
 
 Eigen::Vector3f place(const Corner& c) {
@@ -35,7 +35,7 @@ Extent range_of(const Corners& corners, float height_m) {
 /// The u of corner k where no other lies farther in the direction of `sign`; else infinite.
 float outermost(const FrontPart& part, int k, float sign) {
     for (int i = 0; i < part.count; ++i) {
-        if (sign * part.corners[i].u > sign * part.corners[k].u) return sign * unbounded;
+        if (sign * part.corners[i].u > sign * part.corners[k].u) return sign * without_end;
     }
     return part.corners[k].u;
 }
@@ -69,7 +69,7 @@ Extent Reaches::u_of(const Corners& corners, std::uint32_t facet) const {
     std::array<bool, 4> on{};
     for (int k = 0; k < part.count; ++k)
         on[k] = part.sides[k] == FrontPart::cut || goes_on(corners, part.sides[k], facet);
-    Extent ends{-unbounded, unbounded};
+    Extent ends{-without_end, without_end};
     for (int k = 0; k < part.count; ++k) {
         if (on[k] && on[(k + part.count - 1) % part.count]) continue;
         ends.from = std::max(ends.from, outermost(part, k, -1.0F));
