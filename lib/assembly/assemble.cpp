@@ -66,6 +66,12 @@ Assembly assemble(const Mission& mission) {
     }
     assembly.scene = load_scene(mission.scene.file, mission.scene.materials,
                                 {mission.water.density_kg_m3, mission.water.sound_speed_m_s});
+    if (!mission.output.labels.empty() || !mission.classes.empty()) {
+        std::vector<ClassRule> rules;
+        for (const ClassConfig& rule : mission.classes)
+            rules.push_back({rule.nodes, rule.name, rule.instance, rule.place.location});
+        assembly.objects = group_objects(assembly.scene, rules);
+    }
     const std::string refusal = refusal_of(settings, assembly.scene);
     if (!refusal.empty()) throw InputError(refusal);
     assembly.inputs = inputs_of(mission);
@@ -85,6 +91,10 @@ std::string inputs_hash(const Assembly& assembly) {
     }
     for (const std::string& instance : scene.instances)
         text += "\n" + instance;
+    for (std::size_t i = 0; i < scene.instance_classes.size(); ++i) {
+        if (scene.instance_classes[i].empty()) continue;
+        text += "\nclass " + std::to_string(i) + " " + scene.instance_classes[i];
+    }
     return fnv1a_128(text + "\n" + write_tum(assembly.trajectory));
 }
 

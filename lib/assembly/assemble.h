@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mission/mission.h"
+#include "scene/objects.h"
 #include "scene/scene.h"
 #include "sonar/sonar.h"
 #include "trajectory/trajectory.h"
@@ -20,6 +21,7 @@ struct InputFile {
 /// All that a mission names, read, checked and ready to render.
 struct Assembly {
     Scene scene;
+    SceneObjects objects;  ///< what labels tell apart in the scene
     Trajectory trajectory;
     std::vector<Sonar> sonars;      ///< in the order of Mission::sensors
     std::vector<InputFile> inputs;  ///< scene, materials and, where it is a file, trajectory

@@ -19,6 +19,7 @@
 #include "dataset/finite_image.h"
 #include "dataset/folder.h"
 #include "dataset/journal.h"
+#include "dataset/label_description.h"
 #include "dataset/metadata.h"
 #include "dataset/resume.h"
 #include "sonar/engine_settings.h"
@@ -111,7 +112,14 @@ void write_ping(const Mission& mission, const Assembly& assembly, const Visibili
     const auto metadata = measured(
         {assembly.sonars[id.sensor], assembly.trajectory[id.pose].T_world_vehicle, id.pose, ping},
         engine);
-    const FinishedPing finished{id, traced, ping, metadata, report.clipped_pixels};
+    PingLabels labels;
+    const bool labelled = !mission.output.labels.empty();
+    if (labelled) {
+        labels = label_ping(traced, assembly.sonars[id.sensor].settings, assembly.scene,
+                            assembly.objects, engine, label_request(mission.output.labels));
+    }
+    const FinishedPing finished{
+        id, traced, ping, metadata, report.clipped_pixels, labelled ? &labels : nullptr};
     const Writers& writers = to.writers[id.sensor];
     std::vector<std::string> encoded;
     for (const auto& writer : writers)

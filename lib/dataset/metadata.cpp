@@ -1,6 +1,7 @@
 #include "dataset/metadata.h"
 
 #include "core/build_info.h"
+#include "dataset/label_description.h"
 #include "dataset/ping_metadata.h"
 #include "dataset/png.h"
 #include "mission/resolved.h"
@@ -60,7 +61,9 @@ Json describe_sensor(const Sonar& sonar, const Mission& mission, const Layout& l
                                         std::to_string(layout.digits) + "d" + file->extension;
         }
         if (const auto* record = std::get_if<PingRecord>(&part)) {
-            json["records"] = {{"file", config.name + "/" + record->file}, {"axes", record->axes}};
+            Json& place =
+                record->label.empty() ? json["records"] : json["label_records"][record->label];
+            place = {{"file", config.name + "/" + record->file}, {"axes", record->axes}};
         }
     }
     for (const std::string& name : own.products)
@@ -88,6 +91,7 @@ Json describe_dataset(const Mission& mission, const Assembly& assembly, const La
                  {"seed", mission.seed},
                  {"poses", assembly.trajectory.size()}};
     json["scene"] = describe_scene_use(assembly.scene);
+    if (!mission.output.labels.empty()) json["labels"] = describe_label_ids(assembly);
     Json sensors = Json::array();
     for (std::size_t i = 0; i < assembly.sonars.size(); ++i) {
         sensors.push_back(

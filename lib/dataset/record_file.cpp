@@ -41,7 +41,7 @@ std::string hash_of_record(std::string_view bytes) {
 
 RecordFile::RecordFile(const std::filesystem::path& path, const NpyFormat& format,
                        std::size_t records, RecordAccess access)
-    : path_(path), records_(records), record_bytes_(format.type == "<f8" ? 8 : 4) {
+    : path_(path), records_(records), record_bytes_(format.type.back() - '0') {
     for (const std::size_t length : format.shape)
         record_bytes_ *= length;
     record_bytes_ /= std::max<std::size_t>(records, 1);

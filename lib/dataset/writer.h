@@ -11,6 +11,7 @@
 #include "dataset/npy.h"
 #include "dataset/record_file.h"
 #include "mission/mission.h"
+#include "ping/labels.h"
 #include "ping/pipeline.h"
 #include "sonar/kinds.h"
 
@@ -43,6 +44,7 @@ struct FinishedPing {
     const Ping& ping;
     const nlohmann::ordered_json& measured;  ///< what its metadata say; null for none
     std::uint64_t clipped_pixels;            ///< intensities above full_scale
+    const PingLabels* labels = nullptr;      ///< what output.labels asks for; null: nothing
 };
 
 /// A file per ping: NAME/000000EXTENSION in the folder of the sensor.
@@ -56,6 +58,7 @@ struct PingRecord {  // NOLINT(bugprone-exception-escape): moving JSON throws no
     std::string file;
     NpyFormat format;
     nlohmann::ordered_json axes;  ///< what the indices count, for dataset.json
+    std::string label = {};       ///< that the records hold; "": echoes
 };
 
 /// A file that is made of the records of all pings.

@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "dataset/writers/formats.h"
+#include "dataset/writers/labels.h"
 
 namespace sonarsim {
 
@@ -41,6 +42,8 @@ std::vector<Writers> make_writers(const Mission& mission, const Assembly& assemb
             if (auto writer = make({mission, assembly, i, pings[i]}))
                 all[i].push_back(std::move(writer));
         }
+        for (auto& writer : make_label_writers({mission, assembly, i, pings[i]}))
+            all[i].push_back(std::move(writer));
         if (!all[i].empty()) continue;
         throw InputError("mission '" + mission.name + "' writes nothing of sensor '" +
                          mission.sensors[i].name +

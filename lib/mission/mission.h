@@ -8,6 +8,8 @@
 #include <variant>
 #include <vector>
 
+#include "core/error.h"
+
 namespace sonarsim {
 
 // Every default of a mission stands here. Names carry the unit and are the YAML keys, too.
@@ -164,6 +166,40 @@ struct OctreeConfig {
     bool operator==(const OctreeConfig&) const = default;
 };
 
+/// Where a piece of a mission stands, for messages. What two missions say is equal wherever it
+/// stands.
+struct Place {
+    Location location;
+
+    bool operator==(const Place&) const { return true; }
+};
+
+/// The class of the nodes whose names fit a pattern.
+struct ClassConfig {
+    std::string nodes;     ///< `*` stands for any text, `?` for any one byte
+    std::string name;      ///< of the class
+    std::string instance;  ///< of which all these nodes are parts; "": each is one of its own
+    Place place;
+
+    bool operator==(const ClassConfig&) const = default;
+};
+
+/// What may be told of the bins of a ping besides its image.
+enum class Label {
+    instance,
+    share,
+    second,
+    class_name,
+    material,
+    elevation,
+    shadow,
+    multipath,
+    clean,
+    direct_only,
+    multipath_only,
+    objects,
+};
+
 struct OutputConfig {
     std::filesystem::path folder;
     bool polar = true;        ///< float32 .npy
@@ -173,6 +209,7 @@ struct OutputConfig {
     bool stages = false;      ///< 8-bit PNG of five fans, one term of the model after the other
     int fan_width_px = 0;     ///< 0: one pixel per range bin, at most 1024
     double full_scale = 1.0;  ///< intensity that becomes white
+    std::vector<Label> labels = {};  ///< each at most once, in the order of the enumeration
 
     // What is made of all pings of a sonar together.
     bool waterfall = true;           ///< of side-scan
@@ -195,6 +232,7 @@ struct Mission {
     EngineKind engine = EngineKind::automatic;
     OctreeConfig octree;
     SlicesConfig slices;
+    std::vector<ClassConfig> classes;  ///< in the order of the file: the first that fits counts
     OutputConfig output;
 
     bool operator==(const Mission&) const = default;

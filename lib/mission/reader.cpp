@@ -184,6 +184,22 @@ void MissionReader::read_list(const YamlNode& node, const char* key, double* val
         values[i] = read_number(node.items[i], key, limits);
 }
 
+std::vector<bool> MissionReader::read_subset(const YamlNode& node, const char* key,
+                                             const std::vector<std::string>& names) {
+    const bool all = is_plain(node) && node.text == "true";
+    std::vector<bool> chosen(names.size(), all);
+    if (all || (is_plain(node) && node.text == "false")) return chosen;
+    if (node.kind != YamlNode::Kind::list) {
+        refuse_type(node, key, "true, false or a list of: " + listed(names));
+    }
+    for (const YamlNode& item : node.items) {
+        const std::size_t index = index_of(item, key, names);
+        if (chosen[index]) refuse(item, in_quotes(item.text) + " stands twice in '" + key + "'");
+        chosen[index] = true;
+    }
+    return chosen;
+}
+
 std::size_t MissionReader::index_of(const YamlNode& node, const char* key,
                                     const std::vector<std::string>& names) {
     if (node.kind != YamlNode::Kind::scalar) refuse_type(node, key, "one of: " + listed(names));
@@ -213,8 +229,11 @@ std::size_t MissionReader::index_of_present(const std::vector<std::string>& keys
     return static_cast<std::size_t>(std::ranges::find(keys, present[0]) - keys.begin());
 }
 
-const std::vector<YamlNode>& MissionReader::list_items(const char* key, std::size_t fewest) {
-    const YamlNode& node = *find(key, Presence::required);
+std::span<const YamlNode> MissionReader::list_items(const char* key, std::size_t fewest) {
+    const Presence presence = fewest > 0 ? Presence::required : Presence::optional;
+    const YamlNode* const present = find(key, presence);
+    if (present == nullptr) return {};
+    const YamlNode& node = *present;
     if (node.kind != YamlNode::Kind::list) refuse_type(node, key, "a list");
     if (node.items.size() < fewest) {
         refuse(node, "'" + std::string(key) + "' must have at least " + std::to_string(fewest) +

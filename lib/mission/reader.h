@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <initializer_list>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -54,6 +55,26 @@ class MissionReader {
         }
     }
 
+    /// `true` for all of the choices, `false` for none, or a list of some of them.
+    template <class T, std::size_t N>
+    void subset(const char* key, std::vector<T>& values, const std::array<Choice<T>, N>& choices,
+                const char* /*meaning*/) {
+        const YamlNode* node = find(key, Presence::optional);
+        if (node == nullptr) return;
+        std::vector<std::string> names;
+        names.reserve(N);
+        for (const Choice<T>& one : choices)
+            names.emplace_back(one.name);
+        const std::vector<bool> chosen = read_subset(*node, key, names);
+        values.clear();
+        for (std::size_t i = 0; i < N; ++i) {
+            if (chosen[i]) values.push_back(choices[i].value);
+        }
+    }
+
+    /// Where the section stands.
+    void place(Place& value) const { value.location = node_.place.location(); }
+
     /// Reads the kind of a sonar and fills in its defaults, all but the name.
     const SonarKeys& sonar_kind(const char* key, SonarConfig& value, const char* meaning);
 
@@ -63,7 +84,7 @@ class MissionReader {
         if (const YamlNode* node = find(key, presence)) read(*node, key, value);
     }
 
-    /// A list of sections, at least `fewest` of them.
+    /// A list of sections, at least `fewest` of them; where that is 0 it may be left out.
     template <class T>
     void list(const char* key, std::vector<T>& values, std::size_t fewest,
               const char* /*meaning*/) {
@@ -110,10 +131,12 @@ class MissionReader {
     const YamlNode* find(const char* key, Presence presence);
     void read_list(const YamlNode& node, const char* key, double* values, std::size_t count,
                    const Limits& limits) const;
+    static std::vector<bool> read_subset(const YamlNode& node, const char* key,
+                                         const std::vector<std::string>& names);
     static std::size_t index_of(const YamlNode& node, const char* key,
                                 const std::vector<std::string>& names);
     std::size_t index_of_present(const std::vector<std::string>& keys) const;
-    const std::vector<YamlNode>& list_items(const char* key, std::size_t fewest);
+    std::span<const YamlNode> list_items(const char* key, std::size_t fewest);
     const std::vector<YamlNode>& named_items(const char* key);
 
     const YamlNode& node_;

@@ -86,6 +86,17 @@ class KeyCollector {
         add(key, "choice", chosen, meaning, presence).choices = std::move(names);
     }
 
+    template <class T, std::size_t N>
+    void subset(const char* key, const std::vector<T>&, const std::array<Choice<T>, N>& choices,
+                const char* meaning) {
+        std::vector<std::string> names;
+        for (const Choice<T>& one : choices)
+            names.emplace_back(one.name);
+        add(key, "true, false or a list", "false", meaning).choices = std::move(names);
+    }
+
+    void place(const Place&) const {}
+
     const SonarKeys& sonar_kind(const char* key, const SonarConfig& value, const char* meaning) {
         std::vector<std::string> names;
         for (const SonarKeys& one : sonars_)
@@ -113,7 +124,11 @@ class KeyCollector {
     template <class T>
     void list(const char* key, std::vector<T>&, std::size_t fewest, const char* meaning) {
         const std::string type = "list of " + std::to_string(fewest) + " or more";
-        add(key, type, "", meaning, required);
+        if (fewest > 0) {
+            add(key, type, "", meaning, required);
+        } else {
+            add(key, "list of sections", "[]", meaning);
+        }
         T item;
         enter(path_below(key) + ".0", item);
     }

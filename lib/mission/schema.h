@@ -28,6 +28,19 @@ inline constexpr std::array engine_kinds{Choice<EngineKind>{"auto", EngineKind::
                                          Choice<EngineKind>{"octree", EngineKind::octree},
                                          Choice<EngineKind>{"slices", EngineKind::slices}};
 
+inline constexpr std::array label_names{Choice<Label>{"instance", Label::instance},
+                                        Choice<Label>{"share", Label::share},
+                                        Choice<Label>{"second", Label::second},
+                                        Choice<Label>{"class", Label::class_name},
+                                        Choice<Label>{"material", Label::material},
+                                        Choice<Label>{"elevation", Label::elevation},
+                                        Choice<Label>{"shadow", Label::shadow},
+                                        Choice<Label>{"multipath", Label::multipath},
+                                        Choice<Label>{"clean", Label::clean},
+                                        Choice<Label>{"direct_only", Label::direct_only},
+                                        Choice<Label>{"multipath_only", Label::multipath_only},
+                                        Choice<Label>{"objects", Label::objects}};
+
 /// Fit for the name of a folder that holds nothing but one mission.
 inline bool is_folder_name(std::string_view name) {
     return !name.empty() && name != "." && name != ".." && name.size() <= 200 &&
@@ -216,6 +229,18 @@ void describe(Visitor& v, SlicesConfig& c) {
 }
 
 template <class Visitor>
+void describe(Visitor& v, ClassConfig& c) {
+    v.place(c.place);
+    v.text("nodes", c.nodes,
+           "names of nodes of the scene; `*` stands for any text and `?` for any one byte");
+    v.text("class", c.name, "their class");
+    v.text("instance", c.instance,
+           "the one instance that all of them are parts of; each is one of its own where left out");
+    v.require(!c.nodes.empty() && !c.name.empty(), {},
+              "a rule for classes needs the keys 'nodes' and 'class'");
+}
+
+template <class Visitor>
 void describe(Visitor& v, OutputConfig& c) {
     v.path("folder", c.folder,
            "folder of the dataset; out/NAME in the current directory where left out");
@@ -229,6 +254,8 @@ void describe(Visitor& v, OutputConfig& c) {
     v.integer("fan_width_px", c.fan_width_px, between(0, 8192),
               "width of the fan; 0 means one pixel per range bin, at most 1024");
     v.number("full_scale", c.full_scale, above(0), "intensity that becomes white");
+    v.subset("labels", c.labels, label_names,
+             "write what is in every bin: `true` for all, or a list of them");
     v.flag("waterfall", c.waterfall, "write the waterfalls of side-scan sonars");
     v.flag("echogram", c.echogram, "write the echograms of echosounders");
     v.flag("soundings", c.soundings,
@@ -255,6 +282,9 @@ void describe(Visitor& v, Mission& c) {
              "degrees of elevation or opening; the slices estimate the error of every ping");
     v.section("octree", c.octree, "settings of the octree");
     v.section("slices", c.slices, "settings of the slices");
+    v.list("classes", c.classes, 0,
+           "which nodes of the scene are a class of things, for labels; the first rule that fits a "
+           "node counts");
     v.section("output", c.output, "what is written, and where");
 }
 

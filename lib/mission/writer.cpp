@@ -36,7 +36,7 @@ void MissionWriter::flag(const char* key, bool value, const char* /*meaning*/) {
 }
 
 void MissionWriter::text(const char* key, std::string_view value, const char* /*meaning*/) {
-    line(key, scalar_text(value));
+    if (!value.empty()) line(key, scalar_text(value));
 }
 
 void MissionWriter::path(const char* key, const std::filesystem::path& value,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <filesystem>
@@ -45,6 +46,19 @@ class MissionWriter {
         }
     }
 
+    template <class T, std::size_t N>
+    void subset(const char* key, const std::vector<T>& values,
+                const std::array<Choice<T>, N>& choices, const char* /*meaning*/) {
+        std::string list;
+        for (const Choice<T>& one : choices) {
+            if (std::ranges::find(values, one.value) == values.end()) continue;
+            list += (list.empty() ? "[" : ", ") + std::string(one.name);
+        }
+        line(key, list.empty() ? "false" : list + "]");
+    }
+
+    void place(const Place&) const {}
+
     const SonarKeys& sonar_kind(const char* key, const SonarConfig& value, const char* meaning);
 
     template <class T>
@@ -58,7 +72,7 @@ class MissionWriter {
 
     template <class T>
     void list(const char* key, std::vector<T>& values, std::size_t, const char* /*meaning*/) {
-        line(key, "");
+        line(key, values.empty() ? "[]" : "");
         indent_ += 4;
         for (T& value : values) {
             item_ = true;

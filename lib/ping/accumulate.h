@@ -15,6 +15,13 @@ struct RangeBins {
     int count = 0;
 };
 
+/// The range bins of a view.
+inline RangeBins range_bins(const View& view) {
+    return {.min_m = static_cast<float>(view.range_min_m),
+            .bin_m = static_cast<float>(view.bin_m()),
+            .count = view.range_bins};
+}
+
 /// What the boxes that begin in bin i add to it and to bin i + 1. In one place, so that a box costs
 /// one addition of four floats; additions to overlapping places would wait for each other.
 struct alignas(16) BinSum {

@@ -91,22 +91,6 @@ void cut_for_bins(float bin_m, Footprints& f) {
     }
 }
 
-/// How far the range of a piece reaches before and after that of its centre.
-struct Extent {
-    float before;
-    float after;
-};
-
-/// Along a half edge e of depth d the range is r + d s + c s^2, s in [-1, 1], with
-/// c = (e^2 - d^2) / (2 r): both ends lie farther than the depth says, and beside the foot of the
-/// perpendicular there is no near end.
-Extent extent_of(float squared_edge, float depth_m, float range_m) {
-    const float bend = std::max(squared_edge - depth_m * depth_m, 0.0F) / (2.0F * range_m);
-    const float before_foot = 0.25F * depth_m * depth_m / bend;
-    return {.before = depth_m >= 2.0F * bend ? depth_m - bend : before_foot,
-            .after = depth_m + bend};
-}
-
 void find_extents(Footprints& f) {
     const int count = f.count;
     for (int k = 0; k < count; ++k) {
@@ -114,8 +98,8 @@ void find_extents(Footprints& f) {
         const float v = 1.0F / f.v[k];
         const float edge_u = squared(f.edge_u[0][k] * u, f.edge_u[1][k] * u, f.edge_u[2][k] * u);
         const float edge_v = squared(f.edge_v[0][k] * v, f.edge_v[1][k] * v, f.edge_v[2][k] * v);
-        const Extent along_u = extent_of(edge_u, f.depth_u_m[k] * u, f.range_m[k]);
-        const Extent along_v = extent_of(edge_v, f.depth_v_m[k] * v, f.range_m[k]);
+        const RangeExtent along_u = extent_of(edge_u, f.depth_u_m[k] * u, f.range_m[k]);
+        const RangeExtent along_v = extent_of(edge_v, f.depth_v_m[k] * v, f.range_m[k]);
         const float before = along_u.before + along_v.before;
         const float after = along_u.after + along_v.after;
         f.half_m[k] = 0.5F * (after + before);

@@ -14,12 +14,6 @@ namespace {
 // As many floats as a cache line holds: images are written a line at a time.
 constexpr int beams_at_once = 16;
 
-RangeBins range_bins(const View& view) {
-    return {.min_m = static_cast<float>(view.range_min_m),
-            .bin_m = static_cast<float>(view.bin_m()),
-            .count = view.range_bins};
-}
-
 /// A ping without an image, with what was counted and timed while it was traced.
 Ping blank_ping(const TracedPing& traced, const View& view, const Terms& terms) {
     Ping ping;

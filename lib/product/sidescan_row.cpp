@@ -35,14 +35,7 @@ int waterfall_columns(const SonarConfig& config) {
 }
 
 std::vector<float> sidescan_row(const SonarConfig& config, const Ping& ping) {
-    const int blank = blank_columns(config);
-    std::vector<float> row(waterfall_columns(config));
-    const int nadir = static_cast<int>(row.size() / 2);  // the first column to starboard of it
-    for (int i = 0; i < ping.range_bins; ++i) {
-        row[nadir - 1 - blank - i] = ping.at(i, port);
-        row[nadir + blank + i] = ping.at(i, starboard);
-    }
-    return row;
+    return sidescan_row<float>(config, ping.intensity, 0.0F);
 }
 
 FirstReturns first_returns(const Sonar& sonar, const Ping& ping) {

@@ -18,6 +18,20 @@ int blank_columns(const SonarConfig& config);
 /// Columns of the whole row.
 int waterfall_columns(const SonarConfig& config);
 
+/// Values of a side-scan ping, [range bins, 2] as Ping::intensity, as a row of the waterfall;
+/// `blank` where the sonar does not listen.
+template <class T>
+std::vector<T> sidescan_row(const SonarConfig& config, const std::vector<T>& values, T blank) {
+    const int before = blank_columns(config);
+    std::vector<T> row(waterfall_columns(config), blank);
+    const int nadir = static_cast<int>(row.size() / 2);  // the first column to starboard of it
+    for (int i = 0; i < config.range_bins; ++i) {
+        row[nadir - 1 - before - i] = values[2 * i + 1];  // port
+        row[nadir + before + i] = values[2 * i];
+    }
+    return row;
+}
+
 /// A side-scan ping as a row of the waterfall.
 std::vector<float> sidescan_row(const SonarConfig& config, const Ping& ping);
 

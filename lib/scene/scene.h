@@ -37,11 +37,12 @@ struct SceneRejects {
 struct Scene {
     Eigen::Vector3d origin = Eigen::Vector3d::Zero();
     std::vector<Eigen::Vector3f> vertices;
-    std::vector<std::array<std::uint32_t, 3>> triangles;   ///< indices into `vertices`
-    std::vector<std::uint32_t> triangle_material;          ///< index into `materials`
-    std::vector<std::uint32_t> triangle_instance;          ///< index into `instances`
-    std::vector<Material> materials;                       ///< those that the scene uses
-    std::vector<std::string> instances;                    ///< node names
+    std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices into `vertices`
+    std::vector<std::uint32_t> triangle_material;         ///< index into `materials`
+    std::vector<std::uint32_t> triangle_instance;         ///< index into `instances`
+    std::vector<Material> materials;                      ///< those that the scene uses
+    std::vector<std::string> instances;                   ///< node names
+    std::vector<std::string> instance_classes;  ///< extras.sonar.class, by instance; "": none
     Eigen::Vector3d bounds_min = Eigen::Vector3d::Zero();  ///< world frame
     Eigen::Vector3d bounds_max = Eigen::Vector3d::Zero();
     /// Floats far from the origin of their own file or node are coarse: a vertex may lie this far

@@ -117,6 +117,7 @@ octree:
   literal: false
 slices:
   per_beam: 0
+classes: []
 output:
   folder: "/o"
   polar: true
@@ -126,6 +127,7 @@ output:
   stages: false
   fan_width_px: 0
   full_scale: 1
+  labels: false
   waterfall: true
   echogram: true
   soundings: true

@@ -69,6 +69,7 @@ Assembly small_assembly(const Mission& mission, int poses) {
     for (const SonarConfig& sensor : mission.sensors) {
         assembly.sonars.push_back(make_sonar(sensor, mission.accuracy));
     }
+    assembly.objects = group_objects(assembly.scene, {});
     return assembly;
 }
 

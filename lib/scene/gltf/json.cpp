@@ -132,14 +132,14 @@ struct Reducer {
         const Place at{&place, "sonar"};
         if (!sonar->is_object()) expected(at, "an object", *sonar);
         for (const auto& [key, unused] : sonar->items()) {
-            const std::array<std::string, 1> known{"material"};
-            if (key != known[0]) {
+            const std::array<std::string, 2> known{"material", "class"};
+            if (std::ranges::find(known, key) == known.end()) {
                 throw InputError(Location{file}, at.text() + ": unknown key '" + key + "'" +
                                                      did_you_mean(key, known) +
-                                                     "; only 'material' is read");
+                                                     "; only 'material' and 'class' are read");
             }
         }
-        constexpr std::array rules{Rule{"material", Kind::name}};
+        constexpr std::array rules{Rule{"material", Kind::name}, Rule{"class", Kind::name}};
         json to = json::object();
         to["sonar"] = object(*sonar, rules, at);
         return to;

@@ -156,6 +156,22 @@ std::string material_name(const tinygltf::Model& model, const Piece& piece, Name
                      "; name one in the glTF material or as extras.sonar.material of the node");
 }
 
+/// The class of a placed mesh that has none of its own: that of its materials, or "".
+void take_class_of_material(const tinygltf::Model& model, const Piece& piece,
+                            std::string& class_name) {
+    if (!piece.placed.label.empty() || piece.material < 0) return;
+    const auto index = static_cast<std::size_t>(piece.material);
+    if (index >= model.materials.size()) return;  // refused where the material is looked up
+    const std::string own = sonar_class(model.materials[index].extras);
+    if (own.empty() || own == class_name) return;
+    if (!class_name.empty()) {
+        throw InputError(piece.where + " of node '" + piece.placed.instance +
+                         "': its material has the class '" + own + "', another of the node's '" +
+                         class_name + "'; give the node a class as its extras.sonar.class");
+    }
+    class_name = own;
+}
+
 /// Fills a scene, vertex by vertex as triangles ask for them.
 struct SceneBuilder {
     Scene scene;
@@ -218,10 +234,13 @@ Scene read_scene(const std::filesystem::path& path, Nameless nameless) {
     const Extent extent = find_extent(model, placed, file);
     scene.origin = choose_origin(extent.box);
     scene.vertex_rounding_m = extent.vertex_rounding_m;
-    for (const PlacedMesh& mesh : placed)
+    for (const PlacedMesh& mesh : placed) {
         scene.instances.push_back(mesh.instance);
+        scene.instance_classes.push_back(mesh.label);
+    }
     scene.rejects.skipped_primitives = for_each_piece(model, placed, file, [&](const Piece& piece) {
         builder.add(piece, builder.material(material_name(model, piece, nameless)));
+        take_class_of_material(model, piece, scene.instance_classes[piece.instance]);
     });
 
     Eigen::AlignedBox3d box;

@@ -12,10 +12,11 @@ namespace sonarsim {
 /// Read is the file's default scene, else its first, else all root nodes. A triangle's material is
 /// `extras.sonar.material` of its node or the nearest ancestor that has one, else of its glTF
 /// material, else that material's name. Its instance is its node's name; a node without one is
-/// "node<index>", and a name that is taken gets "_2", "_3", ... Animated nodes and morph targets
-/// stay at rest. `origin` is the centre of the bounding box rounded to a multiple of g, the
-/// smallest power of ten that holds the scene's largest extent (at least 1 m), so that a scene
-/// moved by multiples of g keeps its local coordinates bit by bit.
+/// "node<index>", and a name that is taken gets "_2", "_3", ... Its class is `extras.sonar.class`
+/// of the node or the nearest ancestor that has one, else that of the glTF materials. Animated
+/// nodes and morph targets stay at rest. `origin` is the centre of the bounding box rounded to a
+/// multiple of g, the smallest power of ten that holds the scene's largest extent (at least 1 m),
+/// so that a scene moved by multiples of g keeps its local coordinates bit by bit.
 ///
 /// InputError for what is no valid glTF 2.0, for compressed or skinned meshes, unknown required
 /// extensions, buffers outside of the file's folder, primitives without material, and materials

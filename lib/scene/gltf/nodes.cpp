@@ -162,13 +162,22 @@ struct Names {
     }
 };
 
+/// The text extras.sonar.`key`, or "".
+std::string sonar_extra(const tinygltf::Value& extras, const char* key) {
+    if (!extras.IsObject() || !extras.Has("sonar")) return "";
+    const tinygltf::Value& sonar = extras.Get("sonar");
+    if (!sonar.IsObject() || !sonar.Has(key)) return "";
+    return sonar.Get(key).Get<std::string>();
+}
+
 }  // namespace
 
 std::string sonar_material(const tinygltf::Value& extras) {
-    if (!extras.IsObject() || !extras.Has("sonar")) return "";
-    const tinygltf::Value& sonar = extras.Get("sonar");
-    if (!sonar.IsObject() || !sonar.Has("material")) return "";
-    return sonar.Get("material").Get<std::string>();
+    return sonar_extra(extras, "material");
+}
+
+std::string sonar_class(const tinygltf::Value& extras) {
+    return sonar_extra(extras, "class");
 }
 
 std::vector<PlacedMesh> place_meshes(const tinygltf::Model& model, const std::string& file) {
@@ -181,18 +190,19 @@ std::vector<PlacedMesh> place_meshes(const tinygltf::Model& model, const std::st
         int depth;
         Eigen::Affine3d T_world_parent;
         std::string material;
+        std::string label;
     };
     Eigen::Affine3d T_world_gltf = Eigen::Affine3d::Identity();
     T_world_gltf.linear() << 1, 0, 0, 0, 0, -1, 0, 1, 0;
     std::vector<Visit> pending;
     const auto push = [&pending](const std::vector<int>& nodes, int depth, const auto& transform,
-                                 const std::string& material) {
+                                 const std::string& material, const std::string& label) {
         // In reverse, so that the stack yields them in their order.
         for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) {
-            pending.push_back({*node, depth, transform, material});
+            pending.push_back({*node, depth, transform, material, label});
         }
     };
-    push(scene_roots(graph, parent), 1, T_world_gltf, "");
+    push(scene_roots(graph, parent), 1, T_world_gltf, "", "");
 
     std::vector<PlacedMesh> placed;
     Names names;
@@ -207,12 +217,14 @@ std::vector<PlacedMesh> place_meshes(const tinygltf::Model& model, const std::st
             visit.T_world_parent * local_transform(graph, visit.node);
         const std::string own = sonar_material(node.extras);
         const std::string& material = own.empty() ? visit.material : own;
+        const std::string own_class = sonar_class(node.extras);
+        const std::string& label = own_class.empty() ? visit.label : own_class;
         if (node.mesh >= 0) {
             check_rigid(graph, visit.node);
             placed.push_back(
-                {node.mesh, T_world_node, names.unique(graph.name(visit.node)), material});
+                {node.mesh, T_world_node, names.unique(graph.name(visit.node)), material, label});
         }
-        push(node.children, visit.depth + 1, T_world_node, material);
+        push(node.children, visit.depth + 1, T_world_node, material, label);
     }
     return placed;
 }

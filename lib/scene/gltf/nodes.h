@@ -14,6 +14,7 @@ struct PlacedMesh {
     Eigen::Affine3d T_world_mesh;
     std::string instance;  ///< the node's name, unique
     std::string material;  ///< extras.sonar.material of the node or an ancestor; "": none
+    std::string label;     ///< extras.sonar.class likewise
 };
 
 /// The meshes of the default scene, else of the first, else of all root nodes, in the order of a
@@ -24,5 +25,8 @@ std::vector<PlacedMesh> place_meshes(const tinygltf::Model& model, const std::st
 
 /// extras.sonar.material, or "".
 std::string sonar_material(const tinygltf::Value& extras);
+
+/// extras.sonar.class, or "".
+std::string sonar_class(const tinygltf::Value& extras);
 
 }  // namespace sonarsim

@@ -53,7 +53,7 @@ TEST_SUITE("scene") {
               "x.glb: nodes[0].extras.sonar: expected an object, not string");
         CHECK(error_of([](json& d) { d["nodes"][0]["extras"]["sonar"]["materail"] = "steel"; }) ==
               "x.glb: nodes[0].extras.sonar: unknown key 'materail' (did you mean 'material'?); "
-              "only 'material' is read");
+              "only 'material' and 'class' are read");
         CHECK(error_of([](json& d) { d["materials"][0]["extras"]["sonar"]["material"] = 3; }) ==
               "x.glb: materials[0].extras.sonar.material: expected a text of at most 1000 bytes, "
               "not 3");

@@ -1,0 +1,69 @@
+#include "dataset/label_description.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+namespace sonarsim {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// By object, world frame.
+std::vector<Eigen::AlignedBox3d> object_boxes(const Assembly& assembly) {
+    const Scene& scene = assembly.scene;
+    std::vector<Eigen::AlignedBox3d> boxes(assembly.objects.objects.size());
+    for (std::size_t k = 0; k < scene.triangles.size(); ++k) {
+        Eigen::AlignedBox3d& box = boxes[assembly.objects.object_of(scene.triangle_instance[k])];
+        for (const std::uint32_t vertex : scene.triangles[k])
+            box.extend(scene.origin + scene.vertices[vertex].cast<double>());
+    }
+    return boxes;
+}
+
+Json vector_json(const Eigen::Vector3d& v) {
+    return {v.x(), v.y(), v.z()};
+}
+
+Json box_json(const Eigen::AlignedBox3d& box) {
+    if (box.isEmpty()) return nullptr;
+    return {{"min", vector_json(box.min())}, {"max", vector_json(box.max())}};
+}
+
+}  // namespace
+
+LabelRequest label_request(std::span<const Label> labels) {
+    const auto asked = [&](Label label) {
+        return std::ranges::find(labels, label) != labels.end();
+    };
+    return {.objects = asked(Label::instance) || asked(Label::share) || asked(Label::second) ||
+                       asked(Label::multipath) || asked(Label::objects),
+            .classes = asked(Label::class_name),
+            .materials = asked(Label::material),
+            .elevation = asked(Label::elevation),
+            .shadow = asked(Label::shadow)};
+}
+
+Json describe_label_ids(const Assembly& assembly) {
+    const SceneObjects& objects = assembly.objects;
+    const std::vector<Eigen::AlignedBox3d> boxes = object_boxes(assembly);
+    Json json = {{"none", 0}};
+    json["instances"] = Json::array();
+    for (std::size_t k = 0; k < objects.objects.size(); ++k) {
+        const SceneObjects::Object& object = objects.objects[k];
+        json["instances"].push_back({{"id", k + 1},
+                                     {"name", object.name},
+                                     {"class", object.class_index + 1},
+                                     {"box_world_m", box_json(boxes[k])}});
+    }
+    json["classes"] = Json::array();
+    for (std::size_t k = 0; k < objects.classes.size(); ++k)
+        json["classes"].push_back({{"id", k + 1}, {"name", objects.classes[k]}});
+    json["materials"] = Json::array();
+    for (std::size_t k = 0; k < assembly.scene.materials.size(); ++k) {
+        json["materials"].push_back({{"id", k + 1}, {"name", assembly.scene.materials[k].name}});
+    }
+    return json;
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "ping/accumulate.h"
+#include "scene/scene.h"
+#include "visibility/engine.h"
+
+namespace sonarsim {
+
+/// Finds the elevation of what a beam's bins show.
+class ElevationFinder {
+  public:
+    /// Both must outlive the finder.
+    ElevationFinder(std::span<const Material> materials, const RangeBins& bins)
+        : materials_(materials), bins_(bins) {}
+
+    /// The mean elevation of the echo of each bin and its standard deviation, rad, both NaN where
+    /// the samples give none. Means are of sin(theta), weighted with area times intensity.
+    void find(std::span<const Sample> samples, std::span<float> elevation_rad,
+              std::span<float> spread_rad);
+
+  private:
+    /// Moments of sin(theta) in a bin. Doubles, since a spread is a small difference of squares.
+    struct Moments {
+        double echo = 0.0, first = 0.0, second = 0.0;
+    };
+
+    void add(const Sample& sample);
+
+    std::span<const Material> materials_;
+    RangeBins bins_;
+    std::vector<Moments> moments_;
+};
+
+}  // namespace sonarsim

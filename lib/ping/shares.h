@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "ping/accumulate.h"
+
+namespace sonarsim {
+
+/// What the sources of a beam's echo (objects, say) add to each of its bins.
+struct BeamShares {
+    /// What one source adds to the bins [first, last).
+    struct Source {
+        std::uint32_t key;
+        int first, last;
+        std::size_t offset;  ///< of the bin `first` in `echo`
+    };
+    std::vector<Source> sources;  ///< several may have one key
+    std::vector<float> echo;      ///< area times intensity
+    std::vector<float> weight;    ///< area of all sources, by bin
+    std::vector<float> total;     ///< of all sources, by bin
+
+    void clear(int bins);
+    /// Adds the echoes [begin, end) of one source, spread over the bins as accumulate() does.
+    void add(std::uint32_t key, const Echoes& echoes, std::size_t begin, std::size_t end,
+             const RangeBins& bins);
+
+  private:
+    BinSums sums_;  ///< 0 between calls
+};
+
+/// The largest and the second largest share of each bin of a beam.
+struct Strongest {
+    std::vector<std::uint32_t> key;         ///< 1 + key of the source; 0: the bin has no echo
+    std::vector<float> echo;                ///< of that key
+    std::vector<std::uint32_t> second_key;  ///< likewise; 0: there is no other key
+    std::vector<float> second_echo;
+
+    void clear(int bins);
+};
+
+/// Finds in every bin the keys that give the most. `key_of` turns the key of a source into what is
+/// asked for, such as the class of an object; what shares a key is added up first. Of equal shares
+/// the lower key is taken.
+class StrongestFinder {
+  public:
+    template <class KeyOf>
+    void find(const BeamShares& shares, KeyOf key_of, Strongest& out) {
+        order_.clear();
+        for (std::uint32_t k = 0; k < shares.sources.size(); ++k)
+            order_.push_back({key_of(shares.sources[k].key), k});
+        find_ordered(shares, out);
+    }
+
+  private:
+    struct Entry {
+        std::uint32_t key, source;
+        auto operator<=>(const Entry&) const = default;  // NOLINT(modernize-use-nullptr)
+    };
+
+    void find_ordered(const BeamShares& shares, Strongest& out);
+
+    std::vector<Entry> order_;
+    std::vector<float> sum_;  ///< of the sources with one key
+};
+
+}  // namespace sonarsim

@@ -1,0 +1,104 @@
+#include "product/object_table.h"
+
+#include <algorithm>
+
+namespace sonarsim {
+
+namespace {
+
+/// A running sum over the bins of an object.
+struct BinTotals {
+    double level = 0.0;
+    double range_m = 0.0;
+    double azimuth_rad = 0.0;
+};
+
+std::uint16_t object_at(const PingLabels& labels, int range_bin, int beam) {
+    return labels.object[static_cast<std::size_t>(beam) * labels.range_bins + range_bin];
+}
+
+void add_bin(SeenObject& seen, int i, int j) {
+    if (seen.bins == 0) {
+        seen.range_first = seen.range_last = i;
+        seen.beam_first = seen.beam_last = j;
+    }
+    seen.range_first = std::min(seen.range_first, i);
+    seen.range_last = std::max(seen.range_last, i);
+    seen.beam_first = std::min(seen.beam_first, j);
+    seen.beam_last = std::max(seen.beam_last, j);
+    ++seen.bins;
+}
+
+/// The mean level around an object; nothing where all bins there are its own.
+std::optional<double> level_around(const SeenObject& seen, const PingLabels& labels,
+                                   const Ping& ping) {
+    const auto margin_of = [](int first, int last) { return std::max(2, (last - first + 1) / 2); };
+    const int rows = margin_of(seen.range_first, seen.range_last);
+    const int columns = margin_of(seen.beam_first, seen.beam_last);
+    double sum = 0.0;
+    std::uint64_t bins = 0;
+    const int last_row = std::min(seen.range_last + rows, labels.range_bins - 1);
+    const int last_column = std::min(seen.beam_last + columns, labels.beams - 1);
+    for (int j = std::max(seen.beam_first - columns, 0); j <= last_column; ++j) {
+        for (int i = std::max(seen.range_first - rows, 0); i <= last_row; ++i) {
+            if (object_at(labels, i, j) == seen.id) continue;
+            sum += ping.at(i, j);
+            ++bins;
+        }
+    }
+    if (bins == 0) return std::nullopt;
+    return sum / static_cast<double>(bins);
+}
+
+/// Around the footprints of what is seen of each object.
+std::vector<Eigen::AlignedBox3f> seen_boxes(const SceneObjects& objects, const TracedPing& traced) {
+    std::vector<Eigen::AlignedBox3f> boxes(objects.objects.size());
+    for (const Sample& sample : traced.samples.items) {
+        const Eigen::Vector3f reach = sample.edge_u.cwiseAbs() + sample.edge_v.cwiseAbs();
+        Eigen::AlignedBox3f& box = boxes[objects.object_of(sample.instance)];
+        box.extend(sample.position - reach);
+        box.extend(sample.position + reach);
+    }
+    return boxes;
+}
+
+}  // namespace
+
+std::vector<SeenObject> seen_objects(const Sonar& sonar, const SceneObjects& objects,
+                                     const TracedPing& traced, const PingLabels& labels,
+                                     const Ping& ping) {
+    std::vector<SeenObject> all(objects.objects.size());
+    std::vector<BinTotals> totals(all.size());
+    const bool fan = std::ssize(sonar.azimuth_edges_rad) == labels.beams + 1;
+    const auto middle = [](const std::vector<double>& edges, int k) {
+        return 0.5 * (edges[k] + edges[k + 1]);
+    };
+    for (int j = 0; j < labels.beams; ++j) {
+        for (int i = 0; i < labels.range_bins; ++i) {
+            const std::uint16_t id = object_at(labels, i, j);
+            if (id == 0) continue;
+            add_bin(all[id - 1], i, j);
+            BinTotals& total = totals[id - 1];
+            total.level += ping.at(i, j);
+            total.range_m += middle(sonar.range_edges_m, i);
+            if (fan) total.azimuth_rad += middle(sonar.azimuth_edges_rad, j);
+        }
+    }
+    const std::vector<Eigen::AlignedBox3f> boxes = seen_boxes(objects, traced);
+    std::vector<SeenObject> seen;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        SeenObject& object = all[k];
+        if (object.bins == 0) continue;
+        const auto bins = static_cast<double>(object.bins);
+        object.id = static_cast<std::uint32_t>(k + 1);
+        object.level = totals[k].level / bins;
+        object.range_m = totals[k].range_m / bins;
+        if (fan) object.azimuth_rad = totals[k].azimuth_rad / bins;
+        object.surrounding_level = level_around(object, labels, ping);
+        object.box_sensor_m = boxes[k];
+        seen.push_back(object);
+    }
+    return seen;
+}
+
+}  // namespace sonarsim

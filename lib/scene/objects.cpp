@@ -1,0 +1,120 @@
+#include "scene/objects.h"
+
+#include <algorithm>
+#include <map>
+#include <string_view>
+
+namespace sonarsim {
+
+namespace {
+
+constexpr std::size_t most_ids = 65535;  // of 16 bits, without 0
+
+/// Numbers names in the order in which they come.
+struct NumberedNames {
+    std::vector<std::string> names;
+    std::map<std::string, std::uint32_t> numbers;
+
+    std::uint32_t number(const std::string& name) {
+        const auto [entry, is_new] =
+            numbers.emplace(name, static_cast<std::uint32_t>(names.size()));
+        if (is_new) names.push_back(name);
+        return entry->second;
+    }
+};
+
+/// The rule that counts for each instance; null for none. InputError for a rule that none is left
+/// for.
+std::vector<const ClassRule*> rule_of_instances(const Scene& scene,
+                                                std::span<const ClassRule> rules) {
+    std::vector<const ClassRule*> chosen(scene.instances.size(), nullptr);
+    for (const ClassRule& rule : rules) {
+        bool fits = false;
+        bool taken = false;
+        for (std::size_t i = 0; i < chosen.size(); ++i) {
+            if (!fits_pattern(rule.nodes, scene.instances[i])) continue;
+            taken = taken || chosen[i] != nullptr;
+            fits = fits || chosen[i] == nullptr;
+            if (!chosen[i]) chosen[i] = &rule;
+        }
+        if (fits) continue;
+        throw InputError(rule.place,
+                         "no node of the scene " + std::string(taken ? "is left for" : "fits") +
+                             " '" + rule.nodes + "'" +
+                             (taken ? ": rules above it take all that fit"
+                                    : "; `sonarsim inspect` lists the names of its nodes"));
+    }
+    return chosen;
+}
+
+void require_ids(std::size_t count, const char* what) {
+    if (count <= most_ids) return;
+    throw InputError("the scene has " + std::to_string(count) + " " + what +
+                     ", and labels of 16 bits tell 65535 apart: group them with `classes`");
+}
+
+}  // namespace
+
+bool fits_pattern(std::string_view pattern, std::string_view text) {
+    std::size_t p = 0;
+    std::size_t t = 0;
+    std::size_t star = std::string_view::npos;  // the last one passed, and where its text ends
+    std::size_t resume = 0;
+    while (t < text.size()) {
+        if (p < pattern.size() && pattern[p] == '*') {
+            star = p++;
+            resume = t;
+        } else if (p < pattern.size() && (pattern[p] == '?' || pattern[p] == text[t])) {
+            ++p;
+            ++t;
+        } else if (star != std::string_view::npos) {
+            p = star + 1;
+            t = ++resume;
+        } else {
+            return false;
+        }
+    }
+    return pattern.find_first_not_of('*', p) == std::string_view::npos;
+}
+
+SceneObjects group_objects(const Scene& scene, std::span<const ClassRule> rules) {
+    const std::vector<const ClassRule*> rule_of = rule_of_instances(scene, rules);
+    SceneObjects out;
+    NumberedNames classes;
+    NumberedNames names;
+    std::vector<const ClassRule*> maker;  // the rule that grouped an object
+    for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+        const ClassRule* const rule = rule_of[i];
+        const bool grouped = rule && !rule->instance.empty();
+        const std::string own =
+            i < scene.instance_classes.size() ? scene.instance_classes[i] : std::string();
+        const std::string& unruled = own.empty() ? scene.instances[i] : own;
+        const std::uint32_t class_index = classes.number(rule ? rule->name : unruled);
+        const std::uint32_t object = names.number(grouped ? rule->instance : scene.instances[i]);
+        out.object_of_instance.push_back(object);
+        if (object == out.objects.size()) {
+            out.objects.push_back({names.names[object], class_index});
+            maker.push_back(grouped ? rule : nullptr);
+            continue;
+        }
+        // Names of nodes are unique: one of the two nodes that share a name is in a group.
+        const ClassRule& culprit = grouped ? *rule : *maker[object];
+        if (!grouped || !maker[object]) {
+            throw InputError(culprit.place, "the instance '" + culprit.instance +
+                                                "' has the name of a node that is not in it; "
+                                                "choose another");
+        }
+        if (out.objects[object].class_index != class_index) {
+            throw InputError(culprit.place, "the instance '" + culprit.instance +
+                                                "' has the class '" + rule->name + "' here and '" +
+                                                classes.names[out.objects[object].class_index] +
+                                                "' in another rule; an instance has one class");
+        }
+    }
+    require_ids(out.objects.size(), "objects");
+    require_ids(classes.names.size(), "classes");
+    out.classes = std::move(classes.names);
+    return out;
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,203 @@
+#include "ping/labels.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "core/units.h"
+#include "support/bounces.h"
+#include "support/scenes.h"
+#include "support/sonars.h"
+#include "visibility/make_engine.h"
+
+using namespace sonarsim;
+using namespace sonarsim::test;
+
+namespace {
+
+constexpr std::array engine_types{EngineType::rays, EngineType::octree, EngineType::slices};
+constexpr LabelRequest everything{true, true, true, true, true};
+
+/// A scene, its labels and the image without noise.
+struct Labelled {
+    SceneObjects objects;
+    PingLabels labels;
+    Ping clean;
+
+    std::size_t at(int i, int j) const {
+        return static_cast<std::size_t>(j) * labels.range_bins + i;
+    }
+};
+
+Labelled label(const Scene& scene, const Sonar& sonar, const Pose& pose, EngineType type) {
+    const auto engine = make_engine(scene, {.type = type, .octree = {}});
+    const TracedPing traced = trace(sonar, scene, *engine, pose, 0);
+    Labelled out;
+    out.objects = group_objects(scene, {});
+    out.labels = label_ping(traced, sonar.settings, scene, out.objects, *engine, everything);
+    out.clean = form_image(traced, sonar.settings, scene, {}, term_by_term[1]);
+    return out;
+}
+
+int bin_at(const Sonar& sonar, double range_m) {
+    return static_cast<int>((range_m - sonar.settings.view.range_min_m) /
+                            sonar.settings.view.bin_m());
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("ping");
+
+TEST_CASE("labels: a panel before a wall, its shadow, and water that is open") {
+    // The panel covers the azimuths up to atan(0.5 / 3) at 3 m; the wall stands at 6 m, |y| < 2.
+    Scene scene = empty_scene();
+    const std::uint32_t m = add_material(scene, 0.5F);
+    add_quad(scene, {6, -2, -5}, {6, 2, -5}, {6, 2, 5}, {6, -2, 5}, m);
+    add_quad(scene, {3, -0.5F, -5}, {3, 0.5F, -5}, {3, 0.5F, 5}, {3, -0.5F, 5}, m);
+    const Sonar sonar = noise_free(small_imaging());
+    const double panel = std::atan2(0.5, 3.0);
+    const double wall = std::atan2(2.0, 6.0);
+    for (const EngineType type : engine_types) {
+        CAPTURE(static_cast<int>(type));
+        const Labelled out = label(scene, sonar, Pose{}, type);
+        for (int j = 0; j < out.labels.beams; ++j) {
+            const double a = sonar.azimuth_edges_rad[j];
+            const double b = sonar.azimuth_edges_rad[j + 1];
+            const double low = std::min(std::fabs(a), std::fabs(b));
+            const double high = std::max(std::fabs(a), std::fabs(b));
+            const bool straight = high < panel - 0.02;
+            const bool beside = low > panel + 0.02 && high < wall - 0.02;
+            if (!straight && !beside && low < wall + 0.02) continue;
+            // The nearest bins of either that are lit whole.
+            const double to_edge = 1.0 / std::cos(0.5 * (low + high));
+            const std::size_t near = out.at(bin_at(sonar, 3.0 * to_edge + 0.005), j);
+            const std::size_t far = out.at(bin_at(sonar, 6.0 * to_edge + 0.01), j);
+            const std::size_t water = out.at(bin_at(sonar, 4.5), j);
+            CHECK(out.labels.object[near] == (straight ? 2 : 0));
+            CHECK(out.labels.object[far] == (beside ? 1 : 0));
+            CHECK(out.labels.shadow[far] == (straight ? 2 : 0));
+            CHECK(out.labels.shadow[near] == 0);
+            CHECK(out.labels.object[water] == 0);
+            CHECK(out.labels.shadow[water] == 0);
+            if (beside) {
+                CHECK(out.labels.share[far] == 1.0F);
+                CHECK(out.labels.second[far] == 0);
+                CHECK(out.labels.class_id[far] == 1);
+                CHECK(out.labels.material[far] == 1);
+            }
+        }
+    }
+}
+
+TEST_CASE("labels: two things in one bin share its echo by area and reflection") {
+    // Two panels face on at 5 m, one above the boresight, one below: equal areas and angles, so
+    // that their shares are those of their reflections, 0.6 and 0.2.
+    Scene scene = empty_scene();
+    const std::uint32_t strong = add_material(scene, 0.6F);
+    const std::uint32_t weak = add_material(scene, 0.2F);
+    add_quad(scene, {5, -9, -9}, {5, 9, -9}, {5, 9, 0}, {5, -9, 0}, weak);
+    add_quad(scene, {5, -9, 0}, {5, 9, 0}, {5, 9, 9}, {5, -9, 9}, strong);
+    const Sonar sonar = noise_free(small_imaging());
+    for (const EngineType type : engine_types) {
+        CAPTURE(static_cast<int>(type));
+        const Labelled out = label(scene, sonar, Pose{}, type);
+        double lit = 0.0;
+        double agree = 0.0;
+        double share = 0.0;
+        for (std::size_t k = 0; k < out.labels.size(); ++k) {
+            if (out.labels.object[k] == 0) continue;
+            ++lit;
+            agree += out.labels.object[k] == 2 && out.labels.second[k] == 1;
+            share += out.labels.share[k];
+            const float sum = out.labels.share[k] + out.labels.second_share[k];
+            CHECK(sum == doctest::Approx(1.0).epsilon(1e-5));
+        }
+        REQUIRE(lit > 100.0);
+        CHECK(agree / lit > 0.98);
+        CHECK(share / lit == doctest::Approx(0.75).epsilon(0.02));
+    }
+}
+
+TEST_CASE("labels: the elevation of a floor is that of its range") {
+    // At height H over a plane, level, straight ahead: sin(theta) = -H / r. Over a bin of width b
+    // theta spreads evenly over b d(theta)/dr, a standard deviation of that over sqrt(12).
+    Scene scene = empty_scene();
+    add_floor(scene, 100.0F, 0.0F, add_material(scene, 0.6F));
+    SonarConfig config = small_imaging();
+    config.elevation_deg = 40.0;
+    const Sonar sonar = noise_free(config, 0.01);
+    constexpr double H = 2.0;
+    for (const EngineType type : engine_types) {
+        CAPTURE(static_cast<int>(type));
+        const Labelled out = label(scene, sonar, {Eigen::Quaterniond::Identity(), {0, 0, H}}, type);
+        int bins = 0;
+        for (int i = bin_at(sonar, 6.5); i < bin_at(sonar, 9.5); ++i) {
+            const double r = 0.5 * (sonar.range_edges_m[i] + sonar.range_edges_m[i + 1]);
+            for (int j = 0; j < out.labels.beams; ++j) {
+                const float theta = out.labels.elevation_rad[out.at(i, j)];
+                const double truth = -std::asin(H / r);
+                const double slope = H / (r * std::sqrt(r * r - H * H));
+                const double spread = slope * sonar.settings.view.bin_m() / std::sqrt(12.0);
+                ++bins;
+                CHECK(std::fabs(theta - truth) < 0.5 * slope * sonar.settings.view.bin_m());
+                const double told = out.labels.elevation_spread_rad[out.at(i, j)];
+                CHECK(told > 0.0);
+                CHECK(told / spread < 2.0);
+            }
+        }
+        CHECK(bins > 1000);
+        CHECK(std::isnan(out.labels.elevation_rad[out.at(0, 0)]));
+    }
+}
+
+TEST_CASE("labels: lit bins are those of the clean image, multipath bins those of its ghosts") {
+    const Scene scene = tank();
+    SonarConfig config = small_imaging();
+    config.multipath.method = MultipathMethod::cluster;
+    const Sonar sonar = noise_free(config);
+    const auto engine = make_engine(scene, {});
+    const SceneObjects objects = group_objects(scene, {});
+    std::uint64_t ghosts = 0;
+    for (const Pose& pose : tank_poses()) {
+        const TracedPing traced = trace(sonar, scene, *engine, pose, 0);
+        const PingLabels labels =
+            label_ping(traced, sonar.settings, scene, objects, *engine, everything);
+        const Ping clean = form_image(traced, sonar.settings, scene, {}, term_by_term[1]);
+        const Ping direct = form_image(traced, sonar.settings, scene, {}, direct_echoes_alone);
+        for (int j = 0; j < clean.beams; ++j) {
+            for (int i = 0; i < clean.range_bins; ++i) {
+                const std::size_t k = static_cast<std::size_t>(j) * clean.range_bins + i;
+                REQUIRE((labels.object[k] > 0) == (clean.at(i, j) > 0.0F));
+                if (labels.object[k] == 0) continue;
+                REQUIRE(labels.share[k] >= labels.second_share[k]);
+                if (direct.at(i, j) == 0.0F) {
+                    REQUIRE(labels.multipath[k] == 1.0F);
+                    ++ghosts;
+                }
+                if (labels.shadow[k] > 0) REQUIRE(direct.at(i, j) == 0.0F);
+            }
+        }
+    }
+    CHECK(ghosts > 0);
+}
+
+TEST_CASE("labels: azimuth runs from starboard to port, as in the image") {
+    Scene scene = empty_scene();
+    const std::uint32_t m = add_material(scene, 1.0F);
+    add_sphere(scene, {5, 1.5F, 0}, 0.2F, m, 32);
+    add_sphere(scene, {5, -1.5F, 0}, 0.2F, m, 32);
+    const Sonar sonar = noise_free(small_imaging());
+    const Labelled out = label(scene, sonar, Pose{}, EngineType::rays);
+    int seen = 0;
+    for (int j = 0; j < out.labels.beams; ++j) {
+        for (int i = 0; i < out.labels.range_bins; ++i) {
+            const std::uint16_t id = out.labels.object[out.at(i, j)];
+            if (id == 0) continue;
+            ++seen;
+            CHECK(id == (j >= out.labels.beams / 2 ? 1 : 2));
+        }
+    }
+    CHECK(seen > 20);
+}
+
+TEST_SUITE_END();
