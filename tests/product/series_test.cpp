@@ -30,8 +30,11 @@ SonarConfig sidescan(int range_bins) {
 
 TEST_SUITE("product") {
     TEST_CASE("row: port from far to near, then starboard from near to far, linear through nadir") {
-        const Ping ping{3, 2, {1, 10, 2, 20, 3, 30}, {}, {}};  // starboard 1 2 3, port 10 20 30
-        SonarConfig config = sidescan(3);                      // of 10 m
+        Ping ping;
+        ping.range_bins = 3;
+        ping.beams = 2;
+        ping.intensity = {1, 10, 2, 20, 3, 30};  // starboard 1 2 3, port 10 20 30
+        SonarConfig config = sidescan(3);        // of 10 m
         CHECK(sidescan_row(config, ping) == std::vector<float>{30, 20, 10, 1, 2, 3});
         // 20 m to 26 m in bins of 2 m: ten bins from nadir to range_min.
         config.range_min_m = 20.0;

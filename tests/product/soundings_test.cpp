@@ -27,7 +27,11 @@ Sonar three_beams(bool scale_with_range = false) {
 }
 
 Ping dark(const Sonar& sonar) {
-    return {100, 3, std::vector<float>(100 * sonar.settings.view.beams, 0.0F), {}, {}};
+    Ping ping;
+    ping.range_bins = 100;
+    ping.beams = 3;
+    ping.intensity.assign(100 * sonar.settings.view.beams, 0.0F);
+    return ping;
 }
 
 }  // namespace
