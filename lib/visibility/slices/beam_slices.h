@@ -25,9 +25,9 @@ class BeamSlices {
     /// All arguments must outlive it.
     BeamSlices(const View& view, std::span<const Material> materials, FrameScan& scan);
 
-    /// Sees the beam that begins with gap `gap` of the frame, as far as the frame reaches. `goal`
-    /// is the error as a share of the signal. Returns the gap after the beam's last. Beams are to
-    /// be seen in order.
+    /// Sees the beam that begins with gap `gap` of the frame, as far as the frame reaches. Its
+    /// slices may disagree by `most`, a share of the signal. Returns the gap after the beam's last.
+    /// Beams are to be seen in order.
     std::uint32_t see(std::uint32_t gap, double most);
 
     /// The slices of the beam, from low u to high.
