@@ -118,7 +118,7 @@ void ShadowFinder::find(int j, std::span<const float> visible, std::span<std::ui
     }
     finder_.find(
         shares_, [](std::uint32_t object) { return object; }, strongest_);
-    for (int i = 0; i < bins_.count; ++i) {
+    for (int i = strongest_.first; i < strongest_.last; ++i) {
         if (visible[i] > 0.0F) continue;
         shadow[i] = static_cast<std::uint16_t>(strongest_.key[i]);
     }

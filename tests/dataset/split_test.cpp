@@ -11,6 +11,16 @@ using namespace sonarsim;
 
 namespace {
 
+SplitConfig split(double train, double val, double test, int gap, int rounds) {
+    SplitConfig config;
+    config.train = train;
+    config.val = val;
+    config.test = test;
+    config.gap = gap;
+    config.rounds = rounds;
+    return config;
+}
+
 /// A letter per pose: t, v, e (test) or '-'.
 std::string letters(const SplitConfig& config, std::size_t poses) {
     std::string text;
@@ -23,20 +33,15 @@ std::string letters(const SplitConfig& config, std::size_t poses) {
 
 TEST_SUITE("dataset") {
     TEST_CASE("split: stretches of the trajectory with gaps between them") {
-        CHECK(letters({.train = 0.5, .val = 0.25, .test = 0.25, .gap = 2, .rounds = 1}, 20) ==
-              "ttttttttt--vvv--eeee");
-        CHECK(letters({.train = 0.5, .val = 0.0, .test = 0.5, .gap = 1, .rounds = 2}, 12) ==
-              "ttt-ee-tt-ee");
-        CHECK(letters({.train = 1.0, .val = 0.0, .test = 0.0, .gap = 5, .rounds = 3}, 6) ==
-              "tttttt");
-        CHECK(letters({.train = 0.5, .val = 0.5, .test = 0.0, .gap = 0, .rounds = 1}, 5) ==
-              "tttvv");
+        CHECK(letters(split(0.5, 0.25, 0.25, 2, 1), 20) == "ttttttttt--vvv--eeee");
+        CHECK(letters(split(0.5, 0.0, 0.5, 1, 2), 12) == "ttt-ee-tt-ee");
+        CHECK(letters(split(1.0, 0.0, 0.0, 5, 3), 6) == "tttttt");
+        CHECK(letters(split(0.5, 0.5, 0.0, 0, 1), 5) == "tttvv");
     }
 
     TEST_CASE("split: shares are kept, and no two parts are neighbours") {
         for (const int rounds : {1, 3, 7}) {
-            const SplitConfig config{
-                .train = 0.8, .val = 0.1, .test = 0.1, .gap = 6, .rounds = rounds};
+            const SplitConfig config = split(0.8, 0.1, 0.1, 6, rounds);
             const auto parts = split_poses(config, 10'000);
             const auto count = [&](SplitPart part) {
                 return static_cast<double>(std::ranges::count(parts, part));
@@ -53,7 +58,7 @@ TEST_SUITE("dataset") {
     }
 
     TEST_CASE("split: too few poses are refused") {
-        const SplitConfig config{.train = 0.8, .val = 0.1, .test = 0.1};
+        const SplitConfig config = split(0.8, 0.1, 0.1, 10, 1);
         CHECK_THROWS_AS(split_poses(config, 6), InputError);
         CHECK_NOTHROW(split_poses(config, 200));
     }

@@ -18,6 +18,22 @@ namespace {
 using Ids = std::vector<std::uint16_t>;
 using Floats = std::vector<float>;
 
+/// Whether the bins [i0, i1) of some beams are all 0. Most of a ping is.
+bool is_blank(const std::uint16_t* beams, std::size_t range_bins, std::size_t i0, std::size_t i1,
+              std::size_t count) {
+    std::uint16_t any = 0;
+    for (std::size_t j = 0; j < count; ++j) {
+        for (std::size_t i = i0; i < i1; ++i)
+            any |= beams[j * range_bins + i];
+    }
+    return any == 0;
+}
+
+/// Floats are blank nowhere.
+bool is_blank(const float*, std::size_t, std::size_t, std::size_t, std::size_t) {
+    return false;
+}
+
 /// From [beams, range bins] to [range bins, beams], in tiles that fit the first cache.
 template <class T>
 std::vector<T> rows_of_range(const std::vector<T>& by_beam, const PingLabels& labels) {
@@ -28,8 +44,11 @@ std::vector<T> rows_of_range(const std::vector<T>& by_beam, const PingLabels& la
     const auto columns = static_cast<std::size_t>(labels.beams);
     for (std::size_t i0 = 0; i0 < rows; i0 += tile) {
         for (std::size_t j0 = 0; j0 < columns; j0 += tile) {
-            for (std::size_t i = i0; i < std::min(i0 + tile, rows); ++i) {
-                for (std::size_t j = j0; j < std::min(j0 + tile, columns); ++j)
+            const std::size_t i1 = std::min(i0 + tile, rows);
+            const std::size_t j1 = std::min(j0 + tile, columns);
+            if (is_blank(by_beam.data() + j0 * rows, rows, i0, i1, j1 - j0)) continue;
+            for (std::size_t i = i0; i < i1; ++i) {
+                for (std::size_t j = j0; j < j1; ++j)
                     out[i * columns + j] = by_beam[j * rows + i];
             }
         }

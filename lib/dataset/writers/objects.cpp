@@ -64,13 +64,15 @@ class ObjectsWriter final : public Writer {
 
     std::string encode(const FinishedPing& finished) const override {
         const SceneObjects& objects = context_.assembly.objects;
-        Json json = {{"ping", finished.id.pose}};
-        json["objects"] = Json::array();
+        std::string text = "{\"ping\": " + std::to_string(finished.id.pose) + ", \"objects\": [";
+        constexpr auto replace = Json::error_handler_t::replace;
+        const char* before = "\n";
         for (const SeenObject& seen : seen_objects(context_.sonar(), objects, finished.traced,
                                                    finished.labels->bins, finished.ping)) {
-            json["objects"].push_back(seen_json(seen, finished));
+            text += before + seen_json(seen, finished).dump(-1, ' ', false, replace);
+            before = ",\n";
         }
-        return json_text(json);
+        return text + "\n]}\n";
     }
 
   private:
