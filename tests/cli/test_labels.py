@@ -311,9 +311,9 @@ class Labels(Sandbox):
         refused(labels, "  split: {train: 0.8, val: 0.3}\n",
                 "mission.yaml:16:28: train, val and test must add up to 1")
         refused(labels, "  split: {train: 0.8, val: 0.2, testing: 0.1}\n",
-                "mission.yaml:16:", "unknown key 'testing' (did you mean 'test'?)")
+                "mission.yaml:16:", "unknown key 'testing'; known here: train, val, test, gap, rounds")
         refused(labels, "  split: {train: 0.8, val: 0.1, test: 0.1}\n", "mission.yaml:16:",
-                "of 6 poses none is left for 'val'", "smaller gap")
+                "of 6 poses none is left for 'train'", "smaller gap")
         refused(labels, "  labels: [coco, boxes]\n", "mission.yaml:16:18: unknown labels 'boxes'")
         refused("fan_width_px: 64\n" + labels, "fan: false\n  labels: [fan]\n", "mission.yaml:16:11",
                 "'fan'", "output.fan: true")
@@ -321,7 +321,7 @@ class Labels(Sandbox):
                 "sonarsim inspect")
         refused("class: pillar}", "class: pillar, instance: p}\n"
                 "  - {nodes: walls, class: wall, instance: p}",
-                "mission.yaml:13:", "an instance has one class")
+                "mission.yaml:12:", "an instance has one class")
         one = MISSION.index("  fls:"), MISSION.index("  sss:")
         self.write("mission.yaml", (MISSION[:one[0]] + MISSION[one[1]:]).replace(
             "labels: true", "labels: [instance, yolo]"))
