@@ -3,9 +3,9 @@
 
     scripts/draw_labels.py OUT FOLDER [--every N]
 
-Of imaging and profiling sonars every N-th picture that labels/coco.json and labels/coco_fan.json
-list, with masks, boxes and names; of side-scan sonars, echosounders and scanning sonars the whole
-picture in the colours of the instances. Needs numpy and PIL."""
+Every N-th picture that labels/coco.json and labels/coco_fan.json list, and the waterfalls and echograms
+of labels/coco_records.json, with masks, boxes and names. The dataset needs the label `coco`, this
+script numpy and PIL."""
 import argparse
 import json
 import pathlib
@@ -76,16 +76,6 @@ def draw_coco(out, folder, file, every):
         picture.save(folder / image["file_name"].replace("/", "_").replace(".npy", ".png"))
 
 
-def draw_records(out, folder, sensor):
-    """A row or column per ping in the colours of the instances."""
-    ids = np.load(out / sensor["label_records"]["instance"]["file"])
-    picture = grey(np.load(out / sensor["records"]["file"]))
-    for one in np.unique(ids[ids > 0]):
-        mask = ids == one
-        tinted(picture, mask, colour_of(int(one)))
-    Image.fromarray(picture).save(folder / f"{sensor['name']}.png")
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("dataset", type=pathlib.Path)
@@ -94,12 +84,9 @@ def main():
     arguments = parser.parse_args()
     out, folder = arguments.dataset, arguments.folder
     folder.mkdir(parents=True, exist_ok=True)
-    for file in ("labels/coco.json", "labels/coco_fan.json"):
+    for file in ("labels/coco.json", "labels/coco_fan.json", "labels/coco_records.json"):
         if (out / file).exists():
-            draw_coco(out, folder, file, arguments.every)
-    for sensor in json.loads((out / "dataset.json").read_text())["sensors"]:
-        if "records" in sensor and "instance" in sensor.get("label_records", {}):
-            draw_records(out, folder, sensor)
+            draw_coco(out, folder, file, 1 if "records" in file else arguments.every)
 
 
 if __name__ == "__main__":

@@ -1,12 +1,12 @@
 #include "dataset/coco.h"
 
-#include <algorithm>
+#include <array>
 #include <functional>
 #include <optional>
 #include <stdexcept>
 
 #include "core/file.h"
-#include "dataset/whole_file.h"
+#include "dataset/coco_file.h"
 
 namespace sonarsim {
 
@@ -51,51 +51,30 @@ std::optional<PictureSeries> series_of(const SensorLayout& sensor, const Json& d
     return series;
 }
 
-/// [left, top, width, height] of half-open intervals in x and y.
-Json box_of(const Json& x, const Json& y) {
-    const auto length = [](const Json& interval) {
-        return interval.at(1).get<std::int64_t>() - interval.at(0).get<std::int64_t>();
-    };
-    return {x.at(0), y.at(0), length(x), length(y)};
-}
-
-/// What the picture shows of an object; null where it shows nothing.
-Json annotation_of(const Json& object, const PictureSeries& series, Picture picture,
-                   std::uint64_t image_id, const Json& class_ids) {
+/// What the picture shows of an object; nothing where it shows nothing.
+std::optional<CocoAnnotation> annotation_of(const Json& object, const PictureSeries& series,
+                                            Picture picture, std::uint64_t image_id,
+                                            const Json& class_ids) {
     const bool is_fan = picture == Picture::fan;
     const Json& shown = is_fan ? object.at("fan") : object;
-    if (shown.is_null()) return nullptr;
+    if (shown.is_null()) return std::nullopt;
     const Json& box = shown.at(is_fan ? "box_px" : "box_bins");
+    const auto x = box.at(is_fan ? "x" : "beam").get<std::array<std::int64_t, 2>>();
+    const auto y = box.at(is_fan ? "y" : "range").get<std::array<std::int64_t, 2>>();
     const auto instance = object.at("id").get<std::uint64_t>();
-    return {
-        {"id", image_id * 65536 + instance},
-        {"image_id", image_id},
-        {"category_id", class_ids.at(object.at("class").get<std::string>())},
-        {"instance_id", instance},
-        {"bbox",
-         is_fan ? box_of(box.at("x"), box.at("y")) : box_of(box.at("beam"), box.at("range"))},
-        {"area", shown.at(is_fan ? "area_px" : "area_bins")},
-        {"segmentation", {{"size", {series.height, series.width}}, {"counts", shown.at("mask")}}},
-        {"iscrowd", 0}};
+    return CocoAnnotation{.id = image_id * ids_per_image + instance,
+                          .image_id = image_id,
+                          .instance = instance,
+                          .category = class_ids.at(object.at("class").get<std::string>()),
+                          .left = x[0],
+                          .top = y[0],
+                          .width = x[1] - x[0],
+                          .height = y[1] - y[0],
+                          .area = shown.at(is_fan ? "area_px" : "area_bins"),
+                          .image_width = series.width,
+                          .image_height = series.height,
+                          .counts = shown.at("mask")};
 }
-
-/// A JSON list that is written item by item.
-class StreamedList {
-  public:
-    StreamedList(StreamedFile& file, const char* key) : file_(file) {
-        file_.append(std::string("\"") + key + "\": [");
-    }
-    void add(const Json& item) {
-        file_.append(first_ ? "\n" : ",\n");
-        file_.append(item.dump(-1, ' ', false, Json::error_handler_t::replace));
-        first_ = false;
-    }
-    void finish() { file_.append("\n]"); }
-
-  private:
-    StreamedFile& file_;
-    bool first_ = true;
-};
 
 }  // namespace
 
@@ -125,22 +104,10 @@ void write_coco(const Layout& layout, const Json& description, const SharedProdu
             }
         };
 
-    StreamedFile out(layout.folder / product.file);
-    out.append("{\"info\": ");
-    out.append(Json{{"description", description.at("mission")},
-                    {"version", description.at("program_version")}}
-                   .dump());
-    out.append(",\n\"licenses\": [],\n");
-    StreamedList categories(out, "categories");
-    for (const Json& one : description.at("labels").at("classes")) {
-        categories.add(
-            {{"id", one.at("id")}, {"name", one.at("name")}, {"supercategory", "object"}});
-    }
-    categories.finish();
-    out.append(",\n");
-    StreamedList images(out, "images");
+    CocoFile out(layout.folder / product.file, description);
+    out.begin_list("images");
     for_each_picture([&](const PingId& ping, const PictureSeries& shown, std::uint64_t id) {
-        images.add(
+        out.add(
             {{"id", id},
              {"file_name",
               layout.file(ping, shown.picture).lexically_relative(layout.folder).generic_string()},
@@ -149,19 +116,17 @@ void write_coco(const Layout& layout, const Json& description, const SharedProdu
              {"sensor", layout.sensors[ping.sensor].name},
              {"ping", ping.pose}});
     });
-    images.finish();
-    out.append(",\n");
-    StreamedList annotations(out, "annotations");
+    out.end_list();
+    out.begin_list("annotations");
     for_each_picture([&](const PingId& ping, const PictureSeries& shown, std::uint64_t id) {
         const std::filesystem::path file = layout.file(ping, shown.objects);
         const Json objects = Json::parse(read_file(file, largest_objects_file));
         for (const Json& object : objects.at("objects")) {
-            const Json annotation = annotation_of(object, shown, product.picture, id, class_ids);
-            if (!annotation.is_null()) annotations.add(annotation);
+            if (const auto found = annotation_of(object, shown, product.picture, id, class_ids))
+                out.add(annotation_json(*found));
         }
     });
-    annotations.finish();
-    out.append("}\n");
+    out.end_list();
     out.finish();
 }
 

@@ -7,6 +7,8 @@
 
 namespace sonarsim {
 
+inline constexpr std::uint64_t ids_per_image = 65536;
+
 /// Writes a COCO file of the objects of every ping, as its objects/NNNNNN.json tells them. Of the
 /// memory it takes only that of a ping grows with the dataset. An image's id is 1 + the index of
 /// the ping in the mission, twice, and 1 more for the fan; that of an annotation 65536 times as

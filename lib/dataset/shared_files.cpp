@@ -4,6 +4,7 @@
 
 #include "core/file.h"
 #include "dataset/coco.h"
+#include "dataset/coco_records.h"
 #include "dataset/shared_products.h"
 #include "dataset/split.h"
 
@@ -40,7 +41,11 @@ void write_shared_products(const Layout& layout, const Mission& mission,
     for (const SharedProduct& product : shared_products(mission)) {
         switch (product.kind) {
             case SharedProduct::Kind::coco:
-                write_coco(layout, description, product, part_of_pose);
+                if (product.picture == Picture::record) {
+                    write_record_coco(layout, description, product);
+                } else {
+                    write_coco(layout, description, product, part_of_pose);
+                }
                 break;
             case SharedProduct::Kind::class_names:
                 write_file(layout.folder / product.file, class_list(description));

@@ -13,6 +13,13 @@ namespace {
 
 bool has_pictures(const Mission& mission, Picture picture) {
     const OutputConfig& output = mission.output;
+    if (picture == Picture::record) {
+        return std::ranges::any_of(mission.sensors, [&](const SonarConfig& sensor) {
+            const RecordKind record = kind_of(sensor.kind).record;
+            return (record == RecordKind::waterfall && output.waterfall) ||
+                   (record == RecordKind::echogram && output.echogram);
+        });
+    }
     const bool written = picture == Picture::fan ? output.fan : output.image || output.polar;
     return written && std::ranges::any_of(mission.sensors, [](const SonarConfig& sensor) {
                return kind_of(sensor.kind).has_images;
@@ -25,8 +32,10 @@ std::string part_name(SplitPart part) {
 
 void add_coco(const Mission& mission, Picture picture, std::vector<SharedProduct>& products) {
     if (!has_pictures(mission, picture)) return;
-    const std::string stem = picture == Picture::fan ? "labels/coco_fan" : "labels/coco";
+    const char* const stems[] = {"labels/coco", "labels/coco_fan", "labels/coco_records"};
+    const std::string stem = stems[static_cast<std::size_t>(picture)];
     products.push_back({SharedProduct::Kind::coco, stem + ".json", picture, SplitPart::none});
+    if (picture == Picture::record) return;  // pictures of the whole trajectory
     for (const SplitPart part : parts_of(mission.output.split)) {
         products.push_back(
             {SharedProduct::Kind::coco, stem + "_" + part_name(part) + ".json", picture, part});
@@ -49,6 +58,7 @@ std::vector<SharedProduct> shared_products(const Mission& mission) {
     if (is_asked(mission, Label::coco)) {
         add_coco(mission, Picture::polar, products);
         add_coco(mission, Picture::fan, products);
+        add_coco(mission, Picture::record, products);
     }
     if (is_asked(mission, Label::yolo) || is_asked(mission, Label::yolo_polygons)) {
         products.push_back({SharedProduct::Kind::class_names, "labels/classes.txt"});
@@ -72,7 +82,8 @@ void check_shared_products(const Mission& mission, std::size_t poses) {
     const std::array needs{
         Need{Label::fan, "fan", fan, "output.fan: true"},
         Need{Label::semantic, "semantic", imaging, ""},
-        Need{Label::coco, "coco", polar || fan, "output.image, polar or fan: true"},
+        Need{Label::coco, "coco", polar || fan || has_pictures(mission, Picture::record),
+             "output.image, polar or fan: true"},
         Need{Label::yolo, "yolo", imaging, ""},
         Need{Label::yolo_polygons, "yolo_polygons", imaging, ""},
     };

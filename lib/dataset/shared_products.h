@@ -10,7 +10,11 @@
 namespace sonarsim {
 
 /// The pictures of pings that COCO files list.
-enum class Picture { polar, fan };
+enum class Picture {
+    polar,
+    fan,
+    record,  ///< of all pings of a sensor: waterfalls and echograms
+};
 
 /// A file that is made of the pings of all sonars when all of them are there.
 struct SharedProduct {

@@ -102,6 +102,19 @@ def read_png(path):
     return rows, chunks.get(b"PLTE")
 
 
+def read_ids(path, upright):
+    """The rows of an .npy of 16 bits; `upright`: its columns stand one after the other."""
+    data = path.read_bytes()
+    begin = 10 + int.from_bytes(data[8:10], "little")
+    header = data[10:begin].decode()
+    assert "'<u2'" in header and f"'fortran_order': {upright}" in header, header
+    height, width = (int(n) for n in header.split("(")[1].split(")")[0].split(","))
+    values = struct.unpack(f"<{height * width}H", data[begin:])
+    if upright:
+        return [values[y::height] for y in range(height)]
+    return [values[y * width:(y + 1) * width] for y in range(height)]
+
+
 def runs_of(text):
     """The numbers of compressed RLE."""
     runs, at = [], 0
@@ -180,13 +193,49 @@ class Labels(Sandbox):
             ids += list(images)
         self.assertEqual(len(ids), len(set(ids)))  # none is there twice, images and masks of both
 
+    def test_coco_of_waterfalls_and_echograms(self):
+        # Past the first pillar for 5 pings, far from it for 40, and past it again.
+        xs = [1.2] * 5 + [-1.2] * 40 + [1.2] * 5
+        self.write("path.csv", "\n".join(
+            ["t_s,x_m,y_m,z_m,roll_deg,pitch_deg,yaw_deg",
+             *(f"{0.2 * k:.1f},{x},0,1.2,0,0,0" for k, x in enumerate(xs))]) + "\n")
+        self.edit("mission.yaml", "labels: true", "labels: [coco]")
+        self.assert_renders()
+        coco = self.load("labels/coco_records.json")
+        self.assertEqual([(one["file_name"], one["width"], one["height"]) for one in coco["images"]],
+                         [("sss/waterfall.png", 2 * (40 + 6), 50), ("sounder/echogram.png", 50, 40)])
+        others = self.load("labels/coco.json"), self.load("labels/coco_fan.json")
+        taken = {one["id"] for other in others for one in other["images"] + other["annotations"]}
+        self.assertFalse(taken & {one["id"] for one in coco["images"] + coco["annotations"]})
+        for image, file, upright in zip(coco["images"], ("sss/instance.npy", "sounder/instance.npy"),
+                                        (False, True)):
+            rows = read_ids(self.out / file, upright)
+            told = {}
+            for one in coco["annotations"]:
+                if one["image_id"] != image["id"]:
+                    continue
+                pixels = mask_of(one["segmentation"])
+                self.assertEqual((one["bbox"], one["area"]), (box_of(pixels), len(pixels)))
+                told.setdefault(one["instance_id"], []).append(pixels)
+            expected = {}
+            for y, row in enumerate(rows):
+                for x, value in enumerate(row):
+                    if value:
+                        expected.setdefault(value, set()).add((x, y))
+            self.assertEqual({key: set().union(*parts) for key, parts in told.items()}, expected)
+            self.assertEqual(sum(len(p) for parts in told.values() for p in parts),
+                             sum(len(pixels) for pixels in expected.values()))
+            self.assertEqual(len(told[1]), 1)  # the walls are always in sight
+            if not upright:
+                self.assertEqual([(box_of(p)[1], box_of(p)[3]) for p in told[2]], [(0, 5), (45, 5)])
+
     def test_coco_against_the_published_format(self):
         python = python_with("jsonschema")
         if not python:
             self.skipTest("jsonschema is not installed")
         self.assert_renders()
         self.write("schema.json", json.dumps(COCO_SCHEMA))
-        for name in ("coco", "coco_fan"):
+        for name in ("coco", "coco_fan", "coco_records"):
             check = ("import json, jsonschema\n"
                      f"jsonschema.validate(json.load(open('out/labels/{name}.json')),"
                      " json.load(open('schema.json')))")

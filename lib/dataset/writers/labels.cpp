@@ -233,7 +233,10 @@ std::vector<std::unique_ptr<Writer>> make_label_writers(const WriterContext& con
     const bool has_images = context.kind().has_images;
     const bool has_fan = has_images && mission.output.fan && is_asked(mission, Label::fan);
     for (const LabelFile& file : label_files) {
-        if (!is_asked(mission, file.label)) continue;
+        // COCO files of waterfalls and echograms are made of the records.
+        const bool for_coco =
+            !has_images && file.label == Label::instance && is_asked(mission, Label::coco);
+        if (!is_asked(mission, file.label) && !for_coco) continue;
         if (has_images) add(std::make_unique<LabelImageWriter>(context, file));
         if (!has_images) add(std::make_unique<LabelRecordWriter>(context, file));
         if (has_fan && file.ids) add(std::make_unique<LabelFanWriter>(context, file));
