@@ -207,6 +207,7 @@ PingLabels label_ping(const TracedPing& traced, const PingSettings& settings, co
     PingLabels labels = blank_labels(view, request);
     BeamLabeller labeller(traced, view, scene, objects, request);
     ShadowFinder shadows(traced, view, objects, engine, request.shadow);
+    if (request.shadow) labels.visible_share = shadows.visible_shares();
     const bool shares = request.objects || request.classes || request.materials || request.shadow;
     ElevationFinder elevations(scene.materials, range_bins(view));
     for (int j = 0; j < view.beams; ++j) {

@@ -99,6 +99,10 @@ TEST_CASE("labels: a panel before a wall, its shadow, and water that is open") {
     for (const EngineType type : engine_types) {
         CAPTURE(static_cast<int>(type));
         const Labelled out = label(scene, sonar, Pose{}, type);
+        // Solid angles of the same elevations are as their azimuths.
+        REQUIRE(out.labels.visible_share.size() == 2);
+        CHECK(out.labels.visible_share[0] == doctest::Approx(1.0 - panel / wall).epsilon(0.02));
+        CHECK(out.labels.visible_share[1] == 1.0F);
         for (int j = 0; j < out.labels.beams; ++j) {
             const double a = sonar.azimuth_edges_rad[j];
             const double b = sonar.azimuth_edges_rad[j + 1];

@@ -92,6 +92,8 @@ class ObjectsWriter final : public Writer {
                      {"azimuth_rad", number_or_null(seen.azimuth_rad)}};
         json["seen_box_sensor_m"] = seen_box_json(seen.box_sensor_m);
         json["box_sensor"] = placed_box_json(boxes_[seen.id - 1], finished.traced.T_world_sensor);
+        if (!finished.labels->bins.visible_share.empty())
+            json["visible_share"] = finished.labels->bins.visible_share[seen.id - 1];
         const ObjectMask* const polar = mask_of(finished.labels->polar, seen.id);
         if (with_masks_ && polar) json["mask"] = coco_counts(polar->runs);
         if (!finished.labels->fan_bins->by_row.empty()) {
