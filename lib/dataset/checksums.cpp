@@ -65,6 +65,8 @@ std::string checksums_text(const Layout& layout, const JournalEntries& entries,
         for (const std::string& product : sensor.products)
             add_file(sensor.name + "/" + product);
     }
+    for (const std::string& product : layout.products)
+        add_file(product);
     return text;
 }
 

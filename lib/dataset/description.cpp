@@ -41,6 +41,11 @@ bool visit_sensor(const Json& sensor, const std::function<bool(const DescribedFi
         if (!visit({sensor["records"].at("file").get<std::string>(), &sensor, "records"}))
             return false;
     }
+    const Json labels = sensor.value("label_records", Json::object());
+    for (const auto& [label, record] : labels.items()) {
+        if (!visit({record.at("file").get<std::string>(), &sensor, "label_records/" + label}))
+            return false;
+    }
     const Json products = sensor.value("products", Json::array());
     return std::ranges::all_of(products, [&](const Json& product) {
         return visit({product.get<std::string>(), &sensor, {}});
@@ -94,6 +99,9 @@ void for_each_described(const Json& description,
     try {
         for (const Json& sensor : description.at("sensors")) {
             if (!visit_sensor(sensor, visit)) return;
+        }
+        for (const Json& product : description.value("products", Json::array())) {
+            if (!visit({product.get<std::string>(), nullptr, {}})) return;
         }
     } catch (const Json::exception& error) {
         throw InputError({description_name}, std::string("is damaged: ") + error.what());

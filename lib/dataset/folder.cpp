@@ -159,7 +159,11 @@ void remove_leftovers(const Layout& layout, const std::vector<PingId>& todo, boo
         for (const fs::path& file : temporary_files(folder))
             fs::remove(file);
     };
-    if (alone) remove_all(layout.folder);
+    if (alone) {
+        remove_all(layout.folder);
+        for (const std::string& product : layout.products)
+            remove_all((layout.folder / product).parent_path());
+    }
     for (std::uint32_t sensor = 0; sensor < layout.sensors.size(); ++sensor) {
         if (alone) remove_all(layout.sensor_folder(sensor));
         for (const auto& part : layout.sensors[sensor].per_ping) {

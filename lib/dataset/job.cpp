@@ -19,7 +19,7 @@
 #include "dataset/finite_image.h"
 #include "dataset/folder.h"
 #include "dataset/journal.h"
-#include "dataset/label_description.h"
+#include "dataset/labelled_ping.h"
 #include "dataset/metadata.h"
 #include "dataset/resume.h"
 #include "sonar/engine_settings.h"
@@ -97,6 +97,7 @@ struct Destination {
     const Layout& layout;
     const std::vector<Writers>& writers;
     const RecordFiles& records;
+    const std::vector<LabelPlan>& labels;  ///< by sensor
     Journal& journal;
 };
 
@@ -112,14 +113,15 @@ void write_ping(const Mission& mission, const Assembly& assembly, const Visibili
     const auto metadata = measured(
         {assembly.sonars[id.sensor], assembly.trajectory[id.pose].T_world_vehicle, id.pose, ping},
         engine);
-    PingLabels labels;
-    const bool labelled = !mission.output.labels.empty();
-    if (labelled) {
-        labels = label_ping(traced, assembly.sonars[id.sensor].settings, assembly.scene,
-                            assembly.objects, engine, label_request(mission.output.labels));
+    LabelledPing labels;
+    const LabelPlan& plan = to.labels[id.sensor];
+    if (plan.on) {
+        labels = label_for_writers(
+            plan, label_ping(traced, assembly.sonars[id.sensor].settings, assembly.scene,
+                             assembly.objects, engine, plan.request));
     }
     const FinishedPing finished{
-        id, traced, ping, metadata, report.clipped_pixels, labelled ? &labels : nullptr};
+        id, traced, ping, metadata, report.clipped_pixels, plan.on ? &labels : nullptr};
     const Writers& writers = to.writers[id.sensor];
     std::vector<std::string> encoded;
     for (const auto& writer : writers)
@@ -224,7 +226,10 @@ RenderSummary run_job(const Mission& mission, const Assembly& assembly,
     }
     Journal journal(layout.folder, journal_part(options.shard + 1, options.shards),
                     options.checkpoint_s);
-    const Destination to{layout, writers, records, journal};
+    std::vector<LabelPlan> labels;
+    for (const Sonar& sonar : assembly.sonars)
+        labels.push_back(plan_labels(mission, sonar));
+    const Destination to{layout, writers, records, labels, journal};
     render_all(plan.todo, &to);
     journal.finish();
     if (summary.stopped) return summary;
@@ -233,7 +238,7 @@ RenderSummary run_job(const Mission& mission, const Assembly& assembly,
     const FinishedPings finished(layout, records);
     require_files(layout, plan.todo, finished);
     summary.complete = std::ranges::all_of(all, finished);
-    if (summary.complete) complete_dataset(layout, writers, records, common);
+    if (summary.complete) complete_dataset(layout, mission, writers, records, common);
     return summary;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/text.h"
+#include "dataset/shared_products.h"
 
 namespace sonarsim {
 
@@ -32,12 +33,20 @@ std::filesystem::path Layout::file(const PingId& ping, const PingFile& kind) con
     return sensor_folder(ping.sensor) / kind.name / number(ping.pose).append(kind.extension);
 }
 
+std::filesystem::path Layout::product_file(std::size_t sensor, const std::string& name) const {
+    return (sensor < sensors.size() ? sensor_folder(sensor) : folder) / name;
+}
+
 std::size_t Layout::record_of(const PingId& ping) const {
     return ping.pose / sensors[ping.sensor].every;
 }
 
 std::vector<std::filesystem::path> Layout::folders() const {
     std::vector<std::filesystem::path> all{folder / journal_folder_name};
+    for (const std::string& product : products) {
+        const std::filesystem::path parent = (folder / product).parent_path();
+        if (std::ranges::find(all, parent) == all.end()) all.push_back(parent);
+    }
     for (std::size_t i = 0; i < sensors.size(); ++i) {
         all.push_back(sensor_folder(i));
         for (const auto& part : sensors[i].per_ping) {
@@ -67,6 +76,9 @@ Layout make_layout(const Mission& mission, const std::vector<Writers>& writers, 
         }
         layout.sensors.push_back(std::move(sensor));
     }
+    for (SharedProduct& product : shared_products(mission))
+        layout.products.push_back(std::move(product.file));
+    layout.poses = poses;
     const std::size_t last = poses > 0 ? poses - 1 : 0;
     layout.digits = std::max(6, static_cast<int>(std::to_string(last).size()));
     return layout;

@@ -20,6 +20,7 @@
 //                                     the mission runs, parts of it lie in OUT/journal.d/
 //     OUT/<sensor>/<format>/NNNNNN.*  a file per ping
 //     OUT/<sensor>/*                  a file of records, one per ping, and what is made of them
+//     OUT/labels/*, OUT/split/*       what is made of the pings of all sensors
 //
 // Which formats there are is told by the files in dataset/writers. A record that is not written yet
 // is zero. NNNNNN is the index of the pose on the trajectory, in six digits or as many as the last
@@ -53,11 +54,15 @@ struct SensorLayout {
 struct Layout {
     std::filesystem::path folder;
     std::vector<SensorLayout> sensors;
+    std::vector<std::string> products;  ///< made of the pings of all sensors
+    std::size_t poses = 0;
     int digits = 6;  ///< of a ping number
 
     std::string number(std::uint32_t pose) const;
     std::filesystem::path sensor_folder(std::size_t sensor) const;
     std::filesystem::path file(const PingId& ping, const PingFile& kind) const;
+    /// Where a product of a sensor lies; of the dataset, for the sensor after the last one.
+    std::filesystem::path product_file(std::size_t sensor, const std::string& name) const;
     /// The index of a ping among those of its sensor.
     std::size_t record_of(const PingId& ping) const;
     /// Every folder of the dataset but `folder` itself, parents first.

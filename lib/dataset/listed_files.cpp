@@ -112,6 +112,8 @@ void remove_listed_files(const fs::path& folder, const Json& description,
     try {
         for (const Json& sensor : description.value("sensors", Json::array()))
             list_sensor(folder, sensor, files);
+        for (const Json& product : description.value("products", Json::array()))
+            files.insert(product.get<std::string>());
     } catch (const Json::exception&) {  // NOLINT(bugprone-empty-catch)
         // A description that somebody edited: what can be read of it is removed.
     }

@@ -239,7 +239,7 @@ MergeSummary merge_datasets(const std::vector<fs::path>& folders, const fs::path
     });
     journal.finish();
     if (summary.pings < copies.size()) return summary;
-    complete_dataset(layout, writers, records, common);
+    complete_dataset(layout, context.mission, writers, records, common);
     summary.complete = true;
     return summary;
 }

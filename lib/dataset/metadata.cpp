@@ -98,6 +98,7 @@ Json describe_dataset(const Mission& mission, const Assembly& assembly, const La
             describe_sensor(assembly.sonars[i], mission, layout, layout.sensors[i], writers[i]));
     }
     json["sensors"] = std::move(sensors);
+    if (!layout.products.empty()) json["products"] = layout.products;
     return json;
 }
 

@@ -3,12 +3,13 @@
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
+#include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <stdexcept>
 #include <string>
 
-#include "core/file.h"
 #include "dataset/npy.h"
 
 namespace sonarsim {
@@ -17,13 +18,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t largest_json = std::size_t{1} << 28;
 constexpr std::size_t longest_npy_header = 4096;
 /// Of an image, what is decoded at a time.
 constexpr std::size_t strip_bytes = std::size_t{1} << 22;
 
+/// Of values of 16 bits.
+std::uint16_t largest_of(std::span<const std::byte> bytes) {
+    std::uint16_t largest = 0;
+    for (std::size_t k = 0; k + 2 <= bytes.size(); k += 2) {
+        std::uint16_t value = 0;
+        std::memcpy(&value, &bytes[k], 2);
+        largest = std::max(largest, value);
+    }
+    return largest;
+}
+
 /// Pictures may be longer than memory: they are decoded strip by strip and dropped.
-std::vector<std::size_t> open_image(const fs::path& path, const char* format) {
+OpenedFile open_image(const fs::path& path, const char* format) {
     const auto in = OIIO::ImageInput::open(path.string());
     if (!in) throw std::runtime_error(OIIO::geterror());
     if (std::string(in->format_name()) != format)
@@ -32,40 +43,60 @@ std::vector<std::size_t> open_image(const fs::path& path, const char* format) {
     const auto row_bytes = static_cast<std::size_t>(spec.scanline_bytes(true));
     const int rows = static_cast<int>(std::max<std::size_t>(1, strip_bytes / row_bytes));
     std::vector<std::byte> strip(rows * row_bytes);
+    const bool has_ids = spec.format == OIIO::TypeDesc::UINT16 && spec.nchannels == 1;
+    std::uint16_t largest = 0;
     for (int y = 0; y < spec.height; y += rows) {
         const int end = std::min(y + rows, spec.height);
         if (!in->read_scanlines(0, 0, y, end, 0, 0, spec.nchannels, spec.format, strip.data()))
             throw std::runtime_error(in->geterror());
+        if (has_ids)
+            largest = std::max(largest, largest_of(std::span(strip).first((end - y) * row_bytes)));
     }
-    return {static_cast<std::size_t>(spec.height), static_cast<std::size_t>(spec.width)};
+    return {{static_cast<std::size_t>(spec.height), static_cast<std::size_t>(spec.width)},
+            has_ids ? std::optional(largest) : std::nullopt};
 }
 
-std::vector<std::size_t> open_npy(const fs::path& path) {
+OpenedFile open_npy(const fs::path& path) {
     std::ifstream file(path, std::ios::binary);
     std::string start(longest_npy_header, '\0');
     file.read(start.data(), static_cast<std::streamsize>(start.size()));
     start.resize(static_cast<std::size_t>(file.gcount()));
     const NpyFormat format = npy_format(start);
-    std::uint64_t bytes = format.type == "<f8" ? 8 : 4;
+    std::uint64_t bytes = format.type.back() - '0';
     for (const std::size_t length : format.shape)
         bytes *= length;
-    bytes += npy_header(format).size();
+    const std::size_t header = npy_header(format).size();
+    bytes += header;
     if (fs::file_size(path) != bytes) {
         throw std::runtime_error("is " + std::to_string(fs::file_size(path)) +
                                  " bytes long instead of " + std::to_string(bytes));
     }
-    return format.shape;
+    if (format.type != "<u2") return {format.shape};
+    file.clear();
+    file.seekg(static_cast<std::streamoff>(header));
+    std::uint16_t largest = 0;
+    std::vector<std::byte> strip(strip_bytes);
+    for (std::uint64_t left = bytes - header; left > 0;) {
+        const std::size_t count = std::min<std::uint64_t>(left, strip.size());
+        if (!file.read(reinterpret_cast<char*>(strip.data()), static_cast<std::streamsize>(count)))
+            throw std::runtime_error("cannot be read");
+        largest = std::max(largest, largest_of(std::span(strip).first(count)));
+        left -= count;
+    }
+    return {format.shape, largest};
 }
 
 }  // namespace
 
-std::vector<std::size_t> open_file(const fs::path& path) {
+OpenedFile open_file(const fs::path& path) {
     const std::string extension = path.extension().string();
     if (extension == ".png") return open_image(path, "png");
     if (extension == ".tif") return open_image(path, "tiff");
     if (extension == ".npy") return open_npy(path);
-    if (extension == ".json" && !nlohmann::json::accept(read_file(path, largest_json)))
-        throw std::runtime_error("is no JSON");
+    if (extension == ".json") {  // COCO files may be longer than memory
+        std::ifstream file(path, std::ios::binary);
+        if (!nlohmann::json::accept(file)) throw std::runtime_error("is no JSON");
+    }
     return {};
 }
 

@@ -18,12 +18,15 @@ std::optional<std::uint64_t> size_of(const fs::path& path) {
     return absent ? std::nullopt : std::optional(size);
 }
 
+/// Those of the dataset as of a sensor after the last one.
 template <class Visit>
 void for_each_product(const Layout& layout, const Visit& visit) {
     for (std::uint32_t i = 0; i < layout.sensors.size(); ++i) {
         for (const std::string& name : layout.sensors[i].products)
             visit(i, name);
     }
+    for (const std::string& name : layout.products)
+        visit(static_cast<std::uint32_t>(layout.sensors.size()), name);
 }
 
 }  // namespace
@@ -84,7 +87,7 @@ void require_files(const Layout& layout, const std::vector<PingId>& written,
 ProductSizes require_products(const Layout& layout) {
     ProductSizes sizes;
     for_each_product(layout, [&](std::uint32_t sensor, const std::string& name) {
-        const fs::path path = layout.sensor_folder(sensor) / name;
+        const fs::path path = layout.product_file(sensor, name);
         const auto size = size_of(path);
         if (!size)
             throw std::runtime_error(path.string() +
@@ -101,7 +104,7 @@ bool has_products(const Layout& layout) {
     for_each_product(layout, [&](std::uint32_t sensor, const std::string& name) {
         const auto entry = expected.find({sensor, name});
         all = all && entry != expected.end() &&
-              size_of(layout.sensor_folder(sensor) / name) == entry->second;
+              size_of(layout.product_file(sensor, name)) == entry->second;
     });
     return all;
 }

@@ -65,7 +65,8 @@ struct Task {
     std::string name;
     std::string kind;  ///< "sensor/polar": those of one kind have one shape; empty for single files
     std::string sum;
-    Shape shape;  ///< that it should have, where dataset.json tells
+    Shape shape;                     ///< that it should have, where dataset.json tells
+    std::optional<std::size_t> ids;  ///< that there are, of a file of ids
 };
 
 /// The shape that dataset.json tells; none where it does not.
@@ -73,11 +74,26 @@ Shape told_shape(const DescribedFile& file) {
     if (!file.sensor) return {};
     const Json& sensor = *file.sensor;
     const auto bins = [&](const char* key) { return sensor.at(key).size() - 1; };
-    if (file.kind == "polar" || file.kind == "image")
-        return {bins("range_edges_m"), bins("azimuth_edges_rad")};
-    if (file.kind == "fan")
+    if (!sensor.at("files").contains(file.kind)) return {};
+    const std::string extension = fs::path(file.name).extension().string();
+    if (file.kind == "stages" || (extension != ".npy" && extension != ".png")) return {};
+    if (file.kind.starts_with("fan"))
         return {sensor.at("fan").at("height_px"), sensor.at("fan").at("width_px")};
-    return {};
+    return {bins("range_edges_m"), bins("azimuth_edges_rad")};
+}
+
+/// How many ids dataset.json tells for the values of a file; nothing where they are no ids.
+std::optional<std::size_t> told_ids(const DescribedFile& file, const Json& description) {
+    std::string_view kind = file.kind;
+    for (const std::string_view prefix : {"label_records/", "fan_"}) {
+        if (kind.starts_with(prefix)) kind.remove_prefix(prefix.size());
+    }
+    const char* list = nullptr;
+    if (kind == "instance" || kind == "second" || kind == "shadow") list = "instances";
+    if (kind == "class") list = "classes";
+    if (kind == "material") list = "materials";
+    if (!list) return std::nullopt;
+    return description.at("labels").at(list).size();
 }
 
 /// What is to be looked at; what is missing is a fault already.
@@ -95,7 +111,7 @@ std::vector<Task> list_tasks(const fs::path& folder, const Json& description,
             tasks.push_back({file.name,
                              alike ? file.sensor->at("name").get<std::string>() + "/" + file.kind
                                    : std::string(),
-                             sum->second, told_shape(file)});
+                             sum->second, told_shape(file), told_ids(file, description)});
         } else if (file.name != checksums_name && !sums.empty()) {
             add_fault(check, file.name +
                                  ": SHA256SUMS does not list it; remove SHA256SUMS, and the render "
@@ -125,10 +141,14 @@ Look look_at(const fs::path& folder, const Task& task) {
     Look look;
     look.bytes = fs::file_size(path);
     try {
-        look.shape = open_file(path);
+        const OpenedFile opened = open_file(path);
+        look.shape = opened.shape;
         if (!task.shape.empty() && look.shape != task.shape) {
             look.fault = "is " + shape_text(look.shape) + ", and dataset.json says " +
                          shape_text(task.shape);
+        } else if (task.ids && opened.largest && *opened.largest > *task.ids) {
+            look.fault = "has the id " + std::to_string(*opened.largest) +
+                         ", and dataset.json names " + std::to_string(*task.ids);
         }
     } catch (const std::system_error&) {
         throw;
