@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace sonarsim {
@@ -11,6 +12,9 @@ namespace sonarsim {
 /// taken as they are. Returns the shape: [height, width] of an image, that of the array of an .npy,
 /// nothing of the others. std::runtime_error with the reason when it does not open.
 std::vector<std::size_t> open_file(const std::filesystem::path& path);
+
+/// The same for a file that is in memory and would bear this name: a PNG, .npy or JSON.
+std::vector<std::size_t> open_bytes(const std::string& name, const std::string& bytes);
 
 /// "512 x 256".
 std::string shape_text(const std::vector<std::size_t>& shape);

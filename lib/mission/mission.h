@@ -200,6 +200,9 @@ enum class Label {
     objects,
 };
 
+/// What the files of pings are put together in.
+enum class Pack { none, tar };
+
 struct OutputConfig {
     std::filesystem::path folder;
     bool polar = true;        ///< float32 .npy
@@ -210,6 +213,8 @@ struct OutputConfig {
     int fan_width_px = 0;     ///< 0: one pixel per range bin, at most 1024
     double full_scale = 1.0;  ///< intensity that becomes white
     std::vector<Label> labels = {};  ///< each at most once, in the order of the enumeration
+    Pack pack = Pack::none;
+    double pack_size_mb = 256.0;  ///< at most; a megabyte is a million bytes
 
     // What is made of all pings of a sonar together.
     bool waterfall = true;           ///< of side-scan

@@ -41,6 +41,8 @@ inline constexpr std::array label_names{Choice<Label>{"instance", Label::instanc
                                         Choice<Label>{"multipath_only", Label::multipath_only},
                                         Choice<Label>{"objects", Label::objects}};
 
+inline constexpr std::array packs{Choice<Pack>{"none", Pack::none}, Choice<Pack>{"tar", Pack::tar}};
+
 /// Fit for the name of a folder that holds nothing but one mission.
 inline bool is_folder_name(std::string_view name) {
     return !name.empty() && name != "." && name != ".." && name.size() <= 200 &&
@@ -256,6 +258,11 @@ void describe(Visitor& v, OutputConfig& c) {
     v.number("full_scale", c.full_scale, above(0), "intensity that becomes white");
     v.subset("labels", c.labels, label_names,
              "write what is in every bin: `true` for all, or a list of them");
+    v.choice("pack", c.pack, packs,
+             "`tar`: the files of pings are written into a few archives, as WebDataset reads them, "
+             "instead of by themselves");
+    v.number("pack_size_mb", c.pack_size_mb, between(1e-3, 1e6),
+             "the most that an archive may take; the pings in it are as many as surely fit");
     v.flag("waterfall", c.waterfall, "write the waterfalls of side-scan sonars");
     v.flag("echogram", c.echogram, "write the echograms of echosounders");
     v.flag("soundings", c.soundings,
