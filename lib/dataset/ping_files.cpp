@@ -80,7 +80,11 @@ void PingFiles::write(const PingId& ping, const EncodedPing& encoded) const {
 void PingFiles::pack(const PingId& ping, const EncodedPing& encoded) {
     const SensorLayout& sensor = layout_.sensors[ping.sensor];
     if (sensor.pings_per_pack == 0) return;
+    std::uint64_t room = tar_end_bytes;
+    for (const std::string& bytes : encoded)
+        room += tar_bytes(bytes.size());
     std::string members;
+    members.reserve(room);
     for (std::size_t k = 0; k < encoded.size(); ++k) {
         if (const auto* file = std::get_if<PingFile>(&sensor.per_ping[k]))
             append_to_tar(members, layout_.member(ping, *file), encoded[k]);

@@ -206,7 +206,7 @@ enum class Pack { none, tar };
 struct OutputConfig {
     std::filesystem::path folder;
     bool polar = true;        ///< float32 .npy
-    bool image = true;        ///< 16-bit polar PNG
+    bool image = false;       ///< 16-bit polar PNG
     bool fan = true;          ///< 8-bit Cartesian PNG
     bool meta = true;         ///< JSON per ping
     bool stages = false;      ///< 8-bit PNG of five fans, one term of the model after the other

@@ -247,7 +247,8 @@ void describe(Visitor& v, OutputConfig& c) {
     v.path("folder", c.folder,
            "folder of the dataset; out/NAME in the current directory where left out");
     v.flag("polar", c.polar, "write every ping of imaging and profiling sonars as float32");
-    v.flag("image", c.image, "write every ping of these sonars as a 16-bit PNG");
+    v.flag("image", c.image,
+           "write every ping of these sonars as a 16-bit PNG; it holds no more than `polar` does");
     v.flag("fan", c.fan, "write every ping of these sonars as the 8-bit fan that an operator sees");
     v.flag("meta", c.meta, "write a JSON file per ping");
     v.flag("stages", c.stages,
