@@ -31,7 +31,7 @@ for upper in ("dataset", "validation", "benchmark"):
 PARTS = {
     "dataset": [["*"], ["writers/"], ["writers"],
                 ["layout"], ["journal", "metadata"], ["description", "checksums"], ["listed_files"],
-                ["folder", "resume"], ["ping_files"], ["completion"], ["job", "merge", "verify"]],
+                ["folder", "resume"], ["ping_files"], ["completion"], ["collection", "job", "merge", "verify"]],
     "scene": [["*"], ["gltf/"]],
     "validation": [["*"], ["hard/"]],
     "visibility": [["*"], ["octree/", "rays/", "slices/"], ["make_engine"]],

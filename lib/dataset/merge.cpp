@@ -57,9 +57,11 @@ void require_same(const fs::path& part, const CommonFiles& found, const fs::path
         (found.mission != expected.mission || found.trajectory != expected.trajectory))
         difference = "of this mission whose inputs or poses were changed since";
     if (difference.empty()) return;
-    throw InputError({part.string()}, "holds a dataset " + difference + ", seen from " +
-                                          first.string() +
-                                          "; only parts of one mission can be merged");
+    throw InputError({part.string()},
+                     "holds a dataset " + difference + ", seen from " + first.string() +
+                         "; only parts of one mission become one dataset; whole datasets "
+                         "of different missions stand side by side with "
+                         "--different");
 }
 
 /// What the products of a dataset are made with: all that the mission names but the scene.
