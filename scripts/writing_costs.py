@@ -37,7 +37,7 @@ def run(program, out, arguments):
     shutil.rmtree(out, ignore_errors=True)
     answer = tempfile.TemporaryFile()
     pid = os.posix_spawn(program, [program, "render", *arguments, "--out", str(out), "--json",
-                                   "--log-level", "warn"],
+                                   "--log-level", "warning"],
                          os.environ, file_actions=[(os.POSIX_SPAWN_DUP2, answer.fileno(), 1)])
     _, status, usage = os.wait4(pid, 0)
     if status != 0:
