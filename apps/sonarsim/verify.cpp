@@ -3,11 +3,13 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
+#include "dataset/collection.h"
 #include "logging.h"
 #include "progress.h"
 #include "signals.h"
@@ -34,16 +36,14 @@ void print_verdict(const DatasetCheck& check, bool whole) {
     fmt::print("{}", json_line(json));
 }
 
-int verify(const VerifyArguments& arguments) {
-    start_logging(arguments.log);
-    const std::atomic<bool>& stop =
-        stop_on_signal(warning_line(arguments.log, "stopped at once; nothing was changed"));
+int verify(const VerifyArguments& arguments, const std::filesystem::path& folder,
+           const std::atomic<bool>& stop) {
     DatasetCheck check;
     {
         const bool quiet = arguments.log.quiet || arguments.log.json;
         ProgressLine line(!quiet && ::isatty(STDERR_FILENO) == 1, "files");
         check = verify_dataset(
-            arguments.folder, arguments.threads,
+            folder, arguments.threads,
             [&](std::uint64_t done, std::uint64_t total) { line.show(done, total); }, stop);
     }
     for (const std::string& name : check.strangers)
@@ -58,9 +58,22 @@ int verify(const VerifyArguments& arguments) {
     const bool whole = check.faults.empty();
     if (arguments.log.json) print_verdict(check, whole);
     if (whole)
-        spdlog::info("{}: whole; {} files, {} bytes", arguments.folder.string(), check.files,
-                     check.bytes);
+        spdlog::info("{}: whole; {} files, {} bytes", folder.string(), check.files, check.bytes);
     return whole ? exit_done : exit_failed;
+}
+
+/// The worst of the verdicts on what is in the folder: a dataset, or some side by side.
+int verify_all(const VerifyArguments& arguments) {
+    start_logging(arguments.log);
+    const std::atomic<bool>& stop =
+        stop_on_signal(warning_line(arguments.log, "stopped at once; nothing was changed"));
+    std::vector<std::filesystem::path> folders = collected_folders(arguments.folder);
+    if (folders.empty()) folders.push_back(arguments.folder);
+    int worst = exit_done;
+    for (const std::filesystem::path& folder : folders) {
+        if (!stop) worst = std::max(worst, verify(arguments, folder, stop));
+    }
+    return worst;
 }
 
 }  // namespace
@@ -74,7 +87,7 @@ void add_verify(CLI::App& app, int& exit_code) {
         ->check(CLI::Range(1, 1024))
         ->type_name("N");
     add_log_options(command, arguments->log);
-    command.callback([arguments, &exit_code] { exit_code = verify(*arguments); });
+    command.callback([arguments, &exit_code] { exit_code = verify_all(*arguments); });
 }
 
 }  // namespace sonarsim

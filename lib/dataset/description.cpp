@@ -37,6 +37,16 @@ bool visit_sensor(const Json& sensor, const std::function<bool(const DescribedFi
             if (!visit({name, &sensor, kind})) return false;
         }
     }
+    if (sensor.contains("packs")) {
+        const Json& packs = sensor["packs"];
+        const auto pattern = packs.at("file").get<std::string>();
+        const auto each = packs.at("pings").get<std::uint64_t>();
+        if (each == 0 || numbered(pattern, 0).empty())
+            throw InputError("'packs' in dataset.json is damaged");
+        for (std::uint64_t first = 0; first < pings; first += each) {
+            if (!visit({numbered(pattern, first / each), &sensor, "packs"})) return false;
+        }
+    }
     if (sensor.contains("records")) {
         if (!visit({sensor["records"].at("file").get<std::string>(), &sensor, "records"}))
             return false;

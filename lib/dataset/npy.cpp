@@ -54,7 +54,7 @@ NpyFormat npy_format(std::string_view start) {
     const std::string text(start.substr(0, start.find('\n')));
     NpyFormat format;
     for (const char* type : {"<u2", "<f4", "<f8"}) {
-        if (text.find(std::string("'") + type + "'") != std::string::npos) format.type = type;
+        if (text.find(std::string("'") + type) != std::string::npos) format.type = type;
     }
     format.fortran_order = text.find("'fortran_order': True") != std::string::npos;
     const std::string mark = "'shape': (";
@@ -66,7 +66,7 @@ NpyFormat npy_format(std::string_view start) {
             format.shape.push_back(parse_unsigned(length).value_or(0));
     }
     if (format.type.empty() || format.shape.empty() || !start.starts_with(npy_header(format)))
-        throw std::runtime_error("is no .npy file, format 1.0, of floats or 16 bits");
+        throw std::runtime_error("is no .npy file, format 1.0, as sonarsim writes it");
     return format;
 }
 

@@ -1,5 +1,6 @@
 #include "dataset/open_file.h"
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
@@ -7,6 +8,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <span>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -33,9 +35,11 @@ std::uint16_t largest_of(std::span<const std::byte> bytes) {
     return largest;
 }
 
-/// Pictures may be longer than memory: they are decoded strip by strip and dropped.
-OpenedFile open_image(const fs::path& path, const char* format) {
-    const auto in = OIIO::ImageInput::open(path.string());
+/// Pictures may be longer than memory: they are decoded strip by strip and dropped. `bytes`: the
+/// file, where it is in memory.
+OpenedFile open_image(const std::string& name, const char* format,
+                      OIIO::Filesystem::IOProxy* bytes) {
+    const auto in = OIIO::ImageInput::open(name, nullptr, bytes);
     if (!in) throw std::runtime_error(OIIO::geterror());
     if (std::string(in->format_name()) != format)
         throw std::runtime_error(std::string("is no ") + format + " file");
@@ -56,20 +60,20 @@ OpenedFile open_image(const fs::path& path, const char* format) {
             has_ids ? std::optional(largest) : std::nullopt};
 }
 
-OpenedFile open_npy(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
+/// `file` is at its begin and `bytes` long.
+OpenedFile open_npy(std::istream& file, std::uint64_t bytes) {
     std::string start(longest_npy_header, '\0');
     file.read(start.data(), static_cast<std::streamsize>(start.size()));
     start.resize(static_cast<std::size_t>(file.gcount()));
     const NpyFormat format = npy_format(start);
-    std::uint64_t bytes = format.type.back() - '0';
+    std::uint64_t told = static_cast<std::uint64_t>(format.type.back() - '0');
     for (const std::size_t length : format.shape)
-        bytes *= length;
+        told *= length;
     const std::size_t header = npy_header(format).size();
-    bytes += header;
-    if (fs::file_size(path) != bytes) {
-        throw std::runtime_error("is " + std::to_string(fs::file_size(path)) +
-                                 " bytes long instead of " + std::to_string(bytes));
+    told += header;
+    if (bytes != told) {
+        throw std::runtime_error("is " + std::to_string(bytes) + " bytes long instead of " +
+                                 std::to_string(told));
     }
     if (format.type != "<u2") return {format.shape};
     file.clear();
@@ -86,17 +90,29 @@ OpenedFile open_npy(const fs::path& path) {
     return {format.shape, largest};
 }
 
+void open_json(std::istream& file) {
+    if (!nlohmann::json::accept(file)) throw std::runtime_error("is no JSON");
+}
+
 }  // namespace
 
 OpenedFile open_file(const fs::path& path) {
     const std::string extension = path.extension().string();
-    if (extension == ".png") return open_image(path, "png");
-    if (extension == ".tif") return open_image(path, "tiff");
-    if (extension == ".npy") return open_npy(path);
-    if (extension == ".json") {  // COCO files may be longer than memory
-        std::ifstream file(path, std::ios::binary);
-        if (!nlohmann::json::accept(file)) throw std::runtime_error("is no JSON");
-    }
+    if (extension == ".png") return open_image(path.string(), "png", nullptr);
+    if (extension == ".tif") return open_image(path.string(), "tiff", nullptr);
+    std::ifstream file(path, std::ios::binary);
+    if (extension == ".npy") return open_npy(file, fs::file_size(path));
+    if (extension == ".json") open_json(file);  // COCO files may be longer than memory
+    return {};
+}
+
+OpenedFile open_bytes(const std::string& name, const std::string& bytes) {
+    const std::string extension = fs::path(name).extension().string();
+    OIIO::Filesystem::IOMemReader memory(const_cast<char*>(bytes.data()), bytes.size());
+    if (extension == ".png") return open_image(name, "png", &memory);
+    std::istringstream file(bytes);
+    if (extension == ".npy") return open_npy(file, bytes.size());
+    if (extension == ".json") open_json(file);
     return {};
 }
 

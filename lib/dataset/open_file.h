@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace sonarsim {
@@ -19,6 +20,9 @@ struct OpenedFile {
 /// JSON is parsed; other files are taken as they are. std::runtime_error with the reason when it
 /// does not open.
 OpenedFile open_file(const std::filesystem::path& path);
+
+/// The same for a file that is in memory and would bear this name: a PNG, .npy or JSON.
+OpenedFile open_bytes(const std::string& name, const std::string& bytes);
 
 /// "512 x 256".
 std::string shape_text(const std::vector<std::size_t>& shape);

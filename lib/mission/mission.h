@@ -218,10 +218,13 @@ struct SplitConfig {
     bool operator==(const SplitConfig&) const = default;
 };
 
+/// What the files of pings are put together in.
+enum class Pack { none, tar };
+
 struct OutputConfig {
     std::filesystem::path folder;
     bool polar = true;        ///< float32 .npy
-    bool image = true;        ///< 16-bit polar PNG
+    bool image = false;       ///< 16-bit polar PNG
     bool fan = true;          ///< 8-bit Cartesian PNG
     bool meta = true;         ///< JSON per ping
     bool stages = false;      ///< 8-bit PNG of five fans, one term of the model after the other
@@ -230,6 +233,8 @@ struct OutputConfig {
     std::vector<Label> labels = {};  ///< each at most once, in the order of the enumeration
     Place labels_place = {};
     SplitConfig split = {};
+    Pack pack = Pack::none;
+    double pack_size_mb = 256.0;  ///< at most; a megabyte is a million bytes
 
     // What is made of all pings of a sonar together.
     bool waterfall = true;           ///< of side-scan

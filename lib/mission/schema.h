@@ -46,6 +46,8 @@ inline constexpr std::array label_names{Choice<Label>{"instance", Label::instanc
                                         Choice<Label>{"yolo", Label::yolo},
                                         Choice<Label>{"yolo_polygons", Label::yolo_polygons}};
 
+inline constexpr std::array packs{Choice<Pack>{"none", Pack::none}, Choice<Pack>{"tar", Pack::tar}};
+
 /// Fit for the name of a folder that holds nothing but one mission.
 inline bool is_folder_name(std::string_view name) {
     return !name.empty() && name != "." && name != ".." && name.size() <= 200 &&
@@ -265,7 +267,8 @@ void describe(Visitor& v, OutputConfig& c) {
     v.path("folder", c.folder,
            "folder of the dataset; out/NAME in the current directory where left out");
     v.flag("polar", c.polar, "write every ping of imaging and profiling sonars as float32");
-    v.flag("image", c.image, "write every ping of these sonars as a 16-bit PNG");
+    v.flag("image", c.image,
+           "write every ping of these sonars as a 16-bit PNG; it holds no more than `polar` does");
     v.flag("fan", c.fan, "write every ping of these sonars as the 8-bit fan that an operator sees");
     v.flag("meta", c.meta, "write a JSON file per ping");
     v.flag("stages", c.stages,
@@ -279,6 +282,11 @@ void describe(Visitor& v, OutputConfig& c) {
     v.place("labels", c.labels_place);
     v.section("split", c.split,
               "lists of poses to learn and to test with, by stretches of the trajectory");
+    v.choice("pack", c.pack, packs,
+             "`tar`: the files of pings are written into a few archives, as WebDataset reads them, "
+             "instead of by themselves");
+    v.number("pack_size_mb", c.pack_size_mb, between(1e-3, 1e6),
+             "the most that an archive may take; the pings in it are as many as surely fit");
     v.flag("waterfall", c.waterfall, "write the waterfalls of side-scan sonars");
     v.flag("echogram", c.echogram, "write the echograms of echosounders");
     v.flag("soundings", c.soundings,
