@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <string_view>
 #include <variant>
@@ -287,6 +288,11 @@ void describe(Visitor& v, OutputConfig& c) {
              "instead of by themselves");
     v.number("pack_size_mb", c.pack_size_mb, between(1e-3, 1e6),
              "the most that an archive may take; the pings in it are as many as surely fit");
+    v.require(
+        c.pack == Pack::none || std::ranges::find(c.labels, Label::coco) == c.labels.end(),
+        {"pack"},
+        "`pack: tar` does not go with the label `coco`, which is made of the files of objects; "
+        "leave out one of the two");
     v.flag("waterfall", c.waterfall, "write the waterfalls of side-scan sonars");
     v.flag("echogram", c.echogram, "write the echograms of echosounders");
     v.flag("soundings", c.soundings,

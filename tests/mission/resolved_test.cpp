@@ -130,6 +130,12 @@ output:
   fan_width_px: 0
   full_scale: 1
   labels: false
+  split:
+    train: 0
+    val: 0
+    test: 0
+    gap: 10
+    rounds: 1
   pack: none
   pack_size_mb: 256
   waterfall: true
