@@ -25,7 +25,7 @@ seed: 1
 scene: {{file: {root}/scenes/tank.glb, materials: {root}/scenes/materials.csv}}
 trajectory:
   rate_hz: {pings}
-  waypoints: [{{position_m: [-2, 0, 0]}}, {{position_m: [-1.000001, 0, 0]}}]
+  waypoints: [{{position_m: [-1, 0, 1.5], rpy_deg: [0, 15, 0]}}, {{position_m: [-0.000001, 0, 1.5], rpy_deg: [0, 15, 0]}}]
 sensors:
   fls: {{kind: imaging, azimuth_deg: 60, elevation_deg: 12, range_bins: 32, azimuth_bins: 16,
         noise: {{add_sigma: 0.08, mult_sigma: 0.15}}}}
