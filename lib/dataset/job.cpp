@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "assembly/engine_probes.h"
 #include "core/clock.h"
 #include "core/error.h"
 #include "core/file.h"
@@ -22,7 +23,6 @@
 #include "dataset/label_description.h"
 #include "dataset/metadata.h"
 #include "dataset/resume.h"
-#include "sonar/engine_settings.h"
 #include "sonar/measured.h"
 #include "trajectory/files.h"
 
@@ -146,7 +146,7 @@ void render(const Mission& mission, const Assembly& assembly, const std::vector<
             const std::atomic<bool>& stop, RenderSummary& summary) {
     if (todo.empty()) return;
     const std::unique_ptr<VisibilityEngine> engine =
-        make_engine(assembly.scene, engine_settings(mission));
+        make_engine(assembly.scene, engine_settings(mission, assembly));
     Stopwatch watch;
     ordered_pipeline(
         todo.size(), 2 * static_cast<std::size_t>(threads), stop,
