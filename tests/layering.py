@@ -35,7 +35,7 @@ PARTS = {
                 ["collection", "job", "merge", "verify"]],
     "scene": [["*"], ["gltf/"]],
     "validation": [["*"], ["hard/"]],
-    "visibility": [["*"], ["octree/", "rays/", "slices/"], ["make_engine"]],
+    "visibility": [["*"], ["octree/", "rays/", "slices/"], ["auto_engine"], ["make_engine"]],
 }
 # Which folder alone may use a library.
 OWNERS = {

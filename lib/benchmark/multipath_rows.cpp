@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "assembly/engine_probes.h"
 #include "benchmark/timed_pings.h"
 #include "core/in_parallel.h"
-#include "sonar/engine_settings.h"
 #include "validation/image_error.h"
 
 namespace sonarsim {
@@ -130,7 +130,7 @@ std::vector<MultipathRow> measure_multipath(const Mission& mission, const Assemb
     std::vector<MultipathRow> out;
     if (std::ranges::none_of(assembly.sonars, has_multipath)) return out;
     const PingSet pings = make_ping_set(mission, assembly, options.poses);
-    const auto engine = make_engine(assembly.scene, engine_settings(mission));
+    const auto engine = make_engine(assembly.scene, engine_settings(mission, assembly));
     for (const Sonar& sonar : assembly.sonars) {
         if (!has_multipath(sonar)) continue;
         const std::vector<MultipathRow> rows =

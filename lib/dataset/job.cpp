@@ -9,6 +9,7 @@
 #include <memory>
 #include <vector>
 
+#include "assembly/engine_probes.h"
 #include "core/clock.h"
 #include "core/error.h"
 #include "core/ordered_pipeline.h"
@@ -20,7 +21,6 @@
 #include "dataset/metadata.h"
 #include "dataset/ping_files.h"
 #include "dataset/resume.h"
-#include "sonar/engine_settings.h"
 #include "sonar/measured.h"
 #include "trajectory/files.h"
 
@@ -141,7 +141,7 @@ void render(const Mission& mission, const Assembly& assembly, const std::vector<
             const std::atomic<bool>& stop, RenderSummary& summary) {
     if (todo.empty()) return;
     const std::unique_ptr<VisibilityEngine> engine =
-        make_engine(assembly.scene, engine_settings(mission));
+        make_engine(assembly.scene, engine_settings(mission, assembly));
     Stopwatch watch;
     ordered_pipeline(
         todo.size(), 2 * static_cast<std::size_t>(threads), stop,

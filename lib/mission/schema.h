@@ -315,8 +315,9 @@ void describe(Visitor& v, Mission& c) {
     v.named("sensors", c.sensors, "one section per sonar; NAME is its folder in the dataset");
     v.section("accuracy", c.accuracy, "how exact the images are");
     v.choice("engine", c.engine, engine_kinds,
-             "what finds the visible surface; `auto` takes the rays. The octree sees up to 160 "
-             "degrees of elevation or opening; the slices estimate the error of every ping");
+             "what finds the visible surface; `auto` takes the slices, or the rays for a sonar for "
+             "which they meet the error goal with less work. The octree sees up to 160 degrees of "
+             "elevation or opening");
     v.section("octree", c.octree, "settings of the octree");
     v.section("slices", c.slices, "settings of the slices");
     v.list("classes", c.classes, 0,

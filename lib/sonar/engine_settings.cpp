@@ -10,8 +10,10 @@ EngineType type_of(EngineKind kind) {
             return EngineType::octree;
         case EngineKind::slices:
             return EngineType::slices;
-        default:
+        case EngineKind::rays:
             return EngineType::rays;
+        default:
+            return EngineType::automatic;
     }
 }
 

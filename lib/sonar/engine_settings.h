@@ -5,9 +5,8 @@
 
 namespace sonarsim {
 
-/// What a mission's `engine`, `octree` and `slices` keys stand for. `auto` is rays: in the
-/// speed-against-error report they reach every error goal in less time than the octree, on every
-/// scene.
+/// What a mission's `engine`, `octree` and `slices` keys stand for. For `auto` see also
+/// assembly/engine_probes.h.
 EngineSettings engine_settings(EngineKind kind, const OctreeConfig& octree = {},
                                const SlicesConfig& slices = {});
 EngineSettings engine_settings(const Mission& mission);

@@ -24,6 +24,8 @@ std::unique_ptr<VisibilityEngine> make_engine(const Scene& scene, const EngineSe
             return make_octree_engine(scene, settings.octree);
         case EngineType::slices:
             return make_slices_engine(scene, settings.slices);
+        case EngineType::automatic:
+            return make_auto_engine(scene, settings.slices, settings.probes);
         case EngineType::rays:
             break;
     }

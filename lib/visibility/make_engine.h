@@ -2,20 +2,23 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "scene/scene.h"
+#include "visibility/auto_engine.h"
 #include "visibility/engine.h"
 #include "visibility/octree/octree_engine.h"
 #include "visibility/slices/slices_engine.h"
 
 namespace sonarsim {
 
-enum class EngineType { rays, octree, slices };
+enum class EngineType { automatic, rays, octree, slices };
 
 struct EngineSettings {
     EngineType type = EngineType::rays;
-    OctreeOptions octree;       ///< read by the octree alone
-    SlicesOptions slices = {};  ///< read by the slices alone
+    OctreeOptions octree;            ///< read by the octree alone
+    SlicesOptions slices = {};       ///< read by the slices alone
+    std::vector<Probe> probes = {};  ///< read by `automatic` alone; without, it takes the slices
 };
 
 /// The engine over a scene that must outlive it. Throws InputError when octree.leaf_m is too small

@@ -23,6 +23,8 @@ struct View {
     double relative_l1 = 0.0;  ///< error goal of the noise-free image
     ViewShape shape = ViewShape::fan;
 
+    bool operator==(const View&) const = default;
+
     double bin_m() const { return (range_max_m - range_min_m) / range_bins; }
 };
 

@@ -6,9 +6,9 @@
 
 #include "core/text.h"
 #include "visibility/caster.h"
+#include "visibility/image_change.h"
 #include "visibility/intersect.h"
 #include "visibility/octree/goal_check.h"
-#include "visibility/octree/image_change.h"
 #include "visibility/octree/leaf_samples.h"
 #include "visibility/octree/literal.h"
 #include "visibility/octree/tree.h"

@@ -13,7 +13,7 @@ Groups by_gap(const SliceScene& scene, const SliceFrame& frame) {
     gaps.reserve(scene.between.size());
     for (const Between& between : scene.between)
         gaps.push_back(between.gap);
-    return sort_into_groups(gaps, frame.gaps.size());
+    return sort_into_groups(gaps, frame.gaps());
 }
 
 }  // namespace
@@ -34,7 +34,11 @@ void FrameScan::see_next(SeenSlice& out) {
     see(frame_.slices[next_++], segments, out);
 }
 
-void FrameScan::within_gap(std::uint32_t gap, std::vector<std::uint32_t>& out) {
+void FrameScan::find_candidates(std::uint32_t gap, std::span<const std::uint32_t> around,
+                                std::vector<Candidate>& out) {
+    out.clear();
+    for (const std::uint32_t trapezoid : around)
+        out.push_back(candidate(scene_, trapezoid));
     if (!between_) between_ = by_gap(scene_, frame_);
     facets_.clear();
     for (std::uint32_t k = between_->begin[gap]; k < between_->begin[gap + 1]; ++k)
@@ -44,14 +48,14 @@ void FrameScan::within_gap(std::uint32_t gap, std::vector<std::uint32_t>& out) {
     const auto first = static_cast<std::uint32_t>(scene_.trapezoids.size());
     setup_.add_between(facets_);
     for (auto i = first; i < scene_.trapezoids.size(); ++i) {
-        const Trapezoid& t = scene_.trapezoids[i];
-        if (frame_.slices[gap].u <= t.u_from && t.u_to <= frame_.slices[gap + 1].u)
-            out.push_back(i);
+        const Candidate c = candidate(scene_, i);
+        if (frame_.slices[gap].u <= c.u_from && c.u_to <= frame_.slices[gap + 1].u)
+            out.push_back(c);
     }
 }
 
-void FrameScan::see(float u, std::span<const std::uint32_t> trapezoids, SeenSlice& out) {
-    segments_at(scene_, u, trapezoids, segments_);
+void FrameScan::see(float u, std::span<const Candidate> candidates, SeenSlice& out) {
+    segments_at(scene_, u, candidates, segments_);
     see(slice_at(frame_, u), segments_, out);
 }
 

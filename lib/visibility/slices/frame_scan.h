@@ -7,6 +7,7 @@
 #include "scene/scene.h"
 #include "visibility/local_pose.h"
 #include "visibility/slices/envelope.h"
+#include "visibility/slices/moved_ends.h"
 #include "visibility/slices/narrow_pieces.h"
 #include "visibility/slices/reach.h"
 #include "visibility/slices/setup.h"
@@ -18,6 +19,8 @@ namespace sonarsim {
 struct SeenSlice {
     Slice slice;
     std::vector<VisibleSpan> spans;
+    MovedEnds low;  ///< moved to where the strip that it stands for begins, and ends
+    MovedEnds high;
 };
 
 /// What is visible in the slices of a frame from one pose, and in any slice between them.
@@ -33,11 +36,13 @@ class FrameScan {
     /// The trapezoids that one of the two slices seen last meets. Appends to `out`.
     void around_last_gap(std::vector<std::uint32_t>& out) const { walk_.around_last_gap(out); }
 
-    /// Appends the trapezoids that lie within a gap.
-    void within_gap(std::uint32_t gap, std::vector<std::uint32_t>& out);
+    /// Finds all that slices within a gap may meet: `around`, the trapezoids that its own two slices
+    /// meet, and those that lie between them.
+    void find_candidates(std::uint32_t gap, std::span<const std::uint32_t> around,
+                         std::vector<Candidate>& out);
 
-    /// Sees the slice at u, of which `trapezoids` are all that it may meet.
-    void see(float u, std::span<const std::uint32_t> trapezoids, SeenSlice& out);
+    /// Sees the slice at u, which meets nothing but `candidates`.
+    void see(float u, std::span<const Candidate> candidates, SeenSlice& out);
 
     /// The slices that are wanted within a gap, from low u to high.
     std::span<const WantedSlice> wanted_in(std::uint32_t gap) const;

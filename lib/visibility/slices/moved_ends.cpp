@@ -25,6 +25,7 @@ void move_ends(const Slice& slice, std::span<const VisibleSpan> spans, float u, 
         while (first > 0 && ends[first - 1].w > ends[i].w && ends[first - 1].q <= ends[i].q)
             --first;
         const bool stopped = first > 0 && ends[first - 1].w > ends[i].w;
+        if (first == i && !stopped) continue;
         const MovedEnd leader = ends[stopped ? first - 1 : i];
         for (std::size_t k = first; k <= i; ++k) {
             ends[k].w = leader.w;

@@ -17,7 +17,7 @@ std::vector<WantedSlice> slices_through_narrow_pieces(const SliceScene& scene,
         const auto behind = std::ranges::upper_bound(slices, u, {}, &Slice::u);
         return static_cast<std::ptrdiff_t>(behind - slices.begin()) - 1;
     };
-    const auto gaps = static_cast<std::ptrdiff_t>(frame.gaps.size());
+    const auto gaps = static_cast<std::ptrdiff_t>(frame.gaps());
     std::vector<WantedSlice> wanted;
     for (const Extent& piece : scene.piece_u) {
         if (!(piece.from < piece.to)) continue;  // out of view

@@ -7,19 +7,21 @@ namespace sonarsim {
 
 namespace {
 
-/// A point of a plane of the scene, seen in the direction (1, u, w).
-struct PlanePoint {
-    float q;
-    float range_m;
+/// Four points of a plane of the scene, seen in the directions (1, u, w).
+struct PlanePoints {
+    Eigen::Array4f q;
+    Eigen::Array4f range_m;
 };
 
-PlanePoint plane_point(const SeenFacet& seen, const Extent& range_m, float u, float w) {
-    const float secant = std::sqrt(1.0F + u * u + w * w);
-    const float q = -(seen.normal.x() + seen.normal.y() * u + seen.normal.z() * w) / seen.height_m;
-    const float nearest_q = secant / range_m.to;
-    const float farthest_q = secant / range_m.from;
-    const float clamped = std::clamp(q, nearest_q, std::max(farthest_q, nearest_q));
-    return {clamped, secant / clamped};
+PlanePoints plane_points(const SeenFacet& seen, const Extent& range_m, const Eigen::Array4f& u,
+                         const Eigen::Array4f& w) {
+    const Eigen::Array4f secant = (1.0F + u * u + w * w).sqrt();
+    const Eigen::Array4f along = seen.normal.x() + seen.normal.y() * u + seen.normal.z() * w;
+    const Eigen::Array4f q = (along * (-1.0F / seen.height_m)).max(secant * (1.0F / range_m.to));
+    PlanePoints points;
+    points.range_m = (secant / q).max(std::min(range_m.from, range_m.to));
+    points.q = secant / points.range_m;
+    return points;
 }
 
 }  // namespace
@@ -51,17 +53,16 @@ void RangeProfile::set(const FrameScan& scan, std::span<const Material> material
         const float high = ends.ends[2 * i + 1].w;
         if (!(low < high) || ends.u < span.reach.u.from || ends.u > span.reach.u.to) continue;
         const SeenFacet& seen = scan.scene().facets[span.seen];
-        const auto point = [&](float w) {
-            const float u = scan.frame().meridians ? ends.u : ends.u * std::sqrt(1.0F + w * w);
-            return plane_point(seen, span.reach.range_m, u, w);
-        };
-        const PlanePoint a = point(low);
-        const PlanePoint b = point(high);
-        const float middle = point(0.5F * (low + high)).range_m;
+        const Eigen::Array4f w(low, high, 0.5F * (low + high), low);
+        const Eigen::Array4f u =
+            scan.frame().meridians ? Eigen::Array4f::Constant(ends.u)
+                                   : Eigen::Array4f(ends.u * (1.0F + w * w).sqrt());
+        const PlanePoints points = plane_points(seen, span.reach.range_m, u, w);
+        const Eigen::Array4f& q = points.q;
         // dA = X^3 du dw / h, and 1 / X = q is linear in w.
         const float weight =
-            (high - low) * (a.q + b.q) / (2.0F * a.q * a.q * b.q * b.q * seen.height_m);
-        add(std::min({a.range_m, b.range_m, middle}), std::max(a.range_m, b.range_m), weight,
+            (high - low) * (q[0] + q[1]) / (2.0F * q[0] * q[0] * q[1] * q[1] * seen.height_m);
+        add(points.range_m.minCoeff(), std::max(points.range_m[0], points.range_m[1]), weight,
             seen.height_m, materials[scan.mesh().facets[seen.facet].material].reflection);
     }
     finish();

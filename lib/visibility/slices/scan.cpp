@@ -16,8 +16,8 @@ constexpr double widest_sector = 2.1;  // rad
 // azimuth the two differ by 2 % of the elevation.
 constexpr double widest_side = 0.4;  // rad
 
-constexpr double widest_gap = 0.0088;      // between the slices of a fan, rad
-constexpr double widest_side_gap = 0.035;  // between those of sides
+constexpr double widest_strip = 0.0088;      // of a fan, rad
+constexpr double widest_side_strip = 0.035;  // of sides
 constexpr int cone_slices = 96;            // at one per beam
 
 // The poles of a view lie at w = infinity. Within 1e-3 rad of them nothing is looked for.
@@ -29,46 +29,50 @@ double tangent(double angle) {
                        : std::copysign(steepest, s.sin);
 }
 
-/// How far slice `g` lies beside its place, in gaps: a little, and each by another share, so that
+/// How far slice `k` lies beside its place, in strips: a little, and each by another share, so that
 /// no edge of a scene that is built along the sonar's axes runs along a slice.
-double aside(int g) {
+double aside(int k) {
     constexpr double golden = 0.6180339887498949;
-    const double turns = golden * (g + 1);
+    const double turns = golden * (k + 1);
     return 1e-3 * (0.5 + 0.5 * (turns - std::floor(turns)));
 }
 
-/// Equal gaps over an angle across, numbered through all sectors.
-struct Gaps {
+/// Equal strips over an angle across, numbered through all sectors.
+struct Strips {
     double low;  ///< rad
     double width;
     int count;
     int per_beam;
     int first_beam;
 
-    double at(double g) const { return low + g * width; }
-    int beam(int g) const { return first_beam + g / per_beam; }
+    double at(double k) const { return low + k * width; }
+    int beam(int k) const { return first_beam + k / per_beam; }
 };
 
-/// Adds the slices and gaps of a sector that holds the gaps [first, last) and whose middle lies at
-/// `centre`.
-void add_slices(const Gaps& gaps, int first, int last, double centre, SliceFrame& frame) {
-    const auto u = [&](double at) { return static_cast<float>(tangent(gaps.at(at) - centre)); };
-    for (int g = first; g <= last; ++g)
-        frame.slices.push_back(slice_at(frame, u(g + aside(g))));
-    for (int g = first; g < last; ++g)
-        frame.gaps.push_back({gaps.beam(g), u(g), u(g + 1)});
+/// Adds the slices and beams of a sector that holds the strips [first, last) and whose middle lies
+/// at `centre`.
+void add_slices(const Strips& strips, int first, int last, double centre, SliceFrame& frame) {
+    const auto u = [&](double at) { return static_cast<float>(tangent(strips.at(at) - centre)); };
+    for (int k = first; k <= last; ++k)
+        frame.slices.push_back(slice_at(frame, u(k + aside(k))));
+    frame.slices_per_beam = strips.per_beam;
+    frame.first_beam = strips.beam(first);
+    for (int k = first; k < last; ++k) {
+        if (k == first || strips.beam(k) != strips.beam(k - 1)) frame.beam_u.push_back(u(k));
+    }
+    frame.beam_u.push_back(u(last));
 }
 
 /// Frames whose axis along is the pole of the view: slices are meridians between two latitudes.
-void add_meridians(const Gaps& gaps, double latitude_low, double latitude_high,
+void add_meridians(const Strips& strips, double latitude_low, double latitude_high,
                    const Eigen::Matrix3d& axes, std::vector<SliceFrame>& frames) {
     const int sectors =
-        std::max(1, static_cast<int>(std::ceil(gaps.count * gaps.width / widest_sector - 1e-9)));
+        std::max(1, static_cast<int>(std::ceil(strips.count * strips.width / widest_sector - 1e-9)));
     for (int s = 0; s < sectors; ++s) {
-        const int first = static_cast<int>(static_cast<long>(gaps.count) * s / sectors);
-        const int last = static_cast<int>(static_cast<long>(gaps.count) * (s + 1) / sectors);
+        const int first = static_cast<int>(static_cast<long>(strips.count) * s / sectors);
+        const int last = static_cast<int>(static_cast<long>(strips.count) * (s + 1) / sectors);
         if (first == last) continue;
-        const double centre = gaps.at(0.5 * (first + last));
+        const double centre = strips.at(0.5 * (first + last));
         const SinCos turn = sincos(centre);
         SliceFrame frame;
         frame.meridians = true;
@@ -79,7 +83,7 @@ void add_meridians(const Gaps& gaps, double latitude_low, double latitude_high,
         R.row(1) = turn.cos * axes.row(1) - turn.sin * axes.row(0);
         R.row(2) = axes.row(2);
         frame.R_frame_sensor = R.cast<float>();
-        add_slices(gaps, first, last, centre, frame);
+        add_slices(strips, first, last, centre, frame);
         frame.w_low = frame.tan_low;
         frame.w_high = frame.tan_high;
         for (const Slice& slice : frame.slices) {
@@ -91,7 +95,7 @@ void add_meridians(const Gaps& gaps, double latitude_low, double latitude_high,
 }
 
 /// Frames whose slices run from `azimuth_low` to `azimuth_high` one above the other.
-void add_parallels(const Gaps& gaps, double azimuth_low, double azimuth_high,
+void add_parallels(const Strips& strips, double azimuth_low, double azimuth_high,
                    std::vector<SliceFrame>& frames) {
     const int sectors =
         std::max(1, static_cast<int>(std::ceil((azimuth_high - azimuth_low) / widest_side - 1e-9)));
@@ -105,12 +109,12 @@ void add_parallels(const Gaps& gaps, double azimuth_low, double azimuth_high,
         frame.R_frame_sensor = R.cast<float>();
         frame.w_high = frame.tan_high = static_cast<float>(tangent(0.5 * width));
         frame.w_low = frame.tan_low = -frame.w_high;
-        add_slices(gaps, 0, gaps.count, 0.0, frame);
+        add_slices(strips, 0, strips.count, 0.0, frame);
         frames.push_back(frame);
     }
 }
 
-Gaps gaps_over(double low, double width, int beams, int per_beam, int first_beam = 0) {
+Strips strips_over(double low, double width, int beams, int per_beam, int first_beam = 0) {
     return {low, width / (static_cast<double>(beams) * per_beam), beams * per_beam, per_beam,
             first_beam};
 }
@@ -135,21 +139,21 @@ std::vector<SliceFrame> slice_frames(const View& view, int per_beam) {
     Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
     switch (view.shape) {
         case ViewShape::fan:
-            add_meridians(gaps_over(-half_azimuth, view.azimuth_rad, view.beams,
-                                    enough(view.azimuth_rad / view.beams, widest_gap)),
+            add_meridians(strips_over(-half_azimuth, view.azimuth_rad, view.beams,
+                                    enough(view.azimuth_rad / view.beams, widest_strip)),
                           -half_elevation, half_elevation, axes, frames);
             break;
         case ViewShape::sides:
             for (const int side : {0, 1}) {
-                const Gaps gaps = gaps_over(-half_elevation, view.elevation_rad, 1,
-                                            enough(view.elevation_rad, widest_side_gap), side);
-                add_parallels(gaps, side == 0 ? -half_azimuth : 0.0, side == 0 ? 0.0 : half_azimuth,
+                const Strips strips = strips_over(-half_elevation, view.elevation_rad, 1,
+                                            enough(view.elevation_rad, widest_side_strip), side);
+                add_parallels(strips, side == 0 ? -half_azimuth : 0.0, side == 0 ? 0.0 : half_azimuth,
                               frames);
             }
             break;
         case ViewShape::cone:
             axes << 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0;
-            add_meridians(gaps_over(-pi, 2.0 * pi, 1, cone_slices * per_beam),
+            add_meridians(strips_over(-pi, 2.0 * pi, 1, cone_slices * per_beam),
                           0.5 * pi - half_azimuth, 0.5 * pi, axes, frames);
             break;
     }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -32,18 +33,15 @@ struct Slice {
     float w_high_slope;
 };
 
-/// What lies between two neighbouring slices of a frame.
-struct Gap {
-    int beam;
-    float u_low;   ///< where it begins: a hair beside its first slice, see slice_frames()
-    float u_high;  ///< where it ends
-};
-
-/// The slices of one sector, from low u to high, and the gaps between them.
+/// The slices of one sector, from low u to high. Gap k lies between slices k and k + 1.
 struct SliceFrame {
     Eigen::Matrix3f R_frame_sensor;
     std::vector<Slice> slices;
-    std::vector<Gap> gaps;  ///< one fewer than slices
+    int slices_per_beam;
+    int first_beam;
+    /// Where the beams of the sector begin, one more for where the last of them ends. The outermost
+    /// are those of the sector, which may begin or end within a beam.
+    std::vector<float> beam_u;
     float w_low;            ///< the least and the greatest w of all slices and gaps
     float w_high;
     float tan_low;  ///< w of the view's borders at u = 0
@@ -51,15 +49,17 @@ struct SliceFrame {
     /// Whether a line of constant u is a great circle along the view's own lines. Sides: it is not;
     /// a gap's border at w is its u times sqrt(1 + w^2), a line of constant elevation.
     bool meridians;
+
+    std::uint32_t gaps() const { return static_cast<std::uint32_t>(slices.size()) - 1; }
 };
 
 /// The slice of a frame at u.
 Slice slice_at(const SliceFrame& frame, float u);
 
-/// Cuts `view` by slices on the borders of the beams and `per_beam` - 1 inside each. Where a beam
-/// is wide there are more. Frames are in the order of their beams. Slices lie a hair beside the
-/// borders, each by another share of the gap, so that no edge of a scene that is built along the
-/// sonar's axes runs along a slice.
+/// Cuts each beam of `view` into `per_beam` equal strips, more where it is wide, with a slice on
+/// either border of each: one on the border between two beams serves both. Frames are in the order
+/// of their beams. Slices lie a hair beside their places, each by another share of the strip, so
+/// that no edge of a scene that is built along the sonar's axes runs along a slice.
 std::vector<SliceFrame> slice_frames(const View& view, int per_beam);
 
 }  // namespace sonarsim

@@ -51,12 +51,16 @@ Segment not_evaluated(std::uint32_t trapezoid) {
 
 }  // namespace
 
-void segments_at(const SliceScene& scene, float u, std::span<const std::uint32_t> trapezoids,
+Candidate candidate(const SliceScene& scene, std::uint32_t trapezoid) {
+    const Trapezoid& t = scene.trapezoids[trapezoid];
+    return {t.u_from, t.u_to, trapezoid};
+}
+
+void segments_at(const SliceScene& scene, float u, std::span<const Candidate> candidates,
                  std::vector<Segment>& out) {
     out.clear();
-    for (const std::uint32_t i : trapezoids) {
-        const Trapezoid& t = scene.trapezoids[i];
-        if (t.u_from <= u && u < t.u_to) out.push_back(not_evaluated(i));
+    for (const Candidate& c : candidates) {
+        if (c.u_from <= u && u < c.u_to) out.push_back(not_evaluated(c.trapezoid));
     }
     evaluate(scene, u, out);
     std::ranges::sort(out, before);

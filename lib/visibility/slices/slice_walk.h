@@ -7,8 +7,17 @@
 
 namespace sonarsim {
 
-/// The segments of a slice at u, sorted by w_low: of those among `trapezoids` that it meets.
-void segments_at(const SliceScene& scene, float u, std::span<const std::uint32_t> trapezoids,
+/// A trapezoid that slices between two others may meet.
+struct Candidate {
+    float u_from;
+    float u_to;  ///< exclusive
+    std::uint32_t trapezoid;
+};
+
+Candidate candidate(const SliceScene& scene, std::uint32_t trapezoid);
+
+/// The segments of a slice at u, sorted by w_low: of those among `candidates` that it meets.
+void segments_at(const SliceScene& scene, float u, std::span<const Candidate> candidates,
                  std::vector<Segment>& out);
 
 /// Walks the slices of a frame in order and keeps the segments that each of them meets sorted.

@@ -9,11 +9,6 @@ namespace sonarsim {
 
 namespace {
 
-// Of a range bin.
-constexpr float most_sag = 0.03F;
-constexpr float shortest_piece = 0.25F;
-constexpr float most_excess = 0.15F;
-
 // A plane beside the slice: where its q would fall below this share, it has run away to infinity.
 constexpr float least_q_share = 1e-3F;
 
@@ -26,13 +21,14 @@ constexpr float longest_ratio = 1.5F;
 
 }  // namespace
 
-PieceLimits piece_limits(const View& view) {
-    const auto bin_m = static_cast<float>(view.bin_m());
-    const auto finer = static_cast<float>(std::clamp(view.relative_l1 / 0.03, 0.1, 1.0));
-    const float of_bin = finer * bin_m;
-    return {most_sag * of_bin, most_excess * of_bin, shortest_piece * of_bin,
-            static_cast<float>(view.range_max_m)};
-}
+/// Four points of a plane in the frame.
+struct SpanSampler::Points {
+    Eigen::Array4f X, U, W;
+    Eigen::Array4f range;
+
+    Eigen::Vector3f at(int k) const { return {X[k], U[k], W[k]}; }
+    Eigen::Vector3f middle(int i, int k) const { return 0.5F * (at(i) + at(k)); }
+};
 
 /// A visible span's surroundings in the picture plane: between two verticals and two borders.
 struct SpanSampler::Quad {
@@ -42,20 +38,30 @@ struct SpanSampler::Quad {
     float q, q_u, q_w, q_least, nearest_m, farthest_m;
     const SeenFacet* seen;
 
-    /// The point of the plane at `along` of the way between the borders of one side.
-    Eigen::Vector3f corner(const QuadSide& side, float along) const {
-        return point(side.u, side.low + along * (side.high - side.low));
-    }
-
     float middle_low() const { return 0.5F * (low.low + high.low); }
     float middle_high() const { return 0.5F * (low.high + high.high); }
 
-    Eigen::Vector3f point(float at_u, float at_w) const {
-        if (widens) at_u *= std::sqrt(1.0F + at_w * at_w);
-        const float X = 1.0F / std::max(q + q_u * (at_u - u) + q_w * (at_w - w), q_least);
-        const float range = X * std::sqrt(1.0F + at_u * at_u + at_w * at_w);
-        const float forward = X * (std::clamp(range, nearest_m, farthest_m) / range);
-        return {forward, at_u * forward, at_w * forward};
+    /// Corners of the part between two shares of the way along w: at `from` on the low side and on
+    /// the high side, at `to` on the high side and on the low side.
+    Points corners(const QuadSide& low_side, const QuadSide& high_side, float from,
+                   float to) const {
+        const float low_width = low_side.high - low_side.low;
+        const float high_width = high_side.high - high_side.low;
+        return points({low_side.u, high_side.u, high_side.u, low_side.u},
+                      {low_side.low + from * low_width, high_side.low + from * high_width,
+                       high_side.low + to * high_width, low_side.low + to * low_width});
+    }
+
+    Points points(Eigen::Array4f at_u, const Eigen::Array4f& at_w) const {
+        if (widens) at_u *= (1.0F + at_w * at_w).sqrt();
+        const Eigen::Array4f secant = (1.0F + at_u * at_u + at_w * at_w).sqrt();
+        const Eigen::Array4f at_q = (q + q_u * (at_u - u) + q_w * (at_w - w)).max(q_least);
+        Points p;
+        p.range = (secant / at_q).max(nearest_m).min(farthest_m);
+        p.X = p.range / secant;
+        p.U = at_u * p.X;
+        p.W = at_w * p.X;
+        return p;
     }
 };
 
@@ -65,12 +71,10 @@ SpanSampler::SpanSampler(const FrameScan& scan, const PieceLimits& limits, std::
       out_(out),
       R_sensor_frame_(scan.frame().R_frame_sensor.transpose()) {}
 
-void SpanSampler::add(const Slice& slice, float u_low, float u_high,
-                      std::span<const VisibleSpan> spans) {
-    move_ends(slice, spans, u_low, low_);
-    move_ends(slice, spans, u_high, high_);
-    for (std::size_t i = 0; i < spans.size(); ++i)
-        add_span(slice, spans[i], i);
+void SpanSampler::add(const SeenSlice& seen, const MovedEnds& low, const MovedEnds& high) {
+    const Slice& slice = seen.slice;
+    for (std::size_t i = 0; i < seen.spans.size(); ++i)
+        add_span(slice, seen.spans[i], quad_side(slice, low, i), quad_side(slice, high, i));
 }
 
 /// The border of a span's quadrilateral on one side: at the side itself, or on the way to it where
@@ -90,7 +94,8 @@ SpanSampler::QuadSide SpanSampler::quad_side(const Slice& slice, const MovedEnds
     return {slice.u + share * (side.u - slice.u), w, w};
 }
 
-void SpanSampler::add_span(const Slice& slice, const VisibleSpan& span, std::size_t index) {
+void SpanSampler::add_span(const Slice& slice, const VisibleSpan& span, const QuadSide& low,
+                           const QuadSide& high) {
     const SeenFacet& seen = scan_.scene().facets[span.seen];
     Quad quad;
     quad.seen = &seen;
@@ -105,8 +110,8 @@ void SpanSampler::add_span(const Slice& slice, const VisibleSpan& span, std::siz
     quad.nearest_m = span.reach.range_m.from;
     quad.farthest_m = span.reach.range_m.to;
     const QuadSide on_slice{slice.u, span.w_low, span.w_high};
-    quad.low = quad_side(slice, low_, index);
-    quad.high = quad_side(slice, high_, index);
+    quad.low = low;
+    quad.high = high;
     const auto keep = [&](QuadSide& side) {
         const float u = std::clamp(side.u, span.reach.u.from, span.reach.u.to);
         if (u == side.u) return;
@@ -119,28 +124,34 @@ void SpanSampler::add_span(const Slice& slice, const VisibleSpan& span, std::siz
     keep(quad.high);
     // Ends that bend at the slice make two quadrilaterals.
     const float share = (slice.u - quad.low.u) / (quad.high.u - quad.low.u);
-    const auto bend = [&](float low, float at, float high) {
-        return std::fabs(low + share * (high - low) - at);
+    const auto bend = [&](float begin, float at, float end) {
+        return std::fabs(begin + share * (end - begin) - at);
     };
     const float most = 0.02F * (span.w_high - span.w_low);
     if (quad.low.u < slice.u && slice.u < quad.high.u &&
         (bend(quad.low.low, span.w_low, quad.high.low) > most ||
          bend(quad.low.high, span.w_high, quad.high.high) > most)) {
-        const QuadSide high = std::exchange(quad.high, on_slice);
+        const QuadSide end = std::exchange(quad.high, on_slice);
         cut(quad);
         quad.low = on_slice;
-        quad.high = high;
+        quad.high = end;
     }
     cut(quad);
 }
 
 /// Cuts a quadrilateral along w into pieces that are nearly parallelograms.
 void SpanSampler::cut(const Quad& quad) {
+    const Points corners = quad.corners(quad.low, quad.high, 0.0F, 1.0F);
+    if (is_small(corners)) {
+        add_piece(quad, corners, 0.0F, 1.0F);
+        return;
+    }
     const float u = 0.5F * (quad.low.u + quad.high.u);
     const float w_low = quad.middle_low();
     const float w_high = quad.middle_high();
-    const Eigen::Vector3f from = quad.point(u, w_low);
-    const Eigen::Vector3f to = quad.point(u, w_high);
+    const Points ends = quad.points({u, u, u, u}, {w_low, w_high, w_low, w_high});
+    const Eigen::Vector3f from = ends.at(0);
+    const Eigen::Vector3f to = ends.at(1);
     // Along the line from one to the other the range is sqrt(h^2 + s^2).
     const float length = (to - from).norm();
     const Eigen::Vector3f along = length > 0.0F ? Eigen::Vector3f((to - from) / length) : from;
@@ -197,44 +208,49 @@ void SpanSampler::cut(const Quad& quad) {
     }
 }
 
+/// Whether the sag along w is that of cut() or less, found with less work: the foot of the
+/// perpendicular is no farther away than the nearest point, h <= r, and that is at least 0.9 of the
+/// nearest corner.
+bool SpanSampler::is_small(const Points& corners) const {
+    const float nearest = corners.range.minCoeff();
+    const float length2 = (corners.middle(2, 3) - corners.middle(0, 1)).squaredNorm();
+    return corners.range.maxCoeff() <= limits_.range_max_m &&
+           length2 <= std::min(7.0F * limits_.sag_m * nearest, 0.01F * nearest * nearest);
+}
+
 /// Adds the part of a quadrilateral between two shares of the way along w. Where its range is not
 /// that of a parallelogram, it is cut across.
 void SpanSampler::add_piece(const Quad& quad, float from, float to) {
-    const Eigen::Vector3f a = quad.corner(quad.low, from);
-    const Eigen::Vector3f b = quad.corner(quad.high, from);
-    const Eigen::Vector3f c = quad.corner(quad.high, to);
-    const Eigen::Vector3f d = quad.corner(quad.low, to);
-    const float r_a = a.norm();
-    const float r_b = b.norm();
-    const float r_c = c.norm();
-    const float r_d = d.norm();
-    const auto [least, most] = std::minmax({r_a, r_b, r_c, r_d});
-    const float across = 0.5F * std::fabs(r_b + r_c - r_a - r_d);
-    const float along = 0.5F * std::fabs(r_c + r_d - r_a - r_b);
-    const float excess = across + along - (most - least);
+    add_piece(quad, quad.corners(quad.low, quad.high, from, to), from, to);
+}
+
+void SpanSampler::add_piece(const Quad& quad, const Points& corners, float from, float to) {
+    const Eigen::Array4f& r = corners.range;
+    const float across = 0.5F * std::fabs(r[1] + r[2] - r[0] - r[3]);
+    const float along = 0.5F * std::fabs(r[2] + r[3] - r[0] - r[1]);
+    const float excess = across + along - (r.maxCoeff() - r.minCoeff());
     if (excess <= limits_.excess_m) {
-        add_sample(quad, a, b, c, d);
+        add_sample(quad, corners);
         return;
     }
     const int parts = static_cast<int>(std::min(std::ceil(excess / limits_.excess_m), most_parts));
-    Eigen::Vector3f low_from = a;
-    Eigen::Vector3f low_to = d;
+    QuadSide last = quad.low;
     for (int i = 1; i <= parts; ++i) {
         const float share = static_cast<float>(i) / static_cast<float>(parts);
         const auto between = [&](float x, float y) { return x + share * (y - x); };
         const QuadSide side{between(quad.low.u, quad.high.u), between(quad.low.low, quad.high.low),
                             between(quad.low.high, quad.high.high)};
-        const Eigen::Vector3f high_from = quad.corner(side, from);
-        const Eigen::Vector3f high_to = quad.corner(side, to);
-        add_sample(quad, low_from, high_from, high_to, low_to);
-        low_from = high_from;
-        low_to = high_to;
+        add_sample(quad, quad.corners(last, side, from, to));
+        last = side;
     }
 }
 
-void SpanSampler::add_sample(const Quad& quad, const Eigen::Vector3f& a, const Eigen::Vector3f& b,
-                             const Eigen::Vector3f& c, const Eigen::Vector3f& d) {
+void SpanSampler::add_sample(const Quad& quad, const Points& corners) {
     const SliceFacet& facet = scan_.mesh().facets[quad.seen->facet];
+    const Eigen::Vector3f a = corners.at(0);
+    const Eigen::Vector3f b = corners.at(1);
+    const Eigen::Vector3f c = corners.at(2);
+    const Eigen::Vector3f d = corners.at(3);
     const float area = 0.5F * (c - a).cross(d - b).norm();
     if (!(area > 0.0F)) return;
     Sample& sample = out_.emplace_back();

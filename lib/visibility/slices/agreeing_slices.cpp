@@ -1,9 +1,7 @@
-#include "visibility/slices/beam_slices.h"
+#include "visibility/slices/agreeing_slices.h"
 
 #include <algorithm>
 #include <cmath>
-
-#include "visibility/slices/moved_ends.h"
 
 namespace sonarsim {
 
@@ -33,46 +31,51 @@ float to_five_eighths(float x) {
 
 }  // namespace
 
-BeamSlices::BeamSlices(const View& view, std::span<const Material> materials, FrameScan& scan)
+AgreeingSlices::AgreeingSlices(const View& view, std::span<const Material> materials,
+                               FrameScan& scan)
     : materials_(materials), scan_(scan), seen_(1), low_(view), high_(view) {
-    scan_.see_next(seen_[0]);
+    SeenSlice& first = seen_[0];
+    scan_.see_next(first);
+    move_ends(first.slice, first.spans, scan_.frame().beam_u.front(), first.low);
 }
 
-std::uint32_t BeamSlices::see(std::uint32_t gap, double most) {
-    const std::vector<Gap>& gaps = scan_.frame().gaps;
-    std::uint32_t end = gap;
-    while (end < gaps.size() && gaps[end].beam == gaps[gap].beam)
-        ++end;
-    // The slice on the border to the beam before is the first of this one.
-    if (border_ != 0) std::swap(seen_[0], seen_[border_]);
-    border_ = 0;
+bool AgreeingSlices::see_next(double most) {
+    const SliceFrame& frame = scan_.frame();
+    const std::uint32_t gaps = frame.gaps();
+    if (next_gap_ == gaps) return false;
+    // The last slice of the gaps before is the first of these.
+    if (last_ != 0) std::swap(seen_[0], seen_[last_]);
+    last_ = 0;
     used_ = 1;
-    first_gap_ = gap;
-    beam_width_ = gaps[end - 1].u_high - gaps[gap].u_low;
-    around_.resize(std::max<std::size_t>(around_.size(), end - gap));
+    first_gap_ = next_gap_;
+    const auto together = static_cast<std::uint32_t>(frame.slices_per_beam);
+    next_gap_ = std::min(first_gap_ + together, gaps);
+    const float width = frame.slices[next_gap_].u - frame.slices[first_gap_].u;
+    beam_width_ = width * static_cast<float>(together) / static_cast<float>(next_gap_ - first_gap_);
+    around_.resize(together);
     between_.clear();
-    for (std::uint32_t g = gap; g < end; ++g) {
-        see_gap(g);
-        split_where_wanted(g);
+    for (std::uint32_t gap = first_gap_; gap < next_gap_; ++gap) {
+        see_gap(gap);
+        split_where_wanted(gap);
     }
     refine(most);
-    put_in_order();
-    return end;
+    collect_done();
+    return true;
 }
 
-void BeamSlices::see_gap(std::uint32_t gap) {
+void AgreeingSlices::see_gap(std::uint32_t gap) {
     Around& around = around_[gap - first_gap_];
-    around.trapezoids.clear();
-    around.with_inner = false;
-    const std::uint32_t before = border_;
-    border_ = new_slice();
-    scan_.see_next(seen_[border_]);
-    scan_.around_last_gap(around.trapezoids);
-    between_.push_back({before, border_, gap});
+    around.of_slices.clear();
+    around.all.clear();
+    const std::uint32_t before = last_;
+    last_ = new_slice();
+    scan_.see_next(seen_[last_]);
+    scan_.around_last_gap(around.of_slices);
+    between_.push_back({before, last_, gap});
     estimate(between_.back());
 }
 
-void BeamSlices::split_where_wanted(std::uint32_t gap) {
+void AgreeingSlices::split_where_wanted(std::uint32_t gap) {
     for (const WantedSlice& wanted : scan_.wanted_in(gap)) {
         const Between& last = between_.back();
         if (wanted.u - seen_[last.low].slice.u < least_width(gap)) continue;
@@ -81,25 +84,24 @@ void BeamSlices::split_where_wanted(std::uint32_t gap) {
 }
 
 /// Splits what lies between two slices by a slice at u; the upper part becomes the last.
-void BeamSlices::split(std::size_t i, float u) {
+void AgreeingSlices::split(std::size_t i, float u) {
     const Between old = between_[i];
     if (!(seen_[old.low].slice.u < u && u < seen_[old.high].slice.u)) {
         between_[i].apart = 0.0F;
         return;
     }
     Around& around = around_[old.gap - first_gap_];
-    if (!around.with_inner) scan_.within_gap(old.gap, around.trapezoids);
-    around.with_inner = true;
+    if (around.all.empty()) scan_.find_candidates(old.gap, around.of_slices, around.all);
     const std::uint32_t at = new_slice();
-    scan_.see(u, around.trapezoids, seen_[at]);
+    scan_.see(u, around.all, seen_[at]);
     between_[i].high = at;
     estimate(between_[i]);
     between_.push_back({at, old.high, old.gap});
     estimate(between_.back());
 }
 
-void BeamSlices::refine(double most) {
-    beams_ += 1.0;
+void AgreeingSlices::refine(double most) {
+    times_ += 1.0;
     while (true) {
         Disagreement beam;
         std::size_t worst = between_.size();
@@ -111,7 +113,7 @@ void BeamSlices::refine(double most) {
             if (worst == between_.size() || b.apart > between_[worst].apart) worst = i;
         }
         // A dim beam may have a larger share of its signal in error than a bright one.
-        const double mean = 0.5 * (beam.signal + (sum_.signal + beam.signal) / beams_);
+        const double mean = 0.5 * (beam.signal + (sum_.signal + beam.signal) / times_);
         if (beam.apart <= most * mean || worst == between_.size()) {
             sum_.apart += beam.apart;
             sum_.signal += beam.signal;
@@ -122,21 +124,21 @@ void BeamSlices::refine(double most) {
     }
 }
 
-/// Compares what both slices predict midway between them.
-void BeamSlices::estimate(Between& between) {
-    const SeenSlice& a = seen_[between.low];
-    const SeenSlice& b = seen_[between.high];
+/// Compares what both slices predict midway, where one hands over to the other.
+void AgreeingSlices::estimate(Between& between) {
+    SeenSlice& a = seen_[between.low];
+    SeenSlice& b = seen_[between.high];
     const float u = 0.5F * (a.slice.u + b.slice.u);
     const float share = width(between) / beam_width_;
-    move_ends(a.slice, a.spans, u, ends_of_low_);
-    move_ends(b.slice, b.spans, u, ends_of_high_);
+    move_ends(a.slice, a.spans, u, a.high);
+    move_ends(b.slice, b.spans, u, b.low);
     if (alike(a, b)) {
         between.apart = 0.0F;
         between.signal = share * last_signal_;
         return;
     }
-    low_.set(scan_, materials_, a.spans, ends_of_low_);
-    high_.set(scan_, materials_, b.spans, ends_of_high_);
+    low_.set(scan_, materials_, a.spans, a.high);
+    high_.set(scan_, materials_, b.spans, b.low);
     last_signal_ = 0.5F * (low_.sum() + high_.sum());
     between.signal = share * last_signal_;
     between.apart =
@@ -144,38 +146,44 @@ void BeamSlices::estimate(Between& between) {
 }
 
 /// Whether both slices show the same planes between the same ends midway.
-bool BeamSlices::alike(const SeenSlice& a, const SeenSlice& b) const {
+bool AgreeingSlices::alike(const SeenSlice& a, const SeenSlice& b) const {
     if (a.spans.size() != b.spans.size()) return false;
     const float most = same_place * (a.slice.w_high - a.slice.w_low);
     for (std::size_t i = 0; i < a.spans.size(); ++i) {
         if (!scan_.one_plane(a.spans[i], b.spans[i])) return false;
         for (const std::size_t end : {2 * i, 2 * i + 1}) {
-            if (!(std::fabs(ends_of_low_.ends[end].w - ends_of_high_.ends[end].w) <= most))
+            if (!(std::fabs(a.high.ends[end].w - b.low.ends[end].w) <= most))
                 return false;
         }
     }
     return true;
 }
 
-float BeamSlices::least_width(std::uint32_t gap) const {
-    const Gap& whole = scan_.frame().gaps[gap];
-    return least_share * (whole.u_high - whole.u_low);
+float AgreeingSlices::least_width(std::uint32_t gap) const {
+    const std::vector<Slice>& slices = scan_.frame().slices;
+    return least_share * (slices[gap + 1].u - slices[gap].u);
 }
 
-float BeamSlices::width(const Between& between) const {
+float AgreeingSlices::width(const Between& between) const {
     return seen_[between.high].slice.u - seen_[between.low].slice.u;
 }
 
-std::uint32_t BeamSlices::new_slice() {
+std::uint32_t AgreeingSlices::new_slice() {
     if (used_ == seen_.size()) seen_.emplace_back();
     return used_++;
 }
 
-void BeamSlices::put_in_order() {
-    in_order_.clear();
+void AgreeingSlices::collect_done() {
+    done_.clear();
     for (std::uint32_t i = 0; i < used_; ++i)
-        in_order_.push_back(&seen_[i]);
-    std::ranges::sort(in_order_, {}, [](const SeenSlice* seen) { return seen->slice.u; });
+        done_.push_back(&seen_[i]);
+    std::ranges::sort(done_, {}, [](const SeenSlice* seen) { return seen->slice.u; });
+    if (next_gap_ < scan_.frame().gaps()) {
+        done_.pop_back();
+        return;
+    }
+    SeenSlice& last = seen_[last_];
+    move_ends(last.slice, last.spans, scan_.frame().beam_u.back(), last.high);
 }
 
 }  // namespace sonarsim

@@ -1,4 +1,4 @@
-#include "visibility/octree/image_change.h"
+#include "visibility/image_change.h"
 
 #include <algorithm>
 #include <cmath>

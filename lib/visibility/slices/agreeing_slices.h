@@ -18,22 +18,22 @@ struct Disagreement {
     double share() const { return signal > 0.0 ? apart / signal : 0.0; }
 };
 
-/// The slices of one beam within a frame. They are added until they agree about what lies
-/// between them.
-class BeamSlices {
+/// Sees the slices of a frame, a beam's worth at a time, and adds slices between them until they
+/// agree about what lies between.
+class AgreeingSlices {
   public:
     /// All arguments must outlive it.
-    BeamSlices(const View& view, std::span<const Material> materials, FrameScan& scan);
+    AgreeingSlices(const View& view, std::span<const Material> materials, FrameScan& scan);
 
-    /// Sees the beam that begins with gap `gap` of the frame, as far as the frame reaches. Its
-    /// slices may disagree by `most`, a share of the signal. Returns the gap after the beam's last.
-    /// Beams are to be seen in order.
-    std::uint32_t see(std::uint32_t gap, double most);
+    /// Sees the next gaps of the frame. Their slices may disagree by `most`, a share of the signal.
+    /// False when there are none left.
+    bool see_next(double most);
 
-    /// The slices of the beam, from low u to high.
-    std::span<const SeenSlice* const> slices() const { return in_order_; }
+    /// Of the slices seen so far, those that are new and whose strips are known at both sides, from
+    /// low u to high.
+    std::span<const SeenSlice* const> slices() const { return done_; }
 
-    /// Of all beams so far.
+    /// Of all gaps so far.
     const Disagreement& sum() const { return sum_; }
 
   private:
@@ -48,8 +48,8 @@ class BeamSlices {
 
     /// A gap of the frame, and the trapezoids that a slice in it may meet.
     struct Around {
-        std::vector<std::uint32_t> trapezoids;
-        bool with_inner = false;  ///< those that lie between its slices are among them
+        std::vector<std::uint32_t> of_slices;  ///< that one of its two slices meets
+        std::vector<Candidate> all;            ///< once the gap is split
     };
 
     void see_gap(std::uint32_t gap);
@@ -61,25 +61,24 @@ class BeamSlices {
     float width(const Between& between) const;
     float least_width(std::uint32_t gap) const;
     std::uint32_t new_slice();
-    void put_in_order();
+    void collect_done();
 
     const std::span<const Material> materials_;
     FrameScan& scan_;
     std::vector<SeenSlice> seen_;  ///< memory is reused; the first used_ are in use
     std::uint32_t used_ = 1;
-    std::uint32_t border_ = 0;  ///< the slice behind the gap of the frame that was seen last
-    std::uint32_t first_gap_ = 0;
-    float beam_width_ = 0.0F;  ///< in u
+    std::uint32_t last_ = 0;  ///< the slice of the frame that was seen last
+    std::uint32_t next_gap_ = 0;
+    std::uint32_t first_gap_ = 0;  ///< of those seen together
+    float beam_width_ = 0.0F;      ///< in u
     std::vector<Around> around_;
     std::vector<Between> between_;
-    std::vector<const SeenSlice*> in_order_;
-    MovedEnds ends_of_low_;
-    MovedEnds ends_of_high_;
+    std::vector<const SeenSlice*> done_;
     RangeProfile low_;
     RangeProfile high_;
     float last_signal_ = 0.0F;  ///< of a whole beam
     Disagreement sum_;
-    double beams_ = 0.0;
+    double times_ = 0.0;  ///< that gaps were seen
 };
 
 }  // namespace sonarsim

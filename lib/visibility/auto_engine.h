@@ -1,0 +1,41 @@
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "core/pose.h"
+#include "scene/scene.h"
+#include "visibility/engine.h"
+#include "visibility/slices/slices_engine.h"
+
+namespace sonarsim {
+
+/// A view, and a pose that the scene is seen from.
+struct Probe {
+    View view;
+    Pose T_world_sensor;
+};
+
+/// What rays may be taken for: the probes of one view, seen with both engines.
+struct RaysTrial {
+    double error = 0.0;  ///< bound of the rays' relative L1: to the slices' images, plus their own
+    double samples_share = 0.0;  ///< the rays' samples as a share of the slices'
+};
+
+/// The worst of the probes that have this view.
+RaysTrial try_rays(const Scene& scene, const View& view, std::span<const Probe> probes,
+                   const VisibilityEngine& rays, const VisibilityEngine& slices);
+
+/// Whether `auto` takes rays for a view: they meet its error goal with less than half of the
+/// samples. That is so over smooth surface that is cut more finely than a beam is wide, where every
+/// triangle in view costs the slices something.
+bool rays_are_better(const RaysTrial& trial, const View& view);
+
+/// Slices, or rays for those views among the `probes` for which these are better. Nothing is timed:
+/// the same scene and probes give the same choice everywhere. Scenes of few triangles get slices
+/// without a look. The estimated error of a ping by rays is the bound found on the probes.
+/// `scene` must outlive it. Throws std::runtime_error when Embree cannot build its tree.
+std::unique_ptr<VisibilityEngine> make_auto_engine(const Scene& scene, const SlicesOptions& slices,
+                                                   std::span<const Probe> probes);
+
+}  // namespace sonarsim

@@ -1,0 +1,24 @@
+#include "visibility/slices/piece_limits.h"
+
+#include <algorithm>
+
+namespace sonarsim {
+
+namespace {
+
+// Of a range bin, at an error goal of 3 %.
+constexpr float most_sag = 0.09F;
+constexpr float most_excess = 0.3F;
+constexpr float shortest_piece = 0.25F;
+
+}  // namespace
+
+PieceLimits piece_limits(const View& view) {
+    const auto bin_m = static_cast<float>(view.bin_m());
+    const auto finer = static_cast<float>(std::clamp(view.relative_l1 / 0.03, 0.1, 1.0));
+    const float of_bin = finer * bin_m;
+    return {most_sag * of_bin, most_excess * of_bin, shortest_piece * of_bin,
+            static_cast<float>(view.range_max_m)};
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "visibility/view.h"
+
+namespace sonarsim {
+
+/// What samples may be, so that a view's image comes out within its error goal.
+struct PieceLimits {
+    float sag_m;        ///< by which the range of a piece may miss the linear one
+    float excess_m;     ///< by which its parallelogram may reach over more range than it does
+    float shortest_m;   ///< no piece is cut shorter
+    float range_max_m;  ///< nothing beyond is needed
+};
+
+PieceLimits piece_limits(const View& view);
+
+}  // namespace sonarsim
