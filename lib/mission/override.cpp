@@ -19,7 +19,8 @@ std::vector<std::string> split_path(std::string_view path, const Location& where
         const std::size_t end = std::min(path.find('.', start), path.size());
         keys.emplace_back(path.substr(start, end - start));
         if (keys.back().empty() || keys.size() > longest_path) {
-            throw InputError(where, "write --set key=value or --set section.key=value");
+            throw InputError(where,
+                             "a key is written as key or section.key, not " + in_quotes(path));
         }
         start = end + 1;
     }
@@ -60,10 +61,14 @@ void apply_override(YamlNode& root, const std::string& setting) {
     if (equals == std::string::npos) {
         throw InputError(where, "write --set key=value or --set section.key=value");
     }
-    YamlNode value =
-        read_document(std::string_view(setting).substr(equals + 1), source, Lines::none);
+    set_key(root, std::string_view(setting).substr(0, equals),
+            read_document(std::string_view(setting).substr(equals + 1), source, Lines::none),
+            where);
+}
+
+void set_key(YamlNode& root, std::string_view path, YamlNode value, const Location& where) {
     YamlNode* node = &root;
-    for (const std::string& key : split_path(std::string_view(setting).substr(0, equals), where)) {
+    for (const std::string& key : split_path(path, where)) {
         node = &descend(*node, key, value.place);
     }
     value.key = std::move(node->key);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "ping/water_mirror.h"
+
 namespace sonarsim {
 
 namespace {
@@ -33,6 +35,12 @@ struct Plane {
     float radius_m;
 };
 
+/// What becomes of rays that meet the water's surface.
+enum class AtSurface {
+    ends,     ///< the surface is what they hit
+    mirrors,  ///< they go on, and what they hit is seen in the mirror; no other rays hit anything
+};
+
 /// What became of a sample, as the counter that it goes into.
 using Outcome = std::uint64_t MultipathCounts::*;
 constexpr Outcome off_the_disc = nullptr;  ///< to be traced by itself
@@ -46,6 +54,21 @@ struct Context {
     const Pose& T_world_sensor;
     float bin_m;
     BeamLocator field;
+    const WaterMirror* mirror;  ///< null: the water has no surface
+    AtSurface at_surface = AtSurface::ends;
+
+    bool is_mirrored() const { return mirror && at_surface == AtSurface::mirrors; }
+    /// Where the sonar is for the last leg of the sound.
+    Eigen::Vector3f sonar() const {
+        return is_mirrored() ? mirror->image : Eigen::Vector3f(Eigen::Vector3f::Zero());
+    }
+    /// The point of the world that a second point stands for.
+    Eigen::Vector3f seen(const Eigen::Vector3f& p) const {
+        return is_mirrored() ? mirror->fold(p) : p;
+    }
+    Eigen::Vector3f seen_change(const Eigen::Vector3f& of_p) const {
+        return is_mirrored() ? mirror->turn(of_p) : of_p;
+    }
 };
 
 /// The direction in which a mirror sends on what comes along `direction`: r of Eq. 1.
@@ -69,6 +92,37 @@ bool hit_its_start(const Ray& ray, const Intersection& hit) {
     return std::fabs(hit.distance_m * hit.normal.dot(ray.direction)) <= hit.rounding_m;
 }
 
+/// Follows those of the rays that meet the water's surface before anything else (`hits`), and
+/// appends the mirror images of what they hit.
+void look_into_mirror(const Context& context, std::span<const Ray> rays,
+                      std::span<const Intersection> hits, std::vector<SecondHit>& second_hits,
+                      MultipathCounts& counts) {
+    const WaterMirror& mirror = *context.mirror;
+    std::vector<Ray> mirrored_rays;
+    std::vector<std::size_t> second_of;
+    for (std::size_t k = 0; k < rays.size(); ++k) {
+        second_hits.emplace_back();
+        const float distance = mirror.distance(rays[k]);
+        if (!(distance < hits[k].distance_m)) continue;
+        second_of.push_back(second_hits.size() - 1);
+        mirrored_rays.push_back(
+            {rays[k].origin + distance * rays[k].direction, mirror.turn(rays[k].direction)});
+    }
+    std::vector<Intersection> behind(mirrored_rays.size());
+    context.engine.intersect(context.T_world_sensor, mirrored_rays, behind);
+    counts.rays += mirrored_rays.size();
+    for (std::size_t k = 0; k < behind.size(); ++k) {
+        if (!std::isfinite(behind[k].distance_m)) continue;
+        const Ray& ray = mirrored_rays[k];
+        second_hits[second_of[k]] = {
+            .point = mirror.fold(ray.origin + behind[k].distance_m * ray.direction),
+            .normal = mirror.turn(behind[k].normal),
+            .rounding_m = behind[k].rounding_m,
+            .reflection = mirror.reflection * context.materials[behind[k].material].reflection,
+            .exists = true};
+    }
+}
+
 /// Traces the samples and appends what their rays hit to `second_hits`. Far from the scene's
 /// origin, or on a large triangle, rounding may put the start of a ray below its surface; such a
 /// ray is traced once more from above the rounding.
@@ -87,9 +141,21 @@ void trace(const Context& context, std::span<const std::uint32_t> sources,
         context.engine.intersect(context.T_world_sensor, {&rays[k], 1}, {&hits[k], 1});
         ++counts.rays;
     }
+    if (context.is_mirrored()) {
+        look_into_mirror(context, rays, hits, second_hits, counts);
+        return;
+    }
     for (std::size_t k = 0; k < rays.size(); ++k) {
         SecondHit second;
-        if (std::isfinite(hits[k].distance_m)) {
+        const float at_surface = context.mirror ? context.mirror->distance(rays[k])
+                                                : std::numeric_limits<float>::infinity();
+        if (at_surface < hits[k].distance_m) {
+            second = {.point = rays[k].origin + at_surface * rays[k].direction,
+                      .normal = -context.mirror->up,
+                      .rounding_m = hits[k].rounding_m,
+                      .reflection = context.mirror->reflection,
+                      .exists = true};
+        } else if (std::isfinite(hits[k].distance_m)) {
             second = {.point = rays[k].origin + hits[k].distance_m * rays[k].direction,
                       .normal = hits[k].normal,
                       .rounding_m = hits[k].rounding_m,
@@ -116,7 +182,8 @@ Outcome reflect(const Context& context, const Sample& sample, const Plane& plane
     const SecondHit& second = *plane.hit;
     if (!second.exists) return &MultipathCounts::missed;
     // The sound hit the far side of what the sonar faces.
-    if (!(second.normal.dot(second.point) < 0.0F)) return &MultipathCounts::hidden;
+    const Eigen::Vector3f sonar = context.sonar();
+    if (!(second.normal.dot(second.point - sonar) < 0.0F)) return &MultipathCounts::hidden;
     const Eigen::Vector3f image = 2.0F * sample.normal.dot(sample.position) * sample.normal;
     const Eigen::Vector3f through = sample.position - image;  // |p_i| r_i
     const float first_leg = sample.position.norm();
@@ -127,11 +194,13 @@ Outcome reflect(const Context& context, const Sample& sample, const Plane& plane
     if (!(t > 1.0F)) return &MultipathCounts::behind;
     const Eigen::Vector3f p = image + t * through;
     if ((p - plane.middle).squaredNorm() > plane.radius_m * plane.radius_m) return off_the_disc;
-    const float last_leg = p.norm();
+    const Eigen::Vector3f back = p - sonar;
+    const float last_leg = back.norm();
     const float range = 0.5F * (t * first_leg + last_leg);
-    const float beam = context.field.beam(p, last_leg);
+    const Eigen::Vector3f seen = context.seen(p);
+    const float beam = context.field.beam(seen, last_leg);
     const Eigen::Vector3f q = mirrored(through, second.normal);
-    const float cosine = -q.dot(p) / (first_leg * last_leg);
+    const float cosine = -q.dot(back) / (first_leg * last_leg);
     if (!(beam >= 0.0F && range < static_cast<float>(context.view.range_max_m)))
         return &MultipathCounts::outside;
     if (!(cosine > 0.0F)) return &MultipathCounts::turned_away;
@@ -139,9 +208,11 @@ Outcome reflect(const Context& context, const Sample& sample, const Plane& plane
         const float stretch = -t * edge.dot(second.normal) / along;
         const Eigen::Vector3f of_p = t * edge + stretch * through;
         of_range = 0.5F * (stretch * first_leg + t * edge.dot(sample.position) / first_leg +
-                           of_p.dot(p) / last_leg);
-        of_beam = context.field.beams_per_rad() * (p.x() * of_p.y() - p.y() * of_p.x()) /
-                  (p.x() * p.x() + p.y() * p.y());
+                           of_p.dot(back) / last_leg);
+        const Eigen::Vector3f of_seen = context.seen_change(of_p);
+        of_beam = context.field.beams_per_rad() *
+                  (seen.x() * of_seen.y() - seen.y() * of_seen.x()) /
+                  (seen.x() * seen.x() + seen.y() * seen.y());
     };
     change(sample.edge_u, out.range_u, out.beam_u);
     change(sample.edge_v, out.range_v, out.beam_v);
@@ -186,14 +257,14 @@ void follow_traced(const Context& context, std::span<const std::uint32_t> source
 /// Whether `hit`, of a ray from the sonar towards p_h, lies before p_h and hides it. Where both are
 /// one surface, two ranges of one point are compared. Each is off by its rounding across the
 /// surface, which along the ray is longer by 1 / cos(incidence).
-bool hides(const Intersection& hit, const SecondHit& second, const Ray& ray) {
+bool hides(const Intersection& hit, const SecondHit& second, float range_m, const Ray& ray) {
     if (std::isinf(hit.distance_m)) return false;
     const auto along_ray = [&](float rounding_m, const Eigen::Vector3f& normal) {
         return rounding_m / std::fabs(normal.dot(ray.direction));
     };
     const float slack =
         along_ray(hit.rounding_m, hit.normal) + along_ray(second.rounding_m, second.normal);
-    return !(hit.distance_m + slack >= second.point.norm());
+    return !(hit.distance_m + slack >= range_m);
 }
 
 /// Takes out the bounces whose second point the sonar does not see.
@@ -205,34 +276,22 @@ void drop_hidden(const Context& context, const std::vector<SecondHit>& second_hi
     for (const Bounce& b : bounces) {
         if (ray_of[b.second] != no_ray) continue;
         ray_of[b.second] = static_cast<std::uint32_t>(rays.size());
-        rays.push_back({Eigen::Vector3f::Zero(), second_hits[b.second].point.normalized()});
+        rays.push_back(
+            {Eigen::Vector3f::Zero(), context.seen(second_hits[b.second].point).normalized()});
     }
     std::vector<Intersection> hits(rays.size());
     context.engine.intersect(context.T_world_sensor, rays, hits);
     counts.rays += rays.size();
     counts.hidden += std::erase_if(bounces, [&](const Bounce& b) {
         const std::uint32_t ray = ray_of[b.second];
-        return hides(hits[ray], second_hits[b.second], rays[ray]);
+        const SecondHit& second = second_hits[b.second];
+        return hides(hits[ray], second, context.seen(second.point).norm(), rays[ray]);
     });
 }
 
-}  // namespace
-
-std::vector<Bounce> find_bounces(const Multipath& multipath, const View& view,
-                                 const Samples& samples, std::span<const Material> materials,
-                                 const VisibilityEngine& engine, const Pose& T_world_sensor,
-                                 MultipathCounts& counts) {
-    const Context context{.view = view,
-                          .samples = samples,
-                          .materials = materials,
-                          .engine = engine,
-                          .T_world_sensor = T_world_sensor,
-                          .bin_m = static_cast<float>(view.bin_m()),
-                          .field = BeamLocator(view)};
-    const Clusters clusters = cluster_samples(view, samples, multipath.cluster);
-    counts.samples = clusters.members.size();
-    counts.clusters = clusters.size();
-
+/// Follows the sound of all samples to what `context` says of second surfaces.
+std::vector<Bounce> follow_all(const Context& context, const Clusters& clusters,
+                               MultipathCounts& counts) {
     // The first and the last member of every cluster are traced.
     std::vector<std::uint32_t> sources;
     for (std::size_t c = 0; c < clusters.size(); ++c) {
@@ -265,6 +324,38 @@ std::vector<Bounce> find_bounces(const Multipath& multipath, const View& view,
     }
     follow_traced(context, sources, second_hits, bounces, counts);
     drop_hidden(context, second_hits, bounces, counts);
+    return bounces;
+}
+
+}  // namespace
+
+std::vector<Bounce> find_bounces(const Multipath& multipath, const View& view,
+                                 const Samples& samples, std::span<const Material> materials,
+                                 const VisibilityEngine& engine, const Pose& T_world_sensor,
+                                 MultipathCounts& counts,
+                                 const std::optional<WaterSurface>& surface) {
+    const std::optional<WaterMirror> mirror = mirror_of(surface, T_world_sensor);
+    Context context{.view = view,
+                    .samples = samples,
+                    .materials = materials,
+                    .engine = engine,
+                    .T_world_sensor = T_world_sensor,
+                    .bin_m = static_cast<float>(view.bin_m()),
+                    .field = BeamLocator(view),
+                    .mirror = mirror ? &*mirror : nullptr};
+    const Clusters clusters = cluster_samples(view, samples, multipath.cluster);
+    counts.samples = clusters.members.size();
+    counts.clusters = clusters.size();
+
+    std::vector<Bounce> bounces = follow_all(context, clusters, counts);
+    if (mirror) {
+        // What becomes of a sample is counted once, on its way without the mirror.
+        MultipathCounts mirrored_counts;
+        context.at_surface = AtSurface::mirrors;
+        const std::vector<Bounce> more = follow_all(context, clusters, mirrored_counts);
+        bounces.insert(bounces.end(), more.begin(), more.end());
+        counts.rays += mirrored_counts.rays;
+    }
     counts.bounces = bounces.size();
     return bounces;
 }
