@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "ping/water_mirror.h"
+#include "ping/second_legs.h"
 
 namespace sonarsim {
 
@@ -19,15 +19,6 @@ constexpr float least_cosine = 0.01F;
 constexpr float same_normal_cosine = 0.999F;
 constexpr float same_plane_bins = 0.5F;
 
-/// What a traced ray hit: the second surface h.
-struct SecondHit {
-    Eigen::Vector3f point;    ///< p_h, sensor frame, m
-    Eigen::Vector3f normal;   ///< n_h
-    float rounding_m = 0.0F;  ///< as in Intersection
-    float reflection = 0.0F;  ///< R_h
-    bool exists = false;
-};
-
 /// The plane of the second surface of a cluster, and the disc of it that was hit.
 struct Plane {
     const SecondHit* hit;
@@ -35,136 +26,9 @@ struct Plane {
     float radius_m;
 };
 
-/// What becomes of rays that meet the water's surface.
-enum class AtSurface {
-    ends,     ///< the surface is what they hit
-    mirrors,  ///< they go on, and what they hit is seen in the mirror; no other rays hit anything
-};
-
 /// What became of a sample, as the counter that it goes into.
 using Outcome = std::uint64_t MultipathCounts::*;
 constexpr Outcome off_the_disc = nullptr;  ///< to be traced by itself
-
-/// What all steps need.
-struct Context {
-    const View& view;
-    const Samples& samples;
-    std::span<const Material> materials;
-    const VisibilityEngine& engine;
-    const Pose& T_world_sensor;
-    float bin_m;
-    BeamLocator field;
-    const WaterMirror* mirror;  ///< null: the water has no surface
-    AtSurface at_surface = AtSurface::ends;
-
-    bool is_mirrored() const { return mirror && at_surface == AtSurface::mirrors; }
-    /// Where the sonar is for the last leg of the sound.
-    Eigen::Vector3f sonar() const {
-        return is_mirrored() ? mirror->image : Eigen::Vector3f(Eigen::Vector3f::Zero());
-    }
-    /// The point of the world that a second point stands for.
-    Eigen::Vector3f seen(const Eigen::Vector3f& p) const {
-        return is_mirrored() ? mirror->fold(p) : p;
-    }
-    Eigen::Vector3f seen_change(const Eigen::Vector3f& of_p) const {
-        return is_mirrored() ? mirror->turn(of_p) : of_p;
-    }
-};
-
-/// The direction in which a mirror sends on what comes along `direction`: r of Eq. 1.
-Eigen::Vector3f mirrored(const Eigen::Vector3f& direction, const Eigen::Vector3f& normal) {
-    return direction - 2.0F * normal.dot(direction) * normal;
-}
-
-/// The ray that leaves a sample. On a curved surface the sample may lie a little below the facets
-/// that it stands for; the ray starts above them.
-Ray mirrored_ray(const Sample& sample, float bin_m) {
-    const float range = sample.position.norm();
-    const float size = sample.edge_u.norm() + sample.edge_v.norm();
-    const float lift = 1e-4F * range + std::min(0.05F * size, 0.5F * bin_m);
-    return {sample.position + lift * sample.normal,
-            mirrored(sample.position / range, sample.normal)};
-}
-
-/// Whether a ray may have hit the surface that it started from: its start lies in the plane of what
-/// it hit, to within rounding.
-bool hit_its_start(const Ray& ray, const Intersection& hit) {
-    return std::fabs(hit.distance_m * hit.normal.dot(ray.direction)) <= hit.rounding_m;
-}
-
-/// Follows those of the rays that meet the water's surface before anything else (`hits`), and
-/// appends the mirror images of what they hit.
-void look_into_mirror(const Context& context, std::span<const Ray> rays,
-                      std::span<const Intersection> hits, std::vector<SecondHit>& second_hits,
-                      MultipathCounts& counts) {
-    const WaterMirror& mirror = *context.mirror;
-    std::vector<Ray> mirrored_rays;
-    std::vector<std::size_t> second_of;
-    for (std::size_t k = 0; k < rays.size(); ++k) {
-        second_hits.emplace_back();
-        const float distance = mirror.distance(rays[k]);
-        if (!(distance < hits[k].distance_m)) continue;
-        second_of.push_back(second_hits.size() - 1);
-        mirrored_rays.push_back(
-            {rays[k].origin + distance * rays[k].direction, mirror.turn(rays[k].direction)});
-    }
-    std::vector<Intersection> behind(mirrored_rays.size());
-    context.engine.intersect(context.T_world_sensor, mirrored_rays, behind);
-    counts.rays += mirrored_rays.size();
-    for (std::size_t k = 0; k < behind.size(); ++k) {
-        if (!std::isfinite(behind[k].distance_m)) continue;
-        const Ray& ray = mirrored_rays[k];
-        second_hits[second_of[k]] = {
-            .point = mirror.fold(ray.origin + behind[k].distance_m * ray.direction),
-            .normal = mirror.turn(behind[k].normal),
-            .rounding_m = behind[k].rounding_m,
-            .reflection = mirror.reflection * context.materials[behind[k].material].reflection,
-            .exists = true};
-    }
-}
-
-/// Traces the samples and appends what their rays hit to `second_hits`. Far from the scene's
-/// origin, or on a large triangle, rounding may put the start of a ray below its surface; such a
-/// ray is traced once more from above the rounding.
-void trace(const Context& context, std::span<const std::uint32_t> sources,
-           std::vector<SecondHit>& second_hits, MultipathCounts& counts) {
-    std::vector<Ray> rays;
-    rays.reserve(sources.size());
-    for (const std::uint32_t i : sources)
-        rays.push_back(mirrored_ray(context.samples.items[i], context.bin_m));
-    std::vector<Intersection> hits(rays.size());
-    context.engine.intersect(context.T_world_sensor, rays, hits);
-    counts.rays += rays.size();
-    for (std::size_t k = 0; k < rays.size(); ++k) {
-        if (!hit_its_start(rays[k], hits[k])) continue;
-        rays[k].origin += 2.0F * hits[k].rounding_m * context.samples.items[sources[k]].normal;
-        context.engine.intersect(context.T_world_sensor, {&rays[k], 1}, {&hits[k], 1});
-        ++counts.rays;
-    }
-    if (context.is_mirrored()) {
-        look_into_mirror(context, rays, hits, second_hits, counts);
-        return;
-    }
-    for (std::size_t k = 0; k < rays.size(); ++k) {
-        SecondHit second;
-        const float at_surface = context.mirror ? context.mirror->distance(rays[k])
-                                                : std::numeric_limits<float>::infinity();
-        if (at_surface < hits[k].distance_m) {
-            second = {.point = rays[k].origin + at_surface * rays[k].direction,
-                      .normal = -context.mirror->up,
-                      .rounding_m = hits[k].rounding_m,
-                      .reflection = context.mirror->reflection,
-                      .exists = true};
-        } else if (std::isfinite(hits[k].distance_m)) {
-            second = {.point = rays[k].origin + hits[k].distance_m * rays[k].direction,
-                      .normal = hits[k].normal,
-                      .rounding_m = hits[k].rounding_m,
-                      .reflection = context.materials[hits[k].material].reflection,
-                      .exists = true};
-        }
-        second_hits.push_back(second);
-    }
-}
 
 /// Whether two rays hit one plane, or both nothing.
 bool same_plane(const SecondHit& a, const SecondHit& b, float slack_m) {
@@ -178,7 +42,7 @@ bool same_plane(const SecondHit& a, const SecondHit& b, float slack_m) {
 /// from there, Eq. 3. The mirror image of the sonar in the sample's plane, s, makes the path to p
 /// one straight line: p lies on the ray from s through p_i, and |p - s| is the length of the path.
 /// When p_i moves along an edge of its footprint, s stays where it is.
-Outcome reflect(const Context& context, const Sample& sample, const Plane& plane, Bounce& out) {
+Outcome reflect(const SecondLegs& context, const Sample& sample, const Plane& plane, Bounce& out) {
     const SecondHit& second = *plane.hit;
     if (!second.exists) return &MultipathCounts::missed;
     // The sound hit the far side of what the sonar faces.
@@ -224,8 +88,8 @@ Outcome reflect(const Context& context, const Sample& sample, const Plane& plane
 
 /// Reflects one sample off the plane, and keeps what comes back. Returns whether the sample has to
 /// be traced by itself.
-bool follow(const Context& context, std::uint32_t sample, std::uint32_t second, const Plane& plane,
-            std::vector<Bounce>& bounces, MultipathCounts& counts) {
+bool follow(const SecondLegs& context, std::uint32_t sample, std::uint32_t second,
+            const Plane& plane, std::vector<Bounce>& bounces, MultipathCounts& counts) {
     const Sample& source = context.samples.items[sample];
     Bounce b{};
     b.sample = sample;
@@ -241,11 +105,11 @@ bool follow(const Context& context, std::uint32_t sample, std::uint32_t second, 
 }
 
 /// Traces the samples and reflects each off what its own ray hit.
-void follow_traced(const Context& context, std::span<const std::uint32_t> sources,
+void follow_traced(const SecondLegs& context, std::span<const std::uint32_t> sources,
                    std::vector<SecondHit>& second_hits, std::vector<Bounce>& bounces,
                    MultipathCounts& counts) {
     const std::size_t first = second_hits.size();
-    trace(context, sources, second_hits, counts);
+    trace_second_legs(context, sources, second_hits, counts);
     constexpr float unbounded = std::numeric_limits<float>::infinity();
     for (std::size_t k = 0; k < sources.size(); ++k) {
         const SecondHit& own = second_hits[first + k];
@@ -268,7 +132,7 @@ bool hides(const Intersection& hit, const SecondHit& second, float range_m, cons
 }
 
 /// Takes out the bounces whose second point the sonar does not see.
-void drop_hidden(const Context& context, const std::vector<SecondHit>& second_hits,
+void drop_hidden(const SecondLegs& context, const std::vector<SecondHit>& second_hits,
                  std::vector<Bounce>& bounces, MultipathCounts& counts) {
     constexpr std::uint32_t no_ray = 0xFFFFFFFFU;
     std::vector<std::uint32_t> ray_of(second_hits.size(), no_ray);
@@ -290,7 +154,7 @@ void drop_hidden(const Context& context, const std::vector<SecondHit>& second_hi
 }
 
 /// Follows the sound of all samples to what `context` says of second surfaces.
-std::vector<Bounce> follow_all(const Context& context, const Clusters& clusters,
+std::vector<Bounce> follow_all(const SecondLegs& context, const Clusters& clusters,
                                MultipathCounts& counts) {
     // The first and the last member of every cluster are traced.
     std::vector<std::uint32_t> sources;
@@ -335,14 +199,14 @@ std::vector<Bounce> find_bounces(const Multipath& multipath, const View& view,
                                  MultipathCounts& counts,
                                  const std::optional<WaterSurface>& surface) {
     const std::optional<WaterMirror> mirror = mirror_of(surface, T_world_sensor);
-    Context context{.view = view,
-                    .samples = samples,
-                    .materials = materials,
-                    .engine = engine,
-                    .T_world_sensor = T_world_sensor,
-                    .bin_m = static_cast<float>(view.bin_m()),
-                    .field = BeamLocator(view),
-                    .mirror = mirror ? &*mirror : nullptr};
+    SecondLegs context{.view = view,
+                       .samples = samples,
+                       .materials = materials,
+                       .engine = engine,
+                       .T_world_sensor = T_world_sensor,
+                       .bin_m = static_cast<float>(view.bin_m()),
+                       .field = BeamLocator(view),
+                       .mirror = mirror ? &*mirror : nullptr};
     const Clusters clusters = cluster_samples(view, samples, multipath.cluster);
     counts.samples = clusters.members.size();
     counts.clusters = clusters.size();

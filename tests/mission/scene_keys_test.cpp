@@ -84,8 +84,8 @@ TEST_CASE("what the scene's keys refuse") {
     CHECK(object("file: a.glb").empty());
     CHECK(object("name: a") == "m.yaml:1:37: 'objects.0' lacks the key 'file'");
     CHECK(object("file: a, scale: 0") == "m.yaml:1:54: 'scale' must be at least 1e-06, not '0'");
-    CHECK(object("file: a, place: bottom") ==
-          "m.yaml:1:54: unknown place 'bottom' (did you mean 'on_bottom'?); known: free, "
+    CHECK(object("file: a, place: on_botom") ==
+          "m.yaml:1:54: unknown place 'on_botom' (did you mean 'on_bottom'?); known: free, "
           "on_bottom");
     CHECK(object("file: a, units: inch").find("known: m, mm, cm, km, in, ft") != std::string::npos);
     CHECK(object("file: a, exclude: Light")

@@ -82,10 +82,9 @@ TEST_SUITE("visibility") {
             still.materials = scene.materials;
             add_floor(still, 20.0F, 0.0F, 0, 16);
             const std::size_t floor = still.triangles.size();
+            const std::size_t first = still.vertices.size();
             add_box(still, {-0.4F, -0.3F, -0.2F}, {0.4F, 0.3F, 0.2F}, 0);
-            for (std::size_t v = still.vertices.size() - 1; v + 1 > still.vertices.size() - 24;
-                 --v) {
-                if (still.vertices[v].cwiseAbs().maxCoeff() > 1.0F) break;
+            for (std::size_t v = first; v < still.vertices.size(); ++v) {
                 still.vertices[v] =
                     (pose.rotation * still.vertices[v].cast<double>() + pose.translation)
                         .cast<float>();
