@@ -20,6 +20,10 @@ install(DIRECTORY lib/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/sonarsim
         FILES_MATCHING PATTERN "*.h" PATTERN "embree.h" EXCLUDE)
 install(FILES README.md CHANGELOG.md CITATION.cff LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(PROGRAMS scripts/sonarsim_data.py scripts/sweep.mk scripts/contact_sheet.py
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/sonarsim/scripts)
+install(DIRECTORY scripts/slurm DESTINATION ${CMAKE_INSTALL_DATADIR}/sonarsim/scripts
+        USE_SOURCE_PERMISSIONS)
 install(DIRECTORY configs scenes trajectories DESTINATION ${CMAKE_INSTALL_DATADIR}/sonarsim
         PATTERN "generated" EXCLUDE)
 

@@ -23,7 +23,7 @@ install() {
 
 install g++ cmake ninja-build ccache make pkg-config python3 \
     libeigen3-dev libembree-dev libtbb-dev librandom123-dev libopenimageio-dev libtinygltf-dev \
-    libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libspdlog-dev "$@"
+    libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libspdlog-dev zlib1g-dev "$@"
 case $preset in
     asan | tsan)
         install clang

@@ -1,38 +1,48 @@
-# Renders a mission over a grid of noise parameters, one folder per point:
+# Renders a mission over a grid of values, one folder per point. Any key of a mission is an axis, by
+# its name as `sonarsim render --set` takes it:
 #
-#   make -f scripts/sweep.mk -j2 MISSION=configs/tank_imaging.yaml OUT=out/sweep SENSOR=fls \
-#        add_sigma="0 0.1 0.2" mult_sigma="0 0.2"
+#   make -f scripts/sweep.mk -j2 MISSION=configs/tank_imaging.yaml OUT=out/sweep \
+#        sensors.fls.range_max_m="10 20" seed="1 2"
 #
-# writes OUT/add_sigma=0.1,mult_sigma=0.2/ and so on, and OUT/index.csv with the parameters of every
-# folder. What is done is not done again; what was interrupted resumes. -jN renders N points at a
-# time, each on one thread. SENSOR may name several sensors.
+# writes OUT/sensors.fls.range_max_m=10,seed=1/ and so on, OUT/index.csv with the values of every
+# folder, and OUT/contact_sheet.png with a picture of each (where python3-matplotlib is installed).
+# The parameters of the noise have short names; SENSOR names the sensors that they are for:
+#
+#        SENSOR=fls add_sigma="0 0.1 0.2" mult_sigma="0 0.2"
+#
+# What is done is not done again; what was interrupted resumes. -jN renders N points at a time, each
+# on one thread. A point that fails does not stop the others: OUT/failed/ holds what it said, and the
+# sweep ends with exit code 2 and the list of them. Values are separated by blanks and hold none.
 
 noise_keys := range_lambda_m scatterer_m add_sigma mult_sigma
-keys := $(noise_keys) seed
-known := MISSION OUT SENSOR SONARSIM $(keys)
+keys := $(noise_keys) seed engine
+known := MISSION OUT SENSOR SONARSIM PYTHON $(keys)
 
 root := $(abspath $(dir $(lastword $(MAKEFILE_LIST)))/..)
 OUT ?= out/sweep
-SONARSIM ?= $(root)/build/sonarsim
+SONARSIM ?= $(or $(wildcard $(root)/build/sonarsim),sonarsim)
+PYTHON ?= $(if $(wildcard /usr/bin/python3),/usr/bin/python3,python3)
 
 comma := ,
 empty :=
 space := $(empty) $(empty)
 
-# A mistyped parameter would otherwise be left out without a word.
+# A mistyped parameter would otherwise be left out without a word. Keys with dots are sonarsim's to
+# check.
 given := $(foreach v,$(.VARIABLES),$(if $(filter line,$(origin $(v))),$(v)))
-unknown := $(filter-out $(known),$(given))
-$(if $(unknown),$(error unknown: $(unknown). Known: $(known)))
+dotted := $(sort $(foreach v,$(given),$(if $(findstring .,$(v)),$(v))))
+unknown := $(filter-out $(known) $(dotted),$(given))
+$(if $(unknown),$(error unknown: $(unknown). Known: $(known), and keys with dots as in sensors.fls.range_max_m))
 $(if $(MISSION),,$(error give MISSION=mission.yaml))
 $(if $(wildcard $(MISSION)),,$(error $(MISSION): no such file))
 $(if $(filter 1,$(words $(OUT))),,$(error OUT must be one folder without spaces in its name))
 
-axes := $(filter $(given),$(keys))
-$(if $(axes),,$(error give at least one of $(keys), as in add_sigma="0 0.1"))
+axes := $(filter $(given),$(keys)) $(dotted)
+$(if $(strip $(axes)),,$(error give at least one of $(keys), as in add_sigma="0 0.1", or a key with dots))
 $(if $(filter $(axes),$(noise_keys)),$(if $(SENSOR),,$(error give SENSOR=, the name of a sensor of $(MISSION))))
 
-# points: the cross product of the axes, each point spelled a=1,b=2. The sort also drops doubles.
-cross = $(if $(1),$(foreach p,$(1),$(addprefix $(p)$(comma)$(2)=,$($(2)))),$(addprefix $(2)=,$($(2))))
+# points: the cross product of the axes, each point spelled a=1!b=2. The sort also drops doubles.
+cross = $(if $(1),$(foreach p,$(1),$(addprefix $(p)!$(2)=,$($(2)))),$(addprefix $(2)=,$($(2))))
 points :=
 $(foreach axis,$(axes),$(eval points := $(call cross,$(points),$(axis))))
 points := $(sort $(points))
@@ -43,12 +53,20 @@ $(if $(filter-out $(words $(seeds)),$(words $(points))),$(warning points that sh
 same noise, bit for bit, in every bin that nothing lights. To train with one and test with another \
 is a leak: give each a seed of its own, or keep those of one seed on the same side))
 
-targets := $(points:%=$(OUT)/%/dataset.json)
-done := $(if $(targets),$(shell grep -ls '"complete": *true' $(targets)))
+# The folder of a point: what a name of a file, or make, does not take is left out or replaced.
+folder = $(subst [,,$(subst ],,$(subst /,_,$(subst :,_,$(subst !,$(comma),$(1))))))
+folders := $(foreach p,$(points),$(call folder,$(p)))
+$(if $(filter $(words $(points)),$(words $(sort $(folders)))),,$(error two points would have one folder: $(folders)))
 
-settings = $(subst $(comma), ,$(1))
-values = $(subst $(space),$(comma),$(foreach s,$(call settings,$(1)),$(lastword $(subst =, ,$(s)))))
-sets = $(foreach s,$(call settings,$(1)),$(if $(filter seed=%,$(s)),--set $(s),$(SENSOR:%=--set sensors.%.noise.$(s))))
+settings = $(subst !, ,$(1))
+value_of = $(patsubst $(2)=%,%,$(filter $(2)=%,$(call settings,$(1))))
+key = $(if $(filter $(1),$(noise_keys)),$(SENSOR:%=sensors.%.noise.$(1)),$(1))
+sets = $(foreach a,$(axes),$(foreach k,$(call key,$(a)),--set '$(k)=$(call value_of,$(1),$(a))'))
+
+targets := $(folders:%=$(OUT)/%/dataset.json)
+point = $(strip $(foreach p,$(points),$(if $(filter $(call folder,$(p)),$(notdir $(@D))),$(p))))
+are_done = $(if $(targets),$(shell grep -ls '"complete": *true' $(targets:%='%')))
+done := $(are_done)
 
 .PHONY: all again
 all: $(OUT)/index.csv
@@ -56,12 +74,26 @@ all: $(OUT)/index.csv
 # make would delete a half-done dataset.json on Ctrl-C, and with it what a resume needs.
 .PRECIOUS: $(targets)
 
+command = $(SONARSIM) render $(MISSION) --quiet --threads 1 --out '$(@D)' $(call sets,$(point))
+note = $(OUT)/failed/$(notdir $(@D)).txt
+
+# After a signal make ends as well.
 $(targets): $(MISSION)
-	$(SONARSIM) render $(MISSION) --quiet --threads 1 --out '$(@D)' $(call sets,$(notdir $(@D)))
+	@mkdir -p '$(OUT)/failed'; rm -f '$(note)'; echo "$(command)"
+	@$(command) 2>'$(note)'; code=$$?; cat '$(note)' >&2; \
+	    if [ $$code -eq 0 ]; then rm '$(note)'; elif [ $$code -gt 128 ]; then exit $$code; fi
 
 $(filter-out $(done),$(targets)): again
 
+cell = $(if $(findstring $(comma),$(1)),"$(1)",$(1))
+row = $(subst $(space),$(comma),$(foreach a,$(axes),$(call cell,$(call value_of,$(1),$(a)))))
+whole = $(filter $(are_done),$(OUT)/$(call folder,$(1))/dataset.json)
+
 $(OUT)/index.csv: $(targets) again
-	@$(file >$@.part,$(subst $(space),$(comma),$(axes)),folder)$(foreach p,$(points),$(file >>$@.part,$(call values,$(p)),"$(p)"))
+	@$(file >$@.part,$(subst $(space),$(comma),$(strip $(axes))),folder)$(foreach p,$(points),$(if $(call whole,$(p)),$(file >>$@.part,$(call row,$(p)),"$(call folder,$(p))")))
 	@mv $@.part $@
+	@$(PYTHON) -B '$(root)/scripts/contact_sheet.py' '$(OUT)'
+	@[ ! -d '$(OUT)/failed' ] || rmdir '$(OUT)/failed' 2>/dev/null || { \
+	    echo '$(OUT): of $(words $(points)) points these failed, as OUT/failed/ tells:' >&2; \
+	    ls '$(OUT)/failed' | sed 's/\.txt$$//' >&2; exit 1; }
 	@echo '$@: $(words $(points)) points'

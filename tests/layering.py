@@ -31,7 +31,8 @@ for upper in ("dataset", "validation", "benchmark"):
 PARTS = {
     "dataset": [["*"], ["writers/"], ["writers"],
                 ["layout"], ["journal", "metadata"], ["description", "checksums"], ["listed_files"],
-                ["folder", "resume"], ["completion"], ["job", "merge", "verify"], ["variants"], ["variants_check"]],
+                ["folder", "resume", "coco"], ["coco_records", "ping_files"], ["shared_files"], ["completion"],
+                ["collection", "job", "merge", "verify"], ["variants"], ["variants_check"]],
     "scene": [["*"], ["gltf/", "placing/"]],
     "validation": [["*"], ["hard/"]],
     "visibility": [["*"], ["octree/", "rays/", "slices/"], ["make_engine"]],

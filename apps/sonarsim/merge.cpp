@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "commands.h"
+#include "dataset/collection.h"
 #include "dataset/variants.h"
 #include "logging.h"
 #include "progress.h"
@@ -22,14 +23,45 @@ constexpr const char* goes_on = "the same command run again goes on from there";
 
 struct MergeArguments {
     std::vector<std::filesystem::path> folders;  ///< the parts, and at last the one to write to
+    bool different = false;
     int threads = 0;
     LogOptions log;
 };
+
+int collect(const MergeArguments& arguments, const std::atomic<bool>& stop) {
+    const std::filesystem::path& out = arguments.folders.back();
+    const std::vector<std::filesystem::path> parts(arguments.folders.begin(),
+                                                   arguments.folders.end() - 1);
+    CollectionSummary summary;
+    {
+        const bool quiet = arguments.log.quiet || arguments.log.json;
+        ProgressLine line(!quiet && ::isatty(STDERR_FILENO) == 1, "files");
+        summary = collect_datasets(
+            parts, out, arguments.threads,
+            [&](std::uint64_t done, std::uint64_t total) { line.show(done, total); }, stop);
+    }
+    for (const std::string& warning : summary.warnings)
+        spdlog::warn("{}", warning);
+    if (arguments.log.json) {
+        const nlohmann::ordered_json json = {{"files", summary.files},
+                                             {"skipped", summary.skipped},
+                                             {"complete", summary.complete},
+                                             {"warnings", summary.warnings}};
+        fmt::print("{}", json_line(json));
+    }
+    if (!summary.complete) {
+        spdlog::warn("stopped after {} files; {}", summary.files, goes_on);
+        return exit_signal + signal_received();
+    }
+    spdlog::info("{}: complete; {} datasets side by side", out.string(), parts.size());
+    return exit_done;
+}
 
 int merge(const MergeArguments& arguments) {
     start_logging(arguments.log);
     const std::atomic<bool>& stop =
         stop_on_signal(warning_line(arguments.log, std::string("stopped at once; ") + goes_on));
+    if (arguments.different) return collect(arguments, stop);
     const std::filesystem::path& out = arguments.folders.back();
     const std::vector<std::filesystem::path> parts(arguments.folders.begin(),
                                                    arguments.folders.end() - 1);
@@ -65,6 +97,8 @@ void add_merge(CLI::App& app, int& exit_code) {
         ->required()
         ->expected(2, 1'000'000)
         ->type_name("PART... OUT");
+    command.add_flag("--different", arguments->different,
+                     "Puts whole datasets of different missions side by side");
     command.add_option("-j,--threads", arguments->threads, "Threads (default: one per core)")
         ->check(CLI::Range(1, 1024))
         ->type_name("N");

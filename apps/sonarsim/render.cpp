@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -13,7 +14,6 @@
 
 #include "commands.h"
 #include "core/error.h"
-#include "core/text.h"
 #include "dataset/image_warnings.h"
 #include "dataset/job.h"
 #include "dataset/layout.h"
@@ -21,6 +21,7 @@
 #include "logging.h"
 #include "mission_options.h"
 #include "progress.h"
+#include "shard.h"
 #include "signals.h"
 #include "sonar/engine_settings.h"
 
@@ -36,21 +37,21 @@ constexpr const char* goes_on_from_there =
 struct RenderArguments {
     MissionOptions mission;
     RenderOptions render;
+    std::optional<Shard> shard;
     bool no_files = false;
     LogOptions log;
 };
 
-/// "2/4" on the command line, where shards count from 1.
-void parse_shard(const std::string& text, RenderOptions& options) {
-    const std::size_t slash = text.find('/');
-    const auto shard = parse_integer(text.substr(0, slash));
-    const auto shards =
-        slash == std::string::npos ? std::nullopt : parse_integer(text.substr(slash + 1));
-    if (!shard || !shards || *shard < 1 || *shard > *shards || *shards > 1'000'000) {
-        throw CLI::ValidationError("--shard", "'" + text + "' is not of the form 1/4 to 4/4");
+/// The shard that the command line names, else the task of a Slurm array, else all of the mission.
+void take_shard(const RenderArguments& arguments, RenderOptions& options) {
+    std::optional<Shard> shard = arguments.shard;
+    if (!shard && (shard = shard_of_slurm())) {
+        spdlog::info("--shard {}/{}, by SLURM_ARRAY_TASK_ID; --shard 1/1 renders all of it",
+                     shard->index + 1, shard->count);
     }
-    options.shard = static_cast<int>(*shard - 1);
-    options.shards = static_cast<int>(*shards);
+    if (!shard) return;
+    options.shard = shard->index;
+    options.shards = shard->count;
 }
 
 double pings_per_s(const RenderSummary& summary) {
@@ -174,6 +175,7 @@ std::vector<std::string> render_all(const RenderArguments& arguments, const Miss
 int render(RenderArguments arguments) {
     start_logging(arguments.log);
     arguments.render.files = !arguments.no_files;
+    take_shard(arguments, arguments.render);
     const std::atomic<bool>& stop = stop_on_signal(
         warning_line(arguments.log, std::string("stopped at once; ") + goes_on_from_there));
     const Mission mission = load(arguments.mission);
@@ -203,8 +205,8 @@ void add_render(CLI::App& app, int& exit_code) {
         ->type_name("N");
     command
         .add_option_function<std::string>(
-            "--shard", [arguments](const auto& text) { parse_shard(text, arguments->render); },
-            "Renders the I-th of N parts, counted from 1")
+            "--shard", [arguments](const auto& text) { arguments->shard = parse_shard(text); },
+            "Renders the I-th of N parts, counted from 1 (default: the task of a Slurm array)")
         ->type_name("I/N");
     command.add_flag("--overwrite", arguments->render.overwrite,
                      "Begins anew where the output folder holds another dataset");

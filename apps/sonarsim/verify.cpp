@@ -3,11 +3,13 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
+#include "dataset/collection.h"
 #include "dataset/variants.h"
 #include "logging.h"
 #include "progress.h"
@@ -35,18 +37,16 @@ void print_verdict(const DatasetCheck& check, bool whole) {
     fmt::print("{}", json_line(json));
 }
 
-int verify(const VerifyArguments& arguments) {
-    start_logging(arguments.log);
-    const std::atomic<bool>& stop =
-        stop_on_signal(warning_line(arguments.log, "stopped at once; nothing was changed"));
+int verify(const VerifyArguments& arguments, const std::filesystem::path& folder,
+           const std::atomic<bool>& stop) {
     DatasetCheck check;
     {
         const bool quiet = arguments.log.quiet || arguments.log.json;
-        const bool variants = read_variants(arguments.folder).has_value();
+        const bool variants = read_variants(folder).has_value();
         ProgressLine line(!quiet && ::isatty(STDERR_FILENO) == 1, variants ? "variants" : "files");
         const auto show = [&](std::uint64_t done, std::uint64_t total) { line.show(done, total); };
-        check = variants ? verify_variants(arguments.folder, arguments.threads, show, stop)
-                         : verify_dataset(arguments.folder, arguments.threads, show, stop);
+        check = variants ? verify_variants(folder, arguments.threads, show, stop)
+                         : verify_dataset(folder, arguments.threads, show, stop);
     }
     for (const std::string& name : check.strangers)
         spdlog::warn("{}: is not the dataset's; it does no harm", name);
@@ -60,9 +60,22 @@ int verify(const VerifyArguments& arguments) {
     const bool whole = check.faults.empty();
     if (arguments.log.json) print_verdict(check, whole);
     if (whole)
-        spdlog::info("{}: whole; {} files, {} bytes", arguments.folder.string(), check.files,
-                     check.bytes);
+        spdlog::info("{}: whole; {} files, {} bytes", folder.string(), check.files, check.bytes);
     return whole ? exit_done : exit_failed;
+}
+
+/// The worst of the verdicts on what is in the folder: a dataset, or some side by side.
+int verify_all(const VerifyArguments& arguments) {
+    start_logging(arguments.log);
+    const std::atomic<bool>& stop =
+        stop_on_signal(warning_line(arguments.log, "stopped at once; nothing was changed"));
+    std::vector<std::filesystem::path> folders = collected_folders(arguments.folder);
+    if (folders.empty()) folders.push_back(arguments.folder);
+    int worst = exit_done;
+    for (const std::filesystem::path& folder : folders) {
+        if (!stop) worst = std::max(worst, verify(arguments, folder, stop));
+    }
+    return worst;
 }
 
 }  // namespace
@@ -76,7 +89,7 @@ void add_verify(CLI::App& app, int& exit_code) {
         ->check(CLI::Range(1, 1024))
         ->type_name("N");
     add_log_options(command, arguments->log);
-    command.callback([arguments, &exit_code] { exit_code = verify(*arguments); });
+    command.callback([arguments, &exit_code] { exit_code = verify_all(*arguments); });
 }
 
 }  // namespace sonarsim

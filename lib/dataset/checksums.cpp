@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "core/error.h"
+#include "core/in_parallel.h"
 #include "core/sha256.h"
 
 namespace sonarsim {
@@ -20,7 +21,7 @@ void add_sum(std::string& text, const std::string& sum, const std::string& name)
 }
 
 /// The files that a ping has for itself, in the order of the writers.
-void add_pings(std::string& text, const Layout& layout, std::uint32_t sensor,
+void add_loose(std::string& text, const Layout& layout, std::uint32_t sensor,
                const JournalEntries& entries) {
     const SensorLayout& own = layout.sensors[sensor];
     for (std::size_t k = 0; k < own.per_ping.size(); ++k) {
@@ -37,6 +38,19 @@ void add_pings(std::string& text, const Layout& layout, std::uint32_t sensor,
             add_sum(text, entry->sha256, path.lexically_relative(layout.folder).string());
         }
     }
+}
+
+/// They are read, several at a time.
+void add_packs(std::string& text, const Layout& layout, std::uint32_t sensor) {
+    const SensorLayout& own = layout.sensors[sensor];
+    std::vector<std::string> sums(layout.packs(sensor));
+    const auto pack = [&](std::size_t k) {
+        return layout.pack_file(
+            {static_cast<std::uint32_t>(k * own.pings_per_pack) * own.every, sensor});
+    };
+    in_parallel(sums.size(), [&](std::size_t k) { sums[k] = sha256_of_file(pack(k)); });
+    for (std::size_t k = 0; k < sums.size(); ++k)
+        add_sum(text, sums[k], pack(k).lexically_relative(layout.folder).string());
 }
 
 bool stays_below(const fs::path& name) {
@@ -57,7 +71,8 @@ std::string checksums_text(const Layout& layout, const JournalEntries& entries,
         add_file(name);
     for (std::uint32_t i = 0; i < layout.sensors.size(); ++i) {
         const SensorLayout& sensor = layout.sensors[i];
-        add_pings(text, layout, i, entries);
+        sensor.pings_per_pack > 0 ? add_packs(text, layout, i)
+                                  : add_loose(text, layout, i, entries);
         for (const auto& part : sensor.per_ping) {
             if (const auto* record = std::get_if<PingRecord>(&part))
                 add_file(sensor.name + "/" + record->file);
@@ -65,6 +80,8 @@ std::string checksums_text(const Layout& layout, const JournalEntries& entries,
         for (const std::string& product : sensor.products)
             add_file(sensor.name + "/" + product);
     }
+    for (const std::string& product : layout.products)
+        add_file(product);
     return text;
 }
 

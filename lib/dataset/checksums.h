@@ -10,7 +10,7 @@
 namespace sonarsim {
 
 /// OUT/SHA256SUMS, as `sha256sum -c` takes it in OUT: every file of the dataset but this one. Of
-/// the files of pings the journal tells the sum, so that they need not be read again; the others
+/// loose files of pings the journal tells the sum, so that they need not be read again; the others
 /// are read, but for dataset.json, which gets the text `description` afterwards. std::runtime_error
 /// when the journal lacks a ping; std::system_error when a file cannot be read.
 std::string checksums_text(const Layout& layout, const JournalEntries& entries,

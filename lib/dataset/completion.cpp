@@ -1,9 +1,12 @@
 #include "dataset/completion.h"
 
+#include "dataset/shared_files.h"
+
 namespace sonarsim {
 
-void complete_dataset(const Layout& layout, const std::vector<Writers>& writers,
-                      RecordFiles& records, const CommonFiles& common) {
+void complete_dataset(const Layout& layout, const Mission& mission,
+                      const std::vector<Writers>& writers, RecordFiles& records,
+                      const CommonFiles& common) {
     const auto for_each_record = [&](const auto& visit) {
         for (std::size_t i = 0; i < writers.size(); ++i) {
             for (std::size_t k = 0; k < writers[i].size(); ++k) {
@@ -16,6 +19,7 @@ void complete_dataset(const Layout& layout, const std::vector<Writers>& writers,
     });
     require_records(records);
     for_each_record([&](std::size_t i, std::size_t k) { records[i][k]->close(); });
+    write_shared_products(layout, mission, common.description);
     JournalEntries entries = read_journal(layout.folder);
     entries.products = require_products(layout);
     finish_dataset(layout, common.description, entries);

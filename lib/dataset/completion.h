@@ -4,13 +4,15 @@
 
 #include "dataset/folder.h"
 #include "dataset/resume.h"
+#include "mission/mission.h"
 
 namespace sonarsim {
 
 /// Makes the products and the checksums when every ping is there, and says so in the folder; closes
 /// `records`. std::runtime_error when files vanish meanwhile; std::system_error when the disk
 /// fails.
-void complete_dataset(const Layout& layout, const std::vector<Writers>& writers,
-                      RecordFiles& records, const CommonFiles& common);
+void complete_dataset(const Layout& layout, const Mission& mission,
+                      const std::vector<Writers>& writers, RecordFiles& records,
+                      const CommonFiles& common);
 
 }  // namespace sonarsim

@@ -37,8 +37,23 @@ bool visit_sensor(const Json& sensor, const std::function<bool(const DescribedFi
             if (!visit({name, &sensor, kind})) return false;
         }
     }
+    if (sensor.contains("packs")) {
+        const Json& packs = sensor["packs"];
+        const auto pattern = packs.at("file").get<std::string>();
+        const auto each = packs.at("pings").get<std::uint64_t>();
+        if (each == 0 || numbered(pattern, 0).empty())
+            throw InputError("'packs' in dataset.json is damaged");
+        for (std::uint64_t first = 0; first < pings; first += each) {
+            if (!visit({numbered(pattern, first / each), &sensor, "packs"})) return false;
+        }
+    }
     if (sensor.contains("records")) {
         if (!visit({sensor["records"].at("file").get<std::string>(), &sensor, "records"}))
+            return false;
+    }
+    const Json labels = sensor.value("label_records", Json::object());
+    for (const auto& [label, record] : labels.items()) {
+        if (!visit({record.at("file").get<std::string>(), &sensor, "label_records/" + label}))
             return false;
     }
     const Json products = sensor.value("products", Json::array());
@@ -94,6 +109,9 @@ void for_each_described(const Json& description,
     try {
         for (const Json& sensor : description.at("sensors")) {
             if (!visit_sensor(sensor, visit)) return;
+        }
+        for (const Json& product : description.value("products", Json::array())) {
+            if (!visit({product.get<std::string>(), nullptr, {}})) return;
         }
     } catch (const Json::exception& error) {
         throw InputError({description_name}, std::string("is damaged: ") + error.what());

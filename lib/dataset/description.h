@@ -25,7 +25,7 @@ std::string numbered(const std::string& pattern, std::uint64_t number);
 struct DescribedFile {
     std::string name;                                ///< relative to the folder of the dataset
     const nlohmann::ordered_json* sensor = nullptr;  ///< its block; null for what stands beside
-    std::string kind;                                ///< "polar", ..., "records", or empty
+    std::string kind;                                ///< "polar", ..., "packs", "records", or empty
 };
 
 /// Visits each file that dataset.json says is there, SHA256SUMS included, until `visit` returns

@@ -153,9 +153,14 @@ void remove_leftovers(const Layout& layout, const std::vector<PingId>& todo, boo
         for (const fs::path& file : temporary_files(folder))
             fs::remove(file);
     };
-    if (alone) remove_all(layout.folder);
+    if (alone) {
+        remove_all(layout.folder);
+        for (const std::string& product : layout.products)
+            remove_all((layout.folder / product).parent_path());
+    }
     for (std::uint32_t sensor = 0; sensor < layout.sensors.size(); ++sensor) {
         if (alone) remove_all(layout.sensor_folder(sensor));
+        if (layout.sensors[sensor].pings_per_pack > 0) continue;  // packs have no temporary names
         for (const auto& part : layout.sensors[sensor].per_ping) {
             const auto* kind = std::get_if<PingFile>(&part);
             if (!kind) continue;

@@ -7,20 +7,18 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <span>
 #include <vector>
 
 #include "core/clock.h"
 #include "core/error.h"
-#include "core/file.h"
 #include "core/ordered_pipeline.h"
-#include "core/sha256.h"
 #include "dataset/completion.h"
 #include "dataset/finite_image.h"
 #include "dataset/folder.h"
 #include "dataset/journal.h"
-#include "dataset/label_description.h"
+#include "dataset/labelled_ping.h"
 #include "dataset/metadata.h"
+#include "dataset/ping_files.h"
 #include "dataset/resume.h"
 #include "sonar/engine_settings.h"
 #include "sonar/measured.h"
@@ -33,7 +31,8 @@ namespace {
 /// What one ping left behind besides its files.
 struct PingReport {
     PingId id;
-    std::vector<std::string> what;  ///< for the journal: what each writer wrote
+    EncodedPing encoded;             ///< to be packed; empty where nothing is
+    std::vector<std::string> words;  ///< for the journal
     PingCounts counts;
     PingSeconds seconds;
     float brightest = 0.0F;
@@ -82,11 +81,13 @@ struct Plan {
     std::uint64_t skipped = 0;  ///< of this shard, with all their files
 };
 
+/// The pings whose index in list_pings() is i are in shard `shard_of(i)`.
 Plan make_plan(const std::vector<PingId>& all, const RenderOptions& options,
+               const std::function<int(std::size_t)>& shard,
                const std::function<bool(const PingId&)>& is_there) {
     Plan plan;
     for (std::size_t i = 0; i < all.size(); ++i) {
-        if (static_cast<int>(i % options.shards) != options.shard) continue;
+        if (shard(i) != options.shard) continue;
         is_there(all[i]) ? void(++plan.skipped) : plan.todo.push_back(all[i]);
     }
     return plan;
@@ -96,7 +97,8 @@ Plan make_plan(const std::vector<PingId>& all, const RenderOptions& options,
 struct Destination {
     const Layout& layout;
     const std::vector<Writers>& writers;
-    const RecordFiles& records;
+    PingFiles& files;
+    const std::vector<LabelPlan>& labels;  ///< by sensor
     Journal& journal;
 };
 
@@ -112,30 +114,23 @@ void write_ping(const Mission& mission, const Assembly& assembly, const Visibili
     const auto metadata = measured(
         {assembly.sonars[id.sensor], assembly.trajectory[id.pose].T_world_vehicle, id.pose, ping},
         engine);
-    PingLabels labels;
-    const bool labelled = !mission.output.labels.empty();
-    if (labelled) {
-        labels = label_ping(traced, assembly.sonars[id.sensor].settings, assembly.scene,
-                            assembly.objects, engine, label_request(mission.output.labels));
+    LabelledPing labels;
+    const LabelPlan& plan = to.labels[id.sensor];
+    if (plan.on) {
+        labels = label_for_writers(
+            plan, label_ping(traced, assembly.sonars[id.sensor].settings, assembly.scene,
+                             assembly.objects, engine, plan.request));
     }
     const FinishedPing finished{
-        id, traced, ping, metadata, report.clipped_pixels, labelled ? &labels : nullptr};
-    const Writers& writers = to.writers[id.sensor];
-    std::vector<std::string> encoded;
-    for (const auto& writer : writers)
+        id, traced, ping, metadata, report.clipped_pixels, plan.on ? &labels : nullptr};
+    EncodedPing encoded;
+    for (const auto& writer : to.writers[id.sensor])
         encoded.push_back(writer->encode(finished));
     report.encode_seconds = watch.lap();
-    for (std::size_t k = 0; k < writers.size(); ++k) {
-        const auto& part = to.layout.sensors[id.sensor].per_ping[k];
-        if (const auto* file = std::get_if<PingFile>(&part)) {
-            write_file(to.layout.file(id, *file), encoded[k]);
-            report.what.push_back(entry_text({encoded[k].size(), sha256(encoded[k])}));
-        } else {
-            to.records[id.sensor][k]->write(to.layout.record_of(id),
-                                            std::as_bytes(std::span(encoded[k])));
-            report.what.push_back(hash_of_record(encoded[k]));
-        }
-    }
+    to.files.write(id, encoded);
+    const SensorLayout& sensor = to.layout.sensors[id.sensor];
+    report.words = journal_words(sensor, encoded);
+    if (sensor.pings_per_pack > 0) report.encoded = std::move(encoded);
     report.write_seconds = watch.lap();
 }
 
@@ -162,7 +157,8 @@ void render(const Mission& mission, const Assembly& assembly, const std::vector<
             const Ping ping =
                 form_image(traced, sonar.settings, assembly.scene, {mission.seed, id.pose});
             PingReport report{.id = id,
-                              .what = {},
+                              .encoded = {},
+                              .words = {},
                               .counts = ping.counts,
                               .seconds = ping.seconds,
                               .brightest = brightest_pixel(ping, sonar.config.name, id.pose),
@@ -173,7 +169,12 @@ void render(const Mission& mission, const Assembly& assembly, const std::vector<
         },
         [&](const PingReport& report) {
             add(summary, report);
-            if (to) to->journal.add(report.id, report.what);
+            if (to) {
+                Stopwatch packing;
+                to->files.pack(report.id, report.encoded);
+                summary.write_seconds += packing.lap();
+                to->journal.add(report.id, report.words);
+            }
             if (progress) progress(summary.pings, todo.size());
         });
     summary.seconds = watch.lap();
@@ -197,9 +198,10 @@ RenderSummary run_job(const Mission& mission, const Assembly& assembly,
         arena.execute(
             [&] { render(mission, assembly, todo, to, threads, progress, stop, summary); });
     };
-    const auto none = [](const PingId&) { return false; };
     if (!options.files) {
-        render_all(make_plan(all, options, none).todo, nullptr);
+        const auto shard = [&](std::size_t i) { return static_cast<int>(i % options.shards); };
+        const auto none = [](const PingId&) { return false; };
+        render_all(make_plan(all, options, shard, none).todo, nullptr);
         return summary;
     }
 
@@ -213,7 +215,9 @@ RenderSummary run_job(const Mission& mission, const Assembly& assembly,
         options.overwrite ? FolderState::fresh : inspect_folder(layout, common.description);
     if (state == FolderState::fresh) begin_dataset(layout, common);
     RecordFiles records = open_records(layout);
-    Plan plan = make_plan(all, options, FinishedPings(layout, records));
+    const FinishedPings there(layout, records);
+    const auto shard = [&](std::size_t i) { return shard_of(layout, all[i], i, options.shards); };
+    const Plan plan = make_plan(all, options, shard, there);
     summary.skipped = plan.skipped;
     summary.complete = state == FolderState::complete && plan.todo.empty() &&
                        has_common_files(layout) && has_products(layout);
@@ -228,7 +232,11 @@ RenderSummary run_job(const Mission& mission, const Assembly& assembly,
     }
     Journal journal(layout.folder, journal_part(options.shard + 1, options.shards),
                     options.checkpoint_s);
-    const Destination to{layout, writers, records, journal};
+    std::vector<LabelPlan> labels;
+    for (const Sonar& sonar : assembly.sonars)
+        labels.push_back(plan_labels(mission, sonar));
+    PingFiles files(layout, records, there);
+    const Destination to{layout, writers, files, labels, journal};
     render_all(plan.todo, &to);
     journal.finish();
     if (summary.stopped) return summary;
@@ -237,7 +245,7 @@ RenderSummary run_job(const Mission& mission, const Assembly& assembly,
     const FinishedPings finished(layout, records);
     require_files(layout, plan.todo, finished);
     summary.complete = std::ranges::all_of(all, finished);
-    if (summary.complete) complete_dataset(layout, writers, records, common);
+    if (summary.complete) complete_dataset(layout, mission, writers, records, common);
     return summary;
 }
 

@@ -24,7 +24,8 @@ using ProductSizes = std::map<std::pair<std::uint32_t, std::string>, std::uint64
 ///
 ///     ping SENSOR POSE WHAT...  of each of the sensor's writers SIZE:SHA256 of the ping's file,
 ///                               size in bytes, or the hash of its record
-///     product SENSOR FILE SIZE  in the finished dataset
+///     product SENSOR FILE SIZE  in the finished dataset; of all sensors together where SENSOR is
+///                               their number
 ///
 /// SENSOR is the index in dataset.json, POSE that of the pose. Each line ends in a hash of what
 /// stands before it, so that a line that a power cut tore does not count.

@@ -1,25 +1,12 @@
 #include "dataset/label_description.h"
 
-#include <Eigen/Geometry>
-#include <algorithm>
+#include "dataset/id_png.h"
 
 namespace sonarsim {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// By object, world frame.
-std::vector<Eigen::AlignedBox3d> object_boxes(const Assembly& assembly) {
-    const Scene& scene = assembly.scene;
-    std::vector<Eigen::AlignedBox3d> boxes(assembly.objects.objects.size());
-    for (std::size_t k = 0; k < scene.triangles.size(); ++k) {
-        Eigen::AlignedBox3d& box = boxes[assembly.objects.object_of(scene.triangle_instance[k])];
-        for (const std::uint32_t vertex : scene.triangles[k])
-            box.extend(scene.origin + scene.vertices[vertex].cast<double>());
-    }
-    return boxes;
-}
 
 Json vector_json(const Eigen::Vector3d& v) {
     return {v.x(), v.y(), v.z()};
@@ -32,16 +19,15 @@ Json box_json(const Eigen::AlignedBox3d& box) {
 
 }  // namespace
 
-LabelRequest label_request(std::span<const Label> labels) {
-    const auto asked = [&](Label label) {
-        return std::ranges::find(labels, label) != labels.end();
-    };
-    return {.objects = asked(Label::instance) || asked(Label::share) || asked(Label::second) ||
-                       asked(Label::multipath) || asked(Label::objects),
-            .classes = asked(Label::class_name),
-            .materials = asked(Label::material),
-            .elevation = asked(Label::elevation),
-            .shadow = asked(Label::shadow)};
+std::vector<Eigen::AlignedBox3d> object_boxes(const Assembly& assembly) {
+    const Scene& scene = assembly.scene;
+    std::vector<Eigen::AlignedBox3d> boxes(assembly.objects.objects.size());
+    for (std::size_t k = 0; k < scene.triangles.size(); ++k) {
+        Eigen::AlignedBox3d& box = boxes[assembly.objects.object_of(scene.triangle_instance[k])];
+        for (const std::uint32_t vertex : scene.triangles[k])
+            box.extend(scene.origin + scene.vertices[vertex].cast<double>());
+    }
+    return boxes;
 }
 
 Json describe_label_ids(const Assembly& assembly) {
@@ -57,8 +43,11 @@ Json describe_label_ids(const Assembly& assembly) {
                                      {"box_world_m", box_json(boxes[k])}});
     }
     json["classes"] = Json::array();
-    for (std::size_t k = 0; k < objects.classes.size(); ++k)
-        json["classes"].push_back({{"id", k + 1}, {"name", objects.classes[k]}});
+    for (std::size_t k = 0; k < objects.classes.size(); ++k) {
+        json["classes"].push_back({{"id", k + 1},
+                                   {"name", objects.classes[k]},
+                                   {"colour", colour_of(static_cast<std::uint32_t>(k + 1))}});
+    }
     json["materials"] = Json::array();
     for (std::size_t k = 0; k < assembly.scene.materials.size(); ++k) {
         json["materials"].push_back({{"id", k + 1}, {"name", assembly.scene.materials[k].name}});

@@ -1,16 +1,16 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <nlohmann/json.hpp>
-#include <span>
+#include <vector>
 
 #include "assembly/assemble.h"
-#include "mission/mission.h"
-#include "ping/labels.h"
 
 namespace sonarsim {
 
-/// What label_ping() has to find for these labels.
-LabelRequest label_request(std::span<const Label> labels);
+/// The box around all of each object, world frame; empty where none of its triangles is in the
+/// scene.
+std::vector<Eigen::AlignedBox3d> object_boxes(const Assembly& assembly);
 
 /// For dataset.json: what the ids of the labels stand for. Of an instance also the box around all
 /// of it, world frame, m; null where none of its triangles is in the scene.

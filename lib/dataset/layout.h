@@ -18,8 +18,11 @@
 //     OUT/journal.txt                 the size and hash of every file of a ping, see
 //     dataset/journal.h; while
 //                                     the mission runs, parts of it lie in OUT/journal.d/
-//     OUT/<sensor>/<format>/NNNNNN.*  a file per ping
+//     OUT/<sensor>/<format>/NNNNNN.*  a file per ping, or with output.pack
+//     OUT/<sensor>/pack/NNNNNN.tar    the files of as many pings as fit, one after the other, each
+//                                     <sensor>-NNNNNN.<format>.*
 //     OUT/<sensor>/*                  a file of records, one per ping, and what is made of them
+//     OUT/labels/*, OUT/split/*       what is made of the pings of all sensors
 //
 // Which formats there are is told by the files in dataset/writers. A record that is not written yet
 // is zero. NNNNNN is the index of the pose on the trajectory, in six digits or as many as the last
@@ -32,6 +35,8 @@ inline constexpr const char* mission_name = "mission.resolved.yaml";
 inline constexpr const char* trajectory_name = "trajectory.tum";
 inline constexpr const char* checksums_name = "SHA256SUMS";
 inline constexpr const char* journal_name = "journal.txt";
+/// In the folder of a sensor. No writer has this name.
+inline constexpr const char* pack_folder_name = "pack";
 /// With a dot, which the name of a sensor cannot have.
 inline constexpr const char* journal_folder_name = "journal.d";
 
@@ -47,26 +52,46 @@ struct SensorLayout {
     std::size_t pings = 0;
     std::vector<std::variant<PingFile, PingRecord>> per_ping;  ///< of its writers, in their order
     std::vector<std::string> products;
+    std::size_t pings_per_pack = 0;  ///< 0: files of pings lie by themselves
 };
 
 /// Which files a dataset consists of.
 struct Layout {
     std::filesystem::path folder;
     std::vector<SensorLayout> sensors;
+    std::vector<std::string> products;  ///< made of the pings of all sensors
+    std::size_t poses = 0;
     int digits = 6;  ///< of a ping number
 
     std::string number(std::uint32_t pose) const;
     std::filesystem::path sensor_folder(std::size_t sensor) const;
     std::filesystem::path file(const PingId& ping, const PingFile& kind) const;
+    /// Where a product of a sensor lies; of the dataset, for the sensor after the last one.
+    std::filesystem::path product_file(std::size_t sensor, const std::string& name) const;
+
+    // Of a sensor with packs. Every pack but the last holds the same number of pings, so that where
+    // a ping lies does not depend on what is in the others.
+    std::size_t packs(std::size_t sensor) const;
+    std::size_t pack_of(const PingId& ping) const;
+    bool is_last_in_pack(const PingId& ping) const;
+    std::filesystem::path pack_file(const PingId& ping) const;
+    /// The name of a ping's file in its pack.
+    std::string member(const PingId& ping, const PingFile& kind) const;
+
     /// The index of a ping among those of its sensor.
     std::size_t record_of(const PingId& ping) const;
     /// Every folder of the dataset but `folder` itself, parents first.
     std::vector<std::filesystem::path> folders() const;
 };
 
+/// InputError when the packs that the mission asks for are smaller than a ping.
 Layout make_layout(const Mission& mission, const std::vector<Writers>& writers, std::size_t poses);
 
-/// Every ping of a mission, in order. The index in this list decides to which shard a ping belongs.
+/// Every ping of a mission, in order.
 std::vector<PingId> list_pings(const Mission& mission, std::size_t poses);
+
+/// The shard, counted from 0, that renders a ping; `index` is that in list_pings(). The pings of a
+/// pack are in one shard.
+int shard_of(const Layout& layout, const PingId& ping, std::size_t index, int shards);
 
 }  // namespace sonarsim

@@ -63,6 +63,13 @@ void list_sensor(const fs::path& folder, const Json& sensor, Files& files) {
     const Json patterns = sensor.value("files", Json::object());
     for (const auto& [name, pattern] : patterns.items())
         list_pattern(folder, pattern.get<std::string>(), pings, files);
+    if (sensor.contains("packs")) {
+        const Json& packs = sensor["packs"];
+        const std::uint64_t each =
+            std::max(std::uint64_t{1}, packs.value("pings", std::uint64_t{1}));
+        list_pattern(folder, packs.at("file").get<std::string>(),
+                     {pings.count / each + (pings.count % each != 0 ? 1 : 0), 1}, files);
+    }
     const Json records = sensor.value("records", Json::object());
     if (records.contains("file")) files.insert(records["file"].get<std::string>());
     for (const Json& label : sensor.value("label_records", Json::object()))
@@ -112,6 +119,8 @@ void remove_listed_files(const fs::path& folder, const Json& description,
     try {
         for (const Json& sensor : description.value("sensors", Json::array()))
             list_sensor(folder, sensor, files);
+        for (const Json& product : description.value("products", Json::array()))
+            files.insert(product.get<std::string>());
     } catch (const Json::exception&) {  // NOLINT(bugprone-empty-catch)
         // A description that somebody edited: what can be read of it is removed.
     }

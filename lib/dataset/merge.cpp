@@ -8,18 +8,17 @@
 #include <memory>
 #include <optional>
 #include <set>
-#include <span>
 #include <string>
 
 #include "assembly/assemble.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "core/ordered_pipeline.h"
-#include "core/sha256.h"
 #include "core/text.h"
 #include "dataset/completion.h"
 #include "dataset/description.h"
 #include "dataset/folder.h"
+#include "dataset/ping_files.h"
 #include "dataset/resume.h"
 #include "mission/parse.h"
 #include "mission/resolved.h"
@@ -35,8 +34,6 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t largest_common_file = std::size_t{1} << 32;
-/// A ping's file is an image or JSON.
-constexpr std::size_t largest_ping_file = std::size_t{1} << 32;
 
 /// Beside the pings, what a part holds. `complete` is set to false, as at the beginning of a run.
 CommonFiles read_common(const fs::path& folder) {
@@ -60,9 +57,11 @@ void require_same(const fs::path& part, const CommonFiles& found, const fs::path
         (found.mission != expected.mission || found.trajectory != expected.trajectory))
         difference = "of this mission whose inputs or poses were changed since";
     if (difference.empty()) return;
-    throw InputError({part.string()}, "holds a dataset " + difference + ", seen from " +
-                                          first.string() +
-                                          "; only parts of one mission can be merged");
+    throw InputError({part.string()},
+                     "holds a dataset " + difference + ", seen from " + first.string() +
+                         "; only parts of one mission become one dataset; whole datasets "
+                         "of different missions stand side by side with "
+                         "--different");
 }
 
 /// What the products of a dataset are made with: all that the mission names but the scene.
@@ -88,18 +87,25 @@ MergeContext read_context(const fs::path& part, const CommonFiles& common, const
     return context;
 }
 
+/// How many pings fit a pack depends on the scene, which is not needed here: the parts tell.
+void adopt_packs(Layout& layout, const Json& description) {
+    const Json sensors = description.value("sensors", Json::array());
+    for (std::size_t i = 0; i < std::min(layout.sensors.size(), sensors.size()); ++i) {
+        if (sensors[i].contains("packs"))
+            layout.sensors[i].pings_per_pack = sensors[i]["packs"].value("pings", std::size_t{1});
+    }
+}
+
 /// A folder that pings are taken from.
 struct Part {
     Part(Layout of, const fs::path& folder) : layout(std::move(of)) {
         layout.folder = folder;
         records = open_records(layout, RecordAccess::read);
-        entries = read_journal(folder);
         finished = std::make_unique<FinishedPings>(layout, records);
     }
 
     Layout layout;
     RecordFiles records;
-    JournalEntries entries;
     std::unique_ptr<FinishedPings> finished;  ///< refers to the two above
 };
 
@@ -110,7 +116,8 @@ struct Copy {
 };
 
 /// "shards 2/3, 3/3" of the pings that are missing, where the parts' journals tell of shards.
-std::string missing_shards(const std::vector<std::unique_ptr<Part>>& parts,
+std::string missing_shards(const std::vector<PingId>& all,
+                           const std::vector<std::unique_ptr<Part>>& parts,
                            const std::vector<std::size_t>& missing) {
     std::optional<std::uint64_t> shards;
     for (const auto& part : parts) {
@@ -124,9 +131,9 @@ std::string missing_shards(const std::vector<std::unique_ptr<Part>>& parts,
         }
     }
     if (!shards || *shards < 2) return {};
-    std::set<std::uint64_t> which;
+    std::set<int> which;
     for (const std::size_t ping : missing)
-        which.insert(ping % *shards + 1);
+        which.insert(1 + shard_of(parts[0]->layout, all[ping], ping, static_cast<int>(*shards)));
     std::string text;
     for (const std::uint64_t shard : which)
         text += (text.empty() ? "" : ", ") + std::to_string(shard) + "/" + std::to_string(*shards);
@@ -146,33 +153,28 @@ std::vector<Copy> plan_copies(const std::vector<PingId>& all,
     }
     if (missing.empty()) return copies;
     throw InputError(std::to_string(missing.size()) + " of " + std::to_string(all.size()) +
-                     " pings are in none of the parts" + missing_shards(parts, missing) +
+                     " pings are in none of the parts" + missing_shards(all, parts, missing) +
                      ": the first is ping " + std::to_string(all[missing[0]].pose) +
                      " of sensor '" + parts[0]->layout.sensors[all[missing[0]].sensor].name +
                      "'; render what is missing, or name its folder, too");
 }
 
-void copy_ping(const Copy& copy, const Layout& to, const RecordFiles& records) {
+/// The bytes of a ping, which are those that the journal of its part tells.
+EncodedPing sound_ping(const Copy& copy) {
     const Part& from = *copy.from;
-    const std::vector<std::string>& told = from.entries.pings.at(copy.id);
-    const auto& parts = to.sensors[copy.id.sensor].per_ping;
-    for (std::size_t k = 0; k < parts.size(); ++k) {
-        if (const auto* file = std::get_if<PingFile>(&parts[k])) {
-            const fs::path path = from.layout.file(copy.id, *file);
-            const std::string bytes = read_file(path, largest_ping_file);
-            if (entry_text({bytes.size(), sha256(bytes)}) != told[k]) {
-                throw InputError({path.string()},
-                                 "is not what the journal of its part tells; copy the part again, "
-                                 "or remove the file and render that shard again");
-            }
-            write_file(to.file(copy.id, *file), bytes);
-        } else {  // FinishedPings has compared it with the journal
-            const RecordFile& source = *from.records[copy.id.sensor][k];
-            std::vector<std::byte> bytes(source.record_bytes());
-            source.read(to.record_of(copy.id), bytes);
-            records[copy.id.sensor][k]->write(to.record_of(copy.id), bytes);
-        }
-    }
+    EncodedPing encoded = read_ping(from.layout, from.records, *from.finished, copy.id);
+    const SensorLayout& sensor = from.layout.sensors[copy.id.sensor];
+    const std::vector<std::string> found = journal_words(sensor, encoded);
+    const std::vector<std::string>& told = from.finished->words_of(copy.id);
+    const auto differs = std::ranges::mismatch(found, told).in1;
+    if (differs == found.end()) return encoded;
+    const auto* file = std::get_if<PingFile>(&sensor.per_ping[differs - found.begin()]);
+    const fs::path path = !file                       ? from.layout.sensor_folder(copy.id.sensor)
+                          : sensor.pings_per_pack > 0 ? from.layout.pack_file(copy.id)
+                                                      : from.layout.file(copy.id, *file);
+    throw InputError({path.string()},
+                     "is not what the journal of its part tells; copy the part again, or remove "
+                     "the file and render that shard again");
 }
 
 /// `out` may hold an unfinished merge, and none of the parts.
@@ -198,7 +200,8 @@ MergeSummary merge_datasets(const std::vector<fs::path>& folders, const fs::path
     const MergeContext context = read_context(folders[0], common, out);
     const std::size_t poses = context.assembly.trajectory.size();
     const std::vector<Writers> writers = make_writers(context.mission, context.assembly);
-    const Layout layout = make_layout(context.mission, writers, poses);
+    Layout layout = make_layout(context.mission, writers, poses);
+    adopt_packs(layout, common.description);
     std::vector<std::unique_ptr<Part>> parts;
     for (const fs::path& folder : folders)
         parts.push_back(std::make_unique<Part>(layout, folder));
@@ -212,7 +215,8 @@ MergeSummary merge_datasets(const std::vector<fs::path>& folders, const fs::path
         begin_dataset(layout, common);
     }
     RecordFiles records = open_records(layout);
-    const std::vector<Copy> copies = plan_copies(all, parts, FinishedPings(layout, records));
+    const FinishedPings there(layout, records);
+    const std::vector<Copy> copies = plan_copies(all, parts, there);
     MergeSummary summary{.skipped = all.size() - copies.size()};
     summary.complete = state == FolderState::complete && copies.empty() &&
                        has_common_files(layout) && has_products(layout);
@@ -224,22 +228,26 @@ MergeSummary merge_datasets(const std::vector<fs::path>& folders, const fs::path
     tbb::task_arena arena(threads);
     constexpr double checkpoint_s = 5.0;
     Journal journal(layout.folder, journal_part(1, 1), checkpoint_s);
+    PingFiles files(layout, records, there);
     arena.execute([&] {
         ordered_pipeline(
             copies.size(), 2 * static_cast<std::size_t>(threads), stop,
             [&](std::size_t i) {
-                copy_ping(copies[i], layout, records);
-                return copies[i];
+                EncodedPing encoded = sound_ping(copies[i]);
+                files.write(copies[i].id, encoded);
+                return encoded;
             },
-            [&](const Copy& copy) {
-                journal.add(copy.id, copy.from->entries.pings.at(copy.id));
+            [&](const EncodedPing& encoded) {
+                const Copy& copy = copies[summary.pings];
+                files.pack(copy.id, encoded);
+                journal.add(copy.id, copy.from->finished->words_of(copy.id));
                 ++summary.pings;
                 if (progress) progress(summary.pings, copies.size());
             });
     });
     journal.finish();
     if (summary.pings < copies.size()) return summary;
-    complete_dataset(layout, writers, records, common);
+    complete_dataset(layout, context.mission, writers, records, common);
     summary.complete = true;
     return summary;
 }

@@ -56,10 +56,21 @@ Json describe_sensor(const Sonar& sonar, const Mission& mission, const Layout& l
                  {"T_vehicle_sensor", describe_pose(sonar.T_vehicle_sensor)},
                  {"full_scale", mission.output.full_scale}};
     json["files"] = Json::object();
+    const std::string number = "%0" + std::to_string(layout.digits) + "d";
+    if (own.pings_per_pack > 0) {
+        json["packs"] = {{"file", config.name + "/" + pack_folder_name + "/" + number + ".tar"},
+                         {"pings", own.pings_per_pack},
+                         {"members", Json::object()}};
+    }
     for (const auto& part : own.per_ping) {
         if (const auto* file = std::get_if<PingFile>(&part)) {
-            json["files"][file->name] = config.name + "/" + file->name + "/%0" +
-                                        std::to_string(layout.digits) + "d" + file->extension;
+            if (own.pings_per_pack > 0) {
+                json["packs"]["members"][file->name] =
+                    config.name + "-" + number + "." + file->name + file->extension;
+            } else {
+                json["files"][file->name] =
+                    config.name + "/" + file->name + "/" + number + file->extension;
+            }
         }
         if (const auto* record = std::get_if<PingRecord>(&part)) {
             Json& place =
@@ -104,6 +115,7 @@ Json describe_dataset(const Mission& mission, const Assembly& assembly, const La
             describe_sensor(assembly.sonars[i], mission, layout, layout.sensors[i], writers[i]));
     }
     json["sensors"] = std::move(sensors);
+    if (!layout.products.empty()) json["products"] = layout.products;
     return json;
 }
 

@@ -53,7 +53,9 @@ std::string npy_header(const NpyFormat& format) {
 NpyFormat npy_format(std::string_view start) {
     const std::string text(start.substr(0, start.find('\n')));
     NpyFormat format;
-    format.type = text.find("'<f8'") == std::string::npos ? "<f4" : "<f8";
+    for (const char* type : {"<u2", "<f4", "<f8"}) {
+        if (text.find(std::string("'") + type) != std::string::npos) format.type = type;
+    }
     format.fortran_order = text.find("'fortran_order': True") != std::string::npos;
     const std::string mark = "'shape': (";
     const std::size_t first = text.find(mark);
@@ -63,8 +65,8 @@ NpyFormat npy_format(std::string_view start) {
         for (std::string length; std::getline(lengths >> std::ws, length, ',');)
             format.shape.push_back(parse_unsigned(length).value_or(0));
     }
-    if (format.shape.empty() || !start.starts_with(npy_header(format)))
-        throw std::runtime_error("is no .npy file, format 1.0, of floats");
+    if (format.type.empty() || format.shape.empty() || !start.starts_with(npy_header(format)))
+        throw std::runtime_error("is no .npy file, format 1.0, as sonarsim writes it");
     return format;
 }
 

@@ -1,79 +1,109 @@
 #include "dataset/png.h"
 
-#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <iterator>
 #include <stdexcept>
+#include <string_view>
 #include <vector>
+
+#include "dataset/deflate.h"
 
 namespace sonarsim {
 
 namespace {
 
-// libpng's bits for the row filters.
-constexpr int filter_none = 0x08;
-constexpr int filter_sub = 0x10;
+using Bytes = std::vector<std::uint8_t>;
 
-std::string encode(const void* pixels, std::size_t values, int width, int height, int channels,
-                   const OIIO::TypeDesc& type, int level, int filter) {
-    if (values != static_cast<std::size_t>(width) * height * channels) {
-        throw std::logic_error("the number of pixels does not suit the size of the image");
-    }
-    // Threads run across pings; inside a ping OpenImageIO shall start none.
-    static const bool single = OIIO::attribute("threads", 1);
-    static_cast<void>(single);
-
-    std::vector<unsigned char> buffer;
-    OIIO::Filesystem::IOVecOutput memory(buffer);
-    OIIO::ImageSpec spec(width, height, channels, type);
-    // Measured for a noisy ping of 512 x 256 bins in 16 bits (256 KiB) and its fan of 1024 x 1024
-    // in 8 bits (1 MiB), OpenImageIO 2.4, zlib 1.2.13:
-    //     default                     8.2 ms, 0.88 of the size       45 ms, 0.27
-    //     level 1                     6.7 ms, 0.89                   13 ms, 0.29
-    //     rle, all filters            4.0 ms, 0.88                  9.6 ms, 0.24
-    //     huffman, one filter         2.1 ms, 0.87 (none)           5.6 ms, 0.31 (sub)
-    //     rle, one filter             1.7 ms, 0.87 (none)           4.7 ms, 0.26 (sub)
-    //     stored                      0.5 ms, 1.00                  1.8 ms, 1.00
-    // Matching runs only ("rle") beats searching, and trying every filter on every row costs more
-    // than it saves.
-    spec.attribute("compression", "rle");
-    spec.attribute("png:compressionLevel", level);
-    spec.attribute("png:filter", filter);
-    const auto out = OIIO::ImageOutput::create("png");
-    if (!out) throw std::runtime_error("cannot write PNG: " + OIIO::geterror());
-    if (!out->set_ioproxy(&memory) || !out->open("memory.png", spec) ||
-        !out->write_image(type, pixels) || !out->close()) {
-        throw std::runtime_error("cannot write PNG: " + out->geterror());
-    }
-    return {buffer.begin(), buffer.end()};
+void add_number(std::string& out, std::uint32_t value) {
+    for (int shift = 24; shift >= 0; shift -= 8)
+        out += static_cast<char>(value >> shift & 0xFF);
 }
+
+void add_chunk(std::string& out, std::string_view kind, std::string_view data) {
+    add_number(out, static_cast<std::uint32_t>(data.size()));
+    const std::size_t begin = out.size();
+    out.append(kind).append(data);
+    const auto* const summed = reinterpret_cast<const unsigned char*>(out.data() + begin);
+    add_number(out, static_cast<std::uint32_t>(
+                        ::crc32_z(::crc32_z(0, nullptr, 0), summed, out.size() - begin)));
+}
+
+void check_size(std::size_t values, int width, int height, int channels) {
+    if (values == static_cast<std::size_t>(width) * height * channels) return;
+    throw std::logic_error("the number of pixels does not suit the size of the image");
+}
+
+/// `rows`: each with its filter in front.
+std::string encode(const Bytes& rows, int width, int height, int channels, int bits,
+                   Packing packing) {
+    std::string header;
+    add_number(header, static_cast<std::uint32_t>(width));
+    add_number(header, static_cast<std::uint32_t>(height));
+    header += static_cast<char>(bits);
+    header += channels == 3 ? '\2' : '\0';
+    header.append(3, '\0');
+    std::string out("\x89PNG\r\n\x1a\n");
+    add_chunk(out, "IHDR", header);
+    // Measured for a noisy ping of 512 x 256 bins in 16 bits (256 KiB, stored) and its fan of
+    // 539 x 539 pixels in 8 bits (284 KiB, packed to 0.32 of that): 0.18 and 0.47 ms. With the same
+    // filters and looking for runs alone, OpenImageIO 2.4 with zlib 1.2.13 took 0.34 and 1.69 ms;
+    // libdeflate 1.14 at level 1 took 1.59 ms for the fan, and 5 % more room.
+    add_chunk(out, "IDAT", zlib_bytes(rows, channels * bits / 8, packing));
+    add_chunk(out, "IEND", {});
+    return out;
+}
+
+constexpr std::uint8_t filter_none = 0;
+constexpr std::uint8_t filter_left = 1;
 
 }  // namespace
 
 std::string png_bytes(std::span<const std::uint8_t> pixels, int width, int height, int channels) {
-    // Neighbours in a fan resemble each other.
-    return encode(pixels.data(), pixels.size(), width, height, channels, OIIO::TypeDesc::UINT8, 1,
-                  filter_sub);
+    check_size(pixels.size(), width, height, channels);
+    // Neighbours in a fan resemble each other: what is packed is how they differ.
+    const std::size_t row = static_cast<std::size_t>(width) * channels;
+    Bytes rows(height * (row + 1));
+    const std::uint8_t* from = pixels.data();
+    std::uint8_t* to = rows.data();
+    for (int y = 0; y < height; ++y, from += row) {
+        *to++ = filter_left;
+        to = std::copy_n(from, std::min<std::size_t>(channels, row), to);
+        for (std::size_t x = channels; x < row; ++x)
+            *to++ = static_cast<std::uint8_t>(from[x] - from[x - channels]);
+    }
+    return encode(rows, width, height, channels, 8, Packing::runs);
 }
 
 std::string png_bytes(std::span<const std::uint16_t> pixels, int width, int height) {
+    check_size(pixels.size(), width, height, 1);
     // 16 bits of noise are not worth packing, a mostly black image is.
     const bool dark = 2 * std::ranges::count(pixels, 0) > std::ssize(pixels);
-    return encode(pixels.data(), pixels.size(), width, height, 1, OIIO::TypeDesc::UINT16,
-                  dark ? 1 : 0, filter_none);
+    const auto row = static_cast<std::size_t>(width);
+    Bytes rows(height * (2 * row + 1));
+    const std::uint16_t* from = pixels.data();
+    std::uint8_t* to = rows.data();
+    for (int y = 0; y < height; ++y, from += row, to += 2 * row) {
+        *to++ = filter_none;
+        for (std::size_t x = 0; x < row; ++x) {
+            to[2 * x] = static_cast<std::uint8_t>(from[x] >> 8);
+            to[2 * x + 1] = static_cast<std::uint8_t>(from[x]);
+        }
+    }
+    return encode(rows, width, height, 1, 16, dark ? Packing::runs : Packing::stored);
 }
 
 double png_bytes_at_most(int width, int height, int bytes_per_pixel) {
     const double raw =
         static_cast<double>(height) * (1.0 + static_cast<double>(width) * bytes_per_pixel);
-    return 200.0 + 1.01 * raw;
+    return 400.0 + 1.01 * raw;
 }
 
 std::string png_encoder() {
     const int version = OIIO::openimageio_version();  // 20407 is 2.4.7
-    return "OpenImageIO " + std::to_string(version / 10000) + "." +
+    return "sonarsim 1; of products OpenImageIO " + std::to_string(version / 10000) + "." +
            std::to_string(version / 100 % 100) + "." + std::to_string(version % 100);
 }
 

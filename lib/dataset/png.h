@@ -19,7 +19,8 @@ std::string png_bytes(std::span<const std::uint16_t> pixels, int width, int heig
 /// blocks and chunks of the format.
 double png_bytes_at_most(int width, int height, int bytes_per_pixel);
 
-/// The library that compresses, and its version: another one stores the same pixels in other bytes.
+/// What compresses, and the version of the library that does so for products: another one stores
+/// the same pixels in other bytes.
 std::string png_encoder();
 
 }  // namespace sonarsim

@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <variant>
 
+#include "dataset/tar.h"
+
 namespace sonarsim {
 
 namespace {
@@ -18,12 +20,15 @@ std::optional<std::uint64_t> size_of(const fs::path& path) {
     return absent ? std::nullopt : std::optional(size);
 }
 
+/// Those of the dataset as of a sensor after the last one.
 template <class Visit>
 void for_each_product(const Layout& layout, const Visit& visit) {
     for (std::uint32_t i = 0; i < layout.sensors.size(); ++i) {
         for (const std::string& name : layout.sensors[i].products)
             visit(i, name);
     }
+    for (const std::string& name : layout.products)
+        visit(static_cast<std::uint32_t>(layout.sensors.size()), name);
 }
 
 }  // namespace
@@ -44,17 +49,69 @@ RecordFiles open_records(const Layout& layout, RecordAccess access) {
 }
 
 FinishedPings::FinishedPings(const Layout& layout, const RecordFiles& records)
-    : layout_(layout), records_(records), entries_(read_journal(layout.folder)) {}
+    : layout_(layout),
+      records_(records),
+      entries_(read_journal(layout.folder)),
+      ends_(layout.sensors.size()) {
+    for (std::uint32_t sensor = 0; sensor < layout.sensors.size(); ++sensor) {
+        if (layout.sensors[sensor].pings_per_pack > 0) find_packed(sensor);
+    }
+}
+
+void FinishedPings::find_packed(std::uint32_t sensor) {
+    const SensorLayout& own = layout_.sensors[sensor];
+    ends_[sensor].assign(own.pings, 0);
+    std::uint64_t size = 0;  // of the pack's file
+    for (std::uint32_t i = 0; i < own.pings; ++i) {
+        const PingId ping{i * own.every, sensor};
+        const bool first = i % own.pings_per_pack == 0;
+        if (first) size = size_of(layout_.pack_file(ping)).value_or(0);
+        if (!first && ends_[sensor][i - 1] == 0) continue;
+        if (size == 0 || !is_told(ping)) continue;
+        std::uint64_t end = begin_in_pack(ping);
+        for (std::size_t k = 0; k < own.per_ping.size(); ++k) {
+            if (std::holds_alternative<PingFile>(own.per_ping[k]))
+                end += tar_bytes(bytes_of(ping, k));
+        }
+        // A pack that goes on is not finished yet, or was cut off: what it holds is told by its
+        // journal.
+        const bool whole =
+            layout_.is_last_in_pack(ping) ? size == end + tar_end_bytes : size >= end;
+        if (whole) ends_[sensor][i] = end;
+    }
+}
+
+std::uint64_t FinishedPings::begin_in_pack(const PingId& ping) const {
+    const std::size_t record = layout_.record_of(ping);
+    const bool first = record % layout_.sensors[ping.sensor].pings_per_pack == 0;
+    return first ? 0 : ends_[ping.sensor][record - 1];
+}
+
+std::uint64_t FinishedPings::bytes_of(const PingId& ping, std::size_t k) const {
+    return parse_entry(words_of(ping).at(k)).value_or(FileEntry{}).bytes;
+}
+
+const std::vector<std::string>& FinishedPings::words_of(const PingId& ping) const {
+    return entries_.pings.at(ping);
+}
 
 bool FinishedPings::operator()(const PingId& ping) const {
+    const bool packed = layout_.sensors[ping.sensor].pings_per_pack > 0;
+    return packed ? ends_[ping.sensor][layout_.record_of(ping)] > 0 : is_told(ping);
+}
+
+bool FinishedPings::is_told(const PingId& ping) const {
     const auto entry = entries_.pings.find(ping);
-    const auto& parts = layout_.sensors[ping.sensor].per_ping;
+    const SensorLayout& sensor = layout_.sensors[ping.sensor];
+    const auto& parts = sensor.per_ping;
     if (entry == entries_.pings.end() || entry->second.size() != parts.size()) return false;
     for (std::size_t k = 0; k < parts.size(); ++k) {
         const std::string& expected = entry->second[k];
         if (const auto* file = std::get_if<PingFile>(&parts[k])) {
             const auto told = parse_entry(expected);
-            if (!told || size_of(layout_.file(ping, *file)) != told->bytes) return false;
+            if (!told) return false;
+            const bool loose = sensor.pings_per_pack == 0;
+            if (loose && size_of(layout_.file(ping, *file)) != told->bytes) return false;
         } else if (records_[ping.sensor][k]->hash(layout_.record_of(ping)) != expected) {
             return false;
         }
@@ -84,7 +141,7 @@ void require_files(const Layout& layout, const std::vector<PingId>& written,
 ProductSizes require_products(const Layout& layout) {
     ProductSizes sizes;
     for_each_product(layout, [&](std::uint32_t sensor, const std::string& name) {
-        const fs::path path = layout.sensor_folder(sensor) / name;
+        const fs::path path = layout.product_file(sensor, name);
         const auto size = size_of(path);
         if (!size)
             throw std::runtime_error(path.string() +
@@ -101,7 +158,7 @@ bool has_products(const Layout& layout) {
     for_each_product(layout, [&](std::uint32_t sensor, const std::string& name) {
         const auto entry = expected.find({sensor, name});
         all = all && entry != expected.end() &&
-              size_of(layout.sensor_folder(sensor) / name) == entry->second;
+              size_of(layout.product_file(sensor, name)) == entry->second;
     });
     return all;
 }

@@ -16,17 +16,30 @@ using RecordFiles = std::vector<std::vector<std::unique_ptr<RecordFile>>>;
 RecordFiles open_records(const Layout& layout, RecordAccess access = RecordAccess::write);
 
 /// Tells which pings need not be rendered: those that the journal lists, and whose files and
-/// records are what it says. References must outlive it.
+/// records are what it says; in a pack, only as long as no ping before them is missing. References
+/// must outlive it.
 class FinishedPings {
   public:
     FinishedPings(const Layout& layout, const RecordFiles& records);
 
     bool operator()(const PingId& ping) const;
 
+    /// Where a ping's files begin in its pack; those before it are finished.
+    std::uint64_t begin_in_pack(const PingId& ping) const;
+    /// Of a finished ping the bytes of its k-th file.
+    std::uint64_t bytes_of(const PingId& ping, std::size_t k) const;
+    /// What the journal says of a finished ping.
+    const std::vector<std::string>& words_of(const PingId& ping) const;
+
   private:
+    bool is_told(const PingId& ping) const;
+    void find_packed(std::uint32_t sensor);
+
     const Layout& layout_;
     const RecordFiles& records_;
     JournalEntries entries_;
+    /// Of sensors with packs by ping: where its files end in its pack; 0: it is not finished.
+    std::vector<std::vector<std::uint64_t>> ends_;
 };
 
 /// std::runtime_error when the files of records are not those that were opened any more.

@@ -14,11 +14,13 @@
 #include "core/file.h"
 #include "core/ordered_pipeline.h"
 #include "core/sha256.h"
+#include "core/text.h"
 #include "dataset/checksums.h"
 #include "dataset/description.h"
 #include "dataset/layout.h"
 #include "dataset/metadata.h"
 #include "dataset/open_file.h"
+#include "dataset/tar.h"
 
 namespace sonarsim {
 
@@ -62,10 +64,9 @@ Json require_dataset(const fs::path& folder) {
 
 /// A file that is to be looked at.
 struct Task {
-    std::string name;
-    std::string kind;  ///< "sensor/polar": those of one kind have one shape; empty for single files
+    DescribedFile file;
     std::string sum;
-    Shape shape;  ///< that it should have, where dataset.json tells
+    std::optional<std::size_t> ids;  ///< that there are, of a file of ids
 };
 
 /// The shape that dataset.json tells; none where it does not.
@@ -73,11 +74,26 @@ Shape told_shape(const DescribedFile& file) {
     if (!file.sensor) return {};
     const Json& sensor = *file.sensor;
     const auto bins = [&](const char* key) { return sensor.at(key).size() - 1; };
-    if (file.kind == "polar" || file.kind == "image")
-        return {bins("range_edges_m"), bins("azimuth_edges_rad")};
-    if (file.kind == "fan")
+    if (!sensor.at("files").contains(file.kind)) return {};
+    const std::string extension = fs::path(file.name).extension().string();
+    if (file.kind == "stages" || (extension != ".npy" && extension != ".png")) return {};
+    if (file.kind.starts_with("fan"))
         return {sensor.at("fan").at("height_px"), sensor.at("fan").at("width_px")};
-    return {};
+    return {bins("range_edges_m"), bins("azimuth_edges_rad")};
+}
+
+/// How many ids dataset.json tells for the values of a file; nothing where they are no ids.
+std::optional<std::size_t> told_ids(const DescribedFile& file, const Json& description) {
+    std::string_view kind = file.kind;
+    for (const std::string_view prefix : {"label_records/", "fan_"}) {
+        if (kind.starts_with(prefix)) kind.remove_prefix(prefix.size());
+    }
+    const char* list = nullptr;
+    if (kind == "instance" || kind == "second" || kind == "shadow") list = "instances";
+    if (kind == "class") list = "classes";
+    if (kind == "material") list = "materials";
+    if (!list) return std::nullopt;
+    return description.at("labels").at(list).size();
 }
 
 /// What is to be looked at; what is missing is a fault already.
@@ -91,11 +107,7 @@ std::vector<Task> list_tasks(const fs::path& folder, const Json& description,
         if (!fs::is_regular_file(folder / file.name)) {
             add_fault(check, file.name + ": is missing; " + render_again);
         } else if (sum != sums.end()) {
-            const bool alike = file.sensor && !file.kind.empty() && file.kind != "records";
-            tasks.push_back({file.name,
-                             alike ? file.sensor->at("name").get<std::string>() + "/" + file.kind
-                                   : std::string(),
-                             sum->second, told_shape(file)});
+            tasks.push_back({file, sum->second, told_ids(file, description)});
         } else if (file.name != checksums_name && !sums.empty()) {
             add_fault(check, file.name +
                                  ": SHA256SUMS does not list it; remove SHA256SUMS, and the render "
@@ -117,19 +129,68 @@ std::string cure_of(const std::string& name) {
 struct Look {
     std::uint64_t bytes = 0;
     std::string fault;
-    Shape shape;
+    std::map<std::string, Shape> shapes;  ///< by "sensor/polar": those of one kind have one shape
 };
 
-Look look_at(const fs::path& folder, const Task& task) {
-    const fs::path path = folder / task.name;
+/// Notes the shape of what was opened, and whether it and the ids in it are what they should be.
+void note_opened(Look& look, const DescribedFile& file, const std::optional<std::size_t>& ids,
+                 const OpenedFile& opened) {
+    if (ids && opened.largest && *opened.largest > *ids) {
+        look.fault = "has the id " + std::to_string(*opened.largest) + ", and dataset.json names " +
+                     std::to_string(*ids);
+    }
+    if (!file.sensor || file.kind.empty() || file.kind == "records") return;
+    const Shape& shape = opened.shape;
+    Shape told = told_shape(file);
+    const std::string kind = file.sensor->at("name").get<std::string>() + "/" + file.kind;
+    const bool is_told = !told.empty();
+    if (!is_told) told = look.shapes.try_emplace(kind, shape).first->second;
+    if (shape == told || !look.fault.empty()) return;
+    look.fault = "is " + shape_text(shape) +
+                 (is_told ? ", and dataset.json says " : ", and the others are ") +
+                 shape_text(told);
+}
+
+/// Opens every file in a pack. They must be those that dataset.json tells, in its order.
+void look_into(const fs::path& path, const DescribedFile& pack, const Json& description,
+               Look& look) {
+    const Json& told = pack.sensor->at("packs");
+    const auto every = pack.sensor->at("every").get<std::uint64_t>();
+    const auto each = told.at("pings").get<std::uint64_t>();
+    const std::uint64_t number = parse_unsigned(path.stem().string()).value_or(0);
+    const std::uint64_t first = number * each;
+    const std::uint64_t end = std::min(first + each, pack.sensor->at("pings").get<std::uint64_t>());
+    const Json& members = told.at("members");
+    std::uint64_t ping = first;
+    auto member = members.items().begin();
+    for_each_in_tar(path, [&](const std::string& name, const std::string& bytes) {
+        const bool more = ping < end && member != members.items().end();
+        const std::string expected =
+            more ? numbered(member.value().get<std::string>(), ping * every) : std::string();
+        if (name != expected) {
+            throw std::runtime_error("holds " + name + " where " +
+                                     (more ? expected : std::string("its end")) + " should be");
+        }
+        const DescribedFile file{name, pack.sensor, member.key()};
+        const bool sound = look.fault.empty();
+        note_opened(look, file, told_ids(file, description), open_bytes(name, bytes));
+        if (sound && !look.fault.empty()) look.fault = name + " in it " + look.fault;
+        if (++member != members.items().end()) return;
+        member = members.items().begin();
+        ++ping;
+    });
+    if (ping < end) throw std::runtime_error("lacks pings from its end");
+}
+
+Look look_at(const fs::path& folder, const Task& task, const Json& description) {
+    const fs::path path = folder / task.file.name;
     Look look;
     look.bytes = fs::file_size(path);
     try {
-        look.shape = open_file(path);
-        if (!task.shape.empty() && look.shape != task.shape) {
-            look.fault = "is " + shape_text(look.shape) + ", and dataset.json says " +
-                         shape_text(task.shape);
-        }
+        if (task.file.kind == "packs")
+            look_into(path, task.file, description, look);
+        else
+            note_opened(look, task.file, task.ids, open_file(path));
     } catch (const std::system_error&) {
         throw;
     } catch (const std::bad_alloc&) {
@@ -144,25 +205,23 @@ Look look_at(const fs::path& folder, const Task& task) {
     return look;
 }
 
-void look_at_all(const fs::path& folder, const std::vector<Task>& tasks, int threads,
-                 const std::function<void(std::uint64_t, std::uint64_t)>& progress,
+void look_at_all(const fs::path& folder, const Json& description, const std::vector<Task>& tasks,
+                 int threads, const std::function<void(std::uint64_t, std::uint64_t)>& progress,
                  const std::atomic<bool>& stop, DatasetCheck& check) {
     std::map<std::string, Shape> shapes;  // of the first file of each kind
     ordered_pipeline(
         tasks.size(), 4 * static_cast<std::size_t>(threads), stop,
-        [&](std::size_t i) { return look_at(folder, tasks[i]); },
+        [&](std::size_t i) { return look_at(folder, tasks[i], description); },
         [&](const Look& look) {
-            const Task& task = tasks[check.files++];
+            const std::string& name = tasks[check.files++].file.name;
             check.bytes += look.bytes;
             std::string fault = look.fault;
-            const Shape& first = shapes.try_emplace(task.kind, look.shape).first->second;
-            if (fault.empty() && !task.kind.empty() && look.shape != first) {
-                fault =
-                    "is " + shape_text(look.shape) + ", and the others are " + shape_text(first);
+            for (const auto& [kind, shape] : look.shapes) {
+                const Shape& first = shapes.try_emplace(kind, shape).first->second;
+                if (fault.empty() && shape != first)
+                    fault = "is " + shape_text(shape) + ", and the others are " + shape_text(first);
             }
-            if (!fault.empty()) {
-                add_fault(check, task.name + ": " + fault + "; " + cure_of(task.name));
-            }
+            if (!fault.empty()) add_fault(check, name + ": " + fault + "; " + cure_of(name));
             if (progress) progress(check.files, tasks.size());
         });
     check.stopped = check.files < tasks.size();
@@ -213,7 +272,7 @@ DatasetCheck verify_dataset(const fs::path& folder, int threads,
     if (threads <= 0) threads = tbb::info::default_concurrency();
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     tbb::task_arena arena(threads);
-    arena.execute([&] { look_at_all(folder, tasks, threads, progress, stop, check); });
+    arena.execute([&] { look_at_all(folder, description, tasks, threads, progress, stop, check); });
     return check;
 }
 

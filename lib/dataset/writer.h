@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "assembly/assemble.h"
+#include "dataset/labelled_ping.h"
 #include "dataset/npy.h"
 #include "dataset/record_file.h"
 #include "mission/mission.h"
-#include "ping/labels.h"
 #include "ping/pipeline.h"
 #include "sonar/kinds.h"
 
@@ -44,7 +44,7 @@ struct FinishedPing {
     const Ping& ping;
     const nlohmann::ordered_json& measured;  ///< what its metadata say; null for none
     std::uint64_t clipped_pixels;            ///< intensities above full_scale
-    const PingLabels* labels = nullptr;      ///< what output.labels asks for; null: nothing
+    const LabelledPing* labels = nullptr;    ///< what output.labels asks for; null: nothing
 };
 
 /// A file per ping: NAME/000000EXTENSION in the folder of the sensor.

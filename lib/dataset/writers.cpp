@@ -1,6 +1,7 @@
 #include "dataset/writers.h"
 
 #include "core/error.h"
+#include "dataset/shared_products.h"
 #include "dataset/writers/formats.h"
 #include "dataset/writers/labels.h"
 
@@ -35,6 +36,7 @@ std::vector<std::size_t> count_pings(const Mission& mission, std::size_t poses) 
 }
 
 std::vector<Writers> make_writers(const Mission& mission, const Assembly& assembly) {
+    check_shared_products(mission, assembly.trajectory.size());
     const std::vector<std::size_t> pings = count_pings(mission, assembly.trajectory.size());
     std::vector<Writers> all(mission.sensors.size());
     for (std::size_t i = 0; i < all.size(); ++i) {

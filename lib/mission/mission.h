@@ -147,18 +147,43 @@ enum class Label {
     direct_only,
     multipath_only,
     objects,
+    fan,
+    semantic,
+    coco,
+    yolo,
+    yolo_polygons,
 };
+
+/// Shares of the trajectory to learn with, to choose by and to test with; all 0: it is not split.
+struct SplitConfig {
+    double train = 0.0;
+    double val = 0.0;
+    double test = 0.0;
+    int gap = 10;    ///< poses at each border that belong to no part
+    int rounds = 1;  ///< how often train, val and test follow each other along the trajectory
+    Place place;
+
+    bool is_on() const { return train > 0.0 || val > 0.0 || test > 0.0; }
+    bool operator==(const SplitConfig&) const = default;
+};
+
+/// What the files of pings are put together in.
+enum class Pack { none, tar };
 
 struct OutputConfig {
     std::filesystem::path folder;
     bool polar = true;        ///< float32 .npy
-    bool image = true;        ///< 16-bit polar PNG
+    bool image = false;       ///< 16-bit polar PNG
     bool fan = true;          ///< 8-bit Cartesian PNG
     bool meta = true;         ///< JSON per ping
     bool stages = false;      ///< 8-bit PNG of five fans, one term of the model after the other
     int fan_width_px = 0;     ///< 0: one pixel per range bin, at most 1024
     double full_scale = 1.0;  ///< intensity that becomes white
     std::vector<Label> labels = {};  ///< each at most once, in the order of the enumeration
+    Place labels_place = {};
+    SplitConfig split = {};
+    Pack pack = Pack::none;
+    double pack_size_mb = 256.0;  ///< at most; a megabyte is a million bytes
 
     // What is made of all pings of a sonar together.
     bool waterfall = true;           ///< of side-scan

@@ -96,6 +96,10 @@ class MissionReader {
 
     /// Where the section stands.
     void place(Place& value) const { value.location = node_.place.location(); }
+    /// Where the value of a key stands, if it does.
+    void place(const char* key, Place& value) const {
+        if (const YamlNode* node = node_.find(key)) value.location = node->place.location();
+    }
 
     /// Reads the kind of a sonar and fills in its defaults, all but the name.
     const SonarKeys& sonar_kind(const char* key, SonarConfig& value, const char* meaning);

@@ -125,6 +125,7 @@ class KeyCollector {
     }
 
     void place(const Place&) const {}
+    void place(const char*, const Place&) const {}
 
     const SonarKeys& sonar_kind(const char* key, const SonarConfig& value, const char* meaning) {
         std::vector<std::string> names;

@@ -42,7 +42,14 @@ inline constexpr std::array label_names{Choice<Label>{"instance", Label::instanc
                                         Choice<Label>{"clean", Label::clean},
                                         Choice<Label>{"direct_only", Label::direct_only},
                                         Choice<Label>{"multipath_only", Label::multipath_only},
-                                        Choice<Label>{"objects", Label::objects}};
+                                        Choice<Label>{"objects", Label::objects},
+                                        Choice<Label>{"fan", Label::fan},
+                                        Choice<Label>{"semantic", Label::semantic},
+                                        Choice<Label>{"coco", Label::coco},
+                                        Choice<Label>{"yolo", Label::yolo},
+                                        Choice<Label>{"yolo_polygons", Label::yolo_polygons}};
+
+inline constexpr std::array packs{Choice<Pack>{"none", Pack::none}, Choice<Pack>{"tar", Pack::tar}};
 
 /// Fit for the name of a folder that holds nothing but one mission.
 inline bool is_folder_name(std::string_view name) {
@@ -188,11 +195,27 @@ void describe(Visitor& v, ClassConfig& c) {
 }
 
 template <class Visitor>
+void describe(Visitor& v, SplitConfig& c) {
+    v.place(c.place);
+    v.number("train", c.train, between(0, 1), "share of the trajectory to learn with");
+    v.number("val", c.val, between(0, 1), "share to choose a network by");
+    v.number("test", c.test, between(0, 1), "share to test it with");
+    const double sum = c.train + c.val + c.test;
+    v.require(!c.is_on() || (sum > 1.0 - 1e-6 && sum < 1.0 + 1e-6), {"train", "val", "test"},
+              "train, val and test must add up to 1");
+    v.integer("gap", c.gap, between(0, 1e6),
+              "poses at each border of two parts that belong to none of them");
+    v.integer("rounds", c.rounds, between(1, 1e6),
+              "how often train, val and test follow each other along the trajectory");
+}
+
+template <class Visitor>
 void describe(Visitor& v, OutputConfig& c) {
     v.path("folder", c.folder,
            "folder of the dataset; out/NAME in the current directory where left out");
     v.flag("polar", c.polar, "write every ping of imaging and profiling sonars as float32");
-    v.flag("image", c.image, "write every ping of these sonars as a 16-bit PNG");
+    v.flag("image", c.image,
+           "write every ping of these sonars as a 16-bit PNG; it holds no more than `polar` does");
     v.flag("fan", c.fan, "write every ping of these sonars as the 8-bit fan that an operator sees");
     v.flag("meta", c.meta, "write a JSON file per ping");
     v.flag("stages", c.stages,
@@ -203,6 +226,14 @@ void describe(Visitor& v, OutputConfig& c) {
     v.number("full_scale", c.full_scale, above(0), "intensity that becomes white");
     v.subset("labels", c.labels, label_names,
              "write what is in every bin: `true` for all, or a list of them");
+    v.place("labels", c.labels_place);
+    v.section("split", c.split,
+              "lists of poses to learn and to test with, by stretches of the trajectory");
+    v.choice("pack", c.pack, packs,
+             "`tar`: the files of pings are written into a few archives, as WebDataset reads them, "
+             "instead of by themselves");
+    v.number("pack_size_mb", c.pack_size_mb, between(1e-3, 1e6),
+             "the most that an archive may take; the pings in it are as many as surely fit");
     v.flag("waterfall", c.waterfall, "write the waterfalls of side-scan sonars");
     v.flag("echogram", c.echogram, "write the echograms of echosounders");
     v.flag("soundings", c.soundings,

@@ -76,6 +76,7 @@ class MissionWriter {
     }
 
     void place(const Place&) const {}
+    void place(const char*, const Place&) const {}
 
     const SonarKeys& sonar_kind(const char* key, const SonarConfig& value, const char* meaning);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/elementary.h"
 #include "ping/footprint.h"
@@ -74,6 +75,8 @@ void ElevationFinder::add(const Sample& sample) {
     const double high = std::min(last, static_cast<double>(bins_.count));
     if (!(low < high && echo > 0.0)) return;
     const double echo_per_bin = echo / (last - first);
+    first_bin_ = std::min(first_bin_, static_cast<int>(low));
+    last_bin_ = std::max(last_bin_, std::min(static_cast<int>(high) + 1, bins_.count));
     double sine_from = sine_at(f, bins_.min_m + low * bins_.bin_m);
     for (auto i = static_cast<int>(low); i < bins_.count && i < high; ++i) {
         const double from = std::max(low, static_cast<double>(i));
@@ -92,14 +95,16 @@ void ElevationFinder::add(const Sample& sample) {
 
 void ElevationFinder::find(std::span<const Sample> samples, std::span<float> elevation_rad,
                            std::span<float> spread_rad) {
-    moments_.assign(bins_.count, {});
+    moments_.resize(bins_.count);
+    first_bin_ = bins_.count;
+    last_bin_ = 0;
     for (const Sample& sample : samples)
         add(sample);
     constexpr float none = std::numeric_limits<float>::quiet_NaN();
-    for (int i = 0; i < bins_.count; ++i) {
-        const Moments& m = moments_[i];
-        elevation_rad[i] = none;
-        spread_rad[i] = none;
+    std::ranges::fill(elevation_rad, none);
+    std::ranges::fill(spread_rad, none);
+    for (int i = first_bin_; i < last_bin_; ++i) {
+        const Moments m = std::exchange(moments_[i], {});
         if (!(m.echo > 0.0)) continue;
         const double sine = std::clamp(m.first / m.echo, -1.0, 1.0);
         const double cosine = std::sqrt((1.0 - sine) * (1.0 + sine));

@@ -31,7 +31,8 @@ class ElevationFinder {
 
     std::span<const Material> materials_;
     RangeBins bins_;
-    std::vector<Moments> moments_;
+    std::vector<Moments> moments_;      ///< 0 between calls
+    int first_bin_ = 0, last_bin_ = 0;  ///< of the beam under way: [first, last) have an echo
 };
 
 }  // namespace sonarsim

@@ -105,12 +105,12 @@ class BeamLabeller {
             finder_.find(
                 shares_, [&](std::uint32_t k) { return objects_.class_of(object_of(k)); },
                 strongest_);
-            std::ranges::transform(strongest_.key, out.class_id.begin() + at, id_16);
+            write_ids(at, out.class_id);
         }
         if (request_.materials) {
             finder_.find(
                 shares_, [&](std::uint32_t k) { return surfaces_[k].material; }, strongest_);
-            std::ranges::transform(strongest_.key, out.material.begin() + at, id_16);
+            write_ids(at, out.material);
         }
     }
 
@@ -142,8 +142,14 @@ class BeamLabeller {
         }
     }
 
+    /// Bins outside of the reach of all echoes are blank already.
+    void write_ids(std::size_t at, std::vector<std::uint16_t>& out) const {
+        for (int i = strongest_.first; i < strongest_.last; ++i)
+            out[at + i] = id_16(strongest_.key[i]);
+    }
+
     void write_objects(std::size_t at, PingLabels& out) const {
-        for (int i = 0; i < bins_.count; ++i) {
+        for (int i = strongest_.first; i < strongest_.last; ++i) {
             const float total = shares_.total[i];
             const float whole = total > 0.0F ? total : 1.0F;
             out.object[at + i] = id_16(strongest_.key[i]);
@@ -201,6 +207,7 @@ PingLabels label_ping(const TracedPing& traced, const PingSettings& settings, co
     PingLabels labels = blank_labels(view, request);
     BeamLabeller labeller(traced, view, scene, objects, request);
     ShadowFinder shadows(traced, view, objects, engine, request.shadow);
+    if (request.shadow) labels.visible_share = shadows.visible_shares();
     const bool shares = request.objects || request.classes || request.materials || request.shadow;
     ElevationFinder elevations(scene.materials, range_bins(view));
     for (int j = 0; j < view.beams; ++j) {

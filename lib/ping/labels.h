@@ -33,6 +33,8 @@ struct PingLabels {
     std::vector<float> elevation_rad;         ///< of the visible surface; NaN where there is none
     std::vector<float> elevation_spread_rad;  ///< its standard deviation within the bin, likewise
     std::vector<std::uint16_t> shadow;        ///< what hides the surface of a bin that shows none
+    /// With the shadow, by object: what is seen of its solid angle; NaN for one out of view.
+    std::vector<float> visible_share;
 
     std::size_t size() const { return static_cast<std::size_t>(range_bins) * beams; }
 };

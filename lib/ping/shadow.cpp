@@ -23,8 +23,27 @@ constexpr float longest_half = 0.1F;
 struct SightLine {
     std::uint32_t sample;
     std::uint32_t beam;
-    float range_m;  ///< how far it has come
+    float range_m;         ///< how far it has come
+    std::uint32_t passed;  ///< the last node of its way
 };
+
+/// An object that a sight line has met, and the node before it. The first one of a way is its own.
+struct WayNode {
+    std::uint32_t object, before;
+};
+
+/// Whether the way that ends in a node has met an object.
+bool has_met(const std::vector<WayNode>& nodes, std::uint32_t node, std::uint32_t object) {
+    while (nodes[node].object != object && nodes[node].before != node)
+        node = nodes[node].before;
+    return nodes[node].object == object;
+}
+
+/// That a sample stands for, sr.
+float solid_angle_of(const Sample& sample) {
+    const float range = sample.position.norm();
+    return sample.area_m2 * sample.height_m / (range * range * range);
+}
 
 std::vector<SightLine> sight_lines(const Samples& samples, int beams) {
     std::vector<SightLine> lines;
@@ -32,7 +51,7 @@ std::vector<SightLine> sight_lines(const Samples& samples, int beams) {
     for (int j = 0; j < beams; ++j) {
         for (std::uint32_t k = samples.beam_begin[j]; k < samples.beam_begin[j + 1]; ++k) {
             const float range = samples.items[k].position.norm();
-            lines.push_back({k, static_cast<std::uint32_t>(j), range});
+            lines.push_back({k, static_cast<std::uint32_t>(j), range, k});
         }
     }
     return lines;
@@ -56,8 +75,7 @@ void ShadowFinder::add(const Sample& sample, std::uint32_t beam, std::uint32_t o
     const float most = longest_half * range_m;
     // Of a plane seen edge-on the quotient may be no number.
     const float half_m = half < most ? half : most;
-    const float solid_angle = sample.area_m2 * sample.height_m / (before * before * before);
-    hidden_.push_back({beam, object, range_m, half_m, solid_angle});
+    hidden_.push_back({beam, object, range_m, half_m, solid_angle_of(sample)});
 }
 
 ShadowFinder::ShadowFinder(const TracedPing& traced, const View& view, const SceneObjects& objects,
@@ -66,6 +84,13 @@ ShadowFinder::ShadowFinder(const TracedPing& traced, const View& view, const Sce
     if (!on) return;
     const Samples& samples = traced.samples;
     std::vector<SightLine> lines = sight_lines(samples, view.beams);
+    std::vector<WayNode> nodes;
+    nodes.reserve(samples.items.size());
+    solid_angles_.resize(objects.objects.size());
+    for (std::uint32_t k = 0; k < samples.items.size(); ++k) {
+        nodes.push_back({objects.object_of(samples.items[k].instance), k});
+        solid_angles_[nodes[k].object].visible += solid_angle_of(samples.items[k]);
+    }
     std::vector<Ray> rays;
     std::vector<Intersection> met;
     const auto range_max = static_cast<float>(view.range_max_m);
@@ -84,7 +109,14 @@ ShadowFinder::ShadowFinder(const TracedPing& traced, const View& view, const Sce
             if (!(range < range_max)) continue;
             const Sample& sample = samples.items[lines[k].sample];
             add(sample, lines[k].beam, objects.object_of(sample.instance), range, met[k].normal);
-            next.push_back({lines[k].sample, lines[k].beam, range});
+            const std::uint32_t object = objects.object_of(met[k].instance);
+            std::uint32_t node = lines[k].passed;
+            if (!has_met(nodes, node, object)) {
+                solid_angles_[object].hidden += solid_angle_of(sample);
+                nodes.push_back({object, node});
+                node = static_cast<std::uint32_t>(nodes.size() - 1);
+            }
+            next.push_back({lines[k].sample, lines[k].beam, range, node});
         }
         lines = std::move(next);
     }
@@ -97,6 +129,14 @@ ShadowFinder::ShadowFinder(const TracedPing& traced, const View& view, const Sce
             ++k;
         beam_begin_.push_back(k);
     }
+}
+
+std::vector<float> ShadowFinder::visible_shares() const {
+    std::vector<float> shares;
+    shares.reserve(solid_angles_.size());
+    for (const SolidAngles& angles : solid_angles_)
+        shares.push_back(static_cast<float>(angles.visible / (angles.visible + angles.hidden)));
+    return shares;
 }
 
 void ShadowFinder::find(int j, std::span<const float> visible, std::span<std::uint16_t> shadow) {
@@ -118,7 +158,7 @@ void ShadowFinder::find(int j, std::span<const float> visible, std::span<std::ui
     }
     finder_.find(
         shares_, [](std::uint32_t object) { return object; }, strongest_);
-    for (int i = 0; i < bins_.count; ++i) {
+    for (int i = strongest_.first; i < strongest_.last; ++i) {
         if (visible[i] > 0.0F) continue;
         shadow[i] = static_cast<std::uint16_t>(strongest_.key[i]);
     }

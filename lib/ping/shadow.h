@@ -24,7 +24,16 @@ class ShadowFinder {
     /// `visible` is the area that each bin shows.
     void find(int j, std::span<const float> visible, std::span<std::uint16_t> shadow);
 
+    /// Of each object, the part of its solid angle within the range that nothing hides; NaN for an
+    /// object that no sight line meets. An object does not hide itself.
+    std::vector<float> visible_shares() const;
+
   private:
+    /// What sight lines meet of an object, sr.
+    struct SolidAngles {
+        double visible = 0.0, hidden = 0.0;
+    };
+
     /// Hidden surface, seen through what is before it.
     struct Hidden {
         std::uint32_t beam, object;  ///< the object that hides it
@@ -35,6 +44,7 @@ class ShadowFinder {
              const Eigen::Vector3f& normal);
 
     RangeBins bins_;
+    std::vector<SolidAngles> solid_angles_;  ///< by object
     std::vector<Hidden> hidden_;             ///< sorted by beam and object
     std::vector<std::uint32_t> beam_begin_;  ///< beams + 1 offsets into `hidden_`
     BeamShares shares_;

@@ -50,38 +50,54 @@ void take_larger(const float* __restrict echo, int count, std::uint32_t id,
 void BeamShares::clear(int bins) {
     sources.clear();
     echo.clear();
-    weight.assign(bins, 0.0F);
-    total.assign(bins, 0.0F);
-    if (std::ssize(sums_.begins) != bins + 1) sums_.clear(bins);
+    if (std::ssize(total) != bins) {
+        weight.assign(bins, 0.0F);
+        total.assign(bins, 0.0F);
+        sums_.clear(bins);
+    }
+    std::fill(weight.begin() + first, weight.begin() + last, 0.0F);
+    std::fill(total.begin() + first, total.begin() + last, 0.0F);
+    first = last = 0;
 }
 
 void BeamShares::add(std::uint32_t key, const Echoes& echoes, std::size_t begin, std::size_t end,
                      const RangeBins& bins) {
-    const auto [first, last] = reach_of(echoes, begin, end, bins);
-    if (first >= last) return;
+    const Reach reach = reach_of(echoes, begin, end, bins);
+    if (reach.first >= reach.last) return;
     accumulate(echoes, begin, end, bins, sums_);
     const std::size_t offset = echo.size();
-    echo.resize(offset + last - first);
-    for (int i = first; i < last; ++i) {
+    echo.resize(offset + reach.last - reach.first);
+    for (int i = reach.first; i < reach.last; ++i) {
         const float e = sums_.echo(i);
-        echo[offset + i - first] = e;
+        echo[offset + i - reach.first] = e;
         total[i] += e;
         weight[i] += sums_.weight(i);
     }
     // Echoes out of range add 0 to the first bin and need no clearing.
-    std::fill(sums_.begins.begin() + first, sums_.begins.begin() + last + 1, BinSum{});
-    sources.push_back({key, first, last, offset});
+    std::fill(sums_.begins.begin() + reach.first, sums_.begins.begin() + reach.last + 1, BinSum{});
+    first = sources.empty() ? reach.first : std::min(first, reach.first);
+    last = std::max(last, reach.last);
+    sources.push_back({key, reach.first, reach.last, offset});
 }
 
 void Strongest::clear(int bins) {
-    key.assign(bins, 0);
-    echo.assign(bins, 0.0F);
-    second_key.assign(bins, 0);
-    second_echo.assign(bins, 0.0F);
+    const auto blank = [&](auto& values) {
+        if (std::ssize(values) == bins) {
+            std::fill(values.begin() + first, values.begin() + last, 0);
+        } else {
+            values.assign(bins, 0);
+        }
+    };
+    blank(key);
+    blank(echo);
+    blank(second_key);
+    blank(second_echo);
 }
 
 void StrongestFinder::find_ordered(const BeamShares& shares, Strongest& out) {
     out.clear(static_cast<int>(shares.total.size()));
+    out.first = shares.first;
+    out.last = shares.last;
     std::ranges::sort(order_);
     for (std::size_t a = 0, b = 0; a < order_.size(); a = b) {
         const BeamShares::Source& source = shares.sources[order_[a].source];

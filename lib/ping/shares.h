@@ -20,6 +20,7 @@ struct BeamShares {
     std::vector<float> echo;      ///< area times intensity
     std::vector<float> weight;    ///< area of all sources, by bin
     std::vector<float> total;     ///< of all sources, by bin
+    int first = 0, last = 0;      ///< outside [first, last) no bin has an echo
 
     void clear(int bins);
     /// Adds the echoes [begin, end) of one source, spread over the bins as accumulate() does.
@@ -36,6 +37,7 @@ struct Strongest {
     std::vector<float> echo;                ///< of that key
     std::vector<std::uint32_t> second_key;  ///< likewise; 0: there is no other key
     std::vector<float> second_echo;
+    int first = 0, last = 0;  ///< outside [first, last) all is 0
 
     void clear(int bins);
 };

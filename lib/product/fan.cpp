@@ -23,25 +23,6 @@ constexpr double most_bins = 128.0;
 /// From one ring to the next a pixel covers this many times as many beams.
 constexpr double ring_step = 1.125;
 
-/// Where the centre of a pixel lies.
-struct PixelPlace {
-    double x_m;  ///< ahead
-    double y_m;  ///< to port
-    double range_m;
-    double azimuth_rad;
-};
-
-PixelPlace place_of(const FanFrame& frame, double range_max_m, double column, double row) {
-    const double x = range_max_m - (row + 0.5) * frame.pixel_m;
-    const double y = (0.5 * frame.width - (column + 0.5)) * frame.pixel_m;
-    return {x, y, std::sqrt(x * x + y * y), arctan2(y, x)};
-}
-
-bool is_inside(const View& view, const PixelPlace& place) {
-    return place.range_m >= view.range_min_m && place.range_m < view.range_max_m &&
-           std::fabs(place.azimuth_rad) <= 0.5 * view.azimuth_rad;
-}
-
 /// The share of a pixel inside the sector, counted at 64 points of it: a rank-1 lattice, whose
 /// projections on either axis (and so on an edge) do not coincide.
 float covered_share(const View& view, const FanFrame& frame, int column, int row) {
@@ -51,13 +32,14 @@ float covered_share(const View& view, const FanFrame& frame, int column, int row
     for (int k = 0; k < count; ++k) {
         const double right = (k + 0.5) / count - 0.5;
         const double down = (k * step % count + 0.5) / count - 0.5;
-        inside += is_inside(view, place_of(frame, view.range_max_m, column + right, row + down));
+        inside +=
+            is_inside_sector(view, fan_place(frame, view.range_max_m, column + right, row + down));
     }
     return static_cast<float>(inside) / count;
 }
 
 /// Whether an edge of the sector may cross the pixel.
-bool is_near_edge(const View& view, const FanFrame& frame, const PixelPlace& place) {
+bool is_near_edge(const View& view, const FanFrame& frame, const FanPlace& place) {
     const double aside = std::fabs(0.5 * view.azimuth_rad - std::fabs(place.azimuth_rad));
     const bool full_turn = view.azimuth_rad >= 2.0 * pi;
     return std::fabs(place.range_m - view.range_min_m) < frame.pixel_m ||
@@ -153,6 +135,17 @@ void take_means(const FanMap& map, RangeTaps range_taps, const KernelTable& beam
 
 }  // namespace
 
+FanPlace fan_place(const FanFrame& frame, double range_max_m, double column, double row) {
+    const double x = range_max_m - (row + 0.5) * frame.pixel_m;
+    const double y = (0.5 * frame.width - (column + 0.5)) * frame.pixel_m;
+    return {x, y, std::sqrt(x * x + y * y), arctan2(y, x)};
+}
+
+bool is_inside_sector(const View& view, const FanPlace& place) {
+    return place.range_m >= view.range_min_m && place.range_m < view.range_max_m &&
+           std::fabs(place.azimuth_rad) <= 0.5 * view.azimuth_rad;
+}
+
 FanFrame fan_frame(const Sonar& sonar, int width_px) {
     const View& view = sonar.settings.view;
     const SinCos half = sincos(0.5 * view.azimuth_rad);
@@ -189,10 +182,10 @@ FanMap make_fan_map(const Sonar& sonar, int width_px) {
     map.beam_padding = map.rings.back().beam_kernel.taps;
     for (int row = 0; row < map.frame.height; ++row) {
         for (int column = 0; column < map.frame.width; ++column) {
-            const PixelPlace place = place_of(map.frame, view.range_max_m, column, row);
+            const FanPlace place = fan_place(map.frame, view.range_max_m, column, row);
             const float covered = is_near_edge(view, map.frame, place)
                                       ? covered_share(view, map.frame, column, row)
-                                      : static_cast<float>(is_inside(view, place));
+                                      : static_cast<float>(is_inside_sector(view, place));
             if (covered == 0.0F) continue;
             // The centre of a pixel on the edge may lie outside.
             const double bins = (place.range_m - view.range_min_m) / view.bin_m();

@@ -23,6 +23,16 @@ struct FanFrame {
 /// one pixel per range bin, at most 1024.
 FanFrame fan_frame(const Sonar& sonar, int width_px);
 
+/// Where the centre of a pixel lies.
+struct FanPlace {
+    double x_m;  ///< ahead
+    double y_m;  ///< to port
+    double range_m;
+    double azimuth_rad;
+};
+FanPlace fan_place(const FanFrame& frame, double range_max_m, double column, double row);
+bool is_inside_sector(const View& view, const FanPlace& place);
+
 /// How the bins of a sonar fall on the pixels of its fan, worked out once per sonar. A pixel is a
 /// weighted mean of the bins around it, by the kernel of even_kernel.h in range and in azimuth; a
 /// pixel that is larger than the bins takes the mean of those it covers. What lies outside the

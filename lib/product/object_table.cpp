@@ -29,9 +29,23 @@ void add_bin(SeenObject& seen, int i, int j) {
     ++seen.bins;
 }
 
+/// The levels of a ping in the order of its labels, [beams, range bins].
+std::vector<float> levels_by_beam(const Ping& ping) {
+    constexpr int tile = 16;
+    std::vector<float> levels(ping.intensity.size());
+    for (int i0 = 0; i0 < ping.range_bins; i0 += tile) {
+        for (int j = 0; j < ping.beams; ++j) {
+            float* const beam = levels.data() + static_cast<std::size_t>(j) * ping.range_bins;
+            for (int i = i0; i < std::min(i0 + tile, ping.range_bins); ++i)
+                beam[i] = ping.at(i, j);
+        }
+    }
+    return levels;
+}
+
 /// The mean level around an object; nothing where all bins there are its own.
 std::optional<double> level_around(const SeenObject& seen, const PingLabels& labels,
-                                   const Ping& ping) {
+                                   const std::vector<float>& levels) {
     const auto margin_of = [](int first, int last) { return std::max(2, (last - first + 1) / 2); };
     const int rows = margin_of(seen.range_first, seen.range_last);
     const int columns = margin_of(seen.beam_first, seen.beam_last);
@@ -42,7 +56,7 @@ std::optional<double> level_around(const SeenObject& seen, const PingLabels& lab
     for (int j = std::max(seen.beam_first - columns, 0); j <= last_column; ++j) {
         for (int i = std::max(seen.range_first - rows, 0); i <= last_row; ++i) {
             if (object_at(labels, i, j) == seen.id) continue;
-            sum += ping.at(i, j);
+            sum += levels[static_cast<std::size_t>(j) * labels.range_bins + i];
             ++bins;
         }
     }
@@ -69,6 +83,7 @@ std::vector<SeenObject> seen_objects(const Sonar& sonar, const SceneObjects& obj
                                      const Ping& ping) {
     std::vector<SeenObject> all(objects.objects.size());
     std::vector<BinTotals> totals(all.size());
+    const std::vector<float> levels = levels_by_beam(ping);
     const bool fan = std::ssize(sonar.azimuth_edges_rad) == labels.beams + 1;
     const auto middle = [](const std::vector<double>& edges, int k) {
         return 0.5 * (edges[k] + edges[k + 1]);
@@ -79,7 +94,7 @@ std::vector<SeenObject> seen_objects(const Sonar& sonar, const SceneObjects& obj
             if (id == 0) continue;
             add_bin(all[id - 1], i, j);
             BinTotals& total = totals[id - 1];
-            total.level += ping.at(i, j);
+            total.level += levels[static_cast<std::size_t>(j) * labels.range_bins + i];
             total.range_m += middle(sonar.range_edges_m, i);
             if (fan) total.azimuth_rad += middle(sonar.azimuth_edges_rad, j);
         }
@@ -94,7 +109,7 @@ std::vector<SeenObject> seen_objects(const Sonar& sonar, const SceneObjects& obj
         object.level = totals[k].level / bins;
         object.range_m = totals[k].range_m / bins;
         if (fan) object.azimuth_rad = totals[k].azimuth_rad / bins;
-        object.surrounding_level = level_around(object, labels, ping);
+        object.surrounding_level = level_around(object, labels, levels);
         object.box_sensor_m = boxes[k];
         seen.push_back(object);
     }

@@ -37,6 +37,7 @@ sensors:
       range_lambda_m: 0.02
 output:
   folder: out
+  image: true
 """
 
 MATERIALS = "material,density_kg_m3,sound_speed_m_s\nConcrete,2400,3200\n"

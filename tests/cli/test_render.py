@@ -76,7 +76,7 @@ class Render(Sandbox):
                 "multipath": {"method": "none"},
                 "noise": {"add_sigma": 0.05, "mult_sigma": 1e-1, "range_lambda_m": 0.02,
                           "scale_with_range": True}}},
-            "output": {"folder": "out", "meta": True}}
+            "output": {"folder": "out", "image": True, "meta": True}}
         self.assert_renders("--set", "engine=rays")
         as_yaml = digest(self.out)
         for style in ({"indent": 2}, {"indent": "\t"}, {"separators": (",", ":")}):

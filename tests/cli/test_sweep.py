@@ -1,10 +1,11 @@
 """scripts/sweep.mk: one folder per point, nothing done twice, what was interrupted resumes."""
+import csv
 import json
 import os
 import subprocess
 import unittest
 
-from sandbox import SONARSIM, Sandbox
+from sandbox import SONARSIM, Sandbox, box_gltf, python_with
 
 SWEEP = os.path.join(os.path.dirname(__file__), "../../scripts/sweep.mk")
 
@@ -56,6 +57,45 @@ class Sweep(Sandbox):
                 result = self.sweep("-n", *arguments)
                 self.assertEqual(result.returncode, 0, result.stderr)
                 self.assertEqual("share a seed" in result.stderr, shared, result.stderr)
+
+    def test_any_key(self):
+        (self.folder / "more").mkdir()
+        (self.folder / "more/box.gltf").write_text(box_gltf((1.0, 1.0, 1.0)))
+        result = self.sweep("-j2", "sensors.fls.range_max_m=5 6", "scene.file=box.gltf more/box.gltf",
+                            "sensors.fls.mount.translation_m=[0,0,0.5]", "seed=3")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        rows = (self.folder / "grid/index.csv").read_text().splitlines()
+        self.assertEqual(rows[0], "seed,scene.file,sensors.fls.mount.translation_m,"
+                                  "sensors.fls.range_max_m,folder")
+        self.assertEqual(len(rows), 5)
+        self.assertEqual(rows[4], '3,more/box.gltf,"[0,0,0.5]",6,"seed=3,scene.file=more_box.gltf,'
+                                  'sensors.fls.mount.translation_m=0,0,0.5,sensors.fls.range_max_m=6"')
+        with open(self.folder / "grid/index.csv", newline="") as file:
+            for row in csv.DictReader(file):
+                resolved = (self.folder / "grid" / row["folder"] / "mission.resolved.yaml").read_text()
+                self.assertIn(f"range_max_m: {row['sensors.fls.range_max_m']}\n", resolved)
+                self.assertIn("translation_m: [0, 0, 0.5]\n", resolved)
+                # Paths in it start at the folder of the scene file.
+                deeper = row["scene.file"].startswith("more/")
+                self.assertIn(f'materials: "{"../" if deeper else ""}materials.csv"', resolved)
+        if python_with("matplotlib"):
+            sheet = (self.folder / "grid/contact_sheet.png").read_bytes()
+            self.assertEqual(sheet[:4], b"\x89PNG")
+
+    def test_a_point_that_fails(self):
+        """The others are rendered, and the sweep says which it was and why; the next one tries again."""
+        grid = ["-j2", "sensors.fls.range_max_m=5 0.01 6", "seed=1"]
+        result = self.sweep(*grid)
+        self.assertEqual(result.returncode, 2, result.stderr)
+        self.assertIn("of 3 points these failed", result.stderr)
+        self.assertIn("range_min_m must be below range_max_m", result.stderr)
+        name = "seed=1,sensors.fls.range_max_m=0.01"
+        self.assertEqual([p.name for p in (self.folder / "grid/failed").iterdir()], [name + ".txt"])
+        self.assertEqual(len((self.folder / "grid/index.csv").read_text().splitlines()), 3)
+        self.edit("mission.yaml", "range_max_m: 6", "range_max_m: 6\n    range_min_m: 0.001")
+        again = self.sweep(*grid, "OUT=other")
+        self.assertEqual(again.returncode, 0, again.stderr)
+        self.assertFalse((self.folder / "other/failed").exists())
 
     def test_mistakes(self):
         for arguments, message in ((["add_sgma=0"], "unknown: add_sgma"),

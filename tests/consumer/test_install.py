@@ -20,7 +20,8 @@ def main(build, compiler):
         prefix, own = pathlib.Path(folder, "prefix"), pathlib.Path(folder, "build")
         run("cmake", "--install", build, "--prefix", prefix)
         for name in ("bin/sonarsim", "share/doc/sonarsim/README.md", "share/doc/sonarsim/docs/model.md",
-                     "share/sonarsim/scenes/tank.glb"):
+                     "share/sonarsim/scenes/tank.glb", "share/sonarsim/scripts/sonarsim_data.py",
+                     "share/sonarsim/scripts/slurm/render.sh"):
             assert (prefix / name).exists(), f"not installed: {name}"
         run(prefix / "bin/sonarsim", "validate", prefix / "share/sonarsim/configs/tank_imaging.yaml")
         run("cmake", "-S", consumer, "-B", own, f"-DCMAKE_PREFIX_PATH={prefix}",

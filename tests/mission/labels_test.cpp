@@ -9,7 +9,7 @@ TEST_SUITE_BEGIN("mission");
 TEST_CASE("labels: all, none or a list, in one order") {
     CHECK(parse(smallest_mission).output.labels.empty());
     CHECK(parse(smallest_mission + "output: {labels: false}\n").output.labels.empty());
-    CHECK(parse(smallest_mission + "output: {labels: true}\n").output.labels.size() == 12);
+    CHECK(parse(smallest_mission + "output: {labels: true}\n").output.labels.size() == 17);
     const Mission mission = parse(smallest_mission + "output: {labels: [shadow, instance]}\n");
     CHECK(mission.output.labels == std::vector<Label>{Label::instance, Label::shadow});
     CHECK(parse(resolved_yaml(mission, sonar_keys())) == mission);
@@ -20,6 +20,18 @@ TEST_CASE("labels: all, none or a list, in one order") {
               .starts_with("m.yaml:6:19: unknown labels 'shadows' (did you mean 'shadow'?)"));
     CHECK(refusal(smallest_mission + "output: {labels: [clean, clean]}\n") ==
           "m.yaml:6:26: 'clean' stands twice in 'labels'");
+}
+
+TEST_CASE("split: shares that add up to 1, or none") {
+    CHECK_FALSE(parse(smallest_mission).output.split.is_on());
+    const Mission mission =
+        parse(smallest_mission + "output: {split: {train: 0.8, val: 0.1, test: 0.1, gap: 4}}\n");
+    CHECK(mission.output.split.is_on());
+    CHECK(mission.output.split.gap == 4);
+    CHECK(mission.output.split.place.location.text() == "m.yaml:6:17");
+    CHECK(parse(resolved_yaml(mission, sonar_keys())) == mission);
+    CHECK(refusal(smallest_mission + "output: {split: {train: 0.8, val: 0.1}}\n") ==
+          "m.yaml:6:35: train, val and test must add up to 1");
 }
 
 TEST_CASE("classes: rules in the order of the file, and where they stand") {

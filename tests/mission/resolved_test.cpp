@@ -36,12 +36,14 @@ Mission unusual_mission() {
     mission.octree = {0.0234, 77, true};
     mission.output = {.folder = "/o",
                       .polar = false,
-                      .image = false,
+                      .image = true,
                       .fan = false,
                       .meta = false,
                       .stages = true,
                       .fan_width_px = 99,
                       .full_scale = 0.125,
+                      .pack = Pack::tar,
+                      .pack_size_mb = 3.5,
                       .waterfall = false,
                       .echogram = false,
                       .soundings = false,
@@ -125,13 +127,15 @@ classes: []
 output:
   folder: "/o"
   polar: true
-  image: true
+  image: false
   fan: true
   meta: true
   stages: false
   fan_width_px: 0
   full_scale: 1
   labels: false
+  pack: none
+  pack_size_mb: 256
   waterfall: true
   echogram: true
   soundings: true

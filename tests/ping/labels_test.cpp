@@ -2,7 +2,9 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/units.h"
 #include "support/bounces.h"
@@ -44,6 +46,43 @@ int bin_at(const Sonar& sonar, double range_m) {
                             sonar.settings.view.bin_m());
 }
 
+/// The echo of each object in each bin, [beams, range bins, objects], by rays alone: a ray at angle
+/// `theta` stands for the solid angle cos(theta), for r^2 times that over the cosine of incidence
+/// of surface, and for an echo of reflection times r^2 times that, since Eq. 6 has the cosine once
+/// more. No footprints: each ray falls into one bin.
+std::vector<double> echoes_by_rays(const Scene& scene, const SceneObjects& objects,
+                                   const Sonar& sonar, const Pose& pose) {
+    constexpr int across = 12;
+    constexpr int up = 2000;
+    const View& view = sonar.settings.view;
+    const auto engine = make_engine(scene, {});
+    std::vector<double> echoes(static_cast<std::size_t>(view.beams) * view.range_bins *
+                               objects.objects.size());
+    std::vector<Ray> rays(up);
+    std::vector<Intersection> met(up);
+    for (int n = 0; n < view.beams * across; ++n) {
+        const double phi = ((n + 0.5) / (view.beams * across) - 0.5) * view.azimuth_rad;
+        const auto theta_of = [&](int k) { return ((k + 0.5) / up - 0.5) * view.elevation_rad; };
+        for (int k = 0; k < up; ++k) {
+            const double theta = theta_of(k);
+            rays[k] = {Eigen::Vector3f::Zero(),
+                       Eigen::Vector3d(std::cos(theta) * std::cos(phi),
+                                       std::cos(theta) * std::sin(phi), std::sin(theta))
+                           .cast<float>()};
+        }
+        engine->intersect(pose, rays, met);
+        for (int k = 0; k < up; ++k) {
+            const double r = met[k].distance_m;
+            if (r < view.range_min_m || r >= view.range_max_m) continue;
+            const auto bin = static_cast<std::size_t>(n / across) * view.range_bins +
+                             static_cast<std::size_t>(bin_at(sonar, r));
+            echoes[bin * objects.objects.size() + objects.object_of(met[k].instance)] +=
+                scene.materials[met[k].material].reflection * r * r * std::cos(theta_of(k));
+        }
+    }
+    return echoes;
+}
+
 }  // namespace
 
 TEST_SUITE_BEGIN("ping");
@@ -60,6 +99,10 @@ TEST_CASE("labels: a panel before a wall, its shadow, and water that is open") {
     for (const EngineType type : engine_types) {
         CAPTURE(static_cast<int>(type));
         const Labelled out = label(scene, sonar, Pose{}, type);
+        // Solid angles of the same elevations are as their azimuths.
+        REQUIRE(out.labels.visible_share.size() == 2);
+        CHECK(out.labels.visible_share[0] == doctest::Approx(1.0 - panel / wall).epsilon(0.02));
+        CHECK(out.labels.visible_share[1] == 1.0F);
         for (int j = 0; j < out.labels.beams; ++j) {
             const double a = sonar.azimuth_edges_rad[j];
             const double b = sonar.azimuth_edges_rad[j + 1];
@@ -179,6 +222,50 @@ TEST_CASE("labels: lit bins are those of the clean image, multipath bins those o
         }
     }
     CHECK(ghosts > 0);
+}
+
+TEST_CASE("labels: in the tank the objects are those that rays without number find") {
+    const Scene scene = tank();
+    SonarConfig config = small_imaging();
+    config.range_bins = 512;
+    config.azimuth_bins = 128;
+    config.elevation_deg = 40.0;
+    const Sonar sonar = noise_free(config, 0.01);
+    const SceneObjects objects = group_objects(scene, {});
+    const std::size_t count = objects.objects.size();
+    for (const Pose& pose : tank_poses()) {
+        const std::vector<double> echoes = echoes_by_rays(scene, objects, sonar, pose);
+        for (const EngineType type : engine_types) {
+            CAPTURE(static_cast<int>(type));
+            const Labelled out = label(scene, sonar, pose, type);
+            double lit = 0.0;
+            double same = 0.0;
+            double unexplained = 0.0;
+            for (std::size_t bin = 0; bin < out.labels.size(); ++bin) {
+                const double* const echo = &echoes[bin * count];
+                const double* const most = std::max_element(echo, echo + count);
+                const double total = std::accumulate(echo, echo + count, 0.0);
+                if (total == 0.0 || out.labels.object[bin] == 0) continue;
+                ++lit;
+                const auto told = static_cast<std::size_t>(out.labels.object[bin]) - 1;
+                same += most == echo + told;
+                // Another object is told only where both are there, or at the edge of a bin, where
+                // a footprint reaches over: then a neighbour has it.
+                bool near = echo[told] > 0.0;
+                for (const int step :
+                     {-1, 1, -sonar.settings.view.range_bins, sonar.settings.view.range_bins}) {
+                    const std::ptrdiff_t next = static_cast<std::ptrdiff_t>(bin) + step;
+                    if (next < 0 || next >= static_cast<std::ptrdiff_t>(out.labels.size()))
+                        continue;
+                    near = near || echoes[static_cast<std::size_t>(next) * count + told] > 0.0;
+                }
+                unexplained += !near;
+            }
+            REQUIRE(lit > 500.0);
+            CHECK(same / lit > 0.99);
+            CHECK(unexplained / lit < 0.001);
+        }
+    }
 }
 
 TEST_CASE("labels: azimuth runs from starboard to port, as in the image") {

@@ -26,6 +26,7 @@ Mission small_mission(const std::filesystem::path& output_folder) {
     mission.trajectory = FileTrajectoryConfig{"poses.csv", 0.0};
     mission.sensors = {front, left};
     mission.output.folder = output_folder;
+    mission.output.image = true;
     mission.output.full_scale = 0.5;
     return mission;
 }

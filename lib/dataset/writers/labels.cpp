@@ -5,8 +5,10 @@
 #include <limits>
 #include <utility>
 
-#include "dataset/png.h"
-#include "dataset/writers/object_json.h"
+#include "dataset/id_png.h"
+#include "dataset/writers/objects.h"
+#include "dataset/writers/semantic.h"
+#include "dataset/writers/yolo.h"
 #include "product/sidescan_row.h"
 
 namespace sonarsim {
@@ -15,10 +17,22 @@ namespace {
 
 using Ids = std::vector<std::uint16_t>;
 using Floats = std::vector<float>;
-using Values = std::variant<Ids, Floats>;
 
-/// One label of one ping, [range bins, beams].
-using ValuesOf = Values (*)(const WriterContext& context, const FinishedPing& finished);
+/// Whether the bins [i0, i1) of some beams are all 0. Most of a ping is.
+bool is_blank(const std::uint16_t* beams, std::size_t range_bins, std::size_t i0, std::size_t i1,
+              std::size_t count) {
+    std::uint16_t any = 0;
+    for (std::size_t j = 0; j < count; ++j) {
+        for (std::size_t i = i0; i < i1; ++i)
+            any |= beams[j * range_bins + i];
+    }
+    return any == 0;
+}
+
+/// Floats are blank nowhere.
+bool is_blank(const float*, std::size_t, std::size_t, std::size_t, std::size_t) {
+    return false;
+}
 
 /// From [beams, range bins] to [range bins, beams], in tiles that fit the first cache.
 template <class T>
@@ -30,8 +44,11 @@ std::vector<T> rows_of_range(const std::vector<T>& by_beam, const PingLabels& la
     const auto columns = static_cast<std::size_t>(labels.beams);
     for (std::size_t i0 = 0; i0 < rows; i0 += tile) {
         for (std::size_t j0 = 0; j0 < columns; j0 += tile) {
-            for (std::size_t i = i0; i < std::min(i0 + tile, rows); ++i) {
-                for (std::size_t j = j0; j < std::min(j0 + tile, columns); ++j)
+            const std::size_t i1 = std::min(i0 + tile, rows);
+            const std::size_t j1 = std::min(j0 + tile, columns);
+            if (is_blank(by_beam.data() + j0 * rows, rows, i0, i1, j1 - j0)) continue;
+            for (std::size_t i = i0; i < i1; ++i) {
+                for (std::size_t j = j0; j < j1; ++j)
                     out[i * columns + j] = by_beam[j * rows + i];
             }
         }
@@ -39,29 +56,35 @@ std::vector<T> rows_of_range(const std::vector<T>& by_beam, const PingLabels& la
     return out;
 }
 
+/// Labels of 16 bits, [beams, range bins].
+using IdsOf = Ids (*)(const PingLabels& labels);
+
 template <Ids PingLabels::*member>
-Values ids(const WriterContext&, const FinishedPing& finished) {
-    return rows_of_range(finished.labels->*member, *finished.labels);
+Ids ids(const PingLabels& labels) {
+    return labels.*member;
 }
 
+/// Shares: 65535 is all.
 template <Floats PingLabels::*member>
-Values floats(const WriterContext&, const FinishedPing& finished) {
-    return rows_of_range(finished.labels->*member, *finished.labels);
-}
-
-/// Shares as 16 bits: 65535 is all.
-template <Floats PingLabels::*member>
-Values shares(const WriterContext&, const FinishedPing& finished) {
-    const Floats& values = finished.labels->*member;
+Ids shares(const PingLabels& labels) {
+    const Floats& values = labels.*member;
     Ids rounded(values.size());
     std::ranges::transform(values, rounded.begin(), [](float share) {
         return static_cast<std::uint16_t>(65535.0F * share + 0.5F);
     });
-    return rows_of_range(rounded, *finished.labels);
+    return rounded;
+}
+
+/// Labels that are floats, [range bins, beams].
+using FloatsOf = Floats (*)(const WriterContext& context, const FinishedPing& finished);
+
+template <Floats PingLabels::*member>
+Floats floats(const WriterContext&, const FinishedPing& finished) {
+    return rows_of_range(finished.labels->bins.*member, finished.labels->bins);
 }
 
 template <Terms terms>
-Values image(const WriterContext& context, const FinishedPing& finished) {
+Floats image(const WriterContext& context, const FinishedPing& finished) {
     return form_image(finished.traced, context.sonar().settings, context.assembly.scene,
                       {context.mission.seed, finished.id.pose}, terms)
         .intensity;
@@ -69,30 +92,38 @@ Values image(const WriterContext& context, const FinishedPing& finished) {
 
 constexpr float nothing = std::numeric_limits<float>::quiet_NaN();
 
-/// A file that a label leaves behind.
+/// A file that a label leaves behind: 16 bits in a PNG, or float32 in .npy.
 struct LabelFile {
     Label label;
     const char* name;
-    bool is_float;  ///< float32 in .npy, else 16 bits
-    float blank;    ///< where a side-scan sonar does not listen
-    ValuesOf values;
+    IdsOf ids;        ///< null: floats
+    FloatsOf floats;  ///< null: ids
+    float blank;      ///< where a side-scan sonar does not listen
 };
 
+constexpr LabelFile id_file(Label label, const char* name, IdsOf values) {
+    return {label, name, values, nullptr, 0.0F};
+}
+
+constexpr LabelFile float_file(Label label, const char* name, FloatsOf values, float blank) {
+    return {label, name, nullptr, values, blank};
+}
+
 constexpr LabelFile label_files[] = {
-    {Label::instance, "instance", false, 0.0F, ids<&PingLabels::object>},
-    {Label::share, "share", false, 0.0F, shares<&PingLabels::share>},
-    {Label::second, "second", false, 0.0F, ids<&PingLabels::second>},
-    {Label::second, "second_share", false, 0.0F, shares<&PingLabels::second_share>},
-    {Label::class_name, "class", false, 0.0F, ids<&PingLabels::class_id>},
-    {Label::material, "material", false, 0.0F, ids<&PingLabels::material>},
-    {Label::elevation, "elevation", true, nothing, floats<&PingLabels::elevation_rad>},
-    {Label::elevation, "elevation_spread", true, nothing,
-     floats<&PingLabels::elevation_spread_rad>},
-    {Label::shadow, "shadow", false, 0.0F, ids<&PingLabels::shadow>},
-    {Label::multipath, "multipath", false, 0.0F, shares<&PingLabels::multipath>},
-    {Label::clean, "clean", true, 0.0F, image<term_by_term[1]>},
-    {Label::direct_only, "direct_only", true, 0.0F, image<direct_echoes_alone>},
-    {Label::multipath_only, "multipath_only", true, 0.0F, image<multipath_alone>},
+    id_file(Label::instance, "instance", ids<&PingLabels::object>),
+    id_file(Label::share, "share", shares<&PingLabels::share>),
+    id_file(Label::second, "second", ids<&PingLabels::second>),
+    id_file(Label::second, "second_share", shares<&PingLabels::second_share>),
+    id_file(Label::class_name, "class", ids<&PingLabels::class_id>),
+    id_file(Label::material, "material", ids<&PingLabels::material>),
+    float_file(Label::elevation, "elevation", floats<&PingLabels::elevation_rad>, nothing),
+    float_file(Label::elevation, "elevation_spread", floats<&PingLabels::elevation_spread_rad>,
+               nothing),
+    id_file(Label::shadow, "shadow", ids<&PingLabels::shadow>),
+    id_file(Label::multipath, "multipath", shares<&PingLabels::multipath>),
+    float_file(Label::clean, "clean", image<term_by_term[1]>, 0.0F),
+    float_file(Label::direct_only, "direct_only", image<direct_echoes_alone>, 0.0F),
+    float_file(Label::multipath_only, "multipath_only", image<multipath_alone>, 0.0F),
 };
 
 /// A ping of a label in the shape of its sonar's records.
@@ -102,43 +133,74 @@ std::string label_record(const WriterContext& context, const std::vector<T>& val
     return record_bytes(sidescan_row<T>(context.sonar().config, values, blank));
 }
 
-class LabelWriter final : public Writer {
+/// A file per ping with the rows and columns of the sonar's image.
+class LabelImageWriter final : public Writer {
   public:
-    LabelWriter(const WriterContext& context, const LabelFile& file)
+    LabelImageWriter(const WriterContext& context, const LabelFile& file)
         : context_(context), view_(context.sonar().settings.view), file_(file) {}
 
     WriterOutputs outputs() const override {
-        if (!context_.kind().has_images) return record();
-        if (file_.is_float) {
+        if (file_.floats) {
             return {PingFile{file_.name, ".npy"}, 128.0 + 4.0 * view_.range_bins * view_.beams, {}};
         }
-        return {
-            PingFile{file_.name, ".png"}, png_bytes_at_most(view_.beams, view_.range_bins, 2), {}};
+        return {PingFile{file_.name, ".png"},
+                id_png_bytes_at_most(view_.beams, view_.range_bins, 2),
+                {}};
     }
 
     std::string encode(const FinishedPing& finished) const override {
-        const Values values = file_.values(context_, finished);
-        if (!context_.kind().has_images) {
-            const auto* id_values = std::get_if<Ids>(&values);
-            return id_values ? label_record<std::uint16_t>(context_, *id_values, 0)
-                             : label_record(context_, std::get<Floats>(values), file_.blank);
-        }
-        if (const auto* id_values = std::get_if<Ids>(&values))
-            return png_bytes(*id_values, view_.beams, view_.range_bins);
-        return npy_bytes(std::get<Floats>(values), view_.range_bins, view_.beams);
+        if (file_.floats)
+            return npy_bytes(file_.floats(context_, finished), view_.range_bins, view_.beams);
+        const PingLabels& labels = finished.labels->bins;
+        return id_png_bytes(rows_of_range(file_.ids(labels), labels), view_.beams,
+                            view_.range_bins);
     }
 
   private:
-    WriterOutputs record() const {
+    WriterContext context_;
+    const View& view_;
+    const LabelFile& file_;
+};
+
+/// fan_LABEL/NNNNNN.png: a label for each pixel of the fan.
+class LabelFanWriter final : public Writer {
+  public:
+    LabelFanWriter(const WriterContext& context, const LabelFile& file)
+        : frame_(fan_frame(context.sonar(), context.mission.output.fan_width_px)), file_(file) {}
+
+    WriterOutputs outputs() const override {
+        return {PingFile{std::string("fan_") + file_.name, ".png"},
+                id_png_bytes_at_most(frame_.width, frame_.height, 2),
+                {}};
+    }
+
+    std::string encode(const FinishedPing& finished) const override {
+        const Ids values = file_.ids(finished.labels->bins);
+        return id_png_bytes(fan_values(finished.labels->fan_bins->by_row, values, std::uint16_t{0}),
+                            frame_.width, frame_.height);
+    }
+
+  private:
+    FanFrame frame_;
+    const LabelFile& file_;
+};
+
+/// A file of records, one to a ping.
+class LabelRecordWriter final : public Writer {
+  public:
+    LabelRecordWriter(const WriterContext& context, const LabelFile& file)
+        : context_(context), view_(context.sonar().settings.view), file_(file) {}
+
+    WriterOutputs outputs() const override {
         const SonarConfig& config = context_.sonar().config;
-        const char* const type = file_.is_float ? "<f4" : "<u2";
+        const char* const type = file_.floats ? "<f4" : "<u2";
         const auto bins = static_cast<std::size_t>(view_.range_bins);
         const bool rows = context_.kind().record == RecordKind::waterfall;
         const auto columns = rows ? static_cast<std::size_t>(waterfall_columns(config)) : bins;
         const bool upright = context_.kind().record == RecordKind::echogram;
         NpyFormat format{type, {context_.pings, columns}};
         if (upright) format = {type, {columns, context_.pings}, true};
-        const double bytes = (file_.is_float ? 4.0 : 2.0) * static_cast<double>(columns);
+        const double bytes = (file_.floats ? 4.0 : 2.0) * static_cast<double>(columns);
         nlohmann::ordered_json axes = {"ping", rows ? "column, as in waterfall.npy" : "range"};
         if (upright) axes = {"range", "ping"};
         WriterOutputs outputs = record_outputs(std::string(file_.name) + ".npy", std::move(format),
@@ -147,44 +209,43 @@ class LabelWriter final : public Writer {
         return outputs;
     }
 
-    WriterContext context_;
-    const View& view_;
-    const LabelFile& file_;
-};
-
-/// objects/NNNNNN.json: what the ping shows of each object.
-class ObjectsWriter final : public Writer {
-  public:
-    explicit ObjectsWriter(const WriterContext& context) : context_(context) {}
-
-    WriterOutputs outputs() const override {
-        constexpr double longest_object = 1000.0;
-        const double bins = static_cast<double>(context_.sonar().settings.view.range_bins) *
-                            context_.sonar().settings.view.beams;
-        const auto objects = static_cast<double>(context_.assembly.objects.objects.size());
-        return {PingFile{"objects", ".json"}, 100.0 + longest_object * std::min(objects, bins), {}};
-    }
-
     std::string encode(const FinishedPing& finished) const override {
-        return object_json(context_, finished);
+        if (file_.floats)
+            return label_record(context_, file_.floats(context_, finished), file_.blank);
+        const PingLabels& labels = finished.labels->bins;
+        return label_record<std::uint16_t>(context_, rows_of_range(file_.ids(labels), labels), 0);
     }
 
   private:
     WriterContext context_;
+    const View& view_;
+    const LabelFile& file_;
 };
 
 }  // namespace
 
 std::vector<std::unique_ptr<Writer>> make_label_writers(const WriterContext& context) {
     std::vector<std::unique_ptr<Writer>> writers;
-    const std::vector<Label>& asked = context.mission.output.labels;
-    const auto is_asked = [&](Label label) {
-        return std::ranges::find(asked, label) != asked.end();
+    const auto add = [&](std::unique_ptr<Writer> writer) {
+        if (writer) writers.push_back(std::move(writer));
     };
+    const Mission& mission = context.mission;
+    const bool has_images = context.kind().has_images;
+    const bool has_fan = has_images && mission.output.fan && is_asked(mission, Label::fan);
     for (const LabelFile& file : label_files) {
-        if (is_asked(file.label)) writers.push_back(std::make_unique<LabelWriter>(context, file));
+        // COCO files of waterfalls and echograms are made of the records.
+        const bool for_coco =
+            !has_images && file.label == Label::instance && is_asked(mission, Label::coco);
+        if (!is_asked(mission, file.label) && !for_coco) continue;
+        if (has_images) add(std::make_unique<LabelImageWriter>(context, file));
+        if (!has_images) add(std::make_unique<LabelRecordWriter>(context, file));
+        if (has_fan && file.ids) add(std::make_unique<LabelFanWriter>(context, file));
     }
-    if (is_asked(Label::objects)) writers.push_back(std::make_unique<ObjectsWriter>(context));
+    add(make_objects_writer(context));
+    for (auto& writer : make_semantic_writers(context))
+        add(std::move(writer));
+    for (auto& writer : make_yolo_writers(context))
+        add(std::move(writer));
     return writers;
 }
 

@@ -1,0 +1,142 @@
+#include "dataset/coco_records.h"
+
+#include <algorithm>
+#include <optional>
+#include <span>
+
+#include "dataset/coco.h"
+#include "dataset/coco_counts.h"
+#include "dataset/coco_file.h"
+#include "dataset/folded_records.h"
+#include "product/object_masks.h"
+
+namespace sonarsim {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// An object that is not seen for so many pings is passed again when it is.
+constexpr std::size_t most_unseen = 32;
+
+/// The picture that is made of all pings of a sensor.
+struct RecordPicture {
+    std::uint64_t id;
+    std::size_t sensor;
+    std::string file;  ///< in the folder of the sensor
+    PingRecord ids;    ///< of instances
+    bool is_upright;   ///< pings are columns
+    std::size_t bins;  ///< of a ping
+
+    std::size_t width(std::size_t pings) const { return is_upright ? pings : bins; }
+    std::size_t height(std::size_t pings) const { return is_upright ? bins : pings; }
+};
+
+std::optional<RecordPicture> picture_of(const SensorLayout& sensor) {
+    const char* const names[] = {"waterfall.png", "echogram.png"};
+    const auto file = std::ranges::find_first_of(sensor.products, names);
+    if (file == sensor.products.end() || sensor.pings > most_picture_rows) return std::nullopt;
+    for (const auto& part : sensor.per_ping) {
+        const auto* record = std::get_if<PingRecord>(&part);
+        if (!record || record->label != "instance") continue;
+        const bool is_upright = record->format.fortran_order;
+        return RecordPicture{
+            0,       0,          *file,
+            *record, is_upright, is_upright ? record->format.shape[0] : record->format.shape[1]};
+    }
+    return std::nullopt;
+}
+
+/// An object on its way past the sonar, and how often it has been passed.
+struct Passing {
+    std::uint16_t number = 0;  ///< of its present pass
+    std::size_t last = 0;      ///< ping that saw it
+};
+
+/// The passes of a picture by numbers from 1 on, in the order of object_masks().
+struct Passes {
+    std::vector<std::uint16_t> of_pixel;
+    std::vector<std::uint16_t> instance{0};  ///< by number
+};
+
+Passes passes_of(const RecordPicture& picture, const RecordFile& records) {
+    const std::size_t pings = records.records();
+    Passes out;
+    out.of_pixel.resize(picture.bins * pings);
+    std::vector<Passing> passing(65536);
+    std::vector<std::uint16_t> record(picture.bins);
+    for (std::size_t ping = 0; ping < pings; ++ping) {
+        records.read(ping, std::as_writable_bytes(std::span(record)));
+        for (std::size_t bin = 0; bin < picture.bins; ++bin) {
+            const std::uint16_t id = record[bin];
+            if (id == 0) continue;
+            Passing& one = passing[id];
+            const bool is_new = one.number == 0 || ping - one.last > most_unseen;
+            if (is_new && out.instance.size() < 65536) {
+                one.number = static_cast<std::uint16_t>(out.instance.size());
+                out.instance.push_back(id);
+            }
+            one.last = ping;
+            out.of_pixel[picture.is_upright ? ping * picture.bins + bin : bin * pings + ping] =
+                one.number;
+        }
+    }
+    return out;
+}
+
+}  // namespace
+
+void write_record_coco(const Layout& layout, const Json& description,
+                       const SharedProduct& product) {
+    std::uint64_t id = 1;
+    for (const SensorLayout& sensor : layout.sensors)
+        id += 2 * sensor.pings;
+    std::vector<RecordPicture> pictures;
+    for (std::size_t i = 0; i < layout.sensors.size(); ++i, ++id) {
+        if (auto picture = picture_of(layout.sensors[i])) {
+            picture->id = id;
+            picture->sensor = i;
+            pictures.push_back(*std::move(picture));
+        }
+    }
+    CocoFile out(layout.folder / product.file, description);
+    out.begin_list("images");
+    for (const RecordPicture& picture : pictures) {
+        const SensorLayout& sensor = layout.sensors[picture.sensor];
+        out.add({{"id", picture.id},
+                 {"file_name", sensor.name + "/" + picture.file},
+                 {"width", picture.width(sensor.pings)},
+                 {"height", picture.height(sensor.pings)},
+                 {"sensor", sensor.name}});
+    }
+    out.end_list();
+    out.begin_list("annotations");
+    const Json& instances = description.at("labels").at("instances");
+    std::uint64_t annotation_id = id * ids_per_image;
+    for (const RecordPicture& picture : pictures) {
+        const std::size_t pings = layout.sensors[picture.sensor].pings;
+        const RecordFile records(layout.sensor_folder(picture.sensor) / picture.ids.file,
+                                 picture.ids.format, pings, RecordAccess::read);
+        const Passes passes = passes_of(picture, records);
+        for (const ObjectMask& mask :
+             object_masks(passes.of_pixel, static_cast<int>(picture.height(pings)))) {
+            const std::uint16_t instance = passes.instance[mask.id];
+            out.add(annotation_json({.id = annotation_id++,
+                                     .image_id = picture.id,
+                                     .instance = instance,
+                                     .category = instances.at(instance - 1).at("class"),
+                                     .left = mask.left,
+                                     .top = mask.top,
+                                     .width = mask.right - mask.left,
+                                     .height = mask.bottom - mask.top,
+                                     .area = mask.area,
+                                     .image_width = picture.width(pings),
+                                     .image_height = picture.height(pings),
+                                     .counts = coco_counts(mask.runs)}));
+        }
+    }
+    out.end_list();
+    out.finish();
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,244 @@
+#include "dataset/collection.h"
+
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <tuple>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "core/ordered_pipeline.h"
+#include "core/sha256.h"
+#include "dataset/checksums.h"
+#include "dataset/description.h"
+#include "dataset/layout.h"
+#include "dataset/ping_metadata.h"
+#include "dataset/whole_file.h"
+
+namespace sonarsim {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* collection_format = "sonarsim collection";
+constexpr int collection_format_version = 1;
+constexpr std::size_t largest_text = std::size_t{1} << 32;
+
+/// A dataset that is to be collected.
+struct Member {
+    fs::path from;
+    Json description;
+    std::map<std::string, std::string> sums;  ///< by file
+    std::string folder;                       ///< in the collection
+};
+
+Member read_member(const fs::path& from) {
+    const fs::path sums = from / checksums_name;
+    std::optional<Json> description;
+    if (fs::is_regular_file(from / description_name)) description = read_description(from);
+    if (!description)
+        throw InputError({from.string()}, "is no dataset; give the output folders of renders");
+    if (description->value("complete", Json()) != true || !fs::is_regular_file(sums)) {
+        throw InputError({from.string()},
+                         "is not complete, and only whole datasets can stand side by side; render "
+                         "what is missing, or merge its shards first");
+    }
+    Member member{from,
+                  *std::move(description),
+                  parse_checksums(read_file(sums, largest_text), sums.string()),
+                  {}};
+    member.sums[checksums_name] = sha256_of_file(sums);
+    return member;
+}
+
+/// In an order of their own, each with a folder. InputError when a dataset is there twice.
+std::vector<Member> read_members(const std::vector<fs::path>& parts) {
+    std::vector<Member> members;
+    for (const fs::path& part : parts)
+        members.push_back(read_member(part));
+    const auto key = [](const Member& member) {
+        const Json& d = member.description;
+        return std::tuple(d.value("mission", ""), d.value("mission_hash", ""),
+                          d.value("inputs_hash", ""));
+    };
+    std::ranges::stable_sort(members, {}, key);
+    std::set<std::string> taken;
+    for (std::size_t k = 0; k < members.size(); ++k) {
+        Member& member = members[k];
+        if (k > 0 && key(members[k - 1]) == key(member)) {
+            throw InputError({member.from.string()}, "is the same dataset as " +
+                                                         members[k - 1].from.string() +
+                                                         "; name each of them once");
+        }
+        const std::string name = std::get<0>(key(member));
+        member.folder = name;
+        for (int other = 2; !taken.insert(member.folder).second; ++other)
+            member.folder = name + "-" + std::to_string(other);
+    }
+    return members;
+}
+
+/// What collection.json tells of a kind of ids in a dataset.
+const Json& labels_of(const Member& member, const char* kind) {
+    static const Json none = Json::array();
+    const Json& d = member.description;
+    return d.contains("labels") && d["labels"].contains(kind) ? d["labels"][kind] : none;
+}
+
+Json describe(const std::vector<Member>& members) {
+    std::set<std::string> class_names;
+    for (const Member& member : members) {
+        for (const Json& one : labels_of(member, "classes"))
+            class_names.insert(one.at("name").get<std::string>());
+    }
+    Json json = {{"format", collection_format},
+                 {"format_version", collection_format_version},
+                 {"complete", false}};
+    std::map<std::string, std::uint64_t> class_ids;
+    json["classes"] = Json::array();
+    for (const std::string& name : class_names) {
+        const std::uint64_t id = class_ids.size() + 1;
+        class_ids.emplace(name, id);
+        json["classes"].push_back({{"id", id}, {"name", name}});
+    }
+    std::uint64_t offset = 0;
+    json["datasets"] = Json::array();
+    for (const Member& member : members) {
+        Json classes = Json::object();
+        for (const Json& one : labels_of(member, "classes"))
+            classes[one.at("id").dump()] = class_ids.at(one.at("name").get<std::string>());
+        json["datasets"].push_back({{"folder", member.folder},
+                                    {"mission", member.description.value("mission", "")},
+                                    {"mission_hash", member.description.value("mission_hash", "")},
+                                    {"seed", member.description.value("seed", Json())},
+                                    {"sha256sums", member.sums.at(checksums_name)},
+                                    {"instance_id_offset", offset},
+                                    {"class_ids", std::move(classes)}});
+        offset += labels_of(member, "instances").size();
+    }
+    return json;
+}
+
+std::vector<std::string> seeds_shared_by(const std::vector<Member>& members) {
+    std::map<std::string, std::vector<std::string>> by_seed;
+    for (const Member& member : members)
+        by_seed[member.description.value("seed", Json()).dump()].push_back(member.folder);
+    std::vector<std::string> warnings;
+    for (const auto& [seed, folders] : by_seed) {
+        if (folders.size() < 2) continue;
+        std::string names;
+        for (const std::string& folder : folders)
+            names += (names.empty() ? "" : ", ") + folder;
+        warnings.push_back("the datasets of seed " + seed + " (" + names +
+                           ") have the same noise, bit for bit, in every bin that nothing lights: "
+                           "to train with one and test with another is a leak; render each with a "
+                           "seed of its own, or keep them on the same side");
+    }
+    return warnings;
+}
+
+std::optional<Json> read_collection(const fs::path& folder) {
+    if (!fs::is_regular_file(folder / collection_name)) return std::nullopt;
+    try {
+        Json json = Json::parse(read_file(folder / collection_name, largest_text));
+        if (json.is_object() && json.value("format", "") == collection_format) return json;
+    } catch (const Json::exception&) {  // NOLINT(bugprone-empty-catch): not ours
+    }
+    throw InputError({(folder / collection_name).string()}, "is not sonarsim's, or damaged");
+}
+
+/// Makes the folder ready, or finds it so.
+void begin_collection(const fs::path& out, const Json& description) {
+    if (std::optional<Json> found = read_collection(out)) {
+        (*found)["complete"] = false;
+        if (*found == description) return;
+        throw InputError({out.string()},
+                         "holds a collection of other datasets; choose another folder");
+    }
+    if (fs::exists(out) && !fs::is_empty(out))
+        throw InputError({out.string()}, "is not empty; choose another folder");
+    fs::create_directories(out);
+    write_file_durably(out / collection_name, json_text(description));
+}
+
+/// Returns false when the file was there already.
+bool copy_whole(const fs::path& from, const fs::path& to, const std::string& sum) {
+    if (fs::is_regular_file(to) && sha256_of_file(to) == sum) return false;
+    fs::create_directories(to.parent_path());
+    WholeFile copy(to);
+    fs::copy_file(from, copy.part());
+    if (sha256_of_file(copy.part()) != sum) {
+        throw InputError({from.string()},
+                         "is not what its SHA256SUMS tells; sonarsim verify says what to do");
+    }
+    copy.keep();
+    return true;
+}
+
+}  // namespace
+
+CollectionSummary collect_datasets(
+    const std::vector<fs::path>& parts, const fs::path& out, int threads,
+    const std::function<void(std::uint64_t, std::uint64_t)>& progress,
+    const std::atomic<bool>& stop) {
+    const std::vector<Member> members = read_members(parts);
+    Json description = describe(members);
+    begin_collection(out, description);
+    struct Copy {
+        const Member* member;
+        const std::string* name;
+        const std::string* sum;
+    };
+    std::vector<Copy> copies;
+    std::string sums;
+    for (const Member& member : members) {
+        for (const auto& [name, sum] : member.sums) {
+            copies.push_back({&member, &name, &sum});
+            sums.append(sum).append("  ").append(member.folder).append("/").append(name) += '\n';
+        }
+    }
+    CollectionSummary summary{.warnings = seeds_shared_by(members)};
+    if (threads <= 0) threads = tbb::info::default_concurrency();
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    tbb::task_arena arena(threads);
+    arena.execute([&] {
+        ordered_pipeline(
+            copies.size(), 2 * static_cast<std::size_t>(threads), stop,
+            [&](std::size_t i) {
+                const Copy& copy = copies[i];
+                return copy_whole(copy.member->from / *copy.name,
+                                  out / copy.member->folder / *copy.name, *copy.sum);
+            },
+            [&](bool copied) {
+                ++(copied ? summary.files : summary.skipped);
+                if (progress) progress(summary.files + summary.skipped, copies.size());
+            });
+    });
+    if (summary.files + summary.skipped < copies.size()) return summary;
+    description["complete"] = true;
+    const std::string text = json_text(description);
+    sums += sha256(text) + "  " + collection_name + '\n';
+    sync_file_system(out);
+    write_file_durably(out / checksums_name, sums);
+    write_file_durably(out / collection_name, text);
+    summary.complete = true;
+    return summary;
+}
+
+std::vector<fs::path> collected_folders(const fs::path& folder) {
+    std::vector<fs::path> folders;
+    if (const std::optional<Json> json = read_collection(folder)) {
+        for (const Json& dataset : json->value("datasets", Json::array()))
+            folders.push_back(folder / dataset.value("folder", ""));
+    }
+    return folders;
+}
+
+}  // namespace sonarsim

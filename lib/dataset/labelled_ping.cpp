@@ -1,0 +1,47 @@
+#include "dataset/labelled_ping.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "sonar/kinds.h"
+
+namespace sonarsim {
+
+bool is_asked(const Mission& mission, Label label) {
+    return std::ranges::find(mission.output.labels, label) != mission.output.labels.end();
+}
+
+LabelPlan plan_labels(const Mission& mission, const Sonar& sonar) {
+    const auto asked = [&](Label label) { return is_asked(mission, label); };
+    const bool has_images = kind_of(sonar.config.kind).has_images;
+    const bool masks = asked(Label::coco) || asked(Label::yolo) || asked(Label::yolo_polygons);
+    const bool objects = masks || asked(Label::objects);
+    const OutputConfig& output = mission.output;
+    LabelPlan plan;
+    plan.on = !output.labels.empty();
+    plan.request = {.objects = objects || asked(Label::instance) || asked(Label::share) ||
+                               asked(Label::second) || asked(Label::multipath),
+                    .classes = asked(Label::class_name) || asked(Label::semantic),
+                    .materials = asked(Label::material),
+                    .elevation = asked(Label::elevation),
+                    .shadow = asked(Label::shadow)};
+    plan.polar_masks = has_images && objects;
+    plan.fan_masks = has_images && objects && output.fan;
+    const bool in_fan = asked(Label::fan) || (output.fan && (objects || asked(Label::semantic)));
+    if (has_images && in_fan) plan.fan = make_fan_bins(sonar, output.fan_width_px);
+    return plan;
+}
+
+LabelledPing label_for_writers(const LabelPlan& plan, PingLabels bins) {
+    LabelledPing out;
+    out.bins = std::move(bins);
+    out.fan_bins = &plan.fan;
+    if (plan.polar_masks) out.polar = object_masks(out.bins.object, out.bins.range_bins);
+    if (plan.fan_masks) {
+        out.fan = object_masks(fan_values(plan.fan.by_column, out.bins.object, std::uint16_t{0}),
+                               plan.fan.frame.height);
+    }
+    return out;
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,61 @@
+#include "dataset/shared_files.h"
+
+#include <string>
+
+#include "core/file.h"
+#include "dataset/coco.h"
+#include "dataset/coco_records.h"
+#include "dataset/shared_products.h"
+#include "dataset/split.h"
+
+namespace sonarsim {
+
+namespace {
+
+/// The numbers of the poses of a part, as the names of their files have them, a line each.
+std::string pose_list(const Layout& layout, SplitPart part,
+                      const std::vector<SplitPart>& part_of_pose) {
+    std::string text;
+    for (std::uint32_t pose = 0; pose < part_of_pose.size(); ++pose) {
+        if (part_of_pose[pose] == part) text += layout.number(pose) + '\n';
+    }
+    return text;
+}
+
+/// The names of the classes, a line each: those of the classes 0, 1, ... of YOLO.
+std::string class_list(const nlohmann::ordered_json& description) {
+    std::string text;
+    for (const auto& one : description.at("labels").at("classes"))
+        text += one.at("name").get<std::string>() + '\n';
+    return text;
+}
+
+}  // namespace
+
+void write_shared_products(const Layout& layout, const Mission& mission,
+                           const nlohmann::ordered_json& description) {
+    const SplitConfig& split = mission.output.split;
+    const std::vector<SplitPart> part_of_pose =
+        split.is_on() ? split_poses(split, layout.poses)
+                      : std::vector<SplitPart>(layout.poses, SplitPart::none);
+    for (const SharedProduct& product : shared_products(mission)) {
+        switch (product.kind) {
+            case SharedProduct::Kind::coco:
+                if (product.picture == Picture::record) {
+                    write_record_coco(layout, description, product);
+                } else {
+                    write_coco(layout, description, product, part_of_pose);
+                }
+                break;
+            case SharedProduct::Kind::class_names:
+                write_file(layout.folder / product.file, class_list(description));
+                break;
+            case SharedProduct::Kind::split:
+                write_file(layout.folder / product.file,
+                           pose_list(layout, product.part, part_of_pose));
+                break;
+        }
+    }
+}
+
+}  // namespace sonarsim

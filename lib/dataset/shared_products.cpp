@@ -1,0 +1,102 @@
+#include "dataset/shared_products.h"
+
+#include <algorithm>
+#include <array>
+
+#include "core/error.h"
+#include "dataset/labelled_ping.h"
+#include "sonar/kinds.h"
+
+namespace sonarsim {
+
+namespace {
+
+bool has_pictures(const Mission& mission, Picture picture) {
+    const OutputConfig& output = mission.output;
+    if (picture == Picture::record) {
+        return std::ranges::any_of(mission.sensors, [&](const SonarConfig& sensor) {
+            const RecordKind record = kind_of(sensor.kind).record;
+            return (record == RecordKind::waterfall && output.waterfall) ||
+                   (record == RecordKind::echogram && output.echogram);
+        });
+    }
+    const bool written = picture == Picture::fan ? output.fan : output.image || output.polar;
+    return written && std::ranges::any_of(mission.sensors, [](const SonarConfig& sensor) {
+               return kind_of(sensor.kind).has_images;
+           });
+}
+
+std::string part_name(SplitPart part) {
+    return std::string(split_part_names[static_cast<std::size_t>(part)]);
+}
+
+void add_coco(const Mission& mission, Picture picture, std::vector<SharedProduct>& products) {
+    if (!has_pictures(mission, picture)) return;
+    const char* const stems[] = {"labels/coco", "labels/coco_fan", "labels/coco_records"};
+    const std::string stem = stems[static_cast<std::size_t>(picture)];
+    products.push_back({SharedProduct::Kind::coco, stem + ".json", picture, SplitPart::none});
+    if (picture == Picture::record) return;  // pictures of the whole trajectory
+    for (const SplitPart part : parts_of(mission.output.split)) {
+        products.push_back(
+            {SharedProduct::Kind::coco, stem + "_" + part_name(part) + ".json", picture, part});
+    }
+}
+
+/// `labels: true` asks for what there is; a list means what it says.
+bool asks_for_all(const Mission& mission) {
+    return mission.output.labels.size() == static_cast<std::size_t>(Label::yolo_polygons) + 1;
+}
+
+}  // namespace
+
+std::vector<SharedProduct> shared_products(const Mission& mission) {
+    std::vector<SharedProduct> products;
+    for (const SplitPart part : parts_of(mission.output.split)) {
+        products.push_back(
+            {SharedProduct::Kind::split, "split/" + part_name(part) + ".txt", {}, part});
+    }
+    if (is_asked(mission, Label::coco)) {
+        add_coco(mission, Picture::polar, products);
+        add_coco(mission, Picture::fan, products);
+        add_coco(mission, Picture::record, products);
+    }
+    if (is_asked(mission, Label::yolo) || is_asked(mission, Label::yolo_polygons)) {
+        products.push_back({SharedProduct::Kind::class_names, "labels/classes.txt"});
+    }
+    return products;
+}
+
+void check_shared_products(const Mission& mission, std::size_t poses) {
+    if (mission.output.split.is_on()) split_poses(mission.output.split, poses);
+    if (asks_for_all(mission)) return;
+    struct Need {
+        Label label;
+        const char* name;
+        bool met;
+        const char* cure;
+    };
+    const bool polar = has_pictures(mission, Picture::polar);
+    const bool fan = has_pictures(mission, Picture::fan);
+    const bool imaging = std::ranges::any_of(
+        mission.sensors, [](const SonarConfig& sensor) { return kind_of(sensor.kind).has_images; });
+    const std::array needs{
+        Need{Label::fan, "fan", fan, "output.fan: true"},
+        Need{Label::semantic, "semantic", imaging, ""},
+        Need{Label::coco, "coco", polar || fan || has_pictures(mission, Picture::record),
+             "output.image, polar or fan: true"},
+        Need{Label::yolo, "yolo", imaging, ""},
+        Need{Label::yolo_polygons, "yolo_polygons", imaging, ""},
+    };
+    for (const Need& need : needs) {
+        if (need.met || !is_asked(mission, need.label)) continue;
+        const std::string why =
+            imaging ? std::string("it needs ") + need.cure
+                    : "no sensor has pictures of single pings, only imaging and profiling sonars "
+                      "have; take it out of the list";
+        throw InputError(
+            mission.output.labels_place.location,
+            std::string("there is nothing for the label '") + need.name + "' to be of: " + why);
+    }
+}
+
+}  // namespace sonarsim

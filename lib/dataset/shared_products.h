@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "dataset/split.h"
+#include "mission/mission.h"
+
+namespace sonarsim {
+
+/// The pictures of pings that COCO files list.
+enum class Picture {
+    polar,
+    fan,
+    record,  ///< of all pings of a sensor: waterfalls and echograms
+};
+
+/// A file that is made of the pings of all sonars when all of them are there.
+struct SharedProduct {
+    enum class Kind { coco, class_names, split };
+    Kind kind;
+    std::string file;                  ///< relative to the folder of the dataset
+    Picture picture = {};              ///< of a COCO file
+    SplitPart part = SplitPart::none;  ///< that it lists; none: all poses
+};
+
+/// Those that a mission asks for.
+std::vector<SharedProduct> shared_products(const Mission& mission);
+
+/// InputError when the mission asks for labels of pictures and writes no such picture, or for a
+/// split of fewer poses than it takes.
+void check_shared_products(const Mission& mission, std::size_t poses);
+
+}  // namespace sonarsim

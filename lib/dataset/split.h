@@ -1,0 +1,30 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "mission/mission.h"
+
+namespace sonarsim {
+
+/// What a pose of the trajectory is for.
+enum class SplitPart : std::uint8_t { train, val, test, none };
+
+/// Names of the parts, by SplitPart; without `none`.
+inline constexpr std::array<std::string_view, 3> split_part_names{"train", "val", "test"};
+
+/// The share of a part.
+double share_of(const SplitConfig& config, SplitPart part);
+
+/// The parts of a split that is on, those with a share alone.
+std::vector<SplitPart> parts_of(const SplitConfig& config);
+
+/// The part of each pose. Each of the rounds, stretches of equal length, is cut into train, val and
+/// test in this order; the poses of the gap about a border belong to none, so that no two parts
+/// have neighbours. InputError when a part would get no pose.
+std::vector<SplitPart> split_poses(const SplitConfig& config, std::size_t poses);
+
+}  // namespace sonarsim

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+
+namespace sonarsim {
+
+// Archives in the format ustar (POSIX.1-1988) whose bytes follow from the names and bytes of their
+// files alone: no time, no owner, mode 0644. What opens tar files opens them.
+
+/// What ends an archive.
+inline constexpr std::uint64_t tar_end_bytes = 1024;
+
+/// The room that a file takes in an archive.
+std::uint64_t tar_bytes(std::uint64_t file_bytes);
+
+/// Adds a file to an archive in memory. std::logic_error when the name has more than 100 bytes or
+/// the file more than 8 GiB, which the format does not have.
+void append_to_tar(std::string& archive, std::string_view name, std::string_view bytes);
+
+/// Reads an archive that append_to_tar() made, file by file. std::runtime_error where it is none,
+/// or is cut off; std::system_error when the disk fails.
+void for_each_in_tar(
+    const std::filesystem::path& path,
+    const std::function<void(const std::string& name, const std::string& bytes)>& visit);
+
+}  // namespace sonarsim

@@ -1,0 +1,130 @@
+#include "dataset/writers/objects.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+#include "dataset/coco_counts.h"
+#include "dataset/label_description.h"
+#include "dataset/ping_metadata.h"
+#include "product/object_table.h"
+
+namespace sonarsim {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number_or_null(const std::optional<double>& value) {
+    return value ? Json(*value) : Json(nullptr);
+}
+
+Json seen_box_json(const Eigen::AlignedBox3f& box) {
+    if (box.isEmpty()) return nullptr;
+    const auto corner = [](const Eigen::Vector3f& v) { return Json{v.x(), v.y(), v.z()}; };
+    return {{"min", corner(box.min())}, {"max", corner(box.max())}};
+}
+
+/// The box around all of an object along the axes of the world, as the sensor has it before it.
+Json placed_box_json(const Eigen::AlignedBox3d& world, const Pose& T_world_sensor) {
+    if (world.isEmpty()) return nullptr;
+    const Eigen::Vector3d size = world.sizes();
+    const Eigen::Quaterniond to_sensor = T_world_sensor.rotation.conjugate();
+    Json json =
+        describe_pose({to_sensor, to_sensor * (world.center() - T_world_sensor.translation)});
+    json["size_m"] = {size.x(), size.y(), size.z()};
+    return json;
+}
+
+/// The mask of an object in a list sorted by id; null for none.
+const ObjectMask* mask_of(const std::vector<ObjectMask>& masks, std::uint32_t id) {
+    const auto found = std::ranges::lower_bound(masks, id, {}, &ObjectMask::id);
+    return found != masks.end() && found->id == id ? &*found : nullptr;
+}
+
+class ObjectsWriter final : public Writer {
+  public:
+    explicit ObjectsWriter(const WriterContext& context)
+        : context_(context),
+          view_(context.sonar().settings.view),
+          with_masks_(is_asked(context.mission, Label::coco)),
+          boxes_(object_boxes(context.assembly)) {}
+
+    WriterOutputs outputs() const override {
+        constexpr double longest_object = 1500.0;
+        constexpr double masks_per_pixel = 1.0;  // bytes, where ids are as ragged as noise
+        const double bins = static_cast<double>(view_.range_bins) * view_.beams;
+        const auto objects = static_cast<double>(context_.assembly.objects.objects.size());
+        double bytes = 100.0 + longest_object * std::min(objects, bins);
+        if (with_masks_) {
+            const FanFrame fan = fan_frame(context_.sonar(), context_.mission.output.fan_width_px);
+            bytes += masks_per_pixel * (bins + static_cast<double>(fan.width) * fan.height);
+        }
+        return {PingFile{"objects", ".json"}, bytes, {}};
+    }
+
+    std::string encode(const FinishedPing& finished) const override {
+        const SceneObjects& objects = context_.assembly.objects;
+        std::string text = "{\"ping\": " + std::to_string(finished.id.pose) + ", \"objects\": [";
+        constexpr auto replace = Json::error_handler_t::replace;
+        const char* before = "\n";
+        for (const SeenObject& seen : seen_objects(context_.sonar(), objects, finished.traced,
+                                                   finished.labels->bins, finished.ping)) {
+            text += before + seen_json(seen, finished).dump(-1, ' ', false, replace);
+            before = ",\n";
+        }
+        return text + "\n]}\n";
+    }
+
+  private:
+    Json seen_json(const SeenObject& seen, const FinishedPing& finished) const {
+        const SceneObjects& objects = context_.assembly.objects;
+        const SceneObjects::Object& object = objects.objects[seen.id - 1];
+        Json json = {{"id", seen.id},
+                     {"name", object.name},
+                     {"class", objects.classes[object.class_index]},
+                     {"box_bins",
+                      {{"range", {seen.range_first, seen.range_last + 1}},
+                       {"beam", {seen.beam_first, seen.beam_last + 1}}}},
+                     {"area_bins", seen.bins},
+                     {"level", seen.level},
+                     {"level_around", number_or_null(seen.surrounding_level)},
+                     {"range_m", seen.range_m},
+                     {"azimuth_rad", number_or_null(seen.azimuth_rad)}};
+        json["seen_box_sensor_m"] = seen_box_json(seen.box_sensor_m);
+        json["box_sensor"] = placed_box_json(boxes_[seen.id - 1], finished.traced.T_world_sensor);
+        if (!finished.labels->bins.visible_share.empty())
+            json["visible_share"] = finished.labels->bins.visible_share[seen.id - 1];
+        const ObjectMask* const polar = mask_of(finished.labels->polar, seen.id);
+        if (with_masks_ && polar) json["mask"] = coco_counts(polar->runs);
+        if (!finished.labels->fan_bins->by_row.empty()) {
+            json["fan"] = fan_json(mask_of(finished.labels->fan, seen.id));
+        }
+        return json;
+    }
+
+    /// Null for an object that lies between the pixels.
+    Json fan_json(const ObjectMask* mask) const {
+        if (!mask) return nullptr;
+        Json json = {
+            {"box_px", {{"x", {mask->left, mask->right}}, {"y", {mask->top, mask->bottom}}}},
+            {"area_px", mask->area}};
+        if (with_masks_) json["mask"] = coco_counts(mask->runs);
+        return json;
+    }
+
+    WriterContext context_;
+    const View& view_;
+    bool with_masks_;
+    std::vector<Eigen::AlignedBox3d> boxes_;  ///< by object, world frame
+};
+
+}  // namespace
+
+std::unique_ptr<Writer> make_objects_writer(const WriterContext& context) {
+    const Mission& mission = context.mission;
+    const bool for_coco = is_asked(mission, Label::coco) && context.kind().has_images;
+    if (!for_coco && !is_asked(mission, Label::objects)) return nullptr;
+    return std::make_unique<ObjectsWriter>(context);
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,93 @@
+#include "dataset/writers/yolo.h"
+
+#include <algorithm>
+#include <charconv>
+
+#include "product/mask_outline.h"
+
+namespace sonarsim {
+
+namespace {
+
+/// " 0.123456": `pixels` of `all`.
+void append_share(std::string& line, double pixels, int all) {
+    char text[32];
+    const auto end =
+        std::to_chars(text, text + sizeof text, pixels / all, std::chars_format::fixed, 6);
+    line.append(" ").append(text, end.ptr);
+}
+
+/// Which picture of a ping is labelled.
+struct LabelledPicture {
+    bool is_fan;
+    int width;
+    int height;
+};
+
+class YoloWriter final : public Writer {
+  public:
+    YoloWriter(const WriterContext& context, bool polygons, const LabelledPicture& picture)
+        : objects_(context.assembly.objects), polygons_(polygons), picture_(picture) {}
+
+    WriterOutputs outputs() const override {
+        const std::string name = polygons_ ? "yolo_polygons" : "yolo";
+        const double pixels = static_cast<double>(picture_.width) * picture_.height;
+        const double lines = std::min(static_cast<double>(objects_.objects.size()), pixels);
+        // An outline has at most two corners to a pixel; those of real objects have far fewer.
+        const double bytes = 50.0 * lines + (polygons_ ? pixels : 0.0);
+        return {PingFile{picture_.is_fan ? "fan_" + name : name, ".txt"}, bytes, {}};
+    }
+
+    std::string encode(const FinishedPing& finished) const override {
+        std::string text;
+        for (const ObjectMask& mask :
+             picture_.is_fan ? finished.labels->fan : finished.labels->polar) {
+            text += std::to_string(objects_.class_of(mask.id - 1));
+            polygons_ ? append_outline(text, mask) : append_box(text, mask);
+            text += '\n';
+        }
+        return text;
+    }
+
+  private:
+    void append_box(std::string& text, const ObjectMask& mask) const {
+        append_share(text, 0.5 * (mask.left + mask.right), picture_.width);
+        append_share(text, 0.5 * (mask.top + mask.bottom), picture_.height);
+        append_share(text, mask.right - mask.left, picture_.width);
+        append_share(text, mask.bottom - mask.top, picture_.height);
+    }
+
+    void append_outline(std::string& text, const ObjectMask& mask) const {
+        for (const Corner& corner : joined_outline(mask_outlines(mask, picture_.height))) {
+            append_share(text, corner[0], picture_.width);
+            append_share(text, corner[1], picture_.height);
+        }
+    }
+
+    const SceneObjects& objects_;
+    bool polygons_;
+    LabelledPicture picture_;
+};
+
+}  // namespace
+
+std::vector<std::unique_ptr<Writer>> make_yolo_writers(const WriterContext& context) {
+    std::vector<std::unique_ptr<Writer>> writers;
+    if (!context.kind().has_images) return writers;
+    const View& view = context.sonar().settings.view;
+    std::vector<LabelledPicture> pictures{{false, view.beams, view.range_bins}};
+    if (context.mission.output.fan) {
+        const FanFrame frame = fan_frame(context.sonar(), context.mission.output.fan_width_px);
+        pictures.push_back({true, frame.width, frame.height});
+    }
+    for (const Label label : {Label::yolo, Label::yolo_polygons}) {
+        if (!is_asked(context.mission, label)) continue;
+        for (const LabelledPicture& picture : pictures) {
+            writers.push_back(
+                std::make_unique<YoloWriter>(context, label == Label::yolo_polygons, picture));
+        }
+    }
+    return writers;
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,43 @@
+#include "product/fan_bins.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sonarsim {
+
+namespace {
+
+/// -1 outside the sector.
+std::int32_t bin_at(const View& view, const FanPlace& place) {
+    if (!is_inside_sector(view, place)) return -1;
+    const double bins = (place.range_m - view.range_min_m) / view.bin_m();
+    const double beams = (place.azimuth_rad / view.azimuth_rad + 0.5) * view.beams;
+    // On the last edge, or where rounding reaches it, the bin before it is meant.
+    const int i = std::clamp(static_cast<int>(bins), 0, view.range_bins - 1);
+    const int j = std::clamp(static_cast<int>(beams), 0, view.beams - 1);
+    return j * view.range_bins + i;
+}
+
+}  // namespace
+
+FanBins make_fan_bins(const Sonar& sonar, int width_px) {
+    const View& view = sonar.settings.view;
+    FanBins fan;
+    fan.frame = fan_frame(sonar, width_px);
+    const auto width = static_cast<std::size_t>(fan.frame.width);
+    const auto height = static_cast<std::size_t>(fan.frame.height);
+    fan.by_row.resize(width * height);
+    fan.by_column.resize(width * height);
+    for (std::size_t row = 0; row < height; ++row) {
+        for (std::size_t column = 0; column < width; ++column) {
+            const std::int32_t bin =
+                bin_at(view, fan_place(fan.frame, view.range_max_m, static_cast<double>(column),
+                                       static_cast<double>(row)));
+            fan.by_row[row * width + column] = bin;
+            fan.by_column[column * height + row] = bin;
+        }
+    }
+    return fan;
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "product/fan.h"
+
+namespace sonarsim {
+
+/// Which bin the centre of each pixel of a fan lies in: for ids, of which there is no mean. An
+/// index into [beams, range bins], beam after beam; -1 outside the sector.
+struct FanBins {
+    FanFrame frame;
+    std::vector<std::int32_t> by_row;     ///< [height, width]
+    std::vector<std::int32_t> by_column;  ///< [width, height]
+};
+
+/// Of the fan that make_fan_map() makes.
+FanBins make_fan_bins(const Sonar& sonar, int width_px);
+
+/// What `by_beam` [beams, range bins] holds at the bins of a fan's pixels, in their order; `blank`
+/// outside.
+template <class T>
+std::vector<T> fan_values(std::span<const std::int32_t> bins, const std::vector<T>& by_beam,
+                          T blank) {
+    std::vector<T> out(bins.size());
+    for (std::size_t k = 0; k < bins.size(); ++k)
+        out[k] = bins[k] < 0 ? blank : by_beam[static_cast<std::size_t>(bins[k])];
+    return out;
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,318 @@
+"""Opens the datasets of sonarsim, loose or packed, of any kind of sonar. Needs numpy alone.
+
+    import sonarsim_data
+    dataset = sonarsim_data.open_dataset("out/tank_labels")
+    fls = dataset["fls"]                       # a sensor, by its name
+    for sample in fls:                         # a ping; its arrays are read when asked for
+        image = sample["polar"]                # float32 [range, azimuth]
+        ids = sample["instance"]               # uint16 [range, azimuth]
+        names = dataset.instances              # id -> name
+    fan = fls.to_fan(image, width=512)         # [row, column], boresight up, port on the left
+    image = fls.from_fan(fan)                  # back again
+    data = sonarsim_data.torch_dataset(fls, ("polar", "class"))      # where torch is installed
+
+    python3 sonarsim_data.py OUT               # says what is in a dataset
+
+What a sample holds is named as in docs/mission.md: 'polar', 'image', 'fan', 'meta', labels, and of
+sonars that are written as records their rows: 'waterfall', 'echogram', 'scan', 'soundings'.
+"""
+import collections
+import collections.abc
+import io
+import json
+import pathlib
+import struct
+import sys
+import zlib
+
+import numpy as np
+
+FORMAT_VERSION = 3
+TAR_BLOCK = 512
+# Of packs, how many lists of members are kept.
+OPEN_PACKS = 8
+
+
+def open_dataset(folder):
+    """The dataset in a folder. ValueError when there is none, or one of another format version."""
+    return Dataset(pathlib.Path(folder))
+
+
+class Dataset:
+    """A dataset: `sensors` by name, and what its dataset.json (`description`) tells besides."""
+
+    def __init__(self, folder):
+        self.folder = folder
+        path = folder / "dataset.json"
+        if not path.is_file():
+            raise ValueError(f"{folder}: is no dataset of sonarsim: it has no dataset.json")
+        self.description = json.loads(path.read_text())
+        version = self.description.get("format_version")
+        if self.description.get("format") != "sonarsim dataset" or version != FORMAT_VERSION:
+            raise ValueError(f"{path}: has format_version {version}; this reads {FORMAT_VERSION}")
+        self.sensors = {d["name"]: Sensor(folder, d) for d in self.description["sensors"]}
+        labels = self.description.get("labels", {})
+        self.instances, self.classes, self.materials = (
+            {entry["id"]: entry["name"] for entry in labels.get(kind, [])}
+            for kind in ("instances", "classes", "materials"))
+        self.class_of = {entry["id"]: entry["class"] for entry in labels.get("instances", [])}
+
+    @property
+    def complete(self):
+        return self.description["complete"]
+
+    def __getitem__(self, name):
+        return self.sensors[name]
+
+    def __iter__(self):
+        """The samples of all sensors, sensor after sensor."""
+        for sensor in self.sensors.values():
+            yield from sensor
+
+    def poses(self):
+        """The poses of the vehicle, float64 [pose, 8]: t, x, y, z, qx, qy, qz, qw."""
+        return np.loadtxt(self.folder / "trajectory.tum", ndmin=2)
+
+
+class Sensor:
+    """A sonar of a dataset: a sequence of samples.
+
+    `name`, `kind`, `range_edges_m`, `azimuth_edges_rad` (None where the kind has none), `pings` (the
+    number of the pose of each), `keys` (what a sample holds)."""
+
+    def __init__(self, folder, description):
+        self.folder = folder
+        self.description = description
+        self.name = description["name"]
+        self.kind = description["kind"]
+        self.range_edges_m = np.array(description["range_edges_m"])
+        azimuth = description.get("azimuth_edges_rad")
+        self.azimuth_edges_rad = None if azimuth is None else np.array(azimuth)
+        self.pings = [i * description["every"] for i in range(description["pings"])]
+        self._packs = description.get("packs")
+        self._members = collections.OrderedDict()
+        self._files = (self._packs["members"] if self._packs else description["files"])
+        self._records = dict(description.get("label_records", {}))
+        if "records" in description:
+            record = description["records"]
+            self._records[pathlib.PurePath(record["file"]).stem] = record
+        self._arrays = {}
+        self.keys = [*self._files, *self._records]
+
+    def __len__(self):
+        return len(self.pings)
+
+    def __getitem__(self, index):
+        if isinstance(index, slice):
+            return [self[k] for k in range(*index.indices(len(self)))]
+        if not -len(self) <= index < len(self):
+            raise IndexError(f"ping {index} of {len(self)}")
+        return Sample(self, index % len(self))
+
+    def records(self, name):
+        """All records of a name, as an array that is mapped, not read; its axes are told by axes()."""
+        if name not in self._arrays:
+            path = self.folder / self._records[name]["file"]
+            self._arrays[name] = np.load(path, mmap_mode="r")
+        return self._arrays[name]
+
+    def axes(self, name):
+        """What the indices of records(name) count, as in ['range', 'ping']."""
+        return self._records[name]["axes"]
+
+    def raw(self, index, name):
+        """The bytes of a ping's file."""
+        number = self.pings[index]
+        if not self._packs:
+            return (self.folder / (self._files[name] % number)).read_bytes()
+        pack = index // self._packs["pings"]
+        path = self.folder / (self._packs["file"] % pack)
+        members = self._members_of(path)
+        offset, size = members[self._files[name] % number]
+        with open(path, "rb") as file:
+            file.seek(offset)
+            return file.read(size)
+
+    def read(self, index, name):
+        """What a ping's file or record of this name holds: an array, or of JSON a dict."""
+        if name in self._records:
+            records = self.records(name)
+            return records[:, index] if self.axes(name)[-1] == "ping" else records[index]
+        if name not in self._files:
+            raise KeyError(f"sensor {self.name!r} has no {name!r}, but {', '.join(self.keys)}")
+        data = self.raw(index, name)
+        return DECODERS[pathlib.PurePath(self._files[name]).suffix](data)
+
+    def _members_of(self, path):
+        if path not in self._members:
+            self._members[path] = dict(tar_members(path))
+            while len(self._members) > OPEN_PACKS:
+                self._members.popitem(last=False)
+        return self._members[path]
+
+    def fan_shape(self, width):
+        """(height, width, metres per pixel) of a fan, as output.fan_width_px makes it."""
+        half = 0.5 * (self.azimuth_edges_rad[-1] - self.azimuth_edges_rad[0])
+        reach = self.range_edges_m[-1]
+        wide = half > 0.5 * np.pi
+        width_m = 2 * reach * (1 if wide else np.sin(half))
+        height_m = reach * (1 - np.cos(half) if wide else 1)
+        pixel_m = max(width_m, 0.5 * height_m) / width
+        return int(np.ceil(height_m / pixel_m - 1e-6)), width, pixel_m
+
+    def to_fan(self, polar, width=512, blank=0):
+        """[range, azimuth, ...] as a fan [row, column, ...]: each pixel is the bin that its centre
+        lies in (so ids stay ids), `blank` outside the sector."""
+        height, width, pixel_m = self.fan_shape(width)
+        ahead = self.range_edges_m[-1] - (np.arange(height)[:, None] + 0.5) * pixel_m
+        port = (0.5 * width - (np.arange(width)[None, :] + 0.5)) * pixel_m
+        row = bin_of(np.hypot(ahead, port), self.range_edges_m)
+        column = bin_of(np.arctan2(port, ahead), self.azimuth_edges_rad)
+        fan = np.asarray(polar)[np.maximum(row, 0), np.maximum(column, 0)]
+        fan[(row < 0) | (column < 0)] = blank
+        return fan
+
+    def from_fan(self, fan):
+        """A fan [row, column, ...] as [range, azimuth, ...]: each bin is the pixel that its centre
+        lies in."""
+        fan = np.asarray(fan)
+        height, width, pixel_m = self.fan_shape(fan.shape[1])
+        if height != fan.shape[0]:
+            raise ValueError(f"a fan {width} wide is {height} high, not {fan.shape[0]}")
+        ranges = middles(self.range_edges_m)[:, None]
+        azimuths = middles(self.azimuth_edges_rad)[None, :]
+        row = (self.range_edges_m[-1] - ranges * np.cos(azimuths)) / pixel_m
+        column = 0.5 * width - ranges * np.sin(azimuths) / pixel_m
+        return fan[np.clip(row.astype(int), 0, height - 1),
+                   np.clip(column.astype(int), 0, width - 1)]
+
+
+class Sample(collections.abc.Mapping):
+    """A ping of a sensor. What it holds is read when asked for: sample['polar']."""
+
+    def __init__(self, sensor, index):
+        self.sensor = sensor
+        self.index = index
+        self.ping = sensor.pings[index]     # the number of its pose
+
+    def __getitem__(self, name):
+        return self.sensor.read(self.index, name)
+
+    def __iter__(self):
+        return iter(self.sensor.keys)
+
+    def __len__(self):
+        return len(self.sensor.keys)
+
+    def __repr__(self):
+        return f"<ping {self.ping} of {self.sensor.name}: {', '.join(self)}>"
+
+
+def torch_dataset(sensor, names=("polar",), transform=None):
+    """The pings of a sensor as a torch.utils.data.Dataset: each item a tuple of tensors in the order
+    of `names`, or what `transform` makes of that tuple. ImportError without torch."""
+    import torch  # pylint: disable=import-outside-toplevel,import-error
+
+    class Pings(torch.utils.data.Dataset):
+        def __len__(self):
+            return len(sensor)
+
+        def __getitem__(self, index):
+            # torch has no uint16; ids fit its int32.
+            arrays = [np.array(sensor.read(index, name)) for name in names]
+            tensors = tuple(torch.from_numpy(a.astype(np.int32) if a.dtype == np.uint16 else a)
+                            for a in arrays)
+            return transform(tensors) if transform else tensors
+
+        def __reduce__(self):       # for the workers of a DataLoader
+            return torch_dataset, (sensor, names, transform)
+
+    return Pings()
+
+
+def bin_of(values, edges):
+    """The index of the bin [edges[i], edges[i + 1]) of each value; -1 outside."""
+    index = np.searchsorted(edges, values, side="right") - 1
+    return np.where(index < len(edges) - 1, index, -1)
+
+
+def middles(edges):
+    return 0.5 * (edges[:-1] + edges[1:])
+
+
+def tar_members(path):
+    """Of each file in an archive (name, (offset, bytes)); an archive that is still being written
+    ends where it is cut off."""
+    with open(path, "rb") as file:
+        while True:
+            header = file.read(TAR_BLOCK)
+            if len(header) < TAR_BLOCK or not header[0]:
+                return
+            size = int(header[124:136].rstrip(b"\0 "), 8)
+            yield header[:100].rstrip(b"\0").decode(), (file.tell(), size)
+            file.seek(-(-size // TAR_BLOCK) * TAR_BLOCK, io.SEEK_CUR)
+
+
+def read_png(data):
+    """A grey or RGB PNG of 8 or 16 bits that is not interlaced, as [row, column] or [row, column, 3].
+    ValueError for any other."""
+    if data[:8] != b"\x89PNG\r\n\x1a\n":
+        raise ValueError("is no PNG")
+    packed, header, at = b"", None, 8
+    while at < len(data):
+        size, kind = struct.unpack(">I4s", data[at:at + 8])
+        chunk = data[at + 8:at + 8 + size]
+        if kind == b"IHDR":
+            header = struct.unpack(">IIBBBBB", chunk)
+        elif kind == b"IDAT":
+            packed += chunk
+        at += size + 12
+    width, height, bits, colour, _, _, interlaced = header
+    if bits not in (8, 16) or colour not in (0, 2) or interlaced:
+        raise ValueError("is a PNG of a kind that sonarsim does not write")
+    channels = 3 if colour == 2 else 1
+    pixel = channels * bits // 8
+    rows = np.frombuffer(zlib.decompress(packed), np.uint8).reshape(height, 1 + width * pixel)
+    pixels = unfiltered(rows[:, 0], rows[:, 1:].reshape(height, width, pixel))
+    values = pixels.view(">u2").astype(np.uint16) if bits == 16 else pixels
+    return values.reshape((height, width, channels) if channels > 1 else (height, width))
+
+
+def unfiltered(filters, rows):
+    """PNG rows [row, column, byte of the pixel] without their filters: none, left or above. Those of
+    sonarsim have no others."""
+    out = np.array(rows)
+    for y in np.flatnonzero(filters):
+        if filters[y] == 1:
+            out[y] = np.cumsum(rows[y], axis=0, dtype=np.uint8)
+        elif filters[y] == 2:
+            out[y] += out[y - 1] if y else 0
+        else:
+            raise ValueError("is a PNG with filters that sonarsim does not use")
+    return out
+
+
+DECODERS = {".npy": lambda data: np.load(io.BytesIO(data)), ".png": read_png, ".json": json.loads}
+
+
+def main(folder):
+    dataset = open_dataset(folder)
+    print(f"{folder}: {'complete' if dataset.complete else 'not complete'}")
+    for sensor in dataset.sensors.values():
+        print(f"{sensor.name}: {sensor.kind}, {len(sensor)} pings"
+              f"{', packed' if sensor.description.get('packs') else ''}")
+        for name, value in (sensor[0].items() if len(sensor) else ()):
+            is_array = isinstance(value, np.ndarray)
+            print(f"    {name:<16}", f"{value.dtype} {list(value.shape)}" if is_array else "JSON")
+    for what in ("instances", "classes"):
+        if getattr(dataset, what):
+            print(f"{what}:", ", ".join(f"{k} {v}" for k, v in getattr(dataset, what).items()))
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 2 or sys.argv[1].startswith("-"):
+        sys.exit(__doc__)
+    try:
+        main(sys.argv[1])
+    except ValueError as fault:
+        sys.exit(str(fault))

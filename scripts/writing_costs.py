@@ -1,0 +1,107 @@
+#!/usr/bin/env python3
+"""What writing costs: tables in Markdown, for docs/performance.md.
+
+    ./scripts/writing_costs.py [--sonarsim PROGRAM] [--out FOLDER]              per output, the tank
+    ./scripts/writing_costs.py --pings 100000 [...]                             many small pings
+
+The first renders the tank with one output at a time, on one thread, and compares processor time with
+a run that writes nothing; rounds take turns and the least of each counts, which other work on the
+machine disturbs least. The second renders that many pings of 32 x 16 bins, loose and packed, and a
+tenth of them: memory that grows with the number of pings would show.
+"""
+import argparse
+import json
+import os
+import pathlib
+import shutil
+import sys
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+OUTPUTS = ("polar", "image", "fan", "meta")
+TANK = [str(ROOT / "configs/tank_imaging.yaml"), "--set", "trajectory.rate_hz=40"]
+SMALL = """\
+seed: 1
+scene: {{file: {root}/scenes/tank.glb, materials: {root}/scenes/materials.csv}}
+trajectory:
+  rate_hz: {pings}
+  waypoints: [{{position_m: [-2, 0, 0]}}, {{position_m: [-1.000001, 0, 0]}}]
+sensors:
+  fls: {{kind: imaging, azimuth_deg: 60, elevation_deg: 12, range_bins: 32, azimuth_bins: 16,
+        noise: {{add_sigma: 0.08, mult_sigma: 0.15}}}}
+"""
+
+
+def run(program, out, arguments):
+    """(what `render --json` prints, processor seconds, peak MiB, files, bytes)."""
+    shutil.rmtree(out, ignore_errors=True)
+    answer = tempfile.TemporaryFile()
+    pid = os.posix_spawn(program, [program, "render", *arguments, "--out", str(out), "--json",
+                                   "--log-level", "warning"],
+                         os.environ, file_actions=[(os.POSIX_SPAWN_DUP2, answer.fileno(), 1)])
+    _, status, usage = os.wait4(pid, 0)
+    if status != 0:
+        sys.exit("the render failed")
+    answer.seek(0)
+    sizes = [(pathlib.Path(folder) / name).stat().st_size
+             for folder, _, names in os.walk(out) for name in names]
+    shutil.rmtree(out, ignore_errors=True)
+    return (json.loads(answer.read()), usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024,
+            len(sizes), sum(sizes))
+
+
+def per_output(program, out, rounds):
+    def only(*names):
+        return [part for name in OUTPUTS
+                for part in ("--set", f"output.{name}={'true' if name in names else 'false'}")]
+
+    cases = {"nothing": ["--no-files"], **{f"`{name}` alone": only(name) for name in OUTPUTS},
+             "the default files": [], "the same, packed": ["--set", "output.pack=tar"],
+             "all four": only(*OUTPUTS)}
+    least = {}
+    for _ in range(rounds):
+        for name, arguments in cases.items():
+            told, seconds, _, _, size = run(program, out, [*TANK, "-j1", *arguments])
+            ms = 1e3 * seconds / told["pings"]
+            if name not in least or ms < least[name][0]:
+                least[name] = (ms, size / told["pings"])
+    base = least["nothing"][0]
+    print("| written | ms per ping | times the ping | kB per ping |\n|---|---|---|---|")
+    for name, (ms, size) in least.items():
+        print(f"| {name} | {ms:.2f} | {ms / base:.2f} | {size / 1e3:.0f} |")
+
+
+def many(program, out, pings):
+    print("| form | pings | files | pings/s | files/s | MB/s | share of encode and write | peak MiB |")
+    print("|---|---|---|---|---|---|---|---|")
+    with tempfile.TemporaryDirectory() as folder:
+        for form in ("none", "tar"):
+            for count in (pings // 10, pings):
+                mission = pathlib.Path(folder, "small.yaml")
+                mission.write_text(SMALL.format(root=ROOT, pings=count))
+                told, _, peak, files, size = run(
+                    program, out, [str(mission), "--set", f"output.pack={form}"])
+                spent = told["thread_seconds"]
+                share = (spent["encode"] + spent["write"]) / sum(spent.values())
+                seconds = told["seconds"]
+                print(f"| {'packed' if form == 'tar' else 'loose'} | {told['pings']} | {files} | "
+                      f"{told['pings_per_s']:.0f} | {files / seconds:.0f} | "
+                      f"{size / seconds / 1e6:.1f} | {100 * share:.0f} % | {peak:.0f} |", flush=True)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--sonarsim", default=str(ROOT / "build/sonarsim"))
+    parser.add_argument("--out", type=pathlib.Path, default=ROOT / "out/writing_costs")
+    parser.add_argument("--rounds", type=int, default=3)
+    parser.add_argument("--pings", type=int)
+    options = parser.parse_args()
+    if options.pings:
+        many(options.sonarsim, options.out, options.pings)
+    else:
+        per_output(options.sonarsim, options.out, options.rounds)
+
+
+if __name__ == "__main__":
+    main()

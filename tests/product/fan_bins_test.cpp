@@ -1,0 +1,68 @@
+#include "product/fan_bins.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "core/units.h"
+#include "sonar/sonar.h"
+
+using namespace sonarsim;
+
+namespace {
+
+Sonar fan_sonar(double azimuth_deg) {
+    SonarConfig config;
+    config.name = "test";
+    config.azimuth_deg = azimuth_deg;
+    config.range_min_m = 1.0;
+    config.range_max_m = 10.0;
+    config.range_bins = 90;
+    config.azimuth_bins = 40;
+    return make_sonar(config, {});
+}
+
+}  // namespace
+
+TEST_SUITE("product") {
+    TEST_CASE("fan of ids: a pixel has the bin that its centre lies in") {
+        for (const double azimuth_deg : {30.0, 120.0, 270.0, 360.0}) {
+            CAPTURE(azimuth_deg);
+            const Sonar sonar = fan_sonar(azimuth_deg);
+            const FanBins fan = make_fan_bins(sonar, 200);
+            std::size_t inside = 0;
+            for (int row = 0; row < fan.frame.height; ++row) {
+                for (int column = 0; column < fan.frame.width; ++column) {
+                    const auto at = static_cast<std::size_t>(row) * fan.frame.width + column;
+                    const std::int32_t bin = fan.by_row[at];
+                    CHECK(bin ==
+                          fan.by_column[static_cast<std::size_t>(column) * fan.frame.height + row]);
+                    // Ahead is up, port on the left.
+                    const double x = 10.0 - (row + 0.5) * fan.frame.pixel_m;
+                    const double y = (0.5 * fan.frame.width - column - 0.5) * fan.frame.pixel_m;
+                    const double range = std::hypot(x, y);
+                    const double azimuth = std::atan2(y, x);
+                    const double half = 0.5 * radians(azimuth_deg);
+                    constexpr double margin = 1e-9;
+                    if (range < 1.0 - margin || range > 10.0 + margin ||
+                        std::fabs(azimuth) > half + margin) {
+                        CHECK(bin == -1);
+                        continue;
+                    }
+                    if (bin < 0) continue;  // on an edge
+                    ++inside;
+                    const int i = bin % 90;
+                    const int j = bin / 90;
+                    CHECK(range >= sonar.range_edges_m[i] - margin);
+                    CHECK(range <= sonar.range_edges_m[i + 1] + margin);
+                    CHECK(azimuth >= sonar.azimuth_edges_rad[j] - margin);
+                    CHECK(azimuth <= sonar.azimuth_edges_rad[j + 1] + margin);
+                }
+            }
+            // The area of the sector, r^2 a / 2, in pixels.
+            const double area = 0.5 * (100.0 - 1.0) * radians(azimuth_deg);
+            const double pixels = area / (fan.frame.pixel_m * fan.frame.pixel_m);
+            CHECK(inside / pixels == doctest::Approx(1.0).epsilon(0.01));
+        }
+    }
+}
