@@ -5,6 +5,8 @@ tank      a concrete tank, 8 x 6 x 3 m, with a few objects (the default; scenes/
 seafloor  200 x 200 m of sand and silt with a hundred boulders, a million triangles
 wreck     a broken hull with ribs on a rippled bottom, 60 x 60 m
 lifeboat  a hull with rails, ropes and gear, of one material, for comparisons of the engines
+minefield a rippled sandy bottom with rocks, 40 x 40 m, and besides it the objects that a mission
+          may place on it: cylinder_mine, cone_mine, tyre, drum, block, rock
 
 The same command writes the same bytes on every machine.
 """
@@ -12,7 +14,7 @@ import argparse
 import pathlib
 import sys
 
-from scenes import lifeboat, seafloor, tank, wreck
+from scenes import lifeboat, minefield, seafloor, tank, wreck
 from scenes.glb import write_glb
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
@@ -21,7 +23,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("names", nargs="*", metavar="name", help="tank, seafloor, wreck or lifeboat")
+    parser.add_argument("names", nargs="*", metavar="name", help="tank, seafloor, wreck, lifeboat or minefield")
     parser.add_argument("--out", type=pathlib.Path, metavar="DIR",
                         help="default: scenes/ for the tank, scenes/generated/ for the others")
     parser.add_argument("--cells", type=int, default=708, metavar="N",
@@ -41,6 +43,7 @@ def main() -> int:
         "seafloor": lambda: seafloor.build(arguments.cells, arguments.area),
         "wreck": wreck.build,
         "lifeboat": lambda: lifeboat.build(arguments.quarterings),
+        "minefield": minefield.bottom,
     }
     for name in arguments.names or ["tank"]:
         if name not in builders:
@@ -48,10 +51,14 @@ def main() -> int:
     for name in arguments.names or ["tank"]:
         folder = arguments.out or ROOT / "scenes" / ("" if name == "tank" else "generated")
         folder.mkdir(parents=True, exist_ok=True)
-        parts = builders[name]()
-        size = write_glb(folder / f"{name}.glb", parts)
-        triangles = sum(part.triangles() for part in parts)
-        print(f"{folder / name}.glb: {len(parts)} objects, {triangles} triangles, {size} bytes")
+        files = {name: builders[name]}
+        if name == "minefield":
+            files.update(minefield.OBJECTS)
+        for file, build in files.items():
+            parts = build()
+            size = write_glb(folder / f"{file}.glb", parts)
+            triangles = sum(part.triangles() for part in parts)
+            print(f"{folder / file}.glb: {len(parts)} objects, {triangles} triangles, {size} bytes")
     return 0
 
 

@@ -32,8 +32,8 @@ PARTS = {
     "dataset": [["*"], ["writers/"], ["writers"],
                 ["layout"], ["journal", "metadata"], ["description", "checksums"], ["listed_files"],
                 ["folder", "resume", "coco"], ["coco_records", "ping_files"], ["shared_files"], ["completion"],
-                ["collection", "job", "merge", "verify"]],
-    "scene": [["*"], ["gltf/"]],
+                ["collection", "job", "merge", "verify"], ["variants"], ["variants_check"]],
+    "scene": [["*"], ["gltf/", "placing/"]],
     "validation": [["*"], ["hard/"]],
     "visibility": [["*"], ["octree/", "rays/", "slices/"], ["auto_engine"], ["make_engine"]],
 }

@@ -1,11 +1,14 @@
 #include <spdlog/fmt/fmt.h>
+#include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
 #include "logging.h"
 #include "scene/gltf/load.h"
+#include "scene/materials.h"
 #include "scene/summary.h"
 
 namespace sonarsim {
@@ -16,6 +19,8 @@ using Json = nlohmann::ordered_json;
 
 struct InspectArguments {
     std::filesystem::path scene;
+    std::filesystem::path materials;  ///< "": none
+    bool as_csv = false;
     LogOptions log;
 };
 
@@ -52,11 +57,42 @@ Json scene_json(const Scene& scene) {
             {"instances", shares_json(scene.instances, scene.triangle_instance)}};
 }
 
+/// What the CSV says of each material of the scene; null for what it lacks.
+Json acoustics_json(const Scene& scene, const MaterialTable& table) {
+    Json json = Json::object();
+    for (const Material& material : scene.materials) {
+        const auto row = std::ranges::find(table.materials, material.name, &Material::name);
+        if (row == table.materials.end()) {
+            json[material.name] = nullptr;
+            continue;
+        }
+        json[material.name] = {
+            {"density_kg_m3", row->density_kg_m3},
+            {"sound_speed_m_s", row->sound_speed_m_s},
+            {"reflection", power_reflection(row->density_kg_m3, row->sound_speed_m_s, Water{})}};
+    }
+    return json;
+}
+
 int inspect(const InspectArguments& arguments) {
     start_logging(arguments.log);
     const Scene scene = load_scene_geometry(arguments.scene);
+    MaterialTable table;
+    if (!arguments.materials.empty()) table = read_materials(arguments.materials);
     warn_about(scene);
-    fmt::print("{}", arguments.log.json ? json_line(scene_json(scene)) : describe_scene(scene));
+    for (const std::string& doubt : unit_doubts(table.materials))
+        spdlog::warn("{}", doubt);
+    if (arguments.as_csv) {
+        fmt::print("{}", materials_csv(scene, table));
+    } else if (arguments.log.json) {
+        Json json = scene_json(scene);
+        if (!arguments.materials.empty()) json["acoustics"] = acoustics_json(scene, table);
+        fmt::print("{}", json_line(json));
+    } else {
+        fmt::print("{}", describe_scene(scene));
+        if (!arguments.materials.empty())
+            fmt::print("{}", describe_materials(scene, table, Water{}));
+    }
     return exit_done;
 }
 
@@ -67,6 +103,10 @@ void add_inspect(CLI::App& app, int& exit_code) {
         "inspect", "Prints bounds, triangles, materials and instances of a scene");
     auto arguments = std::make_shared<InspectArguments>();
     command.add_option("scene", arguments->scene, "The scene, a .gltf or .glb file")->required();
+    command.add_option("--materials", arguments->materials,
+                       "A CSV of materials: shows their reflection coefficients in fresh water");
+    command.add_flag("--materials-csv", arguments->as_csv,
+                     "Prints a CSV of the scene's materials to fill in, and nothing else");
     add_log_options(command, arguments->log);
     command.callback([arguments, &exit_code] { exit_code = inspect(*arguments); });
 }

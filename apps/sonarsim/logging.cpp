@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "core/text.h"
+#include "scene/materials.h"
 
 namespace sonarsim {
 
@@ -99,6 +100,10 @@ void warn_about(const Scene& scene) {
     warn(rejects.degenerate_triangles, "triangles without area");
     warn(rejects.non_finite_triangles, "triangles with a vertex that is NaN or infinite");
     warn(rejects.skipped_primitives, "primitives of points or lines");
+    for (const std::string& doubt : scene.doubts)
+        spdlog::warn("{}", doubt);
+    for (const std::string& doubt : unit_doubts(scene.materials))
+        spdlog::warn("{}", doubt);
     if (has_coarse_vertices(scene)) {
         spdlog::warn(
             "the scene's vertices may be off by {:.2g} m: its file holds large coordinates as "

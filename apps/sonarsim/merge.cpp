@@ -10,6 +10,7 @@
 
 #include "commands.h"
 #include "dataset/collection.h"
+#include "dataset/variants.h"
 #include "logging.h"
 #include "progress.h"
 #include "signals.h"
@@ -67,10 +68,11 @@ int merge(const MergeArguments& arguments) {
     MergeSummary summary;
     {
         const bool quiet = arguments.log.quiet || arguments.log.json;
-        ProgressLine line(!quiet && ::isatty(STDERR_FILENO) == 1, "pings");
-        summary = merge_datasets(
-            parts, out, arguments.threads,
-            [&](std::uint64_t done, std::uint64_t total) { line.show(done, total); }, stop);
+        const bool variants = read_variants(parts.front()).has_value();
+        ProgressLine line(!quiet && ::isatty(STDERR_FILENO) == 1, variants ? "variants" : "pings");
+        const auto show = [&](std::uint64_t done, std::uint64_t total) { line.show(done, total); };
+        summary = variants ? merge_variants(parts, out, arguments.threads, show, stop)
+                           : merge_datasets(parts, out, arguments.threads, show, stop);
     }
     if (arguments.log.json) {
         const nlohmann::ordered_json json = {

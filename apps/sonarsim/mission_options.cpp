@@ -2,7 +2,9 @@
 
 #include "core/error.h"
 #include "dataset/layout.h"
+#include "mission/files.h"
 #include "mission/parse.h"
+#include "mission/variants.h"
 #include "sonar/kinds.h"
 
 namespace sonarsim {
@@ -24,14 +26,22 @@ void add_mission_options(CLI::App& command, MissionOptions& options) {
         ->type_name("FOLDER");
 }
 
+namespace {
+
+MissionSource source_of(const MissionOptions& options) {
+    MissionSource source{options.file, options.file.parent_path(), options.settings};
+    if (!options.seed.empty()) source.overrides.push_back("seed=" + options.seed);
+    if (!options.paths_from.empty()) source.base_folder = options.paths_from;
+    return source;
+}
+
+}  // namespace
+
 Mission load(const MissionOptions& options) {
-    std::vector<std::string> settings = options.settings;
-    if (!options.seed.empty()) settings.push_back("seed=" + options.seed);
+    const MissionSource source = source_of(options);
     const std::filesystem::path own_folder = options.file.parent_path();
-    Mission mission =
-        load_mission(options.file, options.paths_from.empty() ? own_folder : options.paths_from,
-                     settings, sonar_keys());
-    if (options.paths_from.empty() && !std::filesystem::exists(mission.scene.file) &&
+    Mission mission = load_mission(source.file, source.base_folder, source.overrides, sonar_keys());
+    if (options.paths_from.empty() && !std::filesystem::exists(files_of(mission).front()) &&
         std::filesystem::exists(own_folder / description_name)) {
         throw InputError({options.file.string()},
                          "belongs to a dataset, and its paths start at the folder of the scene "
@@ -40,6 +50,11 @@ Mission load(const MissionOptions& options) {
     // On the command line a path starts here, in the mission at the mission's folder.
     if (!options.out.empty()) mission.output.folder = std::filesystem::absolute(options.out);
     return mission;
+}
+
+std::vector<Mission> load_variants(const MissionOptions& options, const Mission& mission) {
+    if (mission.variants == 0) return {};
+    return draw_variants(mission, source_of(options), sonar_keys());
 }
 
 }  // namespace sonarsim

@@ -25,4 +25,7 @@ void add_mission_options(CLI::App& command, MissionOptions& options);
 /// when the mission comes from a dataset and it is not said where its files are.
 Mission load(const MissionOptions& options);
 
+/// The variants of that mission; none where it has none.
+std::vector<Mission> load_variants(const MissionOptions& options, const Mission& mission);
+
 }  // namespace sonarsim

@@ -2,6 +2,7 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -16,6 +17,7 @@
 #include "dataset/image_warnings.h"
 #include "dataset/job.h"
 #include "dataset/layout.h"
+#include "dataset/variants.h"
 #include "logging.h"
 #include "mission_options.h"
 #include "progress.h"
@@ -116,8 +118,11 @@ void comment(const RenderSummary& summary, const Mission& mission, bool files) {
         spdlog::info("{}: the pings of other shards are still missing", folder);
     }
     log_dropped(summary.counts);
-    for (const std::string& warning : summary.warnings)
-        spdlog::warn("{}", warning);
+    constexpr std::size_t most = 20;  // of many variants
+    for (std::size_t i = 0; i < std::min(most, summary.warnings.size()); ++i)
+        spdlog::warn("{}", summary.warnings[i]);
+    if (summary.warnings.size() > most)
+        spdlog::warn("and {} warnings more like these", summary.warnings.size() - most);
 }
 
 /// A dataset's own mission.resolved.yaml may be rendered again; overwriting would replace it.
@@ -130,6 +135,43 @@ void spare_mission(const std::filesystem::path& file, const Mission& mission) {
                      "first, or choose another --out");
 }
 
+/// What may be wrong with a scene and the engine that sees it.
+void warn_before(const Mission& mission, const Assembly& assembly) {
+    warn_about(assembly.scene);
+    for (const Sonar& sonar : assembly.sonars) {
+        const std::string doubt = doubt_about(engine_settings(mission), sonar.settings.view);
+        if (!doubt.empty()) spdlog::warn("sensor '{}': {}", sonar.config.name, doubt);
+    }
+    spdlog::info("{}: {} triangles, {} poses", mission.name, assembly.scene.triangles.size(),
+                 assembly.trajectory.size());
+}
+
+/// Renders the mission, or its variants, and returns what there is to warn of.
+std::vector<std::string> render_all(const RenderArguments& arguments, const Mission& mission,
+                                    const std::atomic<bool>& stop, RenderSummary& summary) {
+    const bool bar = !arguments.log.quiet && !arguments.log.json && ::isatty(STDERR_FILENO) == 1;
+    const std::vector<Mission> variants = load_variants(arguments.mission, mission);
+    if (!variants.empty()) {
+        spdlog::info("{}: {} variants", mission.name, variants.size());
+        ProgressLine line(bar, "variants");
+        // What is said of the first scene holds for most; of the others the log would be full.
+        const auto begin = [](const Mission& variant, const Assembly& assembly) {
+            if (variant.variant.index == 0) warn_before(variant, assembly);
+        };
+        summary = run_variants(
+            mission, variants, arguments.render, begin,
+            [&](std::uint64_t done, std::uint64_t total) { line.show(done, total); }, stop);
+        return {};
+    }
+    const Assembly assembly = assemble(mission);
+    warn_before(mission, assembly);
+    ProgressLine line(bar);
+    summary = run_job(
+        mission, assembly, arguments.render,
+        [&](std::uint64_t done, std::uint64_t total) { line.show(done, total); }, stop);
+    return image_warnings(mission, assembly, summary.sensors);
+}
+
 int render(RenderArguments arguments) {
     start_logging(arguments.log);
     arguments.render.files = !arguments.no_files;
@@ -138,27 +180,13 @@ int render(RenderArguments arguments) {
         warning_line(arguments.log, std::string("stopped at once; ") + goes_on_from_there));
     const Mission mission = load(arguments.mission);
     if (arguments.render.overwrite) spare_mission(arguments.mission.file, mission);
-    const Assembly assembly = assemble(mission);
-    warn_about(assembly.scene);
-    for (const Sonar& sonar : assembly.sonars) {
-        const std::string doubt = doubt_about(engine_settings(mission), sonar.settings.view);
-        if (!doubt.empty()) spdlog::warn("sensor '{}': {}", sonar.config.name, doubt);
-    }
-    spdlog::info("{}: {} triangles, {} poses", mission.name, assembly.scene.triangles.size(),
-                 assembly.trajectory.size());
-    const bool quiet = arguments.log.quiet;
     RenderSummary summary;
-    {
-        ProgressLine line(!quiet && !arguments.log.json && ::isatty(STDERR_FILENO) == 1);
-        summary = run_job(
-            mission, assembly, arguments.render,
-            [&](std::uint64_t done, std::uint64_t total) { line.show(done, total); }, stop);
-    }
+    const std::vector<std::string> warnings = render_all(arguments, mission, stop, summary);
     comment(summary, mission, arguments.render.files);
-    const std::vector<std::string> warnings = image_warnings(mission, assembly, summary.sensors);
     for (const std::string& warning : warnings)
         spdlog::warn("{}", warning);
-    if (!quiet) arguments.log.json ? print_json(summary, mission, warnings) : print_table(summary);
+    if (!arguments.log.quiet)
+        arguments.log.json ? print_json(summary, mission, warnings) : print_table(summary);
     if (!summary.stopped) return exit_done;
     spdlog::warn("stopped after {} pings; {}", summary.pings, goes_on_from_there);
     return exit_signal + signal_received();

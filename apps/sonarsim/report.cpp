@@ -15,6 +15,7 @@
 #include "benchmark/timed_pings.h"
 #include "commands.h"
 #include "core/clock.h"
+#include "core/error.h"
 #include "core/file.h"
 #include "logging.h"
 #include "mission_options.h"
@@ -70,7 +71,18 @@ int report(const ReportArguments& arguments) {
     const double start = seconds_now();
     start_logging(arguments.log);
     const Mission mission = load(arguments.mission);
+    if (mission.variants > 0) {
+        throw InputError({arguments.mission.file.string()},
+                         "the report measures one scene, and this mission has variants; give it "
+                         "the mission.resolved.yaml of one of them, or --set variants=0 --set "
+                         "vary=[]");
+    }
     const Assembly assembly = assemble(mission);
+    if (!assembly.scene.bodies.empty()) {
+        throw InputError({arguments.mission.file.string()},
+                         "the report measures scenes that stand still; leave the trajectories of "
+                         "objects out");
+    }
     const double assembled_s = seconds_now() - start;
     warn_about(assembly.scene);
 

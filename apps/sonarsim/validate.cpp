@@ -34,6 +34,13 @@ void check_writable(std::filesystem::path folder) {
     }
 }
 
+/// What the variants of a mission come to together.
+struct VariantFindings {
+    std::size_t variants = 0;
+    std::uint64_t pings = 0;
+    double bytes = 0.0;
+};
+
 /// What a mission comes to.
 struct Findings {
     const Mission& mission;
@@ -87,6 +94,8 @@ std::string text_of(const Findings& f) {
                                       scene.instances.size(), extent.x(), extent.y(), extent.z()));
     text += line("trajectory", fmt::format("{} poses, {:.1f} s", trajectory.size(),
                                            trajectory.back().t_s - trajectory.front().t_s));
+    if (!scene.bodies.empty())
+        text += line("moving", fmt::format("{} objects", scene.bodies.size()));
     for (std::size_t i = 0; i < f.pings.size(); ++i) {
         const Sonar& sonar = f.assembly.sonars[i];
         text +=
@@ -98,25 +107,63 @@ std::string text_of(const Findings& f) {
     return text + line("folder", fmt::format("{} ({})", f.folder.string(), f.state));
 }
 
-int validate(const ValidateArguments& arguments) {
-    start_logging(arguments.log);
-    const Mission mission = load(arguments.mission);
-    const Assembly assembly = assemble(mission);
-    warn_about(assembly.scene);
+/// Checks one mission against its folder.
+Findings find_out(const Mission& mission, const Assembly& assembly, bool overwrite) {
     const std::size_t poses = assembly.trajectory.size();
     const std::vector<Writers> writers = make_writers(mission, assembly);
     const Layout layout = make_layout(mission, writers, poses);
     protect_inputs(layout, mission);
     const FolderState state =
-        arguments.overwrite
-            ? FolderState::fresh
-            : inspect_folder(layout, describe_dataset(mission, assembly, layout, writers));
+        overwrite ? FolderState::fresh
+                  : inspect_folder(layout, describe_dataset(mission, assembly, layout, writers));
     check_writable(layout.folder);
-
     Findings findings{mission, assembly, layout.folder, state_text(state),
                       count_pings(mission, poses)};
     for (std::size_t i = 0; i < writers.size(); ++i)
         findings.bytes += bytes_at_most(writers[i], findings.pings[i]);
+    return findings;
+}
+
+/// Checks every variant. Their scenes differ, and each may fail for reasons of its own.
+VariantFindings check_variants(const std::vector<Mission>& variants, bool overwrite) {
+    VariantFindings all;
+    SceneFiles models;
+    for (const Mission& variant : variants) {
+        const Assembly assembly = assemble(variant, models);
+        if (all.variants++ == 0) warn_about(assembly.scene);
+        const Findings findings = find_out(variant, assembly, overwrite);
+        all.pings += findings.all_pings();
+        all.bytes += findings.bytes;
+    }
+    return all;
+}
+
+void print_variants(const Mission& mission, const VariantFindings& all, bool as_json) {
+    if (as_json) {
+        fmt::print("{}", json_line({{"mission", mission.name},
+                                    {"variants", all.variants},
+                                    {"pings", all.pings},
+                                    {"folder", mission.output.folder.string()},
+                                    {"bytes_at_most", all.bytes}}));
+        return;
+    }
+    fmt::print("{:<12}{}\n{:<12}{}\n{:<12}{} pings, at most {:.1f} MB\n{:<12}{}\n", "mission",
+               printable(mission.name), "variants", all.variants, "dataset", all.pings,
+               1e-6 * all.bytes, "folder", mission.output.folder.string());
+}
+
+int validate(const ValidateArguments& arguments) {
+    start_logging(arguments.log);
+    const Mission mission = load(arguments.mission);
+    const std::vector<Mission> variants = load_variants(arguments.mission, mission);
+    if (!variants.empty()) {
+        const VariantFindings all = check_variants(variants, arguments.overwrite);
+        if (!arguments.log.quiet) print_variants(mission, all, arguments.log.json);
+        return exit_done;
+    }
+    const Assembly assembly = assemble(mission);
+    warn_about(assembly.scene);
+    const Findings findings = find_out(mission, assembly, arguments.overwrite);
     if (!arguments.log.quiet) {
         fmt::print("{}", arguments.log.json ? json_line(json_of(findings)) : text_of(findings));
     }

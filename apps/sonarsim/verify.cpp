@@ -10,6 +10,7 @@
 
 #include "commands.h"
 #include "dataset/collection.h"
+#include "dataset/variants.h"
 #include "logging.h"
 #include "progress.h"
 #include "signals.h"
@@ -41,10 +42,11 @@ int verify(const VerifyArguments& arguments, const std::filesystem::path& folder
     DatasetCheck check;
     {
         const bool quiet = arguments.log.quiet || arguments.log.json;
-        ProgressLine line(!quiet && ::isatty(STDERR_FILENO) == 1, "files");
-        check = verify_dataset(
-            folder, arguments.threads,
-            [&](std::uint64_t done, std::uint64_t total) { line.show(done, total); }, stop);
+        const bool variants = read_variants(folder).has_value();
+        ProgressLine line(!quiet && ::isatty(STDERR_FILENO) == 1, variants ? "variants" : "files");
+        const auto show = [&](std::uint64_t done, std::uint64_t total) { line.show(done, total); };
+        check = variants ? verify_variants(folder, arguments.threads, show, stop)
+                         : verify_dataset(folder, arguments.threads, show, stop);
     }
     for (const std::string& name : check.strangers)
         spdlog::warn("{}: is not the dataset's; it does no harm", name);

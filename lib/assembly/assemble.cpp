@@ -1,50 +1,49 @@
 #include "assembly/assemble.h"
 
-#include <variant>
+#include <algorithm>
 
+#include "assembly/poses.h"
+#include "assembly/scene_parts.h"
 #include "core/error.h"
 #include "core/hash.h"
 #include "core/sha256.h"
 #include "core/text.h"
-#include "core/units.h"
+#include "mission/files.h"
 #include "scene/gltf/load.h"
 #include "sonar/engine_settings.h"
 #include "trajectory/files.h"
 #include "trajectory/interpolate.h"
-#include "trajectory/patterns.h"
 
 namespace sonarsim {
 
 namespace {
 
-Trajectory poses_of(const FileTrajectoryConfig& config) {
-    Trajectory poses = read_trajectory(config.file);
-    return config.rate_hz > 0.0 ? resample(poses, config.rate_hz) : poses;
-}
-
-Trajectory poses_of(const WaypointTrajectoryConfig& config) {
-    std::vector<Waypoint> waypoints;
-    for (const WaypointConfig& waypoint : config.waypoints) {
-        const auto& [roll, pitch, yaw] = waypoint.rpy_deg;
-        waypoints.push_back({Eigen::Vector3d(waypoint.position_m.data()),
-                             rotation_from_rpy(radians(roll), radians(pitch), radians(yaw))});
-    }
-    return follow_waypoints(waypoints, config.speed_m_s, config.rate_hz);
-}
-
-Trajectory poses_of(const LawnmowerTrajectoryConfig& config) {
-    return lawnmower({Eigen::Vector2d(config.area_min_m.data()),
-                      Eigen::Vector2d(config.area_max_m.data()), config.z_m, config.heading_deg,
-                      config.line_spacing_m, config.speed_m_s, config.rate_hz});
-}
-
 std::vector<InputFile> inputs_of(const Mission& mission) {
-    std::vector<InputFile> inputs{{mission.scene.file, {}}, {mission.scene.materials, {}}};
-    if (const auto* poses = std::get_if<FileTrajectoryConfig>(&mission.trajectory))
-        inputs.push_back({poses->file, {}});
-    for (InputFile& input : inputs)
-        input.sha256 = sha256_of_file(input.path);
+    std::vector<InputFile> inputs;
+    for (const std::filesystem::path& file : files_of(mission)) {
+        const bool known =
+            std::ranges::any_of(inputs, [&](const InputFile& input) { return input.path == file; });
+        if (!known) inputs.push_back({file, sha256_of_file(file)});
+    }
     return inputs;
+}
+
+/// Air above the water leaves nearly all of the sound in it; what the surface scatters is lost.
+void add_water_surface(const Mission& mission, Scene& scene) {
+    if (!mission.scene.water_surface) return;
+    constexpr double air_kg_m3 = 1.2;
+    constexpr double air_m_s = 343.0;
+    const WaterSurfaceConfig& config = *mission.scene.water_surface;
+    const Water water{mission.water.density_kg_m3, mission.water.sound_speed_m_s};
+    const double mirrored = power_reflection(air_kg_m3, air_m_s, water) * (1.0 - config.roughness);
+    scene.water_surface = {config.height_m, static_cast<float>(mirrored)};
+    const bool used = std::ranges::any_of(mission.sensors, [](const SonarConfig& sensor) {
+        return sensor.multipath.method != MultipathMethod::none;
+    });
+    if (used) return;
+    scene.doubts.push_back(
+        "scene.water_surface is seen by multipath alone, and no sensor has it: "
+        "set sensors.NAME.multipath.method");
 }
 
 template <class T>
@@ -55,17 +54,25 @@ std::string hash_of(const std::vector<T>& values) {
 }  // namespace
 
 Assembly assemble(const Mission& mission) {
+    SceneFiles models;
+    return assemble(mission, models);
+}
+
+Assembly assemble(const Mission& mission, SceneFiles& models) {
     Assembly assembly;
-    assembly.trajectory =
-        std::visit([](const auto& config) { return poses_of(config); }, mission.trajectory);
+    assembly.trajectory = poses_of(mission.trajectory);
     const EngineSettings settings = engine_settings(mission);
     for (const SonarConfig& sensor : mission.sensors) {
         const Sonar& sonar = assembly.sonars.emplace_back(make_sonar(sensor, mission.accuracy));
         const std::string refusal = refusal_of(settings, sonar.settings.view);
         if (!refusal.empty()) throw InputError("sensor '" + sensor.name + "': " + refusal);
     }
-    assembly.scene = load_scene(mission.scene.file, mission.scene.materials,
+    SceneParts parts = place_scene(mission, assembly.trajectory, models);
+    assembly.scene = load_scene(parts.files, models, read_materials(mission.scene.materials),
+                                mission.scene.material_default,
                                 {mission.water.density_kg_m3, mission.water.sound_speed_m_s});
+    assembly.motions = std::move(parts.motions);
+    add_water_surface(mission, assembly.scene);
     if (!mission.output.labels.empty() || !mission.classes.empty()) {
         std::vector<ClassRule> rules;
         for (const ClassConfig& rule : mission.classes)
@@ -76,6 +83,14 @@ Assembly assemble(const Mission& mission) {
     if (!refusal.empty()) throw InputError(refusal);
     assembly.inputs = inputs_of(mission);
     return assembly;
+}
+
+std::vector<Pose> body_poses(const Assembly& assembly, double t_s) {
+    std::vector<Pose> poses;
+    poses.reserve(assembly.motions.size());
+    for (const Trajectory& motion : assembly.motions)
+        poses.push_back(interpolate(motion, t_s).T_world_vehicle);
+    return poses;
 }
 
 std::string inputs_hash(const Assembly& assembly) {
@@ -95,6 +110,12 @@ std::string inputs_hash(const Assembly& assembly) {
         if (scene.instance_classes[i].empty()) continue;
         text += "\nclass " + std::to_string(i) + " " + scene.instance_classes[i];
     }
+    for (const Body& body : scene.bodies) {
+        text += "\nbody " + std::to_string(body.instance) + hash_of(body.vertices) +
+                hash_of(body.triangles) + hash_of(body.triangle_material);
+    }
+    for (const Trajectory& motion : assembly.motions)
+        text += "\n" + write_tum(motion);
     return fnv1a_128(text + "\n" + write_tum(assembly.trajectory));
 }
 

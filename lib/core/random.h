@@ -78,8 +78,19 @@ inline float unit_float(std::uint32_t word) {
     return (static_cast<float>(static_cast<std::int32_t>(word >> 9)) + 0.5F) * 0x1p-23F;
 }
 
+/// A double in [0, 1), of 53 random bits.
+inline double unit_double(std::uint32_t high, std::uint32_t low) {
+    return (static_cast<double>(high >> 5) * 67108864.0 + static_cast<double>(low >> 6)) * 0x1p-53;
+}
+
 /// What a draw is for. Draws of different streams never share a number.
-enum class Stream : std::uint32_t { range_noise = 1, pixel_noise = 2, multipath_range_noise = 3 };
+enum class Stream : std::uint32_t {
+    range_noise = 1,
+    pixel_noise = 2,
+    multipath_range_noise = 3,
+    scatter = 4,    ///< of a rule, as the sensor, and an object, as the ping
+    variation = 5,  ///< of a key that varies, as the sensor, and a variant, as the ping
+};
 
 /// The key of one stream of one ping of one sensor. The counter below it names what the draw
 /// belongs to (a scatterer cell, a pixel).

@@ -11,6 +11,7 @@
 #include "dataset/description.h"
 #include "dataset/listed_files.h"
 #include "dataset/ping_metadata.h"
+#include "mission/files.h"
 
 namespace sonarsim {
 
@@ -70,13 +71,6 @@ bool is_within(const fs::path& path, const fs::path& folder) {
            outer.end();
 }
 
-std::vector<fs::path> files_read_by(const Mission& mission) {
-    std::vector<fs::path> files{mission.scene.file, mission.scene.materials};
-    if (const auto* poses = std::get_if<FileTrajectoryConfig>(&mission.trajectory))
-        files.push_back(poses->file);
-    return files;
-}
-
 }  // namespace
 
 FolderState inspect_folder(const Layout& layout, const Json& description) {
@@ -109,7 +103,7 @@ void protect_inputs(const Layout& layout, const Mission& mission) {
     for (const char* name :
          {description_name, mission_name, trajectory_name, journal_name, checksums_name})
         own.push_back(layout.folder / name);
-    for (const fs::path& input : files_read_by(mission)) {
+    for (const fs::path& input : files_of(mission)) {
         if (input.empty()) continue;
         for (const fs::path& path : own) {
             if (!is_within(input, path)) continue;
@@ -129,7 +123,7 @@ void remove_dataset(const Layout& layout, const Mission& mission) {
         if (is_unused(folder)) return;
         refuse(folder, "holds files that are no sonarsim dataset", or_nothing);
     }
-    remove_listed_files(folder, own_description(folder), files_read_by(mission));
+    remove_listed_files(folder, own_description(folder), files_of(mission));
     sync_file_system(folder);
 }
 

@@ -53,7 +53,10 @@ bool noise_is_long(const SonarConfig& config) {
 std::string cure_of_blindness(const Assembly& assembly, const Sonar& sonar,
                               const SensorSummary& summary) {
     const SonarConfig& config = sonar.config;
-    if (assembly.scene.triangles.empty()) return "the scene has no triangles";
+    if (assembly.scene.triangles.empty()) {
+        return assembly.scene.bodies.empty() ? "the scene has no triangles"
+                                             : "nothing of what moves came into its view";
+    }
     const Distances scene = distances(assembly, sonar);
     if (scene.nearest_m > config.range_max_m) {
         return fmt::format(

@@ -148,8 +148,12 @@ void render(const Mission& mission, const Assembly& assembly, const std::vector<
         [&](std::size_t i) {
             const PingId& id = todo[i];
             const Sonar& sonar = assembly.sonars[id.sensor];
-            const TracedPing traced = trace(sonar, assembly.scene, *engine,
-                                            assembly.trajectory[id.pose].T_world_vehicle, id.pose);
+            const TimedPose& pose = assembly.trajectory[id.pose];
+            const std::unique_ptr<VisibilityEngine> moment =
+                assembly.motions.empty() ? nullptr : engine->at(body_poses(assembly, pose.t_s));
+            const VisibilityEngine& now = moment ? *moment : *engine;
+            const TracedPing traced =
+                trace(sonar, assembly.scene, now, pose.T_world_vehicle, id.pose);
             const Ping ping =
                 form_image(traced, sonar.settings, assembly.scene, {mission.seed, id.pose});
             PingReport report{.id = id,
@@ -160,7 +164,7 @@ void render(const Mission& mission, const Assembly& assembly, const std::vector<
                               .brightest = brightest_pixel(ping, sonar.config.name, id.pose),
                               .estimated_l1 = ping.estimated_l1,
                               .goal_l1 = sonar.settings.view.relative_l1};
-            if (to) write_ping(mission, assembly, *engine, *to, traced, ping, report);
+            if (to) write_ping(mission, assembly, now, *to, traced, ping, report);
             return report;
         },
         [&](const PingReport& report) {

@@ -4,6 +4,7 @@
 #include "dataset/label_description.h"
 #include "dataset/ping_metadata.h"
 #include "dataset/png.h"
+#include "mission/files.h"
 #include "mission/resolved.h"
 #include "sonar/kinds.h"
 
@@ -15,7 +16,7 @@ using Json = nlohmann::ordered_json;
 
 /// The name of an input in mission.resolved.yaml.
 std::string portable_name(const Mission& mission, const InputFile& input) {
-    return input.path.lexically_proximate(mission.scene.file.parent_path()).string();
+    return input.path.lexically_proximate(home_of(mission)).string();
 }
 
 Json describe_inputs(const Mission& mission, const Assembly& assembly) {
@@ -101,6 +102,11 @@ Json describe_dataset(const Mission& mission, const Assembly& assembly, const La
                  {"inputs", describe_inputs(mission, assembly)},
                  {"seed", mission.seed},
                  {"poses", assembly.trajectory.size()}};
+    if (mission.variant.index >= 0) {
+        json["variant"] = {{"index", mission.variant.index},
+                           {"of", mission.variant.of},
+                           {"drawn", describe_drawn(mission.variant)}};
+    }
     json["scene"] = describe_scene_use(assembly.scene);
     if (!mission.output.labels.empty()) json["labels"] = describe_label_ids(assembly);
     Json sensors = Json::array();
@@ -115,7 +121,8 @@ Json describe_dataset(const Mission& mission, const Assembly& assembly, const La
 
 std::string resolved_text(const Mission& mission, const Assembly& assembly) {
     std::string text =
-        "# Every key of the mission. Paths start at the folder of the scene file, FOLDER:\n"
+        "# Every key of the mission. Paths start at the folder of the scene file, FOLDER,\n"
+        "# or of the materials where there is no scene file:\n"
         "#     sonarsim render mission.resolved.yaml --paths-from FOLDER\n"
         "# SHA-256 of what was read:\n";
     for (const InputFile& input : assembly.inputs)

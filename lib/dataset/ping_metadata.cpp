@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/text.h"
+
 namespace sonarsim {
 
 using Json = nlohmann::ordered_json;
@@ -11,6 +13,21 @@ Json describe_pose(const Pose& pose) {
     const Eigen::Quaterniond& q = pose.rotation;
     return {{"position_m", {p.x(), p.y(), p.z()}},
             {"quaternion_xyzw", {q.x(), q.y(), q.z(), q.w()}}};
+}
+
+Json describe_drawn(const Variant& variant) {
+    Json json = Json::object();
+    for (const auto& [key, value] : variant.drawn) {
+        if (const auto number = parse_number(value)) {
+            json[key] = *number;
+        } else if (value == "true" || value == "false") {
+            json[key] = value == "true";
+        } else {
+            const bool quoted = value.size() > 1 && value.front() == '"';
+            json[key] = quoted ? value.substr(1, value.size() - 2) : value;
+        }
+    }
+    return json;
 }
 
 Json describe_ping(const Mission& mission, const Assembly& assembly, const FinishedPing& finished) {
@@ -34,6 +51,15 @@ Json describe_ping(const Mission& mission, const Assembly& assembly, const Finis
     // To three digits: it is an estimate.
     if (const double error = finished.ping.estimated_l1; !std::isnan(error))
         json["estimated_error"] = std::round(1e5 * error) / 1e5;
+    if (mission.variant.index >= 0) {
+        json["variant"] = {{"index", mission.variant.index},
+                           {"drawn", describe_drawn(mission.variant)}};
+    }
+    const std::vector<Pose> bodies = body_poses(assembly, pose.t_s);
+    for (std::size_t k = 0; k < bodies.size(); ++k) {
+        const std::string& name = assembly.scene.instances[assembly.scene.bodies[k].instance];
+        json["T_world_object"][name] = describe_pose(bodies[k]);
+    }
     if (!finished.measured.is_null()) json["measured"] = finished.measured;
     return json;
 }

@@ -11,6 +11,9 @@ namespace sonarsim {
 /// Position in metres; quaternion as x, y, z, w.
 nlohmann::ordered_json describe_pose(const Pose& pose);
 
+/// What was drawn for a variant, by key; text where it is neither a number nor a flag.
+nlohmann::ordered_json describe_drawn(const Variant& variant);
+
 /// The metadata of one ping.
 nlohmann::ordered_json describe_ping(const Mission& mission, const Assembly& assembly,
                                      const FinishedPing& finished);

@@ -228,6 +228,32 @@ std::string shown(std::string_view text, std::size_t longest) {
     return cut ? out + "..." : out;
 }
 
+std::string quoted_text(std::string_view text) {
+    std::string out = "\"";
+    for (const char c : text) {
+        if (c == '"' || c == '\\') out += '\\';
+        out += c;
+    }
+    return out + "\"";
+}
+
+std::string flow_text(const YamlNode& node) {
+    if (node.kind == YamlNode::Kind::empty) return "~";
+    if (node.kind == YamlNode::Kind::scalar) {
+        // A number or a flag stands as it is; any other text is safe in quotes.
+        const bool bare = !node.quoted &&
+                          (parse_number(node.text) || node.text == "true" || node.text == "false");
+        return bare ? node.text : quoted_text(node.text);
+    }
+    const bool is_map = node.kind == YamlNode::Kind::map;
+    std::string out;
+    for (const YamlNode& item : node.items) {
+        out += (out.empty() ? "" : ", ") + (is_map ? quoted_text(item.key) + ": " : "") +
+               flow_text(item);
+    }
+    return (is_map ? "{" : "[") + out + (is_map ? "}" : "]");
+}
+
 std::string in_quotes(std::string_view text) {
     return "'" + shown(text, 60) + "'";
 }

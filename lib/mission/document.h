@@ -45,6 +45,12 @@ enum class Lines { counted, none };
 YamlNode read_document(std::string_view text, const std::string& source,
                        Lines lines = Lines::counted);
 
+/// A node as YAML in one line, which reads back as the same node.
+std::string flow_text(const YamlNode& node);
+
+/// `text` in double quotes, as YAML reads it back.
+std::string quoted_text(std::string_view text);
+
 /// `text` in single quotes for a message: cut when long, control characters masked.
 std::string in_quotes(std::string_view text);
 

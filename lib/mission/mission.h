@@ -8,24 +8,21 @@
 #include <variant>
 #include <vector>
 
-#include "core/error.h"
+#include "mission/place.h"
+#include "mission/scene_config.h"
+#include "mission/trajectory_config.h"
+#include "mission/variation_config.h"
 
 namespace sonarsim {
 
-// Every default of a mission stands here. Names carry the unit and are the YAML keys, too.
+// Every default of a mission stands here and in the headers above. Names carry the unit and are the
+// YAML keys, too.
 
 struct WaterConfig {
     double density_kg_m3 = 997.0;
     double sound_speed_m_s = 1480.0;
 
     bool operator==(const WaterConfig&) const = default;
-};
-
-struct SceneConfig {
-    std::filesystem::path file;       ///< .gltf or .glb
-    std::filesystem::path materials;  ///< CSV
-
-    bool operator==(const SceneConfig&) const = default;
 };
 
 /// Where a sonar sits on the vehicle, relative to the default mount of its kind.
@@ -103,46 +100,6 @@ struct SonarConfig {
     bool operator==(const SonarConfig&) const = default;
 };
 
-/// Poses from a file, either taken as they are or interpolated at `rate_hz`.
-struct FileTrajectoryConfig {
-    std::filesystem::path file;  ///< .csv or TUM .txt/.tum
-    double rate_hz = 0.0;        ///< 0: one ping per pose of the file
-
-    bool operator==(const FileTrajectoryConfig&) const = default;
-};
-
-struct WaypointConfig {
-    std::array<double, 3> position_m{};
-    std::array<double, 3> rpy_deg{};
-
-    bool operator==(const WaypointConfig&) const = default;
-};
-
-/// Straight legs from waypoint to waypoint at constant speed.
-struct WaypointTrajectoryConfig {
-    std::vector<WaypointConfig> waypoints;
-    double speed_m_s = 1.0;
-    double rate_hz = 10.0;
-
-    bool operator==(const WaypointTrajectoryConfig&) const = default;
-};
-
-/// Parallel lines over a rectangle, flown to and fro at constant height.
-struct LawnmowerTrajectoryConfig {
-    std::array<double, 2> area_min_m{};  ///< x, y
-    std::array<double, 2> area_max_m{};
-    double z_m = 0.0;          ///< world height of the vehicle
-    double heading_deg = 0.0;  ///< direction of the first line
-    double line_spacing_m = 5.0;
-    double speed_m_s = 1.0;
-    double rate_hz = 10.0;
-
-    bool operator==(const LawnmowerTrajectoryConfig&) const = default;
-};
-
-using TrajectoryConfig =
-    std::variant<FileTrajectoryConfig, WaypointTrajectoryConfig, LawnmowerTrajectoryConfig>;
-
 struct AccuracyConfig {
     double relative_l1 = 0.03;  ///< error goal of the noise-free image
 
@@ -164,14 +121,6 @@ struct OctreeConfig {
     bool literal = false;  ///< the paper to the letter, as a baseline
 
     bool operator==(const OctreeConfig&) const = default;
-};
-
-/// Where a piece of a mission stands, for messages. What two missions say is equal wherever it
-/// stands.
-struct Place {
-    Location location;
-
-    bool operator==(const Place&) const { return true; }
 };
 
 /// The class of the nodes whose names fit a pattern.
@@ -259,6 +208,9 @@ struct Mission {
     SlicesConfig slices;
     std::vector<ClassConfig> classes;  ///< in the order of the file: the first that fits counts
     OutputConfig output;
+    int variants = 0;              ///< datasets to draw; 0: the mission as it stands
+    std::vector<VaryConfig> vary;  ///< what is drawn for each, in the order of the file
+    Variant variant;               ///< which of them this mission is
 
     bool operator==(const Mission&) const = default;
 };

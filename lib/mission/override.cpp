@@ -12,14 +12,16 @@ namespace sonarsim {
 namespace {
 
 constexpr std::size_t longest_path = 16;
+constexpr const char* usage_of_set = "write --set key=value or --set section.key=value";
 
-std::vector<std::string> split_path(std::string_view path, const Location& where) {
+std::vector<std::string> split_path(std::string_view path, const Location& where,
+                                    const char* usage) {
     std::vector<std::string> keys;
     for (std::size_t start = 0; start <= path.size();) {
         const std::size_t end = std::min(path.find('.', start), path.size());
         keys.emplace_back(path.substr(start, end - start));
         if (keys.back().empty() || keys.size() > longest_path) {
-            throw InputError(where, "write --set key=value or --set section.key=value");
+            throw InputError(where, usage);
         }
         start = end + 1;
     }
@@ -51,6 +53,16 @@ YamlNode& descend(YamlNode& node, const std::string& key, const YamlPlace& place
     return made;
 }
 
+/// Replaces what the path leads to.
+void put(YamlNode& root, const std::vector<std::string>& path, YamlNode value) {
+    YamlNode* node = &root;
+    for (const std::string& key : path)
+        node = &descend(*node, key, value.place);
+    value.key = std::move(node->key);
+    value.key_place = std::move(node->key_place);
+    *node = std::move(value);
+}
+
 }  // namespace
 
 void apply_override(YamlNode& root, const std::string& setting) {
@@ -58,17 +70,14 @@ void apply_override(YamlNode& root, const std::string& setting) {
     const Location where{source};
     const std::size_t equals = setting.find('=');
     if (equals == std::string::npos) {
-        throw InputError(where, "write --set key=value or --set section.key=value");
+        throw InputError(where, usage_of_set);
     }
-    YamlNode value =
-        read_document(std::string_view(setting).substr(equals + 1), source, Lines::none);
-    YamlNode* node = &root;
-    for (const std::string& key : split_path(std::string_view(setting).substr(0, equals), where)) {
-        node = &descend(*node, key, value.place);
-    }
-    value.key = std::move(node->key);
-    value.key_place = std::move(node->key_place);
-    *node = std::move(value);
+    put(root, split_path(std::string_view(setting).substr(0, equals), where, usage_of_set),
+        read_document(std::string_view(setting).substr(equals + 1), source, Lines::none));
+}
+
+void set_key(YamlNode& root, std::string_view path, YamlNode value, const Location& where) {
+    put(root, split_path(path, where, "'key' is written as key or section.key"), std::move(value));
 }
 
 }  // namespace sonarsim

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "mission/document.h"
 
@@ -12,5 +13,9 @@ namespace sonarsim {
 /// place "--set a.b.c=value", so that every later check names the override. InputError when the
 /// path or the value cannot be read, or when the path runs through something that is no section.
 void apply_override(YamlNode& root, const std::string& setting);
+
+/// Puts a value where the path "a.b.c" leads, in the same way. `where` is for what is wrong with
+/// the path.
+void set_key(YamlNode& root, std::string_view path, YamlNode value, const Location& where);
 
 }  // namespace sonarsim

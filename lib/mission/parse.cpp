@@ -11,6 +11,15 @@ namespace {
 
 constexpr std::size_t largest_file = std::size_t{1} << 20;
 
+YamlNode document_of(std::string_view text, const std::string& file_name,
+                     std::span<const std::string> overrides) {
+    if (text.size() > largest_file) throw InputError({file_name}, "is larger than 1 MiB");
+    YamlNode root = read_document(text, file_name);
+    for (const std::string& setting : overrides)
+        apply_override(root, setting);
+    return root;
+}
+
 }  // namespace
 
 Mission load_mission(const std::filesystem::path& file, std::span<const std::string> overrides,
@@ -27,11 +36,16 @@ Mission load_mission(const std::filesystem::path& file, const std::filesystem::p
 Mission parse_mission(std::string_view text, const std::string& file_name,
                       const std::filesystem::path& base_folder,
                       std::span<const std::string> overrides, SonarKeyTable sonars) {
-    if (text.size() > largest_file) throw InputError({file_name}, "is larger than 1 MiB");
-    YamlNode root = read_document(text, file_name);
-    for (const std::string& setting : overrides)
-        apply_override(root, setting);
+    return parse_mission(document_of(text, file_name, overrides), file_name, base_folder, sonars);
+}
 
+YamlNode read_mission_document(const std::filesystem::path& file,
+                               std::span<const std::string> overrides) {
+    return document_of(read_file(file, largest_file), file.string(), overrides);
+}
+
+Mission parse_mission(const YamlNode& root, const std::string& file_name,
+                      const std::filesystem::path& base_folder, SonarKeyTable sonars) {
     Mission mission;
     mission.name = std::filesystem::path(file_name).stem().string();
     MissionReader reader(root, "mission", base_folder, sonars);

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "mission/document.h"
 #include "mission/mission.h"
 #include "mission/sonar_keys.h"
 
@@ -28,5 +29,13 @@ Mission load_mission(const std::filesystem::path& file, const std::filesystem::p
 Mission parse_mission(std::string_view text, const std::string& file_name,
                       const std::filesystem::path& base_folder,
                       std::span<const std::string> overrides, SonarKeyTable sonars);
+
+/// The document of a mission's file with the overrides, nothing of it looked at yet.
+YamlNode read_mission_document(const std::filesystem::path& file,
+                               std::span<const std::string> overrides);
+
+/// The mission that a document says. `file_name` is used for the default name.
+Mission parse_mission(const YamlNode& root, const std::string& file_name,
+                      const std::filesystem::path& base_folder, SonarKeyTable sonars);
 
 }  // namespace sonarsim

@@ -162,15 +162,77 @@ void MissionReader::flag(const char* key, bool& value, const char* /*meaning*/) 
     value = yes;
 }
 
-void MissionReader::text(const char* key, std::string& value, const char* /*meaning*/) {
-    if (const YamlNode* node = find(key, Presence::optional)) value = read_text(*node, key);
+void MissionReader::text(const char* key, std::string& value, const char* /*meaning*/,
+                         Presence presence) {
+    if (const YamlNode* node = find(key, presence)) value = read_text(*node, key);
+}
+
+void MissionReader::texts(const char* key, std::vector<std::string>& values,
+                          const char* /*meaning*/) {
+    const YamlNode* node = find(key, Presence::optional);
+    if (node == nullptr) return;
+    if (node->kind != YamlNode::Kind::list) refuse_type(*node, key, "a list of texts");
+    values.clear();
+    for (const YamlNode& item : node->items)
+        values.push_back(read_text(item, key));
+}
+
+void MissionReader::renaming(const char* key,
+                             std::vector<std::pair<std::string, std::string>>& values,
+                             const char* /*meaning*/) {
+    const YamlNode* node = find(key, Presence::optional);
+    if (node == nullptr) return;
+    if (node->kind != YamlNode::Kind::map) refuse_type(*node, key, "a section of names");
+    values.clear();
+    for (const YamlNode& item : node->items)
+        values.emplace_back(item.key, read_text(item, key));
+}
+
+void MissionReader::values(const char* key, std::vector<std::string>& values,
+                           const char* /*meaning*/) {
+    const YamlNode* node = find(key, Presence::optional);
+    if (node == nullptr) return;
+    if (node->kind != YamlNode::Kind::list || node->items.empty())
+        refuse_type(*node, key, "a list of one or more values");
+    values.clear();
+    for (const YamlNode& item : node->items)
+        values.push_back(flow_text(item));
+}
+
+void MissionReader::range(const char* key, std::array<double, 2>& value, const Limits& limits,
+                          const char* /*meaning*/) {
+    const YamlNode* node = find(key, Presence::optional);
+    if (node == nullptr) return;
+    if (node->kind != YamlNode::Kind::list) {
+        value.fill(read_number(*node, key, limits));
+        return;
+    }
+    read_list(*node, key, value.data(), 2, limits);
+    if (value[0] > value[1])
+        refuse(*node, "'" + std::string(key) + "': the first number must not be above the second");
 }
 
 void MissionReader::path(const char* key, std::filesystem::path& value, const char* /*meaning*/,
                          Presence presence) {
+    if (const YamlNode* node = find(key, presence)) value = path_of(*node, key);
+}
+
+void MissionReader::paths(const char* key, std::vector<std::filesystem::path>& values,
+                          const char* /*meaning*/, Presence presence) {
     const YamlNode* node = find(key, presence);
     if (node == nullptr) return;
-    value = std::filesystem::absolute(base_folder_ / read_text(*node, key)).lexically_normal();
+    values.clear();
+    if (node->kind != YamlNode::Kind::list) {
+        values.push_back(path_of(*node, key));
+        return;
+    }
+    if (node->items.empty()) refuse_type(*node, key, "a path or a list of one or more");
+    for (const YamlNode& item : node->items)
+        values.push_back(path_of(item, key));
+}
+
+std::filesystem::path MissionReader::path_of(const YamlNode& node, const char* key) const {
+    return std::filesystem::absolute(base_folder_ / read_text(node, key)).lexically_normal();
 }
 
 void MissionReader::read_list(const YamlNode& node, const char* key, double* values,

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <initializer_list>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -32,15 +33,36 @@ class MissionReader {
     void integer(const char* key, int& value, const Limits& limits, const char* meaning);
     void integer(const char* key, std::uint64_t& value, const char* meaning);
     void flag(const char* key, bool& value, const char* meaning);
-    void text(const char* key, std::string& value, const char* meaning);
+    void text(const char* key, std::string& value, const char* meaning,
+              Presence presence = Presence::optional);
+    /// A list of texts.
+    void texts(const char* key, std::vector<std::string>& values, const char* meaning);
+    /// A map from texts to texts.
+    void renaming(const char* key, std::vector<std::pair<std::string, std::string>>& values,
+                  const char* meaning);
+    /// A list of values of any kind, kept as YAML.
+    void values(const char* key, std::vector<std::string>& values, const char* meaning);
+    /// A number, or a list of the least and the largest.
+    void range(const char* key, std::array<double, 2>& value, const Limits& limits,
+               const char* meaning);
     void path(const char* key, std::filesystem::path& value, const char* meaning,
               Presence presence = Presence::optional);
+    /// One path, or a list of one or more.
+    void paths(const char* key, std::vector<std::filesystem::path>& values, const char* meaning,
+               Presence presence);
 
     template <std::size_t N>
     void numbers(const char* key, std::array<double, N>& values, const Limits& limits,
                  const char* /*meaning*/, Presence presence = Presence::optional) {
         if (const YamlNode* node = find(key, presence))
             read_list(*node, key, values.data(), N, limits);
+    }
+
+    template <std::size_t N>
+    void optional_numbers(const char* key, std::optional<std::array<double, N>>& values,
+                          const Limits& limits, const char* /*meaning*/) {
+        if (const YamlNode* node = find(key, Presence::optional))
+            read_list(*node, key, values.emplace().data(), N, limits);
     }
 
     template <class T, std::size_t N>
@@ -88,6 +110,11 @@ class MissionReader {
         if (const YamlNode* node = find(key, presence)) read(*node, key, value);
     }
 
+    template <class T>
+    void optional_section(const char* key, std::optional<T>& value, const char* /*meaning*/) {
+        if (const YamlNode* node = find(key, Presence::optional)) read(*node, key, value.emplace());
+    }
+
     /// A list of sections, at least `fewest` of them; where that is 0 it may be left out.
     template <class T>
     void list(const char* key, std::vector<T>& values, std::size_t fewest,
@@ -133,6 +160,7 @@ class MissionReader {
     }
 
     const YamlNode* find(const char* key, Presence presence);
+    std::filesystem::path path_of(const YamlNode& node, const char* key) const;
     void read_list(const YamlNode& node, const char* key, double* values, std::size_t count,
                    const Limits& limits) const;
     static std::vector<bool> read_subset(const YamlNode& node, const char* key,

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <initializer_list>
 #include <iterator>
+#include <optional>
 #include <string_view>
 #include <variant>
 
@@ -57,8 +58,36 @@ class KeyCollector {
     void flag(const char* key, bool value, const char* meaning) {
         add(key, "true or false", value ? "true" : "false", meaning);
     }
-    void text(const char* key, const std::string&, const char* meaning) {
-        add(key, "text", "", meaning);
+    void text(const char* key, const std::string&, const char* meaning,
+              Presence presence = Presence::optional) {
+        add(key, "text", "", meaning, presence);
+    }
+    void texts(const char* key, const std::vector<std::string>&, const char* meaning) {
+        add(key, "list of texts", "[]", meaning);
+    }
+    void renaming(const char* key, const std::vector<std::pair<std::string, std::string>>&,
+                  const char* meaning) {
+        add(key, "text per name", "{}", meaning);
+    }
+    void values(const char* key, const std::vector<std::string>&, const char* meaning) {
+        add(key, "list of values", "", meaning);
+    }
+    void range(const char* key, const std::array<double, 2>& value, const Limits& limits,
+               const char* meaning) {
+        const std::string low = number_text(value[0]);
+        const bool is_one = value[0] == value[1];
+        add(key, "number or [least, largest]",
+            is_one ? low : "[" + low + ", " + number_text(value[1]) + "]", meaning)
+            .limits = limits;
+    }
+    void paths(const char* key, const std::vector<std::filesystem::path>&, const char* meaning,
+               Presence presence) {
+        add(key, "path or list of paths", "", meaning, presence);
+    }
+    template <std::size_t N>
+    void optional_numbers(const char* key, const std::optional<std::array<double, N>>&,
+                          const Limits&, const char* meaning) {
+        add(key, std::to_string(N) + " numbers", "", meaning);
     }
     void path(const char* key, const std::filesystem::path&, const char* meaning,
               Presence presence = Presence::optional) {
@@ -112,6 +141,16 @@ class KeyCollector {
                  Presence presence = Presence::optional) {
         add(key, "section", "", meaning, presence);
         enter(path_below(key), value);
+    }
+
+    template <class T>
+    void optional_section(const char* key, std::optional<T>&, const char* meaning) {
+        T value;
+        section(key, value, meaning);
+    }
+    /// A trajectory has its tables where the vehicle's stands.
+    void optional_section(const char* key, std::optional<TrajectoryConfig>&, const char* meaning) {
+        add(key, "section", "", meaning);
     }
 
     /// A section that has several forms.

@@ -1,6 +1,7 @@
 #include "mission/resolved.h"
 
 #include "core/hash.h"
+#include "mission/files.h"
 #include "mission/schema.h"
 #include "mission/writer.h"
 
@@ -15,13 +16,9 @@ std::string resolved_yaml(const Mission& mission, SonarKeyTable sonars) {
 
 Mission portable(const Mission& mission) {
     Mission copy = mission;
-    const std::filesystem::path scene_folder = mission.scene.file.parent_path();
-    const auto relative = [&](std::filesystem::path& path) {
-        path = path.lexically_proximate(scene_folder);
-    };
-    relative(copy.scene.file);
-    relative(copy.scene.materials);
-    if (auto* poses = std::get_if<FileTrajectoryConfig>(&copy.trajectory)) relative(poses->file);
+    const std::filesystem::path home = home_of(mission);
+    for_each_file(copy,
+                  [&](std::filesystem::path& path) { path = path.lexically_proximate(home); });
     copy.output.folder.clear();
     return copy;
 }

@@ -8,7 +8,10 @@
 #include "core/input_limits.h"
 #include "mission/limits.h"
 #include "mission/mission.h"
+#include "mission/scene_schema.h"
 #include "mission/sonar_keys.h"
+#include "mission/trajectory_schema.h"
+#include "mission/variation_schema.h"
 
 // The keys of a mission, each written once. A visitor is handed every key with its value, its
 // limits, its meaning and its checks; the MissionReader fills the value from YAML, the
@@ -61,13 +64,6 @@ void describe(Visitor& v, WaterConfig& c) {
              "density of the water");
     v.number("sound_speed_m_s", c.sound_speed_m_s, between(least_medium, largest_medium),
              "speed of sound in the water");
-}
-
-template <class Visitor>
-void describe(Visitor& v, SceneConfig& c) {
-    v.path("file", c.file, "the scene, a .gltf or .glb", required);
-    v.path("materials", c.materials,
-           "CSV with the density and speed of sound of every material of the scene", required);
 }
 
 template <class Visitor>
@@ -160,55 +156,6 @@ void describe(Visitor& v, SonarConfig& c) {
             c.range_min_m <= 65536.0 * (c.range_max_m - c.range_min_m) / c.range_bins,
         {"range_min_m", "range_max_m", "range_bins"},
         "a side-scan's waterfall begins at nadir: range_min_m must be at most 65536 range bins");
-}
-
-template <class Visitor>
-void describe(Visitor& v, FileTrajectoryConfig& c) {
-    v.path("file", c.file, "timed poses, a .csv or a TUM .txt or .tum", required);
-    v.number("rate_hz", c.rate_hz, at_least(0),
-             "poses are interpolated at this rate; 0 pings at every pose of the file");
-}
-
-template <class Visitor>
-void describe(Visitor& v, WaypointConfig& c) {
-    v.numbers("position_m", c.position_m, any_position_m, "x, y, z in the world", required);
-    v.numbers("rpy_deg", c.rpy_deg, any_angle_deg, "roll, pitch and yaw of the vehicle");
-}
-
-template <class Visitor>
-void describe(Visitor& v, WaypointTrajectoryConfig& c) {
-    v.list("waypoints", c.waypoints, 2,
-           "poses in the order in which they are visited, by straight legs");
-    v.number("speed_m_s", c.speed_m_s, above(0), "speed along the legs");
-    v.number("rate_hz", c.rate_hz, above(0), "poses per second");
-}
-
-template <class Visitor>
-void describe(Visitor& v, LawnmowerTrajectoryConfig& c) {
-    v.numbers("area_min_m", c.area_min_m, any_position_m,
-              "corner of the rectangle with the least x and y", required);
-    v.numbers("area_max_m", c.area_max_m, any_position_m,
-              "corner of the rectangle with the largest x and y", required);
-    v.number("z_m", c.z_m, any_position_m,
-             "height of the vehicle in the world; negative below a surface at 0", required);
-    v.number("heading_deg", c.heading_deg, any_angle_deg,
-             "direction of the first line; 0 is along x, positive to the left");
-    v.number("line_spacing_m", c.line_spacing_m, above(0), "distance between the lines");
-    v.number("speed_m_s", c.speed_m_s, above(0), "speed along the lines and between them");
-    v.number("rate_hz", c.rate_hz, above(0), "poses per second");
-    v.require(c.area_min_m[0] < c.area_max_m[0] && c.area_min_m[1] < c.area_max_m[1],
-              {"area_min_m", "area_max_m"}, "area_min_m must be below area_max_m in x and in y");
-}
-
-template <class Visitor>
-void describe(Visitor& v, TrajectoryConfig& c) {
-    v.one_of(c, {"file", "waypoints", "lawnmower"});
-    if (auto* lawnmower = std::get_if<LawnmowerTrajectoryConfig>(&c)) {
-        v.section("lawnmower", *lawnmower,
-                  "parallel lines over a rectangle, to and fro at constant height", required);
-    } else {
-        std::visit([&v](auto& form) { describe(v, form); }, c);
-    }
 }
 
 template <class Visitor>
@@ -324,6 +271,12 @@ void describe(Visitor& v, Mission& c) {
            "which nodes of the scene are a class of things, for labels; the first rule that fits a "
            "node counts");
     v.section("output", c.output, "what is written, and where");
+    v.integer("variants", c.variants, between(0, 1e6),
+              "how many variants of the mission are drawn, each a dataset with a seed of its own; "
+              "0: the mission as it stands");
+    v.list("vary", c.vary, 0, "which keys are drawn at random");
+    v.require(c.vary.empty() || c.variants > 0, {"vary", "variants"},
+              "'vary' says what differs between variants: say how many with 'variants'");
 }
 
 }  // namespace sonarsim

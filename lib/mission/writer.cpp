@@ -35,23 +35,54 @@ void MissionWriter::flag(const char* key, bool value, const char* /*meaning*/) {
     line(key, value ? "true" : "false");
 }
 
-void MissionWriter::text(const char* key, std::string_view value, const char* /*meaning*/) {
-    if (!value.empty()) line(key, scalar_text(value));
+// Text stands in quotes always: a sensor named "null" stays one.
+
+void MissionWriter::text(const char* key, std::string_view value, const char* /*meaning*/,
+                         Presence) {
+    if (!value.empty()) line(key, quoted_text(value));
+}
+
+void MissionWriter::texts(const char* key, const std::vector<std::string>& values,
+                          const char* /*meaning*/) {
+    std::string list;
+    for (const std::string& value : values)
+        list += (list.empty() ? "[" : ", ") + quoted_text(value);
+    if (!list.empty()) line(key, list + "]");
+}
+
+void MissionWriter::renaming(const char* key,
+                             const std::vector<std::pair<std::string, std::string>>& values,
+                             const char* /*meaning*/) {
+    std::string map;
+    for (const auto& [from, to] : values)
+        map += (map.empty() ? "{" : ", ") + quoted_text(from) + ": " + quoted_text(to);
+    if (!map.empty()) line(key, map + "}");
+}
+
+void MissionWriter::values(const char* key, const std::vector<std::string>& values,
+                           const char* /*meaning*/) {
+    std::string list;
+    for (const std::string& value : values)
+        list += (list.empty() ? "[" : ", ") + value;
+    if (!list.empty()) line(key, list + "]");
+}
+
+void MissionWriter::range(const char* key, const std::array<double, 2>& value, const Limits&,
+                          const char* /*meaning*/) {
+    write_list(key, value.data(), value.size());
 }
 
 void MissionWriter::path(const char* key, const std::filesystem::path& value,
                          const char* /*meaning*/, Presence) {
-    if (!value.empty()) line(key, scalar_text(value.string()));
+    if (!value.empty()) line(key, quoted_text(value.string()));
 }
 
-/// Text stands in quotes always: a sensor named "null" stays one.
-std::string MissionWriter::scalar_text(std::string_view text) {
-    std::string out = "\"";
-    for (const char c : text) {
-        if (c == '"' || c == '\\') out += '\\';
-        out += c;
-    }
-    return out + "\"";
+void MissionWriter::paths(const char* key, const std::vector<std::filesystem::path>& values,
+                          const char* meaning, Presence) {
+    std::vector<std::string> names;
+    for (const std::filesystem::path& value : values)
+        names.push_back(value.string());
+    texts(key, names, meaning);
 }
 
 void MissionWriter::write_list(const char* key, const double* values, std::size_t count) {

@@ -5,11 +5,14 @@
 #include <cstdint>
 #include <filesystem>
 #include <initializer_list>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
+#include "mission/document.h"
 #include "mission/limits.h"
 #include "mission/sonar_keys.h"
 
@@ -28,7 +31,16 @@ class MissionWriter {
     void integer(const char* key, int value, const Limits&, const char* meaning);
     void integer(const char* key, std::uint64_t value, const char* meaning);
     void flag(const char* key, bool value, const char* meaning);
-    void text(const char* key, std::string_view value, const char* meaning);
+    void text(const char* key, std::string_view value, const char* meaning,
+              Presence = Presence::optional);
+    void texts(const char* key, const std::vector<std::string>& values, const char* meaning);
+    void renaming(const char* key, const std::vector<std::pair<std::string, std::string>>& values,
+                  const char* meaning);
+    void values(const char* key, const std::vector<std::string>& values, const char* meaning);
+    void range(const char* key, const std::array<double, 2>& value, const Limits&,
+               const char* meaning);
+    void paths(const char* key, const std::vector<std::filesystem::path>& values,
+               const char* meaning, Presence);
     void path(const char* key, const std::filesystem::path& value, const char* meaning,
               Presence = Presence::optional);
 
@@ -36,6 +48,12 @@ class MissionWriter {
     void numbers(const char* key, const std::array<double, N>& values, const Limits&,
                  const char* /*meaning*/, Presence = Presence::optional) {
         write_list(key, values.data(), N);
+    }
+
+    template <std::size_t N>
+    void optional_numbers(const char* key, const std::optional<std::array<double, N>>& values,
+                          const Limits&, const char* /*meaning*/) {
+        if (values) write_list(key, values->data(), N);
     }
 
     template <class T, std::size_t N>
@@ -72,6 +90,11 @@ class MissionWriter {
     }
 
     template <class T>
+    void optional_section(const char* key, std::optional<T>& value, const char* meaning) {
+        if (value) section(key, *value, meaning);
+    }
+
+    template <class T>
     void list(const char* key, std::vector<T>& values, std::size_t, const char* /*meaning*/) {
         line(key, values.empty() ? "[]" : "");
         indent_ += 4;
@@ -87,7 +110,7 @@ class MissionWriter {
         line(key, "");
         indent_ += 2;
         for (T& value : values)
-            section(scalar_text(value.name), value, meaning);
+            section(quoted_text(value.name), value, meaning);
         indent_ -= 2;
     }
 
@@ -97,7 +120,6 @@ class MissionWriter {
     void require(bool, std::initializer_list<const char*>, const char*) const {}
 
   private:
-    static std::string scalar_text(std::string_view text);
     void write_list(const char* key, const double* values, std::size_t count);
     void line(std::string_view key, std::string_view value);
 

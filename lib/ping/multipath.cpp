@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "ping/second_legs.h"
+
 namespace sonarsim {
 
 namespace {
@@ -17,15 +19,6 @@ constexpr float least_cosine = 0.01F;
 constexpr float same_normal_cosine = 0.999F;
 constexpr float same_plane_bins = 0.5F;
 
-/// What a traced ray hit: the second surface h.
-struct SecondHit {
-    Eigen::Vector3f point;    ///< p_h, sensor frame, m
-    Eigen::Vector3f normal;   ///< n_h
-    float rounding_m = 0.0F;  ///< as in Intersection
-    float reflection = 0.0F;  ///< R_h
-    bool exists = false;
-};
-
 /// The plane of the second surface of a cluster, and the disc of it that was hit.
 struct Plane {
     const SecondHit* hit;
@@ -36,69 +29,6 @@ struct Plane {
 /// What became of a sample, as the counter that it goes into.
 using Outcome = std::uint64_t MultipathCounts::*;
 constexpr Outcome off_the_disc = nullptr;  ///< to be traced by itself
-
-/// What all steps need.
-struct Context {
-    const View& view;
-    const Samples& samples;
-    std::span<const Material> materials;
-    const VisibilityEngine& engine;
-    const Pose& T_world_sensor;
-    float bin_m;
-    BeamLocator field;
-};
-
-/// The direction in which a mirror sends on what comes along `direction`: r of Eq. 1.
-Eigen::Vector3f mirrored(const Eigen::Vector3f& direction, const Eigen::Vector3f& normal) {
-    return direction - 2.0F * normal.dot(direction) * normal;
-}
-
-/// The ray that leaves a sample. On a curved surface the sample may lie a little below the facets
-/// that it stands for; the ray starts above them.
-Ray mirrored_ray(const Sample& sample, float bin_m) {
-    const float range = sample.position.norm();
-    const float size = sample.edge_u.norm() + sample.edge_v.norm();
-    const float lift = 1e-4F * range + std::min(0.05F * size, 0.5F * bin_m);
-    return {sample.position + lift * sample.normal,
-            mirrored(sample.position / range, sample.normal)};
-}
-
-/// Whether a ray may have hit the surface that it started from: its start lies in the plane of what
-/// it hit, to within rounding.
-bool hit_its_start(const Ray& ray, const Intersection& hit) {
-    return std::fabs(hit.distance_m * hit.normal.dot(ray.direction)) <= hit.rounding_m;
-}
-
-/// Traces the samples and appends what their rays hit to `second_hits`. Far from the scene's
-/// origin, or on a large triangle, rounding may put the start of a ray below its surface; such a
-/// ray is traced once more from above the rounding.
-void trace(const Context& context, std::span<const std::uint32_t> sources,
-           std::vector<SecondHit>& second_hits, MultipathCounts& counts) {
-    std::vector<Ray> rays;
-    rays.reserve(sources.size());
-    for (const std::uint32_t i : sources)
-        rays.push_back(mirrored_ray(context.samples.items[i], context.bin_m));
-    std::vector<Intersection> hits(rays.size());
-    context.engine.intersect(context.T_world_sensor, rays, hits);
-    counts.rays += rays.size();
-    for (std::size_t k = 0; k < rays.size(); ++k) {
-        if (!hit_its_start(rays[k], hits[k])) continue;
-        rays[k].origin += 2.0F * hits[k].rounding_m * context.samples.items[sources[k]].normal;
-        context.engine.intersect(context.T_world_sensor, {&rays[k], 1}, {&hits[k], 1});
-        ++counts.rays;
-    }
-    for (std::size_t k = 0; k < rays.size(); ++k) {
-        SecondHit second;
-        if (std::isfinite(hits[k].distance_m)) {
-            second = {.point = rays[k].origin + hits[k].distance_m * rays[k].direction,
-                      .normal = hits[k].normal,
-                      .rounding_m = hits[k].rounding_m,
-                      .reflection = context.materials[hits[k].material].reflection,
-                      .exists = true};
-        }
-        second_hits.push_back(second);
-    }
-}
 
 /// Whether two rays hit one plane, or both nothing.
 bool same_plane(const SecondHit& a, const SecondHit& b, float slack_m) {
@@ -112,11 +42,12 @@ bool same_plane(const SecondHit& a, const SecondHit& b, float slack_m) {
 /// from there, Eq. 3. The mirror image of the sonar in the sample's plane, s, makes the path to p
 /// one straight line: p lies on the ray from s through p_i, and |p - s| is the length of the path.
 /// When p_i moves along an edge of its footprint, s stays where it is.
-Outcome reflect(const Context& context, const Sample& sample, const Plane& plane, Bounce& out) {
+Outcome reflect(const SecondLegs& context, const Sample& sample, const Plane& plane, Bounce& out) {
     const SecondHit& second = *plane.hit;
     if (!second.exists) return &MultipathCounts::missed;
     // The sound hit the far side of what the sonar faces.
-    if (!(second.normal.dot(second.point) < 0.0F)) return &MultipathCounts::hidden;
+    const Eigen::Vector3f sonar = context.sonar();
+    if (!(second.normal.dot(second.point - sonar) < 0.0F)) return &MultipathCounts::hidden;
     const Eigen::Vector3f image = 2.0F * sample.normal.dot(sample.position) * sample.normal;
     const Eigen::Vector3f through = sample.position - image;  // |p_i| r_i
     const float first_leg = sample.position.norm();
@@ -127,11 +58,13 @@ Outcome reflect(const Context& context, const Sample& sample, const Plane& plane
     if (!(t > 1.0F)) return &MultipathCounts::behind;
     const Eigen::Vector3f p = image + t * through;
     if ((p - plane.middle).squaredNorm() > plane.radius_m * plane.radius_m) return off_the_disc;
-    const float last_leg = p.norm();
+    const Eigen::Vector3f back = p - sonar;
+    const float last_leg = back.norm();
     const float range = 0.5F * (t * first_leg + last_leg);
-    const float beam = context.field.beam(p, last_leg);
+    const Eigen::Vector3f seen = context.seen(p);
+    const float beam = context.field.beam(seen, last_leg);
     const Eigen::Vector3f q = mirrored(through, second.normal);
-    const float cosine = -q.dot(p) / (first_leg * last_leg);
+    const float cosine = -q.dot(back) / (first_leg * last_leg);
     if (!(beam >= 0.0F && range < static_cast<float>(context.view.range_max_m)))
         return &MultipathCounts::outside;
     if (!(cosine > 0.0F)) return &MultipathCounts::turned_away;
@@ -139,9 +72,11 @@ Outcome reflect(const Context& context, const Sample& sample, const Plane& plane
         const float stretch = -t * edge.dot(second.normal) / along;
         const Eigen::Vector3f of_p = t * edge + stretch * through;
         of_range = 0.5F * (stretch * first_leg + t * edge.dot(sample.position) / first_leg +
-                           of_p.dot(p) / last_leg);
-        of_beam = context.field.beams_per_rad() * (p.x() * of_p.y() - p.y() * of_p.x()) /
-                  (p.x() * p.x() + p.y() * p.y());
+                           of_p.dot(back) / last_leg);
+        const Eigen::Vector3f of_seen = context.seen_change(of_p);
+        of_beam = context.field.beams_per_rad() *
+                  (seen.x() * of_seen.y() - seen.y() * of_seen.x()) /
+                  (seen.x() * seen.x() + seen.y() * seen.y());
     };
     change(sample.edge_u, out.range_u, out.beam_u);
     change(sample.edge_v, out.range_v, out.beam_v);
@@ -153,8 +88,8 @@ Outcome reflect(const Context& context, const Sample& sample, const Plane& plane
 
 /// Reflects one sample off the plane, and keeps what comes back. Returns whether the sample has to
 /// be traced by itself.
-bool follow(const Context& context, std::uint32_t sample, std::uint32_t second, const Plane& plane,
-            std::vector<Bounce>& bounces, MultipathCounts& counts) {
+bool follow(const SecondLegs& context, std::uint32_t sample, std::uint32_t second,
+            const Plane& plane, std::vector<Bounce>& bounces, MultipathCounts& counts) {
     const Sample& source = context.samples.items[sample];
     Bounce b{};
     b.sample = sample;
@@ -170,11 +105,11 @@ bool follow(const Context& context, std::uint32_t sample, std::uint32_t second, 
 }
 
 /// Traces the samples and reflects each off what its own ray hit.
-void follow_traced(const Context& context, std::span<const std::uint32_t> sources,
+void follow_traced(const SecondLegs& context, std::span<const std::uint32_t> sources,
                    std::vector<SecondHit>& second_hits, std::vector<Bounce>& bounces,
                    MultipathCounts& counts) {
     const std::size_t first = second_hits.size();
-    trace(context, sources, second_hits, counts);
+    trace_second_legs(context, sources, second_hits, counts);
     constexpr float unbounded = std::numeric_limits<float>::infinity();
     for (std::size_t k = 0; k < sources.size(); ++k) {
         const SecondHit& own = second_hits[first + k];
@@ -186,18 +121,18 @@ void follow_traced(const Context& context, std::span<const std::uint32_t> source
 /// Whether `hit`, of a ray from the sonar towards p_h, lies before p_h and hides it. Where both are
 /// one surface, two ranges of one point are compared. Each is off by its rounding across the
 /// surface, which along the ray is longer by 1 / cos(incidence).
-bool hides(const Intersection& hit, const SecondHit& second, const Ray& ray) {
+bool hides(const Intersection& hit, const SecondHit& second, float range_m, const Ray& ray) {
     if (std::isinf(hit.distance_m)) return false;
     const auto along_ray = [&](float rounding_m, const Eigen::Vector3f& normal) {
         return rounding_m / std::fabs(normal.dot(ray.direction));
     };
     const float slack =
         along_ray(hit.rounding_m, hit.normal) + along_ray(second.rounding_m, second.normal);
-    return !(hit.distance_m + slack >= second.point.norm());
+    return !(hit.distance_m + slack >= range_m);
 }
 
 /// Takes out the bounces whose second point the sonar does not see.
-void drop_hidden(const Context& context, const std::vector<SecondHit>& second_hits,
+void drop_hidden(const SecondLegs& context, const std::vector<SecondHit>& second_hits,
                  std::vector<Bounce>& bounces, MultipathCounts& counts) {
     constexpr std::uint32_t no_ray = 0xFFFFFFFFU;
     std::vector<std::uint32_t> ray_of(second_hits.size(), no_ray);
@@ -205,34 +140,22 @@ void drop_hidden(const Context& context, const std::vector<SecondHit>& second_hi
     for (const Bounce& b : bounces) {
         if (ray_of[b.second] != no_ray) continue;
         ray_of[b.second] = static_cast<std::uint32_t>(rays.size());
-        rays.push_back({Eigen::Vector3f::Zero(), second_hits[b.second].point.normalized()});
+        rays.push_back(
+            {Eigen::Vector3f::Zero(), context.seen(second_hits[b.second].point).normalized()});
     }
     std::vector<Intersection> hits(rays.size());
     context.engine.intersect(context.T_world_sensor, rays, hits);
     counts.rays += rays.size();
     counts.hidden += std::erase_if(bounces, [&](const Bounce& b) {
         const std::uint32_t ray = ray_of[b.second];
-        return hides(hits[ray], second_hits[b.second], rays[ray]);
+        const SecondHit& second = second_hits[b.second];
+        return hides(hits[ray], second, context.seen(second.point).norm(), rays[ray]);
     });
 }
 
-}  // namespace
-
-std::vector<Bounce> find_bounces(const Multipath& multipath, const View& view,
-                                 const Samples& samples, std::span<const Material> materials,
-                                 const VisibilityEngine& engine, const Pose& T_world_sensor,
-                                 MultipathCounts& counts) {
-    const Context context{.view = view,
-                          .samples = samples,
-                          .materials = materials,
-                          .engine = engine,
-                          .T_world_sensor = T_world_sensor,
-                          .bin_m = static_cast<float>(view.bin_m()),
-                          .field = BeamLocator(view)};
-    const Clusters clusters = cluster_samples(view, samples, multipath.cluster);
-    counts.samples = clusters.members.size();
-    counts.clusters = clusters.size();
-
+/// Follows the sound of all samples to what `context` says of second surfaces.
+std::vector<Bounce> follow_all(const SecondLegs& context, const Clusters& clusters,
+                               MultipathCounts& counts) {
     // The first and the last member of every cluster are traced.
     std::vector<std::uint32_t> sources;
     for (std::size_t c = 0; c < clusters.size(); ++c) {
@@ -265,6 +188,38 @@ std::vector<Bounce> find_bounces(const Multipath& multipath, const View& view,
     }
     follow_traced(context, sources, second_hits, bounces, counts);
     drop_hidden(context, second_hits, bounces, counts);
+    return bounces;
+}
+
+}  // namespace
+
+std::vector<Bounce> find_bounces(const Multipath& multipath, const View& view,
+                                 const Samples& samples, std::span<const Material> materials,
+                                 const VisibilityEngine& engine, const Pose& T_world_sensor,
+                                 MultipathCounts& counts,
+                                 const std::optional<WaterSurface>& surface) {
+    const std::optional<WaterMirror> mirror = mirror_of(surface, T_world_sensor);
+    SecondLegs context{.view = view,
+                       .samples = samples,
+                       .materials = materials,
+                       .engine = engine,
+                       .T_world_sensor = T_world_sensor,
+                       .bin_m = static_cast<float>(view.bin_m()),
+                       .field = BeamLocator(view),
+                       .mirror = mirror ? &*mirror : nullptr};
+    const Clusters clusters = cluster_samples(view, samples, multipath.cluster);
+    counts.samples = clusters.members.size();
+    counts.clusters = clusters.size();
+
+    std::vector<Bounce> bounces = follow_all(context, clusters, counts);
+    if (mirror) {
+        // What becomes of a sample is counted once, on its way without the mirror.
+        MultipathCounts mirrored_counts;
+        context.at_surface = AtSurface::mirrors;
+        const std::vector<Bounce> more = follow_all(context, clusters, mirrored_counts);
+        bounces.insert(bounces.end(), more.begin(), more.end());
+        counts.rays += mirrored_counts.rays;
+    }
     counts.bounces = bounces.size();
     return bounces;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -34,10 +35,13 @@ struct Bounce {
 /// azimuth of the second point p, the range (|p_i| + |p - p_i| + |p|) / 2 (Eq. 3, whose print ends
 /// in |p_i|) and the intensity R_i R_h max(0, q . v_p). For a traced sample a ray finds out whether
 /// the sonar sees p; the others of its cluster inherit the answer. Samples without an echo are
-/// counted by what became of them.
+/// counted by what became of them. For a sonar below the water's surface, that is a second surface,
+/// too; and the sound that it mirrors is followed to the next one, as if that lay in the mirror:
+/// with a flat bottom that is the second bottom echo.
 std::vector<Bounce> find_bounces(const Multipath& multipath, const View& view,
                                  const Samples& samples, std::span<const Material> materials,
                                  const VisibilityEngine& engine, const Pose& T_world_sensor,
-                                 MultipathCounts& counts);
+                                 MultipathCounts& counts,
+                                 const std::optional<WaterSurface>& surface = std::nullopt);
 
 }  // namespace sonarsim

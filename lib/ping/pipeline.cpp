@@ -77,7 +77,7 @@ void trace_multipath(const PingSettings& settings, const Scene& scene,
     if (settings.multipath.on) {
         traced.bounces =
             find_bounces(settings.multipath, settings.view, traced.samples, scene.materials, engine,
-                         traced.T_world_sensor, traced.counts.multipath);
+                         traced.T_world_sensor, traced.counts.multipath, scene.water_surface);
     }
     traced.seconds.multipath = watch.lap();
 }

@@ -1,5 +1,6 @@
 #include "scene/materials.h"
 
+#include <algorithm>
 #include <map>
 #include <utility>
 
@@ -57,6 +58,15 @@ MaterialTable to_materials(const CsvTable& csv) {
     return table;
 }
 
+/// A name as a field of a CSV.
+std::string field_of(const std::string& name) {
+    if (name.find_first_of(",\"# ") == std::string::npos) return name;
+    std::string out = "\"";
+    for (const char c : name)
+        out += c == '"' ? std::string("\"\"") : std::string(1, c);
+    return out + "\"";
+}
+
 }  // namespace
 
 MaterialTable read_materials(const std::filesystem::path& path) {
@@ -89,6 +99,43 @@ void resolve_materials(Scene& scene, const MaterialTable& table, const Water& wa
     if (!missing.empty()) {
         throw InputError(Location{table.file}, "lacks materials of the scene: " + missing);
     }
+}
+
+std::string materials_csv(const Scene& scene, const MaterialTable& known) {
+    std::string csv = "material,density_kg_m3,sound_speed_m_s\n";
+    for (const Material& material : scene.materials) {
+        const auto row = std::ranges::find(known.materials, material.name, &Material::name);
+        csv += field_of(material.name);
+        csv += row == known.materials.end() ? ",,"
+                                            : "," + number_text(row->density_kg_m3) + "," +
+                                                  number_text(row->sound_speed_m_s);
+        csv += "\n";
+    }
+    return csv;
+}
+
+std::vector<std::string> unit_doubts(std::span<const Material> materials) {
+    // Gases are lighter than 10 kg/m^3 and carry sound at less than 1,300 m/s; liquids and solids
+    // are heavier than 30.
+    constexpr double lightest_solid = 30.0;
+    constexpr double fast_for_a_gas = 1300.0;
+    constexpr double slowest = 20.0;
+    std::vector<std::string> doubts;
+    for (const Material& material : materials) {
+        if (material.density_kg_m3 <= 0.0 || material.sound_speed_m_s <= 0.0) continue;
+        const std::string name = "material '" + printable(material.name) + "': ";
+        const bool slow = material.sound_speed_m_s < slowest;
+        if (slow) {
+            doubts.push_back(name + "a speed of sound of " + number_text(material.sound_speed_m_s) +
+                             " looks like km/s; the CSV takes m/s");
+        }
+        const double speed = material.sound_speed_m_s * (slow ? 1000.0 : 1.0);
+        if (material.density_kg_m3 < lightest_solid && speed > fast_for_a_gas) {
+            doubts.push_back(name + "a density of " + number_text(material.density_kg_m3) +
+                             " looks like g/cm^3; the CSV takes kg/m^3");
+        }
+    }
+    return doubts;
 }
 
 }  // namespace sonarsim

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,5 +26,12 @@ MaterialTable parse_materials(std::string_view text, const std::string& file_nam
 /// Gives every material of the scene its density, sound speed and reflection in `water`.
 /// InputError that lists every name which the table lacks.
 void resolve_materials(Scene& scene, const MaterialTable& table, const Water& water);
+
+/// A CSV with a row for each material of the scene, filled in where the table has it.
+std::string materials_csv(const Scene& scene, const MaterialTable& known);
+
+/// A sentence for each material whose density looks like g/cm^3 or whose speed looks like km/s: a
+/// density below 30 where sound is faster than in any gas, a speed below 20.
+std::vector<std::string> unit_doubts(std::span<const Material> materials);
 
 }  // namespace sonarsim

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,11 +25,26 @@ struct Material {
 /// impedance z = rho c, Eq. 4-5.
 double power_reflection(double density_kg_m3, double sound_speed_m_s, const Water& water);
 
+/// The surface of the water, which mirrors sound from below and is no part of what a sonar sees.
+struct WaterSurface {
+    double height_m = 0.0;    ///< world
+    float reflection = 0.0F;  ///< of power
+};
+
 /// What was left out of the scene while it was read, and why.
 struct SceneRejects {
     std::uint64_t degenerate_triangles = 0;  ///< no area
     std::uint64_t non_finite_triangles = 0;  ///< a vertex is NaN or infinite
     std::uint64_t skipped_primitives = 0;    ///< points and lines: no surface to echo
+};
+
+/// A part of the scene that moves as one. Its vertices are floats in a frame of its own, which a
+/// pose takes to the world for every ping.
+struct Body {
+    std::uint32_t instance = 0;  ///< index into Scene::instances
+    std::vector<Eigen::Vector3f> vertices;
+    std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices into `vertices`
+    std::vector<std::uint32_t> triangle_material;         ///< index into Scene::materials
 };
 
 /// The world as triangles, immutable once read. World frame: right-handed, z up, metres.
@@ -40,6 +56,7 @@ struct Scene {
     std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices into `vertices`
     std::vector<std::uint32_t> triangle_material;         ///< index into `materials`
     std::vector<std::uint32_t> triangle_instance;         ///< index into `instances`
+    std::vector<Body> bodies;                             ///< what moves is not in `triangles`
     std::vector<Material> materials;                      ///< those that the scene uses
     std::vector<std::string> instances;                   ///< node names
     std::vector<std::string> instance_classes;  ///< extras.sonar.class, by instance; "": none
@@ -49,7 +66,9 @@ struct Scene {
     /// from where its maker put it, m. At UTM coordinates 0.25 m; a node that has them as its
     /// translation loses nothing.
     double vertex_rounding_m = 0.0;
+    std::optional<WaterSurface> water_surface;
     SceneRejects rejects;
+    std::vector<std::string> doubts;  ///< what the user should look at, as sentences
 };
 
 /// Whether `vertex_rounding_m` spoils the scene: more than a millimetre, about the finest range bin

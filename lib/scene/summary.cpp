@@ -101,4 +101,25 @@ std::string describe_scene(const Scene& scene) {
            table("instance", scene.instances, of_instance);
 }
 
+std::string describe_materials(const Scene& scene, const MaterialTable& table, const Water& water) {
+    const std::string title = "material";
+    std::size_t width = title.size();
+    for (const Material& material : scene.materials)
+        width = std::max(width, printable(material.name).size());
+    std::string out = "\n" + left(title, width) + "  kg/m^3    m/s     reflection\n";
+    for (const Material& material : scene.materials) {
+        out += left(printable(material.name), width);
+        const auto row = std::ranges::find(table.materials, material.name, &Material::name);
+        if (row == table.materials.end()) {
+            out += "  not in " + printable(table.file) + "\n";
+            continue;
+        }
+        out += right(number_text(row->density_kg_m3), 8) +
+               right(number_text(row->sound_speed_m_s), 8) +
+               right(fixed(power_reflection(row->density_kg_m3, row->sound_speed_m_s, water)), 13) +
+               "\n";
+    }
+    return out;
+}
+
 }  // namespace sonarsim

@@ -31,7 +31,7 @@ struct Cast {
     /// Adds what a ray has met. `density` is solid_angle_density() of its direction.
     void add(const Eigen::Vector3f& direction, double density, int beam, std::uint32_t triangle) {
         const View& view = looking.view;
-        const Facet& facet = looking.caster.facet(triangle);
+        const Facet facet = looking.caster.facet(triangle);
         const Eigen::Vector3d normal = facet.normal.cast<double>();
         const double facing = normal.dot(direction.cast<double>());
         const double range =

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/pose.h"
 #include "scene/scene.h"
 
 namespace sonarsim {
@@ -24,11 +25,17 @@ class Caster {
   public:
     static constexpr std::uint32_t nothing = 0xFFFFFFFFU;
 
-    /// Builds the tree over `scene`, which must outlive the caster.
+    /// Builds the tree over `scene`, and one over each of its bodies. These are not met before
+    /// `moved` has put them somewhere.
     explicit Caster(const Scene& scene);
     ~Caster();
+    Caster(Caster&&) noexcept;
     Caster(const Caster&) = delete;
     Caster& operator=(const Caster&) = delete;
+
+    /// The same trees, with the bodies at these poses. Takes time for each body, not for its
+    /// triangles. Scene-local frame.
+    Caster moved(std::span<const Pose> T_local_body) const;
 
     /// Rays from one point: `facets[i]` is what direction i meets within `reach_m`, or `nothing`.
     /// Neighbours in the list should be neighbours in space. Scene-local frame.
@@ -40,7 +47,10 @@ class Caster {
     void cast(std::span<const Eigen::Vector3f> origins, std::span<const Eigen::Vector3f> directions,
               std::span<std::uint32_t> facets) const;
 
-    const Facet& facet(std::uint32_t index) const { return facets_[index]; }
+    /// Where it is now, in the scene-local frame.
+    Facet facet(std::uint32_t index) const {
+        return index < still_ ? facets_[index] : moved_facet(index);
+    }
 
     /// Fetches a facet that is soon asked for; `nothing` is allowed.
     void prefetch(std::uint32_t index) const {
@@ -48,9 +58,16 @@ class Caster {
     }
 
   private:
-    struct Embree;
-    std::unique_ptr<Embree> embree_;
-    std::vector<Facet> facets_;
+    struct Trees;
+    struct Moment;
+    Caster(std::shared_ptr<const Trees> trees, std::unique_ptr<Moment> moment);
+    static std::shared_ptr<const Trees> make_trees(const Scene& scene);
+    Facet moved_facet(std::uint32_t index) const;
+
+    std::shared_ptr<const Trees> trees_;
+    std::unique_ptr<Moment> moment_;  ///< null: without the bodies
+    const Facet* facets_ = nullptr;   ///< of what stands still, then of the bodies in their frames
+    std::uint32_t still_ = 0;         ///< how many of them stand still
 };
 
 }  // namespace sonarsim

@@ -7,7 +7,28 @@
 #include <embree4/rtcore.h>
 #endif
 
+#include <utility>
+
 namespace sonarsim {
+
+/// A tree of Embree's that goes with its owner.
+class EmbreeTree {
+  public:
+    explicit EmbreeTree(RTCDevice device) : scene_(rtcNewScene(device)) {
+        rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
+    }
+    ~EmbreeTree() {
+        if (scene_) rtcReleaseScene(scene_);
+    }
+    EmbreeTree(EmbreeTree&& other) noexcept : scene_(std::exchange(other.scene_, nullptr)) {}
+    EmbreeTree(const EmbreeTree&) = delete;
+    EmbreeTree& operator=(const EmbreeTree&) = delete;
+
+    RTCScene get() const { return scene_; }
+
+  private:
+    RTCScene scene_;
+};
 
 /// rtcIntersect8 for rays that lie close together; the arguments are Embree's.
 inline void intersect_coherent_8(const int* valid, RTCScene tree, RTCRayHit8& rays) {

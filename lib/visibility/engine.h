@@ -3,7 +3,9 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -67,6 +69,13 @@ class VisibilityEngine {
     /// The first surface that each ray meets. `intersections` has the length of `rays`.
     virtual void intersect(const Pose& T_world_sensor, std::span<const Ray> rays,
                            std::span<Intersection> intersections) const = 0;
+
+    /// The engine at a moment at which Scene::bodies are at these poses. It shares with this one
+    /// what does not move, and must not outlive it. Without this call bodies are not seen. Only
+    /// engines of scenes with bodies are asked, and `refusal_of` says which cannot hold them.
+    virtual std::unique_ptr<VisibilityEngine> at(std::span<const Pose> /*T_world_body*/) const {
+        throw std::logic_error("this engine does not know of bodies that move");
+    }
 
     /// What the user should know about the answers so far: sentences that name the keys to change.
     virtual std::vector<std::string> warnings() const { return {}; }

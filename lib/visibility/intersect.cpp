@@ -41,7 +41,7 @@ void intersect_rays(const Caster& caster, const Eigen::Vector3d& scene_origin,
                                 Eigen::Vector3f::Zero(), 0, 0};
             continue;
         }
-        const Facet& facet = caster.facet(facets[i]);
+        const Facet facet = caster.facet(facets[i]);
         const float along = facet.normal.dot(directions[i]);
         const Eigen::Vector3f to_vertex = facet.vertex - origins[i];
         const float distance = facet.normal.dot(to_vertex) / along;

@@ -33,6 +33,11 @@ std::unique_ptr<VisibilityEngine> make_engine(const Scene& scene, const EngineSe
 }
 
 std::string refusal_of(const EngineSettings& settings, const Scene& scene) {
+    if (!scene.bodies.empty() && settings.type != EngineType::rays) {
+        return std::string(settings.type == EngineType::octree ? "engine: octree"
+                                                               : "engine: slices") +
+               " sees no objects that move; use engine: rays";
+    }
     if (settings.type != EngineType::octree) return "";
     const double length_m = (scene.bounds_max - scene.bounds_min).maxCoeff();
     const double longest_m = longest_octree_scene_m(settings.octree);

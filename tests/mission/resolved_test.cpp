@@ -79,6 +79,10 @@ water:
 scene:
   file: "/base/a.glb"
   materials: "/base/a.csv"
+  units: m
+  up: y
+  objects: []
+  scatter: []
 trajectory:
   file: "/base/a.tum"
   rate_hz: 0
@@ -143,6 +147,8 @@ output:
   soundings: true
   scan: true
   bathymetry_cell_m: 0
+variants: 0
+vary: []
 )");
 }
 

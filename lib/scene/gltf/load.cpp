@@ -6,70 +6,23 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "core/error.h"
 #include "core/input_limits.h"
-#include "scene/gltf/file.h"
-#include "scene/gltf/nodes.h"
-#include "scene/gltf/triangles.h"
-#include "scene/materials.h"
+#include "core/text.h"
+#include "scene/gltf/pieces.h"
 
 namespace sonarsim {
 
 namespace {
 
-// A small file can place a large mesh, or many small ones, many times.
-constexpr std::size_t max_triangles = std::size_t{1} << 28;
-constexpr std::size_t piece_cost = 64;
-
-enum class Nameless { refused, allowed };
-
-/// One primitive of one placed mesh.
-struct Piece {
-    const TriangleSource& source;
-    const PlacedMesh& placed;
-    std::size_t instance;
-    int material;       ///< of the glTF; -1: none
-    std::string where;  ///< for errors
-};
-
-Eigen::Vector3d corner(const Piece& piece, std::uint32_t vertex) {
-    return piece.placed.T_world_mesh * position(piece.source.positions, vertex);
-}
-
-/// Calls `visit` with every piece of the scene and returns how many primitives are no surfaces.
-template <class Visit>
-std::uint64_t for_each_piece(const tinygltf::Model& model, const std::vector<PlacedMesh>& placed,
-                             const std::string& file, Visit visit) {
-    std::uint64_t skipped = 0;
-    std::size_t work = 0;
-    for (std::size_t i = 0; i < placed.size(); ++i) {
-        const auto mesh_index = static_cast<std::size_t>(placed[i].mesh);
-        const tinygltf::Mesh& mesh = model.meshes[mesh_index];
-        const std::string name =
-            mesh.name.empty() ? std::to_string(mesh_index) : "'" + mesh.name + "'";
-        const std::string prefix = file + ": mesh " + name + " primitive ";
-        for (std::size_t k = 0; k < mesh.primitives.size(); ++k) {
-            const std::string where = prefix + std::to_string(k);
-            const auto source = open_triangles(model, mesh.primitives[k], where);
-            work += piece_cost;
-            if (source) work += source->count + source->positions.sparse_at.size();
-            if (work > max_triangles) {
-                throw InputError(Location{file},
-                                 "places more than 2^28 triangles (a primitive counts as 64 more)");
-            }
-            if (source) {
-                visit(Piece{*source, placed[i], i, mesh.primitives[k].material, where});
-            } else {
-                ++skipped;
-            }
-        }
-    }
-    return skipped;
-}
+/// Beyond these a file is probably not in the unit that it is read in.
+constexpr double suspicious_length_m = 1e4;
+constexpr double suspicious_smallness_m = 1e-3;
 
 bool has_area(const std::array<Eigen::Vector3d, 3>& p) {
     return (p[1] - p[0]).cross(p[2] - p[0]).squaredNorm() > 0.0;
@@ -92,10 +45,9 @@ struct Extent {
     double vertex_rounding_m = 0.0;  ///< as in Scene
 };
 
-Extent find_extent(const tinygltf::Model& model, const std::vector<PlacedMesh>& placed,
-                   const std::string& file) {
+Extent find_extent(const OpenFile& file, ReadingLimit& limit) {
     Extent extent;
-    for_each_piece(model, placed, file, [&extent](const Piece& piece) {
+    for_each_piece(file, limit, [&extent](const Piece& piece) {
         Eigen::Vector3d farthest = Eigen::Vector3d::Zero();  // in the mesh's own axes
         for (std::size_t i = 0; i < piece.source.count; ++i) {
             const auto vertices = triangle(piece.source, i, piece.where);
@@ -104,7 +56,7 @@ Extent find_extent(const tinygltf::Model& model, const std::vector<PlacedMesh>& 
             for (int k = 0; k < 3; ++k) {
                 points[k] = position(piece.source.positions, vertices[k]);
                 reach = reach.cwiseMax(points[k].cwiseAbs());
-                points[k] = piece.placed.T_world_mesh * points[k];
+                points[k] = piece.mesh.T_world_mesh * points[k];
             }
             if (!is_finite(points) || !has_area(points)) continue;
             farthest = farthest.cwiseMax(reach);
@@ -119,7 +71,7 @@ Extent find_extent(const tinygltf::Model& model, const std::vector<PlacedMesh>& 
         // Integers are what their exporter made them.
         if (piece.source.positions.component_type != TINYGLTF_COMPONENT_TYPE_FLOAT) return;
         const Eigen::Vector3d off =
-            piece.placed.T_world_mesh.linear().cwiseAbs() * farthest.unaryExpr(&half_unit);
+            piece.mesh.T_world_mesh.linear().cwiseAbs() * farthest.unaryExpr(&half_unit);
         extent.vertex_rounding_m = std::max(extent.vertex_rounding_m, off.maxCoeff());
     });
     return extent;
@@ -137,111 +89,152 @@ Eigen::Vector3d choose_origin(const Eigen::AlignedBox3d& box) {
     return grid * (cells.array() + 0.5 + aside).floor().matrix();
 }
 
-std::string material_name(const tinygltf::Model& model, const Piece& piece, Nameless nameless) {
-    if (!piece.placed.material.empty()) return piece.placed.material;
-    if (piece.material >= 0) {
-        const auto index = static_cast<std::size_t>(piece.material);
-        if (index >= model.materials.size()) {
-            throw InputError(piece.where + ": material " + std::to_string(index) +
-                             " does not exist");
-        }
-        const tinygltf::Material& material = model.materials[index];
-        std::string own = sonar_material(material.extras);
-        if (!own.empty()) return own;
-        if (!material.name.empty()) return material.name;
-    }
-    if (nameless == Nameless::allowed) return "(no material)";
-    throw InputError(piece.where + " of node '" + piece.placed.instance +
-                     "': " + (piece.material < 0 ? "has no material" : "its material has no name") +
-                     "; name one in the glTF material or as extras.sonar.material of the node");
-}
-
-/// The class of a placed mesh that has none of its own: that of its materials, or "".
-void take_class_of_material(const tinygltf::Model& model, const Piece& piece,
-                            std::string& class_name) {
-    if (!piece.placed.label.empty() || piece.material < 0) return;
-    const auto index = static_cast<std::size_t>(piece.material);
-    if (index >= model.materials.size()) return;  // refused where the material is looked up
-    const std::string own = sonar_class(model.materials[index].extras);
-    if (own.empty() || own == class_name) return;
-    if (!class_name.empty()) {
-        throw InputError(piece.where + " of node '" + piece.placed.instance +
-                         "': its material has the class '" + own + "', another of the node's '" +
-                         class_name + "'; give the node a class as its extras.sonar.class");
-    }
-    class_name = own;
-}
-
-/// Fills a scene, vertex by vertex as triangles ask for them.
-struct SceneBuilder {
-    Scene scene;
-    std::map<std::string, std::uint32_t> materials;
-    // Where a piece's vertex stands in `scene.vertices`, plus 1. What earlier pieces left is not
+/// Adds triangles to a scene or a body, vertex by vertex as triangles ask for them.
+template <class Mesh>
+struct MeshBuilder {
+    Mesh& mesh;
+    SceneRejects& rejects;
+    Eigen::Vector3d origin;
+    // Where a piece's vertex stands in `mesh.vertices`, plus 1. What earlier pieces left is not
     // above their number of vertices, so nothing has to be cleared.
-    std::vector<std::uint32_t> slots;
+    std::vector<std::uint32_t> slots = {};
 
-    std::uint32_t material(const std::string& name) {
-        const auto number = static_cast<std::uint32_t>(scene.materials.size());
-        const auto [entry, is_new] = materials.emplace(name, number);
-        if (is_new) {
-            scene.materials.emplace_back();
-            scene.materials.back().name = name;
-        }
-        return entry->second;
-    }
-
-    void add(const Piece& piece, std::uint32_t material_index) {
-        const std::size_t first = scene.vertices.size();
+    /// Calls `note` for every triangle that is added.
+    template <class Note>
+    void add(const Piece& piece, const Note& note) {
+        const std::size_t first = mesh.vertices.size();
         slots.resize(std::max(slots.size(), piece.source.positions.count), 0);
         for (std::size_t i = 0; i < piece.source.count; ++i) {
             std::array<std::uint32_t, 3> vertices = triangle(piece.source, i, piece.where);
             std::array<Eigen::Vector3f, 3> local;
             std::array<Eigen::Vector3d, 3> rounded;
             for (std::size_t k = 0; k < 3; ++k) {
-                local[k] = (corner(piece, vertices[k]) - scene.origin).cast<float>();
-                rounded[k] = local[k].cast<double>();
+                local[k] = (corner(piece, vertices[k]) - origin).template cast<float>();
+                rounded[k] = local[k].template cast<double>();
             }
             if (!is_finite(rounded)) {
-                ++scene.rejects.non_finite_triangles;
+                ++rejects.non_finite_triangles;
                 continue;
             }
             if (!has_area(rounded)) {
-                ++scene.rejects.degenerate_triangles;
+                ++rejects.degenerate_triangles;
                 continue;
             }
             for (std::size_t k = 0; k < 3; ++k) {
                 std::uint32_t& slot = slots[vertices[k]];
                 if (slot <= first) {
-                    scene.vertices.push_back(local[k]);
-                    slot = static_cast<std::uint32_t>(scene.vertices.size());
+                    mesh.vertices.push_back(local[k]);
+                    slot = static_cast<std::uint32_t>(mesh.vertices.size());
                 }
                 vertices[k] = slot - 1;
             }
-            scene.triangles.push_back(vertices);
-            scene.triangle_material.push_back(material_index);
-            scene.triangle_instance.push_back(static_cast<std::uint32_t>(piece.instance));
+            mesh.triangles.push_back(vertices);
+            note();
         }
     }
 };
 
-Scene read_scene(const std::filesystem::path& path, Nameless nameless) {
-    const std::string file = path.string();
-    const tinygltf::Model model = read_gltf(path);
-    const std::vector<PlacedMesh> placed = place_meshes(model, file);
+/// Numbers the materials of a scene in the order in which they come.
+struct MaterialNumbers {
+    std::map<std::string, std::uint32_t> numbers = {};
 
-    SceneBuilder builder;
-    Scene& scene = builder.scene;
-    const Extent extent = find_extent(model, placed, file);
-    scene.origin = choose_origin(extent.box);
-    scene.vertex_rounding_m = extent.vertex_rounding_m;
-    for (const PlacedMesh& mesh : placed) {
-        scene.instances.push_back(mesh.instance);
-        scene.instance_classes.push_back(mesh.label);
+    std::uint32_t of(const std::string& name, Scene& scene) {
+        const auto number = static_cast<std::uint32_t>(scene.materials.size());
+        const auto [entry, is_new] = numbers.emplace(name, number);
+        if (is_new) {
+            scene.materials.emplace_back();
+            scene.materials.back().name = name;
+        }
+        return entry->second;
     }
-    scene.rejects.skipped_primitives = for_each_piece(model, placed, file, [&](const Piece& piece) {
-        builder.add(piece, builder.material(material_name(model, piece, nameless)));
-        take_class_of_material(model, piece, scene.instance_classes[piece.instance]);
-    });
+};
+
+/// Opens the files and names their instances. Names that objects are given come first: what nodes
+/// are called gives way to them.
+std::vector<OpenFile> open_files(std::span<const PlacedFile> files, SceneFiles& models,
+                                 Scene& scene) {
+    UniqueNames names;
+    for (const PlacedFile& file : files) {
+        if (file.name.empty() || names.taken.insert(file.name).second) continue;
+        throw InputError(file.place, "there is an object '" + printable(file.name) +
+                                         "' already; give each a name of its own");
+    }
+    std::vector<OpenFile> open;
+    for (const PlacedFile& file : files) {
+        OpenFile& next = open.emplace_back();
+        next.placed = &file;
+        next.model = &models.model(file.file);
+        next.meshes = place_meshes(*next.model, file, names);
+        if (next.meshes.empty() && !file.name.empty()) {
+            throw InputError(file.place, "nothing of " + file.file.string() + " is left for '" +
+                                             printable(file.name) + "'");
+        }
+        for (const PlacedMesh& mesh : next.meshes) {
+            const bool is_part = !file.name.empty() && !next.instance_of_mesh.empty();
+            if (!is_part) {
+                scene.instances.push_back(mesh.instance);
+                scene.instance_classes.push_back(file.class_name.empty() ? mesh.label
+                                                                         : file.class_name);
+            }
+            next.instance_of_mesh.push_back(static_cast<std::uint32_t>(scene.instances.size() - 1));
+        }
+    }
+    return open;
+}
+
+/// Once for each file that is read in one unit.
+void doubt_units(const OpenFile& file, const Eigen::AlignedBox3d& box,
+                 std::set<std::pair<std::string, double>>& doubted, Scene& scene) {
+    if (box.isEmpty()) return;
+    const double length_m = box.sizes().maxCoeff();
+    if (length_m < suspicious_length_m && length_m > suspicious_smallness_m) return;
+    const std::string path = file.placed->file.string();
+    if (!doubted.emplace(path, file.placed->unit_m).second) return;
+    scene.doubts.push_back(path + " is " + number_text(length_m) +
+                           " m long; if its lengths are not what they are read as, say what they "
+                           "are with `units`, as in units: mm");
+}
+
+void find_extents(const std::vector<OpenFile>& open, Scene& scene) {
+    Eigen::AlignedBox3d whole;
+    ReadingLimit limit;
+    std::set<std::pair<std::string, double>> doubted;
+    for (const OpenFile& file : open) {
+        require_renamed(file);
+        const Extent extent = find_extent(file, limit);
+        doubt_units(file, extent.box, doubted, scene);
+        scene.vertex_rounding_m = std::max(scene.vertex_rounding_m, extent.vertex_rounding_m);
+        if (!file.placed->moves) whole.extend(extent.box);
+    }
+    scene.origin = choose_origin(whole);
+}
+
+Scene compose(std::span<const PlacedFile> files, SceneFiles& models, const MaterialRules& rules) {
+    Scene scene;
+    const std::vector<OpenFile> open = open_files(files, models, scene);
+    find_extents(open, scene);
+    MaterialNumbers materials;
+    ReadingLimit limit;
+    MeshBuilder<Scene> still{scene, scene.rejects, scene.origin};
+    for (const OpenFile& file : open) {
+        Body body;
+        MeshBuilder<Body> moving{body, scene.rejects, Eigen::Vector3d::Zero()};
+        scene.rejects.skipped_primitives += for_each_piece(file, limit, [&](const Piece& piece) {
+            const std::uint32_t material = materials.of(material_name(piece, rules), scene);
+            take_class_of_material(piece, scene.instance_classes[piece.instance]);
+            if (file.placed->moves) {
+                moving.add(piece, [&] { body.triangle_material.push_back(material); });
+                return;
+            }
+            still.add(piece, [&] {
+                scene.triangle_material.push_back(material);
+                scene.triangle_instance.push_back(piece.instance);
+            });
+        });
+        if (!file.placed->moves) continue;
+        body.instance = file.instance_of_mesh.front();
+        scene.bodies.push_back(std::move(body));
+    }
 
     Eigen::AlignedBox3d box;
     for (const Eigen::Vector3f& vertex : scene.vertices)
@@ -250,21 +243,53 @@ Scene read_scene(const std::filesystem::path& path, Nameless nameless) {
         scene.bounds_min = scene.origin + box.min();
         scene.bounds_max = scene.origin + box.max();
     }
-    return std::move(scene);
+    return scene;
+}
+
+/// Materials that the mission names, each where it does so.
+void require_materials(std::span<const PlacedFile> files, const MaterialTable& table) {
+    std::vector<std::string> known;
+    for (const Material& material : table.materials)
+        known.push_back(material.name);
+    const auto require = [&](const PlacedFile& file, const std::string& name) {
+        if (std::ranges::find(known, name) != known.end()) return;
+        throw InputError(file.place, "unknown material '" + printable(name) + "'" +
+                                         did_you_mean(name, known) + "; " + table.file +
+                                         " lists those that there are");
+    };
+    for (const PlacedFile& file : files) {
+        if (!file.material.empty()) require(file, file.material);
+        for (const auto& renamed : file.renamed_materials)
+            require(file, renamed.second);
+    }
 }
 
 }  // namespace
 
-Scene load_scene(const std::filesystem::path& gltf, const std::filesystem::path& materials_csv,
-                 const Water& water) {
-    const MaterialTable table = read_materials(materials_csv);
-    Scene scene = read_scene(gltf, Nameless::refused);
+Scene load_scene(std::span<const PlacedFile> files, SceneFiles& models, const MaterialTable& table,
+                 const std::string& material_default, const Water& water) {
+    require_materials(files, table);
+    MaterialRules rules;
+    rules.fallback = material_default;
+    for (const Material& material : table.materials)
+        rules.known.insert(material.name);
+    Scene scene = compose(files, models, rules);
     resolve_materials(scene, table, water);
     return scene;
 }
 
+Scene load_scene(const std::filesystem::path& gltf, const std::filesystem::path& materials_csv,
+                 const Water& water) {
+    const MaterialTable table = read_materials(materials_csv);
+    SceneFiles models;
+    const PlacedFile file{.file = gltf};
+    return load_scene({&file, 1}, models, table, "", water);
+}
+
 Scene load_scene_geometry(const std::filesystem::path& gltf) {
-    return read_scene(gltf, Nameless::allowed);
+    SceneFiles models;
+    const PlacedFile file{.file = gltf};
+    return compose({&file, 1}, models, {true, {}, {}});
 }
 
 }  // namespace sonarsim

@@ -1,7 +1,12 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
+#include <string>
 
+#include "scene/gltf/scene_files.h"
+#include "scene/materials.h"
+#include "scene/placed_file.h"
 #include "scene/scene.h"
 
 namespace sonarsim {
@@ -24,6 +29,14 @@ namespace sonarsim {
 /// in `rejects`; a scene may end up empty.
 Scene load_scene(const std::filesystem::path& gltf, const std::filesystem::path& materials_csv,
                  const Water& water);
+
+/// The same of many files, each where it is placed; those that move become bodies. The scene is bit
+/// by bit that of one file with all their nodes, in their order and with their transforms. What
+/// `table` lacks or has no name becomes `material_default`, unless that is empty. InputError
+/// besides at the place of a file for a name that is taken, a pattern of `exclude` or a material to
+/// rename that the file does not have, and a material that the table lacks.
+Scene load_scene(std::span<const PlacedFile> files, SceneFiles& models, const MaterialTable& table,
+                 const std::string& material_default, const Water& water);
 
 /// The same without a CSV: materials have a name alone, "(no material)" where the file names none.
 Scene load_scene_geometry(const std::filesystem::path& gltf);

@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <set>
 #include <utility>
 
 #include "core/error.h"
+#include "scene/objects.h"
 
 namespace sonarsim {
 
@@ -147,20 +146,43 @@ void check_rigid(const Graph& graph, int index) {
     }
 }
 
-/// Gives every name once: what is taken gets "_2", "_3", ...
-struct Names {
-    std::set<std::string> taken;
-    std::map<std::string, int> last;
+/// The patterns of nodes that are left out, and which of them have fitted one.
+class Exclusion {
+  public:
+    explicit Exclusion(const PlacedFile& placed)
+        : placed_(placed), used_(placed.exclude.size(), false) {}
 
-    std::string unique(const std::string& name) {
-        std::string candidate = name;
-        while (!taken.insert(candidate).second) {
-            int& number = last.emplace(name, 1).first->second;
-            candidate = name + "_" + std::to_string(++number);
+    bool takes(const std::string& name) {
+        bool fits = false;
+        for (std::size_t k = 0; k < used_.size(); ++k) {
+            if (!fits_pattern(placed_.exclude[k], name)) continue;
+            used_[k] = fits = true;
         }
-        return candidate;
+        return fits;
     }
+
+    void require_used() const {
+        const auto unused = std::find(used_.begin(), used_.end(), false);
+        if (unused == used_.end()) return;
+        const std::string& pattern =
+            placed_.exclude[static_cast<std::size_t>(unused - used_.begin())];
+        throw InputError(placed_.place, "exclude: no node of " + placed_.file.string() + " fits '" +
+                                            pattern +
+                                            "'; `sonarsim inspect` lists the names of its nodes");
+    }
+
+  private:
+    const PlacedFile& placed_;
+    std::vector<bool> used_;
 };
+
+/// From the file's axes and unit to metres with z up.
+Eigen::Affine3d file_from_gltf(const PlacedFile& placed) {
+    Eigen::Affine3d T_file_gltf = Eigen::Affine3d::Identity();
+    if (!placed.z_up) T_file_gltf.linear() << 1, 0, 0, 0, 0, -1, 0, 1, 0;
+    T_file_gltf.linear() *= placed.unit_m;
+    return T_file_gltf;
+}
 
 /// The text extras.sonar.`key`, or "".
 std::string sonar_extra(const tinygltf::Value& extras, const char* key) {
@@ -180,7 +202,18 @@ std::string sonar_class(const tinygltf::Value& extras) {
     return sonar_extra(extras, "class");
 }
 
-std::vector<PlacedMesh> place_meshes(const tinygltf::Model& model, const std::string& file) {
+std::string UniqueNames::unique(const std::string& name) {
+    std::string candidate = name;
+    while (!taken.insert(candidate).second) {
+        int& number = last.emplace(name, 1).first->second;
+        candidate = name + "_" + std::to_string(++number);
+    }
+    return candidate;
+}
+
+std::vector<PlacedMesh> place_meshes(const tinygltf::Model& model, const PlacedFile& placed_file,
+                                     UniqueNames& names) {
+    const std::string file = placed_file.file.string();
     const Graph graph{model, file};
     const std::vector<int> parent = parents_of(graph);
     check_no_cycle(graph, parent);
@@ -192,8 +225,7 @@ std::vector<PlacedMesh> place_meshes(const tinygltf::Model& model, const std::st
         std::string material;
         std::string label;
     };
-    Eigen::Affine3d T_world_gltf = Eigen::Affine3d::Identity();
-    T_world_gltf.linear() << 1, 0, 0, 0, 0, -1, 0, 1, 0;
+    const Eigen::Affine3d T_world_gltf = placed_file.T_world_file * file_from_gltf(placed_file);
     std::vector<Visit> pending;
     const auto push = [&pending](const std::vector<int>& nodes, int depth, const auto& transform,
                                  const std::string& material, const std::string& label) {
@@ -205,13 +237,14 @@ std::vector<PlacedMesh> place_meshes(const tinygltf::Model& model, const std::st
     push(scene_roots(graph, parent), 1, T_world_gltf, "", "");
 
     std::vector<PlacedMesh> placed;
-    Names names;
+    Exclusion exclusion(placed_file);
     while (!pending.empty()) {
         const Visit visit = std::move(pending.back());
         pending.pop_back();
         if (visit.depth > deepest_node) {
             graph.fail(visit.node, "lies deeper than 256 levels in the hierarchy");
         }
+        if (exclusion.takes(graph.name(visit.node))) continue;
         const tinygltf::Node& node = graph.node(visit.node);
         const Eigen::Affine3d T_world_node =
             visit.T_world_parent * local_transform(graph, visit.node);
@@ -222,10 +255,13 @@ std::vector<PlacedMesh> place_meshes(const tinygltf::Model& model, const std::st
         if (node.mesh >= 0) {
             check_rigid(graph, visit.node);
             placed.push_back(
-                {node.mesh, T_world_node, names.unique(graph.name(visit.node)), material, label});
+                {node.mesh, T_world_node,
+                 placed_file.name.empty() ? names.unique(graph.name(visit.node)) : placed_file.name,
+                 material, label});
         }
         push(node.children, visit.depth + 1, T_world_node, material, label);
     }
+    exclusion.require_used();
     return placed;
 }
 

@@ -197,7 +197,7 @@ class ColumnCaster {
             CastRay& ray = out_.rays[order[i]];
             ray.facet = facets_[i];
             if (ray.missed()) continue;
-            const Facet& facet = caster_.facet(ray.facet);
+            const Facet facet = caster_.facet(ray.facet);
             const float height = facet.normal.dot(pose_.position - facet.vertex);
             const float side = height < 0.0F ? -1.0F : 1.0F;
             ray.normal = R_sensor_local * (side * facet.normal);

@@ -1,0 +1,224 @@
+#include "assembly/scene_parts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <variant>
+
+#include "assembly/poses.h"
+#include "core/error.h"
+#include "core/text.h"
+#include "core/units.h"
+#include "scene/gltf/surface_of.h"
+#include "scene/placing/rest.h"
+#include "scene/placing/scatter.h"
+
+namespace sonarsim {
+
+namespace {
+
+double metres(LengthUnit unit) {
+    switch (unit) {
+        case LengthUnit::mm:
+            return 1e-3;
+        case LengthUnit::cm:
+            return 1e-2;
+        case LengthUnit::km:
+            return 1e3;
+        case LengthUnit::inch:
+            return 0.0254;
+        case LengthUnit::foot:
+            return 0.3048;
+        case LengthUnit::m:
+            break;
+    }
+    return 1.0;
+}
+
+PlacedFile file_of(const std::filesystem::path& path, const MeshConfig& mesh, const Place& place) {
+    return {.file = path,
+            .unit_m = metres(mesh.units),
+            .z_up = mesh.up == UpAxis::z,
+            .material = mesh.material,
+            .renamed_materials = mesh.materials_map,
+            .exclude = mesh.exclude,
+            .place = place.location};
+}
+
+PlacedFile file_of(const ObjectConfig& object) {
+    PlacedFile file = file_of(object.file, object.mesh, object.place);
+    file.name = object.name;
+    file.class_name = object.class_name;
+    file.moves = object.trajectory.has_value();
+    return file;
+}
+
+Eigen::Quaterniond attitude_of(const std::array<double, 3>& rpy_deg) {
+    return rotation_from_rpy(radians(rpy_deg[0]), radians(rpy_deg[1]), radians(rpy_deg[2]));
+}
+
+std::string title_of(const ObjectConfig& object) {
+    return "'" + printable(object.name.empty() ? object.file.filename().string() : object.name) +
+           "'";
+}
+
+/// What objects rest on, made when the first asks for it.
+class LazyBottom {
+  public:
+    LazyBottom(const SceneConfig& scene, SceneFiles& models) : scene_(scene), models_(models) {}
+
+    /// Whether it is an object, which then does not rest on itself.
+    bool is(const ObjectConfig& object) const {
+        return scene_.file.empty() && &object == &scene_.objects.front();
+    }
+
+    const Bottom& get() {
+        if (!bottom_) bottom_ = std::make_unique<Bottom>(surface());
+        return *bottom_;
+    }
+
+    /// " from (x, y) to (x, y)", for messages.
+    std::string reach() {
+        const auto text = [](const Eigen::Vector2d& p) {
+            const auto rounded = [](double x) { return number_text(std::round(1e3 * x) / 1e3); };
+            return "(" + rounded(p.x()) + ", " + rounded(p.y()) + ")";
+        };
+        return " from " + text(get().area().min()) + " to " + text(get().area().max());
+    }
+
+  private:
+    Surface surface() const {
+        if (!scene_.file.empty()) {
+            return surface_of(file_of(scene_.file, scene_.mesh, scene_.place), models_,
+                              scene_.bottom);
+        }
+        const ObjectConfig& first = scene_.objects.front();
+        if (first.place_on == ObjectPlace::on_bottom || first.trajectory) {
+            throw InputError(first.place.location,
+                             "without scene.file the first object is the bottom that others rest "
+                             "on: it must neither move nor rest on the bottom itself");
+        }
+        PlacedFile file = file_of(first);
+        file.T_world_file.translation() = Eigen::Vector3d(first.position_m.data());
+        file.T_world_file.linear() = first.scale * attitude_of(first.rpy_deg).toRotationMatrix();
+        return surface_of(file, models_, scene_.bottom);
+    }
+
+    const SceneConfig& scene_;
+    SceneFiles& models_;
+    std::unique_ptr<Bottom> bottom_;
+};
+
+/// Where an object of the mission is.
+Eigen::Affine3d transform_of(const ObjectConfig& object, const Surface& shape, LazyBottom& bottom) {
+    const Eigen::Vector3d position(object.position_m.data());
+    const Eigen::Quaterniond attitude = attitude_of(object.rpy_deg);
+    if (object.place_on == ObjectPlace::on_bottom) {
+        const auto T_world_file =
+            put_on_bottom(bottom.get(), shape, position.head<2>(),
+                          {attitude, object.scale, object.align, object.bury_m});
+        if (T_world_file) return *T_world_file;
+        throw InputError(object.place.location,
+                         title_of(object) + " reaches beyond the bottom, which lies" +
+                             bottom.reach() + "; move it by position_m, or place: free");
+    }
+    Eigen::Affine3d T_world_file = Eigen::Affine3d::Identity();
+    T_world_file.translation() = position;
+    T_world_file.linear() = object.scale * attitude.toRotationMatrix();
+    return T_world_file;
+}
+
+/// A trajectory of waypoints or lines begins with the first ping; a file has its own times.
+Trajectory motion_of(const ObjectConfig& object, const Trajectory& vehicle) {
+    Trajectory motion = poses_of(*object.trajectory);
+    const double start_s = vehicle.front().t_s;
+    const double end_s = vehicle.back().t_s;
+    if (!std::holds_alternative<FileTrajectoryConfig>(*object.trajectory)) {
+        for (TimedPose& pose : motion)
+            pose.t_s += start_s;
+    }
+    if (motion.front().t_s <= start_s && motion.back().t_s >= end_s) return motion;
+    throw InputError(object.place.location,
+                     title_of(object) + " moves from " + number_text(motion.front().t_s) +
+                         " s to " + number_text(motion.back().t_s) +
+                         " s and the sonars ping from " + number_text(start_s) + " s to " +
+                         number_text(end_s) + " s; let its trajectory last as long");
+}
+
+ScatterRule rule_of(const ScatterConfig& config) {
+    const auto in_rad = [](const std::array<double, 2>& deg) {
+        return std::array{radians(deg[0]), radians(deg[1])};
+    };
+    return {.name = printable(config.name),
+            .shapes = {},
+            .count = config.count,
+            .area = {Eigen::Vector2d(config.area_min_m.data()),
+                     Eigen::Vector2d(config.area_max_m.data())},
+            .rpy_rad = {in_rad(config.roll_deg), in_rad(config.pitch_deg), in_rad(config.yaw_deg)},
+            .scale = config.scale,
+            .bury_m = config.bury_m,
+            .spacing_m = config.spacing_m,
+            .align = config.align,
+            .tries = config.tries,
+            .place = config.place.location};
+}
+
+/// Strews the objects of one rule and appends their files.
+void scatter_files(const ScatterConfig& config, std::uint32_t index, std::uint64_t seed,
+                   SceneFiles& models, LazyBottom& bottom, std::vector<Hull>& taken,
+                   std::vector<PlacedFile>& files) {
+    std::vector<PlacedFile> kinds;
+    std::vector<Surface> shapes;
+    for (const std::filesystem::path& path : config.files) {
+        kinds.push_back(file_of(path, config.mesh, config.place));
+        kinds.back().class_name = config.class_name.empty() ? config.name : config.class_name;
+        shapes.push_back(surface_of(kinds.back(), models));
+        if (!shapes.back().triangles.empty()) continue;
+        throw InputError(config.place.location, path.string() + " has no surface to scatter");
+    }
+    ScatterRule rule = rule_of(config);
+    for (const Surface& shape : shapes)
+        rule.shapes.push_back(&shape);
+    std::size_t number = 0;
+    for (const ScatteredObject& object : scatter(rule, index, seed, bottom.get(), taken)) {
+        PlacedFile& file = files.emplace_back(kinds[object.shape]);
+        file.name = config.name + "_" + std::to_string(++number);
+        file.T_world_file = object.T_world_shape;
+    }
+}
+
+}  // namespace
+
+SceneParts place_scene(const Mission& mission, const Trajectory& vehicle, SceneFiles& models) {
+    const SceneConfig& scene = mission.scene;
+    SceneParts parts;
+    if (!scene.file.empty()) parts.files.push_back(file_of(scene.file, scene.mesh, scene.place));
+    LazyBottom bottom(scene, models);
+    std::vector<Hull> taken;
+    for (const ObjectConfig& object : scene.objects) {
+        PlacedFile& file = parts.files.emplace_back(file_of(object));
+        const Surface shape = surface_of(file, models);
+        file.T_world_file = transform_of(object, shape, bottom);
+        if (object.trajectory) {
+            parts.motions.push_back(motion_of(object, vehicle));
+            continue;
+        }
+        if (bottom.is(object)) continue;
+        const Surface placed = moved(shape, file.T_world_file);
+        if (object.place_on == ObjectPlace::free && lies_below(bottom.get(), placed)) {
+            throw InputError(object.place.location,
+                             title_of(object) +
+                                 " lies wholly below the bottom; raise it by position_m, or let it "
+                                 "rest there with place: on_bottom");
+        }
+        taken.push_back(hull_of(placed.vertices));
+    }
+    for (std::size_t i = 0; i < scene.scatter.size(); ++i) {
+        scatter_files(scene.scatter[i], static_cast<std::uint32_t>(i), mission.seed, models, bottom,
+                      taken, parts.files);
+    }
+    return parts;
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,171 @@
+#include "dataset/variants.h"
+
+#include <algorithm>
+
+#include "core/clock.h"
+#include "core/error.h"
+#include "core/file.h"
+#include "core/text.h"
+#include "dataset/description.h"
+#include "dataset/folder.h"
+#include "dataset/image_warnings.h"
+#include "dataset/layout.h"
+#include "dataset/metadata.h"
+#include "dataset/ping_metadata.h"
+#include "mission/resolved.h"
+#include "mission/variants.h"
+#include "scene/gltf/scene_files.h"
+#include "sonar/kinds.h"
+
+namespace sonarsim {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* variants_format = "sonarsim variants";
+constexpr std::size_t largest_index = std::size_t{1} << 30;
+
+[[noreturn]] void refuse_folder(const fs::path& folder, const std::string& what) {
+    throw InputError({folder.string()},
+                     what + "; choose another output.folder, or --overwrite to begin anew");
+}
+
+bool holds_something(const fs::path& folder) {
+    return fs::exists(folder) &&
+           !std::all_of(fs::directory_iterator(folder), fs::directory_iterator(),
+                        [](const auto& entry) {
+                            return is_temporary_name(entry.path().filename().string());
+                        });
+}
+
+/// Removes what lies in the folder of a variant, which belongs to it alone.
+void remove_variant(const fs::path& folder, const Mission& mission) {
+    if (!fs::is_directory(folder)) return;
+    Layout layout;
+    layout.folder = folder;
+    remove_dataset(layout, mission);
+    if (fs::is_empty(folder)) fs::remove(folder);
+}
+
+void add(RenderSummary& all, const RenderSummary& one) {
+    all.pings += one.pings;
+    all.skipped += one.skipped;
+    all.complete = all.complete && one.complete;
+    all.seconds += one.seconds;
+    all.stages += one.stages;
+    all.encode_seconds += one.encode_seconds;
+    all.write_seconds += one.write_seconds;
+    all.counts += one.counts;
+    all.clipped_pixels += one.clipped_pixels;
+    all.sensors.resize(std::max(all.sensors.size(), one.sensors.size()));
+    for (std::size_t i = 0; i < one.sensors.size(); ++i) {
+        SensorSummary& sensor = all.sensors[i];
+        sensor.pings += one.sensors[i].pings;
+        sensor.dark_pings += one.sensors[i].dark_pings;
+        sensor.counts += one.sensors[i].counts;
+        sensor.clipped_pixels += one.sensors[i].clipped_pixels;
+        sensor.missed_goals += one.sensors[i].missed_goals;
+        sensor.worst_l1 = std::max(sensor.worst_l1, one.sensors[i].worst_l1);
+        sensor.brightest = std::max(sensor.brightest, one.sensors[i].brightest);
+    }
+}
+
+}  // namespace
+
+Json describe_variants(const Mission& mission, std::span<const Mission> variants) {
+    Json json = {{"format", variants_format},
+                 {"format_version", dataset_format_version},
+                 {"program_version", SONARSIM_VERSION},
+                 {"mission", mission.name},
+                 {"mission_hash", mission_hash(mission, sonar_keys())},
+                 {"seed", mission.seed}};
+    json["variants"] = Json::array();
+    for (const Mission& variant : variants) {
+        json["variants"].push_back({{"folder", variant_folder(variant.variant.index)},
+                                    {"seed", variant.seed},
+                                    {"drawn", describe_drawn(variant.variant)}});
+    }
+    return json;
+}
+
+std::optional<Json> read_variants(const fs::path& folder) {
+    const fs::path file = folder / variants_name;
+    if (!fs::exists(file)) return std::nullopt;
+    Json json = Json::parse(read_file(file, largest_index), nullptr, false);
+    if (json.is_object() && json.value("format", Json()) == variants_format) return json;
+    throw InputError({file.string()}, "is not sonarsim's, or damaged");
+}
+
+std::vector<fs::path> folders_of_variants(const fs::path& folder, const Json& json) {
+    std::vector<fs::path> folders;
+    const Json variants = json.value("variants", Json::array());
+    // Names are not taken from the file: whatever it says, nothing outside the folder is meant.
+    for (std::size_t i = 0; i < variants.size(); ++i)
+        folders.push_back(folder / variant_folder(static_cast<int>(i)));
+    return folders;
+}
+
+void begin_variants(const fs::path& folder, const Json& json, std::span<const Mission> variants,
+                    bool overwrite) {
+    const std::optional<Json> found = read_variants(folder);
+    if (!found && holds_something(folder))
+        throw InputError({folder.string()},
+                         "holds files that are no variants of a sonarsim mission; choose another "
+                         "output.folder, or remove it");
+    if (found && *found != json && !overwrite)
+        refuse_folder(folder, "holds variants of another mission, seed or version of sonarsim");
+    if (found && overwrite) {
+        for (const fs::path& old : folders_of_variants(folder, *found))
+            remove_variant(old, variants.front());
+    }
+    fs::create_directories(folder);
+    write_file_durably(folder / variants_name, json_text(json));
+}
+
+RenderSummary run_variants(const Mission& mission, std::span<const Mission> variants,
+                           const RenderOptions& options, const VariantCallback& begin,
+                           const ProgressCallback& progress, const std::atomic<bool>& stop) {
+    if (options.overwrite && options.shards > 1) {
+        throw InputError(
+            "one shard must not overwrite what another writes: remove the folder instead");
+    }
+    if (options.files) {
+        begin_variants(mission.output.folder, describe_variants(mission, variants), variants,
+                       options.overwrite);
+    }
+    RenderOptions one_by_one = options;
+    one_by_one.shard = 0;
+    one_by_one.shards = 1;
+    one_by_one.overwrite = false;  // that is done
+    SceneFiles models;
+    RenderSummary all;
+    all.complete = options.files;
+    Stopwatch watch;
+    const auto is_ours = [&](std::size_t i) {
+        return static_cast<int>(i % static_cast<std::size_t>(options.shards)) == options.shard;
+    };
+    std::uint64_t total = 0;
+    for (std::size_t i = 0; i < variants.size(); ++i)
+        total += is_ours(i);
+    std::uint64_t done = 0;
+    for (std::size_t i = 0; i < variants.size() && !all.stopped; ++i) {
+        if (!is_ours(i)) continue;
+        const Assembly assembly = assemble(variants[i], models);
+        if (begin) begin(variants[i], assembly);
+        const RenderSummary one = run_job(variants[i], assembly, one_by_one, nullptr, stop);
+        add(all, one);
+        all.stopped = one.stopped;
+        const std::string name = variant_folder(static_cast<int>(i)) + ": ";
+        for (const std::string& warning : one.warnings)
+            all.warnings.push_back(name + warning);
+        for (const std::string& warning : image_warnings(variants[i], assembly, one.sensors))
+            all.warnings.push_back(name + warning);
+        if (progress) progress(++done, total);
+    }
+    all.seconds = watch.lap();
+    return all;
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,79 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/elementary.h"
+#include "core/random.h"
+#include "core/text.h"
+#include "mission/variants.h"
+
+namespace sonarsim {
+
+namespace {
+
+constexpr std::uint32_t most_tries = 1000;
+
+/// Two numbers in [0, 1).
+std::array<double, 2> unit_pair(PhiloxKey key, std::uint32_t attempt) {
+    const PhiloxBlock block = philox({attempt, 0, 0, 0}, key);
+    return {unit_double(block.x0, block.x1), unit_double(block.x2, block.x3)};
+}
+
+/// The natural logarithm of a number between 1e-18 and 1e18, to within rounding: that in float,
+/// then Newton's steps on e^y = x. A library's differs between machines.
+double logarithm(double x) {
+    double y = natural_log(static_cast<float>(x));
+    for (int step = 0; step < 3; ++step)
+        y += x * exponential(-y) - 1.0;
+    return y;
+}
+
+double part_of(const std::array<double, 2>& range, double share) {
+    return range[0] + share * (range[1] - range[0]);
+}
+
+/// By Box and Muller.
+double standard_normal(const std::array<double, 2>& u) {
+    constexpr double turn = 6.283185307179586;
+    return std::sqrt(-2.0 * logarithm(1.0 - u[0])) * sincos(turn * u[1]).cos;
+}
+
+double draw_normal(const VaryConfig& rule, PhiloxKey key) {
+    const auto [mean, sigma] = *rule.normal;
+    for (std::uint32_t attempt = 0; attempt < most_tries; ++attempt) {
+        const double value = mean + sigma * standard_normal(unit_pair(key, attempt));
+        if (!rule.within || ((*rule.within)[0] <= value && value <= (*rule.within)[1]))
+            return value;
+    }
+    throw InputError(rule.place.location,
+                     "a thousand normal draws of '" + printable(rule.key) +
+                         "' lie outside of 'within'; make it wider or the deviation larger");
+}
+
+std::size_t one_of(double count, double share) {
+    return static_cast<std::size_t>(std::min(std::floor(share * count), count - 1.0));
+}
+
+}  // namespace
+
+std::string draw_value(const VaryConfig& rule, std::uint64_t seed, std::uint32_t rule_index,
+                       std::uint32_t variant) {
+    const PhiloxKey key = stream_key(seed, rule_index, variant, Stream::variation);
+    const double share = unit_pair(key, 0)[0];
+    if (rule.normal) return number_text(draw_normal(rule, key));
+    if (rule.uniform) return number_text(part_of(*rule.uniform, share));
+    if (rule.log_uniform) {
+        const auto [low, high] = *rule.log_uniform;
+        return number_text(std::min(high, low * exponential(share * logarithm(high / low))));
+    }
+    if (rule.whole) {
+        const double low = std::ceil((*rule.whole)[0]);
+        const double count = std::floor((*rule.whole)[1]) - low + 1.0;
+        if (count < 1.0)
+            throw InputError(rule.place.location, "there is no whole number in 'whole'");
+        return number_text(low + static_cast<double>(one_of(count, share)));
+    }
+    return rule.choice[one_of(static_cast<double>(rule.choice.size()), share)];
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <variant>
+
+#include "mission/limits.h"
+#include "mission/trajectory_config.h"
+
+// The keys of a trajectory, of the vehicle or of a moving object. As in mission/schema.h.
+
+namespace sonarsim {
+
+template <class Visitor>
+void describe(Visitor& v, FileTrajectoryConfig& c) {
+    v.path("file", c.file, "timed poses, a .csv or a TUM .txt or .tum", required);
+    v.number("rate_hz", c.rate_hz, at_least(0),
+             "poses are interpolated at this rate; 0 pings at every pose of the file");
+}
+
+template <class Visitor>
+void describe(Visitor& v, WaypointConfig& c) {
+    v.numbers("position_m", c.position_m, any_position_m, "x, y, z in the world", required);
+    v.numbers("rpy_deg", c.rpy_deg, any_angle_deg, "roll, pitch and yaw of the vehicle");
+}
+
+template <class Visitor>
+void describe(Visitor& v, WaypointTrajectoryConfig& c) {
+    v.list("waypoints", c.waypoints, 2,
+           "poses in the order in which they are visited, by straight legs");
+    v.number("speed_m_s", c.speed_m_s, above(0), "speed along the legs");
+    v.number("rate_hz", c.rate_hz, above(0), "poses per second");
+}
+
+template <class Visitor>
+void describe(Visitor& v, LawnmowerTrajectoryConfig& c) {
+    v.numbers("area_min_m", c.area_min_m, any_position_m,
+              "corner of the rectangle with the least x and y", required);
+    v.numbers("area_max_m", c.area_max_m, any_position_m,
+              "corner of the rectangle with the largest x and y", required);
+    v.number("z_m", c.z_m, any_position_m,
+             "height of the vehicle in the world; negative below a surface at 0", required);
+    v.number("heading_deg", c.heading_deg, any_angle_deg,
+             "direction of the first line; 0 is along x, positive to the left");
+    v.number("line_spacing_m", c.line_spacing_m, above(0), "distance between the lines");
+    v.number("speed_m_s", c.speed_m_s, above(0), "speed along the lines and between them");
+    v.number("rate_hz", c.rate_hz, above(0), "poses per second");
+    v.require(c.area_min_m[0] < c.area_max_m[0] && c.area_min_m[1] < c.area_max_m[1],
+              {"area_min_m", "area_max_m"}, "area_min_m must be below area_max_m in x and in y");
+}
+
+template <class Visitor>
+void describe(Visitor& v, TrajectoryConfig& c) {
+    v.one_of(c, {"file", "waypoints", "lawnmower"});
+    if (auto* lawnmower = std::get_if<LawnmowerTrajectoryConfig>(&c)) {
+        v.section("lawnmower", *lawnmower,
+                  "parallel lines over a rectangle, to and fro at constant height", required);
+    } else {
+        std::visit([&v](auto& form) { describe(v, form); }, c);
+    }
+}
+
+}  // namespace sonarsim

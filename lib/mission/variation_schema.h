@@ -1,0 +1,48 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+
+#include "mission/limits.h"
+#include "mission/variation_config.h"
+
+// The keys of what varies. As in mission/schema.h.
+
+namespace sonarsim {
+
+inline constexpr std::array vary_pers{Choice<VaryPer>{"variant", VaryPer::variant},
+                                      Choice<VaryPer>{"dataset", VaryPer::dataset}};
+
+template <class Visitor>
+void describe(Visitor& v, VaryConfig& c) {
+    constexpr Limits any{-1e18, 1e18};
+    v.place(c.place);
+    v.text("key", c.key,
+           "a key of the mission, as --set takes it: sensors.fls.noise.add_sigma, "
+           "scene.objects.0.position_m.2",
+           required);
+    v.choice("per", c.per, vary_pers, "drawn for every variant, or once for all of them");
+    v.optional_numbers("uniform", c.uniform, any, "the least and the largest number");
+    v.optional_numbers("log_uniform", c.log_uniform, any,
+                       "the same, and each decade as likely as another");
+    v.optional_numbers("whole", c.whole, any, "the least and the largest whole number");
+    v.optional_numbers("normal", c.normal, any, "mean and standard deviation");
+    v.optional_numbers("within", c.within, any,
+                       "the least and the largest number that a normal draw may be");
+    v.values("choice", c.choice, "values of any kind, each as likely as another");
+    const auto rises = [](const auto& pair) { return !pair || (*pair)[0] <= (*pair)[1]; };
+    v.require(c.uniform.has_value() + c.log_uniform.has_value() + c.whole.has_value() +
+                      c.normal.has_value() + !c.choice.empty() ==
+                  1,
+              {}, "a key that varies needs one of: uniform, log_uniform, whole, normal, choice");
+    v.require(rises(c.uniform) && rises(c.log_uniform) && rises(c.whole) && rises(c.within),
+              {"uniform", "log_uniform", "whole", "within"},
+              "the first number must not be above the second");
+    v.require(!c.log_uniform || (*c.log_uniform)[0] > 0.0, {"log_uniform"},
+              "'log_uniform' takes numbers above 0");
+    v.require(!c.normal || (*c.normal)[1] >= 0.0, {"normal"},
+              "the standard deviation must not be negative");
+    v.require(!c.within || c.normal, {"within"}, "'within' belongs to 'normal'");
+}
+
+}  // namespace sonarsim

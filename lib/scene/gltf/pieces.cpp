@@ -1,0 +1,86 @@
+#include "scene/gltf/pieces.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "core/text.h"
+
+namespace sonarsim {
+
+namespace {
+
+constexpr std::size_t max_triangles = std::size_t{1} << 28;
+constexpr std::size_t piece_cost = 64;
+
+/// The name that the file gives the material of a piece; "" where it gives none.
+std::string name_in_file(const Piece& piece) {
+    if (!piece.mesh.material.empty()) return piece.mesh.material;
+    if (piece.material < 0) return "";
+    const auto index = static_cast<std::size_t>(piece.material);
+    const tinygltf::Model& model = *piece.file.model;
+    if (index >= model.materials.size()) {
+        throw InputError(piece.where + ": material " + std::to_string(index) + " does not exist");
+    }
+    const tinygltf::Material& material = model.materials[index];
+    const std::string own = sonar_material(material.extras);
+    return own.empty() ? material.name : own;
+}
+
+}  // namespace
+
+void ReadingLimit::add(const TriangleSource* source, const std::string& file) {
+    work += piece_cost;
+    if (source) work += source->count + source->positions.sparse_at.size();
+    if (work <= max_triangles) return;
+    throw InputError(Location{file},
+                     "places more than 2^28 triangles (a primitive counts as 64 more)");
+}
+
+std::string material_name(const Piece& piece, const MaterialRules& rules) {
+    const PlacedFile& placed = *piece.file.placed;
+    if (!placed.material.empty()) return placed.material;
+    std::string name = name_in_file(piece);
+    for (const auto& [from, to] : placed.renamed_materials) {
+        if (from == name) return to;
+    }
+    if (!rules.fallback.empty() && !rules.known.contains(name)) return rules.fallback;
+    if (!name.empty()) return name;
+    if (rules.nameless_allowed) return "(no material)";
+    throw InputError(piece.where + " of node '" + piece.mesh.instance +
+                     "': " + (piece.material < 0 ? "has no material" : "its material has no name") +
+                     "; name one in the glTF material or as extras.sonar.material of the node");
+}
+
+void take_class_of_material(const Piece& piece, std::string& class_name) {
+    if (!piece.file.placed->class_name.empty()) return;
+    if (!piece.mesh.label.empty() || piece.material < 0) return;
+    const auto index = static_cast<std::size_t>(piece.material);
+    const tinygltf::Model& model = *piece.file.model;
+    if (index >= model.materials.size()) return;  // refused where the material is looked up
+    const std::string own = sonar_class(model.materials[index].extras);
+    if (own.empty() || own == class_name) return;
+    if (!class_name.empty()) {
+        throw InputError(piece.where + " of node '" + piece.mesh.instance +
+                         "': its material has the class '" + own + "', another of the node's '" +
+                         class_name + "'; give the node a class as its extras.sonar.class");
+    }
+    class_name = own;
+}
+
+void require_renamed(const OpenFile& file) {
+    const PlacedFile& placed = *file.placed;
+    if (placed.renamed_materials.empty()) return;
+    std::set<std::string> names;
+    ReadingLimit limit;
+    for_each_piece(file, limit, [&](const Piece& piece) { names.insert(name_in_file(piece)); });
+    for (const auto& [from, to] : placed.renamed_materials) {
+        if (names.contains(from)) continue;
+        const std::vector<std::string> candidates(names.begin(), names.end());
+        throw InputError(placed.place, "materials_map: " + placed.file.string() +
+                                           " has no material '" + printable(from) + "'" +
+                                           did_you_mean(from, candidates) +
+                                           "; `sonarsim inspect` lists those it has");
+    }
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <tiny_gltf.h>
+
+#include <cstdint>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "scene/gltf/nodes.h"
+#include "scene/gltf/triangles.h"
+#include "scene/placed_file.h"
+
+namespace sonarsim {
+
+/// A file of the scene with its meshes where the scene has them.
+struct OpenFile {
+    const PlacedFile* placed;
+    const tinygltf::Model* model;
+    std::vector<PlacedMesh> meshes;
+    std::vector<std::uint32_t> instance_of_mesh;  ///< indices into Scene::instances
+};
+
+/// One primitive of one placed mesh.
+struct Piece {
+    const OpenFile& file;
+    const PlacedMesh& mesh;
+    std::uint32_t instance;
+    const TriangleSource& source;
+    int material;       ///< of the glTF; -1: none
+    std::string where;  ///< for errors
+};
+
+inline Eigen::Vector3d corner(const Piece& piece, std::uint32_t vertex) {
+    return piece.mesh.T_world_mesh * position(piece.source.positions, vertex);
+}
+
+/// How much of a scene has been read. A small file can place a large mesh, or many small ones, many
+/// times: InputError with `file` when it is too much.
+struct ReadingLimit {
+    std::size_t work = 0;
+
+    void add(const TriangleSource* source, const std::string& file);
+};
+
+/// Calls `visit` with every piece of a file and returns how many primitives are no surfaces.
+template <class Visit>
+std::uint64_t for_each_piece(const OpenFile& file, ReadingLimit& limit, const Visit& visit) {
+    std::uint64_t skipped = 0;
+    const std::string path = file.placed->file.string();
+    for (std::size_t i = 0; i < file.meshes.size(); ++i) {
+        const auto mesh_index = static_cast<std::size_t>(file.meshes[i].mesh);
+        const tinygltf::Mesh& mesh = file.model->meshes[mesh_index];
+        const std::string name =
+            mesh.name.empty() ? std::to_string(mesh_index) : "'" + mesh.name + "'";
+        const std::string prefix = path + ": mesh " + name + " primitive ";
+        for (std::size_t k = 0; k < mesh.primitives.size(); ++k) {
+            const std::string where = prefix + std::to_string(k);
+            const auto source = open_triangles(*file.model, mesh.primitives[k], where);
+            limit.add(source ? &*source : nullptr, path);
+            if (!source) {
+                ++skipped;
+                continue;
+            }
+            visit(Piece{file, file.meshes[i], file.instance_of_mesh[i], *source,
+                        mesh.primitives[k].material, where});
+        }
+    }
+    return skipped;
+}
+
+/// What the materials of the scene may be called.
+struct MaterialRules {
+    bool nameless_allowed = false;  ///< "(no material)" then
+    std::set<std::string> known;    ///< names of the CSV
+    std::string fallback;           ///< for what has no name or is not known; "": none
+};
+
+/// The name of a piece's material in the CSV. InputError when it has none.
+std::string material_name(const Piece& piece, const MaterialRules& rules);
+
+/// Gives an instance without a class that of its materials. InputError when they differ.
+void take_class_of_material(const Piece& piece, std::string& class_name);
+
+/// InputError at the place of `file` for a material of its materials_map that it does not have.
+void require_renamed(const OpenFile& file);
+
+}  // namespace sonarsim

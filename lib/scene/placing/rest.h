@@ -1,0 +1,24 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <optional>
+
+#include "scene/placing/bottom.h"
+#include "scene/surface.h"
+
+namespace sonarsim {
+
+/// By how much `object` has to be raised so that it touches the bottom and nowhere reaches below
+/// its highest surface; negative when it hovers. Nothing where a vertex has no bottom below or
+/// above it. Both are triangles, so the least gap lies where a vertex of one is above or below the
+/// other, or where two edges cross, seen from above: all of these are looked at.
+std::optional<double> lift_to_rest(const Bottom& bottom, const Surface& object);
+
+/// Whether all of the object lies below the lowest surface of the bottom.
+bool lies_below(const Bottom& bottom, const Surface& object);
+
+/// The rotation that tilts the world's z to the normal of the plane that fits the bottom best on a
+/// grid over the box; the identity where there is too little of it.
+Eigen::Quaterniond slope_of(const Bottom& bottom, const Eigen::AlignedBox2d& box);
+
+}  // namespace sonarsim

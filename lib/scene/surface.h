@@ -1,0 +1,30 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace sonarsim {
+
+/// Triangles in double precision, before they become a scene; m.
+struct Surface {
+    std::vector<Eigen::Vector3d> vertices;
+    std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices into `vertices`
+};
+
+inline Surface moved(const Surface& surface, const Eigen::Affine3d& T_world_surface) {
+    Surface out = surface;
+    for (Eigen::Vector3d& vertex : out.vertices)
+        vertex = T_world_surface * vertex;
+    return out;
+}
+
+inline Eigen::AlignedBox3d box_of(const Surface& surface) {
+    Eigen::AlignedBox3d box;
+    for (const Eigen::Vector3d& vertex : surface.vertices)
+        box.extend(vertex);
+    return box;
+}
+
+}  // namespace sonarsim

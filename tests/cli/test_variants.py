@@ -1,0 +1,151 @@
+"""Variants of a mission: draws, seeds, shards, resume, and what is refused."""
+import json
+import shutil
+import unittest
+
+from sandbox import Sandbox, digest
+
+VARY = """
+variants: 6
+vary:
+  - {key: sensors.fls.noise.add_sigma, uniform: [0.01, 0.2]}
+  - {key: water.sound_speed_m_s, normal: [1490, 20], within: [1400, 1600]}
+  - {key: sensors.fls.range_bins, whole: [40, 60]}
+  - {key: water.density_kg_m3, choice: [1000, 1025], per: dataset}
+"""
+
+
+class Variants(Sandbox):
+    def setUp(self):
+        super().setUp()
+        mission = (self.folder / "mission.yaml").read_text()
+        self.write("mission.yaml", mission + VARY)
+
+    def refused(self, *fragments, arguments=()):
+        for command in ("validate", "render"):
+            self.assert_refused(self.run_sonarsim(command, "mission.yaml", *arguments), *fragments)
+            self.assertFalse(self.out.exists(), "a refused mission leaves no folder")
+
+    def index(self, folder=None):
+        return json.loads(((folder or self.out) / "variants.json").read_text())["variants"]
+
+    def test_all_differ_and_come_again(self):
+        self.assert_renders()
+        index = self.index()
+        self.assertEqual([one["folder"] for one in index],
+                         [f"variant_{k:04}" for k in range(6)])
+        self.assertEqual(len({one["seed"] for one in index}), 6)
+        self.assertEqual(len({one["drawn"]["sensors.fls.noise.add_sigma"] for one in index}), 6)
+        self.assertEqual(len({one["drawn"]["water.density_kg_m3"] for one in index}), 1)
+        polar = {(self.out / one["folder"] / "fls/polar/000000.npy").read_bytes() for one in index}
+        self.assertEqual(len(polar), 6)
+        for one in index:
+            self.assertTrue(0.01 <= one["drawn"]["sensors.fls.noise.add_sigma"] <= 0.2)
+            dataset = self.dataset(self.out / one["folder"])
+            self.assertTrue(dataset["complete"])
+            self.assertEqual(dataset["variant"]["drawn"], one["drawn"])
+            bins = len(dataset["sensors"][0]["range_edges_m"]) - 1
+            self.assertEqual(bins, one["drawn"]["sensors.fls.range_bins"])
+            meta = json.loads((self.out / one["folder"] / "fls/meta/000001.json").read_text())
+            self.assertEqual(meta["variant"]["drawn"], one["drawn"])
+        first = digest(self.out)
+        self.assert_renders("--overwrite", "-j", "1")
+        self.assertEqual(digest(self.out), first)
+        self.assert_renders()  # nothing is missing, and nothing changes
+        self.assertEqual(digest(self.out), first)
+
+    def test_a_variant_does_not_depend_on_how_many_there_are(self):
+        self.assert_renders()
+        six = self.index()
+        self.assert_renders("--overwrite", "--set", "variants=3")
+        self.assertEqual(self.index(), six[:3])
+        self.assertFalse((self.out / "variant_0003").exists())
+
+    def test_shards_and_resume(self):
+        self.assert_renders()
+        whole = digest(self.out)
+        shutil.rmtree(self.out)
+        for shard in ("2/3", "1/3", "3/3"):
+            self.assert_renders("--shard", shard)
+        self.assertEqual(digest(self.out), whole)
+        shutil.rmtree(self.out / "variant_0004")
+        (self.out / "variant_0002/fls/polar/000003.npy").unlink()
+        self.assert_renders()
+        self.assertEqual(digest(self.out), whole)
+
+    def test_merge_and_verify(self):
+        self.assert_renders()
+        whole = digest(self.out)
+        for k in (1, 2):
+            self.assert_renders("--shard", f"{k}/2", "--out", f"part{k}")
+        result = self.run_sonarsim("merge", "part1", "joined")
+        self.assert_refused(result, "variant_0001 is in none of the parts")
+        result = self.run_sonarsim("merge", "part1", "part2", "joined")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(digest(self.folder / "joined"), whole)
+        self.assertEqual(self.run_sonarsim("verify", "joined").returncode, 0)
+        (self.folder / "joined/variant_0003/fls/polar/000000.npy").write_bytes(b"spoilt")
+        result = self.run_sonarsim("verify", "joined")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("variant_0003", result.stderr)
+
+    def test_a_variant_renders_alone(self):
+        self.assert_renders()
+        own = self.out / "variant_0004"
+        result = self.run_sonarsim("render", own / "mission.resolved.yaml", "--paths-from", ".",
+                                   "--out", "alone")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        images = {k: v for k, v in digest(own).items() if k.endswith((".npy", ".png"))}
+        alone = digest(self.folder / "alone")
+        self.assertEqual({k: alone[k] for k in images}, images)
+
+    def test_validate_counts(self):
+        result = self.run_sonarsim("validate", "mission.yaml", "--json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        told = json.loads(result.stdout)
+        self.assertEqual((told["variants"], told["pings"]), (6, 36))
+        text = self.run_sonarsim("validate", "mission.yaml").stdout
+        self.assertIn("variants    6\n", text)
+        self.assertIn("36 pings", text)
+
+    def test_another_mission_is_not_overwritten(self):
+        self.assert_renders()
+        self.assert_refused(self.render("--seed", "9"), "holds variants of another mission",
+                            "--overwrite")
+        self.write("other/thesis.txt", "years of work")
+        self.assert_refused(self.render("--out", "other"), "no variants of a sonarsim mission")
+
+    def test_bad_keys(self):
+        for old, new, fragments in (
+                ("noise.add_sigma", "noise.add_sgma",
+                 ("mission.yaml:25:5", "add_sgma", "did you mean 'add_sigma'?")),
+                ("uniform: [0.01, 0.2]", "uniform: [0.2, 0.01]",
+                 ("mission.yaml:25:", "the first number must not be above the second")),
+                ("uniform: [0.01, 0.2]", "uniform: [-2, -1]",
+                 ("mission.yaml:25:5", "'add_sigma' must be at least 0")),
+                ("uniform: [0.01, 0.2]", "log_uniform: [0, 1]",
+                 ("mission.yaml:25:", "'log_uniform' takes numbers above 0")),
+                (", uniform: [0.01, 0.2]", "", ("mission.yaml:25:5", "needs one of: uniform")),
+                ("within: [1400, 1600]", "within: [9000, 9001]",
+                 ("mission.yaml:26:5", "a thousand normal draws", "wider")),
+                ("whole: [40, 60]", "uniform: [40, 60]",
+                 ("mission.yaml:27:5", "'range_bins' must be a whole number"))):
+            with self.subTest(new=new):
+                mission = (self.folder / "mission.yaml").read_text()
+                self.edit("mission.yaml", old, new)
+                try:
+                    self.refused(*fragments)
+                finally:
+                    self.write("mission.yaml", mission)
+
+    def test_vary_without_variants(self):
+        self.edit("mission.yaml", "variants: 6\n", "")
+        self.refused("mission.yaml:", "'vary' says what differs between variants")
+
+    def test_report_takes_one_scene(self):
+        self.assert_refused(self.run_sonarsim("report", "mission.yaml", "--quick"),
+                            "this mission has variants")
+
+
+if __name__ == "__main__":
+    unittest.main()

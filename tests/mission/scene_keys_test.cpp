@@ -1,0 +1,101 @@
+#include "mission/files.h"
+#include "mission/fixtures.h"
+#include "mission/resolved.h"
+
+namespace sonarsim {
+
+TEST_SUITE_BEGIN("mission");
+
+namespace {
+
+const std::string composed = R"(
+scene:
+  file: a.glb
+  materials: a.csv
+  material_default: rock
+  units: mm
+  up: z
+  materials_map: {"0137_Black": rubber, "a: b": steel}
+  exclude: ["Light*", camera]
+  bottom: [floor]
+  objects:
+    - {name: wreck, class: ship, file: w.glb, position_m: [1, 2, 3], rpy_deg: [4, 5, 6], scale: 2,
+       material: steel, place: on_bottom, bury_m: 0.5, align: true}
+    - name: fish
+      file: f.glb
+      trajectory: {file: f.csv, rate_hz: 2}
+  scatter:
+    - {name: mine, files: [m.glb, n.glb], count: [1, 3], area_min_m: [0, 1], area_max_m: [2, 3],
+       yaw_deg: 7, roll_deg: [-1, 1], scale: [0.5, 2], bury_m: 0.1, spacing_m: 0.3, tries: 50,
+       class: target}
+    - {name: tyre, files: t.glb, area_min_m: [0, 1], area_max_m: [2, 3]}
+  water_surface: {height_m: 3, roughness: 0.2}
+trajectory: {file: a.tum}
+sensors: {fls: {kind: imaging}}
+variants: 3
+vary:
+  - {key: water.density_kg_m3, uniform: [990, 1030]}
+  - {key: scene.objects.0.file, choice: [w.glb, "x y.glb"], per: dataset}
+  - {key: sensors.fls.mount, choice: [{rpy_deg: [0, 10, 0]}, {translation_m: [1, 0, 0]}]}
+)";
+
+}  // namespace
+
+TEST_CASE("the keys of a composed scene") {
+    const Mission mission = parse(composed);
+    const SceneConfig& scene = mission.scene;
+    CHECK(scene.mesh.units == LengthUnit::mm);
+    CHECK(scene.mesh.up == UpAxis::z);
+    CHECK(scene.mesh.materials_map == Renaming{{"0137_Black", "rubber"}, {"a: b", "steel"}});
+    CHECK(scene.mesh.exclude == std::vector<std::string>{"Light*", "camera"});
+    REQUIRE(scene.objects.size() == 2);
+    CHECK(scene.objects[0].class_name == "ship");
+    CHECK(scene.objects[0].place_on == ObjectPlace::on_bottom);
+    CHECK(scene.objects[0].mesh.material == "steel");
+    CHECK(std::get<FileTrajectoryConfig>(*scene.objects[1].trajectory).file == "/base/f.csv");
+    REQUIRE(scene.scatter.size() == 2);
+    CHECK(scene.scatter[0].count == std::array{1.0, 3.0});
+    CHECK(scene.scatter[0].yaw_deg == std::array{7.0, 7.0});
+    CHECK(scene.scatter[1].files == std::vector<std::filesystem::path>{"/base/t.glb"});
+    CHECK(scene.scatter[1].yaw_deg == std::array{0.0, 360.0});
+    CHECK(scene.water_surface == WaterSurfaceConfig{3.0, 0.2});
+    CHECK(mission.vary[1].choice == std::vector<std::string>{"\"w.glb\"", "\"x y.glb\""});
+    CHECK(files_of(mission) ==
+          std::vector<std::filesystem::path>{"/base/a.glb", "/base/a.csv", "/base/w.glb",
+                                             "/base/f.glb", "/base/f.csv", "/base/m.glb",
+                                             "/base/n.glb", "/base/t.glb", "/base/a.tum"});
+}
+
+TEST_CASE("a composed scene is written as it is read, and goes to another machine") {
+    const Mission mission = parse(composed);
+    CHECK(parse(resolved_yaml(mission, sonar_keys())) == mission);
+    const Mission elsewhere = parse_mission(resolved_yaml(portable(mission), sonar_keys()),
+                                            "m.yaml", "/other/place", {}, sonar_keys());
+    CHECK(elsewhere.scene.objects[1].file == "/other/place/f.glb");
+    CHECK(elsewhere.scene.scatter[0].files[1] == "/other/place/n.glb");
+    CHECK(mission_hash(elsewhere, sonar_keys()) == mission_hash(mission, sonar_keys()));
+}
+
+TEST_CASE("what the scene's keys refuse") {
+    const auto object = [](const std::string& keys) {
+        return refusal("scene: {materials: a.csv, objects: [{" + keys +
+                       "}]}\ntrajectory: {file: a}\nsensors: {x: {kind: imaging}}\n");
+    };
+    CHECK(object("file: a.glb").empty());
+    CHECK(object("name: a") == "m.yaml:1:37: 'objects.0' lacks the key 'file'");
+    CHECK(object("file: a, scale: 0") == "m.yaml:1:54: 'scale' must be at least 1e-06, not '0'");
+    CHECK(object("file: a, place: on_botom") ==
+          "m.yaml:1:54: unknown place 'on_botom' (did you mean 'on_bottom'?); known: free, "
+          "on_bottom");
+    CHECK(object("file: a, units: inch").find("known: m, mm, cm, km, in, ft") != std::string::npos);
+    CHECK(object("file: a, exclude: Light")
+              .ends_with("'exclude' must be a list of texts, not "
+                         "'Light'"));
+    CHECK(
+        object("file: a, materials_map: [a]").ends_with("must be a section of names, not a list"));
+    CHECK(object("file: a, class: 5, clas: 6").find("unknown key 'clas'") != std::string::npos);
+}
+
+TEST_SUITE_END();
+
+}  // namespace sonarsim

@@ -1,0 +1,138 @@
+#include "mission/variants.h"
+
+#include <cmath>
+#include <map>
+
+#include "core/file.h"
+#include "core/text.h"
+#include "mission/fixtures.h"
+#include "support/temporary_folder.h"
+
+namespace sonarsim {
+
+TEST_SUITE_BEGIN("mission");
+
+namespace {
+
+constexpr std::uint32_t draws = 20'000;
+
+double number(const VaryConfig& rule, std::uint32_t variant) {
+    return *parse_number(draw_value(rule, 11, 2, variant));
+}
+
+/// Mean and standard deviation of f over the draws.
+template <class Function>
+std::pair<double, double> moments(const VaryConfig& rule, Function f) {
+    double sum = 0.0;
+    double squares = 0.0;
+    for (std::uint32_t k = 0; k < draws; ++k) {
+        const double x = f(number(rule, k));
+        sum += x;
+        squares += x * x;
+    }
+    const double mean = sum / draws;
+    return {mean, std::sqrt(squares / draws - mean * mean)};
+}
+
+}  // namespace
+
+// A mean of 20,000 draws lies within 4 sigma / sqrt(20000) = 0.0283 sigma of what it should be, but
+// for 6 cases in 100,000; a standard deviation of a normal law within 0.02 of its own size.
+TEST_CASE("draws: uniform, in the logarithm, and normal") {
+    VaryConfig uniform;
+    uniform.uniform = {2.0, 5.0};
+    const double sigma = 3.0 / std::sqrt(12.0);
+    const auto [mean, spread] = moments(uniform, [](double x) { return x; });
+    CHECK(std::fabs(mean - 3.5) < 0.0283 * sigma);
+    CHECK(std::fabs(spread / sigma - 1.0) < 0.02);
+
+    VaryConfig decades;
+    decades.log_uniform = {1e-3, 10.0};
+    const double ends = std::log(10.0 / 1e-3);
+    const auto [log_mean, log_spread] = moments(decades, [](double x) { return std::log(x); });
+    CHECK(std::fabs(log_mean - 0.5 * std::log(1e-3 * 10.0)) < 0.0283 * ends / std::sqrt(12.0));
+    CHECK(std::fabs(log_spread / (ends / std::sqrt(12.0)) - 1.0) < 0.02);
+
+    VaryConfig normal;
+    normal.normal = {-4.0, 0.5};
+    const auto [middle, width] = moments(normal, [](double x) { return x; });
+    CHECK(std::fabs(middle + 4.0) < 0.0283 * 0.5);
+    CHECK(std::fabs(width / 0.5 - 1.0) < 0.02);
+}
+
+TEST_CASE("draws: they stay within their bounds") {
+    VaryConfig rule;
+    rule.normal = {0.0, 1.0};
+    rule.within = {-0.5, 0.25};
+    VaryConfig decades;
+    decades.log_uniform = {0.3, 0.7};
+    for (std::uint32_t k = 0; k < draws; ++k) {
+        const double x = number(rule, k);
+        const double y = number(decades, k);
+        REQUIRE((-0.5 <= x && x <= 0.25));
+        REQUIRE((0.3 <= y && y <= 0.7));
+    }
+}
+
+TEST_CASE("draws: whole numbers and choices are equally likely, both ends included") {
+    // The count of one of four has a standard deviation of sqrt(20000 0.25 0.75) = 61.
+    VaryConfig whole;
+    whole.whole = {-1.5, 2.0};
+    VaryConfig choice;
+    choice.choice = {"a", "b", "c", "d"};
+    std::map<double, int> numbers;
+    std::map<std::string, int> names;
+    for (std::uint32_t k = 0; k < draws; ++k) {
+        ++numbers[number(whole, k)];
+        ++names[draw_value(choice, 11, 2, k)];
+    }
+    CHECK(numbers.size() == 4);
+    CHECK(numbers.begin()->first == -1.0);
+    CHECK(names.size() == 4);
+    for (const auto& [value, count] : numbers)
+        CHECK(std::abs(count - 5000) < 250);
+    for (const auto& [value, count] : names)
+        CHECK(std::abs(count - 5000) < 250);
+}
+
+TEST_CASE("variants are missions with other seeds and values") {
+    const test::TemporaryFolder folder;
+    const std::filesystem::path file = folder.path / "m.yaml";
+    write_file(file, smallest_mission +
+                         "    noise: {add_sigma: 0.1}\n"
+                         "seed: 3\n"
+                         "variants: 4\n"
+                         "vary:\n"
+                         "  - {key: sensors.fls.noise.add_sigma, uniform: [0.2, 0.3]}\n"
+                         "  - {key: water.density_kg_m3, uniform: [990, 1030], per: dataset}\n"
+                         "  - {key: trajectory, choice: [{file: b.tum}]}\n");
+    const auto draw = [&](const std::vector<std::string>& overrides) {
+        const Mission mission = load_mission(file, overrides, sonar_keys());
+        return draw_variants(mission, {file, folder.path, overrides}, sonar_keys());
+    };
+    const std::vector<Mission> four = draw({"output.folder=/out"});
+    REQUIRE(four.size() == 4);
+    for (int i = 0; i < 4; ++i) {
+        const Mission& one = four[i];
+        CHECK(one.variants == 0);
+        CHECK(one.vary.empty());
+        CHECK(one.variant.index == i);
+        CHECK(one.output.folder == "/out/variant_000" + std::to_string(i));
+        CHECK(one.sensors[0].noise.add_sigma >= 0.2);
+        CHECK(one.water.density_kg_m3 == four[0].water.density_kg_m3);
+        CHECK(std::get<FileTrajectoryConfig>(one.trajectory).file == folder.path / "b.tum");
+        for (int k = 0; k < i; ++k) {
+            CHECK(one.seed != four[k].seed);
+            CHECK(one.sensors[0].noise.add_sigma != four[k].sensors[0].noise.add_sigma);
+        }
+    }
+    // However many there are, and again; but not from another seed.
+    const std::vector<Mission> two = draw({"output.folder=/out", "variants=2"});
+    CHECK(two[1].seed == four[1].seed);
+    CHECK(two[1].sensors == four[1].sensors);
+    CHECK(draw({"seed=4"})[1].sensors != four[1].sensors);
+}
+
+TEST_SUITE_END();
+
+}  // namespace sonarsim

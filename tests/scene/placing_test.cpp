@@ -1,0 +1,281 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "core/error.h"
+#include "core/pose.h"
+#include "scene/placing/rest.h"
+#include "scene/placing/scatter.h"
+
+using namespace sonarsim;
+
+namespace {
+
+/// A bottom of 40 x 40 cells of half a metre about the origin, and its height by arithmetic of its
+/// own: cells are cut from their corner of least x and y to that of largest.
+struct Waves {
+    static constexpr int cells = 40;
+    static constexpr double cell_m = 0.5;
+    static constexpr double half_m = 0.5 * cells * cell_m;
+
+    static double node(int i, int j) {
+        return 0.4 * std::sin(0.9 * i) * std::cos(0.7 * j) + 0.05 * ((i * 7 + j * 13) % 5);
+    }
+    static Surface surface() {
+        Surface out;
+        for (int j = 0; j <= cells; ++j) {
+            for (int i = 0; i <= cells; ++i)
+                out.vertices.emplace_back(i * cell_m - half_m, j * cell_m - half_m, node(i, j));
+        }
+        for (std::uint32_t j = 0; j < cells; ++j) {
+            for (std::uint32_t i = 0; i < cells; ++i) {
+                const std::uint32_t a = j * (cells + 1) + i;
+                out.triangles.push_back({a, a + 1, a + cells + 2});
+                out.triangles.push_back({a, a + cells + 2, a + cells + 1});
+            }
+        }
+        return out;
+    }
+    static double height(double x, double y) {
+        const double u = (x + half_m) / cell_m;
+        const double v = (y + half_m) / cell_m;
+        const int i = std::clamp(static_cast<int>(u), 0, cells - 1);
+        const int j = std::clamp(static_cast<int>(v), 0, cells - 1);
+        const double s = u - i;
+        const double t = v - j;
+        const double diagonal = node(i + 1, j + 1);
+        return s >= t ? node(i, j) + s * (node(i + 1, j) - node(i, j)) +
+                            t * (diagonal - node(i + 1, j))
+                      : node(i, j) + t * (node(i, j + 1) - node(i, j)) +
+                            s * (diagonal - node(i, j + 1));
+    }
+};
+
+Surface box(double x, double y, double z) {
+    Surface out;
+    for (int i = 0; i < 8; ++i)
+        out.vertices.emplace_back((i & 1 ? x : -x), (i & 2 ? y : -y), (i & 4 ? z : -z));
+    out.triangles = {{0, 1, 3}, {0, 3, 2}, {4, 6, 7}, {4, 7, 5}, {0, 4, 5}, {0, 5, 1},
+                     {2, 3, 7}, {2, 7, 6}, {0, 2, 6}, {0, 6, 4}, {1, 5, 7}, {1, 7, 3}};
+    return out;
+}
+
+/// The least height of the edges and faces over the bottom. Edges are walked in steps of a
+/// millimetre; a face is nearest at its edges or above a node of the bottom.
+double least_gap(const Surface& object) {
+    double gap = 1e9;
+    for (const auto& corners : object.triangles) {
+        const Eigen::Vector3d& a = object.vertices[corners[0]];
+        const Eigen::Vector3d& b = object.vertices[corners[1]];
+        const Eigen::Vector3d& c = object.vertices[corners[2]];
+        for (const auto& [from, to] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) {
+            const int steps = 1 + static_cast<int>((to - from).norm() / 1e-3);
+            for (int k = 0; k <= steps; ++k) {
+                const Eigen::Vector3d p = from + static_cast<double>(k) / steps * (to - from);
+                gap = std::min(gap, p.z() - Waves::height(p.x(), p.y()));
+            }
+        }
+        const auto node_of = [](double x) { return (x + Waves::half_m) / Waves::cell_m; };
+        const Eigen::Vector3d low = a.cwiseMin(b).cwiseMin(c);
+        const Eigen::Vector3d high = a.cwiseMax(b).cwiseMax(c);
+        const Eigen::Vector3d normal = (b - a).cross(c - a);
+        if (std::fabs(normal.z()) < 1e-9) continue;
+        for (int j = static_cast<int>(std::ceil(node_of(low.y()))); j <= node_of(high.y()); ++j) {
+            for (int i = static_cast<int>(std::ceil(node_of(low.x()))); i <= node_of(high.x());
+                 ++i) {
+                Eigen::Vector3d p(i * Waves::cell_m - Waves::half_m,
+                                  j * Waves::cell_m - Waves::half_m, 0.0);
+                p.z() = a.z() -
+                        (normal.x() * (p.x() - a.x()) + normal.y() * (p.y() - a.y())) / normal.z();
+                const auto left = [&](const Eigen::Vector3d& q, const Eigen::Vector3d& r) {
+                    return (r - q).cross(p - q).dot(normal) >= 0.0;
+                };
+                if (left(a, b) && left(b, c) && left(c, a))
+                    gap = std::min(gap, p.z() - Waves::node(i, j));
+            }
+        }
+    }
+    return gap;
+}
+
+/// Whether two boxes from above meet, by walking the sides of all faces of one in steps of a
+/// centimetre and asking whether they lie in a face of the other.
+bool meet_from_above(const Surface& one, const Surface& other) {
+    const auto in_face = [&](const Eigen::Vector2d& p) {
+        return std::ranges::any_of(other.triangles, [&](const auto& corners) {
+            int sides = 0;
+            int turns = 0;
+            for (int k = 0; k < 3; ++k) {
+                const Eigen::Vector2d a = other.vertices[corners[k]].template head<2>();
+                const Eigen::Vector2d b = other.vertices[corners[(k + 1) % 3]].template head<2>();
+                const double cross = (b - a).x() * (p - a).y() - (b - a).y() * (p - a).x();
+                sides += cross > 1e-9;
+                turns += cross < -1e-9;
+            }
+            return sides == 3 || turns == 3;
+        });
+    };
+    for (const auto& corners : one.triangles) {
+        for (int k = 0; k < 3; ++k) {
+            const Eigen::Vector2d a = one.vertices[corners[k]].head<2>();
+            const Eigen::Vector2d b = one.vertices[corners[(k + 1) % 3]].head<2>();
+            const int steps = 1 + static_cast<int>((b - a).norm() / 1e-2);
+            for (int s = 0; s <= steps; ++s) {
+                if (in_face(a + static_cast<double>(s) / steps * (b - a))) return true;
+            }
+        }
+    }
+    return false;
+}
+
+ScatterRule rule_of(const std::vector<Surface>& shapes) {
+    ScatterRule rule;
+    rule.name = "thing";
+    for (const Surface& shape : shapes)
+        rule.shapes.push_back(&shape);
+    rule.count = {20, 20};
+    rule.area = {Eigen::Vector2d(-8, -8), Eigen::Vector2d(8, 8)};
+    rule.rpy_rad = {{{-0.5, 0.5}, {-0.5, 0.5}, {-3.0, 3.0}}};
+    rule.scale = {0.6, 1.4};
+    rule.tries = 1000;
+    rule.place = {"m.yaml", 9, 7};
+    return rule;
+}
+
+std::vector<Surface> put(const std::vector<Surface>& shapes,
+                         const std::vector<ScatteredObject>& objects) {
+    std::vector<Surface> out;
+    for (const ScatteredObject& object : objects)
+        out.push_back(moved(shapes[object.shape], object.T_world_shape));
+    return out;
+}
+
+}  // namespace
+
+TEST_SUITE("scene") {
+    TEST_CASE("placing: a thousand objects rest on the bottom within a millimetre, and none meet") {
+        const Bottom bottom(Waves::surface());
+        const std::vector<Surface> shapes{box(0.3, 0.2, 0.1), box(0.5, 0.05, 0.05),
+                                          box(0.15, 0.15, 0.4)};
+        for (const bool align : {false, true}) {
+            ScatterRule rule = rule_of(shapes);
+            rule.align = align;
+            double highest = -1e9;
+            double lowest = 1e9;
+            int meetings = 0;
+            int outside = 0;
+            for (std::uint64_t seed = 0; seed < 25; ++seed) {
+                std::vector<Hull> taken;
+                const auto placed = put(shapes, scatter(rule, 0, seed, bottom, taken));
+                REQUIRE(placed.size() == 20);
+                for (std::size_t i = 0; i < placed.size(); ++i) {
+                    const double gap = least_gap(placed[i]);
+                    highest = std::max(highest, gap);
+                    lowest = std::min(lowest, gap);
+                    for (std::size_t k = 0; k < placed.size(); ++k)
+                        meetings += k != i && meet_from_above(placed[i], placed[k]);
+                    for (const Eigen::Vector3d& v : placed[i].vertices)
+                        outside += v.head<2>().cwiseAbs().maxCoeff() > 8.0;
+                }
+            }
+            CHECK(lowest > -1e-9);  // nothing is in the bottom
+            CHECK(highest < 1e-3);  // and everything touches it
+            CHECK(meetings == 0);
+            CHECK(outside == 0);
+        }
+    }
+
+    TEST_CASE("placing: burial, the same draws from the same seed, others from another") {
+        const Bottom bottom(Waves::surface());
+        const std::vector<Surface> shapes{box(0.3, 0.2, 0.1)};
+        ScatterRule rule = rule_of(shapes);
+        rule.bury_m = {0.07, 0.07};
+        const auto draw = [&](std::uint64_t seed) {
+            std::vector<Hull> taken;
+            return put(shapes, scatter(rule, 3, seed, bottom, taken));
+        };
+        const auto once = draw(5);
+        const auto again = draw(5);
+        const auto other = draw(6);
+        for (std::size_t i = 0; i < once.size(); ++i) {
+            CHECK(std::fabs(least_gap(once[i]) + 0.07) < 1e-3);
+            CHECK(once[i].vertices[0] == again[i].vertices[0]);
+            CHECK(once[i].vertices[0] != other[i].vertices[0]);
+        }
+    }
+
+    TEST_CASE("placing: on a plane a box that is aligned lies flat on it") {
+        // z = 0.3 x + 0.1 y: the box's lower face is in the plane, all four corners of it.
+        Surface plane;
+        for (const auto& [x, y] : {std::pair(-9, -9), {9, -9}, {9, 9}, {-9, 9}})
+            plane.vertices.emplace_back(x, y, 0.3 * x + 0.1 * y);
+        plane.triangles = {{0, 1, 2}, {0, 2, 3}};
+        const Bottom bottom(plane);
+        const Surface shape = box(0.4, 0.2, 0.1);
+        const auto T =
+            put_on_bottom(bottom, shape, {2.0, -3.0},
+                          {.rotation = rotation_from_rpy(0, 0, 0.7), .scale = 2.0, .align = true});
+        REQUIRE(T);
+        const Surface placed = moved(shape, *T);
+        for (int k = 0; k < 4; ++k) {
+            const Eigen::Vector3d& v = placed.vertices[k];
+            CHECK(std::fabs(v.z() - 0.3 * v.x() - 0.1 * v.y()) < 1e-9);
+        }
+        CHECK(T->translation().head<2>() == Eigen::Vector2d(2.0, -3.0));
+    }
+
+    TEST_CASE("placing: a spike of the bottom below a face, and an edge across a ridge") {
+        // A pyramid of height 1 under the middle of a box: no corner of the box is near it.
+        Surface pyramid;
+        pyramid.vertices = {{-5, -5, 0}, {5, -5, 0}, {5, 5, 0}, {-5, 5, 0}, {0, 0, 1}};
+        pyramid.triangles = {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}};
+        const Surface plate = box(1.0, 1.0, 0.1);
+        CHECK(std::fabs(*lift_to_rest(Bottom(pyramid), plate) - 1.1) < 1e-12);
+        // A ridge along y at x = 0, and a beam along x that is turned so that an edge is below.
+        Surface ridge;
+        ridge.vertices = {{-5, -5, 0}, {0, -5, 1}, {5, -5, 0}, {-5, 5, 0}, {0, 5, 1}, {5, 5, 0}};
+        ridge.triangles = {{0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}};
+        Eigen::Affine3d T = Eigen::Affine3d::Identity();
+        T.rotate(rotation_from_rpy(std::atan(1.0), 0, 0));
+        const Surface beam = moved(box(2.0, 0.1, 0.1), T);
+        CHECK(std::fabs(*lift_to_rest(Bottom(ridge), beam) - (1.0 + 0.1 * std::sqrt(2.0))) < 1e-9);
+    }
+
+    TEST_CASE("placing: what does not fit is refused with what stood in the way") {
+        const Bottom bottom(Waves::surface());
+        const std::vector<Surface> shapes{box(1.0, 1.0, 0.1)};
+        ScatterRule rule = rule_of(shapes);
+        rule.count = {200, 200};
+        rule.tries = 50;
+        std::vector<Hull> taken;
+        std::string message;
+        try {
+            scatter(rule, 0, 1, bottom, taken);
+        } catch (const InputError& error) {
+            message = error.what();
+        }
+        CHECK(message.starts_with("m.yaml:9:7: 'thing': object "));
+        CHECK(message.find("of 200 finds no room in 50 tries") != std::string::npos);
+        CHECK_FALSE(lift_to_rest(
+            bottom, moved(shapes[0], Eigen::Affine3d(Eigen::Translation3d(9.5, 0.0, 0.0)))));
+    }
+
+    TEST_CASE("placing: distances between hulls") {
+        const Hull square{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+        const auto shifted = [&](double x, double y) {
+            Hull out = square;
+            for (auto& p : out)
+                p += Eigen::Vector2d(x, y);
+            return out;
+        };
+        CHECK(distance_between(square, shifted(3.0, 0.5)) == 2.0);
+        CHECK(std::fabs(distance_between(square, shifted(4.0, 5.0)) - 5.0) < 1e-12);
+        CHECK(distance_between(square, shifted(0.5, 0.5)) == 0.0);
+        CHECK(distance_between(square, {{0.4, 0.4}, {0.6, 0.4}, {0.5, 0.6}}) == 0.0);
+        const std::vector<Eigen::Vector3d> points{{0, 0, 1}, {2, 0, 3}, {1, 0.5, 0},
+                                                  {2, 2, 0}, {0, 2, 0}, {1, 1, 9}};
+        CHECK(hull_of(points) == Hull{{0, 0}, {2, 0}, {2, 2}, {0, 2}});
+    }
+}
