@@ -4,6 +4,7 @@
 tank      a concrete tank, 8 x 6 x 3 m, with a few objects (the default; scenes/tank.glb)
 seafloor  200 x 200 m of sand and silt with a hundred boulders, a million triangles
 wreck     a broken hull with ribs on a rippled bottom, 60 x 60 m
+close_bottom  a rough bottom half a metre below a sonar, with some particles
 lifeboat  a hull with rails, ropes and gear, of one material, for comparisons of the engines
 
 The same command writes the same bytes on every machine.
@@ -12,7 +13,7 @@ import argparse
 import pathlib
 import sys
 
-from scenes import lifeboat, seafloor, tank, wreck
+from scenes import close_bottom, lifeboat, seafloor, tank, wreck
 from scenes.glb import write_glb
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
@@ -21,7 +22,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("names", nargs="*", metavar="name", help="tank, seafloor, wreck or lifeboat")
+    parser.add_argument("names", nargs="*", metavar="name", help="one of those above")
     parser.add_argument("--out", type=pathlib.Path, metavar="DIR",
                         help="default: scenes/ for the tank, scenes/generated/ for the others")
     parser.add_argument("--cells", type=int, default=708, metavar="N",
@@ -40,6 +41,7 @@ def main() -> int:
         "tank": tank.build,
         "seafloor": lambda: seafloor.build(arguments.cells, arguments.area),
         "wreck": wreck.build,
+        "close_bottom": close_bottom.build,
         "lifeboat": lambda: lifeboat.build(arguments.quarterings),
     }
     for name in arguments.names or ["tank"]:

@@ -79,7 +79,14 @@ inline float unit_float(std::uint32_t word) {
 }
 
 /// What a draw is for. Draws of different streams never share a number.
-enum class Stream : std::uint32_t { range_noise = 1, pixel_noise = 2, multipath_range_noise = 3 };
+enum class Stream : std::uint32_t {
+    range_noise = 1,
+    pixel_noise = 2,
+    multipath_range_noise = 3,
+    scatterers = 4,
+    speckle = 5,
+    receiver_noise = 6,
+};
 
 /// The key of one stream of one ping of one sensor. The counter below it names what the draw
 /// belongs to (a scatterer cell, a pixel).

@@ -2,8 +2,10 @@
 
 #include "core/file.h"
 #include "mission/override.h"
+#include "mission/preset.h"
 #include "mission/reader.h"
 #include "mission/schema.h"
+#include "mission/sound_speed.h"
 
 namespace sonarsim {
 
@@ -31,12 +33,15 @@ Mission parse_mission(std::string_view text, const std::string& file_name,
     YamlNode root = read_document(text, file_name);
     for (const std::string& setting : overrides)
         apply_override(root, setting);
+    fill_in_presets(root, base_folder);
 
     Mission mission;
     mission.name = std::filesystem::path(file_name).stem().string();
     MissionReader reader(root, "mission", base_folder, sonars);
     describe(reader, mission);
     reader.finish();
+    if (mission.water.sound_speed_m_s == 0.0)
+        mission.water.sound_speed_m_s = sound_speed_m_s(mission.water);
     if (mission.output.folder.empty()) {
         mission.output.folder = std::filesystem::absolute("out") / mission.name;
     }
