@@ -102,8 +102,7 @@ CalibratedModel calibrated_model(const InstrumentConfig& instrument, const Water
     const double side_lobe_db = instrument.pulse.side_lobe_db;
     CalibratedModel model{
         .equation = {},
-        .scene_limits = {},
-        .energy_limits = {},
+        .limits = {},
         .cells = {},
         .clutter = gamma_clutter(instrument.speckle.clutter_shape, instrument.speckle.clutter_m),
         .amplitude_taps = range_taps(resolution_bins, side_lobe_db, false),
@@ -127,15 +126,12 @@ CalibratedModel calibrated_model(const InstrumentConfig& instrument, const Water
         .grid = model.amplitude_beams.grid(),
         .loss_per_m = static_cast<float>(0.2 * ln_10 * model.absorption_db_per_m),
         .elevation = elevation_pattern(width, instrument.beam.elevation_side_lobe_db)};
-    model.energy_limits = {.depth_m = most_depth_by_bin * static_cast<float>(bin_m),
-                           .sine = most_sine_by_step * static_cast<float>(model.equation.grid.step),
-                           .elevation_sine = static_cast<float>(most_elevation_by_width * width)};
+    model.limits = {.depth_m = most_depth_by_bin * static_cast<float>(bin_m),
+                    .sine = most_sine_by_step * static_cast<float>(model.equation.grid.step),
+                    .elevation_sine = static_cast<float>(most_elevation_by_width * width)};
     model.cells =
         scatterer_cells(instrument.speckle.per_cell, resolution_m,
                         radians(instrument.beam.width_deg), view.range_min_m, model.wavelength_m);
-    model.scene_limits = {.edge_per_root_range = model.cells.edge_per_root_range,
-                          .most_edge_m = model.cells.edge_of(model.cells.levels - 1)};
-
     const ReceiverConfig& receiver = instrument.receiver;
     const double noise = power_of_db(receiver.noise_db - instrument.source_level_db);
     model.noise.element_sigma =
@@ -166,23 +162,26 @@ CalibratedCounts form_calibrated(const CalibratedModel& model, const Samples& sa
                              T_world_sensor.translation - scene.origin};
     CalibratedCounts counts;
     EchoGrid grid(model.equation.rows, model.equation.grid.columns);
-    PieceBlock pieces;
     PointEchoes echoes;
-    Amplitudes amplitudes;
-    const auto add = [&](const PieceBlock& block) {
-        counts.echoes += block.count;
-        counts.out_of_range += find_echoes(block, materials, model.equation, echoes);
-        if (speckled) add_clutter(block, model.clutter, sonar, draws.scene, echoes);
-        if (!of_scene) {
-            add_powers(echoes, grid);
-            return;
-        }
-        draw_amplitudes(block, echoes, model.cells, sonar, draws.scene, amplitudes);
-        add_amplitudes(echoes, amplitudes.re, amplitudes.im, grid);
+    const auto find = [&](const PieceBlock& pieces) {
+        counts.echoes += pieces.count;
+        counts.out_of_range += find_echoes(pieces, materials, model.equation, echoes);
+        if (speckled) add_clutter(pieces, model.clutter, sonar, draws.scene, echoes);
     };
-    if (terms.echoes) {
-        cut_into_pieces(samples.items, of_scene ? model.scene_limits : model.energy_limits, pieces,
-                        add);
+    if (terms.echoes && of_scene) {
+        Scatterers block;
+        Amplitudes amplitudes;
+        find_scatterers(samples.items, model.cells, sonar, block, [&](const Scatterers& found) {
+            find(found.pieces);
+            draw_amplitudes(found, echoes, model.cells, sonar, draws.scene, amplitudes);
+            add_amplitudes(echoes, amplitudes.re, amplitudes.im, grid);
+        });
+    } else if (terms.echoes) {
+        PieceBlock block;
+        cut_into_pieces(samples.items, model.limits, block, [&](const PieceBlock& pieces) {
+            find(pieces);
+            add_powers(echoes, grid);
+        });
     }
 
     // Independent places are fewer, but no less strong, than the points whose powers they hold.

@@ -18,8 +18,7 @@ namespace sonarsim {
 /// the echo levels that it measures.
 struct CalibratedModel {
     SonarEquation equation;
-    PieceLimits scene_limits;   ///< of pieces that are to be scatterers of the scene
-    PieceLimits energy_limits;  ///< of others
+    PieceLimits limits;  ///< of pieces that are not scatterers of the scene
     ScattererCells cells;
     Clutter clutter;
     RangeTaps amplitude_taps, power_taps;

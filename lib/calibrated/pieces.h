@@ -19,18 +19,15 @@ struct PieceBlock {
     int count = 0;
     Array<float> x{}, y{}, z{};  ///< m, sensor frame
     Array<float> area_m2{};
-    Array<float> length_u{}, length_v{};  ///< m, of its edges
-    Array<float> height_m{};              ///< of the sonar above the piece's plane
+    Array<float> height_m{};  ///< of the sonar above the piece's plane
     Array<std::uint32_t> material{};
 };
 
 /// How large a piece may be. In every direction the least of these holds.
 struct PieceLimits {
-    float edge_per_root_range = 0.0F;  ///< m: pieces no longer than this times sqrt(range) ...
-    float most_edge_m = 0.0F;          ///< ... and than this; 0: any length
-    float depth_m = 0.0F;              ///< in range; 0: any
-    float sine = 0.0F;                 ///< across the beams, of y / range; 0: any
-    float elevation_sine = 0.0F;       ///< of z / range; 0: any
+    float depth_m = 0.0F;         ///< in range; 0: any
+    float sine = 0.0F;            ///< across the beams, of y / range; 0: any
+    float elevation_sine = 0.0F;  ///< of z / range; 0: any
 };
 
 /// Into how many pieces a half edge is cut.
@@ -39,11 +36,6 @@ inline int pieces_along(const Eigen::Vector3f& half_edge, const Eigen::Vector3f&
     constexpr float most = 256.0F;
     const float depth = half_edge.dot(direction);
     float wanted = 1.0F;
-    if (limits.most_edge_m > 0.0F) {
-        const float edge =
-            std::min(limits.most_edge_m, limits.edge_per_root_range * std::sqrt(range_m));
-        wanted = std::max(wanted, 2.0F * half_edge.norm() / edge);
-    }
     const float per_range = 2.0F / range_m;
     if (limits.depth_m > 0.0F) wanted = std::max(wanted, 2.0F * std::fabs(depth) / limits.depth_m);
     if (limits.sine > 0.0F) {
@@ -68,8 +60,6 @@ void cut_into_pieces(std::span<const Sample> samples, const PieceLimits& limits,
         const Eigen::Vector3f direction = sample.position / range;
         const int rows = pieces_along(sample.edge_u, direction, range, limits);
         const int columns = pieces_along(sample.edge_v, direction, range, limits);
-        const float length_u = 2.0F * sample.edge_u.norm() / static_cast<float>(rows);
-        const float length_v = 2.0F * sample.edge_v.norm() / static_cast<float>(columns);
         const float area = sample.area_m2 / static_cast<float>(rows * columns);
         const Eigen::Vector3f step_u = 2.0F / static_cast<float>(rows) * sample.edge_u;
         const Eigen::Vector3f step_v = 2.0F / static_cast<float>(columns) * sample.edge_v;
@@ -88,8 +78,6 @@ void cut_into_pieces(std::span<const Sample> samples, const PieceLimits& limits,
                     pieces.y[at + lane] = std::fma(t, step_v.y(), row.y());
                     pieces.z[at + lane] = std::fma(t, step_v.z(), row.z());
                     pieces.area_m2[at + lane] = area;
-                    pieces.length_u[at + lane] = length_u;
-                    pieces.length_v[at + lane] = length_v;
                     pieces.height_m[at + lane] = sample.height_m;
                     pieces.material[at + lane] = sample.material;
                 }

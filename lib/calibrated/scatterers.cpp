@@ -16,11 +16,6 @@ using Words = PieceBlock::Array<std::uint32_t>;
 // of the cell, which would otherwise show as speckle that is longer than the pulse.
 constexpr double most_of_resolution = 0.75;
 
-/// What surface lies in a cube that a plane cuts at random, on average over the directions of the
-/// plane and weighted by area: mean of the squared area by mean area, in squared edges. Integrated
-/// numerically; it is 1 for a plane along a face and 0.89 across a diagonal.
-constexpr float area_in_cell = 0.93F;
-
 /// 32 bits that look random by 64 (the finaliser of MurmurHash3, put to the words in turn).
 std::uint32_t mixed(std::uint32_t a, std::uint32_t b) {
     std::uint32_t h = a * 0x85EBCA6BU;
@@ -28,14 +23,6 @@ std::uint32_t mixed(std::uint32_t a, std::uint32_t b) {
     h = (h ^ (h >> 16)) * 0x85EBCA6BU;
     h = (h ^ (h >> 13)) * 0xC2B2AE35U;
     return h ^ (h >> 16);
-}
-
-/// How much stronger the pieces of a cell are together, by the mean of the squared number of them
-/// that have their middle in it: where q pieces go into an edge, q rounded up or down.
-float crowding(float edge, float length) {
-    const float q = std::max(edge / length, 1.0F);
-    const float part = q - std::floor(q);
-    return 1.0F + part * (1.0F - part) / (q * q);
 }
 
 struct WorldPlaces {
@@ -68,54 +55,22 @@ std::int32_t cell_along(float metres, float per_edge) {
     return static_cast<std::int32_t>(std::floor(metres * per_edge));
 }
 
-/// The level of each piece's cell. Between the ranges at which one level or the next is right, part
-/// of the larger cells hold a scatterer each and the others are split; each does so at a range of
-/// its own, so that the scatterers do not change all at once while the sonar moves.
-void find_levels(const PointEchoes& echoes, const ScattererCells& cells, const WorldPlaces& places,
-                 Floats& edge) {
-    const float root = cells.edge_per_root_range / cells.least_edge_m;
-    const float square = root * root;
-    const auto last = static_cast<float>(cells.levels - 1);
-    for (int k = 0; k < echoes.count; ++k) {
-        // The edge that is wanted is least_edge 2^wanted.
-        const float ratio = std::max(square * echoes.range_m[k], 1.0F);
-        const float wanted = std::min((0.5F / 0.69314718F) * natural_log(ratio), last);
-        const float level = std::floor(wanted);
-        const float fine = cells.least_edge_m *
-                           std::bit_cast<float>((static_cast<std::int32_t>(level) + 127) << 23);
-        const float per_coarse = 0.5F / fine;
-        const std::uint32_t h = mixed(word_of(cell_along(places.x[k], per_coarse)) ^
-                                          word_of(cell_along(places.z[k], per_coarse)) << 16,
-                                      word_of(cell_along(places.y[k], per_coarse)) ^
-                                          word_of(static_cast<std::int32_t>(level)) << 24);
-        edge[k] = unit_float(h) < wanted - level ? 2.0F * fine : fine;
-    }
-}
-
-struct CellNumbers {
-    PieceBlock::Array<std::int32_t> x, y, z;
-};
-
-void find_cells(const WorldPlaces& places, int count, const Floats& edge, CellNumbers& cells,
-                Words& low, Words& high) {
+/// What the cells are called in their draws.
+void name_cells(const Scatterers& block, int count, Words& low, Words& high) {
+    constexpr std::uint32_t bits_21 = 0x1FFFFF;
     for (int k = 0; k < count; ++k) {
-        const float per_edge = 1.0F / edge[k];
-        cells.x[k] = cell_along(places.x[k], per_edge);
-        cells.y[k] = cell_along(places.y[k], per_edge);
-        cells.z[k] = cell_along(places.z[k], per_edge);
-        constexpr std::uint32_t bits_21 = 0x1FFFFF;
-        const std::uint32_t split = word_of(cells.z[k]);
-        low[k] = (word_of(cells.x[k]) & bits_21) | split << 21;
+        const std::uint32_t split = word_of(block.cell[2][k]);
+        low[k] = (word_of(block.cell[0][k]) & bits_21) | split << 21;
         // Levels differ in the exponent of the edge.
-        high[k] = ((word_of(cells.y[k]) & bits_21) | split >> 11 << 21) ^
-                  (std::bit_cast<std::uint32_t>(edge[k]) >> 23) * 0x9E3779B1U;
+        high[k] = ((word_of(block.cell[1][k]) & bits_21) | split >> 11 << 21) ^
+                  (std::bit_cast<std::uint32_t>(block.edge_m[k]) >> 23) * 0x9E3779B1U;
     }
 }
 
 /// The phase, in turns, of the sound that comes back from each cell's scatterer. The way is taken
 /// in double: at 40 m and 2 MHz the last bit of a float is 0.07 rad.
-void find_phases(const CellNumbers& cells, int count, const Floats& edge, const Words& jitter,
-                 const SonarInScene& sonar, double turns_per_m, Floats& turns) {
+void find_phases(const Scatterers& block, int count, const Words& jitter, const SonarInScene& sonar,
+                 double turns_per_m, Floats& turns) {
     constexpr std::uint32_t bits_10 = 0x3FF;
     constexpr double step = 0x1p-10;
     const double sx = sonar.sensor.x();
@@ -125,12 +80,114 @@ void find_phases(const CellNumbers& cells, int count, const Floats& edge, const 
         const auto part = [&](std::uint32_t bits) {
             return (static_cast<double>(static_cast<std::int32_t>(bits & bits_10)) + 0.5) * step;
         };
-        const double e = edge[k];
-        const double x = (cells.x[k] + part(jitter[k])) * e - sx;
-        const double y = (cells.y[k] + part(jitter[k] >> 10)) * e - sy;
-        const double z = (cells.z[k] + part(jitter[k] >> 20)) * e - sz;
+        const double e = block.edge_m[k];
+        const double x = (block.cell[0][k] + part(jitter[k])) * e - sx;
+        const double y = (block.cell[1][k] + part(jitter[k] >> 10)) * e - sy;
+        const double z = (block.cell[2][k] + part(jitter[k] >> 20)) * e - sz;
         const double way = turns_per_m * std::sqrt(std::fma(x, x, std::fma(y, y, z * z)));
         turns[k] = static_cast<float>(way - std::floor(way));
+    }
+}
+
+/// A sample seen along an axis of the world: a parallelogram in the plane of the other two.
+struct Projected {
+    const Sample& sample;
+    int axis, first, second;  ///< the axis, and the other two
+    Eigen::Vector3d centre;   ///< relative to Scene::origin, m
+    Eigen::Vector3f u, v;     ///< half edges, world frame
+    float determinant;
+    float area_by_projected;  ///< of the sample, by that of its projection
+};
+
+Projected project(const Sample& sample, const SonarInScene& sonar) {
+    const Eigen::Vector3f u = sonar.R_world_sensor * sample.edge_u;
+    const Eigen::Vector3f v = sonar.R_world_sensor * sample.edge_v;
+    const Eigen::Vector3f normal = u.cross(v);
+    int axis = 0;
+    normal.cwiseAbs().maxCoeff(&axis);
+    const Eigen::Vector3f place = sonar.R_world_sensor * sample.position;
+    return {sample,
+            axis,
+            (axis + 1) % 3,
+            (axis + 2) % 3,
+            sonar.sensor + place.cast<double>(),
+            u,
+            v,
+            normal[axis],
+            sample.area_m2 / (4.0F * std::fabs(normal[axis]))};
+}
+
+/// Adds scatterers to a block.
+struct Collector {
+    Scatterers& block;
+    const std::function<void(const Scatterers&)>& use;
+
+    /// That of the cell (i, j) in the plane of the sample's projection, if its point lies within.
+    void add(const Projected& p, std::int32_t i, std::int32_t j, float edge, std::uint32_t level) {
+        const std::uint32_t h = mixed(word_of(i) ^ level << 27, word_of(j) ^ (p.axis + 1U) << 29);
+        const double a = (i + (h & 0xFFFFU) * 0x1p-16) * edge - p.centre[p.first];
+        const double b = (j + (h >> 16) * 0x1p-16) * edge - p.centre[p.second];
+        const auto x = static_cast<float>(a);
+        const auto y = static_cast<float>(b);
+        const float s = (x * p.v[p.second] - y * p.v[p.first]) / p.determinant;
+        const float t = (y * p.u[p.first] - x * p.u[p.second]) / p.determinant;
+        if (!(s >= -1.0F && s < 1.0F && t >= -1.0F && t < 1.0F)) return;
+        PieceBlock& pieces = block.pieces;
+        const int at = pieces.count++;
+        const Sample& sample = p.sample;
+        pieces.x[at] = sample.position.x() + s * sample.edge_u.x() + t * sample.edge_v.x();
+        pieces.y[at] = sample.position.y() + s * sample.edge_u.y() + t * sample.edge_v.y();
+        pieces.z[at] = sample.position.z() + s * sample.edge_u.z() + t * sample.edge_v.z();
+        pieces.area_m2[at] = edge * edge * p.area_by_projected;
+        pieces.height_m[at] = sample.height_m;
+        pieces.material[at] = sample.material;
+        block.edge_m[at] = edge;
+        block.cell[p.first][at] = i;
+        block.cell[p.second][at] = j;
+        const double along = p.centre[p.axis] + s * p.u[p.axis] + t * p.v[p.axis];
+        block.cell[p.axis][at] = static_cast<std::int32_t>(std::floor(along / edge));
+        if (pieces.count == PieceBlock::most) flush();
+    }
+
+    void flush() {
+        if (block.pieces.count > 0) use(block);
+        block.pieces.count = 0;
+    }
+};
+
+/// The cells of a projected sample. Between the ranges at which one level or the next is right,
+/// part of the larger cells hold a scatterer each and the others are split; each does so at a range
+/// of its own, so that the scatterers do not change all at once while the sonar moves.
+void add_cells(const Projected& p, const ScattererCells& cells, Collector& collector) {
+    const float range = p.sample.position.norm();
+    const float root = cells.edge_per_root_range / cells.least_edge_m;
+    const float ratio = std::max(root * root * range, 1.0F);
+    const float wanted =
+        std::min((0.5F / 0.69314718F) * natural_log(ratio), static_cast<float>(cells.levels - 1));
+    const int level = static_cast<int>(std::floor(wanted));
+    const float whole_cells = wanted - std::floor(wanted);
+    const float fine = cells.edge_of(level);
+    const float coarse = 2.0F * fine;
+    const auto name = static_cast<std::uint32_t>(level);
+    const auto cells_along = [&](int axis) {
+        const double half = std::fabs(p.u[axis]) + std::fabs(p.v[axis]);
+        return std::array{static_cast<std::int32_t>(std::floor((p.centre[axis] - half) / coarse)),
+                          static_cast<std::int32_t>(std::floor((p.centre[axis] + half) / coarse))};
+    };
+    const auto columns = cells_along(p.first);
+    const auto rows = cells_along(p.second);
+    for (std::int32_t j = rows[0]; j <= rows[1]; ++j) {
+        for (std::int32_t i = columns[0]; i <= columns[1]; ++i) {
+            const std::uint32_t h = mixed(word_of(i) ^ 0x5bd1e995U, word_of(j) ^ name << 27);
+            if (unit_float(h) < whole_cells) {
+                collector.add(p, i, j, coarse, name + 1);
+                continue;
+            }
+            collector.add(p, 2 * i, 2 * j, fine, name);
+            collector.add(p, 2 * i + 1, 2 * j, fine, name);
+            collector.add(p, 2 * i, 2 * j + 1, fine, name);
+            collector.add(p, 2 * i + 1, 2 * j + 1, fine, name);
+        }
     }
 }
 
@@ -222,29 +279,34 @@ void add_clutter(const PieceBlock& pieces, const Clutter& clutter, const SonarIn
     }
 }
 
-void draw_amplitudes(const PieceBlock& pieces, const PointEchoes& echoes,
+void find_scatterers(std::span<const Sample> samples, const ScattererCells& cells,
+                     const SonarInScene& sonar, Scatterers& block,
+                     const std::function<void(const Scatterers&)>& use) {
+    Collector collector{block, use};
+    block.pieces.count = 0;
+    for (const Sample& sample : samples) {
+        const Projected projected = project(sample, sonar);
+        if (projected.determinant == 0.0F) continue;
+        add_cells(projected, cells, collector);
+    }
+    collector.flush();
+}
+
+void draw_amplitudes(const Scatterers& block, const PointEchoes& echoes,
                      const ScattererCells& cells, const SonarInScene& sonar, PhiloxKey key,
                      Amplitudes& out) {
-    WorldPlaces places;
-    Floats edge, turns;
-    CellNumbers numbers;
+    Floats turns;
     Words draw, jitter;
     const int count = echoes.count;
-    find_places(pieces, count, sonar, places);
-    find_levels(echoes, cells, places, edge);
-    find_cells(places, count, edge, numbers, draw, jitter);
+    name_cells(block, count, draw, jitter);
     philox_pairs(draw.data(), jitter.data(), count, key);
-    find_phases(numbers, count, edge, jitter, sonar, cells.turns_per_m, turns);
+    find_phases(block, count, jitter, sonar, cells.turns_per_m, turns);
     for (int k = 0; k < count; ++k) {
         // Of the first word 20 bits make the strength, which is exponential, and 12 the phase.
         const auto upper = static_cast<float>(static_cast<std::int32_t>(draw[k] >> 12));
         const auto lower = static_cast<float>(static_cast<std::int32_t>(draw[k] & 0xFFFU));
         const float strength = -natural_log((upper + 0.5F) * 0x1p-20F);
-        const float area = pieces.area_m2[k];
-        const float crowd =
-            crowding(edge[k], pieces.length_u[k]) * crowding(edge[k], pieces.length_v[k]);
-        const float whole = std::max(area_in_cell * crowd * edge[k] * edge[k], area);
-        const float amplitude = std::sqrt(echoes.power[k] * strength * (area / whole));
+        const float amplitude = std::sqrt(echoes.power[k] * strength);
         const SinCosFloat phase = sincos_turns(std::fma(lower, 0x1p-12F, turns[k]));
         out.re[k] = amplitude * phase.cos;
         out.im[k] = amplitude * phase.sin;

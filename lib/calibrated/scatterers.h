@@ -1,6 +1,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <span>
 #include <vector>
 
 #include "calibrated/sonar_equation.h"
@@ -45,18 +49,32 @@ struct SonarInScene {
     Eigen::Vector3d sensor = Eigen::Vector3d::Zero();  ///< relative to Scene::origin, m
 };
 
-/// The complex amplitudes of echoes: each piece gives that of the cell it lies in, in proportion to
-/// its area, so that a cell sends the same however it is cut.
+/// A block of scatterers: pieces of surface of the size of their cells, and the cells' numbers.
+struct Scatterers {
+    PieceBlock pieces;
+    PieceBlock::Array<float> edge_m{};
+    std::array<PieceBlock::Array<std::int32_t>, 3> cell{};  ///< along x, y and z of the world
+};
+
+/// Finds the scatterers that lie on samples and hands them to `use`, a block at a time. Seen along
+/// the axis of the world that a sample faces most, every cell has one point, by its number;
+/// whichever sample covers it there holds the scatterer. However a surface is cut into samples, it
+/// holds the same ones.
+void find_scatterers(std::span<const Sample> samples, const ScattererCells& cells,
+                     const SonarInScene& sonar, Scatterers& block,
+                     const std::function<void(const Scatterers&)>& use);
+
+/// The complex amplitudes of a block's echoes.
 struct Amplitudes {
     PieceBlock::Array<float> re, im;
 };
 
+void draw_amplitudes(const Scatterers& block, const PointEchoes& echoes,
+                     const ScattererCells& cells, const SonarInScene& sonar, PhiloxKey key,
+                     Amplitudes& out);
+
 /// Multiplies the powers of echoes by the strength of the clutter where they come from.
 void add_clutter(const PieceBlock& pieces, const Clutter& clutter, const SonarInScene& sonar,
                  PhiloxKey key, PointEchoes& echoes);
-
-void draw_amplitudes(const PieceBlock& pieces, const PointEchoes& echoes,
-                     const ScattererCells& cells, const SonarInScene& sonar, PhiloxKey key,
-                     Amplitudes& out);
 
 }  // namespace sonarsim

@@ -60,8 +60,8 @@ ElevationPattern elevation_pattern(double width_rad, double side_lobe_db) {
     const LineArray array = line_array(width_rad, side_lobe_db);
     for (int k = 0; k <= ElevationPattern::steps + 1; ++k) {
         const double sine = 2.0 * k / ElevationPattern::steps - 1.0;
-        const double one_way = line_pattern(array, sine);
-        out.power.push_back(static_cast<float>(one_way * one_way * one_way * one_way));
+        const double pattern = line_pattern(array, sine);
+        out.power.push_back(static_cast<float>(pattern * pattern));
     }
     return out;
 }

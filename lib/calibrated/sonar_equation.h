@@ -17,8 +17,8 @@ struct ElevationPattern {
     std::vector<float> power;  ///< steps + 2; empty: 1 all over
 };
 
-/// Transmitter and receiver alike, each a line array of half-power width `width_rad`; 0: the same
-/// all over.
+/// There and back it is that of a line array of half-power width `width_rad`, as where only the
+/// transmitter is directed in elevation; 0: the same all over.
 ElevationPattern elevation_pattern(double width_rad, double side_lobe_db);
 
 /// What a piece of surface sends back, and where it goes on the grid:

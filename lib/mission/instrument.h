@@ -27,8 +27,7 @@ struct BeamConfig {
     /// Errors of phase at the ends of the aperture: quadratic, cubic, quartic.
     std::array<double, 3> aberration_rad{};
     BeamSpread spread = BeamSpread::angle;
-    double elevation_width_deg =
-        0.0;  ///< half-power, of transmitter and receiver; 0: the same all over
+    double elevation_width_deg = 0.0;  ///< half-power, there and back; 0: the same all over
     double elevation_side_lobe_db = -13.3;
 
     bool operator==(const BeamConfig&) const = default;

@@ -34,10 +34,10 @@ void describe(Visitor& v, BeamConfig& c) {
               "error of phase at the ends of the array: its quadratic, cubic and quartic part");
     v.choice("spread", c.spread, beam_spreads, "what is even from beam to beam");
     v.number("elevation_width_deg", c.elevation_width_deg, between(0, 120),
-             "half-power width in elevation of transmitter and receiver each; 0 means the same "
-             "all over elevation_deg");
+             "half-power width in elevation, there and back; 0 means the same all over "
+             "elevation_deg");
     v.number("elevation_side_lobe_db", c.elevation_side_lobe_db, side_lobes_db,
-             "highest side lobe in elevation, of either");
+             "highest side lobe in elevation, there and back");
 }
 
 template <class Visitor>

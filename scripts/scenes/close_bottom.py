@@ -11,13 +11,13 @@ CELL_M = 0.008
 def build():
     """The sonar is at the origin and looks along x, 35 degrees down. The bottom reaches from under it
     to 2.4 m ahead."""
-    swell = Relief(0.5, 0.05, 3, 7)
-    stones = Relief(0.06, 0.016, 3, 20)
+    swell = Relief(0.5, 0.04, 2, 7)
+    stones = Relief(0.05, 0.006, 2, 20)
 
     def height(x, y):
         # A step up behind 1.3 m makes the second arc.
         rise = 0.10 / (1 + math.exp(-(x - 1.36 - 0.3 * y * y) / 0.03))
-        return -0.5 - 0.10 * y * y + swell(x, y) + stones(x, y) + rise
+        return -0.5 - 0.22 * y * y + swell(x, y) + stones(x, y) + rise
 
     bottom = Part("bottom", "gravel")
     xs = [CELL_M * k for k in range(-20, 301)]
@@ -26,8 +26,8 @@ def build():
 
     draw = Draws(300)
     particles = Part("particles", "sand")
-    for _ in range(60):
-        radius = draw(0.0005, 0.0012)
+    for _ in range(16):
+        radius = draw(0.0003, 0.0006)
         distance = draw(0.12, 0.48)
         azimuth = math.radians(draw(-28, 28))
         depression = math.radians(35 + draw(-6, 6))

@@ -74,6 +74,10 @@ seed: 0
 water:
   density_kg_m3: 997
   sound_speed_m_s: 1480
+  temperature_c: 10
+  salinity_psu: 35
+  depth_m: 10
+  ph: 8
 scene:
   file: "/base/a.glb"
   materials: "/base/a.csv"
@@ -97,6 +101,7 @@ sensors:
       method: none
       epsilon_bins: 5
       delta_deg: 5
+    model: paper
     noise:
       range_lambda_m: 0
       scatterer_m: 0.02
@@ -104,6 +109,7 @@ sensors:
       mult_sigma: 0
       scale_with_range: true
       lobe_sigma_deg: 0
+      gain: 0
     streaks:
       mode: none
       threshold: 0.08
@@ -122,6 +128,7 @@ output:
   folder: "/o"
   polar: true
   image: true
+  raw: true
   fan: true
   meta: true
   stages: false
