@@ -145,7 +145,9 @@ struct Collector {
         block.cell[p.first][at] = i;
         block.cell[p.second][at] = j;
         const double along = p.centre[p.axis] + s * p.u[p.axis] + t * p.v[p.axis];
-        block.cell[p.axis][at] = static_cast<std::int32_t>(std::floor(along / edge));
+        // Four cells high, the scatterer near the middle: samples of a curved surface are flat and
+        // put it a little higher or lower each time, which must not make it another one.
+        block.cell[p.axis][at] = 4 * static_cast<std::int32_t>(std::floor(0.25 * along / edge)) + 1;
         if (pieces.count == PieceBlock::most) flush();
     }
 

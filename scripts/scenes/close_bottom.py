@@ -3,36 +3,52 @@ import math
 
 from .glb import Part
 from .noise import Draws, Relief
-from .shapes import add_grid, add_sphere
+from .shapes import add_sphere
 
 CELL_M = 0.008
+PARTICLES = 8
+
+
+def material_at(x, y):
+    """A patch of gravel on mud, a stripe of sand behind it, and rock farther on."""
+    azimuth = math.degrees(math.atan2(y, max(x, 1e-6)))
+    distance = math.hypot(x, y)
+    if distance > 1.55:
+        return "rock"
+    if 1.36 < distance < 1.42:
+        return "sand"
+    bend = (azimuth / 30) ** 2
+    return "gravel" if 0.50 + 0.25 * bend < distance < 1.06 - 0.06 * bend else "mud"
 
 
 def build():
     """The sonar is at the origin and looks along x, 35 degrees down. The bottom reaches from under it
     to 2.4 m ahead."""
-    swell = Relief(0.5, 0.04, 2, 7)
+    swell = Relief(0.5, 0.03, 2, 7)
     stones = Relief(0.05, 0.006, 2, 20)
 
     def height(x, y):
         # A step up behind 1.3 m makes the second arc.
-        rise = 0.10 / (1 + math.exp(-(x - 1.36 - 0.3 * y * y) / 0.03))
-        return -0.5 - 0.22 * y * y + swell(x, y) + stones(x, y) + rise
+        rise = 0.05 / (1 + math.exp(-(x - 1.36) / 0.03))
+        return -0.5 + 0.06 * y * y + swell(x, y) + stones(x, y) + rise
 
-    bottom = Part("bottom", "gravel")
-    xs = [CELL_M * k for k in range(-20, 301)]
-    ys = [CELL_M * k for k in range(-170, 171)]
-    add_grid(bottom, xs, ys, height)
+    bottom = Part("bottom", "mud")
+    columns, rows = range(-20, 301), range(-170, 171)
+    numbers = {(i, j): bottom.add_vertex(CELL_M * i, CELL_M * j, height(CELL_M * i, CELL_M * j))
+               for j in rows for i in columns}
+    for j in rows[:-1]:
+        for i in columns[:-1]:
+            bottom.add_quad(numbers[i, j], numbers[i + 1, j], numbers[i + 1, j + 1],
+                            numbers[i, j + 1], material_at(CELL_M * i, CELL_M * j))
 
     draw = Draws(300)
     particles = Part("particles", "sand")
-    for _ in range(16):
-        radius = draw(0.0003, 0.0006)
-        distance = draw(0.12, 0.48)
-        azimuth = math.radians(draw(-28, 28))
-        depression = math.radians(35 + draw(-6, 6))
+    for _ in range(PARTICLES):
+        distance = draw(0.15, 0.45)
+        azimuth = math.radians(draw(-24, 24))
+        depression = math.radians(35 + draw(-5, 5))
         centre = (distance * math.cos(azimuth) * math.cos(depression),
                   distance * math.sin(azimuth) * math.cos(depression),
                   -distance * math.sin(depression))
-        add_sphere(particles, centre, (radius, radius, radius), 1)
+        add_sphere(particles, centre, (0.0004, 0.0004, 0.0004), 1)
     return [bottom, particles]
