@@ -6,7 +6,7 @@ from .noise import Draws, Relief
 from .shapes import add_sphere
 
 CELL_M = 0.008
-PARTICLES = 8
+PARTICLES = 12
 
 
 def material_at(x, y):
@@ -18,7 +18,7 @@ def material_at(x, y):
     if 1.36 < distance < 1.42:
         return "sand"
     bend = (azimuth / 30) ** 2
-    return "gravel" if 0.50 + 0.25 * bend < distance < 1.06 - 0.06 * bend else "mud"
+    return "gravel" if 0.45 + 0.32 * bend < distance < 1.03 - 0.06 * bend else "mud"
 
 
 def build():
@@ -30,7 +30,7 @@ def build():
     def height(x, y):
         # A step up behind 1.3 m makes the second arc.
         rise = 0.05 / (1 + math.exp(-(x - 1.36) / 0.03))
-        return -0.5 + 0.06 * y * y + swell(x, y) + stones(x, y) + rise
+        return -0.53 + 0.06 * y * y + swell(x, y) + stones(x, y) + rise
 
     bottom = Part("bottom", "mud")
     columns, rows = range(-20, 301), range(-170, 171)
@@ -50,5 +50,5 @@ def build():
         centre = (distance * math.cos(azimuth) * math.cos(depression),
                   distance * math.sin(azimuth) * math.cos(depression),
                   -distance * math.sin(depression))
-        add_sphere(particles, centre, (0.0004, 0.0004, 0.0004), 1)
+        add_sphere(particles, centre, (0.0003, 0.0003, 0.0003), 1)
     return [bottom, particles]
