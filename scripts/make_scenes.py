@@ -4,6 +4,7 @@
 tank      a concrete tank, 8 x 6 x 3 m, with a few objects (the default; scenes/tank.glb)
 seafloor  200 x 200 m of sand and silt with a hundred boulders, a million triangles
 wreck     a broken hull with ribs on a rippled bottom, 60 x 60 m
+close_bottom  a rough bottom half a metre below a sonar, with some particles
 lifeboat  a hull with rails, ropes and gear, of one material, for comparisons of the engines
 minefield a rippled sandy bottom with rocks, 40 x 40 m, and besides it the objects that a mission
           may place on it: cylinder_mine, cone_mine, tyre, drum, block, rock
@@ -14,7 +15,7 @@ import argparse
 import pathlib
 import sys
 
-from scenes import lifeboat, minefield, seafloor, tank, wreck
+from scenes import close_bottom, lifeboat, minefield, seafloor, tank, wreck
 from scenes.glb import write_glb
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
@@ -23,7 +24,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("names", nargs="*", metavar="name", help="tank, seafloor, wreck, lifeboat or minefield")
+    parser.add_argument("names", nargs="*", metavar="name", help="one of those above")
     parser.add_argument("--out", type=pathlib.Path, metavar="DIR",
                         help="default: scenes/ for the tank, scenes/generated/ for the others")
     parser.add_argument("--cells", type=int, default=708, metavar="N",
@@ -42,6 +43,7 @@ def main() -> int:
         "tank": tank.build,
         "seafloor": lambda: seafloor.build(arguments.cells, arguments.area),
         "wreck": wreck.build,
+        "close_bottom": close_bottom.build,
         "lifeboat": lambda: lifeboat.build(arguments.quarterings),
         "minefield": minefield.bottom,
     }

@@ -18,10 +18,12 @@ ALLOWED = {
     "scene": {"core"},
     "trajectory": {"core"},
     "visibility": {"core", "scene"},
-    "ping": {"core", "mission", "scene", "visibility"},
-    "product": {"core", "mission", "ping"},
-    "sonar": {"core", "mission", "scene", "visibility", "ping", "product"},
-    "assembly": {"core", "mission", "scene", "trajectory", "visibility", "ping", "product", "sonar"},
+    "calibrated": {"core", "mission", "scene", "visibility"},
+    "ping": {"core", "mission", "scene", "visibility", "calibrated"},
+    "product": {"core", "mission", "calibrated", "ping"},
+    "sonar": {"core", "mission", "scene", "visibility", "calibrated", "ping", "product"},
+    "assembly": {"core", "mission", "scene", "trajectory", "visibility", "calibrated", "ping", "product",
+                 "sonar"},
 }
 for upper in ("dataset", "validation", "benchmark"):
     ALLOWED[upper] = set(ALLOWED)

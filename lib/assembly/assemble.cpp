@@ -63,7 +63,7 @@ Assembly assemble(const Mission& mission, SceneFiles& models) {
     assembly.trajectory = poses_of(mission.trajectory);
     const EngineSettings settings = engine_settings(mission);
     for (const SonarConfig& sensor : mission.sensors) {
-        const Sonar& sonar = assembly.sonars.emplace_back(make_sonar(sensor, mission.accuracy));
+        const Sonar& sonar = assembly.sonars.emplace_back(make_sonar(sensor, mission.accuracy, mission.water));
         const std::string refusal = refusal_of(settings, sonar.settings.view);
         if (!refusal.empty()) throw InputError("sensor '" + sensor.name + "': " + refusal);
     }
@@ -102,7 +102,8 @@ std::string inputs_hash(const Assembly& assembly) {
     }
     for (const Material& material : scene.materials) {
         text += "\n" + material.name + "\n" + number_text(material.density_kg_m3) + " " +
-                number_text(material.sound_speed_m_s);
+                number_text(material.sound_speed_m_s) + " " + number_text(material.lambert_db) +
+                " " + number_text(material.slope_rms_deg);
     }
     for (const std::string& instance : scene.instances)
         text += "\n" + instance;

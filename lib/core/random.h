@@ -90,6 +90,9 @@ enum class Stream : std::uint32_t {
     multipath_range_noise = 3,
     scatter = 4,    ///< of a rule, as the sensor, and an object, as the ping
     variation = 5,  ///< of a key that varies, as the sensor, and a variant, as the ping
+    scatterers = 6,
+    speckle = 7,
+    receiver_noise = 8,
 };
 
 /// The key of one stream of one ping of one sensor. The counter below it names what the draw

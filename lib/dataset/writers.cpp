@@ -15,6 +15,7 @@ using MakeWriter = std::unique_ptr<Writer> (*)(const WriterContext&);
 constexpr MakeWriter formats[] = {
     make_polar_writer,      //
     make_image_writer,      //
+    make_raw_writer,        //
     make_fan_writer,        //
     make_stages_writer,     //
     make_waterfall_writer,  //

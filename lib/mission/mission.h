@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "mission/instrument.h"
 #include "mission/place.h"
 #include "mission/scene_config.h"
 #include "mission/trajectory_config.h"
@@ -21,6 +22,11 @@ namespace sonarsim {
 struct WaterConfig {
     double density_kg_m3 = 997.0;
     double sound_speed_m_s = 1480.0;
+    // What the calibrated model works out the absorption with.
+    double temperature_c = 10.0;
+    double salinity_psu = 35.0;
+    double depth_m = 10.0;
+    double ph = 8.0;
 
     bool operator==(const WaterConfig&) const = default;
 };
@@ -41,6 +47,7 @@ struct NoiseConfig {
     double mult_sigma = 0.0;       ///< standard deviation of the multiplicative noise, Eq. 13
     bool scale_with_range = true;  ///< additive noise grows with r^2 and the lobe, Eq. 10
     double lobe_sigma_deg = 0.0;   ///< width of that lobe; 0 means azimuth_deg / 8
+    double gain = 0.0;             ///< m of Eq. 12; 0 means that of the kind, as the paper has it
 
     bool operator==(const NoiseConfig&) const = default;
 };
@@ -96,6 +103,9 @@ struct SonarConfig {
     MultipathConfig multipath;
     NoiseConfig noise;
     StreaksConfig streaks;
+    std::filesystem::path preset;  ///< empty once a mission is read: its keys are filled in
+    EchoModel model = EchoModel::of_paper;
+    InstrumentConfig instrument;  ///< of the calibrated model
 
     bool operator==(const SonarConfig&) const = default;
 };
@@ -174,6 +184,7 @@ struct OutputConfig {
     std::filesystem::path folder;
     bool polar = true;        ///< float32 .npy
     bool image = false;       ///< 16-bit polar PNG
+    bool raw = true;          ///< of the calibrated model: PNG of what the instrument delivers
     bool fan = true;          ///< 8-bit Cartesian PNG
     bool meta = true;         ///< JSON per ping
     bool stages = false;      ///< 8-bit PNG of five fans, one term of the model after the other

@@ -2,8 +2,10 @@
 
 #include "core/file.h"
 #include "mission/override.h"
+#include "mission/preset.h"
 #include "mission/reader.h"
 #include "mission/schema.h"
+#include "mission/sound_speed.h"
 
 namespace sonarsim {
 
@@ -48,9 +50,13 @@ Mission parse_mission(const YamlNode& root, const std::string& file_name,
                       const std::filesystem::path& base_folder, SonarKeyTable sonars) {
     Mission mission;
     mission.name = std::filesystem::path(file_name).stem().string();
-    MissionReader reader(root, "mission", base_folder, sonars);
+    YamlNode filled = root;
+    fill_in_presets(filled, base_folder);
+    MissionReader reader(filled, "mission", base_folder, sonars);
     describe(reader, mission);
     reader.finish();
+    if (mission.water.sound_speed_m_s == 0.0)
+        mission.water.sound_speed_m_s = sound_speed_m_s(mission.water);
     if (mission.output.folder.empty()) {
         mission.output.folder = std::filesystem::absolute("out") / mission.name;
     }

@@ -21,9 +21,10 @@ namespace {
 std::string unit_of(std::string_view key) {
     using Unit = std::pair<std::string_view, const char*>;
     // Longer endings first: a speed ends in _m_s and a length in _m.
-    constexpr std::array units{Unit{"_kg_m3", "kg/m^3"}, Unit{"_m_s", "m/s"}, Unit{"_deg", "deg"},
-                               Unit{"_hz", "Hz"},        Unit{"_mb", "MiB"},  Unit{"_px", "pixels"},
-                               Unit{"_m", "m"}};
+    constexpr std::array units{Unit{"_kg_m3", "kg/m^3"}, Unit{"_db", "dB"},   Unit{"_rad", "rad"},
+                               Unit{"_c", "Celsius"},    Unit{"_psu", "psu"}, Unit{"_m_s", "m/s"},
+                               Unit{"_deg", "deg"},      Unit{"_hz", "Hz"},   Unit{"_mb", "MiB"},
+                               Unit{"_px", "pixels"},    Unit{"_m", "m"}};
     for (const auto& [ending, unit] : units) {
         if (key.ends_with(ending)) return unit;
     }
@@ -42,8 +43,8 @@ class KeyCollector {
                 Presence presence = Presence::optional) {
         add(key, "number", number_text(value), meaning, presence).limits = limits;
     }
-    void number_or_auto(const char* key, double, const Limits& limits, const char* meaning) {
-        KeyReference& row = add(key, "number", "auto", meaning);
+    void number_or_auto(const char* key, double value, const Limits& limits, const char* meaning) {
+        KeyReference& row = add(key, "number", value == 0.0 ? "auto" : number_text(value), meaning);
         row.limits = limits;
         row.choices = {"auto"};
     }
@@ -176,9 +177,13 @@ class KeyCollector {
     void named(const char* key, std::vector<SonarConfig>&, const char* meaning) {
         add(key, "section per name", "", meaning, required);
         for (const SonarKeys& kind : sonars_) {
-            SonarConfig sonar = kind.defaults;
             kind_ = kind.name;
-            enter(path_below(key) + ".NAME", sonar);
+            for (const EchoModel model : {EchoModel::of_paper, EchoModel::of_instrument}) {
+                if (model == EchoModel::of_instrument && !kind.instrument) continue;
+                SonarConfig sonar = kind.defaults;
+                sonar.model = model;
+                enter(path_below(key) + ".NAME", sonar);
+            }
             kind_.clear();
         }
     }
@@ -214,7 +219,12 @@ class KeyCollector {
                                .meaning = meaning});
         }
         last_key_ = key;
-        if (!row->required && !value.empty()) row->defaults.emplace_back(kind_, std::move(value));
+        // Either model of a kind has the same defaults; that of `model` itself is the paper's.
+        const bool told = std::ranges::find(row->defaults, kind_, [](const auto& one) {
+                              return std::string_view(one.first);
+                          }) != row->defaults.end();
+        if (!row->required && !value.empty() && !(told && !kind_.empty()))
+            row->defaults.emplace_back(kind_, std::move(value));
         return *row;
     }
 

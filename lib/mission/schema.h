@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "core/input_limits.h"
+#include "mission/instrument_schema.h"
 #include "mission/limits.h"
 #include "mission/mission.h"
 #include "mission/scene_schema.h"
@@ -62,8 +63,14 @@ template <class Visitor>
 void describe(Visitor& v, WaterConfig& c) {
     v.number("density_kg_m3", c.density_kg_m3, between(least_medium, largest_medium),
              "density of the water");
-    v.number("sound_speed_m_s", c.sound_speed_m_s, between(least_medium, largest_medium),
-             "speed of sound in the water");
+    v.number_or_auto("sound_speed_m_s", c.sound_speed_m_s, between(least_medium, largest_medium),
+                     "speed of sound in the water; `auto`: by Mackenzie's formula of the four "
+                     "below");
+    v.number("temperature_c", c.temperature_c, between(-2, 40),
+             "temperature, for the absorption of the calibrated model");
+    v.number("salinity_psu", c.salinity_psu, between(0, 45), "salinity, likewise");
+    v.number("depth_m", c.depth_m, between(0, 12000), "depth below the surface, likewise");
+    v.number("ph", c.ph, between(6, 9), "acidity, likewise");
 }
 
 template <class Visitor>
@@ -91,6 +98,10 @@ void describe(Visitor& v, NoiseConfig& c) {
     v.number(
         "lobe_sigma_deg", c.lobe_sigma_deg, between(0, 360),
         "width of that growth towards the boresight; 0 means an eighth of the opening in azimuth");
+    v.number("gain", c.gain, at_least(0),
+             "what every pixel is multiplied with, m of Eq. 12; 0 means the paper's: 0.5 for "
+             "imaging and profiling sonars, so that their images are half of what the model says "
+             "before noise, and 1 for others");
 }
 
 template <class Visitor>
@@ -118,6 +129,9 @@ void describe(Visitor& v, StreaksConfig& c) {
 template <class Visitor>
 void describe(Visitor& v, SonarConfig& c) {
     const SonarKeys& keys = v.sonar_kind("kind", c, "the kind of sonar");
+    v.path("preset", c.preset,
+           "YAML file with keys of this section, such as those of configs/sensors; a key that "
+           "stands here as well overrides the one there");
     v.section("mount", c.mount, "where the sonar sits on the vehicle");
     v.integer("every", c.every, at_least(1), "the sonar pings at every n-th pose");
     if (keys.opening)
@@ -142,8 +156,18 @@ void describe(Visitor& v, SonarConfig& c) {
     if (keys.azimuth_bins)
         v.integer("azimuth_bins", c.azimuth_bins, between(1, 8192), "beams of a ping");
     v.section("multipath", c.multipath, "echoes by way of a second surface");
-    v.section("noise", c.noise, "the random terms");
-    v.section("streaks", c.streaks, "azimuth streaks");
+    v.choice("model", c.model, echo_models,
+             "how an echo is worked out: as in the paper, or as the instrument measures it");
+    if (c.model == EchoModel::of_instrument) {
+        v.section("instrument", c.instrument, "the instrument of the calibrated model");
+        v.require(keys.instrument, {"model"},
+                  "this kind of sonar has only the paper's model so far: write model: paper");
+        v.require(c.multipath.method == MultipathMethod::none, {"multipath", "model"},
+                  "the calibrated model has no multipath so far: write multipath.method: none");
+    } else {
+        v.section("noise", c.noise, "the random terms of the paper's model");
+        v.section("streaks", c.streaks, "azimuth streaks of the paper's model");
+    }
     v.require(keys.range_noise || c.noise.range_lambda_m == 0.0, {"noise"},
               "a side-scan sonar has no range noise: range_lambda_m must be 0");
     v.require(c.range_min_m < c.range_max_m, {"range_min_m", "range_max_m"},
@@ -217,6 +241,8 @@ void describe(Visitor& v, OutputConfig& c) {
     v.flag("polar", c.polar, "write every ping of imaging and profiling sonars as float32");
     v.flag("image", c.image,
            "write every ping of these sonars as a 16-bit PNG; it holds no more than `polar` does");
+    v.flag("raw", c.raw,
+           "with the calibrated model, write every ping as the instrument delivers it, a PNG");
     v.flag("fan", c.fan, "write every ping of these sonars as the 8-bit fan that an operator sees");
     v.flag("meta", c.meta, "write a JSON file per ping");
     v.flag("stages", c.stages,

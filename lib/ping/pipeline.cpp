@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "calibrated/model.h"
 #include "core/clock.h"
 #include "ping/accumulate.h"
 #include "ping/echoes.h"
@@ -49,6 +50,30 @@ std::uint64_t accumulate_beam(const MultipathEchoes& bounced, int j, const Range
     return accumulate(bounced.echoes, bounced.beam_begin[j], bounced.beam_begin[j + 1], bins, sums);
 }
 
+/// The image by the calibrated model. Its speckle is a random term of the echoes, as range noise
+/// is, and its receiver's noise one of the pixels.
+Ping form_calibrated_image(const TracedPing& traced, const PingSettings& settings,
+                           const Scene& scene, const PingKey& key, const Terms& terms) {
+    Ping ping = blank_ping(traced, settings.view, terms);
+    Stopwatch watch;
+    const auto draws = [&](std::uint32_t number, Stream s) {
+        return stream_key(key.seed, settings.stream, number, s);
+    };
+    ping.intensity.resize(static_cast<std::size_t>(ping.range_bins) * ping.beams);
+    const CalibratedCounts counts = form_calibrated(
+        *settings.calibrated, traced.samples, scene, traced.T_world_sensor,
+        {.scene = stream_key(key.seed, 0, 0, Stream::scatterers),
+         .ping = draws(key.ping, Stream::speckle),
+         .noise = draws(key.ping, Stream::receiver_noise)},
+        {.echoes = terms.direct, .speckle = terms.range_noise, .noise = terms.pixel_noise},
+        ping.intensity);
+    ping.counts.echoes = counts.echoes;
+    ping.counts.out_of_range = counts.out_of_range;
+    ping.counts.occupied_bins = counts.lit_places;
+    ping.seconds.accumulate = watch.lap();
+    return ping;
+}
+
 }  // namespace
 
 TracedPing trace_ping(const PingSettings& settings, const Scene& scene,
@@ -84,6 +109,7 @@ void trace_multipath(const PingSettings& settings, const Scene& scene,
 
 Ping form_image(const TracedPing& traced, const PingSettings& settings, const Scene& scene,
                 const PingKey& key, const Terms& terms) {
+    if (settings.calibrated) return form_calibrated_image(traced, settings, scene, key, terms);
     const RangeBins bins = range_bins(settings.view);
     const RangeNoise range_noise = terms.range_noise ? settings.range_noise : RangeNoise{};
     const Streaks streaks = terms.streaks ? settings.streaks : Streaks{};

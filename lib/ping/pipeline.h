@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "core/pose.h"
@@ -15,6 +16,8 @@
 
 namespace sonarsim {
 
+struct CalibratedModel;
+
 /// What the pipeline needs to know of a sonar, stage by stage.
 struct PingSettings {
     View view;
@@ -22,6 +25,9 @@ struct PingSettings {
     RangeNoise range_noise;
     PixelNoise pixel_noise;
     Streaks streaks;
+    /// The second model, docs/calibrated.md: then the stages above but the view are not used. Null:
+    /// the paper's.
+    std::shared_ptr<const CalibratedModel> calibrated;
     std::uint32_t stream = 0;  ///< names the sonar in every random draw
 };
 

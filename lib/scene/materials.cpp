@@ -15,29 +15,39 @@ namespace {
 
 constexpr std::size_t max_file_bytes = 1 << 24;
 
-void check_header(const CsvTable& csv) {
+/// Whether the table says how its materials scatter.
+bool has_scattering(const CsvTable& csv) {
     const std::vector<std::string> ours{"material", "density_kg_m3", "sound_speed_m_s"};
     const std::vector<std::string> holoocean{"Material", "Density kg/m^3", "Speed of Sound m/s"};
-    if (csv.header.fields == ours || csv.header.fields == holoocean) return;
+    if (csv.header.fields == ours || csv.header.fields == holoocean) return false;
+    std::vector<std::string> scattering = ours;
+    scattering.insert(scattering.end(), {"lambert_db", "slope_rms_deg"});
+    if (csv.header.fields == scattering) return true;
     throw InputError(Location{csv.file, csv.header.line},
-                     "expected the header 'material,density_kg_m3,sound_speed_m_s' or "
+                     "expected the header 'material,density_kg_m3,sound_speed_m_s', the same with "
+                     "',lambert_db,slope_rms_deg', or "
                      "'Material, Density kg/m^3, Speed of Sound m/s'");
 }
 
-/// A density or a speed of sound.
-double medium_number(const std::string& text, const char* quantity, const Location& where) {
+double number_within(const std::string& text, const char* quantity, double low, double high,
+                     const Location& where) {
     const auto value = parse_number(text);
     if (!value) throw InputError(where, std::string(quantity) + " '" + text + "' is not a number");
-    if (!(*value >= least_medium && *value <= largest_medium)) {
+    if (!(*value >= low && *value <= high)) {
         throw InputError(where, std::string(quantity) + " is " + text +
-                                    "; expected a number from " + number_text(least_medium) +
-                                    " to " + number_text(largest_medium));
+                                    "; expected a number from " + number_text(low) + " to " +
+                                    number_text(high));
     }
     return *value;
 }
 
+/// A density or a speed of sound.
+double medium_number(const std::string& text, const char* quantity, const Location& where) {
+    return number_within(text, quantity, least_medium, largest_medium, where);
+}
+
 MaterialTable to_materials(const CsvTable& csv) {
-    check_header(csv);
+    const bool scattering = has_scattering(csv);
     MaterialTable table;
     table.file = csv.file;
     std::map<std::string, int> line_of;
@@ -53,6 +63,11 @@ MaterialTable to_materials(const CsvTable& csv) {
         }
         material.density_kg_m3 = medium_number(row.fields[1], "density", where);
         material.sound_speed_m_s = medium_number(row.fields[2], "sound speed", where);
+        if (scattering) {
+            material.lambert_db = number_within(row.fields[3], "lambert_db", -80.0, 20.0, where);
+            material.slope_rms_deg =
+                number_within(row.fields[4], "slope_rms_deg", 0.0, 45.0, where);
+        }
         table.materials.push_back(std::move(material));
     }
     return table;

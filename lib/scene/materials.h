@@ -17,7 +17,9 @@ struct MaterialTable {
 };
 
 /// Reads `material,density_kg_m3,sound_speed_m_s`, or HoloOcean's own header
-/// `Material, Density kg/m^3, Speed of Sound m/s`. InputError with file:line for any other header,
+/// `Material, Density kg/m^3, Speed of Sound m/s`. Ours may go on with `lambert_db,slope_rms_deg`,
+/// how the material scatters (calibrated/bottom.h); without them it is -27 dB, Mackenzie's mean of
+/// the sea floor, and 10 degrees. InputError with file:line for any other header,
 /// for a wrong number of fields, for a density or speed that is not a number within
 /// the limits of core/input_limits.h, and for a material that stands there twice.
 MaterialTable read_materials(const std::filesystem::path& path);

@@ -1,7 +1,9 @@
 #include "sonar/setup.h"
 
 #include <cmath>
+#include <memory>
 
+#include "calibrated/model.h"
 #include "core/elementary.h"
 #include "core/units.h"
 
@@ -64,7 +66,7 @@ Sonar common_sonar(const SonarConfig& config, const AccuracyConfig& accuracy,
     settings.range_noise = {.lambda_m = static_cast<float>(noise.range_lambda_m),
                             .scatterer_m = static_cast<float>(noise.scatterer_m),
                             .fades = kind.range_noise_fades};
-    settings.pixel_noise = {.gain = static_cast<float>(kind.gain),
+    settings.pixel_noise = {.gain = static_cast<float>(noise.gain > 0.0 ? noise.gain : kind.gain),
                             .add_sigma = static_cast<float>(noise.add_sigma),
                             .mult_sigma = static_cast<float>(noise.mult_sigma),
                             .range_scale = std::vector<float>(config.range_bins, 1.0F),
@@ -93,6 +95,24 @@ void add_azimuth(Sonar& sonar) {
         sonar.settings.pixel_noise.lobe_scale[j] =
             static_cast<float>(1.0 + 0.5 * exponential(-0.5 * sigmas * sigmas));
     }
+}
+
+void add_instrument(Sonar& sonar, const WaterConfig& water) {
+    const InstrumentConfig& instrument = sonar.config.instrument;
+    const View& view = sonar.settings.view;
+    const double half = 0.5 * view.azimuth_rad;
+    std::vector<double> sines;
+    for (int j = 0; j < view.beams; ++j) {
+        const double share = (2.0 * j + 1.0) / view.beams - 1.0;
+        const bool even_sines = instrument.beam.spread == BeamSpread::sine;
+        sines.push_back(even_sines ? share * sincos(half).sin : sincos(share * half).sin);
+    }
+    if (instrument.beam.spread == BeamSpread::sine) {
+        for (int j = 0; j <= view.beams; ++j)
+            sonar.azimuth_edges_rad[j] = arcsin((2.0 * j / view.beams - 1.0) * sincos(half).sin);
+    }
+    sonar.settings.calibrated =
+        std::make_shared<const CalibratedModel>(calibrated_model(instrument, water, view, sines));
 }
 
 Pose looking_down() {

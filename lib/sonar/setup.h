@@ -34,6 +34,9 @@ Sonar common_sonar(const SonarConfig& config, const AccuracyConfig& accuracy,
 /// wants it, and the azimuth edges.
 void add_azimuth(Sonar& sonar);
 
+/// The instrument of the calibrated model, for a fan.
+void add_instrument(Sonar& sonar, const WaterConfig& water);
+
 /// The mount of the sonars that look down: x along the vehicle's -z, z along its x, so that
 /// azimuth runs from starboard (-) to port (+).
 Pose looking_down();

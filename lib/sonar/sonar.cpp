@@ -7,10 +7,12 @@
 
 namespace sonarsim {
 
-Sonar make_sonar(const SonarConfig& config, const AccuracyConfig& accuracy) {
+Sonar make_sonar(const SonarConfig& config, const AccuracyConfig& accuracy,
+                 const WaterConfig& water) {
     const KindOfSonar& kind = kind_of(config.kind);
     Sonar sonar = common_sonar(config, accuracy, kind);
     if (kind.finish) kind.finish(sonar);
+    if (config.model == EchoModel::of_instrument) add_instrument(sonar, water);
     return sonar;
 }
 

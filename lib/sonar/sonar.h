@@ -9,7 +9,9 @@
 namespace sonarsim {
 
 /// A sonar of the kind that its configuration names, see sonar/kinds.h.
-Sonar make_sonar(const SonarConfig& config, const AccuracyConfig& accuracy);
+/// `water` is what the calibrated model works with.
+Sonar make_sonar(const SonarConfig& config, const AccuracyConfig& accuracy,
+                 const WaterConfig& water = {});
 
 /// What the sonar sees from a pose of its vehicle; `pose` is the pose's index on the trajectory, by
 /// which a head turns.

@@ -71,6 +71,7 @@ bool rays_are_better(const RaysTrial& trial, const View& view) {
 
 std::unique_ptr<VisibilityEngine> make_auto_engine(const Scene& scene, const SlicesOptions& options,
                                                    std::span<const Probe> probes) {
+    if (!scene.bodies.empty()) return make_rays_engine(scene);
     auto slices = make_slices_engine(scene, options);
     if (probes.empty() || scene.triangles.size() < few_triangles) return slices;
     auto rays = make_rays_engine(scene);

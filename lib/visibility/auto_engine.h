@@ -33,8 +33,9 @@ bool rays_are_better(const RaysTrial& trial, const View& view);
 
 /// Slices, or rays for those views among the `probes` for which these are better. Nothing is timed:
 /// the same scene and probes give the same choice everywhere. Scenes of few triangles get slices
-/// without a look. The estimated error of a ping by rays is the bound found on the probes.
-/// `scene` must outlive it. Throws std::runtime_error when Embree cannot build its tree.
+/// without a look, those with bodies rays, which alone see them. The estimated error of a ping by
+/// rays is the bound found on the probes. `scene` must outlive it. Throws std::runtime_error when
+/// Embree cannot build its tree.
 std::unique_ptr<VisibilityEngine> make_auto_engine(const Scene& scene, const SlicesOptions& slices,
                                                    std::span<const Probe> probes);
 

@@ -33,10 +33,10 @@ std::unique_ptr<VisibilityEngine> make_engine(const Scene& scene, const EngineSe
 }
 
 std::string refusal_of(const EngineSettings& settings, const Scene& scene) {
-    if (!scene.bodies.empty() && settings.type != EngineType::rays) {
-        return std::string(settings.type == EngineType::octree ? "engine: octree"
-                                                               : "engine: slices") +
-               " sees no objects that move; use engine: rays";
+    const bool is_octree = settings.type == EngineType::octree;
+    if (!scene.bodies.empty() && (is_octree || settings.type == EngineType::slices)) {
+        return std::string(is_octree ? "engine: octree" : "engine: slices") +
+               " sees no objects that move; use engine: auto or engine: rays";
     }
     if (settings.type != EngineType::octree) return "";
     const double length_m = (scene.bounds_max - scene.bounds_min).maxCoeff();

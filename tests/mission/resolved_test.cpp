@@ -76,6 +76,10 @@ seed: 0
 water:
   density_kg_m3: 997
   sound_speed_m_s: 1480
+  temperature_c: 10
+  salinity_psu: 35
+  depth_m: 10
+  ph: 8
 scene:
   file: "/base/a.glb"
   materials: "/base/a.csv"
@@ -103,6 +107,7 @@ sensors:
       method: none
       epsilon_bins: 5
       delta_deg: 5
+    model: paper
     noise:
       range_lambda_m: 0
       scatterer_m: 0.02
@@ -110,6 +115,7 @@ sensors:
       mult_sigma: 0
       scale_with_range: true
       lobe_sigma_deg: 0
+      gain: 0
     streaks:
       mode: none
       threshold: 0.08
@@ -128,6 +134,7 @@ output:
   folder: "/o"
   polar: true
   image: false
+  raw: true
   fan: true
   meta: true
   stages: false

@@ -44,9 +44,24 @@ TEST_SUITE("scene") {
         CHECK(table.materials[0].sound_speed_m_s == 5900.0);
     }
 
+    TEST_CASE("materials: how they scatter") {
+        const MaterialTable table = parse_materials(
+            "material,density_kg_m3,sound_speed_m_s,lambert_db,slope_rms_deg\n"
+            "mud,1400,1480,-33.5,8\n",
+            "m.csv");
+        CHECK(table.materials[0].lambert_db == -33.5);
+        CHECK(table.materials[0].slope_rms_deg == 8.0);
+        const MaterialTable plain = parse_materials(header + "mud,1400,1480\n", "m.csv");
+        CHECK(plain.materials[0].lambert_db == -27.0);
+        check_error(
+            "material,density_kg_m3,sound_speed_m_s,lambert_db,slope_rms_deg\nmud,1400,1480,-90,8\n",
+            "m.csv:2: lambert_db is -90; expected a number from -80 to 20");
+    }
+
     TEST_CASE("materials: what is wrong is said with file and line") {
         check_error("name,density,speed\n",
-                    "m.csv:1: expected the header 'material,density_kg_m3,sound_speed_m_s' or "
+                    "m.csv:1: expected the header 'material,density_kg_m3,sound_speed_m_s', the same "
+                    "with ',lambert_db,slope_rms_deg', or "
                     "'Material, Density kg/m^3, Speed of Sound m/s'");
         check_error(header + "steel,7850\n", "m.csv:2: 2 fields, but the header in line 1 has 3");
         check_error(header + "steel,heavy,5900\n", "m.csv:2: density 'heavy' is not a number");

@@ -1,0 +1,262 @@
+#include "calibrated/beamformer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+
+#include "calibrated/normals.h"
+#include "core/elementary.h"
+#include "core/units.h"
+
+namespace sonarsim {
+
+namespace {
+
+// Columns beside the outer beams: for echoes that lie between a beam and the edge of the view, and
+// for what an outer beam is interpolated from.
+constexpr int margin = 5;
+// What is left free behind the last column, so that an outer beam does not show at the other side.
+constexpr int gap = 12;
+
+double sinc_of(double t) {
+    return std::fabs(t) < 1e-9 ? 1.0 : sincos(pi * t).sin / (pi * t);
+}
+
+/// The share of [at - 1/2, at + 1/2] steps that lies within [-half, half] steps.
+double covered(double at, double half) {
+    const double low = std::max(at - 0.5, -half);
+    const double high = std::min(at + 0.5, half);
+    return std::max(high - low, 0.0);
+}
+
+using Complexes = std::vector<std::complex<double>>;
+
+/// The weights of the elements -reach to reach, so that their transform is the array's pattern.
+Complexes element_weights(const LineArray& array, double elements) {
+    const int reach = static_cast<int>(std::ceil(0.5 * elements - 0.5));
+    Complexes out;
+    for (int k = -reach; k <= reach; ++k) {
+        const double share = covered(k, 0.5 * elements);
+        // The weight of an element at the end is that of the part which lies within the aperture.
+        const double x = std::clamp(k / elements, -0.5, 0.5);
+        out.push_back(array.weight(x) * (share / elements));
+    }
+    return out;
+}
+
+/// Of the squared pattern: the weights correlated with themselves.
+Complexes correlated(const Complexes& weights) {
+    const int n = static_cast<int>(weights.size());
+    Complexes out;
+    for (int lag = -(n - 1); lag <= n - 1; ++lag) {
+        std::complex<double> sum = 0.0;
+        for (int k = std::max(0, -lag); k < std::min(n, n - lag); ++k)
+            sum += weights[k + lag] * std::conj(weights[k]);
+        out.push_back(sum);
+    }
+    return out;
+}
+
+/// Kaiser's window, to -60 dB, at x in [-1, 1].
+double window(double x) {
+    const auto bessel = [](double y) {
+        double term = 1.0;
+        double sum = 1.0;
+        for (int k = 1; k < 30; ++k) {
+            term *= 0.25 * y * y / (static_cast<double>(k) * k);
+            sum += term;
+        }
+        return sum;
+    };
+    constexpr double shape = 6.0;
+    return bessel(shape * std::sqrt(std::max(1.0 - x * x, 0.0))) / bessel(shape);
+}
+
+/// The complex numbers of 8 bins of a column, apart.
+void load_bins(const float* bins, ComplexLanes& out) {
+    for (int lane = 0; lane < lanes_at_once; ++lane) {
+        out.re[lane] = bins[2 * lane];
+        out.im[lane] = bins[2 * lane + 1];
+    }
+}
+
+}  // namespace
+
+SineGrid sine_grid(const LineArray& array, const std::vector<double>& beam_sines) {
+    const double low = *std::ranges::min_element(beam_sines);
+    const double high = *std::ranges::max_element(beam_sines);
+    const auto beams = static_cast<int>(beam_sines.size());
+    SineGrid grid;
+    grid.step = 1.0 / (3.0 * array.wavelengths);
+    // Beams that are even in sine lie on columns, where these are fine enough.
+    const double spacing = beams > 1 ? (high - low) / (beams - 1) : 0.0;
+    bool even = beams > 1;
+    for (int j = 0; j < beams; ++j)
+        even = even && std::fabs(beam_sines[j] - (low + spacing * j)) < 1e-6 * spacing;
+    if (even) {
+        const double parts = std::ceil(spacing * array.wavelengths / 0.7);
+        grid.step = spacing / parts;
+    }
+    grid.first = low - margin * grid.step;
+    grid.columns = static_cast<int>(std::ceil((high - low) / grid.step - 1e-6)) + 1 + 2 * margin;
+    return grid;
+}
+
+Beamformer::Beamformer(const LineArray& array, const std::vector<double>& beam_sines, bool powers)
+    : powers_(powers),
+      grid_(sine_grid(array, beam_sines)),
+      fourier_(transform_size(grid_.columns + gap)) {
+    const int size = fourier_.size();
+    const double elements = std::min(size * grid_.step * array.wavelengths, size - 1.0);
+    Complexes weights = element_weights(array, elements);
+    if (powers) {
+        weights = correlated(weights);
+        // What the transform cannot hold.
+        const int excess = (static_cast<int>(weights.size()) - size + 1) / 2;
+        if (excess > 0) weights = Complexes(weights.begin() + excess, weights.end() - excess);
+    }
+    const int reach = static_cast<int>(weights.size()) / 2;
+    const double ahead = -grid_.first / grid_.step;
+    double in_columns = 0.0;
+    double between = 0.0;
+    double noise = 0.0;
+    for (int k = -reach; k <= reach; ++k) {
+        // An echo between two columns is shared by both: the triangle's transform is undone.
+        const double triangle = sinc_of(static_cast<double>(k) / size);
+        const std::complex<double> weight = weights[k + reach] / (triangle * triangle);
+        const SinCos turn = sincos(-2.0 * pi * k * ahead / size);
+        weights_.push_back({.re = static_cast<float>(weight.real()),
+                            .im = static_cast<float>(weight.imag()),
+                            .index = (k + size) % size,
+                            .hearing = static_cast<float>(triangle * triangle),
+                            .ahead_re = static_cast<float>(turn.cos),
+                            .ahead_im = static_cast<float>(turn.sin)});
+        noise += std::norm(weights[k + reach]);
+        in_columns += std::norm(weight);
+        between += std::norm(weight) * (2.0 + sincos(2.0 * pi * k / size).cos) / 3.0;
+    }
+    fill_ = static_cast<float>(between / in_columns);
+    // The power of noise in a beam is the sum over elements of both parts.
+    unit_sigma_ = static_cast<float>(std::sqrt(0.5 / noise));
+
+    bool on_columns = true;
+    for (const double sine : beam_sines) {
+        const double at = (sine - grid_.first) / grid_.step;
+        on_columns = on_columns && std::fabs(at - std::round(at)) < 1e-4;
+    }
+    taps_ = on_columns ? 1 : most_taps;
+    for (const double sine : beam_sines) {
+        const double at = (sine - grid_.first) / grid_.step;
+        const int first = on_columns ? static_cast<int>(std::round(at))
+                                     : static_cast<int>(std::floor(at)) - most_taps / 2 + 1;
+        first_tap_.push_back(first);
+        double sum = 0.0;
+        std::vector<double> taps;
+        for (int t = 0; t < taps_; ++t) {
+            const double distance = first + t - at;
+            taps.push_back(on_columns ? 1.0
+                                      : sinc_of(distance) * window(distance / (0.5 * most_taps)));
+            sum += taps.back();
+        }
+        for (const double tap : taps)
+            tap_.push_back(static_cast<float>(tap / sum));
+    }
+}
+
+Beamformer::Scratch::Scratch(const Beamformer& beams)
+    : data(beams.fourier_.size()),
+      spare(beams.fourier_.size()),
+      a((beams.elements() + 1) / 2 * lanes_at_once),
+      b(a.size()) {}
+
+/// Adds the noise of bins `row` to `row` + 7: that of an element depends on its number, the bin and
+/// the key alone. One counter serves two elements.
+void Beamformer::add_noise(const ElementNoise& noise, int row, PhiloxKey key,
+                           Scratch& scratch) const {
+    const int elements = this->elements();
+    const int pairs = (elements + 1) / 2;
+    for (int pair = 0; pair < pairs; ++pair) {
+        for (int lane = 0; lane < lanes_at_once; ++lane) {
+            scratch.a[pair * lanes_at_once + lane] = static_cast<std::uint32_t>(row + lane);
+            scratch.b[pair * lanes_at_once + lane] = static_cast<std::uint32_t>(pair);
+        }
+    }
+    philox_pairs(scratch.a.data(), scratch.b.data(),
+                 static_cast<std::size_t>(pairs) * lanes_at_once, key);
+    Lanes re, im;
+    for (int e = 0; e < elements; ++e) {
+        const std::vector<std::uint32_t>& words = e < pairs ? scratch.a : scratch.b;
+        complex_normals(words.data() + static_cast<std::ptrdiff_t>(e % pairs) * lanes_at_once, re,
+                        im);
+        ComplexLanes& z = scratch.data[weights_[e].index];
+        const float sigma = noise.element_sigma * weights_[e].hearing;
+        for (int lane = 0; lane < lanes_at_once; ++lane) {
+            z.re[lane] = std::fma(sigma, re[lane], z.re[lane]);
+            z.im[lane] = std::fma(sigma, im[lane], z.im[lane]);
+        }
+    }
+    if (noise.common_mode_sigma == 0.0F) return;
+    std::array<std::uint32_t, lanes_at_once> a, b;
+    for (int lane = 0; lane < lanes_at_once; ++lane) {
+        a[lane] = static_cast<std::uint32_t>(row + lane);
+        b[lane] = 0xFFFFFFFFU;
+    }
+    philox_pairs(a.data(), b.data(), lanes_at_once, key);
+    complex_normals(a.data(), re, im);
+    for (const Weight& w : weights_) {
+        ComplexLanes& z = scratch.data[w.index];
+        for (int lane = 0; lane < lanes_at_once; ++lane) {
+            const float x = noise.common_mode_sigma * w.hearing * re[lane];
+            const float y = noise.common_mode_sigma * w.hearing * im[lane];
+            z.re[lane] += x * w.ahead_re - y * w.ahead_im;
+            z.im[lane] += x * w.ahead_im + y * w.ahead_re;
+        }
+    }
+}
+
+void Beamformer::form(const EchoGrid* grid, int row, const ElementNoise& noise, PhiloxKey key,
+                      Scratch& scratch, Lanes* out) const {
+    ComplexLanes* const data = scratch.data.data();
+    const int size = fourier_.size();
+    if (grid) {
+        for (int c = 0; c < grid_.columns; ++c)
+            load_bins(grid->column(c) + static_cast<std::ptrdiff_t>(2) * row, data[c]);
+        std::fill(data + grid_.columns, data + size, ComplexLanes{});
+        fourier_.forward(data, scratch.spare.data());
+    } else {
+        std::fill(data, data + size, ComplexLanes{});
+    }
+    if (noise.element_sigma > 0.0F) add_noise(noise, row, key, scratch);
+
+    // Elements that the aperture does not have hear nothing.
+    const auto reach = static_cast<int>(weights_.size() / 2);
+    std::fill(data + reach + 1, data + size - reach, ComplexLanes{});
+    for (const Weight& w : weights_) {
+        ComplexLanes& z = data[w.index];
+        for (int lane = 0; lane < lanes_at_once; ++lane) {
+            const float x = z.re[lane];
+            const float y = z.im[lane];
+            z.re[lane] = x * w.re - y * w.im;
+            z.im[lane] = x * w.im + y * w.re;
+        }
+    }
+    fourier_.backward(data, scratch.spare.data());
+
+    for (int j = 0; j < beams(); ++j) {
+        const ComplexLanes* const from = data + first_tap_[j];
+        const float* const tap = tap_.data() + static_cast<std::ptrdiff_t>(j) * taps_;
+        ComplexLanes z{};
+        for (int t = 0; t < taps_; ++t) {
+            for (int lane = 0; lane < lanes_at_once; ++lane) {
+                z.re[lane] = std::fma(tap[t], from[t].re[lane], z.re[lane]);
+                z.im[lane] = std::fma(tap[t], from[t].im[lane], z.im[lane]);
+            }
+        }
+        for (int lane = 0; lane < lanes_at_once; ++lane) {
+            out[j][lane] = powers_ ? std::max(z.re[lane], 0.0F)
+                                   : std::fma(z.re[lane], z.re[lane], z.im[lane] * z.im[lane]);
+        }
+    }
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <vector>
+
+#include "calibrated/echo_grid.h"
+#include "calibrated/fourier.h"
+#include "calibrated/line_array.h"
+#include "core/random.h"
+
+namespace sonarsim {
+
+/// Noise of the receiver, before its beams are formed.
+struct ElementNoise {
+    float element_sigma = 0.0F;      ///< of either part, per element
+    float common_mode_sigma = 0.0F;  ///< of either part, in the beam straight ahead
+};
+
+/// Turns what arrives at a line array into beams. A grid of sines is the array's aperture seen
+/// through a Fourier transform: one value per element, each to be weighted, its noise to be added,
+/// and transformed back; beams between the columns of the grid are interpolated.
+class Beamformer {
+  public:
+    /// Of `array`, for a fan of which `beam_sines` are the middles of the beams. `powers`: the grid
+    /// holds powers, and the weights are those of the squared pattern.
+    Beamformer(const LineArray& array, const std::vector<double>& beam_sines, bool powers);
+
+    const SineGrid& grid() const { return grid_; }
+    int beams() const { return static_cast<int>(first_tap_.size()); }
+    int elements() const { return static_cast<int>(weights_.size()); }
+    /// Mean power of the pattern over where between two columns an echo lies, per power with echoes
+    /// in the columns: what turns independent columns into independent points.
+    float fill() const { return fill_; }
+    /// The sigma of the elements that makes a noise of power 1 in a beam.
+    float element_sigma_of_unit() const { return unit_sigma_; }
+
+    struct Scratch {
+        explicit Scratch(const Beamformer& beams);
+        std::vector<ComplexLanes> data, spare;
+        std::vector<std::uint32_t> a, b;
+    };
+    /// Forms the beams of 8 bins from `row` on: `out` [beams][8], the power of each. Without a grid
+    /// there are no echoes.
+    void form(const EchoGrid* grid, int row, const ElementNoise& noise, PhiloxKey key,
+              Scratch& scratch, Lanes* out) const;
+
+  private:
+    static constexpr int most_taps = 8;
+    struct Weight {
+        float re, im;
+        int index;      ///< of the transform
+        float hearing;  ///< what undoes, for noise, that the weight makes up for shared echoes
+        float ahead_re, ahead_im;  ///< what a source straight ahead is there
+    };
+
+    void add_noise(const ElementNoise& noise, int row, PhiloxKey key, Scratch& scratch) const;
+
+    bool powers_;
+    SineGrid grid_;
+    Fourier fourier_;
+    std::vector<Weight> weights_;
+    int taps_ = 1;
+    std::vector<int> first_tap_;  ///< by beam
+    std::vector<float> tap_;      ///< [beams, taps]
+    float fill_ = 1.0F;
+    float unit_sigma_ = 0.0F;
+};
+
+/// The grid on which the beams of an array are formed.
+SineGrid sine_grid(const LineArray& array, const std::vector<double>& beam_sines);
+
+}  // namespace sonarsim

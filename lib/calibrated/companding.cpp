@@ -1,0 +1,50 @@
+#include "calibrated/companding.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "calibrated/bottom.h"
+#include "calibrated/decibel.h"
+
+namespace sonarsim {
+
+namespace {
+
+// The natural logarithm of it is that of a normal float, and its value is 0 in every companding.
+constexpr float least_power = 1e-37F;
+
+/// How a value in [0, 1] follows from the natural logarithm of the power, which is at most 0.
+struct Law {
+    bool logarithmic;
+    float factor;
+};
+
+Law law_of(const ReceiverConfig& receiver) {
+    switch (receiver.companding) {
+        case Companding::log:
+            return {true, static_cast<float>(10.0 / (ln_10 * receiver.dynamic_range_db))};
+        case Companding::linear:
+            return {false, 0.5F};
+        default:
+            return {false, static_cast<float>(0.5 * receiver.gamma)};
+    }
+}
+
+}  // namespace
+
+std::vector<std::uint16_t> companded(std::span<const float> powers,
+                                     const ReceiverConfig& receiver) {
+    const Law law = law_of(receiver);
+    const auto greatest = static_cast<float>((1 << receiver.bits) - 1);
+    std::vector<std::uint16_t> out(powers.size());
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        const float power = std::min(std::max(powers[i], least_power), 1.0F);
+        const float logarithm_of_power = std::min(natural_log(power), 0.0F);
+        const float value = law.logarithmic ? std::max(1.0F + law.factor * logarithm_of_power, 0.0F)
+                                            : fading(-law.factor * logarithm_of_power);
+        out[i] = static_cast<std::uint16_t>(static_cast<std::int32_t>(greatest * value + 0.5F));
+    }
+    return out;
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "calibrated/range_response.h"
+
+namespace sonarsim {
+
+/// Points of equal distance in the sine of the angle to the array's axis plane.
+struct SineGrid {
+    double first = 0.0;  ///< sine of column 0
+    double step = 1.0;
+    int columns = 0;
+};
+
+/// What has come back, before the receiver: a complex amplitude or, in its real part, a power for
+/// every range bin and every column of a sine grid. A column is contiguous: echoes of one beam come
+/// one after the other, and 8 bins make a cache line.
+class EchoGrid {
+  public:
+    EchoGrid(int rows, int columns);
+
+    int rows() const { return rows_; }
+    int columns() const { return columns_; }
+
+    /// The bins of a column, two floats each.
+    float* column(int c) { return values_.data() + c * stride_ + front; }
+    const float* column(int c) const { return values_.data() + c * stride_ + front; }
+    std::size_t stride() const { return stride_; }
+
+    /// Smears every column by the pulse. Returns how many places held an echo before.
+    std::size_t smear(const RangeTaps& taps);
+
+  private:
+    // One bin before the first takes what lies between the two; seven more fill the cache line.
+    static constexpr std::size_t front = 16;
+
+    int rows_;
+    int columns_;
+    std::size_t stride_;  ///< floats per column
+    std::vector<float> values_;
+};
+
+}  // namespace sonarsim

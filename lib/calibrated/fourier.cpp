@@ -1,0 +1,124 @@
+#include "calibrated/fourier.h"
+
+#include <immintrin.h>
+
+#include <algorithm>
+
+#include "core/elementary.h"
+#include "core/units.h"
+
+namespace sonarsim {
+
+namespace {
+
+struct Value {
+    __m256 re, im;
+};
+
+Value load(const ComplexLanes& z) {
+    return {_mm256_load_ps(z.re.data()), _mm256_load_ps(z.im.data())};
+}
+
+void store(ComplexLanes& z, const Value& v) {
+    _mm256_store_ps(z.re.data(), v.re);
+    _mm256_store_ps(z.im.data(), v.im);
+}
+
+Value operator+(const Value& a, const Value& b) {
+    return {_mm256_add_ps(a.re, b.re), _mm256_add_ps(a.im, b.im)};
+}
+
+Value operator-(const Value& a, const Value& b) {
+    return {_mm256_sub_ps(a.re, b.re), _mm256_sub_ps(a.im, b.im)};
+}
+
+/// a times the root (re, im), conjugated for the inverse.
+template <bool inverse>
+Value turned(const Value& a, float re, float im) {
+    const __m256 c = _mm256_set1_ps(re);
+    const __m256 s = _mm256_set1_ps(inverse ? -im : im);
+    return {_mm256_fmsub_ps(a.re, c, _mm256_mul_ps(a.im, s)),
+            _mm256_fmadd_ps(a.re, s, _mm256_mul_ps(a.im, c))};
+}
+
+/// a times -i, or i for the inverse.
+template <bool inverse>
+Value quarter_turned(const Value& a) {
+    const __m256 zero = _mm256_setzero_ps();
+    if (inverse) return {_mm256_sub_ps(zero, a.im), a.re};
+    return {a.im, _mm256_sub_ps(zero, a.re)};
+}
+
+}  // namespace
+
+Fourier::Fourier(int size) : size_(size) {
+    for (int k = 0; k < size; ++k) {
+        const SinCos root = sincos(-2.0 * pi * k / size);
+        roots_.push_back({static_cast<float>(root.cos), static_cast<float>(root.sin)});
+    }
+}
+
+/// Stockham's: steps of radix 4, and one of radix 2 where the size asks for it. Each step reads one
+/// array in order and writes the other in order; nothing is sorted.
+template <bool inverse>
+void Fourier::transform(ComplexLanes* data, ComplexLanes* scratch) const {
+    ComplexLanes* from = data;
+    ComplexLanes* to = scratch;
+    int length = size_;
+    int stride = 1;
+    while (length >= 4) {
+        const int quarter = length / 4;
+        for (int p = 0; p < quarter; ++p) {
+            const Root w1 = roots_[static_cast<std::size_t>(p) * stride];
+            const Root w2 = roots_[static_cast<std::size_t>(2) * p * stride];
+            const Root w3 = roots_[static_cast<std::size_t>(3) * p * stride];
+            const ComplexLanes* const in = from + static_cast<std::ptrdiff_t>(stride) * p;
+            ComplexLanes* const out = to + static_cast<std::ptrdiff_t>(stride) * 4 * p;
+            const std::ptrdiff_t step = static_cast<std::ptrdiff_t>(stride) * quarter;
+            for (int q = 0; q < stride; ++q) {
+                const Value a = load(in[q]);
+                const Value b = load(in[q + step]);
+                const Value c = load(in[q + 2 * step]);
+                const Value d = load(in[q + 3 * step]);
+                const Value ac = a + c;
+                const Value bd = b + d;
+                const Value ac_ = a - c;
+                const Value bd_ = quarter_turned<inverse>(b - d);
+                store(out[q], ac + bd);
+                store(out[q + stride], turned<inverse>(ac_ + bd_, w1.re, w1.im));
+                store(out[q + 2 * stride], turned<inverse>(ac - bd, w2.re, w2.im));
+                store(out[q + 3 * stride], turned<inverse>(ac_ - bd_, w3.re, w3.im));
+            }
+        }
+        std::swap(from, to);
+        length /= 4;
+        stride *= 4;
+    }
+    if (length == 2) {
+        for (int q = 0; q < stride; ++q) {
+            const Value a = load(from[q]);
+            const Value b = load(from[q + stride]);
+            store(to[q], a + b);
+            store(to[q + stride], a - b);
+        }
+        std::swap(from, to);
+    }
+    if (from != data) std::copy_n(from, size_, data);
+}
+
+void Fourier::forward(ComplexLanes* data, ComplexLanes* scratch) const {
+    transform<false>(data, scratch);
+}
+
+void Fourier::backward(ComplexLanes* data, ComplexLanes* scratch) const {
+    transform<true>(data, scratch);
+}
+
+int transform_size(int count) {
+    int size = 2;
+    while (size < count)
+        size *= 2;
+    return size;
+}
+
+}  // namespace sonarsim

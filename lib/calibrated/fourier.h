@@ -1,0 +1,45 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+namespace sonarsim {
+
+/// So many transforms are done side by side, one in each lane of a vector.
+inline constexpr int lanes_at_once = 8;
+
+using Lanes = std::array<float, lanes_at_once>;
+
+/// Complex numbers of all lanes.
+struct alignas(32) ComplexLanes {
+    Lanes re, im;
+};
+
+/// Discrete Fourier transforms of a power of two, X[k] = sum x[n] e^(-2 pi i k n / N).
+class Fourier {
+  public:
+    /// `size`: a power of two from 2 on.
+    explicit Fourier(int size);
+
+    int size() const { return size_; }
+
+    /// Transforms `data` [size] by way of `scratch` [size]; the result is in `data`.
+    void forward(ComplexLanes* data, ComplexLanes* scratch) const;
+    /// The inverse, without the factor 1 / N.
+    void backward(ComplexLanes* data, ComplexLanes* scratch) const;
+
+  private:
+    struct Root {
+        float re, im;
+    };
+    template <bool inverse>
+    void transform(ComplexLanes* data, ComplexLanes* scratch) const;
+
+    int size_;
+    std::vector<Root> roots_;  ///< e^(-2 pi i k / N)
+};
+
+/// The smallest power of two that is at least `count`, and 2.
+int transform_size(int count);
+
+}  // namespace sonarsim

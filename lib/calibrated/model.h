@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "calibrated/beamformer.h"
+#include "calibrated/scatterers.h"
+#include "calibrated/sonar_equation.h"
+#include "core/pose.h"
+#include "mission/mission.h"
+#include "scene/scene.h"
+#include "visibility/engine.h"
+
+namespace sonarsim {
+
+/// The second model of the echo, docs/calibrated.md: an instrument, ready to turn what it saw into
+/// the echo levels that it measures.
+struct CalibratedModel {
+    SonarEquation equation;
+    PieceLimits limits;  ///< of pieces that are not scatterers of the scene
+    ScattererCells cells;
+    Clutter clutter;
+    RangeTaps amplitude_taps, power_taps;
+    Beamformer amplitude_beams, power_beams;
+    ElementNoise noise;
+    std::vector<float> row_gain;  ///< TVG of each bin by full scale: what an echo's power becomes
+    SpeckleMode speckle = SpeckleMode::scene;
+    double sound_speed_m_s = 0.0;
+    double absorption_db_per_m = 0.0;
+    double wavelength_m = 0.0;
+};
+
+/// Sets up the instrument of a sonar with this view; `beam_sines` are the sines of the azimuths
+/// that its beams look at. A piece of its point spread is that of the far field at every range: the
+/// instrument is taken to focus.
+CalibratedModel calibrated_model(const InstrumentConfig& instrument, const WaterConfig& water,
+                                 const View& view, const std::vector<double>& beam_sines);
+
+/// Which of the model's terms are in an image.
+struct CalibratedTerms {
+    bool echoes = true;
+    bool speckle = true;
+    bool noise = true;
+};
+
+/// The keys of the draws.
+struct CalibratedDraws {
+    PhiloxKey scene{};  ///< the same for all pings
+    PhiloxKey ping{};
+    PhiloxKey noise{};
+};
+
+struct CalibratedCounts {
+    std::uint64_t echoes = 0;
+    std::uint64_t out_of_range = 0;
+    std::uint64_t lit_places = 0;  ///< of the grid, before the point spread
+};
+
+/// The power of every bin, [range bins, beams], by full scale: 1 is what the receiver just does not
+/// clip. A pure function of its arguments.
+CalibratedCounts form_calibrated(const CalibratedModel& model, const Samples& samples,
+                                 const Scene& scene, const Pose& T_world_sensor,
+                                 const CalibratedDraws& draws, const CalibratedTerms& terms,
+                                 std::span<float> image);
+
+}  // namespace sonarsim

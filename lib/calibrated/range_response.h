@@ -1,0 +1,24 @@
+#pragma once
+
+#include <vector>
+
+#include "calibrated/line_array.h"
+
+namespace sonarsim {
+
+/// What a point's echo looks like along range: amplitudes at whole bins from `-reach` to `reach`,
+/// to be filtered with after echoes were put into the two nearest bins in proportion to their
+/// closeness. Together the two are the linear spline that is nearest to the pulse.
+struct RangeTaps {
+    int reach = 0;
+    std::vector<float> taps;  ///< 2 reach + 1
+    /// Mean power of the spline over where in a bin the echo lies, per power of the taps: what
+    /// turns independent bins into independent points.
+    float fill = 1.0F;
+};
+
+/// The pulse after compression, of half-power width `resolution_bins`; a band with a taper has the
+/// shape of the beam of a line array with the same taper. `squared`: of powers, not of amplitudes.
+RangeTaps range_taps(double resolution_bins, double side_lobe_db, bool squared);
+
+}  // namespace sonarsim

@@ -1,0 +1,318 @@
+#include "calibrated/scatterers.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "calibrated/decibel.h"
+
+namespace sonarsim {
+
+namespace {
+
+using Floats = PieceBlock::Array<float>;
+using Words = PieceBlock::Array<std::uint32_t>;
+
+// Cells no longer than this share of the resolution in range: the scatterer's phase holds for all
+// of the cell, which would otherwise show as speckle that is longer than the pulse.
+constexpr double most_of_resolution = 0.75;
+
+/// 32 bits that look random by 64 (the finaliser of MurmurHash3, put to the words in turn).
+std::uint32_t mixed(std::uint32_t a, std::uint32_t b) {
+    std::uint32_t h = a * 0x85EBCA6BU;
+    h = (h ^ (h >> 15)) + b * 0xC2B2AE35U;
+    h = (h ^ (h >> 16)) * 0x85EBCA6BU;
+    h = (h ^ (h >> 13)) * 0xC2B2AE35U;
+    return h ^ (h >> 16);
+}
+
+struct WorldPlaces {
+    Floats x, y, z;  ///< relative to Scene::origin, m
+};
+
+void find_places(const PieceBlock& pieces, int count, const SonarInScene& sonar, WorldPlaces& out) {
+    const Eigen::Matrix3f& R = sonar.R_world_sensor;
+    const Eigen::Vector3f s = sonar.sensor.cast<float>();
+    const auto place = [&](int axis, Floats& to) {
+        const float rx = R(axis, 0);
+        const float ry = R(axis, 1);
+        const float rz = R(axis, 2);
+        const float base = s[axis];
+        for (int k = 0; k < count; ++k) {
+            to[k] = std::fma(rx, pieces.x[k],
+                             std::fma(ry, pieces.y[k], std::fma(rz, pieces.z[k], base)));
+        }
+    };
+    place(0, out.x);
+    place(1, out.y);
+    place(2, out.z);
+}
+
+std::uint32_t word_of(std::int32_t x) {
+    return static_cast<std::uint32_t>(x);
+}
+
+std::int32_t cell_along(float metres, float per_edge) {
+    return static_cast<std::int32_t>(std::floor(metres * per_edge));
+}
+
+/// What the cells are called in their draws.
+void name_cells(const Scatterers& block, int count, Words& low, Words& high) {
+    constexpr std::uint32_t bits_21 = 0x1FFFFF;
+    for (int k = 0; k < count; ++k) {
+        const std::uint32_t split = word_of(block.cell[2][k]);
+        low[k] = (word_of(block.cell[0][k]) & bits_21) | split << 21;
+        // Levels differ in the exponent of the edge.
+        high[k] = ((word_of(block.cell[1][k]) & bits_21) | split >> 11 << 21) ^
+                  (std::bit_cast<std::uint32_t>(block.edge_m[k]) >> 23) * 0x9E3779B1U;
+    }
+}
+
+/// The phase, in turns, of the sound that comes back from each cell's scatterer. The way is taken
+/// in double: at 40 m and 2 MHz the last bit of a float is 0.07 rad.
+void find_phases(const Scatterers& block, int count, const Words& jitter, const SonarInScene& sonar,
+                 double turns_per_m, Floats& turns) {
+    constexpr std::uint32_t bits_10 = 0x3FF;
+    constexpr double step = 0x1p-10;
+    const double sx = sonar.sensor.x();
+    const double sy = sonar.sensor.y();
+    const double sz = sonar.sensor.z();
+    for (int k = 0; k < count; ++k) {
+        const auto part = [&](std::uint32_t bits) {
+            return (static_cast<double>(static_cast<std::int32_t>(bits & bits_10)) + 0.5) * step;
+        };
+        const double e = block.edge_m[k];
+        const double x = (block.cell[0][k] + part(jitter[k])) * e - sx;
+        const double y = (block.cell[1][k] + part(jitter[k] >> 10)) * e - sy;
+        const double z = (block.cell[2][k] + part(jitter[k] >> 20)) * e - sz;
+        const double way = turns_per_m * std::sqrt(std::fma(x, x, std::fma(y, y, z * z)));
+        turns[k] = static_cast<float>(way - std::floor(way));
+    }
+}
+
+/// A sample seen along an axis of the world: a parallelogram in the plane of the other two.
+struct Projected {
+    const Sample& sample;
+    int axis, first, second;  ///< the axis, and the other two
+    Eigen::Vector3d centre;   ///< relative to Scene::origin, m
+    Eigen::Vector3f u, v;     ///< half edges, world frame
+    float determinant;
+    float area_by_projected;  ///< of the sample, by that of its projection
+};
+
+Projected project(const Sample& sample, const SonarInScene& sonar) {
+    const Eigen::Vector3f u = sonar.R_world_sensor * sample.edge_u;
+    const Eigen::Vector3f v = sonar.R_world_sensor * sample.edge_v;
+    const Eigen::Vector3f normal = u.cross(v);
+    int axis = 0;
+    normal.cwiseAbs().maxCoeff(&axis);
+    const Eigen::Vector3f place = sonar.R_world_sensor * sample.position;
+    return {sample,
+            axis,
+            (axis + 1) % 3,
+            (axis + 2) % 3,
+            sonar.sensor + place.cast<double>(),
+            u,
+            v,
+            normal[axis],
+            sample.area_m2 / (4.0F * std::fabs(normal[axis]))};
+}
+
+/// Adds scatterers to a block.
+struct Collector {
+    Scatterers& block;
+    const std::function<void(const Scatterers&)>& use;
+
+    /// That of the cell (i, j) in the plane of the sample's projection, if its point lies within.
+    void add(const Projected& p, std::int32_t i, std::int32_t j, float edge, std::uint32_t level) {
+        const std::uint32_t h = mixed(word_of(i) ^ level << 27, word_of(j) ^ (p.axis + 1U) << 29);
+        const double a = (i + (h & 0xFFFFU) * 0x1p-16) * edge - p.centre[p.first];
+        const double b = (j + (h >> 16) * 0x1p-16) * edge - p.centre[p.second];
+        const auto x = static_cast<float>(a);
+        const auto y = static_cast<float>(b);
+        const float s = (x * p.v[p.second] - y * p.v[p.first]) / p.determinant;
+        const float t = (y * p.u[p.first] - x * p.u[p.second]) / p.determinant;
+        if (!(s >= -1.0F && s < 1.0F && t >= -1.0F && t < 1.0F)) return;
+        PieceBlock& pieces = block.pieces;
+        const int at = pieces.count++;
+        const Sample& sample = p.sample;
+        pieces.x[at] = sample.position.x() + s * sample.edge_u.x() + t * sample.edge_v.x();
+        pieces.y[at] = sample.position.y() + s * sample.edge_u.y() + t * sample.edge_v.y();
+        pieces.z[at] = sample.position.z() + s * sample.edge_u.z() + t * sample.edge_v.z();
+        pieces.area_m2[at] = edge * edge * p.area_by_projected;
+        pieces.height_m[at] = sample.height_m;
+        pieces.material[at] = sample.material;
+        block.edge_m[at] = edge;
+        block.cell[p.first][at] = i;
+        block.cell[p.second][at] = j;
+        const double along = p.centre[p.axis] + s * p.u[p.axis] + t * p.v[p.axis];
+        // Four cells high, the scatterer near the middle: samples of a curved surface are flat and
+        // put it a little higher or lower each time, which must not make it another one.
+        block.cell[p.axis][at] = 4 * static_cast<std::int32_t>(std::floor(0.25 * along / edge)) + 1;
+        if (pieces.count == PieceBlock::most) flush();
+    }
+
+    void flush() {
+        if (block.pieces.count > 0) use(block);
+        block.pieces.count = 0;
+    }
+};
+
+/// The cells of a projected sample. Between the ranges at which one level or the next is right,
+/// part of the larger cells hold a scatterer each and the others are split; each does so at a range
+/// of its own, so that the scatterers do not change all at once while the sonar moves.
+void add_cells(const Projected& p, const ScattererCells& cells, Collector& collector) {
+    const float range = p.sample.position.norm();
+    const float root = cells.edge_per_root_range / cells.least_edge_m;
+    const float ratio = std::max(root * root * range, 1.0F);
+    const float wanted =
+        std::min((0.5F / 0.69314718F) * natural_log(ratio), static_cast<float>(cells.levels - 1));
+    const int level = static_cast<int>(std::floor(wanted));
+    const float whole_cells = wanted - std::floor(wanted);
+    const float fine = cells.edge_of(level);
+    const float coarse = 2.0F * fine;
+    const auto name = static_cast<std::uint32_t>(level);
+    const auto cells_along = [&](int axis) {
+        const double half = std::fabs(p.u[axis]) + std::fabs(p.v[axis]);
+        return std::array{static_cast<std::int32_t>(std::floor((p.centre[axis] - half) / coarse)),
+                          static_cast<std::int32_t>(std::floor((p.centre[axis] + half) / coarse))};
+    };
+    const auto columns = cells_along(p.first);
+    const auto rows = cells_along(p.second);
+    for (std::int32_t j = rows[0]; j <= rows[1]; ++j) {
+        for (std::int32_t i = columns[0]; i <= columns[1]; ++i) {
+            const std::uint32_t h = mixed(word_of(i) ^ 0x5bd1e995U, word_of(j) ^ name << 27);
+            if (unit_float(h) < whole_cells) {
+                collector.add(p, i, j, coarse, name + 1);
+                continue;
+            }
+            collector.add(p, 2 * i, 2 * j, fine, name);
+            collector.add(p, 2 * i + 1, 2 * j, fine, name);
+            collector.add(p, 2 * i, 2 * j + 1, fine, name);
+            collector.add(p, 2 * i + 1, 2 * j + 1, fine, name);
+        }
+    }
+}
+
+/// The regularised lower incomplete gamma function P(a, x), by its series or its continued fraction
+/// (e.g. Abramowitz and Stegun 6.5.29 and 6.5.31). `log_gamma` is ln Gamma(a).
+double gamma_probability(double a, double x, double log_gamma) {
+    if (x <= 0.0) return 0.0;
+    const double factor = exponential(a * logarithm(x) - x - log_gamma);
+    if (x < a + 1.0) {
+        double term = 1.0 / a;
+        double sum = term;
+        for (int n = 1; n < 500; ++n) {
+            term *= x / (a + n);
+            sum += term;
+        }
+        return factor * sum;
+    }
+    double tail = 0.0;
+    for (int n = 200; n >= 1; --n)
+        tail = n * (n - a) / (x + 2.0 * n + 1.0 - a - tail);
+    return 1.0 - factor / (x + 1.0 - a - tail);
+}
+
+/// ln Gamma(a) of a > 0, by Stirling's series at a + 10.
+double log_gamma(double a) {
+    double product = 1.0;
+    for (int n = 0; n < 10; ++n)
+        product *= a + n;
+    const double b = a + 10.0;
+    const double series =
+        1.0 / (12.0 * b) - 1.0 / (360.0 * b * b * b) + 1.0 / (1260.0 * b * b * b * b * b);
+    return (b - 0.5) * logarithm(b) - b + 0.5 * logarithm(2.0 * pi) + series - logarithm(product);
+}
+
+}  // namespace
+
+ScattererCells scatterer_cells(double per_cell, double resolution_m, double width_rad,
+                               double range_min_m, double wavelength_m) {
+    const double greatest = most_of_resolution * resolution_m;
+    const double per_root_range = std::sqrt(resolution_m * width_rad / per_cell);
+    const double least = per_root_range * std::sqrt(std::max(range_min_m, 1e-3));
+    ScattererCells out;
+    out.levels = 1;
+    double edge = greatest;
+    while (edge > least && out.levels < 12) {
+        edge *= 0.5;
+        ++out.levels;
+    }
+    out.least_edge_m = static_cast<float>(edge);
+    out.edge_per_root_range = static_cast<float>(per_root_range);
+    out.turns_per_m = 2.0 / wavelength_m;
+    return out;
+}
+
+Clutter gamma_clutter(double shape, double edge_m) {
+    Clutter out;
+    if (shape <= 0.0) return out;
+    out.edge_m = static_cast<float>(edge_m);
+    const double log_gamma_of_shape = log_gamma(shape);
+    double mean = 0.0;
+    for (int k = 0; k < Clutter::steps; ++k) {
+        const double probability = (k + 0.5) / Clutter::steps;
+        double low = 0.0;
+        double high = shape + 40.0 * std::sqrt(shape) + 40.0;
+        for (int n = 0; n < 60; ++n) {
+            const double middle = 0.5 * (low + high);
+            const bool below = gamma_probability(shape, middle, log_gamma_of_shape) < probability;
+            (below ? low : high) = middle;
+        }
+        out.strength.push_back(static_cast<float>(low));
+        mean += low / Clutter::steps;
+    }
+    for (float& strength : out.strength)
+        strength = static_cast<float>(strength / mean);
+    return out;
+}
+
+void add_clutter(const PieceBlock& pieces, const Clutter& clutter, const SonarInScene& sonar,
+                 PhiloxKey key, PointEchoes& echoes) {
+    if (clutter.strength.empty()) return;
+    WorldPlaces places;
+    find_places(pieces, echoes.count, sonar, places);
+    const float per_edge = 1.0F / clutter.edge_m;
+    for (int k = 0; k < echoes.count; ++k) {
+        const std::uint32_t h = mixed(word_of(cell_along(places.x[k], per_edge)) ^
+                                          word_of(cell_along(places.z[k], per_edge)) << 16 ^ key.k0,
+                                      word_of(cell_along(places.y[k], per_edge)) ^ key.k1);
+        echoes.power[k] *= clutter.strength[h >> 22];
+    }
+}
+
+void find_scatterers(std::span<const Sample> samples, const ScattererCells& cells,
+                     const SonarInScene& sonar, Scatterers& block,
+                     const std::function<void(const Scatterers&)>& use) {
+    Collector collector{block, use};
+    block.pieces.count = 0;
+    for (const Sample& sample : samples) {
+        const Projected projected = project(sample, sonar);
+        if (projected.determinant == 0.0F) continue;
+        add_cells(projected, cells, collector);
+    }
+    collector.flush();
+}
+
+void draw_amplitudes(const Scatterers& block, const PointEchoes& echoes,
+                     const ScattererCells& cells, const SonarInScene& sonar, PhiloxKey key,
+                     Amplitudes& out) {
+    Floats turns;
+    Words draw, jitter;
+    const int count = echoes.count;
+    name_cells(block, count, draw, jitter);
+    philox_pairs(draw.data(), jitter.data(), count, key);
+    find_phases(block, count, jitter, sonar, cells.turns_per_m, turns);
+    for (int k = 0; k < count; ++k) {
+        // Of the first word 20 bits make the strength, which is exponential, and 12 the phase.
+        const auto upper = static_cast<float>(static_cast<std::int32_t>(draw[k] >> 12));
+        const auto lower = static_cast<float>(static_cast<std::int32_t>(draw[k] & 0xFFFU));
+        const float strength = -natural_log((upper + 0.5F) * 0x1p-20F);
+        const float amplitude = std::sqrt(echoes.power[k] * strength);
+        const SinCosFloat phase = sincos_turns(std::fma(lower, 0x1p-12F, turns[k]));
+        out.re[k] = amplitude * phase.cos;
+        out.im[k] = amplitude * phase.sin;
+    }
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "calibrated/sonar_equation.h"
+#include "core/pose.h"
+#include "core/random.h"
+
+namespace sonarsim {
+
+/// The scatterers of a scene as one sonar resolves them: one to each cell of a world-aligned
+/// lattice of cubes. A cell's scatterer has a place within the cell, a strength and a phase of its
+/// own, all by the cell's number. The edge of the cells grows with the root of the range, as the
+/// side of a resolution cell of the sonar does, up to a greatest edge; it doubles from one level to
+/// the next.
+struct ScattererCells {
+    float least_edge_m = 0.0F;         ///< of level 0
+    float edge_per_root_range = 0.0F;  ///< m per sqrt(m): the edge wanted at a range
+    int levels = 1;                    ///< the last one has the greatest edge
+    double turns_per_m = 0.0;          ///< of phase, there and back: 2 / wavelength
+
+    float edge_of(int level) const { return least_edge_m * static_cast<float>(1 << level); }
+};
+
+/// Cells with `per_cell` scatterers to a resolution cell of `resolution_m` in range and `width_rad`
+/// across, but no larger than the resolution in range.
+ScattererCells scatterer_cells(double per_cell, double resolution_m, double width_rad,
+                               double range_min_m, double wavelength_m);
+
+/// Strengths of K-distributed clutter: gamma-distributed with shape nu and mean 1, by cells of the
+/// scene larger than the resolution.
+struct Clutter {
+    static constexpr int steps = 1024;
+    float edge_m = 0.0F;
+    std::vector<float> strength;  ///< [steps] quantiles; empty: 1 everywhere
+};
+
+/// nu = 0 has none.
+Clutter gamma_clutter(double shape, double edge_m);
+
+/// Where the sonar is among the cells.
+struct SonarInScene {
+    Eigen::Matrix3f R_world_sensor = Eigen::Matrix3f::Identity();
+    Eigen::Vector3d sensor = Eigen::Vector3d::Zero();  ///< relative to Scene::origin, m
+};
+
+/// A block of scatterers: pieces of surface of the size of their cells, and the cells' numbers.
+struct Scatterers {
+    PieceBlock pieces;
+    PieceBlock::Array<float> edge_m{};
+    std::array<PieceBlock::Array<std::int32_t>, 3> cell{};  ///< along x, y and z of the world
+};
+
+/// Finds the scatterers that lie on samples and hands them to `use`, a block at a time. Seen along
+/// the axis of the world that a sample faces most, every cell has one point, by its number;
+/// whichever sample covers it there holds the scatterer. However a surface is cut into samples, it
+/// holds the same ones.
+void find_scatterers(std::span<const Sample> samples, const ScattererCells& cells,
+                     const SonarInScene& sonar, Scatterers& block,
+                     const std::function<void(const Scatterers&)>& use);
+
+/// The complex amplitudes of a block's echoes.
+struct Amplitudes {
+    PieceBlock::Array<float> re, im;
+};
+
+void draw_amplitudes(const Scatterers& block, const PointEchoes& echoes,
+                     const ScattererCells& cells, const SonarInScene& sonar, PhiloxKey key,
+                     Amplitudes& out);
+
+/// Multiplies the powers of echoes by the strength of the clutter where they come from.
+void add_clutter(const PieceBlock& pieces, const Clutter& clutter, const SonarInScene& sonar,
+                 PhiloxKey key, PointEchoes& echoes);
+
+}  // namespace sonarsim

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "calibrated/bottom.h"
+#include "calibrated/echo_grid.h"
+#include "calibrated/pieces.h"
+#include "scene/scene.h"
+
+namespace sonarsim {
+
+/// The power of two-way elevation patterns by the sine of the elevation, -1 to 1.
+struct ElevationPattern {
+    static constexpr int steps = 2048;
+    std::vector<float> power;  ///< steps + 2; empty: 1 all over
+};
+
+/// There and back it is that of a line array of half-power width `width_rad`, as where only the
+/// transmitter is directed in elevation; 0: the same all over.
+ElevationPattern elevation_pattern(double width_rad, double side_lobe_db);
+
+/// What a piece of surface sends back, and where it goes on the grid:
+///
+///     EL = SL + S(grazing angle) + 10 log A + D(elevation) - 40 log r - 2 alpha r    dB
+///
+/// as a ratio to the source level, so that SL is 0 here.
+struct SonarEquation {
+    float range_min_m = 0.0F;
+    float bin_m = 0.0F;
+    int rows = 0;
+    SineGrid grid;
+    float loss_per_m = 0.0F;  ///< power goes with e^-(loss r) by absorption there and back
+    ElevationPattern elevation;
+};
+
+/// The echoes of a block of pieces.
+struct PointEchoes {
+    int count = 0;  ///< of pieces, rounded up to whole vectors; echoes beyond have no power
+    PieceBlock::Array<float> range_m;
+    PieceBlock::Array<float> power;
+    PieceBlock::Array<float> row;     ///< in bins from the middle of the first one, -1 to rows
+    PieceBlock::Array<float> column;  ///< of the grid
+};
+
+/// Fills `echoes`. What lies outside the range or the grid has power 0; returns how many do.
+std::uint64_t find_echoes(const PieceBlock& pieces, std::span<const Backscatter> materials,
+                          const SonarEquation& equation, PointEchoes& echoes);
+
+/// Adds powers to the real parts of the grid, shared between the four places around each echo.
+void add_powers(const PointEchoes& echoes, EchoGrid& grid);
+
+/// Adds complex amplitudes likewise: `re`, `im` by echo.
+void add_amplitudes(const PointEchoes& echoes, const PieceBlock::Array<float>& re,
+                    const PieceBlock::Array<float>& im, EchoGrid& grid);
+
+}  // namespace sonarsim

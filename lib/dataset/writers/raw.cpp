@@ -1,0 +1,48 @@
+#include <algorithm>
+
+#include "calibrated/companding.h"
+#include "dataset/png.h"
+#include "dataset/writers/formats.h"
+
+namespace sonarsim {
+
+namespace {
+
+/// raw/NNNNNN.png: 8 or 16 bits [range, azimuth], what the instrument of the calibrated model
+/// delivers.
+class RawWriter final : public Writer {
+  public:
+    explicit RawWriter(const WriterContext& context)
+        : view_(context.sonar().settings.view),
+          receiver_(context.sonar().config.instrument.receiver) {}
+
+    WriterOutputs outputs() const override {
+        const int bytes = receiver_.bits > 8 ? 2 : 1;
+        return {
+            PingFile{"raw", ".png"}, png_bytes_at_most(view_.beams, view_.range_bins, bytes), {}};
+    }
+
+    std::string encode(const FinishedPing& finished) const override {
+        const Ping& ping = finished.ping;
+        const std::vector<std::uint16_t> values = companded(ping.intensity, receiver_);
+        if (receiver_.bits > 8) return png_bytes(values, ping.beams, ping.range_bins);
+        std::vector<std::uint8_t> bytes(values.size());
+        std::ranges::transform(values, bytes.begin(),
+                               [](std::uint16_t v) { return static_cast<std::uint8_t>(v); });
+        return png_bytes(bytes, ping.beams, ping.range_bins);
+    }
+
+  private:
+    const View& view_;
+    const ReceiverConfig& receiver_;
+};
+
+}  // namespace
+
+std::unique_ptr<Writer> make_raw_writer(const WriterContext& context) {
+    if (!context.mission.output.raw || !context.kind().has_images) return nullptr;
+    if (context.sonar().config.model != EchoModel::of_instrument) return nullptr;
+    return std::make_unique<RawWriter>(context);
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <array>
+
+namespace sonarsim {
+
+// The instrument that `model: calibrated` simulates, with its defaults. Names are the YAML keys.
+
+/// Which of the two models makes an image of what a sonar saw, docs/model.md and
+/// docs/calibrated.md.
+enum class EchoModel { of_paper, of_instrument };
+
+/// How the beams of a fan are spread.
+enum class BeamSpread { angle, sine };
+
+enum class SpeckleMode {
+    scene,  ///< of scatterers that stay where they are
+    ping,   ///< drawn anew for every ping
+    none    ///< the expected energy
+};
+
+enum class Companding { gamma, log, linear };
+
+struct BeamConfig {
+    double width_deg = 1.0;       ///< between the half-power points of the receiving array
+    double side_lobe_db = -13.3;  ///< its highest side lobe; sets the taper
+    /// Errors of phase at the ends of the aperture: quadratic, cubic, quartic.
+    std::array<double, 3> aberration_rad{};
+    BeamSpread spread = BeamSpread::angle;
+    double elevation_width_deg = 0.0;  ///< half-power, there and back; 0: the same all over
+    double elevation_side_lobe_db = -13.3;
+
+    bool operator==(const BeamConfig&) const = default;
+};
+
+struct PulseConfig {
+    double resolution_m = 0.0;    ///< half-power width of a point's echo in range; 0: one bin
+    double side_lobe_db = -30.0;  ///< of the pulse after compression
+
+    bool operator==(const PulseConfig&) const = default;
+};
+
+struct SpeckleConfig {
+    SpeckleMode mode = SpeckleMode::scene;
+    double per_cell = 4.0;       ///< scatterers per resolution cell
+    double clutter_shape = 0.0;  ///< nu of the K-distribution; 0: Rayleigh
+    double clutter_m = 0.1;      ///< edge of the cells that share one strength
+
+    bool operator==(const SpeckleConfig&) const = default;
+};
+
+struct ReceiverConfig {
+    double noise_db = -100.0;        ///< power in a beam
+    double common_mode_db = -300.0;  ///< power of the noise that all elements share
+    double tvg_log = 40.0;           ///< k of k log10 r
+    bool tvg_absorption = true;      ///< 2 alpha r
+    double full_scale_db = 0.0;      ///< echo level after TVG that the receiver just does not clip
+    Companding companding = Companding::gamma;
+    double gamma = 0.5;            ///< value = (amplitude / full scale)^gamma
+    double dynamic_range_db = 60;  ///< of `log`
+    int bits = 8;
+
+    bool operator==(const ReceiverConfig&) const = default;
+};
+
+struct InstrumentConfig {
+    double frequency_hz = 1e6;
+    double source_level_db = 0.0;
+    BeamConfig beam;
+    PulseConfig pulse;
+    SpeckleConfig speckle;
+    ReceiverConfig receiver;
+
+    bool operator==(const InstrumentConfig&) const = default;
+};
+
+}  // namespace sonarsim

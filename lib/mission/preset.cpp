@@ -1,0 +1,62 @@
+#include "mission/preset.h"
+
+#include <algorithm>
+
+#include "core/file.h"
+
+namespace sonarsim {
+
+namespace {
+
+constexpr std::size_t largest_preset = std::size_t{1} << 20;
+
+constexpr const char* preset_key = "preset";
+
+/// Adds the keys of `preset` that `section` lacks.
+void fill_in(YamlNode& section, const YamlNode& preset) {
+    for (const YamlNode& item : preset.items) {
+        YamlNode* const own = section.find(item.key);
+        if (own == nullptr) {
+            section.items.push_back(item);
+        } else if (own->kind == YamlNode::Kind::map && item.kind == YamlNode::Kind::map) {
+            fill_in(*own, item);
+        }
+    }
+}
+
+YamlNode read_preset(const YamlNode& name, const std::filesystem::path& base_folder) {
+    if (name.kind != YamlNode::Kind::scalar || name.text.empty()) {
+        throw InputError(name.place.location(), "'preset' must be the path of a YAML file");
+    }
+    const auto path = std::filesystem::absolute(base_folder / name.text).lexically_normal();
+    if (!std::filesystem::is_regular_file(path)) {
+        throw InputError(name.place.location(), "there is no preset " + in_quotes(path.string()));
+    }
+    YamlNode preset = read_document(read_file(path, largest_preset), path.string());
+    if (preset.kind != YamlNode::Kind::map) {
+        throw InputError(Location{path.string()}, "a preset is a section of keys");
+    }
+    if (const YamlNode* const nested = preset.find(preset_key)) {
+        throw InputError(nested->key_place.location(), "a preset cannot name a preset");
+    }
+    return preset;
+}
+
+}  // namespace
+
+void fill_in_presets(YamlNode& mission, const std::filesystem::path& base_folder) {
+    YamlNode* const sensors =
+        mission.kind == YamlNode::Kind::map ? mission.find("sensors") : nullptr;
+    if (sensors == nullptr || sensors->kind != YamlNode::Kind::map) return;
+    for (YamlNode& sensor : sensors->items) {
+        if (sensor.kind != YamlNode::Kind::map) continue;
+        const YamlNode* const name = sensor.find(preset_key);
+        if (name == nullptr) continue;
+        const YamlNode preset = read_preset(*name, base_folder);
+        std::erase_if(sensor.items, [](const YamlNode& item) { return item.key == preset_key; });
+        sensor.implied = false;
+        fill_in(sensor, preset);
+    }
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,69 @@
+#include "calibrated/line_array.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+
+#include "calibrated/decibel.h"
+#include "calibrated/range_response.h"
+#include "core/units.h"
+
+using namespace sonarsim;
+
+TEST_SUITE("calibrated") {
+    TEST_CASE("line array: width and side lobe are those asked for") {
+        for (const double width_deg : {0.4, 1.0, 3.0}) {
+            for (const double side_lobe_db : {-13.3, -20.0, -30.0, -40.0}) {
+                const LineArray array = line_array(radians(width_deg), side_lobe_db);
+                const double half = line_pattern(array, std::sin(radians(0.5 * width_deg)));
+                CHECK(std::fabs(half * half - 0.5) < 1e-6);
+                double highest = 0.0;
+                bool past_null = false;
+                for (double t = 0.0; t < 8.0; t += 0.001) {
+                    const double level = line_pattern(array, t / array.wavelengths);
+                    past_null = past_null || level <= 0.0;
+                    if (past_null) highest = std::max(highest, level * level);
+                }
+                CHECK(std::fabs(db_of_power(highest) - side_lobe_db) < 0.1);
+            }
+        }
+    }
+
+    TEST_CASE("line array: a uniform aperture of L wavelengths is 0.886 / L wide") {
+        CHECK(std::fabs(line_array(0.01, -13.3).wavelengths * 0.01 / 0.8859 - 1.0) < 1e-3);
+    }
+
+    TEST_CASE("line array: the pattern is the transform of the weight") {
+        const LineArray array = line_array(radians(1.0), -25.0);
+        for (const double u : {0.0, 0.003, 0.011, 0.05}) {
+            std::complex<double> sum = 0.0;
+            constexpr int n = 20000;
+            for (int k = 0; k < n; ++k) {
+                const double x = (k + 0.5) / n - 0.5;
+                sum += array.weight(x) * std::polar(1.0 / n, 2.0 * pi * x * array.wavelengths * u);
+            }
+            CHECK(std::fabs(sum.real() - line_pattern(array, u)) < 1e-6);
+            CHECK(std::fabs(sum.imag()) < 1e-9);
+        }
+    }
+
+    TEST_CASE("pulse: what the taps make of a point is as wide as asked for, and 1 at its middle") {
+        for (const double width : {2.0, 3.0, 5.0}) {
+            const RangeTaps taps = range_taps(width, -30.0, false);
+            // The linear spline through the taps.
+            const auto at = [&](double x) {
+                const double from = x + taps.reach;
+                const auto k = static_cast<std::size_t>(from);
+                const double part = from - std::floor(from);
+                return taps.taps[k] * (1.0 - part) + taps.taps[k + 1] * part;
+            };
+            double half = 0.0;
+            while (at(half) * at(half) > 0.5 * at(0.0) * at(0.0))
+                half += 1e-3;
+            CHECK(std::fabs(2.0 * half / width - 1.0) < 0.08);
+            CHECK(std::fabs(at(0.0) - 1.0) < 0.1);
+        }
+    }
+}

@@ -1,0 +1,161 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <complex>
+#include <vector>
+
+#include "calibrated/beamformer.h"
+#include "calibrated/bottom.h"
+#include "calibrated/companding.h"
+#include "calibrated/decibel.h"
+#include "calibrated/scatterers.h"
+#include "core/units.h"
+
+using namespace sonarsim;
+
+TEST_SUITE("calibrated") {
+    TEST_CASE("bottom: Lambert's rule away from normal incidence, facets near it") {
+        const Backscatter sand = backscatter(-27.0, 0.1, std::tan(radians(10.0)));
+        // At 30 degrees of grazing, tan^2 of incidence 3: the facets are gone.
+        CHECK(std::fabs(sand.at(0.5F) / (std::pow(10.0, -2.7) * 0.25) - 1.0) < 1e-4);
+        const double s2 = std::tan(radians(10.0)) * std::tan(radians(10.0));
+        CHECK(std::fabs(sand.at(1.0F) / (std::pow(10.0, -2.7) + 0.1 / (8.0 * pi * s2)) - 1.0) <
+              1e-5);
+    }
+
+    TEST_CASE("bottom: facets send back what they reflect") {
+        // Facets of slopes p(sx, sy) dsx dsy reflect R of what meets them into 4 cos(theta) times
+        // the solid angle of their normals; backscattered from all directions that is, for small
+        // slopes, the integral over directions of sigma = R / 4.
+        const Backscatter smooth = backscatter(-200.0, 0.36, std::tan(radians(3.0)));
+        double sum = 0.0;
+        constexpr double step = 1e-4;
+        for (double theta = 0.5 * step; theta < 0.5; theta += step)
+            sum +=
+                smooth.at(static_cast<float>(std::cos(theta))) * 2.0 * pi * std::sin(theta) * step;
+        CHECK(std::fabs(sum / (0.36 / 4.0) - 1.0) < 0.03);
+    }
+
+    TEST_CASE("bottom: fading is e^-x") {
+        for (float x = 0.0F; x < 40.0F; x += 0.037F)
+            CHECK(std::fabs(fading(x) / std::exp(-static_cast<double>(x)) - 1.0) < 1e-5);
+    }
+
+    TEST_CASE("decibels, there and back") {
+        CHECK(std::fabs(power_of_db(3.0) / std::pow(10.0, 0.3) - 1.0) < 1e-13);
+        CHECK(std::fabs(db_of_power(power_of_db(-87.5)) + 87.5) < 1e-11);
+    }
+
+    TEST_CASE("fourier: the definition, and there and back") {
+        for (const int size : {2, 8, 32, 64}) {
+            const Fourier fourier(size);
+            std::vector<ComplexLanes> data(size), scratch(size);
+            for (int n = 0; n < size; ++n) {
+                for (int lane = 0; lane < lanes_at_once; ++lane) {
+                    data[n].re[lane] = static_cast<float>(std::sin(1.7 * n + lane));
+                    data[n].im[lane] = static_cast<float>(std::cos(0.3 * n * n - lane));
+                }
+            }
+            const std::vector<ComplexLanes> before = data;
+            fourier.forward(data.data(), scratch.data());
+            for (int k = 0; k < size; ++k) {
+                std::complex<double> sum = 0.0;
+                for (int n = 0; n < size; ++n) {
+                    sum += std::complex<double>(before[n].re[3], before[n].im[3]) *
+                           std::polar(1.0, -2.0 * pi * k * n / size);
+                }
+                CHECK(std::abs(sum - std::complex<double>(data[k].re[3], data[k].im[3])) < 2e-5);
+            }
+            fourier.backward(data.data(), scratch.data());
+            for (int n = 0; n < size; ++n)
+                CHECK(std::fabs(data[n].re[5] / static_cast<float>(size) - before[n].re[5]) < 1e-5);
+        }
+    }
+
+    TEST_CASE("beams: a point is the pattern, of amplitudes and of powers") {
+        const LineArray array = line_array(radians(1.0), -25.0);
+        std::vector<double> sines;
+        for (int j = 0; j < 101; ++j)
+            sines.push_back(std::sin(radians(0.3 * (j - 50))));
+        for (const bool powers : {false, true}) {
+            const Beamformer beams(array, sines, powers);
+            EchoGrid grid(8, beams.grid().columns);
+            const int column = beams.grid().columns / 2;
+            grid.column(column)[2 * 2] = 1.0F;
+            Beamformer::Scratch scratch(beams);
+            std::vector<Lanes> out(beams.beams());
+            beams.form(&grid, 0, {}, {}, scratch, out.data());
+            const double at = beams.grid().first + column * beams.grid().step;
+            for (int j = 0; j < beams.beams(); ++j) {
+                const double b = line_pattern(array, sines[j] - at);
+                CHECK(std::fabs(out[j][2] - b * b) < 0.06);
+                CHECK(std::fabs(out[j][5]) < 1e-9);
+            }
+        }
+    }
+
+    TEST_CASE("beams: noise has the power asked for and the correlation of the aperture") {
+        // A uniform aperture: the beams' complex amplitudes are correlated by sinc(u L), their
+        // powers by its square.
+        const LineArray array = line_array(radians(0.4), -13.3);
+        std::vector<double> sines;
+        for (int j = 0; j < 256; ++j)
+            sines.push_back((j - 127.5) / 255.0);
+        const Beamformer beams(array, sines, false);
+        Beamformer::Scratch scratch(beams);
+        std::vector<Lanes> out(beams.beams());
+        const ElementNoise noise{.element_sigma = beams.element_sigma_of_unit()};
+        double sum = 0.0;
+        double squares = 0.0;
+        double products = 0.0;
+        double count = 0.0;
+        for (int row = 0; row < 2000; row += lanes_at_once) {
+            beams.form(nullptr, row, noise, {5, 6}, scratch, out.data());
+            for (int j = 20; j < 235; ++j) {
+                for (int lane = 0; lane < lanes_at_once; ++lane) {
+                    const double p = out[j][lane];
+                    sum += p;
+                    squares += p * p;
+                    products += p * out[j + 1][lane];
+                    count += 1.0;
+                }
+            }
+        }
+        const double mean = sum / count;
+        const double variance = squares / count - mean * mean;
+        CHECK(std::fabs(mean - 1.0) < 0.01);
+        CHECK(std::fabs(variance - 1.0) < 0.03);
+        const double t = array.wavelengths / 255.0;
+        const double sinc = std::sin(pi * t) / (pi * t);
+        CHECK(std::fabs((products / count - mean * mean) / variance - sinc * sinc) < 0.02);
+    }
+
+    TEST_CASE("clutter: gamma-distributed, mean 1 and variance 1 / nu") {
+        for (const double shape : {0.5, 1.0, 4.0, 20.0}) {
+            double mean = 0.0;
+            double squares = 0.0;
+            const Clutter clutter = gamma_clutter(shape, 1.0);
+            for (const float s : clutter.strength) {
+                mean += s / Clutter::steps;
+                squares += static_cast<double>(s) * s / Clutter::steps;
+            }
+            CHECK(std::fabs(mean - 1.0) < 1e-5);
+            // Quantiles leave out the ends.
+            CHECK(std::fabs((squares - 1.0) * shape - 1.0) < 0.03);
+        }
+        // nu = 1 is exponential: the median is ln 2.
+        CHECK(std::fabs(gamma_clutter(1.0, 1.0).strength[512] - std::log(2.0)) < 2e-3);
+    }
+
+    TEST_CASE("companding: the laws at a quarter of the amplitude") {
+        const std::vector<float> powers{0.0F, 0.0625F, 1.0F, 7.0F};
+        ReceiverConfig receiver;
+        CHECK(companded(powers, receiver) == std::vector<std::uint16_t>{0, 128, 255, 255});
+        receiver.companding = Companding::linear;
+        CHECK(companded(powers, receiver) == std::vector<std::uint16_t>{0, 64, 255, 255});
+        receiver.companding = Companding::log;
+        receiver.bits = 12;
+        // 1 - 12.041 / 60 of 4095.
+        CHECK(companded(powers, receiver) == std::vector<std::uint16_t>{0, 3273, 4095, 4095});
+    }
+}
