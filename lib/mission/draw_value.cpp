@@ -19,15 +19,6 @@ std::array<double, 2> unit_pair(PhiloxKey key, std::uint32_t attempt) {
     return {unit_double(block.x0, block.x1), unit_double(block.x2, block.x3)};
 }
 
-/// The natural logarithm of a number between 1e-18 and 1e18, to within rounding: that in float,
-/// then Newton's steps on e^y = x. A library's differs between machines.
-double logarithm(double x) {
-    double y = natural_log(static_cast<float>(x));
-    for (int step = 0; step < 3; ++step)
-        y += x * exponential(-y) - 1.0;
-    return y;
-}
-
 double part_of(const std::array<double, 2>& range, double share) {
     return range[0] + share * (range[1] - range[0]);
 }
