@@ -214,13 +214,13 @@ struct OutputConfig {
     std::filesystem::path folder;
     bool polar = true;        ///< float32 .npy
     bool image = true;        ///< 16-bit polar PNG
-    bool raw = true;          ///< of the calibrated model: PNG of what the instrument delivers
     bool fan = true;          ///< 8-bit Cartesian PNG
     bool meta = true;         ///< JSON per ping
     bool stages = false;      ///< 8-bit PNG of five fans, one term of the model after the other
     int fan_width_px = 0;     ///< 0: one pixel per range bin, at most 1024
     double full_scale = 1.0;  ///< intensity that becomes white
     std::vector<Label> labels = {};  ///< each at most once, in the order of the enumeration
+    bool raw = true;  ///< of the calibrated model: PNG of what the instrument delivers
 
     // What is made of all pings of a sonar together.
     bool waterfall = true;           ///< of side-scan
