@@ -26,9 +26,9 @@ EchoGrid::EchoGrid(int rows, int columns)
 
 std::size_t EchoGrid::smear(const RangeTaps& taps) {
     const std::size_t length = 2 * static_cast<std::size_t>(rows_);
-    const std::size_t margin = 2 * static_cast<std::size_t>(taps.reach);
-    std::vector<float> padded(length + 2 * margin);
-    float* const middle = padded.data() + margin;
+    const std::size_t beside = 2 * static_cast<std::size_t>(taps.reach);
+    std::vector<float> padded(length + 2 * beside);
+    float* const middle = padded.data() + beside;
     std::size_t lit = 0;
     for (int c = 0; c < columns_; ++c) {
         float* const __restrict values = column(c);

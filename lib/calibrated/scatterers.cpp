@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "calibrated/decibel.h"
-
 namespace sonarsim {
 
 namespace {
@@ -193,37 +191,6 @@ void add_cells(const Projected& p, const ScattererCells& cells, Collector& colle
     }
 }
 
-/// The regularised lower incomplete gamma function P(a, x), by its series or its continued fraction
-/// (e.g. Abramowitz and Stegun 6.5.29 and 6.5.31). `log_gamma` is ln Gamma(a).
-double gamma_probability(double a, double x, double log_gamma) {
-    if (x <= 0.0) return 0.0;
-    const double factor = exponential(a * logarithm(x) - x - log_gamma);
-    if (x < a + 1.0) {
-        double term = 1.0 / a;
-        double sum = term;
-        for (int n = 1; n < 500; ++n) {
-            term *= x / (a + n);
-            sum += term;
-        }
-        return factor * sum;
-    }
-    double tail = 0.0;
-    for (int n = 200; n >= 1; --n)
-        tail = n * (n - a) / (x + 2.0 * n + 1.0 - a - tail);
-    return 1.0 - factor / (x + 1.0 - a - tail);
-}
-
-/// ln Gamma(a) of a > 0, by Stirling's series at a + 10.
-double log_gamma(double a) {
-    double product = 1.0;
-    for (int n = 0; n < 10; ++n)
-        product *= a + n;
-    const double b = a + 10.0;
-    const double series =
-        1.0 / (12.0 * b) - 1.0 / (360.0 * b * b * b) + 1.0 / (1260.0 * b * b * b * b * b);
-    return (b - 0.5) * logarithm(b) - b + 0.5 * logarithm(2.0 * pi) + series - logarithm(product);
-}
-
 }  // namespace
 
 ScattererCells scatterer_cells(double per_cell, double resolution_m, double width_rad,
@@ -241,29 +208,6 @@ ScattererCells scatterer_cells(double per_cell, double resolution_m, double widt
     out.least_edge_m = static_cast<float>(edge);
     out.edge_per_root_range = static_cast<float>(per_root_range);
     out.turns_per_m = 2.0 / wavelength_m;
-    return out;
-}
-
-Clutter gamma_clutter(double shape, double edge_m) {
-    Clutter out;
-    if (shape <= 0.0) return out;
-    out.edge_m = static_cast<float>(edge_m);
-    const double log_gamma_of_shape = log_gamma(shape);
-    double mean = 0.0;
-    for (int k = 0; k < Clutter::steps; ++k) {
-        const double probability = (k + 0.5) / Clutter::steps;
-        double low = 0.0;
-        double high = shape + 40.0 * std::sqrt(shape) + 40.0;
-        for (int n = 0; n < 60; ++n) {
-            const double middle = 0.5 * (low + high);
-            const bool below = gamma_probability(shape, middle, log_gamma_of_shape) < probability;
-            (below ? low : high) = middle;
-        }
-        out.strength.push_back(static_cast<float>(low));
-        mean += low / Clutter::steps;
-    }
-    for (float& strength : out.strength)
-        strength = static_cast<float>(strength / mean);
     return out;
 }
 

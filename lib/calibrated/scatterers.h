@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <functional>
 #include <span>
-#include <vector>
 
+#include "calibrated/clutter.h"
 #include "calibrated/sonar_equation.h"
 #include "core/pose.h"
 #include "core/random.h"
@@ -31,17 +31,6 @@ struct ScattererCells {
 /// across, but no larger than the resolution in range.
 ScattererCells scatterer_cells(double per_cell, double resolution_m, double width_rad,
                                double range_min_m, double wavelength_m);
-
-/// Strengths of K-distributed clutter: gamma-distributed with shape nu and mean 1, by cells of the
-/// scene larger than the resolution.
-struct Clutter {
-    static constexpr int steps = 1024;
-    float edge_m = 0.0F;
-    std::vector<float> strength;  ///< [steps] quantiles; empty: 1 everywhere
-};
-
-/// nu = 0 has none.
-Clutter gamma_clutter(double shape, double edge_m);
 
 /// Where the sonar is among the cells.
 struct SonarInScene {

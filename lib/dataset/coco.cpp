@@ -34,8 +34,8 @@ std::optional<PingFile> file_named(const SensorLayout& sensor, std::string_view 
 
 /// Nothing for a sensor without such pictures.
 std::optional<PictureSeries> series_of(const SensorLayout& sensor, const Json& described,
-                                       Picture picture) {
-    const bool is_fan = picture == Picture::fan;
+                                       CocoPicture picture) {
+    const bool is_fan = picture == CocoPicture::fan;
     auto shown = file_named(sensor, is_fan ? "fan" : "image");
     if (!shown && !is_fan) shown = file_named(sensor, "polar");
     const auto objects = file_named(sensor, "objects");
@@ -53,9 +53,9 @@ std::optional<PictureSeries> series_of(const SensorLayout& sensor, const Json& d
 
 /// What the picture shows of an object; nothing where it shows nothing.
 std::optional<CocoAnnotation> annotation_of(const Json& object, const PictureSeries& series,
-                                            Picture picture, std::uint64_t image_id,
+                                            CocoPicture picture, std::uint64_t image_id,
                                             const Json& class_ids) {
-    const bool is_fan = picture == Picture::fan;
+    const bool is_fan = picture == CocoPicture::fan;
     const Json& shown = is_fan ? object.at("fan") : object;
     if (shown.is_null()) return std::nullopt;
     const Json& box = shown.at(is_fan ? "box_px" : "box_bins");
@@ -96,7 +96,7 @@ void write_coco(const Layout& layout, const Json& description, const SharedProdu
                 for (std::uint32_t i = 0; i < layout.sensors.size(); ++i) {
                     if (pose % layout.sensors[i].every != 0) continue;
                     const std::uint64_t id =
-                        2 * ++index - 1 + (product.picture == Picture::fan ? 1 : 0);
+                        2 * ++index - 1 + (product.picture == CocoPicture::fan ? 1 : 0);
                     const bool listed =
                         product.part == SplitPart::none || product.part == part_of_pose[pose];
                     if (listed && series[i]) visit({pose, i}, *series[i], id);

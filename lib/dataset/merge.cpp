@@ -83,7 +83,8 @@ MergeContext read_context(const fs::path& part, const CommonFiles& common, const
     context.mission.output.folder = fs::absolute(out).lexically_normal();
     context.assembly.trajectory = parse_tum(common.trajectory, (part / trajectory_name).string());
     for (const SonarConfig& sensor : context.mission.sensors)
-        context.assembly.sonars.push_back(make_sonar(sensor, context.mission.accuracy, context.mission.water));
+        context.assembly.sonars.push_back(
+            make_sonar(sensor, context.mission.accuracy, context.mission.water));
     return context;
 }
 

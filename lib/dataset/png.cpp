@@ -15,7 +15,7 @@ namespace sonarsim {
 
 namespace {
 
-using Bytes = std::vector<std::uint8_t>;
+using PngRows = std::vector<std::uint8_t>;
 
 void add_number(std::string& out, std::uint32_t value) {
     for (int shift = 24; shift >= 0; shift -= 8)
@@ -37,7 +37,7 @@ void check_size(std::size_t values, int width, int height, int channels) {
 }
 
 /// `rows`: each with its filter in front.
-std::string encode(const Bytes& rows, int width, int height, int channels, int bits,
+std::string encode(const PngRows& rows, int width, int height, int channels, int bits,
                    Packing packing) {
     std::string header;
     add_number(header, static_cast<std::uint32_t>(width));
@@ -65,7 +65,7 @@ std::string png_bytes(std::span<const std::uint8_t> pixels, int width, int heigh
     check_size(pixels.size(), width, height, channels);
     // Neighbours in a fan resemble each other: what is packed is how they differ.
     const std::size_t row = static_cast<std::size_t>(width) * channels;
-    Bytes rows(height * (row + 1));
+    PngRows rows(height * (row + 1));
     const std::uint8_t* from = pixels.data();
     std::uint8_t* to = rows.data();
     for (int y = 0; y < height; ++y, from += row) {
@@ -82,7 +82,7 @@ std::string png_bytes(std::span<const std::uint16_t> pixels, int width, int heig
     // 16 bits of noise are not worth packing, a mostly black image is.
     const bool dark = 2 * std::ranges::count(pixels, 0) > std::ssize(pixels);
     const auto row = static_cast<std::size_t>(width);
-    Bytes rows(height * (2 * row + 1));
+    PngRows rows(height * (2 * row + 1));
     const std::uint16_t* from = pixels.data();
     std::uint8_t* to = rows.data();
     for (int y = 0; y < height; ++y, from += row, to += 2 * row) {

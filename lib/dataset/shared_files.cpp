@@ -41,7 +41,7 @@ void write_shared_products(const Layout& layout, const Mission& mission,
     for (const SharedProduct& product : shared_products(mission)) {
         switch (product.kind) {
             case SharedProduct::Kind::coco:
-                if (product.picture == Picture::record) {
+                if (product.picture == CocoPicture::record) {
                     write_record_coco(layout, description, product);
                 } else {
                     write_coco(layout, description, product, part_of_pose);

@@ -11,16 +11,16 @@ namespace sonarsim {
 
 namespace {
 
-bool has_pictures(const Mission& mission, Picture picture) {
+bool has_pictures(const Mission& mission, CocoPicture picture) {
     const OutputConfig& output = mission.output;
-    if (picture == Picture::record) {
+    if (picture == CocoPicture::record) {
         return std::ranges::any_of(mission.sensors, [&](const SonarConfig& sensor) {
             const RecordKind record = kind_of(sensor.kind).record;
             return (record == RecordKind::waterfall && output.waterfall) ||
                    (record == RecordKind::echogram && output.echogram);
         });
     }
-    const bool written = picture == Picture::fan ? output.fan : output.image || output.polar;
+    const bool written = picture == CocoPicture::fan ? output.fan : output.image || output.polar;
     return written && std::ranges::any_of(mission.sensors, [](const SonarConfig& sensor) {
                return kind_of(sensor.kind).has_images;
            });
@@ -30,12 +30,12 @@ std::string part_name(SplitPart part) {
     return std::string(split_part_names[static_cast<std::size_t>(part)]);
 }
 
-void add_coco(const Mission& mission, Picture picture, std::vector<SharedProduct>& products) {
+void add_coco(const Mission& mission, CocoPicture picture, std::vector<SharedProduct>& products) {
     if (!has_pictures(mission, picture)) return;
     const char* const stems[] = {"labels/coco", "labels/coco_fan", "labels/coco_records"};
     const std::string stem = stems[static_cast<std::size_t>(picture)];
     products.push_back({SharedProduct::Kind::coco, stem + ".json", picture, SplitPart::none});
-    if (picture == Picture::record) return;  // pictures of the whole trajectory
+    if (picture == CocoPicture::record) return;  // pictures of the whole trajectory
     for (const SplitPart part : parts_of(mission.output.split)) {
         products.push_back(
             {SharedProduct::Kind::coco, stem + "_" + part_name(part) + ".json", picture, part});
@@ -56,9 +56,9 @@ std::vector<SharedProduct> shared_products(const Mission& mission) {
             {SharedProduct::Kind::split, "split/" + part_name(part) + ".txt", {}, part});
     }
     if (is_asked(mission, Label::coco)) {
-        add_coco(mission, Picture::polar, products);
-        add_coco(mission, Picture::fan, products);
-        add_coco(mission, Picture::record, products);
+        add_coco(mission, CocoPicture::polar, products);
+        add_coco(mission, CocoPicture::fan, products);
+        add_coco(mission, CocoPicture::record, products);
     }
     if (is_asked(mission, Label::yolo) || is_asked(mission, Label::yolo_polygons)) {
         products.push_back({SharedProduct::Kind::class_names, "labels/classes.txt"});
@@ -75,14 +75,14 @@ void check_shared_products(const Mission& mission, std::size_t poses) {
         bool met;
         const char* cure;
     };
-    const bool polar = has_pictures(mission, Picture::polar);
-    const bool fan = has_pictures(mission, Picture::fan);
+    const bool polar = has_pictures(mission, CocoPicture::polar);
+    const bool fan = has_pictures(mission, CocoPicture::fan);
     const bool imaging = std::ranges::any_of(
         mission.sensors, [](const SonarConfig& sensor) { return kind_of(sensor.kind).has_images; });
     const std::array needs{
         Need{Label::fan, "fan", fan, "output.fan: true"},
         Need{Label::semantic, "semantic", imaging, ""},
-        Need{Label::coco, "coco", polar || fan || has_pictures(mission, Picture::record),
+        Need{Label::coco, "coco", polar || fan || has_pictures(mission, CocoPicture::record),
              "output.image, polar or fan: true"},
         Need{Label::yolo, "yolo", imaging, ""},
         Need{Label::yolo_polygons, "yolo_polygons", imaging, ""},

@@ -10,7 +10,7 @@
 namespace sonarsim {
 
 /// The pictures of pings that COCO files list.
-enum class Picture {
+enum class CocoPicture {
     polar,
     fan,
     record,  ///< of all pings of a sensor: waterfalls and echograms
@@ -21,7 +21,7 @@ struct SharedProduct {
     enum class Kind { coco, class_names, split };
     Kind kind;
     std::string file;                  ///< relative to the folder of the dataset
-    Picture picture = {};              ///< of a COCO file
+    CocoPicture picture = {};          ///< of a COCO file
     SplitPart part = SplitPart::none;  ///< that it lists; none: all poses
 };
 

@@ -184,7 +184,6 @@ struct OutputConfig {
     std::filesystem::path folder;
     bool polar = true;        ///< float32 .npy
     bool image = false;       ///< 16-bit polar PNG
-    bool raw = true;          ///< of the calibrated model: PNG of what the instrument delivers
     bool fan = true;          ///< 8-bit Cartesian PNG
     bool meta = true;         ///< JSON per ping
     bool stages = false;      ///< 8-bit PNG of five fans, one term of the model after the other
@@ -195,6 +194,7 @@ struct OutputConfig {
     SplitConfig split = {};
     Pack pack = Pack::none;
     double pack_size_mb = 256.0;  ///< at most; a megabyte is a million bytes
+    bool raw = true;  ///< of the calibrated model: PNG of what the instrument delivers
 
     // What is made of all pings of a sonar together.
     bool waterfall = true;           ///< of side-scan

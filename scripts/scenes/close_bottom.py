@@ -6,7 +6,7 @@ from .noise import Draws, Relief
 from .shapes import add_sphere
 
 CELL_M = 0.008
-PARTICLES = 12
+PARTICLES = 20
 
 
 def material_at(x, y):
@@ -18,7 +18,7 @@ def material_at(x, y):
     if 1.36 < distance < 1.42:
         return "sand"
     bend = (azimuth / 30) ** 2
-    return "gravel" if 0.45 + 0.32 * bend < distance < 1.03 - 0.06 * bend else "mud"
+    return "gravel" if 0.45 + 0.305 * bend < distance < 1.03 - 0.06 * bend else "mud"
 
 
 def build():

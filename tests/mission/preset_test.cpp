@@ -71,8 +71,8 @@ TEST_CASE("each model has its own keys") {
 }
 
 TEST_CASE("the speed of sound follows from the water where it is left to it") {
-    const Mission mission =
-        parse(smallest_mission + "water: {sound_speed_m_s: auto, temperature_c: 25, depth_m: 1000}\n");
+    const Mission mission = parse(
+        smallest_mission + "water: {sound_speed_m_s: auto, temperature_c: 25, depth_m: 1000}\n");
     CHECK(mission.water.sound_speed_m_s == doctest::Approx(1550.744).epsilon(1e-6));
 }
 
