@@ -44,7 +44,7 @@ void ImageFile::finish() {
     whole_.keep();
 }
 
-void write_picture(const std::filesystem::path& path, CocoPicture picture) {
+void write_picture(const std::filesystem::path& path, Picture picture) {
     ImageFile file(path, picture.width, picture.height, PixelKind::rgb8);
     for (int y = 0; y < picture.height; ++y)
         file.row(std::span<const Rgb>(picture.row(y), picture.width));

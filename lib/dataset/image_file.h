@@ -43,6 +43,6 @@ class ImageFile {
 };
 
 /// A whole picture as a PNG file.
-void write_picture(const std::filesystem::path& path, CocoPicture picture);
+void write_picture(const std::filesystem::path& path, Picture picture);
 
 }  // namespace sonarsim
