@@ -31,6 +31,8 @@ FORMAT_VERSION = 3
 TAR_BLOCK = 512
 # Of packs, how many lists of members are kept.
 OPEN_PACKS = 8
+# Bits and colour type of the PNG files of pings: 0 is grey, 2 RGB, 3 a colour table.
+PNG_KINDS = ((8, 0), (16, 0), (8, 2), (16, 2), (8, 3))
 
 
 def open_dataset(folder):
@@ -134,7 +136,7 @@ class Sensor:
             return file.read(size)
 
     def read(self, index, name):
-        """What a ping's file or record of this name holds: an array, or of JSON a dict."""
+        """What a ping's file or record of this name holds: an array, of JSON a dict, of text a str."""
         if name in self._records:
             records = self.records(name)
             return records[:, index] if self.axes(name)[-1] == "ping" else records[index]
@@ -254,7 +256,8 @@ def tar_members(path):
 
 
 def read_png(data):
-    """A grey or RGB PNG of 8 or 16 bits that is not interlaced, as [row, column] or [row, column, 3].
+    """A grey or RGB PNG of 8 or 16 bits, or one with a colour table of 8 bits, that is not interlaced,
+    as [row, column] or [row, column, 3]; with a colour table the numbers of the colours, which are ids.
     ValueError for any other."""
     if data[:8] != b"\x89PNG\r\n\x1a\n":
         raise ValueError("is no PNG")
@@ -268,7 +271,7 @@ def read_png(data):
             packed += chunk
         at += size + 12
     width, height, bits, colour, _, _, interlaced = header
-    if bits not in (8, 16) or colour not in (0, 2) or interlaced:
+    if (bits, colour) not in PNG_KINDS or interlaced:
         raise ValueError("is a PNG of a kind that sonarsim does not write")
     channels = 3 if colour == 2 else 1
     pixel = channels * bits // 8
@@ -292,7 +295,8 @@ def unfiltered(filters, rows):
     return out
 
 
-DECODERS = {".npy": lambda data: np.load(io.BytesIO(data)), ".png": read_png, ".json": json.loads}
+DECODERS = {".npy": lambda data: np.load(io.BytesIO(data)), ".png": read_png, ".json": json.loads,
+            ".txt": bytes.decode}
 
 
 def main(folder):
@@ -303,7 +307,8 @@ def main(folder):
               f"{', packed' if sensor.description.get('packs') else ''}")
         for name, value in (sensor[0].items() if len(sensor) else ()):
             is_array = isinstance(value, np.ndarray)
-            print(f"    {name:<16}", f"{value.dtype} {list(value.shape)}" if is_array else "JSON")
+            other = "text" if isinstance(value, str) else "JSON"
+            print(f"    {name:<16}", f"{value.dtype} {list(value.shape)}" if is_array else other)
     for what in ("instances", "classes"):
         if getattr(dataset, what):
             print(f"{what}:", ", ".join(f"{k} {v}" for k, v in getattr(dataset, what).items()))

@@ -87,10 +87,12 @@ $(filter-out $(done),$(targets)): again
 
 cell = $(if $(findstring $(comma),$(1)),"$(1)",$(1))
 row = $(subst $(space),$(comma),$(foreach a,$(axes),$(call cell,$(call value_of,$(1),$(a)))))
-whole = $(filter $(are_done),$(OUT)/$(call folder,$(1))/dataset.json)
+whole = $(filter $(finished),$(OUT)/$(call folder,$(1))/dataset.json)
+# The points of this grid that failed; OUT/failed/ may have notes of earlier grids as well.
+failed = $(foreach f,$(folders),$(if $(wildcard $(OUT)/failed/$(f).txt),$(f)))
 
 $(OUT)/index.csv: $(targets) again
-	@$(file >$@.part,$(subst $(space),$(comma),$(strip $(axes))),folder)$(foreach p,$(points),$(if $(call whole,$(p)),$(file >>$@.part,$(call row,$(p)),"$(call folder,$(p))")))
+	@$(eval finished := $(are_done))$(file >$@.part,$(subst $(space),$(comma),$(strip $(axes))),folder)$(foreach p,$(points),$(if $(call whole,$(p)),$(file >>$@.part,$(call row,$(p)),"$(call folder,$(p))")))
 	@mv $@.part $@
 	@$(PYTHON) -B '$(root)/scripts/contact_sheet.py' '$(OUT)'
 	@[ ! -d '$(OUT)/failed' ] || rmdir '$(OUT)/failed' 2>/dev/null || { \

@@ -32,7 +32,7 @@ for upper in ("dataset", "validation", "benchmark"):
 # each other. "x/" is a subfolder, "x" the files x.h and x.cpp, "*" every other file of the folder.
 PARTS = {
     "dataset": [["*"], ["writers/"], ["writers"],
-                ["layout"], ["journal", "metadata"], ["description", "checksums"], ["listed_files"],
+                ["layout"], ["journal", "metadata"], ["description", "checksums", "ping_file_reader"], ["listed_files"],
                 ["folder", "resume", "coco"], ["coco_records", "ping_files"], ["shared_files"], ["completion"],
                 ["collection", "job", "merge", "verify"], ["variants"], ["variants_check"]],
     "scene": [["*"], ["gltf/", "placing/"]],

@@ -155,8 +155,10 @@ std::vector<std::string> render_all(const RenderArguments& arguments, const Miss
         spdlog::info("{}: {} variants", mission.name, variants.size());
         ProgressLine line(bar, "variants");
         // What is said of the first scene holds for most; of the others the log would be full.
-        const auto begin = [](const Mission& variant, const Assembly& assembly) {
-            if (variant.variant.index == 0) warn_before(variant, assembly);
+        bool first = true;
+        const auto begin = [&](const Mission& variant, const Assembly& assembly) {
+            if (first) warn_before(variant, assembly);
+            first = false;
         };
         summary = run_variants(
             mission, variants, arguments.render, begin,

@@ -42,7 +42,7 @@ void add_water_surface(const Mission& mission, Scene& scene) {
     });
     if (used) return;
     scene.doubts.push_back(
-        "scene.water_surface is seen by multipath alone, and no sensor has it: "
+        "scene.water_surface has no effect, for no sensor has multipath: "
         "set sensors.NAME.multipath.method");
 }
 
@@ -63,9 +63,15 @@ Assembly assemble(const Mission& mission, SceneFiles& models) {
     assembly.trajectory = poses_of(mission.trajectory);
     const EngineSettings settings = engine_settings(mission);
     for (const SonarConfig& sensor : mission.sensors) {
-        const Sonar& sonar = assembly.sonars.emplace_back(make_sonar(sensor, mission.accuracy, mission.water));
+        const Sonar& sonar =
+            assembly.sonars.emplace_back(make_sonar(sensor, mission.accuracy, mission.water));
         const std::string refusal = refusal_of(settings, sonar.settings.view);
         if (!refusal.empty()) throw InputError("sensor '" + sensor.name + "': " + refusal);
+        if (has_even_sines(sonar) && !mission.output.labels.empty()) {
+            throw InputError("sensor '" + sensor.name +
+                             "': labels are of beams even in azimuth so far; leave out "
+                             "output.labels, or write instrument.beam.spread: angle");
+        }
     }
     SceneParts parts = place_scene(mission, assembly.trajectory, models);
     assembly.scene = load_scene(parts.files, models, read_materials(mission.scene.materials),

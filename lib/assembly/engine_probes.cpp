@@ -22,9 +22,10 @@ EngineSettings engine_settings(const Mission& mission, const Assembly& assembly)
         for (std::size_t k = 0; k < count; ++k) {
             // In the middle of equal parts of the trajectory.
             const std::size_t pose = (2 * k + 1) * poses / (2 * count);
-            settings.probes.push_back(
-                {sonar.settings.view, sensor_pose(sonar, assembly.trajectory[pose].T_world_vehicle,
-                                                  static_cast<std::uint32_t>(pose))});
+            settings.probes.push_back({sonar.settings.view,
+                                       sensor_pose(sonar, assembly.trajectory[pose].T_world_vehicle,
+                                                   static_cast<std::uint32_t>(pose)),
+                                       sonar.config.multipath.method != MultipathMethod::none});
         }
     }
     return settings;

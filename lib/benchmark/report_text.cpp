@@ -178,8 +178,8 @@ std::string explain_auto(const Report& report, const std::string& sensor) {
     const ReportRow* const all = best(report, sensor, [](const ReportRow&) { return true; });
     if (all == nullptr || rays == nullptr) return "";
     std::string text = fmt::format(
-        "{}: engine: auto takes rays. At the goal of {} the best rays "
-        "are {}",
+        "{}: engine: auto takes the slices, or rays where they meet the goal with less than half "
+        "of the samples. At the goal of {} the best rays are {}",
         sensor, percent(report.goal), figures(*rays));
     if (octree != nullptr) text += fmt::format(", the best octree is {}", figures(*octree));
     if (slices != nullptr) text += fmt::format(", the best slices are {}", figures(*slices));
@@ -187,11 +187,6 @@ std::string explain_auto(const Report& report, const std::string& sensor) {
     if (all == octree) {
         text += fmt::format(" Here the octree is better: set engine: octree and octree.{}.",
                             octree->setting.name);
-    }
-    if (all == slices) {
-        text +=
-            fmt::format(" Here the slices are better: set engine: slices and {}.{}.",
-                        slices->setting.promises() ? "accuracy" : "slices", slices->setting.name);
     }
     return text;
 }

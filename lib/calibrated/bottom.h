@@ -27,21 +27,23 @@ struct Backscatter {
 /// slope s; s = 0 has no facets.
 Backscatter backscatter(double lambert_db, double reflection, double slope_rms);
 
-/// e^-x for x >= 0, relative error below 3e-6 down to 1e-19, 0 below: as exact as facets need it,
-/// and without branches.
+/// e^-x for x >= 0, relative error below 3e-6 down to 1e-19, 0 below and for NaN: as exact as
+/// facets need it, and without branches.
 inline float fading(float x) {
-    const float turns = std::min(x, 43.0F) * 1.44269504F;
+    constexpr float longest = 43.0F;
+    const float turns = std::min(longest, x) * 1.44269504F;
     const float whole = std::floor(turns);
     const float rest = (turns - whole) * 0.69314718F;
     const float series = polynomial(rest, 1.0F, -1.0F, 1.0F / 2, -1.0F / 6, 1.0F / 24, -1.0F / 120,
                                     1.0F / 720, -1.0F / 5040);
     const auto exponent = static_cast<std::int32_t>(whole);
-    return series * std::bit_cast<float>((127 - exponent) << 23);
+    const float value = series * std::bit_cast<float>((127 - exponent) << 23);
+    return x < longest ? value : 0.0F;
 }
 
 inline float Backscatter::at(float sine) const {
     const float s2 = sine * sine;
-    const float near = std::max(s2, 1e-6F);
+    const float near = std::max(1e-6F, s2);
     return lambert * s2 + facet / (near * near) * fading(inverse_slope2 * (1.0F - near) / near);
 }
 

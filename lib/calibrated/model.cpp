@@ -13,7 +13,7 @@ namespace sonarsim {
 
 namespace {
 
-// PieceBlock that a grid of bins and columns cannot tell from points.
+// Pieces that a grid of bins and columns cannot tell from points.
 constexpr float most_depth_by_bin = 0.5F;
 constexpr float most_sine_by_step = 0.5F;
 // Of the elevation's half-power width: the pattern bends within it.
@@ -130,7 +130,7 @@ CalibratedModel calibrated_model(const InstrumentConfig& instrument, const Water
                     .sine = most_sine_by_step * static_cast<float>(model.equation.grid.step),
                     .elevation_sine = static_cast<float>(most_elevation_by_width * width)};
     model.cells =
-        scatterer_cells(instrument.speckle.per_cell, resolution_m,
+        scatterer_cells(instrument.speckle.per_cell, std::max(resolution_m, 0.5 * bin_m),
                         radians(instrument.beam.width_deg), view.range_min_m, model.wavelength_m);
     const ReceiverConfig& receiver = instrument.receiver;
     const double noise = power_of_db(receiver.noise_db - instrument.source_level_db);

@@ -18,13 +18,14 @@ namespace sonarsim {
 /// the echo levels that it measures.
 struct CalibratedModel {
     SonarEquation equation;
-    PieceLimits limits;  ///< of pieces that are not scatterers of the scene
+    PointLimits limits;  ///< of pieces that are not scatterers of the scene
     ScattererCells cells;
     Clutter clutter;
     RangeTaps amplitude_taps, power_taps;
     Beamformer amplitude_beams, power_beams;
     ElementNoise noise;
-    std::vector<float> row_gain;  ///< TVG of each bin by full scale: what an echo's power becomes
+    std::vector<float>
+        row_gain;  ///< factor from the power of an echo to the value of the image, by bin
     SpeckleMode speckle = SpeckleMode::scene;
     double sound_speed_m_s = 0.0;
     double absorption_db_per_m = 0.0;
@@ -32,7 +33,7 @@ struct CalibratedModel {
 };
 
 /// Sets up the instrument of a sonar with this view; `beam_sines` are the sines of the azimuths
-/// that its beams look at. A piece of its point spread is that of the far field at every range: the
+/// that its beams look at. Its point spread is that of the far field at every range: the
 /// instrument is taken to focus.
 CalibratedModel calibrated_model(const InstrumentConfig& instrument, const WaterConfig& water,
                                  const View& view, const std::vector<double>& beam_sines);
@@ -57,8 +58,8 @@ struct CalibratedCounts {
     std::uint64_t lit_places = 0;  ///< of the grid, before the point spread
 };
 
-/// The power of every bin, [range bins, beams], by full scale: 1 is what the receiver just does not
-/// clip. A pure function of its arguments.
+/// The power of every bin, [range bins, beams], by full scale: 1 is the highest that the receiver
+/// does not clip. A pure function of its arguments.
 CalibratedCounts form_calibrated(const CalibratedModel& model, const Samples& samples,
                                  const Scene& scene, const Pose& T_world_sensor,
                                  const CalibratedDraws& draws, const CalibratedTerms& terms,

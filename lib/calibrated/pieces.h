@@ -24,7 +24,7 @@ struct PieceBlock {
 };
 
 /// How large a piece may be. In every direction the least of these holds.
-struct PieceLimits {
+struct PointLimits {
     float depth_m = 0.0F;         ///< in range; 0: any
     float sine = 0.0F;            ///< across the beams, of y / range; 0: any
     float elevation_sine = 0.0F;  ///< of z / range; 0: any
@@ -32,7 +32,7 @@ struct PieceLimits {
 
 /// Into how many pieces a half edge is cut.
 inline int pieces_along(const Eigen::Vector3f& half_edge, const Eigen::Vector3f& direction,
-                        float range_m, const PieceLimits& limits) {
+                        float range_m, const PointLimits& limits) {
     constexpr float most = 256.0F;
     const float depth = half_edge.dot(direction);
     float wanted = 1.0F;
@@ -51,7 +51,7 @@ inline int pieces_along(const Eigen::Vector3f& half_edge, const Eigen::Vector3f&
 
 /// Cuts samples into pieces and hands these to `use`, a block at a time.
 template <class Use>
-void cut_into_pieces(std::span<const Sample> samples, const PieceLimits& limits, PieceBlock& pieces,
+void cut_into_pieces(std::span<const Sample> samples, const PointLimits& limits, PieceBlock& pieces,
                      Use use) {
     pieces.count = 0;
     for (const Sample& sample : samples) {

@@ -5,16 +5,14 @@
 #include <optional>
 #include <stdexcept>
 
-#include "core/file.h"
 #include "dataset/coco_file.h"
+#include "dataset/ping_file_reader.h"
 
 namespace sonarsim {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr std::size_t largest_objects_file = std::size_t{1} << 30;
 
 /// The pictures of a sensor that a COCO file lists.
 struct PictureSeries {
@@ -107,20 +105,18 @@ void write_coco(const Layout& layout, const Json& description, const SharedProdu
     CocoFile out(layout.folder / product.file, description);
     out.begin_list("images");
     for_each_picture([&](const PingId& ping, const PictureSeries& shown, std::uint64_t id) {
-        out.add(
-            {{"id", id},
-             {"file_name",
-              layout.file(ping, shown.picture).lexically_relative(layout.folder).generic_string()},
-             {"width", shown.width},
-             {"height", shown.height},
-             {"sensor", layout.sensors[ping.sensor].name},
-             {"ping", ping.pose}});
+        out.add({{"id", id},
+                 {"file_name", place_of_file(layout, ping, shown.picture)},
+                 {"width", shown.width},
+                 {"height", shown.height},
+                 {"sensor", layout.sensors[ping.sensor].name},
+                 {"ping", ping.pose}});
     });
     out.end_list();
     out.begin_list("annotations");
+    PingFileReader reader(layout);
     for_each_picture([&](const PingId& ping, const PictureSeries& shown, std::uint64_t id) {
-        const std::filesystem::path file = layout.file(ping, shown.objects);
-        const Json objects = Json::parse(read_file(file, largest_objects_file));
+        const Json objects = Json::parse(reader.read(ping, shown.objects));
         for (const Json& object : objects.at("objects")) {
             if (const auto found = annotation_of(object, shown, product.picture, id, class_ids))
                 out.add(annotation_json(*found));

@@ -29,7 +29,7 @@ std::size_t pings_per_pack(const Mission& mission, std::size_t sensor, const Wri
         throw InputError("output.pack_size_mb is too small: a ping of sensor '" +
                          mission.sensors[sensor].name + "' takes up to " +
                          std::to_string((bytes + tar_end_bytes) / bytes_of_mb) +
-                         " MB; give more, 256 where left out");
+                         " MB; give more, the default is 256");
     }
     return static_cast<std::size_t>(room / bytes);
 }

@@ -52,8 +52,8 @@ Json describe_instrument(const Sonar& sonar) {
     const bool absolute = instrument.source_level_db != 0.0;
     return {
         {"echo_level",
-         "full_scale_db + 10 log10(polar) - tvg_log log10(range_m) - "
-         "2 absorption_db_per_m range_m"},
+         std::string("full_scale_db + 10 log10(polar) - tvg_log log10(range_m)") +
+             (instrument.receiver.tvg_absorption ? " - 2 absorption_db_per_m range_m" : "")},
         {"echo_level_unit", absolute ? "dB re 1 uPa" : "dB re the source level, per uPa at 1 m"},
         {"full_scale_db", instrument.receiver.full_scale_db},
         {"tvg_log", instrument.receiver.tvg_log},

@@ -107,10 +107,18 @@ std::vector<fs::path> folders_of_variants(const fs::path& folder, const Json& js
     return folders;
 }
 
+bool is_complete(const fs::path& dataset) {
+    if (!fs::exists(dataset / description_name)) return false;
+    const std::optional<Json> description = read_description(dataset);
+    return description && description->value("complete", false);
+}
+
 void begin_variants(const fs::path& folder, const Json& json, std::span<const Mission> variants,
                     bool overwrite) {
+    // In this order: another shard may write variants.json at any moment.
+    const bool has_files = holds_something(folder);
     const std::optional<Json> found = read_variants(folder);
-    if (!found && holds_something(folder))
+    if (!found && has_files)
         throw InputError({folder.string()},
                          "holds files that are no variants of a sonarsim mission; choose another "
                          "output.folder, or remove it");
@@ -152,18 +160,20 @@ RenderSummary run_variants(const Mission& mission, std::span<const Mission> vari
     std::uint64_t done = 0;
     for (std::size_t i = 0; i < variants.size() && !all.stopped; ++i) {
         if (!is_ours(i)) continue;
+        const std::string name = variant_folder(static_cast<int>(i)) + ": ";
         const Assembly assembly = assemble(variants[i], models);
         if (begin) begin(variants[i], assembly);
         const RenderSummary one = run_job(variants[i], assembly, one_by_one, nullptr, stop);
         add(all, one);
         all.stopped = one.stopped;
-        const std::string name = variant_folder(static_cast<int>(i)) + ": ";
         for (const std::string& warning : one.warnings)
             all.warnings.push_back(name + warning);
         for (const std::string& warning : image_warnings(variants[i], assembly, one.sensors))
             all.warnings.push_back(name + warning);
         if (progress) progress(++done, total);
     }
+    for (std::size_t i = 0; i < variants.size(); ++i)
+        all.complete = all.complete && (is_ours(i) || is_complete(variants[i].output.folder));
     all.seconds = watch.lap();
     return all;
 }

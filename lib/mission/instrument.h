@@ -54,7 +54,7 @@ struct ReceiverConfig {
     double common_mode_db = -300.0;  ///< power of the noise that all elements share
     double tvg_log = 40.0;           ///< k of k log10 r
     bool tvg_absorption = true;      ///< 2 alpha r
-    double full_scale_db = 0.0;      ///< echo level after TVG that the receiver just does not clip
+    double full_scale_db = 0.0;      ///< the highest echo level after TVG that is not clipped
     Companding companding = Companding::gamma;
     double gamma = 0.5;            ///< value = (amplitude / full scale)^gamma
     double dynamic_range_db = 60;  ///< of `log`

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <string_view>
 #include <variant>
@@ -162,6 +161,9 @@ void describe(Visitor& v, SonarConfig& c) {
         v.section("instrument", c.instrument, "the instrument of the calibrated model");
         v.require(keys.instrument, {"model"},
                   "this kind of sonar has only the paper's model so far: write model: paper");
+        v.require(c.azimuth_deg < 180.0, {"azimuth_deg", "model"},
+                  "the line array of the calibrated model looks forward: azimuth_deg must be below "
+                  "180");
         v.require(c.multipath.method == MultipathMethod::none, {"multipath", "model"},
                   "the calibrated model has no multipath so far: write multipath.method: none");
     } else {
@@ -261,11 +263,6 @@ void describe(Visitor& v, OutputConfig& c) {
              "instead of by themselves");
     v.number("pack_size_mb", c.pack_size_mb, between(1e-3, 1e6),
              "the most that an archive may take; the pings in it are as many as surely fit");
-    v.require(
-        c.pack == Pack::none || std::ranges::find(c.labels, Label::coco) == c.labels.end(),
-        {"pack"},
-        "`pack: tar` does not go with the label `coco`, which is made of the files of objects; "
-        "leave out one of the two");
     v.flag("waterfall", c.waterfall, "write the waterfalls of side-scan sonars");
     v.flag("echogram", c.echogram, "write the echograms of echosounders");
     v.flag("soundings", c.soundings,
@@ -287,10 +284,11 @@ void describe(Visitor& v, Mission& c) {
               required);
     v.named("sensors", c.sensors, "one section per sonar; NAME is its folder in the dataset");
     v.section("accuracy", c.accuracy, "how exact the images are");
-    v.choice("engine", c.engine, engine_kinds,
-             "what finds the visible surface; `auto` takes the slices, or the rays for a sonar for "
-             "which they meet the error goal with less work. The octree sees up to 160 degrees of "
-             "elevation or opening");
+    v.choice(
+        "engine", c.engine, engine_kinds,
+        "what finds the visible surface; `auto` takes the slices, or the rays for a sonar with "
+        "multipath, for one for which they meet the error goal with less work, and where "
+        "objects move. The octree sees up to 160 degrees of elevation or opening");
     v.section("octree", c.octree, "settings of the octree");
     v.section("slices", c.slices, "settings of the slices");
     v.list("classes", c.classes, 0,

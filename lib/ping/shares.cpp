@@ -54,9 +54,10 @@ void BeamShares::clear(int bins) {
         weight.assign(bins, 0.0F);
         total.assign(bins, 0.0F);
         sums_.clear(bins);
+    } else {
+        std::fill(weight.begin() + first, weight.begin() + last, 0.0F);
+        std::fill(total.begin() + first, total.begin() + last, 0.0F);
     }
-    std::fill(weight.begin() + first, weight.begin() + last, 0.0F);
-    std::fill(total.begin() + first, total.begin() + last, 0.0F);
     first = last = 0;
 }
 

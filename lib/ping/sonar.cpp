@@ -1,11 +1,26 @@
 #include "ping/sonar.h"
 
+#include "core/elementary.h"
+
 namespace sonarsim {
 
 double head_angle_rad(const Sonar& sonar, std::uint32_t pose) {
     if (sonar.head_angles_rad.empty()) return 0.0;
     const std::size_t ping = pose / static_cast<std::uint32_t>(sonar.config.every);
     return sonar.head_angles_rad[ping % sonar.head_angles_rad.size()];
+}
+
+bool has_even_sines(const Sonar& sonar) {
+    return sonar.config.model == EchoModel::of_instrument &&
+           sonar.config.instrument.beam.spread == BeamSpread::sine;
+}
+
+double column_at(const Sonar& sonar, double azimuth_rad) {
+    const View& view = sonar.settings.view;
+    const double half = 0.5 * view.azimuth_rad;
+    const double share =
+        has_even_sines(sonar) ? sincos(azimuth_rad).sin / sincos(half).sin : azimuth_rad / half;
+    return 0.5 * (1.0 + share) * view.beams;
 }
 
 Pose sensor_pose(const Sonar& sonar, const Pose& T_world_vehicle, std::uint32_t pose) {

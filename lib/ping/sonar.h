@@ -27,6 +27,13 @@ struct Sonar {
 /// The angle of the head at the pose with this index on the trajectory; 0 for a fixed sonar.
 double head_angle_rad(const Sonar& sonar, std::uint32_t pose);
 
+/// Whether the columns of the image are even in the sine of azimuth, as those of a line array may
+/// be.
+bool has_even_sines(const Sonar& sonar);
+
+/// Where an azimuth within the fan lies among the columns of the image, 0 to the number of them.
+double column_at(const Sonar& sonar, double azimuth_rad);
+
 /// T_world_sensor at that pose.
 Pose sensor_pose(const Sonar& sonar, const Pose& T_world_vehicle, std::uint32_t pose);
 

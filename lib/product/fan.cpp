@@ -189,7 +189,7 @@ FanMap make_fan_map(const Sonar& sonar, int width_px) {
             if (covered == 0.0F) continue;
             // The centre of a pixel on the edge may lie outside.
             const double bins = (place.range_m - view.range_min_m) / view.bin_m();
-            const double beams = (place.azimuth_rad + 0.5 * view.azimuth_rad) * beams_per_rad;
+            const double beams = column_at(sonar, place.azimuth_rad);
             FanMap::Ring& ring = map.rings[ring_of(beams_across(place.range_m))];
             ring.pixels.push_back(
                 pixel_at(map, ring, view.beams, row * map.frame.width + column,

@@ -1,6 +1,7 @@
 #include "visibility/auto_engine.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -73,13 +74,21 @@ std::unique_ptr<VisibilityEngine> make_auto_engine(const Scene& scene, const Sli
                                                    std::span<const Probe> probes) {
     if (!scene.bodies.empty()) return make_rays_engine(scene);
     auto slices = make_slices_engine(scene, options);
-    if (probes.empty() || scene.triangles.size() < few_triangles) return slices;
+    const bool few = scene.triangles.size() < few_triangles;
+    if (few && std::ranges::none_of(probes, &Probe::multipath)) return slices;
     auto rays = make_rays_engine(scene);
     std::vector<View> tried;
     std::vector<RaysView> better;
     for (const Probe& probe : probes) {
         if (std::ranges::find(tried, probe.view) != tried.end()) continue;
         tried.push_back(probe.view);
+        if (std::ranges::any_of(probes, [&](const Probe& other) {
+                return other.view == probe.view && other.multipath;
+            })) {
+            better.push_back({probe.view, std::numeric_limits<double>::quiet_NaN()});
+            continue;
+        }
+        if (few) continue;
         const RaysTrial trial = try_rays(scene, probe.view, probes, *rays, *slices);
         if (rays_are_better(trial, probe.view)) better.push_back({probe.view, trial.error});
     }

@@ -5,10 +5,9 @@
 #
 # submits N tasks, of which the k-th renders --shard k/N into OUT.parts/k, and a job that waits for
 # all of them (afterok), merges the parts into OUT and verifies it. Prints the number of that last
-# job. A task that fails is submitted again as `sbatch --array=K ...` would run another shard; give
-# the same command again instead: parts that are done are not rendered again. OUT.parts/ may be
-# removed once OUT is verified. All nodes see the same folders and have the program at the same place;
-# SONARSIM names it (default: build/sonarsim of this repository, else the one in the PATH).
+# job. To retry, give the same command again: parts that are done are not rendered again. OUT.parts/
+# may be removed once OUT is verified. All nodes see the same folders and have the program at the same
+# place; SONARSIM names it (default: build/sonarsim of this repository, else the one in the PATH).
 set -euo pipefail
 if (($# < 3)) || ! [[ $1 =~ ^[1-9][0-9]*$ ]]; then
     sed -n '2,/^set/s/^# \{0,1\}//p' "$0" >&2

@@ -27,6 +27,7 @@ output:
   folder: out
   fan_width_px: 64
   labels: true
+  image: true
 """
 
 # What cocodataset.org/#format-data says of instances with run-length masks, as a JSON schema.

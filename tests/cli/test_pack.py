@@ -17,7 +17,7 @@ from test_faults import MISSION
 
 POSES = 20
 PACKED = MISSION.replace("fan_width_px: 32}",
-                         "fan_width_px: 32, pack: tar, pack_size_mb: 0.1, labels: true}")
+                         "fan_width_px: 32, pack: tar, pack_size_mb: 0.2, labels: true}")
 
 
 class Pack(Sandbox):
@@ -91,7 +91,7 @@ class Pack(Sandbox):
 
     def test_more_shards_than_packs(self):
         """A shard without a pack renders nothing and says so by the parts that are still missing."""
-        self.edit("mission.yaml", "pack_size_mb: 0.1", "pack_size_mb: 1000")
+        self.edit("mission.yaml", "pack_size_mb: 0.2", "pack_size_mb: 1000")
         whole = self.whole()
         self.assertEqual(sum(name.endswith(".tar") for name in whole), 4)
         result = self.assert_renders("--shard", "2/2", "--json")
@@ -173,7 +173,7 @@ class Pack(Sandbox):
         self.assertEqual((self.out / "fls/pack/notes.txt").read_text(), "mine")
 
     def test_mistakes(self):
-        self.edit("mission.yaml", "pack_size_mb: 0.1", "pack_size_mb: 0")
+        self.edit("mission.yaml", "pack_size_mb: 0.2", "pack_size_mb: 0")
         self.assert_refused(self.render(), "mission.yaml:11:", "'pack_size_mb' must be")
         self.edit("mission.yaml", "pack_size_mb: 0", "pack_size_mb: 0.001")
         self.assert_refused(self.render(), "output.pack_size_mb is too small", "sensor 'fls' takes up to")

@@ -234,10 +234,10 @@ class Moving(Composed):
         self.objects(["{name: fish, file: crate.gltf, material: steel, trajectory: {waypoints: "
                       "[{position_m: [4, 1, 1]}, {position_m: [4, 1.0000001, 1]}], "
                       "speed_m_s: 1.0e-7, rate_hz: 5}}"])
-        self.assert_renders()
+        self.assert_renders("--set", "engine=rays")
         moving = (self.out / "fls/polar/000000.npy").read_bytes()
         self.objects(["{name: fish, file: crate.gltf, material: steel, position_m: [4, 1, 1]}"])
-        self.assert_renders("--overwrite")
+        self.assert_renders("--overwrite", "--set", "engine=rays")
         still = (self.out / "fls/polar/000000.npy").read_bytes()
         a, b = (struct.unpack(f"<{48 * 32}f", bytes_[-4 * 48 * 32:]) for bytes_ in (moving, still))
         self.assertLess(sum(abs(x - y) for x, y in zip(a, b)) / sum(b), 1e-3)
@@ -370,7 +370,7 @@ class WaterSurface(Sandbox):
         self.edit("mission.yaml", "materials: materials.csv\n",
                   "materials: materials.csv\n  water_surface: {height_m: 0.1}\n")
         result = self.assert_renders("--overwrite")
-        self.assertIn("scene.water_surface is seen by multipath alone", result.stderr)
+        self.assertIn("scene.water_surface has no effect", result.stderr)
         self.assertEqual(digest(self.out, ["dataset.json", "mission.resolved.yaml", "SHA256SUMS",
                                            "journal.txt"]), plain)
         multipath = "--set", "sensors.fls.multipath.method=exact"

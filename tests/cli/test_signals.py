@@ -98,7 +98,8 @@ class Signals(Sandbox):
                     "multipath.method=exact")
         changed = [word for s in settings for word in ("--set", "sensors.fls." + s)]
         with self.start("render", "mission.yaml", "-j1", *changed,
-                        "--set", "accuracy.relative_l1=1e-4", "--set", "output.fan=false") as process:
+                        "--set", "accuracy.relative_l1=1e-4", "--set", "output.fan=false",
+                        "--set", "engine=rays") as process:
             self.wait_for(lambda: (self.out / "dataset.json").exists(), process)
             begun = busy_s(process.pid)
             self.wait_for(lambda: busy_s(process.pid) > begun + 0.5, process)

@@ -118,18 +118,18 @@ class Variants(Sandbox):
     def test_bad_keys(self):
         for old, new, fragments in (
                 ("noise.add_sigma", "noise.add_sgma",
-                 ("mission.yaml:25:5", "add_sgma", "did you mean 'add_sigma'?")),
+                 ("mission.yaml:26:5", "add_sgma", "did you mean 'add_sigma'?")),
                 ("uniform: [0.01, 0.2]", "uniform: [0.2, 0.01]",
-                 ("mission.yaml:25:", "the first number must not be above the second")),
+                 ("mission.yaml:26:", "the first number must not be above the second")),
                 ("uniform: [0.01, 0.2]", "uniform: [-2, -1]",
-                 ("mission.yaml:25:5", "'add_sigma' must be at least 0")),
+                 ("mission.yaml:26:5", "'add_sigma' must be at least 0")),
                 ("uniform: [0.01, 0.2]", "log_uniform: [0, 1]",
-                 ("mission.yaml:25:", "'log_uniform' takes numbers above 0")),
-                (", uniform: [0.01, 0.2]", "", ("mission.yaml:25:5", "needs one of: uniform")),
+                 ("mission.yaml:26:", "'log_uniform' takes numbers above 0")),
+                (", uniform: [0.01, 0.2]", "", ("mission.yaml:26:5", "needs one of: uniform")),
                 ("within: [1400, 1600]", "within: [9000, 9001]",
-                 ("mission.yaml:26:5", "a thousand normal draws", "wider")),
+                 ("mission.yaml:27:5", "a thousand normal draws", "wider")),
                 ("whole: [40, 60]", "uniform: [40, 60]",
-                 ("mission.yaml:27:5", "'range_bins' must be a whole number"))):
+                 ("mission.yaml:28:5", "'range_bins' must be a whole number"))):
             with self.subTest(new=new):
                 mission = (self.folder / "mission.yaml").read_text()
                 self.edit("mission.yaml", old, new)

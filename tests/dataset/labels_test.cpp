@@ -4,6 +4,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "assembly/engine_probes.h"
 #include "core/file.h"
 #include "dataset/job.h"
 #include "dataset/labelled_ping.h"
@@ -13,7 +14,6 @@
 #include "support/npy_data.h"
 #include "support/small_mission.h"
 #include "support/temporary_folder.h"
-#include "visibility/rays/rays_engine.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;
@@ -69,7 +69,7 @@ TEST_SUITE("dataset") {
         const Mission mission = labelled_mission(out);
         const Assembly assembly = labelled_assembly(mission);
         CHECK(run_labelled(mission).complete);
-        const auto engine = make_rays_engine(assembly.scene);
+        const auto engine = make_engine(assembly.scene, engine_settings(mission, assembly));
         const auto labels_of = [&](int sensor) {
             const Sonar& sonar = assembly.sonars[sensor];
             const TracedPing traced =

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "assembly/engine_probes.h"
 #include "core/file.h"
 #include "dataset/job.h"
 #include "dataset/metadata.h"
@@ -14,7 +15,6 @@
 #include "support/small_mission.h"
 #include "support/temporary_folder.h"
 #include "trajectory/files.h"
-#include "visibility/rays/rays_engine.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;
@@ -64,7 +64,7 @@ TEST_SUITE("dataset") {
               resolved_text(mission, assembly));
         CHECK(read_file(out / "trajectory.tum", 1 << 20) == write_tum(assembly.trajectory));
 
-        const auto engine = make_rays_engine(assembly.scene);
+        const auto engine = make_engine(assembly.scene, engine_settings(mission, assembly));
         std::uint64_t clipped_pixels = 0;
         for (const std::uint32_t pose : {0U, 3U, 6U}) {
             for (std::size_t i = 0; i < 2; ++i) {

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "assembly/engine_probes.h"
 #include "core/csv.h"
 #include "core/file.h"
 #include "dataset/folded_records.h"
@@ -18,7 +19,6 @@
 #include "support/npy_data.h"
 #include "support/small_mission.h"
 #include "support/temporary_folder.h"
-#include "visibility/rays/rays_engine.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;
@@ -61,7 +61,7 @@ TEST_SUITE("dataset") {
         // 4 common; front 7 x 4; mbes 7 x 4 and 6; sss 7 and 3; sounder 4 and 3.
         CHECK(contents(out).size() == 5 + 28 + 34 + 10 + 7);
 
-        const auto engine = make_rays_engine(assembly.scene);
+        const auto engine = make_engine(assembly.scene, engine_settings(mission, assembly));
         const auto ping = [&](int sensor, std::uint32_t pose) {
             return render_ping(assembly.sonars[sensor], assembly.scene, *engine,
                                assembly.trajectory[pose].T_world_vehicle, {mission.seed, pose});

@@ -99,6 +99,12 @@ TEST_CASE("of few triangles, and without a view to try, auto makes slices") {
     const std::vector<Probe> probes{{view, pose}};
     CHECK(same(make_auto_engine(scene, {}, probes)->visible_surface(view, pose), by_slices));
     CHECK(same(make_auto_engine(scene, {}, {})->visible_surface(view, pose), by_slices));
+
+    SUBCASE("but rays where sound goes on from what is seen") {
+        const std::vector<Probe> bouncing{{view, pose, true}};
+        CHECK(same(make_auto_engine(scene, {}, bouncing)->visible_surface(view, pose),
+                   make_rays_engine(scene)->visible_surface(view, pose)));
+    }
 }
 
 TEST_SUITE_END();
