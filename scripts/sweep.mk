@@ -74,7 +74,8 @@ all: $(OUT)/index.csv
 # make would delete a half-done dataset.json on Ctrl-C, and with it what a resume needs.
 .PRECIOUS: $(targets)
 
-command = $(SONARSIM) render $(MISSION) --quiet --threads 1 --out '$(@D)' $(call sets,$(point))
+# --shard: all of a point, even where the sweep runs in a task of a Slurm array.
+command = $(SONARSIM) render $(MISSION) --quiet --threads 1 --shard 1/1 --out '$(@D)' $(call sets,$(point))
 note = $(OUT)/failed/$(notdir $(@D)).txt
 
 # After a signal make ends as well.
@@ -95,7 +96,8 @@ $(OUT)/index.csv: $(targets) again
 	@$(eval finished := $(are_done))$(file >$@.part,$(subst $(space),$(comma),$(strip $(axes))),folder)$(foreach p,$(points),$(if $(call whole,$(p)),$(file >>$@.part,$(call row,$(p)),"$(call folder,$(p))")))
 	@mv $@.part $@
 	@$(PYTHON) -B '$(root)/scripts/contact_sheet.py' '$(OUT)'
-	@[ ! -d '$(OUT)/failed' ] || rmdir '$(OUT)/failed' 2>/dev/null || { \
-	    echo '$(OUT): of $(words $(points)) points these failed, as OUT/failed/ tells:' >&2; \
-	    ls '$(OUT)/failed' | sed 's/\.txt$$//' >&2; exit 1; }
+	@rmdir '$(OUT)/failed' 2>/dev/null || :
+	@[ -z '$(strip $(failed))' ] || { \
+	    echo '$(OUT): of $(words $(points)) points these failed, see $(OUT)/failed/:' >&2; \
+	    printf '%s\n' $(failed:%='%') >&2; exit 1; }
 	@echo '$@: $(words $(points)) points'
