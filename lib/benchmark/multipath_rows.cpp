@@ -29,7 +29,8 @@ MultipathTrial trial_of(const Sonar& sonar, const MultipathConfig& multipath,
                         const Mission& mission, const PingSet& pings) {
     SonarConfig config = sonar.config;
     config.multipath = multipath;
-    return {make_sonar(config, mission.accuracy, mission.water), std::vector<PoseTimes>(pings.poses.size())};
+    return {make_sonar(config, mission.accuracy, mission.water),
+            std::vector<PoseTimes>(pings.poses.size())};
 }
 
 /// What the sonar sees from each pose, without multipath.

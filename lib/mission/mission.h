@@ -194,7 +194,7 @@ struct OutputConfig {
     SplitConfig split = {};
     Pack pack = Pack::none;
     double pack_size_mb = 256.0;  ///< at most; a megabyte is a million bytes
-    bool raw = true;  ///< of the calibrated model: PNG of what the instrument delivers
+    bool raw = true;              ///< of the calibrated model: PNG of what the instrument delivers
 
     // What is made of all pings of a sonar together.
     bool waterfall = true;           ///< of side-scan

@@ -18,8 +18,8 @@ struct Material {
     std::string name;
     double density_kg_m3 = 0.0;
     double sound_speed_m_s = 0.0;
-    float reflection = 0.0F;  ///< power reflection coefficient at normal incidence, Eq. 4
-    double lambert_db = -27.0;  ///< 10 log mu of Lambert's rule, for the calibrated model
+    float reflection = 0.0F;      ///< power reflection coefficient at normal incidence, Eq. 4
+    double lambert_db = -27.0;    ///< 10 log mu of Lambert's rule, for the calibrated model
     double slope_rms_deg = 10.0;  ///< of its facets, likewise; 0: it has none
 };
 

@@ -15,6 +15,8 @@ namespace {
 // With fewer triangles in the whole scene the slices were faster at every goal, or rays missed it.
 constexpr std::size_t few_triangles = 20'000;
 
+// Per sample, rays take 0.8 to 1.4 times as long as slices on the tank, the wreck and the sea
+// floor: with half of the samples they are faster.
 constexpr double most_samples_share = 0.5;
 
 /// A view that rays see, and their error.

@@ -54,15 +54,17 @@ TEST_SUITE("scene") {
         const MaterialTable plain = parse_materials(header + "mud,1400,1480\n", "m.csv");
         CHECK(plain.materials[0].lambert_db == -27.0);
         check_error(
-            "material,density_kg_m3,sound_speed_m_s,lambert_db,slope_rms_deg\nmud,1400,1480,-90,8\n",
+            "material,density_kg_m3,sound_speed_m_s,lambert_db,slope_rms_deg\nmud,1400,1480,-90,"
+            "8\n",
             "m.csv:2: lambert_db is -90; expected a number from -80 to 20");
     }
 
     TEST_CASE("materials: what is wrong is said with file and line") {
-        check_error("name,density,speed\n",
-                    "m.csv:1: expected the header 'material,density_kg_m3,sound_speed_m_s', the same "
-                    "with ',lambert_db,slope_rms_deg', or "
-                    "'Material, Density kg/m^3, Speed of Sound m/s'");
+        check_error(
+            "name,density,speed\n",
+            "m.csv:1: expected the header 'material,density_kg_m3,sound_speed_m_s', the same "
+            "with ',lambert_db,slope_rms_deg', or "
+            "'Material, Density kg/m^3, Speed of Sound m/s'");
         check_error(header + "steel,7850\n", "m.csv:2: 2 fields, but the header in line 1 has 3");
         check_error(header + "steel,heavy,5900\n", "m.csv:2: density 'heavy' is not a number");
         check_error(header + "steel,7850,\n", "m.csv:2: sound speed '' is not a number");

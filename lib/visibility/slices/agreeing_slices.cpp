@@ -152,8 +152,7 @@ bool AgreeingSlices::alike(const SeenSlice& a, const SeenSlice& b) const {
     for (std::size_t i = 0; i < a.spans.size(); ++i) {
         if (!scan_.one_plane(a.spans[i], b.spans[i])) return false;
         for (const std::size_t end : {2 * i, 2 * i + 1}) {
-            if (!(std::fabs(a.high.ends[end].w - b.low.ends[end].w) <= most))
-                return false;
+            if (!(std::fabs(a.high.ends[end].w - b.low.ends[end].w) <= most)) return false;
         }
     }
     return true;

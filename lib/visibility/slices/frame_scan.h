@@ -36,8 +36,8 @@ class FrameScan {
     /// The trapezoids that one of the two slices seen last meets. Appends to `out`.
     void around_last_gap(std::vector<std::uint32_t>& out) const { walk_.around_last_gap(out); }
 
-    /// Finds all that slices within a gap may meet: `around`, the trapezoids that its own two slices
-    /// meet, and those that lie between them.
+    /// Finds all that slices within a gap may meet: `around`, the trapezoids that its own two
+    /// slices meet, and those that lie between them.
     void find_candidates(std::uint32_t gap, std::span<const std::uint32_t> around,
                          std::vector<Candidate>& out);
 

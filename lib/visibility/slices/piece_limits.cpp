@@ -6,7 +6,9 @@ namespace sonarsim {
 
 namespace {
 
-// Of a range bin, at an error goal of 3 %.
+// Of a range bin, at an error goal of 3 %. Against a third of the sag and half of the excess, four
+// poses each: error of the tank 0.83 % instead of 0.68 % with a quarter fewer samples, of a
+// lifeboat and a rough sea floor the same.
 constexpr float most_sag = 0.09F;
 constexpr float most_excess = 0.3F;
 constexpr float shortest_piece = 0.25F;

@@ -54,9 +54,9 @@ void RangeProfile::set(const FrameScan& scan, std::span<const Material> material
         if (!(low < high) || ends.u < span.reach.u.from || ends.u > span.reach.u.to) continue;
         const SeenFacet& seen = scan.scene().facets[span.seen];
         const Eigen::Array4f w(low, high, 0.5F * (low + high), low);
-        const Eigen::Array4f u =
-            scan.frame().meridians ? Eigen::Array4f::Constant(ends.u)
-                                   : Eigen::Array4f(ends.u * (1.0F + w * w).sqrt());
+        const Eigen::Array4f u = scan.frame().meridians
+                                     ? Eigen::Array4f::Constant(ends.u)
+                                     : Eigen::Array4f(ends.u * (1.0F + w * w).sqrt());
         const PlanePoints points = plane_points(seen, span.reach.range_m, u, w);
         const Eigen::Array4f& q = points.q;
         // dA = X^3 du dw / h, and 1 / X = q is linear in w.

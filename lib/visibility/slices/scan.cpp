@@ -18,7 +18,7 @@ constexpr double widest_side = 0.4;  // rad
 
 constexpr double widest_strip = 0.0088;      // of a fan, rad
 constexpr double widest_side_strip = 0.035;  // of sides
-constexpr int cone_slices = 96;            // at one per beam
+constexpr int cone_slices = 96;              // at one per beam
 
 // The poles of a view lie at w = infinity. Within 1e-3 rad of them nothing is looked for.
 constexpr double steepest = 1e3;
@@ -66,8 +66,8 @@ void add_slices(const Strips& strips, int first, int last, double centre, SliceF
 /// Frames whose axis along is the pole of the view: slices are meridians between two latitudes.
 void add_meridians(const Strips& strips, double latitude_low, double latitude_high,
                    const Eigen::Matrix3d& axes, std::vector<SliceFrame>& frames) {
-    const int sectors =
-        std::max(1, static_cast<int>(std::ceil(strips.count * strips.width / widest_sector - 1e-9)));
+    const int sectors = std::max(
+        1, static_cast<int>(std::ceil(strips.count * strips.width / widest_sector - 1e-9)));
     for (int s = 0; s < sectors; ++s) {
         const int first = static_cast<int>(static_cast<long>(strips.count) * s / sectors);
         const int last = static_cast<int>(static_cast<long>(strips.count) * (s + 1) / sectors);
@@ -140,15 +140,16 @@ std::vector<SliceFrame> slice_frames(const View& view, int per_beam) {
     switch (view.shape) {
         case ViewShape::fan:
             add_meridians(strips_over(-half_azimuth, view.azimuth_rad, view.beams,
-                                    enough(view.azimuth_rad / view.beams, widest_strip)),
+                                      enough(view.azimuth_rad / view.beams, widest_strip)),
                           -half_elevation, half_elevation, axes, frames);
             break;
         case ViewShape::sides:
             for (const int side : {0, 1}) {
-                const Strips strips = strips_over(-half_elevation, view.elevation_rad, 1,
-                                            enough(view.elevation_rad, widest_side_strip), side);
-                add_parallels(strips, side == 0 ? -half_azimuth : 0.0, side == 0 ? 0.0 : half_azimuth,
-                              frames);
+                const Strips strips =
+                    strips_over(-half_elevation, view.elevation_rad, 1,
+                                enough(view.elevation_rad, widest_side_strip), side);
+                add_parallels(strips, side == 0 ? -half_azimuth : 0.0,
+                              side == 0 ? 0.0 : half_azimuth, frames);
             }
             break;
         case ViewShape::cone:

@@ -42,7 +42,7 @@ struct SliceFrame {
     /// Where the beams of the sector begin, one more for where the last of them ends. The outermost
     /// are those of the sector, which may begin or end within a beam.
     std::vector<float> beam_u;
-    float w_low;            ///< the least and the greatest w of all slices and gaps
+    float w_low;  ///< the least and the greatest w of all slices and gaps
     float w_high;
     float tan_low;  ///< w of the view's borders at u = 0
     float tan_high;
