@@ -214,7 +214,7 @@ class Interrupted(Sandbox):
 
 
 class Terminal(Sandbox):
-    POSES = 4000
+    POSES = 40_000  # seconds of work, and the line is first shown before one is over
 
     def test_progress_line(self):
         self.write("path.csv", path_csv(self.POSES))
