@@ -47,6 +47,7 @@ int run(int argc, char** argv) {
     add_inspect(app, exit_code);
     add_report(app, exit_code);
     add_keys(app, exit_code);
+    add_schema(app, exit_code);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
