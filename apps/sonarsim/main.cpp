@@ -58,6 +58,7 @@ int run(int argc, char** argv) {
     add_report(app, exit_code);
     add_keys(app, exit_code);
     add_schema(app, exit_code);
+    add_import_holoocean(app, exit_code);
     add_completion(app, exit_code);
     add_man(app, exit_code);
     add_examples(app);
