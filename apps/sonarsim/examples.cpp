@@ -12,7 +12,7 @@ struct Example {
     const char* line;
 };
 
-constexpr std::array examples{
+constexpr std::array all_examples{
     Example{"", "sonarsim render mission.yaml"},
     Example{"", "sonarsim render --help"},
     Example{"render", "sonarsim render mission.yaml"},
@@ -37,7 +37,7 @@ constexpr std::array examples{
 
 std::string footer_of(const std::string& command) {
     std::string text;
-    for (const Example& example : examples) {
+    for (const Example& example : all_examples) {
         if (command == example.command)
             text += (text.empty() ? "Examples:\n  " : "\n  ") + std::string(example.line);
     }

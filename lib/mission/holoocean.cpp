@@ -164,7 +164,15 @@ ImportedMission import_holoocean(std::string_view text, const std::string& file,
         ": the world is a level of the game engine: export it, or name another scene");
 
     std::string& yaml = mission.yaml;
+    std::string remarks;
+    for (const YamlNode& item : scenario.items) {
+        if (!item.key.starts_with("octree_") && !item.key.starts_with("env_")) continue;
+        warnings.push_back(item.key_place.location().text() + ": " + in_quotes(item.key) +
+                           " has no counterpart: there is no octree to prepare");
+        remarks += "# without a counterpart: " + shown(item.key, 60) + "\n";
+    }
     yaml = "# From the HoloOcean scenario " + shown(file, 200) + ".\n";
+    yaml += remarks;
     if (const YamlNode* const name = scenario.find("name"))
         yaml += "name: " + quoted_text(name_from(text_in(*name, "name"))) + "\n";
     if (!water.empty()) {

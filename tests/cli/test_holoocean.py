@@ -10,7 +10,7 @@ SCENARIO = """\
 {
   "name": "Dam Hovering",
   "main_agent": "auv0",
-  "ticks_per_sec": 20,
+  "ticks_per_sec": 20, "octree_min": 0.02,
   "agents": [
     {"agent_name": "auv0", "location": [0.5, 0.25, -0.5], "rotation": [0, 0, 90],
      "sensors": [
@@ -45,7 +45,7 @@ WRONG = (
     ('"main_agent": "auv0"', '"main_agent": "auv7"', "3:17: no agent is called 'auv7'"),
     ('"agents"', '"agent"', "a scenario needs a list of 'agents'"),
     ('Sonar"', '"', "none of the sensors is a sonar"),
-    ('"ticks_per_sec": 20,', '"ticks_per_sec": 20', "scenario.json:5:"),
+    ('"ticks_per_sec": 20,', '"ticks_per_sec": 20', "scenario.json:4:"),
 )
 
 
@@ -75,7 +75,7 @@ class HoloOcean(Sandbox):
             self.assertIn("\n" + line + "\n", text)
         self.assertIn("# without a counterpart: InitOctreeRange", text)
         warnings = result.stderr
-        for told in ("8:23: 'DVLSensor' is left out", "15:9: 'InitOctreeRange' has no counterpart",
+        for told in ("4:24: 'octree_min' has no counterpart", "8:23: 'DVLSensor' is left out", "15:9: 'InitOctreeRange' has no counterpart",
                      "where the socket 'SonarSocket' sits"):
             self.assertIn("scenario.json:" + told if told[0].isdigit() else told, warnings)
         result = self.run_sonarsim("validate", "imported.yaml", "--json")
