@@ -1,9 +1,11 @@
 #include "dataset/xtf.h"
 
+#include <algorithm>
 #include <bit>
 #include <chrono>
 #include <cmath>
 #include <cstring>
+#include <string_view>
 
 namespace sonarsim {
 

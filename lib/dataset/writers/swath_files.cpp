@@ -1,8 +1,11 @@
 #include "dataset/writers/swath_files.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
 
 #include "core/file.h"
 #include "core/units.h"
