@@ -43,7 +43,7 @@ PARTS = {
 OWNERS = {
     "yaml-cpp/": "mission",
     "tiny_gltf.h": "scene",
-    "OpenImageIO/": "dataset",
+    "zlib.h": "dataset",
     "embree3/": "visibility",
     "embree4/": "visibility",
     "CLI/": "apps",

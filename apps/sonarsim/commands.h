@@ -15,5 +15,9 @@ void add_validate(CLI::App& app, int& exit_code);
 void add_inspect(CLI::App& app, int& exit_code);
 void add_report(CLI::App& app, int& exit_code);
 void add_keys(CLI::App& app, int& exit_code);
+void add_schema(CLI::App& app, int& exit_code);
+void add_import_holoocean(CLI::App& app, int& exit_code);
+void add_completion(CLI::App& app, int& exit_code);
+void add_man(CLI::App& app, int& exit_code);
 
 }  // namespace sonarsim

@@ -9,6 +9,8 @@
 
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <regex>
+#include <string>
 #include <string_view>
 
 #include "core/text.h"
@@ -47,6 +49,18 @@ class TextFormatter : public spdlog::formatter {
     spdlog::pattern_formatter line_;
 };
 
+/// The place in a user's file that a message begins with, "file:line:column: ", as fields.
+void add_place(nlohmann::ordered_json& line, std::string_view message) {
+    static const std::regex place("([^:\\s][^:]*):([0-9]{1,9})(:([0-9]{1,9}))?: ");
+    std::cmatch found;
+    if (!std::regex_search(message.data(), message.data() + message.size(), found, place,
+                           std::regex_constants::match_continuous))
+        return;
+    line["file"] = found[1].str();
+    line["line"] = std::stoi(found[2]);
+    if (found[4].matched) line["column"] = std::stoi(found[4]);
+}
+
 class JsonFormatter : public spdlog::formatter {
   public:
     void format(const spdlog::details::log_msg& message, spdlog::memory_buf_t& out) override {
@@ -56,6 +70,7 @@ class JsonFormatter : public spdlog::formatter {
                                    now.time_since_epoch().count() % 1000);
         line["level"] = view(spdlog::level::to_string_view(message.level));
         line["message"] = view(message.payload);
+        add_place(line, view(message.payload));
         const std::string text = json_line(line);
         out.append(text.data(), text.data() + text.size());
     }

@@ -202,6 +202,9 @@ struct OutputConfig {
     bool soundings = true;           ///< of profiling sonars, and the map made of them
     bool scan = true;                ///< of scanning sonars
     double bathymetry_cell_m = 0.0;  ///< 0: by the number of soundings
+    bool xtf = false;                ///< of side-scan, for other programs
+    bool mosaic = false;             ///< of side-scan, on the ground
+    double mosaic_cell_m = 0.0;      ///< 0: by the distance of pings
 
     bool operator==(const OutputConfig&) const = default;
 };

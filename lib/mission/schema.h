@@ -270,6 +270,13 @@ void describe(Visitor& v, OutputConfig& c) {
     v.flag("scan", c.scan, "write the scans of scanning sonars");
     v.number("bathymetry_cell_m", c.bathymetry_cell_m, at_least(0),
              "cell of the map of soundings; 0 means four soundings to a cell or more on average");
+    v.flag("xtf", c.xtf, "with `waterfall`, write it as XTF as well, for other programs");
+    v.flag("mosaic", c.mosaic,
+           "with `waterfall`, lay it on the ground: a map of echoes as GeoTIFF");
+    v.number("mosaic_cell_m", c.mosaic_cell_m, at_least(0),
+             "cell of the mosaic; 0 means as wide as pings lie apart");
+    v.require(c.waterfall || !(c.xtf || c.mosaic), {"waterfall", "xtf", "mosaic"},
+              "xtf and mosaic are made of the waterfall: write waterfall: true");
 }
 
 template <class Visitor>
