@@ -8,6 +8,8 @@
 #include <exception>
 #include <filesystem>
 #include <new>
+#include <sstream>
+#include <string>
 #include <system_error>
 
 #include "commands.h"
@@ -46,6 +48,7 @@ int run(int argc, char** argv) {
     add_validate(app, exit_code);
     add_inspect(app, exit_code);
     add_report(app, exit_code);
+    add_status(app, exit_code);
     add_keys(app, exit_code);
     try {
         app.parse(argc, argv);
@@ -74,7 +77,9 @@ int main(int argc, char** argv) {
         finish_printing();
         return exit_code;
     } catch (const InputError& error) {
-        spdlog::error("{}", error.what());
+        std::istringstream faults(error.what());
+        for (std::string fault; std::getline(faults, fault);)
+            spdlog::error("{}", fault);
         return exit_bad_input;
     } catch (const std::bad_alloc&) {
         spdlog::error(out_of_memory);
