@@ -16,9 +16,7 @@ namespace {
 class WaterfallWriter final : public Writer {
   public:
     explicit WaterfallWriter(const WriterContext& context)
-        : sonar_(context.sonar()),
-          pings_(context.pings),
-          full_scale_(context.mission.output.full_scale) {}
+        : sonar_(context.sonar()), pings_(context.pings), full_scale_(context.full_scale()) {}
 
     WriterOutputs outputs() const override {
         const auto columns = static_cast<std::size_t>(waterfall_columns(sonar_.config));
