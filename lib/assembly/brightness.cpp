@@ -1,5 +1,7 @@
 #include "assembly/brightness.h"
 
+#include <tbb/task_arena.h>
+
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -82,11 +84,19 @@ std::vector<double> find_full_scales(const Mission& mission, const Scene& scene,
                                      std::span<const Sonar> sonars) {
     if (mission.output.full_scale > 0.0)
         return std::vector<double>(sonars.size(), mission.output.full_scale);
-    const std::unique_ptr<VisibilityEngine> rays =
-        make_engine(scene, {.type = EngineType::rays, .octree = {}});
     std::vector<double> scales;
-    for (const Sonar& sonar : sonars)
-        scales.push_back(find_full_scale(mission.seed, scene, trajectory, motions, sonar, *rays));
+    // In an arena of its own: where there is no memory for more threads, it says so before Embree,
+    // which would end the program.
+    tbb::task_arena arena;
+    arena.execute([&] {
+        // Without probes these are the slices, or where bodies move the rays.
+        const std::unique_ptr<VisibilityEngine> engine =
+            make_engine(scene, {.type = EngineType::automatic, .octree = {}});
+        for (const Sonar& sonar : sonars) {
+            scales.push_back(
+                find_full_scale(mission.seed, scene, trajectory, motions, sonar, *engine));
+        }
+    });
     return scales;
 }
 
