@@ -29,12 +29,13 @@ constexpr double nothing_seen = 1.0;  // any value does
 /// Rounded up to two digits. Multiplied and divided rather than by powers and logarithms, whose
 /// last bit depends on the library.
 double two_digits_up(double value) {
+    double scale = 1.0;
+    while (value * scale < 10.0)
+        scale *= 10.0;
     double unit = 1.0;
-    while (value < 10.0 * unit)
-        unit /= 10.0;
     while (value >= 100.0 * unit)
         unit *= 10.0;
-    return std::min(1e9, std::ceil(value / unit) * unit);
+    return std::min(1e9, std::ceil(value * scale / unit) * unit / scale);
 }
 
 /// What this share of the values does not exceed. Moves them about.
@@ -89,9 +90,8 @@ std::vector<double> find_full_scales(const Mission& mission, const Scene& scene,
     // which would end the program.
     tbb::task_arena arena;
     arena.execute([&] {
-        // Without probes these are the slices, or where bodies move the rays.
         const std::unique_ptr<VisibilityEngine> engine =
-            make_engine(scene, {.type = EngineType::automatic, .octree = {}});
+            make_engine(scene, {.type = EngineType::rays, .octree = {}});
         for (const Sonar& sonar : sonars) {
             scales.push_back(
                 find_full_scale(mission.seed, scene, trajectory, motions, sonar, *engine));
