@@ -14,6 +14,7 @@ void add_merge(CLI::App& app, int& exit_code);
 void add_validate(CLI::App& app, int& exit_code);
 void add_inspect(CLI::App& app, int& exit_code);
 void add_report(CLI::App& app, int& exit_code);
+void add_status(CLI::App& app, int& exit_code);
 void add_keys(CLI::App& app, int& exit_code);
 void add_schema(CLI::App& app, int& exit_code);
 void add_import_holoocean(CLI::App& app, int& exit_code);

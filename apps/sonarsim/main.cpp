@@ -8,6 +8,7 @@
 #include <exception>
 #include <filesystem>
 #include <new>
+#include <sstream>
 #include <string>
 #include <system_error>
 
@@ -56,6 +57,7 @@ int run(int argc, char** argv) {
     add_validate(app, exit_code);
     add_inspect(app, exit_code);
     add_report(app, exit_code);
+    add_status(app, exit_code);
     add_keys(app, exit_code);
     add_schema(app, exit_code);
     add_import_holoocean(app, exit_code);
@@ -89,7 +91,9 @@ int main(int argc, char** argv) {
         finish_printing();
         return exit_code;
     } catch (const InputError& error) {
-        spdlog::error("{}", error.what());
+        std::istringstream faults(error.what());
+        for (std::string fault; std::getline(faults, fault);)
+            spdlog::error("{}", fault);
         return exit_bad_input;
     } catch (const std::bad_alloc&) {
         spdlog::error(out_of_memory);

@@ -1,7 +1,6 @@
 #include "dataset/verify.h"
 
 #include <spdlog/spdlog.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -41,9 +40,9 @@ int verify(const VerifyArguments& arguments, const std::filesystem::path& folder
            const std::atomic<bool>& stop) {
     DatasetCheck check;
     {
-        const bool quiet = arguments.log.quiet || arguments.log.json;
         const bool variants = read_variants(folder).has_value();
-        ProgressLine line(!quiet && ::isatty(STDERR_FILENO) == 1, variants ? "variants" : "files");
+        ProgressLine line(progress_of(arguments.log.quiet, arguments.log.json),
+                          variants ? "variants" : "files");
         const auto show = [&](std::uint64_t done, std::uint64_t total) { line.show(done, total); };
         check = variants ? verify_variants(folder, arguments.threads, show, stop)
                          : verify_dataset(folder, arguments.threads, show, stop);

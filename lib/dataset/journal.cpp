@@ -1,11 +1,13 @@
 #include "dataset/journal.h"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <cmath>
 #include <optional>
 #include <sstream>
 #include <system_error>
@@ -67,6 +69,17 @@ void read_line(const std::string& line, JournalEntries& entries) {
     }
 }
 
+double seconds_since_1970() {
+    return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch())
+        .count();
+}
+
+/// A line that tells when something was.
+std::string time_line(const char* what, double seconds) {
+    constexpr double milli = 1e3;
+    return sealed(std::string(what) + ' ' + number_text(std::round(seconds * milli) / milli));
+}
+
 void read_part(const fs::path& path, JournalEntries& entries) {
     std::string text;
     try {
@@ -109,6 +122,25 @@ JournalEntries read_journal(const fs::path& folder) {
     return entries;
 }
 
+JournalRun read_journal_run(const fs::path& part) {
+    JournalRun run;
+    if (!fs::exists(part)) return run;  // the run that completed the dataset has removed it
+    std::istringstream lines(read_file(part, largest_part));
+    for (std::string line; std::getline(lines, line);) {
+        const std::optional<std::string> text = opened(line);
+        if (!text) continue;
+        std::istringstream words(*text);
+        std::string word;
+        std::string value;
+        words >> word >> value;
+        const double seconds = parse_number(value).value_or(0.0);
+        if (word == "run") run = {0, seconds, seconds};
+        if (word == "checkpoint") run.last_s = seconds;
+        run.pings += word == "ping";
+    }
+    return run;
+}
+
 std::string journal_text(const JournalEntries& entries) {
     std::string text;
     for (const auto& [ping, what] : entries.pings)
@@ -123,8 +155,11 @@ std::string journal_text(const JournalEntries& entries) {
 Journal::Journal(const fs::path& folder, const std::string& name, double checkpoint_seconds)
     : folder_(folder),
       path_(folder / journal_folder_name / name),
-      fd_(::open(path_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW, 0666)) {
+      fd_(::open(path_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW, 0666)),
+      start_s_(seconds_since_1970()) {
     if (fd_ < 0) throw_errno("cannot write", path_);
+    // Only so that status can tell; where the file system has no locks, it cannot.
+    ::flock(fd_, LOCK_SH | LOCK_NB);
     // What an interrupted run left may end in the middle of a line.
     if (::lseek(fd_, 0, SEEK_END) > 0) pending_ = "\n";
     thread_ = std::thread([this, checkpoint_seconds] { run(checkpoint_seconds); });
@@ -182,6 +217,12 @@ void Journal::checkpoint() {
     }
     if (lines.empty()) return;
     sync_file_system(folder_);
+    if (start_s_ > 0.0) {
+        // A line that an interrupted run left unfinished ends before it.
+        const std::size_t begin = lines.front() == '\n' ? 1 : 0;
+        lines.insert(begin, time_line("run", std::exchange(start_s_, 0.0)));
+    }
+    lines += time_line("checkpoint", seconds_since_1970());
     for (std::string_view rest = lines; !rest.empty();) {
         const ssize_t put = ::write(fd_, rest.data(), rest.size());
         if (put < 0 && errno == EINTR) continue;

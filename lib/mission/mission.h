@@ -188,7 +188,7 @@ struct OutputConfig {
     bool meta = true;         ///< JSON per ping
     bool stages = false;      ///< 8-bit PNG of five fans, one term of the model after the other
     int fan_width_px = 0;     ///< 0: one pixel per range bin, at most 1024
-    double full_scale = 1.0;  ///< intensity that becomes white
+    double full_scale = 0.0;  ///< intensity that becomes white; 0: found for each sonar
     std::vector<Label> labels = {};  ///< each at most once, in the order of the enumeration
     Place labels_place = {};
     SplitConfig split = {};

@@ -252,7 +252,10 @@ void describe(Visitor& v, OutputConfig& c) {
            "noise and streaks");
     v.integer("fan_width_px", c.fan_width_px, between(0, 8192),
               "width of the fan; 0 means one pixel per range bin, at most 1024");
-    v.number("full_scale", c.full_scale, above(0), "intensity that becomes white");
+    v.number_or_auto(
+        "full_scale", c.full_scale, above(0),
+        "intensity that becomes white in pictures; `auto`: found for each sonar from a few pings, "
+        "and told in dataset.json");
     v.subset("labels", c.labels, label_names,
              "write what is in every bin: `true` for all, or a list of them");
     v.place("labels", c.labels_place);

@@ -139,7 +139,7 @@ output:
   meta: true
   stages: false
   fan_width_px: 0
-  full_scale: 1
+  full_scale: auto
   labels: false
   split:
     train: 0

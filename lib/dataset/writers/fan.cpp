@@ -13,7 +13,7 @@ class FanWriter final : public Writer {
     explicit FanWriter(const WriterContext& context)
         : map_(make_fan_map(context.sonar(), context.mission.output.fan_width_px)),
           range_max_m_(context.sonar().settings.view.range_max_m),
-          full_scale_(context.mission.output.full_scale) {}
+          full_scale_(context.full_scale()) {}
 
     WriterOutputs outputs() const override {
         return {

@@ -20,7 +20,7 @@ class ScanWriter final : public Writer {
     explicit ScanWriter(const WriterContext& context)
         : sonar_(context.sonar()),
           pings_(context.pings),
-          full_scale_(context.mission.output.full_scale),
+          full_scale_(context.full_scale()),
           steps_(scan_steps(sonar_.config)),
           map_(make_fan_map(whole_scan(sonar_), context.mission.output.fan_width_px)) {}
 

@@ -20,7 +20,7 @@ class WaterfallWriter final : public Writer {
         : context_(context),
           sonar_(context.sonar()),
           pings_(context.pings),
-          full_scale_(context.mission.output.full_scale) {}
+          full_scale_(context.full_scale()) {}
 
     WriterOutputs outputs() const override {
         const auto columns = static_cast<std::size_t>(waterfall_columns(sonar_.config));
