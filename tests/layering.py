@@ -33,7 +33,7 @@ for upper in ("dataset", "validation", "benchmark"):
 PARTS = {
     "dataset": [["*"], ["writers/"], ["writers"],
                 ["layout"], ["journal", "metadata"], ["description", "checksums", "ping_file_reader"], ["listed_files"],
-                ["folder", "resume", "coco"], ["coco_records", "ping_files"], ["shared_files"], ["completion"],
+                ["folder", "resume", "coco"], ["coco_records", "coco_scans", "ping_files"], ["shared_files"], ["completion"],
                 ["collection", "job", "merge", "verify"], ["variants"], ["variants_check"]],
     "scene": [["*"], ["gltf/", "placing/"]],
     "validation": [["*"], ["hard/"]],

@@ -62,9 +62,11 @@ class BitWriter {
 
     /// Before `bits` further bits are put.
     void reserve(std::uint64_t bits) { out_.resize(end_ + bits / 8 + 2 * sizeof(buffer_)); }
-    void put(const Code& code) {
-        buffer_ |= std::uint64_t{code.value} << held_;
-        held_ += code.bits;
+    void put(const Code& code) { put(code.value, code.bits); }
+    /// Up to 56 bits.
+    void put(std::uint64_t value, int bits) {
+        buffer_ |= value << held_;
+        held_ += bits;
         std::memcpy(out_.data() + end_, &buffer_, sizeof(buffer_));
         end_ += static_cast<std::size_t>(held_ / 8);
         buffer_ >>= held_ & ~7;
@@ -197,8 +199,15 @@ void put_block(BitWriter& writer, const Tokens& block, int back, bool last) {
     lengths.resize(symbols_known + static_cast<std::size_t>(back), 0);
     lengths.back() = 1;
     put_lengths(writer, lengths, back);
-    for (const std::uint16_t token : block.tokens)
-        writer.put(code_of[token]);
+    // In pairs, since every put waits for the one before it; a code has up to 21 bits.
+    const std::vector<std::uint16_t>& tokens = block.tokens;
+    for (std::size_t k = 0; k + 1 < tokens.size(); k += 2) {
+        const Code& first = code_of[tokens[k]];
+        const Code& second = code_of[tokens[k + 1]];
+        writer.put(first.value | std::uint64_t{second.value} << first.bits,
+                   first.bits + second.bits);
+    }
+    if (tokens.size() % 2 == 1) writer.put(code_of[tokens.back()]);
     writer.put(end);
 }
 
