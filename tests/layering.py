@@ -35,7 +35,7 @@ for upper in ("dataset", "validation", "benchmark"):
 PARTS = {
     "dataset": [["*"], ["writers/"], ["writers"],
                 ["layout"], ["journal", "metadata"], ["description", "checksums", "ping_file_reader"], ["listed_files"],
-                ["folder", "resume", "coco"], ["coco_records", "encode_ping", "ping_files"], ["ping_cost", "shared_files"], ["completion"],
+                ["folder", "resume", "coco"], ["coco_records", "coco_scans", "encode_ping", "ping_files"], ["ping_cost", "shared_files"], ["completion"],
                 ["collection", "job", "merge", "verify"], ["variants"], ["status", "variants_check"]],
     "scene": [["*"], ["gltf/", "placing/"]],
     "validation": [["*"], ["hard/"]],

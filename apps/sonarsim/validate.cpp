@@ -131,6 +131,10 @@ std::string text_of(const Findings& f) {
                                       scene.instances.size(), extent.x(), extent.y(), extent.z()));
     text += line("trajectory", fmt::format("{} poses, {:.1f} s", trajectory.size(),
                                            trajectory.back().t_s - trajectory.front().t_s));
+    if (!scene.copies.empty()) {
+        text += line("copies", fmt::format("{} of {} shared meshes", scene.copies.size(),
+                                           scene.shared_meshes.size()));
+    }
     if (!scene.bodies.empty())
         text += line("moving", fmt::format("{} objects", scene.bodies.size()));
     for (std::size_t i = 0; i < f.pings.size(); ++i) {

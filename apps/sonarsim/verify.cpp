@@ -69,8 +69,15 @@ int verify_all(const VerifyArguments& arguments) {
     const std::atomic<bool>& stop =
         stop_on_signal(warning_line(arguments.log, "stopped at once; nothing was changed"));
     std::vector<std::filesystem::path> folders = collected_folders(arguments.folder);
-    if (folders.empty()) folders.push_back(arguments.folder);
     int worst = exit_done;
+    if (folders.empty()) {
+        folders.push_back(arguments.folder);
+    } else {
+        for (const std::string& fault : collection_faults(arguments.folder)) {
+            spdlog::error("{}", fault);
+            worst = exit_failed;
+        }
+    }
     for (const std::filesystem::path& folder : folders) {
         if (!stop) worst = std::max(worst, verify(arguments, folder, stop));
     }

@@ -74,6 +74,15 @@ void read_scene_files(const Mission& mission, SceneFiles& models) {
     problems.raise();
 }
 
+/// For load_scene. A million triangles take 170 MB.
+std::size_t share_beyond(RepeatedFiles repeats, EngineType engine) {
+    constexpr std::size_t many_triangles = 4'000'000;
+    if (repeats == RepeatedFiles::shared) return 0;
+    const bool may_be_rays = engine == EngineType::automatic || engine == EngineType::rays;
+    const bool may_share = repeats == RepeatedFiles::automatic && may_be_rays;
+    return may_share ? many_triangles : share_nothing;
+}
+
 template <class T>
 std::string hash_of(const std::vector<T>& values) {
     return fnv1a_128({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)});
@@ -101,7 +110,8 @@ Assembly assemble(const Mission& mission, SceneFiles& models) {
     problems.raise();
     SceneParts parts = place_scene(mission, assembly.trajectory, models);
     assembly.scene = load_scene(parts.files, models, materials, mission.scene.material_default,
-                                {mission.water.density_kg_m3, mission.water.sound_speed_m_s});
+                                {mission.water.density_kg_m3, mission.water.sound_speed_m_s},
+                                share_beyond(mission.scene.repeats, settings.type));
     assembly.motions = std::move(parts.motions);
     add_water_surface(mission, assembly.scene);
     if (!mission.output.labels.empty() || !mission.classes.empty()) {
@@ -143,6 +153,15 @@ std::string inputs_hash(const Assembly& assembly) {
     for (const Body& body : scene.bodies) {
         text += "\nbody " + std::to_string(body.instance) + hash_of(body.vertices) +
                 hash_of(body.triangles) + hash_of(body.triangle_material);
+    }
+    for (const SharedMesh& mesh : scene.shared_meshes) {
+        text += "\nmesh " + hash_of(mesh.vertices) + hash_of(mesh.triangles) +
+                hash_of(mesh.triangle_material);
+    }
+    for (const MeshCopy& copy : scene.copies) {
+        text += "\ncopy " + std::to_string(copy.mesh) + " " + std::to_string(copy.instance);
+        for (const double x : copy.T_world_mesh.matrix().topRows<3>().reshaped())
+            text += " " + number_text(x);
     }
     for (const Trajectory& motion : assembly.motions)
         text += "\n" + write_tum(motion);

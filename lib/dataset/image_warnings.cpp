@@ -52,7 +52,7 @@ bool noise_is_long(const SonarConfig& config) {
 std::string cure_of_blindness(const Assembly& assembly, const Sonar& sonar,
                               const SensorSummary& summary) {
     const SonarConfig& config = sonar.config;
-    if (assembly.scene.triangles.empty()) {
+    if (assembly.scene.triangles.empty() && assembly.scene.copies.empty()) {
         return assembly.scene.bodies.empty() ? "the scene has no triangles"
                                              : "nothing of what moves came into its view";
     }

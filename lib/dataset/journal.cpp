@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <chrono>
 #include <cmath>
+#include <fstream>
 #include <optional>
 #include <sstream>
 #include <system_error>
@@ -15,8 +16,8 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/hash.h"
-#include "core/text.h"
 #include "dataset/layout.h"
+#include "dataset/whole_file.h"
 
 namespace sonarsim {
 
@@ -24,7 +25,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t largest_part = std::size_t{1} << 32;
 constexpr std::size_t hash_digits = 8;
 
 /// The line with its hash and line feed.
@@ -58,10 +58,10 @@ void read_line(const std::string& line, JournalEntries& entries) {
     if (word == "ping") {
         PingId ping{0, sensor};
         words >> ping.pose;
-        std::vector<std::string>& what = entries.pings[ping];
-        what.clear();
+        std::vector<std::string> what;
         while (words >> word)
             what.push_back(word);
+        entries.pings.add(ping, what);
     } else if (word == "product") {
         std::uint64_t size = 0;
         words >> word >> size;
@@ -80,32 +80,19 @@ std::string time_line(const char* what, double seconds) {
     return sealed(std::string(what) + ' ' + number_text(std::round(seconds * milli) / milli));
 }
 
+/// Line by line, since it may be long.
 void read_part(const fs::path& path, JournalEntries& entries) {
-    std::string text;
-    try {
-        text = read_file(path, largest_part);
-    } catch (const InputError&) {
+    std::ifstream lines(path, std::ios::binary);
+    if (!lines) {
         // The run that completes a dataset removes the parts; journal.txt has all of them then.
-        if (fs::exists(path)) throw;
+        if (fs::exists(path)) throw InputError({path.string()}, "cannot be read");
         return;
     }
-    std::istringstream lines(text);
     for (std::string line; std::getline(lines, line);)
         read_line(line, entries);
 }
 
 }  // namespace
-
-std::string entry_text(const FileEntry& entry) {
-    return std::to_string(entry.bytes) + ':' + entry.sha256;
-}
-
-std::optional<FileEntry> parse_entry(const std::string& text) {
-    const std::size_t colon = text.find(':');
-    const auto bytes = parse_unsigned(std::string_view(text).substr(0, colon));
-    if (colon == std::string::npos || !bytes) return std::nullopt;
-    return FileEntry{*bytes, text.substr(colon + 1)};
-}
 
 JournalEntries read_journal(const fs::path& folder) {
     JournalEntries entries;
@@ -119,13 +106,14 @@ JournalEntries read_journal(const fs::path& folder) {
         }
     }
     if (fs::is_regular_file(folder / journal_name)) read_part(folder / journal_name, entries);
+    entries.pings.sort();
     return entries;
 }
 
 JournalRun read_journal_run(const fs::path& part) {
     JournalRun run;
-    if (!fs::exists(part)) return run;  // the run that completed the dataset has removed it
-    std::istringstream lines(read_file(part, largest_part));
+    std::ifstream lines(part,
+                        std::ios::binary);  // none: the run that completed the dataset removed it
     for (std::string line; std::getline(lines, line);) {
         const std::optional<std::string> text = opened(line);
         if (!text) continue;
@@ -141,15 +129,16 @@ JournalRun read_journal_run(const fs::path& part) {
     return run;
 }
 
-std::string journal_text(const JournalEntries& entries) {
-    std::string text;
-    for (const auto& [ping, what] : entries.pings)
-        text += ping_line(ping, what);
+void write_journal(const fs::path& path, const JournalEntries& entries) {
+    StreamedFile file(path);
+    entries.pings.for_each([&](const PingId& ping, const std::vector<std::string>& what) {
+        file.append(ping_line(ping, what));
+    });
     for (const auto& [product, size] : entries.products) {
-        text += sealed("product " + std::to_string(product.first) + ' ' + product.second + ' ' +
-                       std::to_string(size));
+        file.append(sealed("product " + std::to_string(product.first) + ' ' + product.second + ' ' +
+                           std::to_string(size)));
     }
-    return text;
+    file.finish();
 }
 
 Journal::Journal(const fs::path& folder, const std::string& name, double checkpoint_seconds)

@@ -6,13 +6,12 @@
 #include <filesystem>
 #include <map>
 #include <mutex>
-#include <optional>
 #include <string>
 #include <thread>
 #include <utility>
 #include <vector>
 
-#include "dataset/writer.h"
+#include "dataset/told_pings.h"
 
 namespace sonarsim {
 
@@ -32,18 +31,9 @@ using ProductSizes = std::map<std::pair<std::uint32_t, std::string>, std::uint64
 /// SENSOR is the index in dataset.json, POSE that of the pose. Each line ends in a hash of what
 /// stands before it, so that a line that a power cut tore does not count.
 struct JournalEntries {
-    std::map<PingId, std::vector<std::string>> pings;
+    ToldPings pings;
     ProductSizes products;
 };
-
-/// What the journal says of a ping's file.
-struct FileEntry {
-    std::uint64_t bytes = 0;
-    std::string sha256;
-};
-std::string entry_text(const FileEntry& entry);
-/// Nothing when the text is no such entry.
-std::optional<FileEntry> parse_entry(const std::string& text);
 
 /// Reads OUT/journal.txt and all parts in OUT/journal.d/ (those of shards that ran in other
 /// folders are copied there when these are merged). Lines that are torn are left out.
@@ -57,8 +47,8 @@ struct JournalRun {
 };
 JournalRun read_journal_run(const std::filesystem::path& part);
 
-/// The text of OUT/journal.txt: the same for all ways in which a dataset may have come about.
-std::string journal_text(const JournalEntries& entries);
+/// Writes OUT/journal.txt: the same for all ways in which a dataset may have come about.
+void write_journal(const std::filesystem::path& path, const JournalEntries& entries);
 
 /// The part of the journal that one run writes. A background thread makes a checkpoint every few
 /// seconds: it makes durable what has been written so far and then adds the lines of the pings that

@@ -183,7 +183,7 @@ EncodedPing sound_ping(const Copy& copy) {
     EncodedPing encoded = read_ping(from.layout, from.records, *from.finished, copy.id);
     const SensorLayout& sensor = from.layout.sensors[copy.id.sensor];
     const std::vector<std::string> found = journal_words(sensor, encoded);
-    const std::vector<std::string>& told = from.finished->words_of(copy.id);
+    const std::vector<std::string> told = from.finished->words_of(copy.id);
     const auto differs = std::ranges::mismatch(found, told).in1;
     if (differs == found.end()) return encoded;
     const auto* file = std::get_if<PingFile>(&sensor.per_ping[differs - found.begin()]);

@@ -29,12 +29,17 @@ Json describe_inputs(const Mission& mission, const Assembly& assembly) {
 
 /// What of the scene's files is rendered, how well it is known, and what is left out.
 Json describe_scene_use(const Scene& scene) {
-    return {{"triangles", scene.triangles.size()},
-            {"vertex_rounding_m", scene.vertex_rounding_m},
-            {"dropped",
-             {{"degenerate_triangles", scene.rejects.degenerate_triangles},
-              {"non_finite_triangles", scene.rejects.non_finite_triangles},
-              {"skipped_primitives", scene.rejects.skipped_primitives}}}};
+    Json json = {{"triangles", scene.triangles.size()},
+                 {"vertex_rounding_m", scene.vertex_rounding_m},
+                 {"dropped",
+                  {{"degenerate_triangles", scene.rejects.degenerate_triangles},
+                   {"non_finite_triangles", scene.rejects.non_finite_triangles},
+                   {"skipped_primitives", scene.rejects.skipped_primitives}}}};
+    if (!scene.copies.empty()) {
+        json["shared_meshes"] = scene.shared_meshes.size();
+        json["copies"] = scene.copies.size();
+    }
+    return json;
 }
 
 Json describe_build() {

@@ -38,6 +38,11 @@ std::string refusal_of(const EngineSettings& settings, const Scene& scene) {
         return std::string(is_octree ? "engine: octree" : "engine: slices") +
                " sees no objects that move; use engine: auto or engine: rays";
     }
+    if (!scene.copies.empty() && (is_octree || settings.type == EngineType::slices)) {
+        return std::string(is_octree ? "engine: octree" : "engine: slices") +
+               " sees no copies of shared meshes; use engine: auto or engine: rays, or "
+               "scene.repeats: copied";
+    }
     if (settings.type != EngineType::octree) return "";
     const double length_m = (scene.bounds_max - scene.bounds_min).maxCoeff();
     const double longest_m = longest_octree_scene_m(settings.octree);
