@@ -25,7 +25,7 @@ ALLOWED = {
     "assembly": {"core", "mission", "scene", "trajectory", "visibility", "calibrated", "ping", "product",
                  "sonar"},
 }
-for upper in ("dataset", "validation", "benchmark"):
+for upper in ("dataset", "validation", "benchmark", "preview", "gallery"):
     ALLOWED[upper] = set(ALLOWED)
 
 # The parts of the folders that have subfolders, from the bottom up; those in one row do not know
