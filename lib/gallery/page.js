@@ -39,7 +39,11 @@ function image_of(url) {
     image.src = url;
   }
   images.set(url, image);
-  if (images.size > most_images) images.delete(images.keys().next().value);
+  if (images.size > most_images) {
+    const [oldest, left] = images.entries().next().value;
+    images.delete(oldest);
+    if (!left.done) left.src = '';  // nobody waits for it any more
+  }
   return image;
 }
 
@@ -54,7 +58,14 @@ function url_of(shown, ping) {
   return shown.file;
 }
 
+// Once the steps pause: who drags the slider over a thousand pings wants none of their neighbours.
+let preloading = 0;
 function preload() {
+  clearTimeout(preloading);
+  preloading = setTimeout(load_neighbours, 40);
+}
+
+function load_neighbours() {
   const shown = view();
   if (!shown || shown.per !== 'ping') return;
   for (const step of [1, -1, 2, 3, 4, 5, -2]) {
@@ -268,7 +279,7 @@ function draw_plan() {
     context.strokeStyle = context.fillStyle = '#7a7a50';
     line([[min[0], min[1]], [max[0], min[1]], [max[0], max[1]], [min[0], max[1]], [min[0], min[1]]]);
     context.stroke();
-    context.fillText(name, ...px(min[0], min[1]));
+    if (data.objects.length <= 20 || plan.zoom > 3) context.fillText(name, ...px(min[0], min[1]));
   }
   context.strokeStyle = '#9a9aa4';
   const stride = Math.max(1, Math.floor(track.x.length / 20000));

@@ -39,7 +39,7 @@ Json short_number(double value) {
 /// Every number in a tree, by the names on the way to it.
 template <class Visit>
 void for_each_number(const std::string& name, const Json& json, const Visit& visit) {
-    if (json.is_number() || json.is_null()) visit(name, json);
+    if (!name.empty() && (json.is_number() || json.is_null())) visit(name, json);
     if (!json.is_object()) return;
     for (const auto& [key, value] : json.items())
         for_each_number(name.empty() ? key : name + "." + key, value, visit);
