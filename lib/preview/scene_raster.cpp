@@ -1,8 +1,11 @@
 #include "preview/scene_raster.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
+
+#include "core/input_limits.h"
 
 namespace sonarsim {
 
@@ -51,8 +54,9 @@ struct HeightRaster {
         return frame.pixel(p.head<2>()) - Vector2d(frame.left, frame.top);
     }
 
-    /// So that what is thinner than a pixel, or upright, is seen, too.
-    void put_edge(const Vector3d& a, const Vector3d& b) {
+    /// So that what is thinner than a pixel, or upright, is seen, too. Of what is upright there is
+    /// a part below the ceiling wherever there is one above.
+    void put_edge(const Vector3d& a, const Vector3d& b, bool upright) {
         const Vector2d from = place(a);
         const Vector2d way = place(b) - from;
         const int steps = static_cast<int>(std::min(2000.0, std::ceil(way.norm())));
@@ -60,7 +64,7 @@ struct HeightRaster {
             const double share = steps > 0 ? static_cast<double>(k) / steps : 0.0;
             const Vector2d at = from + share * way;
             put(static_cast<int>(std::floor(at.x())), static_cast<int>(std::floor(at.y())),
-                a.z() + share * (b.z() - a.z()));
+                std::min(a.z() + share * (b.z() - a.z()), upright ? ceiling : furthest_m));
         }
     }
 
@@ -105,8 +109,10 @@ std::vector<float> heights_below(const Assembly& assembly, std::uint32_t pose,
             (least.head<2>().array() > high.array()).any())
             return;
         raster.put_face(corner);
+        const Vector3d normal = (corner[1] - corner[0]).cross(corner[2] - corner[0]);
+        const bool upright = std::fabs(normal.z()) < 0.05 * normal.norm();
         for (int k = 0; k < 3; ++k)
-            raster.put_edge(corner[k], corner[(k + 1) % 3]);
+            raster.put_edge(corner[k], corner[(k + 1) % 3], upright);
     });
     return std::move(raster.z);
 }

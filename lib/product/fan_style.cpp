@@ -48,119 +48,108 @@ float cover(double pixels) {
     return line_share * static_cast<float>(std::max(0.0, 1.0 - std::fabs(pixels)));
 }
 
-class Marker {
-  public:
-    Marker(const View& view, FanStyle& style) : view_(view), style_(style) {}
-
-    void lines(const FanStyleConfig& config) {
-        const std::vector<double> ranges =
-            config.rings ? ring_ranges(view_) : std::vector<double>{};
-        const std::vector<double> bearings =
-            config.bearings ? bearings_deg(view_) : std::vector<double>{};
-        const FanFrame& frame = style_.frame;
-        for (int row = 0; row < frame.height; ++row) {
-            for (int column = 0; column < frame.width; ++column) {
-                const FanPlace place = fan_place(frame, view_.range_max_m, column, row);
-                if (!is_inside_sector(view_, place)) continue;
-                float share = 0.0F;
-                for (const double range : ranges)
-                    share = std::max(share, cover((place.range_m - range) / frame.pixel_m));
-                for (const double bearing : bearings) {
-                    const SinCos off = sincos(place.azimuth_rad - radians(bearing));
-                    if (off.cos > 0.0)
-                        share = std::max(share, cover(place.range_m * off.sin / frame.pixel_m));
-                }
-                if (share > 0.0F)
-                    style_.marks.push_back({row * frame.width + column, mark_colour, share});
+void mark_lines(FanStyle& style, const View& view, const FanStyleConfig& config) {
+    const std::vector<double> ranges = config.rings ? ring_ranges(view) : std::vector<double>{};
+    const std::vector<double> bearings =
+        config.bearings ? bearings_deg(view) : std::vector<double>{};
+    const FanFrame& frame = style.frame;
+    for (int row = 0; row < frame.height; ++row) {
+        for (int column = 0; column < frame.width; ++column) {
+            const FanPlace place = fan_place(frame, view.range_max_m, column, row);
+            if (!is_inside_sector(view, place)) continue;
+            float share = 0.0F;
+            for (const double range : ranges)
+                share = std::max(share, cover((place.range_m - range) / frame.pixel_m));
+            for (const double bearing : bearings) {
+                const SinCos off = sincos(place.azimuth_rad - radians(bearing));
+                if (off.cos > 0.0)
+                    share = std::max(share, cover(place.range_m * off.sin / frame.pixel_m));
             }
+            if (share > 0.0F)
+                style.marks.push_back({row * frame.width + column, mark_colour, share});
         }
     }
+}
 
-    void numbers(const FanStyleConfig& config) {
-        const FanFrame& frame = style_.frame;
-        if (std::min(frame.width, frame.height) < least_px) return;
-        Picture text(frame.width, frame.height, paper);
-        if (config.rings) {
-            for (const double range : ring_ranges(view_)) {
-                // Where the outermost bearing has its number.
-                const bool taken = config.bearings && range > 0.97 * view_.range_max_m;
-                if (!taken) write_range(text, range);
-            }
-        }
-        if (config.bearings) {
-            for (const double bearing : bearings_deg(view_))
-                write_bearing(text, bearing);
-        }
-        add_text(text);
-    }
-
-  private:
-    struct Pixel {
-        int x;
-        int y;
-    };
-    Pixel pixel_at(double range_m, double azimuth_rad) const {
-        const SinCos at = sincos(azimuth_rad);
-        const double x = 0.5 * style_.frame.width - range_m * at.sin / style_.frame.pixel_m;
-        const double y = (view_.range_max_m - range_m * at.cos) / style_.frame.pixel_m;
-        return {static_cast<int>(std::floor(x)), static_cast<int>(std::floor(y))};
-    }
-
-    /// Writes within the frame; `x` is the left end.
-    void write_inside(Picture& text, int x, int y, const std::string& number) const {
-        x = std::clamp(x, 1, std::max(1, text.width - text_width(number) - 1));
-        y = std::clamp(y, 1, std::max(1, text.height - 8));
-        write(text, x, y, number, Align::left, mark_colour);
-    }
-
-    void write_range(Picture& text, double range_m) const {
-        const bool wide = view_.azimuth_rad > pi;
-        const Pixel at = pixel_at(range_m, wide ? 0.0 : -0.5 * view_.azimuth_rad);
-        write_inside(text, at.x + 5, wide ? at.y + 3 : at.y - 1, number_text(range_m) + " m");
-    }
-
-    void write_bearing(Picture& text, double bearing_deg) const {
-        const double in_m = 14.0 * style_.frame.pixel_m;
-        const Pixel at = pixel_at(view_.range_max_m - in_m, radians(bearing_deg));
-        const char* const side = bearing_deg > 0.0 && bearing_deg < 180.0 ? "P"
-                                 : bearing_deg < 0.0                      ? "S"
-                                                                          : "";
-        const std::string number = number_text(std::fabs(bearing_deg)) + side;
-        write_inside(text, at.x - text_width(number) / 2, at.y - 3, number);
-    }
-
-    /// The text, and around it a dark seam so that it can be read on any picture.
-    void add_text(const Picture& text) const {
-        const auto is_set = [&](int x, int y) {
-            return x >= 0 && y >= 0 && x < text.width && y < text.height &&
-                   text.pixels[static_cast<std::size_t>(y) * text.width + x] == mark_colour;
-        };
-        for (int y = 0; y < text.height; ++y) {
-            for (int x = 0; x < text.width; ++x) {
-                bool near = false;
-                for (int j = -1; j <= 1; ++j) {
-                    for (int i = -1; i <= 1; ++i)
-                        near = near || is_set(x + i, y + j);
-                }
-                if (!near) continue;
-                const int index = y * text.width + x;
-                is_set(x, y) ? style_.marks.push_back({index, mark_colour, 1.0F})
-                             : style_.marks.push_back({index, paper, halo_share});
-            }
-        }
-    }
-
-    const View& view_;
-    FanStyle& style_;
+struct Pixel {
+    int x;
+    int y;
 };
+
+Pixel pixel_at(const FanFrame& frame, const View& view, double range_m, double azimuth_rad) {
+    const SinCos at = sincos(azimuth_rad);
+    return {static_cast<int>(std::floor(0.5 * frame.width - range_m * at.sin / frame.pixel_m)),
+            static_cast<int>(std::floor((view.range_max_m - range_m * at.cos) / frame.pixel_m))};
+}
+
+/// Writes within the picture; `x` is the left end.
+void write_inside(Picture& text, int x, int y, const std::string& number) {
+    x = std::clamp(x, 1, std::max(1, text.width - text_width(number) - 1));
+    y = std::clamp(y, 1, std::max(1, text.height - 8));
+    write(text, x, y, number, Align::left, mark_colour);
+}
+
+void write_range(Picture& text, const FanFrame& frame, const View& view, double range_m) {
+    const bool wide = view.azimuth_rad > pi;
+    const Pixel at = pixel_at(frame, view, range_m, wide ? 0.0 : -0.5 * view.azimuth_rad);
+    write_inside(text, at.x + 5, wide ? at.y + 3 : at.y - 1, number_text(range_m) + " m");
+}
+
+void write_bearing(Picture& text, const FanFrame& frame, const View& view, double bearing_deg) {
+    const double in_m = 14.0 * frame.pixel_m;
+    const Pixel at = pixel_at(frame, view, view.range_max_m - in_m, radians(bearing_deg));
+    const char* side = "";
+    if (bearing_deg > 0.0 && bearing_deg < 180.0) side = "P";
+    if (bearing_deg < 0.0) side = "S";
+    const std::string number = number_text(std::fabs(bearing_deg)) + side;
+    write_inside(text, at.x - text_width(number) / 2, at.y - 3, number);
+}
+
+/// The text, and around it a dark seam so that it can be read on any picture.
+void mark_text(FanStyle& style, const Picture& text) {
+    const auto is_set = [&](int x, int y) {
+        return x >= 0 && y >= 0 && x < text.width && y < text.height &&
+               text.pixels[static_cast<std::size_t>(y) * text.width + x] == mark_colour;
+    };
+    for (int y = 0; y < text.height; ++y) {
+        for (int x = 0; x < text.width; ++x) {
+            bool near = false;
+            for (int j = -1; j <= 1; ++j) {
+                for (int i = -1; i <= 1; ++i)
+                    near = near || is_set(x + i, y + j);
+            }
+            if (!near) continue;
+            const int index = y * text.width + x;
+            is_set(x, y) ? style.marks.push_back({index, mark_colour, 1.0F})
+                         : style.marks.push_back({index, paper, halo_share});
+        }
+    }
+}
+
+void mark_numbers(FanStyle& style, const View& view, const FanStyleConfig& config) {
+    const FanFrame& frame = style.frame;
+    if (std::min(frame.width, frame.height) < least_px) return;
+    Picture text(frame.width, frame.height, paper);
+    if (config.rings) {
+        for (const double range : ring_ranges(view)) {
+            // Where the outermost bearing has its number.
+            const bool taken = config.bearings && range > 0.97 * view.range_max_m;
+            if (!taken) write_range(text, frame, view, range);
+        }
+    }
+    if (config.bearings) {
+        for (const double bearing : bearings_deg(view))
+            write_bearing(text, frame, view, bearing);
+    }
+    mark_text(style, text);
+}
 
 }  // namespace
 
 FanStyle make_fan_style(const Sonar& sonar, const FanFrame& frame, const FanStyleConfig& config) {
     FanStyle style{frame, colour_table(config.colours), {}};
-    Marker marker(sonar.settings.view, style);
-    marker.lines(config);
-    marker.numbers(config);
+    mark_lines(style, sonar.settings.view, config);
+    mark_numbers(style, sonar.settings.view, config);
     return style;
 }
 
