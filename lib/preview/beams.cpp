@@ -8,7 +8,7 @@ namespace sonarsim {
 
 namespace {
 
-constexpr int steps = 48;  // along each side, or around a cone
+constexpr int edge_steps = 48;  // along each side, or around a cone
 
 Ray ray_at(double azimuth_rad, double elevation_rad) {
     const SinCos a = sincos(azimuth_rad);
@@ -23,18 +23,18 @@ std::vector<Ray> rays_around(const View& view) {
     const double elevation = 0.5 * view.elevation_rad;
     if (view.shape == ViewShape::cone) {
         const SinCos off = sincos(azimuth);
-        for (int k = 0; k < steps; ++k) {
-            const SinCos around = sincos(2.0 * pi * k / steps);
+        for (int k = 0; k < edge_steps; ++k) {
+            const SinCos around = sincos(2.0 * pi * k / edge_steps);
             rays.push_back({Eigen::Vector3f::Zero(),
                             Eigen::Vector3d(off.cos, off.sin * around.cos, off.sin * around.sin)
                                 .cast<float>()});
         }
         return rays;
     }
-    for (int k = 0; k <= steps; ++k)
-        rays.push_back(ray_at(azimuth * (2.0 * k / steps - 1.0), elevation));
-    for (int k = steps; k >= 0; --k)
-        rays.push_back(ray_at(azimuth * (2.0 * k / steps - 1.0), -elevation));
+    for (int k = 0; k <= edge_steps; ++k)
+        rays.push_back(ray_at(azimuth * (2.0 * k / edge_steps - 1.0), elevation));
+    for (int k = edge_steps; k >= 0; --k)
+        rays.push_back(ray_at(azimuth * (2.0 * k / edge_steps - 1.0), -elevation));
     return rays;
 }
 

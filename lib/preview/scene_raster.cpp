@@ -19,11 +19,11 @@ using Corners = std::array<Vector3d, 3>;
 void for_each_triangle(const Assembly& assembly, std::uint32_t pose,
                        const std::function<void(const Corners&)>& visit) {
     const Scene& scene = assembly.scene;
-    const auto fixed = [&](std::uint32_t i) -> Vector3d {
+    const auto resting = [&](std::uint32_t i) -> Vector3d {
         return scene.origin + scene.vertices[i].cast<double>();
     };
     for (const auto& [a, b, c] : scene.triangles)
-        visit({fixed(a), fixed(b), fixed(c)});
+        visit({resting(a), resting(b), resting(c)});
     const std::vector<Pose> poses = body_poses(assembly, assembly.trajectory[pose].t_s);
     for (std::size_t k = 0; k < poses.size(); ++k) {
         const Body& body = scene.bodies[k];

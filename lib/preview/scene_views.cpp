@@ -53,8 +53,8 @@ void draw_heights(Picture& tile, const PlaneFrame& frame, const std::vector<floa
                          [](float z) { return !std::isnan(z); });
     if (known.empty()) return;
     std::ranges::sort(known);
-    const float low = known[known.size() / 100];
-    const float high = std::max(known[known.size() - 1 - known.size() / 100], low + 1e-3F);
+    const float low = known[known.size() / 50];
+    const float high = std::max(known[known.size() - 1 - known.size() / 50], low + 1e-3F);
     const std::span<const Rgb> stops = stops_of(FanColours::sea);
     const auto width = static_cast<std::size_t>(frame.plot_width);
     for (std::size_t k = 0; k < heights.size(); ++k) {

@@ -76,7 +76,7 @@ struct Pixel {
     int y;
 };
 
-Pixel pixel_at(const FanFrame& frame, const View& view, double range_m, double azimuth_rad) {
+Pixel pixel_of(const FanFrame& frame, const View& view, double range_m, double azimuth_rad) {
     const SinCos at = sincos(azimuth_rad);
     return {static_cast<int>(std::floor(0.5 * frame.width - range_m * at.sin / frame.pixel_m)),
             static_cast<int>(std::floor((view.range_max_m - range_m * at.cos) / frame.pixel_m))};
@@ -91,13 +91,13 @@ void write_inside(Picture& text, int x, int y, const std::string& number) {
 
 void write_range(Picture& text, const FanFrame& frame, const View& view, double range_m) {
     const bool wide = view.azimuth_rad > pi;
-    const Pixel at = pixel_at(frame, view, range_m, wide ? 0.0 : -0.5 * view.azimuth_rad);
+    const Pixel at = pixel_of(frame, view, range_m, wide ? 0.0 : -0.5 * view.azimuth_rad);
     write_inside(text, at.x + 5, wide ? at.y + 3 : at.y - 1, number_text(range_m) + " m");
 }
 
 void write_bearing(Picture& text, const FanFrame& frame, const View& view, double bearing_deg) {
     const double in_m = 14.0 * frame.pixel_m;
-    const Pixel at = pixel_at(frame, view, view.range_max_m - in_m, radians(bearing_deg));
+    const Pixel at = pixel_of(frame, view, view.range_max_m - in_m, radians(bearing_deg));
     const char* side = "";
     if (bearing_deg > 0.0 && bearing_deg < 180.0) side = "P";
     if (bearing_deg < 0.0) side = "S";
