@@ -9,7 +9,7 @@ namespace sonarsim {
 
 namespace {
 
-constexpr int left_margin = 56;
+constexpr int least_left_margin = 56;
 constexpr int bottom_margin = 20;
 
 }  // namespace
@@ -84,8 +84,11 @@ PlaneFrame plane_frame(int width, int height, const Eigen::Vector2d& low,
     PlaneFrame frame;
     frame.width = width;
     frame.height = height;
-    frame.left = left_margin;
-    frame.plot_width = width - left_margin - 1;
+    // Room for the longest number of the vertical axis.
+    const double furthest = std::max(std::fabs(low.y()), std::fabs(high.y()));
+    const std::string longest = "-" + std::to_string(std::llround(furthest)) + ".5 m";
+    frame.left = std::max(least_left_margin, text_width(longest) + 12);
+    frame.plot_width = width - frame.left - 1;
     frame.plot_height = height - bottom_margin;
     const Eigen::Vector2d extent = (high - low).cwiseMax(1e-3);
     frame.pixel_m = std::max(extent.x() / frame.plot_width, extent.y() / frame.plot_height);
