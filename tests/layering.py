@@ -27,7 +27,7 @@ ALLOWED = {
     "survey": {"core", "mission", "scene", "trajectory", "visibility", "calibrated", "ping", "product",
                "sonar", "assembly"},
 }
-for upper in ("dataset", "validation", "benchmark"):
+for upper in ("dataset", "validation", "benchmark", "preview", "gallery"):
     ALLOWED[upper] = set(ALLOWED)
 
 # The parts of the folders that have subfolders, from the bottom up; those in one row do not know

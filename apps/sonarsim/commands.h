@@ -12,6 +12,8 @@ void add_render(CLI::App& app, int& exit_code);
 void add_verify(CLI::App& app, int& exit_code);
 void add_merge(CLI::App& app, int& exit_code);
 void add_validate(CLI::App& app, int& exit_code);
+void add_preview(CLI::App& app, int& exit_code);
+void add_gallery(CLI::App& app, int& exit_code);
 void add_inspect(CLI::App& app, int& exit_code);
 void add_report(CLI::App& app, int& exit_code);
 void add_status(CLI::App& app, int& exit_code);

@@ -1,6 +1,5 @@
 #include "dataset/png.h"
 
-
 #include <algorithm>
 #include <iterator>
 #include <stdexcept>

@@ -41,6 +41,7 @@ Mission unusual_mission() {
                       .meta = false,
                       .stages = true,
                       .fan_width_px = 99,
+                      .fan_style = {FanColours::sea, true, true},
                       .full_scale = 0.125,
                       .pack = Pack::tar,
                       .pack_size_mb = 3.5,
@@ -139,6 +140,10 @@ output:
   meta: true
   stages: false
   fan_width_px: 0
+  fan_style:
+    colours: grey
+    rings: false
+    bearings: false
   full_scale: auto
   labels: false
   split:

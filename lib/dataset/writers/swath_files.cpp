@@ -75,7 +75,7 @@ void write_xtf(const WriterContext& context, const RecordFile& rows,
     for_each_row(context, rows, [&](const RecordedRow& row) {
         const std::vector<float> values(row.values.begin(), row.values.end());
         file.append(
-            xtf_record(xtf_ping(context, row), grey_16(values, context.mission.output.full_scale)));
+            xtf_record(xtf_ping(context, row), grey_16(values, context.full_scale())));
     });
     file.finish();
 }
