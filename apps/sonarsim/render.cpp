@@ -139,7 +139,8 @@ void spare_mission(const std::filesystem::path& file, const Mission& mission) {
 void warn_before(const Mission& mission, const Assembly& assembly) {
     warn_about(assembly.scene);
     for (const Sonar& sonar : assembly.sonars) {
-        const std::string doubt = doubt_about(engine_settings(mission), sonar.settings.view);
+        const std::string doubt =
+            doubt_about(engine_settings(mission), sonar.settings.view, sonar.settings.multipath.on);
         if (!doubt.empty()) spdlog::warn("sensor '{}': {}", sonar.config.name, doubt);
     }
     spdlog::info("{}: {} triangles, {} poses", mission.name, assembly.scene.triangles.size(),
