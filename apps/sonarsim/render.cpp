@@ -145,7 +145,8 @@ void spare_mission(const std::filesystem::path& file, const Mission& mission) {
 std::size_t warn_before(const Mission& mission, const Assembly& assembly) {
     std::size_t warnings = warn_about(assembly.scene);
     for (const Sonar& sonar : assembly.sonars) {
-        const std::string doubt = doubt_about(engine_settings(mission), sonar.settings.view);
+        const std::string doubt =
+            doubt_about(engine_settings(mission), sonar.settings.view, sonar.settings.multipath.on);
         if (doubt.empty()) continue;
         ++warnings;
         spdlog::warn("sensor '{}': {}", sonar.config.name, doubt);
