@@ -1,5 +1,7 @@
 #include "dataset/png.h"
 
+#include <zlib.h>
+
 #include <algorithm>
 #include <iterator>
 #include <stdexcept>

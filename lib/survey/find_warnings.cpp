@@ -23,7 +23,8 @@ std::vector<Warning> find_warnings(const Mission& mission, const Assembly& assem
     for (std::size_t i = 0; i < sonars.size(); ++i) {
         const Sonar& sonar = assembly.sonars[i];
         append(sonar_warnings(mission.output, sonar, assembly.full_scales[i], sonars[i]));
-        const std::string doubt = doubt_about(engine_settings(mission), sonar.settings.view);
+        const std::string doubt =
+            doubt_about(engine_settings(mission), sonar.settings.view, sonar.settings.multipath.on);
         if (!doubt.empty())
             out.push_back(make_warning(Doubt::engine, about_sensor(sonar.config.name), doubt));
     }
