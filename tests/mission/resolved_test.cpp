@@ -88,6 +88,7 @@ scene:
   up: y
   objects: []
   scatter: []
+  repeats: auto
 trajectory:
   file: "/base/a.tum"
   rate_hz: 0
@@ -159,6 +160,9 @@ output:
   soundings: true
   scan: true
   bathymetry_cell_m: 0
+  xtf: false
+  mosaic: false
+  mosaic_cell_m: 0
 variants: 0
 vary: []
 )");
