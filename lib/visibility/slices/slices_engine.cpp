@@ -63,6 +63,7 @@ class BeamCutter {
 
     /// Adds the samples of a strip. Strips are to be added from low u to high, without gaps.
     void add(const SeenSlice& seen) {
+        if (beam_ + 1 == static_cast<int>(frame_.beam_u.size())) return;  // no width is left
         const MovedEnds* low = &seen.low;
         while (frame_.beam_u[beam_ + 1] < seen.high.u) {
             move_ends(seen.slice, seen.spans, frame_.beam_u[beam_ + 1], at_border_[beam_ % 2]);
