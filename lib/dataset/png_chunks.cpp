@@ -2,12 +2,19 @@
 
 #include <zlib.h>
 
+#include <cstdint>
+
 namespace sonarsim {
 
+namespace {
+
+/// A number as PNG has it: the highest byte first.
 void append_png_number(std::string& out, std::uint32_t value) {
     for (int shift = 24; shift >= 0; shift -= 8)
         out += static_cast<char>(value >> shift & 0xFF);
 }
+
+}  // namespace
 
 void append_png_chunk(std::string& out, std::string_view kind, std::string_view data) {
     append_png_number(out, static_cast<std::uint32_t>(data.size()));

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -9,9 +8,6 @@ namespace sonarsim {
 // The parts of a PNG file: www.w3.org/TR/png.
 
 inline constexpr std::string_view png_signature{"\x89PNG\r\n\x1a\n", 8};
-
-/// Appends a number as PNG has it: 32 bits, the highest first.
-void append_png_number(std::string& out, std::uint32_t value);
 
 /// Appends a chunk: the length of its data, its kind of four letters, the data and their CRC.
 void append_png_chunk(std::string& out, std::string_view kind, std::string_view data);

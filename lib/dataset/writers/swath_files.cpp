@@ -73,9 +73,7 @@ void write_xtf(const WriterContext& context, const RecordFile& rows,
                             .azimuth_deg = static_cast<float>(config.azimuth_deg),
                             .beam_width_deg = static_cast<float>(config.elevation_deg)}));
     for_each_row(context, rows, [&](const RecordedRow& row) {
-        const std::vector<float> values(row.values.begin(), row.values.end());
-        file.append(
-            xtf_record(xtf_ping(context, row), grey_16(values, context.full_scale())));
+        file.append(xtf_record(xtf_ping(context, row), grey_16(row.values, context.full_scale())));
     });
     file.finish();
 }
