@@ -59,9 +59,22 @@ struct HeightRaster {
     void put_edge(const Vector3d& a, const Vector3d& b, bool upright) {
         const Vector2d from = place(a);
         const Vector2d way = place(b) - from;
-        const int steps = static_cast<int>(std::min(2000.0, std::ceil(way.norm())));
+        // The part of it that lies in the plot: an edge may be a million times as long.
+        double begin = 0.0;
+        double end = 1.0;
+        for (const auto& [start, change, last] :
+             {std::array{from.x(), way.x(), static_cast<double>(frame.plot_width)},
+              std::array{from.y(), way.y(), static_cast<double>(frame.plot_height)}}) {
+            const double one = change != 0.0 ? -start / change : 0.0;
+            const double other = change != 0.0 ? (last - start) / change : 1.0;
+            if (change == 0.0 && (start < 0.0 || start >= last)) return;
+            begin = std::max(begin, std::min(one, other));
+            end = std::min(end, std::max(one, other));
+        }
+        if (begin > end) return;
+        const int steps = static_cast<int>(std::ceil((end - begin) * way.norm()));
         for (int k = 0; k <= steps; ++k) {
-            const double share = steps > 0 ? static_cast<double>(k) / steps : 0.0;
+            const double share = steps > 0 ? begin + (end - begin) * k / steps : begin;
             const Vector2d at = from + share * way;
             put(static_cast<int>(std::floor(at.x())), static_cast<int>(std::floor(at.y())),
                 std::min(a.z() + share * (b.z() - a.z()), upright ? ceiling : furthest_m));
@@ -76,11 +89,13 @@ struct HeightRaster {
         if (std::fabs(area) < 1e-9) return;
         const Vector2d low = a + ab.cwiseMin(ac).cwiseMin(0.0);
         const Vector2d high = a + ab.cwiseMax(ac).cwiseMax(0.0);
-        const int last_row = std::min<int>(frame.plot_height - 1, static_cast<int>(high.y()));
-        const int last_column = std::min<int>(frame.plot_width - 1, static_cast<int>(high.x()));
-        for (int row = std::max(0, static_cast<int>(low.y())); row <= last_row; ++row) {
-            for (int column = std::max(0, static_cast<int>(low.x())); column <= last_column;
-                 ++column) {
+        // A corner may be further off than an int can tell.
+        const Vector2d size(frame.plot_width, frame.plot_height);
+        const Eigen::Vector2i first = low.cwiseMax(0.0).cwiseMin(size).cast<int>();
+        const Eigen::Vector2i last =
+            high.cwiseMax(-1.0).cwiseMin(size - Vector2d::Ones()).cast<int>();
+        for (int row = first.y(); row <= last.y(); ++row) {
+            for (int column = first.x(); column <= last.x(); ++column) {
                 const Vector2d p = Vector2d(column + 0.5, row + 0.5) - a;
                 const double u = (p.x() * ac.y() - p.y() * ac.x()) / area;
                 const double v = (ab.x() * p.y() - ab.y() * p.x()) / area;
