@@ -98,7 +98,7 @@ Assembly assemble(const Mission& mission) {
 Assembly assemble(const Mission& mission, SceneFiles& models) {
     Assembly assembly;
     Problems problems;
-    problems.attempt([&] { assembly.trajectory = poses_of(mission.trajectory); });
+    problems.attempt([&] { assembly.trajectory = vehicle_poses(mission); });
     const EngineSettings settings = engine_settings(mission);
     for (const SonarConfig& sensor : mission.sensors)
         problems.attempt(

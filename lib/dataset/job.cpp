@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -105,11 +106,12 @@ struct Destination {
 
 /// Hands a ping to the writers of its sensor and what they make of it to the disk.
 void write_ping(const Assembly& assembly, const VisibilityEngine& engine, const Destination& to,
-                const TracedPing& traced, const Ping& ping, PingReport& report) {
+                const Sonar& sonar, const TracedPing& traced, const Ping& ping,
+                PingReport& report) {
     const PingId& id = report.id;
     Stopwatch watch;
     WrittenPing written = encode_ping(assembly, engine, to.writers[id.sensor], to.labels[id.sensor],
-                                      id, traced, ping);
+                                      id, sonar, traced, ping);
     report.clipped_pixels = written.clipped_pixels;
     report.encode_seconds = watch.lap();
     to.files.write(id, written.parts);
@@ -132,7 +134,9 @@ void render(const Mission& mission, const Assembly& assembly, const std::vector<
         todo.size(), 2 * static_cast<std::size_t>(threads), stop,
         [&](std::size_t i) {
             const PingId& id = todo[i];
-            const Sonar& sonar = assembly.sonars[id.sensor];
+            const std::optional<Sonar> drawn =
+                drawn_sonar(mission, assembly.sonars[id.sensor], id.pose);
+            const Sonar& sonar = drawn ? *drawn : assembly.sonars[id.sensor];
             const TimedPose& pose = assembly.trajectory[id.pose];
             const std::unique_ptr<VisibilityEngine> moment =
                 assembly.motions.empty() ? nullptr : engine->at(body_poses(assembly, pose.t_s));
@@ -149,7 +153,7 @@ void render(const Mission& mission, const Assembly& assembly, const std::vector<
                               .brightest = brightest_pixel(ping, sonar.config.name, id.pose),
                               .estimated_l1 = ping.estimated_l1,
                               .goal_l1 = sonar.settings.view.relative_l1};
-            if (to) write_ping(assembly, now, *to, traced, ping, report);
+            if (to) write_ping(assembly, now, *to, sonar, traced, ping, report);
             return report;
         },
         [&](const PingReport& report) {

@@ -227,6 +227,7 @@ struct Mission {
     WaterConfig water;
     SceneConfig scene;
     TrajectoryConfig trajectory;
+    VehicleConfig vehicle;
     std::vector<SonarConfig> sensors;  ///< in the order of the file
     AccuracyConfig accuracy;
     EngineKind engine = EngineKind::automatic;

@@ -85,7 +85,7 @@ Floats floats(const WriterContext&, const FinishedPing& finished) {
 
 template <Terms terms>
 Floats image(const WriterContext& context, const FinishedPing& finished) {
-    return form_image(finished.traced, context.sonar().settings, context.assembly.scene,
+    return form_image(finished.traced, finished.sonar.settings, context.assembly.scene,
                       {context.mission.seed, finished.id.pose}, terms)
         .intensity;
 }
