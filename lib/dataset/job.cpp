@@ -223,7 +223,7 @@ RenderSummary run_job(const Mission& mission, const Assembly& assembly,
                     options.checkpoint_s);
     std::vector<LabelPlan> labels;
     for (const Sonar& sonar : assembly.sonars)
-        labels.push_back(plan_labels(mission, sonar));
+        labels.push_back(plan_labels(mission, assembly, sonar));
     PingFiles files(layout, records, there);
     const Destination to{layout, writers, files, labels, journal};
     render_all(plan.todo, &to);

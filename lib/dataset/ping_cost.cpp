@@ -24,7 +24,7 @@ std::vector<PingCost> measure_pings(const Mission& mission, const Assembly& asse
     std::vector<PingCost> costs(assembly.sonars.size());
     for (std::uint32_t i = 0; i < costs.size(); ++i) {
         const Sonar& sonar = assembly.sonars[i];
-        const LabelPlan plan = plan_labels(mission, sonar);
+        const LabelPlan plan = plan_labels(mission, assembly, sonar);
         std::vector<std::uint32_t> poses =
             spread_pings(assembly.trajectory.size(), sonar.config.every, most_pings);
         const auto counted = static_cast<double>(poses.size());

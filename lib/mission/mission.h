@@ -151,6 +151,7 @@ enum class Label {
     class_name,
     material,
     elevation,
+    height,
     shadow,
     multipath,
     clean,

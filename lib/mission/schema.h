@@ -39,6 +39,7 @@ inline constexpr std::array label_names{Choice<Label>{"instance", Label::instanc
                                         Choice<Label>{"class", Label::class_name},
                                         Choice<Label>{"material", Label::material},
                                         Choice<Label>{"elevation", Label::elevation},
+                                        Choice<Label>{"height", Label::height},
                                         Choice<Label>{"shadow", Label::shadow},
                                         Choice<Label>{"multipath", Label::multipath},
                                         Choice<Label>{"clean", Label::clean},

@@ -69,6 +69,16 @@ std::optional<Bottom::Heights> Bottom::heights(const Eigen::Vector2d& point) con
     return found;
 }
 
+std::optional<double> Bottom::highest_below(const Eigen::Vector3d& point, double tolerance) const {
+    const Eigen::Vector2d at = point.head<2>();
+    std::optional<double> found;
+    for_each_near({at, at}, [&](std::uint32_t triangle) {
+        const auto z = height_above(corners_of(surface_, triangle), at);
+        if (z && *z <= point.z() + tolerance && (!found || *z > *found)) found = z;
+    });
+    return found;
+}
+
 std::optional<double> height_above(const std::array<Eigen::Vector3d, 3>& corners,
                                    const Eigen::Vector2d& point) {
     // Relative to the point, so that large coordinates lose nothing.
