@@ -23,7 +23,13 @@ void HeightFinder::add(const Sample& sample, const Eigen::Vector3f& up) {
     const Eigen::Vector3d at =
         T_world_sensor_.rotation * sample.position.cast<double>() + T_world_sensor_.translation;
     const double tolerance = on_bottom * path.range_m;
-    const std::optional<double> below = bottom_->highest_below(at, tolerance);
+    std::optional<double> below = bottom_->highest_below(at, tolerance);
+    if (!below) {
+        // A wall on the border of the bottom: the bottom begins before it.
+        const Eigen::Vector3d before =
+            at + tolerance * (T_world_sensor_.rotation * sample.normal.cast<double>());
+        below = bottom_->highest_below(before, tolerance);
+    }
     if (!below) return;
     const double height = at.z() - *below;
     const bool is_bottom = height < tolerance;

@@ -263,6 +263,36 @@ TEST_CASE("labels: heights above the bottom, of a box, of a ramp and of the bott
     }
 }
 
+TEST_CASE("labels: a wall on the border of the bottom has heights") {
+    // A sonar 2 m above a floor that ends at a wall 6 m ahead, looking level: of the wall it sees
+    // the heights from 2 - 6 tan(10) = 0.94 m to 3.06 m, straight ahead first the middle of them.
+    Scene scene = empty_scene();
+    add_quad(scene, {6, -9, 0}, {6, 9, 0}, {6, 9, 5}, {6, -9, 5}, add_material(scene, 0.5F));
+    const Bottom bottom({{{-1, -9, 0}, {6, -9, 0}, {6, 9, 0}, {-1, 9, 0}}, {{0, 1, 2}, {0, 2, 3}}});
+    SonarConfig config = small_imaging();
+    config.elevation_deg = 20.0;
+    const Sonar sonar = noise_free(config, 0.01);
+    const Pose pose{Eigen::Quaterniond::Identity(), {0, 0, 2}};
+    for (const EngineType type : engine_types) {
+        CAPTURE(static_cast<int>(type));
+        const auto engine = make_engine(scene, {.type = type, .octree = {}});
+        const TracedPing traced = trace(sonar, scene, *engine, pose, 0);
+        const PingLabels labels =
+            label_ping(traced, sonar.settings, scene, group_objects(scene, {}), *engine,
+                       {.elevation = true, .height = true, .bottom = &bottom});
+        int lit = 0;
+        for (std::size_t k = 0; k < labels.size(); ++k) {
+            const bool seen = !std::isnan(labels.elevation_rad[k]);
+            REQUIRE(std::isnan(labels.height_m[k]) == !seen);
+            if (!seen) continue;
+            ++lit;
+            // What lies as far above the sonar as below it falls into one bin.
+            CHECK(std::fabs(labels.height_m[k] - 2.0F) < 0.2F);
+        }
+        CHECK(lit > 50);
+    }
+}
+
 TEST_CASE("labels: lit bins are those of the clean image, multipath bins those of its ghosts") {
     const Scene scene = tank();
     SonarConfig config = small_imaging();
