@@ -204,9 +204,9 @@ RenderSummary run_job(const Mission& mission, const Assembly& assembly,
         options.overwrite ? FolderState::fresh : inspect_folder(layout, common.description);
     if (state == FolderState::fresh) begin_dataset(layout, common);
     RecordFiles records = open_records(layout);
-    const FinishedPings there(layout, records);
+    std::optional<FinishedPings> there(std::in_place, layout, records);
     const auto shard = [&](std::size_t i) { return shard_of(layout, all[i], i, options.shards); };
-    const Plan plan = make_plan(all, options, shard, there);
+    const Plan plan = make_plan(all, options, shard, *there);
     summary.skipped = plan.skipped;
     summary.complete = state == FolderState::complete && plan.todo.empty() &&
                        has_common_files(layout) && has_products(layout);
@@ -224,16 +224,20 @@ RenderSummary run_job(const Mission& mission, const Assembly& assembly,
     std::vector<LabelPlan> labels;
     for (const Sonar& sonar : assembly.sonars)
         labels.push_back(plan_labels(mission, assembly, sonar));
-    PingFiles files(layout, records, there);
-    const Destination to{layout, writers, files, labels, journal};
-    render_all(plan.todo, &to);
+    {
+        PingFiles files(layout, records, *there);
+        const Destination to{layout, writers, files, labels, journal};
+        render_all(plan.todo, &to);
+    }
     journal.finish();
     if (summary.stopped) return summary;
     // What was there, or written by this run, may be gone by now: all of it is looked at once more.
     require_records(records);
-    const FinishedPings finished(layout, records);
-    require_files(layout, plan.todo, finished);
-    summary.complete = std::ranges::all_of(all, finished);
+    // The journal is held once at a time: of many pings it is long.
+    there.emplace(layout, records);
+    require_files(layout, plan.todo, *there);
+    summary.complete = std::ranges::all_of(all, *there);
+    there.reset();
     if (summary.complete) complete_dataset(layout, mission, writers, records, common);
     return summary;
 }
