@@ -98,7 +98,7 @@ Assembly assemble(const Mission& mission) {
 Assembly assemble(const Mission& mission, SceneFiles& models) {
     Assembly assembly;
     Problems problems;
-    problems.attempt([&] { assembly.trajectory = poses_of(mission.trajectory); });
+    problems.attempt([&] { assembly.trajectory = vehicle_poses(mission); });
     const EngineSettings settings = engine_settings(mission);
     for (const SonarConfig& sensor : mission.sensors)
         problems.attempt(
@@ -113,6 +113,7 @@ Assembly assemble(const Mission& mission, SceneFiles& models) {
                                 {mission.water.density_kg_m3, mission.water.sound_speed_m_s},
                                 share_beyond(mission.scene.repeats, settings.type));
     assembly.motions = std::move(parts.motions);
+    assembly.bottom = std::move(parts.bottom);
     add_water_surface(mission, assembly.scene);
     if (!mission.output.labels.empty() || !mission.classes.empty()) {
         std::vector<ClassRule> rules;

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "mission/mission.h"
 #include "scene/gltf/scene_files.h"
 #include "scene/objects.h"
+#include "scene/placing/bottom.h"
 #include "scene/scene.h"
 #include "sonar/sonar.h"
 #include "trajectory/trajectory.h"
@@ -24,9 +26,10 @@ struct Assembly {
     Scene scene;
     SceneObjects objects;  ///< what labels tell apart in the scene
     Trajectory trajectory;
-    std::vector<Trajectory> motions;  ///< of Scene::bodies; they last as long as `trajectory`
-    std::vector<Sonar> sonars;        ///< in the order of Mission::sensors
-    std::vector<InputFile> inputs;    ///< all files that the mission names, each once
+    std::vector<Trajectory> motions;       ///< of Scene::bodies; they last as long as `trajectory`
+    std::shared_ptr<const Bottom> bottom;  ///< that the label `height` counts from; null: none
+    std::vector<Sonar> sonars;             ///< in the order of Mission::sensors
+    std::vector<InputFile> inputs;         ///< all files that the mission names, each once
     std::vector<double> full_scales;  ///< by sonar, the intensity that becomes white in pictures
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 
 #include "assembly/poses.h"
 #include "assembly/spread_pings.h"
@@ -52,7 +53,7 @@ void append_lit(const Ping& clean, const Ping& ping, std::vector<float>& lit) {
     }
 }
 
-double find_full_scale(std::uint64_t seed, const Scene& scene, const Trajectory& trajectory,
+double find_full_scale(const Mission& mission, const Scene& scene, const Trajectory& trajectory,
                        std::span<const Trajectory> motions, Sonar sonar,
                        const VisibilityEngine& engine) {
     View& view = sonar.settings.view;
@@ -65,11 +66,13 @@ double find_full_scale(std::uint64_t seed, const Scene& scene, const Trajectory&
         const TimedPose& at = trajectory[pose];
         const std::unique_ptr<VisibilityEngine> moment =
             motions.empty() ? nullptr : engine.at(poses_at(motions, at.t_s));
+        const std::optional<Sonar> drawn = drawn_sonar(mission, sonar, pose);
+        const Sonar& now = drawn ? *drawn : sonar;
         const TracedPing traced =
-            trace(sonar, scene, moment ? *moment : engine, at.T_world_vehicle, pose);
-        const PingKey key{seed, pose};
-        append_lit(form_image(traced, sonar.settings, scene, key, direct_echoes_alone),
-                   form_image(traced, sonar.settings, scene, key), lit);
+            trace(now, scene, moment ? *moment : engine, at.T_world_vehicle, pose);
+        const PingKey key{mission.seed, pose};
+        append_lit(form_image(traced, now.settings, scene, key, direct_echoes_alone),
+                   form_image(traced, now.settings, scene, key), lit);
     }
     if (lit.empty()) return nothing_seen;
     const double white = std::min<double>(quantile(lit, share_below_white),
@@ -93,8 +96,7 @@ std::vector<double> find_full_scales(const Mission& mission, const Scene& scene,
         const std::unique_ptr<VisibilityEngine> engine =
             make_engine(scene, {.type = EngineType::rays, .octree = {}});
         for (const Sonar& sonar : sonars) {
-            scales.push_back(
-                find_full_scale(mission.seed, scene, trajectory, motions, sonar, *engine));
+            scales.push_back(find_full_scale(mission, scene, trajectory, motions, sonar, *engine));
         }
     });
     return scales;

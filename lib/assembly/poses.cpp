@@ -3,6 +3,7 @@
 #include <variant>
 
 #include "core/units.h"
+#include "mission/ping_draws.h"
 #include "trajectory/files.h"
 #include "trajectory/interpolate.h"
 #include "trajectory/patterns.h"
@@ -44,6 +45,21 @@ std::vector<Pose> poses_at(std::span<const Trajectory> motions, double t_s) {
 
 Trajectory poses_of(const TrajectoryConfig& config) {
     return std::visit([](const auto& form) { return form_of(form); }, config);
+}
+
+Trajectory vehicle_poses(const Mission& mission) {
+    Trajectory poses = poses_of(mission.trajectory);
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+        const VehicleConfig off = vehicle_at(mission, static_cast<std::uint32_t>(i));
+        if (off == VehicleConfig{}) continue;
+        const auto& [roll, pitch, yaw] = off.turn_deg;
+        Pose& pose = poses[i].T_world_vehicle;
+        pose.translation += Eigen::Vector3d(off.offset_m.data());
+        pose.rotation =
+            (pose.rotation * rotation_from_rpy(radians(roll), radians(pitch), radians(yaw)))
+                .normalized();
+    }
+    return poses;
 }
 
 }  // namespace sonarsim

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "mission/trajectory_config.h"
+#include "mission/mission.h"
 #include "trajectory/trajectory.h"
 
 namespace sonarsim {
@@ -13,5 +13,9 @@ std::vector<Pose> poses_at(std::span<const Trajectory> motions, double t_s);
 
 /// The poses that a mission asks for. InputError for what is wrong with their file or numbers.
 Trajectory poses_of(const TrajectoryConfig& config);
+
+/// The poses of a mission's vehicle: those that it asks for, with `vehicle`, whose numbers may be
+/// drawn for every ping.
+Trajectory vehicle_poses(const Mission& mission);
 
 }  // namespace sonarsim

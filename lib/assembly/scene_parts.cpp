@@ -74,10 +74,15 @@ class LazyBottom {
         return scene_.file.empty() && &object == &scene_.objects.front();
     }
 
-    const Bottom& get() {
-        if (!bottom_) bottom_ = std::make_unique<Bottom>(surface());
-        return *bottom_;
+    const Bottom& get() { return *share(); }
+
+    std::shared_ptr<const Bottom> share() {
+        if (!bottom_) bottom_ = std::make_shared<const Bottom>(surface());
+        return bottom_;
     }
+
+    /// Whether something stands still that objects may rest on.
+    bool exists() const { return !scene_.file.empty() || stands_still(scene_.objects.front()); }
 
     /// " from (x, y) to (x, y)", for messages.
     std::string reach() {
@@ -89,13 +94,17 @@ class LazyBottom {
     }
 
   private:
+    static bool stands_still(const ObjectConfig& object) {
+        return object.place_on != ObjectPlace::on_bottom && !object.trajectory;
+    }
+
     Surface surface() const {
         if (!scene_.file.empty()) {
             return surface_of(file_of(scene_.file, scene_.mesh, scene_.place), models_,
                               scene_.bottom);
         }
         const ObjectConfig& first = scene_.objects.front();
-        if (first.place_on == ObjectPlace::on_bottom || first.trajectory) {
+        if (!stands_still(first)) {
             throw InputError(first.place.location,
                              "without scene.file the first object is the bottom that others rest "
                              "on: it must neither move nor rest on the bottom itself");
@@ -108,7 +117,7 @@ class LazyBottom {
 
     const SceneConfig& scene_;
     SceneFiles& models_;
-    std::unique_ptr<Bottom> bottom_;
+    std::shared_ptr<const Bottom> bottom_;
 };
 
 /// The surfaces of files that are read alike, each made once.
@@ -244,6 +253,9 @@ SceneParts place_scene(const Mission& mission, const Trajectory& vehicle, SceneF
         scatter_files(scene.scatter[i], static_cast<std::uint32_t>(i), mission.seed, models, bottom,
                       taken, parts.files);
     }
+    const bool heights =
+        std::ranges::find(mission.output.labels, Label::height) != mission.output.labels.end();
+    if (heights && bottom.exists()) parts.bottom = bottom.share();
     return parts;
 }
 

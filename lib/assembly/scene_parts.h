@@ -1,10 +1,12 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "mission/mission.h"
 #include "scene/gltf/scene_files.h"
 #include "scene/placed_file.h"
+#include "scene/placing/bottom.h"
 #include "trajectory/trajectory.h"
 
 namespace sonarsim {
@@ -13,6 +15,8 @@ namespace sonarsim {
 struct SceneParts {
     std::vector<PlacedFile> files;    ///< scene.file, objects, and what is scattered, in this order
     std::vector<Trajectory> motions;  ///< of those that move, in their order; world
+    /// What objects rest on, where the label `height` asks for it and there is one.
+    std::shared_ptr<const Bottom> bottom;
 };
 
 /// Places all objects of a mission: those on the bottom are lowered to it, those that are scattered

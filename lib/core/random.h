@@ -93,6 +93,7 @@ enum class Stream : std::uint32_t {
     scatterers = 6,
     speckle = 7,
     receiver_noise = 8,
+    ping_variation = 9,  ///< of a key that varies, as the sensor, and a pose, as the ping
 };
 
 /// The key of one stream of one ping of one sensor. The counter below it names what the draw

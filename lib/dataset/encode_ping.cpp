@@ -8,11 +8,10 @@ namespace sonarsim {
 
 WrittenPing encode_ping(const Assembly& assembly, const VisibilityEngine& engine,
                         const Writers& writers, const LabelPlan& plan, const PingId& id,
-                        const TracedPing& traced, const Ping& ping) {
+                        const Sonar& sonar, const TracedPing& traced, const Ping& ping) {
     WrittenPing out;
     const auto white = static_cast<float>(assembly.full_scales[id.sensor]);
     out.clipped_pixels = std::ranges::count_if(ping.intensity, [&](float v) { return v > white; });
-    const Sonar& sonar = assembly.sonars[id.sensor];
     const auto metadata =
         measured({sonar, assembly.trajectory[id.pose].T_world_vehicle, id.pose, ping}, engine);
     LabelledPing labels;
@@ -21,7 +20,7 @@ WrittenPing encode_ping(const Assembly& assembly, const VisibilityEngine& engine
                                                     assembly.objects, engine, plan.request));
     }
     const FinishedPing finished{
-        id, traced, ping, metadata, out.clipped_pixels, plan.on ? &labels : nullptr};
+        id, sonar, traced, ping, metadata, out.clipped_pixels, plan.on ? &labels : nullptr};
     for (const auto& writer : writers)
         out.parts.push_back(writer->encode(finished));
     return out;

@@ -14,10 +14,10 @@ struct WrittenPing {
     std::uint64_t clipped_pixels = 0;  ///< intensities above the white of pictures
 };
 
-/// Hands a ping to the writers of its sensor. `plan` is that of the sensor; `engine` is the one
-/// that the ping was traced with.
+/// Hands a ping to the writers of its sensor. `plan` is that of the sensor; `engine` and `sonar`
+/// are those that the ping was traced with.
 WrittenPing encode_ping(const Assembly& assembly, const VisibilityEngine& engine,
                         const Writers& writers, const LabelPlan& plan, const PingId& id,
-                        const TracedPing& traced, const Ping& ping);
+                        const Sonar& sonar, const TracedPing& traced, const Ping& ping);
 
 }  // namespace sonarsim

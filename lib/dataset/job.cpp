@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -105,11 +106,12 @@ struct Destination {
 
 /// Hands a ping to the writers of its sensor and what they make of it to the disk.
 void write_ping(const Assembly& assembly, const VisibilityEngine& engine, const Destination& to,
-                const TracedPing& traced, const Ping& ping, PingReport& report) {
+                const Sonar& sonar, const TracedPing& traced, const Ping& ping,
+                PingReport& report) {
     const PingId& id = report.id;
     Stopwatch watch;
     WrittenPing written = encode_ping(assembly, engine, to.writers[id.sensor], to.labels[id.sensor],
-                                      id, traced, ping);
+                                      id, sonar, traced, ping);
     report.clipped_pixels = written.clipped_pixels;
     report.encode_seconds = watch.lap();
     to.files.write(id, written.parts);
@@ -132,7 +134,9 @@ void render(const Mission& mission, const Assembly& assembly, const std::vector<
         todo.size(), 2 * static_cast<std::size_t>(threads), stop,
         [&](std::size_t i) {
             const PingId& id = todo[i];
-            const Sonar& sonar = assembly.sonars[id.sensor];
+            const std::optional<Sonar> drawn =
+                drawn_sonar(mission, assembly.sonars[id.sensor], id.pose);
+            const Sonar& sonar = drawn ? *drawn : assembly.sonars[id.sensor];
             const TimedPose& pose = assembly.trajectory[id.pose];
             const std::unique_ptr<VisibilityEngine> moment =
                 assembly.motions.empty() ? nullptr : engine->at(body_poses(assembly, pose.t_s));
@@ -149,7 +153,7 @@ void render(const Mission& mission, const Assembly& assembly, const std::vector<
                               .brightest = brightest_pixel(ping, sonar.config.name, id.pose),
                               .estimated_l1 = ping.estimated_l1,
                               .goal_l1 = sonar.settings.view.relative_l1};
-            if (to) write_ping(assembly, now, *to, traced, ping, report);
+            if (to) write_ping(assembly, now, *to, sonar, traced, ping, report);
             return report;
         },
         [&](const PingReport& report) {
@@ -200,9 +204,9 @@ RenderSummary run_job(const Mission& mission, const Assembly& assembly,
         options.overwrite ? FolderState::fresh : inspect_folder(layout, common.description);
     if (state == FolderState::fresh) begin_dataset(layout, common);
     RecordFiles records = open_records(layout);
-    const FinishedPings there(layout, records);
+    std::optional<FinishedPings> there(std::in_place, layout, records);
     const auto shard = [&](std::size_t i) { return shard_of(layout, all[i], i, options.shards); };
-    const Plan plan = make_plan(all, options, shard, there);
+    const Plan plan = make_plan(all, options, shard, *there);
     summary.skipped = plan.skipped;
     summary.complete = state == FolderState::complete && plan.todo.empty() &&
                        has_common_files(layout) && has_products(layout);
@@ -219,17 +223,21 @@ RenderSummary run_job(const Mission& mission, const Assembly& assembly,
                     options.checkpoint_s);
     std::vector<LabelPlan> labels;
     for (const Sonar& sonar : assembly.sonars)
-        labels.push_back(plan_labels(mission, sonar));
-    PingFiles files(layout, records, there);
-    const Destination to{layout, writers, files, labels, journal};
-    render_all(plan.todo, &to);
+        labels.push_back(plan_labels(mission, assembly, sonar));
+    {
+        PingFiles files(layout, records, *there);
+        const Destination to{layout, writers, files, labels, journal};
+        render_all(plan.todo, &to);
+    }
     journal.finish();
     if (summary.stopped) return summary;
     // What was there, or written by this run, may be gone by now: all of it is looked at once more.
     require_records(records);
-    const FinishedPings finished(layout, records);
-    require_files(layout, plan.todo, finished);
-    summary.complete = std::ranges::all_of(all, finished);
+    // The journal is held once at a time: of many pings it is long.
+    there.emplace(layout, records);
+    require_files(layout, plan.todo, *there);
+    summary.complete = std::ranges::all_of(all, *there);
+    there.reset();
     if (summary.complete) complete_dataset(layout, mission, writers, records, common);
     return summary;
 }

@@ -11,7 +11,7 @@ bool is_asked(const Mission& mission, Label label) {
     return std::ranges::find(mission.output.labels, label) != mission.output.labels.end();
 }
 
-LabelPlan plan_labels(const Mission& mission, const Sonar& sonar) {
+LabelPlan plan_labels(const Mission& mission, const Assembly& assembly, const Sonar& sonar) {
     const auto asked = [&](Label label) { return is_asked(mission, label); };
     const bool has_images = kind_of(sonar.config.kind).has_images;
     const bool masks = asked(Label::coco) || asked(Label::yolo) || asked(Label::yolo_polygons);
@@ -24,7 +24,9 @@ LabelPlan plan_labels(const Mission& mission, const Sonar& sonar) {
                     .classes = asked(Label::class_name) || asked(Label::semantic),
                     .materials = asked(Label::material),
                     .elevation = asked(Label::elevation),
-                    .shadow = asked(Label::shadow)};
+                    .shadow = asked(Label::shadow),
+                    .height = asked(Label::height),
+                    .bottom = assembly.bottom.get()};
     plan.polar_masks = has_images && objects;
     plan.fan_masks = has_images && objects && output.fan;
     const bool in_fan = asked(Label::fan) || (output.fan && (objects || asked(Label::semantic)));

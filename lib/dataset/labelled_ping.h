@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "assembly/assemble.h"
 #include "mission/mission.h"
 #include "ping/labels.h"
 #include "ping/sonar.h"
@@ -21,7 +22,7 @@ struct LabelPlan {
     bool fan_masks = false;
     FanBins fan;  ///< empty where no label is of the fan
 };
-LabelPlan plan_labels(const Mission& mission, const Sonar& sonar);
+LabelPlan plan_labels(const Mission& mission, const Assembly& assembly, const Sonar& sonar);
 
 /// What the labels of a ping are written from: found once, for all writers.
 struct LabelledPing {

@@ -130,7 +130,7 @@ Json describe_dataset(const Mission& mission, const Assembly& assembly, const La
     if (mission.variant.index >= 0) {
         json["variant"] = {{"index", mission.variant.index},
                            {"of", mission.variant.of},
-                           {"drawn", describe_drawn(mission.variant)}};
+                           {"drawn", describe_drawn(mission.variant.drawn)}};
     }
     json["scene"] = describe_scene_use(assembly.scene);
     if (!mission.output.labels.empty()) json["labels"] = describe_label_ids(assembly);

@@ -1,6 +1,7 @@
 #include "dataset/ping_cost.h"
 
 #include <memory>
+#include <optional>
 
 #include "assembly/engine_probes.h"
 #include "assembly/spread_pings.h"
@@ -23,7 +24,7 @@ std::vector<PingCost> measure_pings(const Mission& mission, const Assembly& asse
     std::vector<PingCost> costs(assembly.sonars.size());
     for (std::uint32_t i = 0; i < costs.size(); ++i) {
         const Sonar& sonar = assembly.sonars[i];
-        const LabelPlan plan = plan_labels(mission, sonar);
+        const LabelPlan plan = plan_labels(mission, assembly, sonar);
         std::vector<std::uint32_t> poses =
             spread_pings(assembly.trajectory.size(), sonar.config.every, most_pings);
         const auto counted = static_cast<double>(poses.size());
@@ -36,11 +37,13 @@ std::vector<PingCost> measure_pings(const Mission& mission, const Assembly& asse
             const std::unique_ptr<VisibilityEngine> moment =
                 assembly.motions.empty() ? nullptr : engine->at(body_poses(assembly, at.t_s));
             const VisibilityEngine& now = moment ? *moment : *engine;
-            const TracedPing traced = trace(sonar, assembly.scene, now, at.T_world_vehicle, pose);
+            const std::optional<Sonar> drawn = drawn_sonar(mission, sonar, pose);
+            const Sonar& then = drawn ? *drawn : sonar;
+            const TracedPing traced = trace(then, assembly.scene, now, at.T_world_vehicle, pose);
             const Ping ping =
-                form_image(traced, sonar.settings, assembly.scene, {mission.seed, pose});
+                form_image(traced, then.settings, assembly.scene, {mission.seed, pose});
             const WrittenPing written =
-                encode_ping(assembly, now, writers[i], plan, {pose, i}, traced, ping);
+                encode_ping(assembly, now, writers[i], plan, {pose, i}, then, traced, ping);
             if (k == 0) continue;
             costs[i].seconds += watch.lap() / counted;
             for (const std::string& part : written.parts)

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/text.h"
+#include "mission/ping_draws.h"
 
 namespace sonarsim {
 
@@ -15,9 +16,9 @@ Json describe_pose(const Pose& pose) {
             {"quaternion_xyzw", {q.x(), q.y(), q.z(), q.w()}}};
 }
 
-Json describe_drawn(const Variant& variant) {
+Json describe_drawn(const DrawnValues& drawn) {
     Json json = Json::object();
-    for (const auto& [key, value] : variant.drawn) {
+    for (const auto& [key, value] : drawn) {
         if (const auto number = parse_number(value)) {
             json[key] = *number;
         } else if (value == "true" || value == "false") {
@@ -33,7 +34,7 @@ Json describe_drawn(const Variant& variant) {
 Json describe_ping(const Mission& mission, const Assembly& assembly, const FinishedPing& finished) {
     const PingId& id = finished.id;
     const PingCounts& counts = finished.ping.counts;
-    const Sonar& sonar = assembly.sonars[id.sensor];
+    const Sonar& sonar = finished.sonar;
     const TimedPose& pose = assembly.trajectory[id.pose];
     const Pose T_world_sensor = sensor_pose(sonar, pose.T_world_vehicle, id.pose);
     Json json = {
@@ -53,8 +54,10 @@ Json describe_ping(const Mission& mission, const Assembly& assembly, const Finis
         json["estimated_error"] = std::round(1e5 * error) / 1e5;
     if (mission.variant.index >= 0) {
         json["variant"] = {{"index", mission.variant.index},
-                           {"drawn", describe_drawn(mission.variant)}};
+                           {"drawn", describe_drawn(mission.variant.drawn)}};
     }
+    const DrawnValues drawn = drawn_for_ping(mission, sonar.config.name, id.pose);
+    if (!drawn.empty()) json["drawn"] = describe_drawn(drawn);
     const std::vector<Pose> bodies = body_poses(assembly, pose.t_s);
     for (std::size_t k = 0; k < bodies.size(); ++k) {
         const std::string& name = assembly.scene.instances[assembly.scene.bodies[k].instance];

@@ -11,8 +11,8 @@ namespace sonarsim {
 /// Position in metres; quaternion as x, y, z, w.
 nlohmann::ordered_json describe_pose(const Pose& pose);
 
-/// What was drawn for a variant, by key; text where it is neither a number nor a flag.
-nlohmann::ordered_json describe_drawn(const Variant& variant);
+/// What was drawn, by key; text where it is neither a number nor a flag.
+nlohmann::ordered_json describe_drawn(const DrawnValues& drawn);
 
 /// The metadata of one ping.
 nlohmann::ordered_json describe_ping(const Mission& mission, const Assembly& assembly,

@@ -104,7 +104,7 @@ Json describe_variants(const Mission& mission, std::span<const Mission> variants
     for (const Mission& variant : variants) {
         json["variants"].push_back({{"folder", variant_folder(variant.variant.index)},
                                     {"seed", variant.seed},
-                                    {"drawn", describe_drawn(variant.variant)}});
+                                    {"drawn", describe_drawn(variant.variant.drawn)}});
     }
     if (mission.output.split.is_on()) {
         const std::vector<SplitPart> parts = split_variants(mission.output.split, variants.size());

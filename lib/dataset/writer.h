@@ -41,6 +41,7 @@ struct WriterContext {
 /// A finished ping, with all that a writer may ask about it.
 struct FinishedPing {
     PingId id;
+    const Sonar& sonar;  ///< as it was for this ping
     const TracedPing& traced;
     const Ping& ping;
     const nlohmann::ordered_json& measured;  ///< what its metadata say; null for none

@@ -1,11 +1,11 @@
+#include "mission/draw_value.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "core/elementary.h"
-#include "core/random.h"
 #include "core/text.h"
-#include "mission/variants.h"
 
 namespace sonarsim {
 
@@ -45,11 +45,24 @@ std::size_t one_of(double count, double share) {
     return static_cast<std::size_t>(std::min(std::floor(share * count), count - 1.0));
 }
 
+/// The share of a normal law that lies below x.
+double normal_below(double mean, double sigma, double x) {
+    return 0.5 * std::erfc((mean - x) / (std::sqrt(2.0) * sigma));
+}
+
 }  // namespace
 
+double share_within(const VaryConfig& rule) {
+    if (!rule.normal || !rule.within) return 1.0;
+    const auto [mean, sigma] = *rule.normal;
+    const auto [low, high] = *rule.within;
+    if (sigma == 0.0) return low <= mean && mean <= high ? 1.0 : 0.0;
+    return normal_below(mean, sigma, high) - normal_below(mean, sigma, low);
+}
+
 std::string draw_value(const VaryConfig& rule, std::uint64_t seed, std::uint32_t rule_index,
-                       std::uint32_t variant) {
-    const PhiloxKey key = stream_key(seed, rule_index, variant, Stream::variation);
+                       std::uint32_t number, Stream stream) {
+    const PhiloxKey key = stream_key(seed, rule_index, number, stream);
     const double share = unit_pair(key, 0)[0];
     if (rule.normal) return number_text(draw_normal(rule, key));
     if (rule.uniform) return number_text(part_of(*rule.uniform, share));

@@ -151,6 +151,7 @@ enum class Label {
     class_name,
     material,
     elevation,
+    height,
     shadow,
     multipath,
     clean,
@@ -227,6 +228,7 @@ struct Mission {
     WaterConfig water;
     SceneConfig scene;
     TrajectoryConfig trajectory;
+    VehicleConfig vehicle;
     std::vector<SonarConfig> sensors;  ///< in the order of the file
     AccuracyConfig accuracy;
     EngineKind engine = EngineKind::automatic;

@@ -1,6 +1,7 @@
 #include "mission/override.h"
 
 #include <algorithm>
+#include <memory>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -63,6 +64,14 @@ void put(YamlNode& root, const std::vector<std::string>& path, YamlNode value) {
     *node = std::move(value);
 }
 
+/// Lets a value, with all that is in it, stand at `place`.
+void put_at(YamlNode& node, const YamlPlace& place) {
+    node.place = place;
+    node.key_place = place;
+    for (YamlNode& item : node.items)
+        put_at(item, place);
+}
+
 }  // namespace
 
 void apply_override(YamlNode& root, const std::string& setting) {
@@ -78,6 +87,17 @@ void apply_override(YamlNode& root, const std::string& setting) {
 
 void set_key(YamlNode& root, std::string_view path, YamlNode value, const Location& where) {
     put(root, split_path(path, where, "'key' is written as key or section.key"), std::move(value));
+}
+
+void set_text(YamlNode& root, std::string_view path, const std::string& value,
+              const Location& where) {
+    YamlNode node = read_document(value, where.file, Lines::none);
+    put_at(node, {std::make_shared<const std::string>(where.file), where.line, where.column});
+    set_key(root, path, std::move(node), where);
+}
+
+void erase_key(YamlNode& map, std::string_view key) {
+    std::erase_if(map.items, [&](const YamlNode& item) { return item.key == key; });
 }
 
 }  // namespace sonarsim

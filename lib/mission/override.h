@@ -18,4 +18,11 @@ void apply_override(YamlNode& root, const std::string& setting);
 /// the path.
 void set_key(YamlNode& root, std::string_view path, YamlNode value, const Location& where);
 
+/// The same with a value that is YAML text and stands, with all that is in it, at `where`.
+void set_text(YamlNode& root, std::string_view path, const std::string& value,
+              const Location& where);
+
+/// Removes a key of a map, if it is there.
+void erase_key(YamlNode& map, std::string_view key);
+
 }  // namespace sonarsim

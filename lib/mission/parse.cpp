@@ -1,7 +1,13 @@
 #include "mission/parse.h"
 
+#include <algorithm>
+#include <utility>
+#include <vector>
+
 #include "core/file.h"
+#include "core/text.h"
 #include "mission/override.h"
+#include "mission/ping_draws.h"
 #include "mission/preset.h"
 #include "mission/reader.h"
 #include "mission/schema.h"
@@ -20,6 +26,48 @@ YamlNode document_of(std::string_view text, const std::string& file_name,
     for (const std::string& setting : overrides)
         apply_override(root, setting);
     return root;
+}
+
+/// Lets a list that a key goes into, "vehicle.offset_m.2", stand in the document: those of numbers
+/// that are drawn for pings are 0 where they are left out.
+void fill_in_list(YamlNode& root, std::string_view key) {
+    const std::size_t dot = key.rfind('.');
+    if (!parse_unsigned(key.substr(dot + 1))) return;
+    const YamlNode* node = &root;
+    for (std::size_t start = 0; node != nullptr && start < dot;) {
+        const std::size_t end = key.find('.', start);
+        node = node->find(key.substr(start, end - start));
+        start = end + 1;
+    }
+    if (node == nullptr) set_text(root, key.substr(0, dot), "[0, 0, 0]", {});
+}
+
+/// InputError for what is wrong with the rules that are drawn for every ping: with every value that
+/// lies at an end of theirs the mission has to be sound.
+void check_draws_of_pings(const Mission& mission, const YamlNode& root,
+                          const std::string& file_name, const std::filesystem::path& base_folder,
+                          SonarKeyTable sonars) {
+    std::vector<std::pair<const VaryConfig*, std::vector<std::string>>> rules;
+    std::size_t most = 0;
+    Problems problems;
+    for (const VaryConfig& rule : mission.vary) {
+        if (rule.per != VaryPer::ping) continue;
+        problems.attempt([&] { check_key_of_pings(mission, rule); });
+        rules.emplace_back(&rule, extremes_of(rule));
+        most = std::max(most, rules.back().second.size());
+    }
+    problems.raise();
+    YamlNode without = root;
+    erase_key(without, "vary");
+    erase_key(without, "variants");
+    for (const auto& [rule, ends] : rules)
+        fill_in_list(without, rule->key);
+    for (std::size_t k = 0; k < most; ++k) {
+        YamlNode at_end = without;
+        for (const auto& [rule, ends] : rules)
+            set_text(at_end, rule->key, ends[k % ends.size()], rule->place.location);
+        parse_mission(at_end, file_name, base_folder, sonars);
+    }
 }
 
 }  // namespace
@@ -59,6 +107,7 @@ Mission parse_mission(const YamlNode& root, const std::string& file_name,
         reader.finish();
     });
     problems.raise();
+    check_draws_of_pings(mission, root, file_name, base_folder, sonars);
     if (mission.water.sound_speed_m_s == 0.0)
         mission.water.sound_speed_m_s = sound_speed_m_s(mission.water);
     if (mission.output.folder.empty()) {

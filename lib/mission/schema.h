@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <string_view>
 #include <variant>
@@ -38,6 +39,7 @@ inline constexpr std::array label_names{Choice<Label>{"instance", Label::instanc
                                         Choice<Label>{"class", Label::class_name},
                                         Choice<Label>{"material", Label::material},
                                         Choice<Label>{"elevation", Label::elevation},
+                                        Choice<Label>{"height", Label::height},
                                         Choice<Label>{"shadow", Label::shadow},
                                         Choice<Label>{"multipath", Label::multipath},
                                         Choice<Label>{"clean", Label::clean},
@@ -308,6 +310,7 @@ void describe(Visitor& v, Mission& c) {
     v.section("scene", c.scene, "what the sonars look at", required);
     v.section("trajectory", c.trajectory, "where the vehicle goes; exactly one of the three forms",
               required);
+    v.section("vehicle", c.vehicle, "how far the vehicle is off its trajectory");
     v.named("sensors", c.sensors, "one section per sonar; NAME is its folder in the dataset");
     v.section("accuracy", c.accuracy, "how exact the images are");
     v.choice(
@@ -325,8 +328,10 @@ void describe(Visitor& v, Mission& c) {
               "how many variants of the mission are drawn, each a dataset with a seed of its own; "
               "0: the mission as it stands");
     v.list("vary", c.vary, 0, "which keys are drawn at random");
-    v.require(c.vary.empty() || c.variants > 0, {"vary", "variants"},
-              "'vary' says what differs between variants: say how many with 'variants'");
+    const auto is_of_pings = [](const VaryConfig& rule) { return rule.per == VaryPer::ping; };
+    v.require(c.variants > 0 || std::ranges::all_of(c.vary, is_of_pings), {"vary", "variants"},
+              "'vary' says what differs between variants: say how many with 'variants', or write "
+              "per: ping");
 }
 
 }  // namespace sonarsim

@@ -44,6 +44,14 @@ struct LawnmowerTrajectoryConfig {
     bool operator==(const LawnmowerTrajectoryConfig&) const = default;
 };
 
+/// How far a vehicle is off the poses of its trajectory.
+struct VehicleConfig {
+    std::array<double, 3> offset_m{};  ///< world
+    std::array<double, 3> turn_deg{};  ///< roll, pitch, yaw; on top of the attitude
+
+    bool operator==(const VehicleConfig&) const = default;
+};
+
 using TrajectoryConfig =
     std::variant<FileTrajectoryConfig, WaypointTrajectoryConfig, LawnmowerTrajectoryConfig>;
 

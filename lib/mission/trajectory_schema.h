@@ -58,4 +58,13 @@ void describe(Visitor& v, TrajectoryConfig& c) {
     }
 }
 
+template <class Visitor>
+void describe(Visitor& v, VehicleConfig& c) {
+    v.numbers("offset_m", c.offset_m, any_position_m,
+              "added to the position of every pose: x, y, z in the world");
+    v.numbers("turn_deg", c.turn_deg, any_angle_deg,
+              "roll, pitch and yaw by which the vehicle is turned out of every pose, in its own "
+              "frame");
+}
+
 }  // namespace sonarsim

@@ -1,9 +1,9 @@
 #include "mission/variants.h"
 
 #include <algorithm>
-#include <memory>
 
 #include "core/random.h"
+#include "mission/draw_value.h"
 #include "mission/override.h"
 #include "mission/parse.h"
 
@@ -19,24 +19,16 @@ std::uint64_t seed_of(std::uint64_t seed, std::uint32_t variant) {
     return (std::uint64_t{key.k1} << 32) | key.k0;
 }
 
-/// A value that stands where `place` says, with all that is in it.
-void put_at(YamlNode& node, const YamlPlace& place) {
-    node.place = place;
-    node.key_place = place;
-    for (YamlNode& item : node.items)
-        put_at(item, place);
-}
-
-void set(YamlNode& root, const std::string& key, const std::string& value,
-         const Location& location) {
-    YamlNode node = read_document(value, location.file, Lines::none);
-    const auto name = std::make_shared<const std::string>(location.file);
-    put_at(node, {name, location.line, location.column});
-    set_key(root, key, std::move(node), location);
-}
-
-void erase(YamlNode& root, std::string_view key) {
-    std::erase_if(root.items, [&](const YamlNode& item) { return item.key == key; });
+/// Leaves the rules that are drawn for every ping, if there are any.
+void keep_rules_of_pings(YamlNode& root, const std::vector<VaryConfig>& rules) {
+    YamlNode* list = root.find("vary");
+    if (list == nullptr) return;
+    std::vector<YamlNode> kept;
+    for (std::size_t k = 0; k < rules.size(); ++k) {
+        if (rules[k].per == VaryPer::ping) kept.push_back(list->items[k]);
+    }
+    list->items = std::move(kept);
+    if (list->items.empty()) erase_key(root, "vary");
 }
 
 }  // namespace
@@ -50,19 +42,21 @@ std::string variant_folder(int index) {
 std::vector<Mission> draw_variants(const Mission& mission, const MissionSource& source,
                                    SonarKeyTable sonars) {
     YamlNode whole = read_mission_document(source.file, source.overrides);
-    erase(whole, "variants");
-    erase(whole, "vary");
+    erase_key(whole, "variants");
+    keep_rules_of_pings(whole, mission.vary);
     std::vector<Mission> variants;
     for (int i = 0; i < mission.variants; ++i) {
         const auto index = static_cast<std::uint32_t>(i);
         YamlNode root = whole;
-        set(root, "seed", std::to_string(seed_of(mission.seed, index)), {source.file.string()});
+        set_text(root, "seed", std::to_string(seed_of(mission.seed, index)),
+                 {source.file.string()});
         Variant variant{.index = i, .of = mission.variants, .drawn = {}};
         for (std::size_t k = 0; k < mission.vary.size(); ++k) {
             const VaryConfig& rule = mission.vary[k];
+            if (rule.per == VaryPer::ping) continue;
             std::string value = draw_value(rule, mission.seed, static_cast<std::uint32_t>(k),
                                            rule.per == VaryPer::dataset ? all_variants : index);
-            set(root, rule.key, value, rule.place.location);
+            set_text(root, rule.key, value, rule.place.location);
             variant.drawn.emplace_back(rule.key, std::move(value));
         }
         Mission& drawn = variants.emplace_back(

@@ -10,8 +10,8 @@
 
 namespace sonarsim {
 
-/// What is drawn for each variant, or once for all of them.
-enum class VaryPer { variant, dataset };
+/// What is drawn for each variant, once for all of them, or for every ping.
+enum class VaryPer { variant, dataset, ping };
 
 /// A key of the mission that is drawn at random; exactly one of the distributions is given.
 struct VaryConfig {
@@ -28,11 +28,14 @@ struct VaryConfig {
     bool operator==(const VaryConfig&) const = default;
 };
 
+/// Keys of a mission and what was drawn for them, as YAML text.
+using DrawnValues = std::vector<std::pair<std::string, std::string>>;
+
 /// Which variant of a mission this is.
 struct Variant {
     int index = -1;  ///< -1: none
     int of = 0;
-    std::vector<std::pair<std::string, std::string>> drawn;  ///< key and value as YAML text
+    DrawnValues drawn;
 
     bool operator==(const Variant&) const = default;
 };

@@ -11,7 +11,8 @@
 namespace sonarsim {
 
 inline constexpr std::array vary_pers{Choice<VaryPer>{"variant", VaryPer::variant},
-                                      Choice<VaryPer>{"dataset", VaryPer::dataset}};
+                                      Choice<VaryPer>{"dataset", VaryPer::dataset},
+                                      Choice<VaryPer>{"ping", VaryPer::ping}};
 
 template <class Visitor>
 void describe(Visitor& v, VaryConfig& c) {
@@ -21,7 +22,9 @@ void describe(Visitor& v, VaryConfig& c) {
            "a key of the mission, as --set takes it: sensors.fls.noise.add_sigma, "
            "scene.objects.0.position_m.2",
            required);
-    v.choice("per", c.per, vary_pers, "drawn for every variant, or once for all of them");
+    v.choice("per", c.per, vary_pers,
+             "drawn for every variant, once for all of them, or for every ping: of a sensor its "
+             "mount, the numbers of its noise and of its streaks, and the offset of the vehicle");
     v.optional_numbers("uniform", c.uniform, any, "the least and the largest number");
     v.optional_numbers("log_uniform", c.log_uniform, any,
                        "the same, and each decade as likely as another");
@@ -43,6 +46,9 @@ void describe(Visitor& v, VaryConfig& c) {
     v.require(!c.normal || (*c.normal)[1] >= 0.0, {"normal"},
               "the standard deviation must not be negative");
     v.require(!c.within || c.normal, {"within"}, "'within' belongs to 'normal'");
+    v.require(c.per != VaryPer::ping || !c.normal || c.within, {"normal", "per"},
+              "a normal draw for every ping needs 'within', the least and the largest that it may "
+              "be");
 }
 
 }  // namespace sonarsim

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "ping/elevation.h"
+#include "ping/height.h"
 #include "ping/multipath_echoes.h"
 #include "ping/shadow.h"
 #include "ping/shares.h"
@@ -191,6 +192,7 @@ PingLabels blank_labels(const View& view, const LabelRequest& request) {
     if (request.classes) labels.class_id.resize(n);
     if (request.materials) labels.material.resize(n);
     if (request.shadow) labels.shadow.resize(n);
+    if (request.height) labels.height_m.resize(n);
     if (request.elevation) {
         labels.elevation_rad.resize(n);
         labels.elevation_spread_rad.resize(n);
@@ -210,6 +212,7 @@ PingLabels label_ping(const TracedPing& traced, const PingSettings& settings, co
     if (request.shadow) labels.visible_share = shadows.visible_shares();
     const bool shares = request.objects || request.classes || request.materials || request.shadow;
     ElevationFinder elevations(scene.materials, range_bins(view));
+    HeightFinder heights(scene.materials, range_bins(view), request.bottom, traced.T_world_sensor);
     for (int j = 0; j < view.beams; ++j) {
         const auto own = [&](auto& all) {
             return std::span(all).subspan(static_cast<std::size_t>(j) * view.range_bins,
@@ -221,6 +224,7 @@ PingLabels label_ping(const TracedPing& traced, const PingSettings& settings, co
             elevations.find(traced.samples.beam(j), own(labels.elevation_rad),
                             own(labels.elevation_spread_rad));
         }
+        if (request.height) heights.find(traced.samples.beam(j), own(labels.height_m));
     }
     return labels;
 }

@@ -5,6 +5,7 @@
 
 #include "ping/pipeline.h"
 #include "scene/objects.h"
+#include "scene/placing/bottom.h"
 
 namespace sonarsim {
 
@@ -15,6 +16,8 @@ struct LabelRequest {
     bool materials = false;
     bool elevation = false;
     bool shadow = false;
+    bool height = false;
+    const Bottom* bottom = nullptr;  ///< that heights are above; null: nothing has one
 };
 
 /// What is in the bins of one ping, [beams, range_bins], beam after beam. Ids are 1 + the index
@@ -32,6 +35,7 @@ struct PingLabels {
     std::vector<float> multipath;             ///< share of the echo that came by a second surface
     std::vector<float> elevation_rad;         ///< of the visible surface; NaN where there is none
     std::vector<float> elevation_spread_rad;  ///< its standard deviation within the bin, likewise
+    std::vector<float> height_m;              ///< above the bottom; NaN where there is none
     std::vector<std::uint16_t> shadow;        ///< what hides the surface of a bin that shows none
     /// With the shadow, by object: what is seen of its solid angle; NaN for one out of view.
     std::vector<float> visible_share;

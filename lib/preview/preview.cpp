@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "assembly/engine_probes.h"
@@ -13,6 +14,7 @@
 #include "preview/scene_views.h"
 #include "preview/sonar_panel.h"
 #include "sonar/kinds.h"
+#include "sonar/sonar.h"
 #include "visibility/make_engine.h"
 
 namespace sonarsim {
@@ -117,7 +119,9 @@ Picture draw_preview(const Mission& mission, const Assembly& assembly, std::uint
         const Rgb colour = sonar_colours[i % sonar_colours.size()];
         const auto render = [&](std::uint32_t index) {
             const std::unique_ptr<VisibilityEngine> bodies_then = at_pose(index);
-            return render_ping(sonar, assembly.scene, bodies_then ? *bodies_then : *engine,
+            const std::optional<Sonar> drawn = drawn_sonar(mission, sonar, index);
+            return render_ping(drawn ? *drawn : sonar, assembly.scene,
+                               bodies_then ? *bodies_then : *engine,
                                trajectory[index].T_world_vehicle, {mission.seed, index});
         };
         SonarPanel panel =

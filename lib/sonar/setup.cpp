@@ -9,6 +9,14 @@
 
 namespace sonarsim {
 
+namespace {
+
+float cosine_of(double angle_deg) {
+    return static_cast<float>(sincos(radians(angle_deg)).cos);
+}
+
+}  // namespace
+
 std::vector<double> edges(double low, double high, int bins) {
     std::vector<double> out(bins + 1);
     for (int i = 0; i < bins; ++i)
@@ -32,15 +40,41 @@ std::uint32_t stream_of(std::string_view sensor_name) {
     return hash;
 }
 
+void set_mount(Sonar& sonar, const KindOfSonar& kind) {
+    sonar.T_vehicle_sensor = mounted(sonar.config.mount, kind.looks_down ? looking_down() : Pose{});
+}
+
+void set_noise(Sonar& sonar, const KindOfSonar& kind) {
+    const SonarConfig& config = sonar.config;
+    const NoiseConfig& noise = config.noise;
+    PingSettings& settings = sonar.settings;
+    settings.streaks = {.mode = config.streaks.mode,
+                        .threshold = static_cast<float>(config.streaks.threshold),
+                        .least_cosine = cosine_of(config.streaks.angle_deg)};
+    settings.range_noise = {.lambda_m = static_cast<float>(noise.range_lambda_m),
+                            .scatterer_m = static_cast<float>(noise.scatterer_m),
+                            .fades = kind.range_noise_fades};
+    settings.pixel_noise = {.gain = static_cast<float>(noise.gain > 0.0 ? noise.gain : kind.gain),
+                            .add_sigma = static_cast<float>(noise.add_sigma),
+                            .mult_sigma = static_cast<float>(noise.mult_sigma),
+                            .range_scale = std::vector<float>(config.range_bins, 1.0F),
+                            .lobe_scale = std::vector<float>(settings.view.beams, 1.0F)};
+    if (!noise.scale_with_range) return;
+    for (int i = 0; i < config.range_bins; ++i) {
+        const double middle = 0.5 * (sonar.range_edges_m[i] + sonar.range_edges_m[i + 1]);
+        const double r = middle / config.range_max_m;
+        settings.pixel_noise.range_scale[i] = static_cast<float>(r * r);
+    }
+}
+
 Sonar common_sonar(const SonarConfig& config, const AccuracyConfig& accuracy,
                    const KindOfSonar& kind) {
-    const NoiseConfig& noise = config.noise;
     const bool cone = kind.shape == ViewShape::cone;
     const int sides_or_one = kind.shape == ViewShape::sides ? 2 : 1;
     const int beams = kind.keys.azimuth_bins ? config.azimuth_bins : sides_or_one;
     Sonar sonar;
     sonar.config = config;
-    sonar.T_vehicle_sensor = mounted(config.mount, kind.looks_down ? looking_down() : Pose{});
+    set_mount(sonar, kind);
     sonar.range_edges_m = edges(config.range_min_m, config.range_max_m, config.range_bins);
     PingSettings& settings = sonar.settings;
     settings.stream = stream_of(config.name);
@@ -52,32 +86,12 @@ Sonar common_sonar(const SonarConfig& config, const AccuracyConfig& accuracy,
                      .beams = beams,
                      .relative_l1 = accuracy.relative_l1,
                      .shape = kind.shape};
-    const auto cosine = [](double angle_deg) {
-        return static_cast<float>(sincos(radians(angle_deg)).cos);
-    };
     const MultipathConfig& multipath = config.multipath;
     const bool exact = multipath.method == MultipathMethod::exact;
     settings.multipath = {.on = multipath.method != MultipathMethod::none,
                           .cluster = {.epsilon_bins = exact ? 0 : multipath.epsilon_bins,
-                                      .delta_cosine = cosine(multipath.delta_deg)}};
-    settings.streaks = {.mode = config.streaks.mode,
-                        .threshold = static_cast<float>(config.streaks.threshold),
-                        .least_cosine = cosine(config.streaks.angle_deg)};
-    settings.range_noise = {.lambda_m = static_cast<float>(noise.range_lambda_m),
-                            .scatterer_m = static_cast<float>(noise.scatterer_m),
-                            .fades = kind.range_noise_fades};
-    settings.pixel_noise = {.gain = static_cast<float>(noise.gain > 0.0 ? noise.gain : kind.gain),
-                            .add_sigma = static_cast<float>(noise.add_sigma),
-                            .mult_sigma = static_cast<float>(noise.mult_sigma),
-                            .range_scale = std::vector<float>(config.range_bins, 1.0F),
-                            .lobe_scale = std::vector<float>(beams, 1.0F)};
-    if (noise.scale_with_range) {
-        for (int i = 0; i < config.range_bins; ++i) {
-            const double middle = 0.5 * (sonar.range_edges_m[i] + sonar.range_edges_m[i + 1]);
-            const double r = middle / config.range_max_m;
-            settings.pixel_noise.range_scale[i] = static_cast<float>(r * r);
-        }
-    }
+                                      .delta_cosine = cosine_of(multipath.delta_deg)}};
+    set_noise(sonar, kind);
     return sonar;
 }
 

@@ -25,6 +25,12 @@ Pose mounted(const MountConfig& mount, const Pose& T_vehicle_default);
 /// sensor to a mission changes no draw.
 std::uint32_t stream_of(std::string_view sensor_name);
 
+/// T_vehicle_sensor by the configuration of the sonar.
+void set_mount(Sonar& sonar, const KindOfSonar& kind);
+
+/// The noise and the streaks by the configuration of the sonar. Lobe factors are 1.
+void set_noise(Sonar& sonar, const KindOfSonar& kind);
+
 /// The mount, the view, the noise and the range edges of a sonar, by its configuration and its
 /// kind. Lobe factors are 1.
 Sonar common_sonar(const SonarConfig& config, const AccuracyConfig& accuracy,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "mission/ping_draws.h"
 #include "sonar/kinds.h"
 #include "sonar/setup.h"
 
@@ -14,6 +15,19 @@ Sonar make_sonar(const SonarConfig& config, const AccuracyConfig& accuracy,
     if (kind.finish) kind.finish(sonar);
     if (config.model == EchoModel::of_instrument) add_instrument(sonar, water);
     return sonar;
+}
+
+std::optional<Sonar> drawn_sonar(const Mission& mission, const Sonar& sonar, std::uint32_t pose) {
+    if (!varies_by_ping(mission, sonar.config.name)) return std::nullopt;
+    Sonar drawn = sonar;
+    draw_for_ping(mission, pose, drawn.config);
+    const KindOfSonar& kind = kind_of(drawn.config.kind);
+    set_mount(drawn, kind);
+    if (drawn.config.noise == sonar.config.noise && drawn.config.streaks == sonar.config.streaks)
+        return drawn;
+    set_noise(drawn, kind);
+    if (kind.finish) kind.finish(drawn);
+    return drawn;
 }
 
 TracedPing trace(const Sonar& sonar, const Scene& scene, const VisibilityEngine& engine,

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <optional>
 
 #include "core/pose.h"
 #include "mission/mission.h"
@@ -12,6 +14,10 @@ namespace sonarsim {
 /// `water` is what the calibrated model works with.
 Sonar make_sonar(const SonarConfig& config, const AccuracyConfig& accuracy,
                  const WaterConfig& water = {});
+
+/// The sonar as it is at a pose, with what the mission's `vary` draws for every ping; nothing where
+/// that is nothing of this sonar.
+std::optional<Sonar> drawn_sonar(const Mission& mission, const Sonar& sonar, std::uint32_t pose);
 
 /// What the sonar sees from a pose of its vehicle; `pose` is the pose's index on the trajectory, by
 /// which a head turns.

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "assembly/spread_pings.h"
@@ -230,13 +231,15 @@ SonarSurvey survey_sonar(const Mission& mission, const Assembly& assembly, Sonar
          spread_pings(assembly.trajectory.size(), sonar.config.every,
                       std::clamp<std::size_t>(most_bins / bins, 3, most))) {
         const TimedPose& at = assembly.trajectory[pose];
-        const Pose T_world_sensor = sensor_pose(sonar, at.T_world_vehicle, pose);
+        const std::optional<Sonar> drawn = drawn_sonar(mission, sonar, pose);
+        const Sonar& then = drawn ? *drawn : sonar;
+        const Pose T_world_sensor = sensor_pose(then, at.T_world_vehicle, pose);
         const std::unique_ptr<VisibilityEngine> moment =
             assembly.motions.empty() ? nullptr : rays.at(body_poses(assembly, at.t_s));
         const VisibilityEngine& now = moment ? *moment : rays;
-        const TracedPing traced = trace(sonar, assembly.scene, now, at.T_world_vehicle, pose);
+        const TracedPing traced = trace(then, assembly.scene, now, at.T_world_vehicle, pose);
         const PingKey key{mission.seed, pose};
-        const Ping ping = form_image(traced, sonar.settings, assembly.scene, key);
+        const Ping ping = form_image(traced, then.settings, assembly.scene, key);
         const Surroundings around = look(view, now, T_world_sensor);
         ++out.pings;
         take_attitude(at.T_world_vehicle.rotation, out);
@@ -248,7 +251,7 @@ SonarSurvey survey_sonar(const Mission& mission, const Assembly& assembly, Sonar
             explain(view, around, distance_to(assembly.scene, T_world_sensor.translation), out.why);
         }
         add_bins(sonar, full_scale,
-                 form_image(traced, sonar.settings, assembly.scene, key,
+                 form_image(traced, then.settings, assembly.scene, key,
                             {.pixel_noise = false, .streaks = false}),
                  ping, sums, out);
     }

@@ -23,12 +23,12 @@ namespace {
 
 constexpr int labelled_poses = 4;
 
-const std::vector<Label> all_labels = {Label::instance,    Label::share,          Label::second,
-                                       Label::class_name,  Label::material,       Label::elevation,
-                                       Label::shadow,      Label::multipath,      Label::clean,
-                                       Label::direct_only, Label::multipath_only, Label::objects,
-                                       Label::fan,         Label::semantic,       Label::coco,
-                                       Label::yolo,        Label::yolo_polygons};
+const std::vector<Label> all_labels = {Label::instance,   Label::share,       Label::second,
+                                       Label::class_name, Label::material,    Label::elevation,
+                                       Label::height,     Label::shadow,      Label::multipath,
+                                       Label::clean,      Label::direct_only, Label::multipath_only,
+                                       Label::objects,    Label::fan,         Label::semantic,
+                                       Label::coco,       Label::yolo,        Label::yolo_polygons};
 
 Mission labelled_mission(const fs::path& folder) {
     Mission mission = survey_mission(folder);
@@ -75,7 +75,7 @@ TEST_SUITE("dataset") {
             const TracedPing traced =
                 trace(sonar, assembly.scene, *engine, assembly.trajectory[0].T_world_vehicle, 0);
             return label_ping(traced, sonar.settings, assembly.scene, assembly.objects, *engine,
-                              plan_labels(mission, sonar).request);
+                              plan_labels(mission, assembly, sonar).request);
         };
         const PingLabels front = labels_of(0);
         const auto instance = grey_pixels(out / "front/instance/000000.png");

@@ -77,7 +77,7 @@ TEST_SUITE("dataset") {
         ping.counts.dropped_samples = 14;
         ping.counts.negative_pixels = 12;
         const TracedPing traced;
-        const FinishedPing finished{{3, 0}, traced, ping, Json(), 13};
+        const FinishedPing finished{{3, 0}, assembly.sonars[0], traced, ping, Json(), 13};
         const Json json = Json::parse(json_text(describe_ping(mission, assembly, finished)));
         CHECK(json.at("sensor") == "front");
         CHECK(json.at("settings") == "mission.resolved.yaml#/sensors/front");

@@ -5,6 +5,7 @@
 
 #include "core/file.h"
 #include "core/text.h"
+#include "mission/draw_value.h"
 #include "mission/fixtures.h"
 #include "support/temporary_folder.h"
 

@@ -85,7 +85,7 @@ Floats floats(const WriterContext&, const FinishedPing& finished) {
 
 template <Terms terms>
 Floats image(const WriterContext& context, const FinishedPing& finished) {
-    return form_image(finished.traced, context.sonar().settings, context.assembly.scene,
+    return form_image(finished.traced, finished.sonar.settings, context.assembly.scene,
                       {context.mission.seed, finished.id.pose}, terms)
         .intensity;
 }
@@ -119,6 +119,7 @@ constexpr LabelFile label_files[] = {
     float_file(Label::elevation, "elevation", floats<&PingLabels::elevation_rad>, nothing),
     float_file(Label::elevation, "elevation_spread", floats<&PingLabels::elevation_spread_rad>,
                nothing),
+    float_file(Label::height, "height", floats<&PingLabels::height_m>, nothing),
     id_file(Label::shadow, "shadow", ids<&PingLabels::shadow>),
     id_file(Label::multipath, "multipath", shares<&PingLabels::multipath>),
     float_file(Label::clean, "clean", image<term_by_term[1]>, 0.0F),

@@ -76,7 +76,7 @@ class ObjectsWriter final : public Writer {
         const char* before = "\n";
         const std::vector<Pose> T_world_body =
             body_poses(context_.assembly, context_.assembly.trajectory[finished.id.pose].t_s);
-        for (const SeenObject& seen : seen_objects(context_.sonar(), objects, finished.traced,
+        for (const SeenObject& seen : seen_objects(finished.sonar, objects, finished.traced,
                                                    finished.labels->bins, finished.ping)) {
             text += before + seen_json(seen, finished, T_world_body).dump(-1, ' ', false, replace);
             before = ",\n";

@@ -174,7 +174,7 @@ class SoundingsWriter final : public Writer {
         std::vector<double> fields;
         const Pose& T_world_vehicle =
             context_.assembly.trajectory[finished.id.pose].T_world_vehicle;
-        for (const Sounding& s : find_soundings(context_.sonar(), T_world_vehicle, finished.ping)) {
+        for (const Sounding& s : find_soundings(finished.sonar, T_world_vehicle, finished.ping)) {
             fields.insert(fields.end(),
                           {s.range_m, s.position.x(), s.position.y(), s.position.z(), s.quality});
         }

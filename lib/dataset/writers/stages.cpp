@@ -28,7 +28,7 @@ class StagesWriter final : public Writer {
     std::string encode(const FinishedPing& finished) const override {
         const Mission& mission = context_.mission;
         const std::array<Ping, panels> stages =
-            form_stages(finished.traced, context_.sonar(), context_.assembly.scene,
+            form_stages(finished.traced, finished.sonar, context_.assembly.scene,
                         {mission.seed, finished.id.pose});
         return png_bytes(render_panels(map_, stages, context_.full_scale()),
                          panels * map_.frame.width, map_.frame.height);

@@ -16,6 +16,7 @@
 #include "product/grey.h"
 #include "product/mosaic.h"
 #include "product/sidescan_row.h"
+#include "sonar/sonar.h"
 
 namespace sonarsim {
 
@@ -35,8 +36,10 @@ void for_each_row(const WriterContext& context, const RecordFile& rows,
     for (std::size_t k = 0; k < rows.records(); ++k) {
         rows.read(k, std::as_writable_bytes(std::span(values)));
         const std::size_t pose = k * static_cast<std::size_t>(sonar.config.every);
+        const std::optional<Sonar> drawn =
+            drawn_sonar(context.mission, sonar, static_cast<std::uint32_t>(pose));
         const Pose T_world_sensor =
-            sensor_pose(sonar, context.assembly.trajectory[pose].T_world_vehicle,
+            sensor_pose(drawn ? *drawn : sonar, context.assembly.trajectory[pose].T_world_vehicle,
                         static_cast<std::uint32_t>(pose));
         visit({pose, T_world_sensor, values, swath_of(sonar, T_world_sensor, values)});
     }

@@ -15,6 +15,17 @@ std::array<Eigen::Vector3d, 3> corners_of(const Surface& surface, std::uint32_t 
     return {surface.vertices[c[0]], surface.vertices[c[1]], surface.vertices[c[2]]};
 }
 
+/// Whether a point lies within the box around a triangle, seen from above: told from the corners at
+/// less cost than a height.
+bool is_near(const Surface& surface, std::uint32_t triangle, const Eigen::Vector2d& point) {
+    const auto& c = surface.triangles[triangle];
+    const Eigen::Vector2d a = surface.vertices[c[0]].head<2>();
+    const Eigen::Vector2d b = surface.vertices[c[1]].head<2>();
+    const Eigen::Vector2d d = surface.vertices[c[2]].head<2>();
+    return (a.cwiseMin(b).cwiseMin(d).array() <= point.array()).all() &&
+           (a.cwiseMax(b).cwiseMax(d).array() >= point.array()).all();
+}
+
 Eigen::AlignedBox2d area_of(const Surface& surface, std::uint32_t triangle) {
     Eigen::AlignedBox2d box;
     for (const std::uint32_t vertex : surface.triangles[triangle])
@@ -65,6 +76,17 @@ std::optional<Bottom::Heights> Bottom::heights(const Eigen::Vector2d& point) con
         if (!found) found = {*z, *z};
         found->lowest = std::min(found->lowest, *z);
         found->highest = std::max(found->highest, *z);
+    });
+    return found;
+}
+
+std::optional<double> Bottom::highest_below(const Eigen::Vector3d& point, double tolerance) const {
+    const Eigen::Vector2d at = point.head<2>();
+    std::optional<double> found;
+    for_each_near({at, at}, [&](std::uint32_t triangle) {
+        if (!is_near(surface_, triangle, at)) return;
+        const auto z = height_above(corners_of(surface_, triangle), at);
+        if (z && *z <= point.z() + tolerance && (!found || *z > *found)) found = z;
     });
     return found;
 }

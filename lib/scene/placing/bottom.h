@@ -25,6 +25,10 @@ class Bottom {
     };
     std::optional<Heights> heights(const Eigen::Vector2d& point) const;
 
+    /// The highest of the surfaces at the x and y of a point that lie below it, or at most
+    /// `tolerance` above it; nothing where there is none.
+    std::optional<double> highest_below(const Eigen::Vector3d& point, double tolerance) const;
+
     /// Calls `visit` with the index of every triangle that may meet the box, some more than once.
     template <class Visit>
     void for_each_near(const Eigen::AlignedBox2d& box, const Visit& visit) const {

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/pose.h"
+#include "ping/accumulate.h"
+#include "scene/placing/bottom.h"
+#include "scene/scene.h"
+#include "visibility/engine.h"
+
+namespace sonarsim {
+
+/// Finds how high above the bottom lies what a beam's bins show.
+class HeightFinder {
+  public:
+    /// All but the pose must outlive the finder. Without a bottom nothing has a height.
+    HeightFinder(std::span<const Material> materials, const RangeBins& bins, const Bottom* bottom,
+                 const Pose& T_world_sensor)
+        : materials_(materials), bins_(bins), bottom_(bottom), T_world_sensor_(T_world_sensor) {}
+
+    /// The mean height of the echo of each bin, m, weighted with area times intensity: how far the
+    /// next surface of the bottom lies straight below. 0 for the bottom itself, NaN where the
+    /// samples give none or have no bottom below. The bottom below one sample is taken as level.
+    void find(std::span<const Sample> samples, std::span<float> height_m);
+
+  private:
+    struct Sums {
+        double echo = 0.0, height = 0.0;
+    };
+
+    void add(const Sample& sample, const Eigen::Vector3f& up);
+
+    std::span<const Material> materials_;
+    RangeBins bins_;
+    const Bottom* bottom_;
+    Pose T_world_sensor_;
+    std::vector<Sums> sums_;            ///< 0 between calls
+    int first_bin_ = 0, last_bin_ = 0;  ///< of the beam under way: [first, last) have an echo
+};
+
+}  // namespace sonarsim
