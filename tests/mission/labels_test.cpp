@@ -9,7 +9,7 @@ TEST_SUITE_BEGIN("mission");
 TEST_CASE("labels: all, none or a list, in one order") {
     CHECK(parse(smallest_mission).output.labels.empty());
     CHECK(parse(smallest_mission + "output: {labels: false}\n").output.labels.empty());
-    CHECK(parse(smallest_mission + "output: {labels: true}\n").output.labels.size() == 17);
+    CHECK(parse(smallest_mission + "output: {labels: true}\n").output.labels.size() == 18);
     const Mission mission = parse(smallest_mission + "output: {labels: [shadow, instance]}\n");
     CHECK(mission.output.labels == std::vector<Label>{Label::instance, Label::shadow});
     CHECK(parse(resolved_yaml(mission, sonar_keys())) == mission);
