@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -85,10 +86,32 @@ void add_instance(RTCDevice device, const EmbreeTree& into, unsigned int index,
     rtcReleaseGeometry(instance);
 }
 
-/// Traces rays in packets; `origin_of(i)` gives the start of ray i. Where the tree has instances,
-/// the numbers of instance k's facets start at `first_facet[k]`.
+/// A tree that rays are traced through. Where it has instances, the numbers of instance k's facets
+/// start at `first_facet[k]`.
+struct Layer {
+    RTCScene tree = nullptr;
+    std::span<const std::uint32_t> first_facet = {};
+};
+
+/// Takes the facets that a packet has met in a layer over, and lets it go on to the next one: what
+/// it meets there has to be nearer, for Embree has shortened its rays.
+void take_hits(RTCRayHit8& rays, int count, const Layer& layer, std::span<std::uint32_t> facets) {
+    for (int k = 0; k < count; ++k) {
+        const std::uint32_t met = rays.hit.primID[k];
+        if (met == Caster::nothing) continue;
+        facets[k] =
+            layer.first_facet.empty() ? met : met + layer.first_facet[rays.hit.instID[0][k]];
+    }
+    for (int k = 0; k < packet; ++k) {
+        rays.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
+        rays.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;
+        rays.hit.primID[k] = Caster::nothing;
+    }
+}
+
+/// Traces rays in packets; `origin_of(i)` gives the start of ray i.
 template <class OriginOf>
-void trace(RTCScene tree, std::span<const std::uint32_t> first_facet, OriginOf origin_of,
+void trace(std::span<const Layer> layers, OriginOf origin_of,
            std::span<const Eigen::Vector3f> directions, float reach_m,
            std::span<std::uint32_t> facets) {
     alignas(64) RTCRayHit8 rays;
@@ -119,12 +142,11 @@ void trace(RTCScene tree, std::span<const std::uint32_t> first_facet, OriginOf o
             rays.hit.primID[k] = Caster::nothing;
             valid[k] = k < count ? -1 : 0;
         }
-        intersect_coherent_8(valid, tree, rays);
-        std::copy_n(rays.hit.primID, count, facets.begin() + static_cast<std::ptrdiff_t>(first));
-        if (first_facet.empty()) continue;
-        for (int k = 0; k < count; ++k) {
-            if (facets[first + k] != Caster::nothing)
-                facets[first + k] += first_facet[rays.hit.instID[0][k]];
+        const auto own = facets.subspan(first, count);
+        std::ranges::fill(own, Caster::nothing);
+        for (const Layer& layer : layers) {
+            intersect_coherent_8(valid, layer.tree, rays);
+            take_hits(rays, count, layer, own);
         }
     }
 }
@@ -166,33 +188,71 @@ struct Caster::Trees {
     }
 };
 
-/// Where everything is at one moment: the scene's own triangles, the bodies, then the copies.
+/// Things that have been put somewhere, in one tree: the scene's own triangles, or bodies, or both,
+/// and then copies. Their facets are numbered from `begin` on.
 struct Caster::Moment {
     EmbreeTree tree;
+    std::uint32_t begin = 0;
+    std::uint32_t end = 0;
     std::vector<std::uint32_t> first_facet;  ///< the numbers that each one's facets have
     std::vector<std::uint32_t> tree_of;      ///< index into Trees::trees
     std::vector<Eigen::Matrix<float, 3, 4>> transforms;
+    std::size_t first_copy = 0;  ///< where copies begin
+
+    Moment(const Trees& trees, std::uint32_t first)
+        : tree(trees.device), begin(first), end(first) {}
 
     void add(const Trees& trees, std::uint32_t placed, const Eigen::Matrix<float, 3, 4>& T) {
-        const std::uint32_t next =
-            first_facet.empty() ? 0 : first_facet.back() + trees.size(tree_of.back());
         add_instance(trees.device, tree, static_cast<unsigned int>(first_facet.size()),
                      trees.trees[placed], T);
-        first_facet.push_back(next);
+        first_facet.push_back(end);
         tree_of.push_back(placed);
         transforms.push_back(T);
+        end += trees.size(placed);
+    }
+
+    void add_own(const Trees& trees) {
+        add(trees, 0, Eigen::Matrix<float, 3, 4>::Identity());
+        first_copy = first_facet.size();
+    }
+
+    void add_bodies(const Trees& trees, std::span<const Pose> T_local_body) {
+        for (std::size_t k = 0; k < T_local_body.size(); ++k) {
+            Eigen::Matrix<float, 3, 4> transform;
+            transform << T_local_body[k].rotation.toRotationMatrix().cast<float>(),
+                T_local_body[k].translation.cast<float>();
+            add(trees, static_cast<std::uint32_t>(1 + k), transform);
+        }
+        first_copy = first_facet.size();
+    }
+
+    void add_copies(const Trees& trees) {
+        for (const Trees::PlacedCopy& copy : trees.copies)
+            add(trees, copy.tree, copy.T_local_mesh);
+    }
+
+    void finish(const Trees& trees) {
+        // A thread that waits for Embree must not begin another ping meanwhile.
+        tbb::this_task_arena::isolate([&] { rtcCommitScene(tree.get()); });
+        check_embree(trees.device, "placing bodies and copies");
     }
 };
 
-Caster::Caster(std::shared_ptr<const Trees> trees, std::unique_ptr<Moment> moment)
+Caster::Caster(std::shared_ptr<const Trees> trees,
+               std::vector<std::shared_ptr<const Moment>> moments)
     : trees_(std::move(trees)),
-      moment_(std::move(moment)),
+      moments_(std::move(moments)),
       facets_(trees_->facets.data()),
       still_(trees_->size(0)) {
-    if (!moment_ && !trees_->copies.empty()) moment_ = place(*trees_, {});
+    if (!moments_.empty() || trees_->copies.empty()) return;
+    auto still = std::make_shared<Moment>(*trees_, 0);
+    still->add_own(*trees_);
+    still->add_copies(*trees_);
+    still->finish(*trees_);
+    moments_.push_back(std::move(still));
 }
 
-Caster::Caster(const Scene& scene) : Caster(make_trees(scene), nullptr) {}
+Caster::Caster(const Scene& scene) : Caster(make_trees(scene), {}) {}
 Caster::Caster(Caster&&) noexcept = default;
 Caster::~Caster() = default;
 
@@ -223,60 +283,61 @@ std::shared_ptr<const Caster::Trees> Caster::make_trees(const Scene& scene) {
     return made;
 }
 
-std::unique_ptr<Caster::Moment> Caster::place(const Trees& trees,
-                                              std::span<const Pose> T_local_body) {
-    auto moment = std::make_unique<Moment>(Moment{EmbreeTree(trees.device), {}, {}, {}});
-    Eigen::Matrix<float, 3, 4> transform = Eigen::Matrix<float, 3, 4>::Identity();
-    moment->add(trees, 0, transform);
-    for (std::size_t k = 0; k < T_local_body.size(); ++k) {
-        transform << T_local_body[k].rotation.toRotationMatrix().cast<float>(),
-            T_local_body[k].translation.cast<float>();
-        moment->add(trees, static_cast<std::uint32_t>(1 + k), transform);
-    }
-    for (const Trees::PlacedCopy& copy : trees.copies)
-        moment->add(trees, copy.tree, copy.T_local_mesh);
-    // A thread that waits for Embree must not begin another ping meanwhile.
-    tbb::this_task_arena::isolate([&] { rtcCommitScene(moment->tree.get()); });
-    check_embree(trees.device, "placing bodies and copies");
-    return moment;
-}
-
 Caster Caster::moved(std::span<const Pose> T_local_body) const {
-    return {trees_, place(*trees_, T_local_body)};
+    // Copies are many and stand still: their tree, the first, stays, and bodies have one of their
+    // own. Without copies all is one tree, which is faster to trace.
+    const bool has_copies = !trees_->copies.empty();
+    auto moment = std::make_shared<Moment>(*trees_, has_copies ? moments_.front()->end : 0);
+    if (!has_copies) moment->add_own(*trees_);
+    moment->add_bodies(*trees_, T_local_body);
+    moment->finish(*trees_);
+    std::vector<std::shared_ptr<const Moment>> moments;
+    if (has_copies) moments.push_back(moments_.front());
+    moments.push_back(std::move(moment));
+    return {trees_, std::move(moments)};
 }
 
 Facet Caster::placed_facet(std::uint32_t index) const {
-    const auto& first = moment_->first_facet;
+    const Moment& moment = index < moments_.back()->begin ? *moments_.front() : *moments_.back();
+    const auto& first = moment.first_facet;
     const auto next = std::upper_bound(first.begin(), first.end(), index);
     const auto placed = static_cast<std::size_t>(next - first.begin()) - 1;
-    const auto stored = trees_->first_of_tree[moment_->tree_of[placed]];
+    const auto stored = trees_->first_of_tree[moment.tree_of[placed]];
     Facet facet = facets_[stored + (index - first[placed])];
-    const Eigen::Matrix<float, 3, 4>& T = moment_->transforms[placed];
+    const Eigen::Matrix<float, 3, 4>& T = moment.transforms[placed];
     facet.vertex = T.leftCols<3>() * facet.vertex + T.col(3);
     facet.normal = T.leftCols<3>() * facet.normal;
-    const std::size_t first_copy = first.size() - trees_->copies.size();
-    if (placed < first_copy) return facet;
+    if (placed < moment.first_copy) return facet;
     facet.normal.normalize();  // a copy may be scaled
-    facet.instance = trees_->copies[placed - first_copy].instance;
+    facet.instance = trees_->copies[placed - moment.first_copy].instance;
     return facet;
+}
+
+template <class OriginOf>
+void Caster::cast_from(OriginOf origin_of, std::span<const Eigen::Vector3f> directions,
+                       float reach_m, std::span<std::uint32_t> facets) const {
+    if (moments_.empty()) {
+        const Layer own{trees_->trees[0].get()};
+        trace({&own, 1}, origin_of, directions, reach_m, facets);
+        return;
+    }
+    std::array<Layer, 2> layers;
+    for (std::size_t k = 0; k < moments_.size(); ++k)
+        layers[k] = {moments_[k]->tree.get(), moments_[k]->first_facet};
+    trace(std::span(layers).first(moments_.size()), origin_of, directions, reach_m, facets);
 }
 
 void Caster::cast(const Eigen::Vector3f& origin, std::span<const Eigen::Vector3f> directions,
                   float reach_m, std::span<std::uint32_t> facets) const {
-    const auto origin_of = [&](std::size_t) -> const Eigen::Vector3f& { return origin; };
-    moment_
-        ? trace(moment_->tree.get(), moment_->first_facet, origin_of, directions, reach_m, facets)
-        : trace(trees_->trees[0].get(), {}, origin_of, directions, reach_m, facets);
+    cast_from([&](std::size_t) -> const Eigen::Vector3f& { return origin; }, directions, reach_m,
+              facets);
 }
 
 void Caster::cast(std::span<const Eigen::Vector3f> origins,
                   std::span<const Eigen::Vector3f> directions,
                   std::span<std::uint32_t> facets) const {
-    constexpr float reach_m = std::numeric_limits<float>::infinity();
-    const auto origin_of = [&](std::size_t i) -> const Eigen::Vector3f& { return origins[i]; };
-    moment_
-        ? trace(moment_->tree.get(), moment_->first_facet, origin_of, directions, reach_m, facets)
-        : trace(trees_->trees[0].get(), {}, origin_of, directions, reach_m, facets);
+    cast_from([&](std::size_t i) -> const Eigen::Vector3f& { return origins[i]; }, directions,
+              std::numeric_limits<float>::infinity(), facets);
 }
 
 }  // namespace sonarsim

@@ -33,8 +33,8 @@ class Caster {
     Caster(const Caster&) = delete;
     Caster& operator=(const Caster&) = delete;
 
-    /// The same trees, with the bodies at these poses. Takes time for each body and each copy of a
-    /// shared mesh, not for their triangles. Scene-local frame.
+    /// The same trees, with the bodies at these poses. Takes time for each body, not for its
+    /// triangles nor for copies of shared meshes. Scene-local frame.
     Caster moved(std::span<const Pose> T_local_body) const;
 
     /// Rays from one point: `facets[i]` is what direction i meets within `reach_m`, or `nothing`.
@@ -60,15 +60,19 @@ class Caster {
   private:
     struct Trees;
     struct Moment;
-    Caster(std::shared_ptr<const Trees> trees, std::unique_ptr<Moment> moment);
+    Caster(std::shared_ptr<const Trees> trees, std::vector<std::shared_ptr<const Moment>> moments);
     static std::shared_ptr<const Trees> make_trees(const Scene& scene);
-    static std::unique_ptr<Moment> place(const Trees& trees, std::span<const Pose> T_local_body);
+    template <class OriginOf>
+    void cast_from(OriginOf origin_of, std::span<const Eigen::Vector3f> directions, float reach_m,
+                   std::span<std::uint32_t> facets) const;
     Facet placed_facet(std::uint32_t index) const;
 
     std::shared_ptr<const Trees> trees_;
-    std::unique_ptr<Moment> moment_;  ///< null: neither bodies nor copies
-    const Facet* facets_ = nullptr;   ///< of the scene's own triangles, then of each other tree
-    std::uint32_t still_ = 0;         ///< how many are the scene's own
+    /// Where things are. Empty: the scene's own triangles are all there is; two: what stands still
+    /// with the copies, then the bodies.
+    std::vector<std::shared_ptr<const Moment>> moments_;
+    const Facet* facets_ = nullptr;  ///< of the scene's own triangles, then of each other tree
+    std::uint32_t still_ = 0;        ///< how many are the scene's own
 };
 
 }  // namespace sonarsim

@@ -16,6 +16,7 @@ Mission unusual_mission() {
     mission.scene = {"/s p/a'\".glb", "/m/ü.csv"};
     mission.trajectory =
         LawnmowerTrajectoryConfig{{-1.0 / 3.0, 2}, {4, 5e6}, -6.5, 45, 3, 0.1, 1e3};
+    mission.vehicle = {{0.1, -2, 1e5}, {0.25, 5, -30}};
     SonarConfig sonar;
     sonar.name = "null";
     sonar.mount = {{1e-7, -2, 0.1}, {-4, 5, 0.2 + 0.1}};
@@ -92,6 +93,9 @@ scene:
 trajectory:
   file: "/base/a.tum"
   rate_hz: 0
+vehicle:
+  offset_m: [0, 0, 0]
+  turn_deg: [0, 0, 0]
 sensors:
   "fls":
     kind: imaging
