@@ -82,7 +82,9 @@ std::string bash(const std::vector<CommandText>& commands) {
 
 /// What follows an option, for zsh: the values by name, or files.
 std::string zsh_value(const OptionText& option) {
-    if (!option.choices.empty()) return ":" + option.value + ":(" + joined(option.choices) + ")";
+    // A positional argument has no value of its own; zsh takes an empty message for something else.
+    const std::string& message = option.value.empty() ? option.name : option.value;
+    if (!option.choices.empty()) return ":" + message + ":(" + joined(option.choices) + ")";
     return ":" + option.value + ":_files";
 }
 

@@ -84,6 +84,7 @@ std::string manual_page(const CLI::App& app) {
         ".TP\n0\nDone.\n"
         ".TP\n1\nThe machine could not: disk, memory, processor; or a dataset is not whole.\n"
         ".TP\n2\nThe input or the usage is wrong; the message says where and what is right.\n"
+        ".TP\n3\nWith \\fB\\-\\-strict\\fR: there were warnings.\n"
         ".TP\n128 and more\nA signal ended the run: 128 and its number. A dataset goes on where it "
         "stopped.\n";
     text +=

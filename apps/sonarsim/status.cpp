@@ -127,7 +127,7 @@ void print_variants(const VariantsStatus& status, bool as_json) {
     fmt::print(
         "{}", line("variants", fmt::format("{} of {} complete", status.complete, status.variants)));
     for (const auto& [name, job] : status.under_way)
-        fmt::print("{}\n{}", line("variant", name), text_of(job));
+        fmt::print("{}{}", line("variant", name), text_of(job));
 }
 
 int status(const StatusArguments& arguments) {

@@ -235,7 +235,7 @@ void print_variants(const Mission& mission, const VariantFindings& all, bool as_
     }
     fmt::print("{:<12}{}\n{:<12}{}\n{:<12}{} pings, at most {:.1f} MB\n{:<12}{}\n", "mission",
                printable(mission.name), "variants", all.variants, "dataset", all.pings,
-               1e-6 * all.bytes, "folder", mission.output.folder.string());
+               1e-6 * all.bytes, "folder", printable(mission.output.folder.string()));
 }
 
 int validate(const ValidateArguments& arguments) {

@@ -77,8 +77,8 @@ Json objects_json(const Json& description) {
         const Json& box = one.value("box_world_m", Json());
         if (box.is_null()) continue;
         objects.push_back({{"name", one.at("name")},
-                           {"min", {box.at("min")[0], box.at("min")[1]}},
-                           {"max", {box.at("max")[0], box.at("max")[1]}}});
+                           {"min", {box.at("min").at(0), box.at("min").at(1)}},
+                           {"max", {box.at("max").at(0), box.at("max").at(1)}}});
     }
     return objects;
 }

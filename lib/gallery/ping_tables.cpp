@@ -68,11 +68,12 @@ PingBoxes boxes_of_objects(const fs::path& folder, const Json& sensor, BoxLabels
             const std::size_t label =
                 labels.index_of(name == kind ? name : name + " (" + kind + ")");
             const Json& bins = object.at("box_bins");
-            image.push_back(
-                box(label, bins["beam"][0], bins["range"][0], bins["beam"][1], bins["range"][1]));
-            if (!object.contains("fan") || object["fan"].is_null()) continue;
-            const Json& px = object["fan"].at("box_px");
-            fan.push_back(box(label, px["x"][0], px["y"][0], px["x"][1], px["y"][1]));
+            image.push_back(box(label, bins.at("beam").at(0), bins.at("range").at(0),
+                                bins.at("beam").at(1), bins.at("range").at(1)));
+            if (!object.contains("fan") || object.at("fan").is_null()) continue;
+            const Json& px = object.at("fan").at("box_px");
+            fan.push_back(
+                box(label, px.at("x").at(0), px.at("y").at(0), px.at("x").at(1), px.at("y").at(1)));
         }
         add_or_zero(all.in_image, std::move(image));
         add_or_zero(all.in_fan, std::move(fan));

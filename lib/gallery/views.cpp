@@ -72,9 +72,9 @@ Json record_boxes(const fs::path& folder, const Json& description, const std::st
             boxes.push_back(
                 {labels.index_of(
                      description.at("labels").at("instances").at(instance - 1).at("name")),
-                 along.origin[0] + b[0].get<double>() * along.step[0],
-                 along.origin[1] + b[1].get<double>() * along.step[1],
-                 b[2].get<double>() * along.step[0], b[3].get<double>() * along.step[1]});
+                 along.origin[0] + b.at(0).get<double>() * along.step[0],
+                 along.origin[1] + b.at(1).get<double>() * along.step[1],
+                 b.at(2).get<double>() * along.step[0], b.at(3).get<double>() * along.step[1]});
         }
     }
     return boxes;

@@ -11,8 +11,8 @@ constexpr double faint = 0.25;       // of the noise, in the mean
 constexpr double fewest_greys = 16.0;
 
 /// Why the blind pings of a sonar are blind.
-void judge_blindness(const SonarConfig& config, const SonarSurvey& found,
-                     std::vector<Warning>& out) {
+void judge_blindness(const Sonar& sonar, const SonarSurvey& found, std::vector<Warning>& out) {
+    const SonarConfig& config = sonar.config;
     const std::string about = about_sensor(config.name);
     const Blindness& why = found.why;
     if (found.blind == 0) return;
@@ -26,15 +26,20 @@ void judge_blindness(const SonarConfig& config, const SonarSurvey& found,
                                    why.ends_m.high, config.range_min_m));
     }
     if (why.too_flat > 0) {
+        const bool cone = sonar.settings.view.shape == ViewShape::cone;
         out.push_back(make_warning(Doubt::elevation_too_narrow, about, why.too_flat, found.pings,
                                    why.elevation_deg.low, why.elevation_deg.high,
-                                   config.elevation_deg));
+                                   cone ? "opening_deg" : "elevation_deg",
+                                   cone ? config.opening_deg : config.elevation_deg));
     }
     if (why.elsewhere > 0)
         out.push_back(make_warning(Doubt::looks_elsewhere, about, why.elsewhere, found.pings));
     if (why.nothing > 0) {
-        out.push_back(
-            make_warning(Doubt::nothing_near, about, why.nothing, found.pings, why.nearest_m.low));
+        const std::string nearest =
+            why.nearest_m.empty()
+                ? "the scene is empty"
+                : fmt::format("the nearest ever is {:.4g} m away or more", why.nearest_m.low);
+        out.push_back(make_warning(Doubt::nothing_near, about, why.nothing, found.pings, nearest));
     }
 }
 
@@ -44,7 +49,7 @@ std::vector<Warning> sonar_warnings(const OutputConfig& output, const Sonar& son
                                     double full_scale, const SonarSurvey& found) {
     std::vector<Warning> out;
     const std::string about = about_sensor(sonar.config.name);
-    judge_blindness(sonar.config, found, out);
+    judge_blindness(sonar, found, out);
     if (2 * found.below_surface > found.pings) {
         out.push_back(make_warning(Doubt::below_surface, about, found.below_surface, found.pings));
     }

@@ -41,16 +41,14 @@ double elevation_deg(const Eigen::Vector3f& direction) {
 }
 
 /// Finds out why a ping saw nothing.
-void explain(const View& view, const Surroundings& around, Blindness& why) {
+void explain(const View& view, const Surroundings& around, double to_scene_m, Blindness& why) {
     Interval in_view;
-    double nearest = std::numeric_limits<double>::infinity();
     bool somewhere = false;
     double flattest = std::numeric_limits<double>::infinity();  // off the view's middle, in degrees
     for (std::size_t i = 0; i < around.directions.size(); ++i) {
         const Eigen::Vector3f& direction = around.directions[i];
         const double distance = around.met[i].distance_m;
         if (!std::isfinite(distance)) continue;
-        nearest = std::min(nearest, distance);
         const bool within = distance >= view.range_min_m && distance < view.range_max_m;
         somewhere = somewhere || within;
         if (beam_of(view, direction) >= 0) {
@@ -73,8 +71,14 @@ void explain(const View& view, const Surroundings& around, Blindness& why) {
         ++why.elsewhere;
     } else {
         ++why.nothing;
-        if (std::isfinite(nearest)) why.nearest_m.take(nearest);
+        if (std::isfinite(to_scene_m)) why.nearest_m.take(to_scene_m);
     }
+}
+
+/// From a point to the box around the scene; infinite when there is no scene.
+double distance_to(const Scene& scene, const Eigen::Vector3d& point) {
+    if (scene.instances.empty()) return std::numeric_limits<double>::infinity();
+    return Eigen::AlignedBox3d(scene.bounds_min, scene.bounds_max).exteriorDistance(point);
 }
 
 /// Boxes around the instances, of what does not move.
@@ -93,8 +97,24 @@ bool holds_all(const Eigen::AlignedBox3f& box, const Scene& scene) {
     return !box.isEmpty() && (box.sizes().cast<double>().array() >= 0.9 * extent.array()).all();
 }
 
+/// Whether the scene's surface lies open upwards, as a sea floor does. Of a closed body what faces
+/// up and what faces down are equal.
+bool faces_up(const Scene& scene) {
+    double up = 0.0;
+    double either = 0.0;
+    for (const std::array<std::uint32_t, 3>& corners : scene.triangles) {
+        const Eigen::Vector3d a = scene.vertices[corners[0]].cast<double>();
+        const Eigen::Vector3d b = scene.vertices[corners[1]].cast<double>();
+        const Eigen::Vector3d c = scene.vertices[corners[2]].cast<double>();
+        const double area = (b - a).cross(c - a).z();
+        up += area;
+        either += std::fabs(area);
+    }
+    return up > 0.1 * either;
+}
+
 /// Whether the sonar is where no vehicle can be.
-void judge_place(const Scene& scene, std::span<const Eigen::AlignedBox3f> boxes,
+void judge_place(const Scene& scene, bool open_upwards, std::span<const Eigen::AlignedBox3f> boxes,
                  const Pose& T_world_sensor, const Surroundings& around, SonarSurvey& out) {
     std::size_t above = 0;
     std::size_t below = 0;
@@ -108,8 +128,8 @@ void judge_place(const Scene& scene, std::span<const Eigen::AlignedBox3f> boxes,
         (up ? met_above : met_below) += meets;
         if (meets) ++met[around.met[i].instance];
     }
-    // Beneath a sea floor there is surface all above and none below.
-    out.below_surface += 2 * met_above > above && 50 * met_below <= below;
+    // Beneath a sea floor there is surface all above and none below. Under a hull as well.
+    out.below_surface += open_upwards && 2 * met_above > above && 50 * met_below <= below;
     const auto most = std::ranges::max_element(met);
     if (scene.instances.size() < 2 || 100 * *most < 98 * around.directions.size()) return;
     const auto instance = static_cast<std::size_t>(most - met.begin());
@@ -200,6 +220,7 @@ SonarSurvey survey_sonar(const Mission& mission, const Assembly& assembly, Sonar
                          const VisibilityEngine& rays) {
     SonarSurvey out;
     out.seen_m2.resize(assembly.scene.instances.size());
+    const bool open_upwards = faces_up(assembly.scene);
     View& view = sonar.settings.view;
     view.relative_l1 = std::max(view.relative_l1, coarse_l1);
     const auto bins = static_cast<std::size_t>(view.range_bins) * view.beams;
@@ -221,10 +242,10 @@ SonarSurvey survey_sonar(const Mission& mission, const Assembly& assembly, Sonar
         take_attitude(at.T_world_vehicle.rotation, out);
         take_altitude(now, T_world_sensor, out);
         take_samples(view, traced.samples, out);
-        judge_place(assembly.scene, boxes, T_world_sensor, around, out);
+        judge_place(assembly.scene, open_upwards, boxes, T_world_sensor, around, out);
         if (ping.counts.occupied_bins == 0) {
             ++out.blind;
-            explain(view, around, out.why);
+            explain(view, around, distance_to(assembly.scene, T_world_sensor.translation), out.why);
         }
         add_bins(sonar, full_scale,
                  form_image(traced, sonar.settings, assembly.scene, key,

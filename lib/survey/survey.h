@@ -35,7 +35,7 @@ struct Blindness {
     Interval ends_m;     ///< where it ends, in those for which it is too near
     Interval
         elevation_deg;   ///< the nearest surface to the view, in those for which that is too flat
-    Interval nearest_m;  ///< the nearest surface in any direction, where that is out of range
+    Interval nearest_m;  ///< to the box around the scene, where there is no surface within range
 };
 
 /// What a sonar sees in a few of its pings, spread over the trajectory.

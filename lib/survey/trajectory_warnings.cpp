@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fstream>
+#include <string>
 #include <variant>
 
 #include "core/units.h"
@@ -83,6 +85,14 @@ bool is_toppled(const Eigen::Quaterniond& rotation) {
     return rotation.toRotationMatrix()(2, 2) < half_right_angle_cosine;
 }
 
+/// Whether a trajectory's file has roll, pitch and yaw instead of quaternions.
+bool has_angles(const std::filesystem::path& file) {
+    std::ifstream text(file);
+    std::string header;
+    return file.extension() == ".csv" && std::getline(text, header) &&
+           header.find("roll_deg") != std::string::npos;
+}
+
 void judge_order(const Trajectory& trajectory, std::vector<Warning>& out) {
     std::size_t toppled = 0;
     std::size_t upright_else = 0;
@@ -102,7 +112,8 @@ std::vector<Warning> trajectory_warnings(const TrajectoryConfig& config,
                                          const Trajectory& trajectory) {
     std::vector<Warning> out;
     if (!std::holds_alternative<LawnmowerTrajectoryConfig>(config)) judge_radians(trajectory, out);
-    if (std::holds_alternative<FileTrajectoryConfig>(config)) judge_order(trajectory, out);
+    const auto* const poses = std::get_if<FileTrajectoryConfig>(&config);
+    if (poses && !has_angles(poses->file)) judge_order(trajectory, out);
     return out;
 }
 

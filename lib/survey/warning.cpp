@@ -58,14 +58,13 @@ constexpr std::array rows{
          "lower range_min_m"}},
     Row{Doubt::elevation_too_narrow,
         {"in {0} of {1} pings there is surface within the range above or below its view alone, the "
-         "nearest at elevations of {2:.0f} to {3:.0f} degrees, and elevation_deg is {4:.4g}",
-         "raise elevation_deg or tilt it with mount.rpy_deg (positive pitch looks down)"}},
+         "nearest at elevations of {2:.0f} to {3:.0f} degrees, and {4} is {5:.4g}",
+         "raise {4}, or tilt the sonar with mount.rpy_deg"}},
     Row{Doubt::looks_elsewhere,
         {"in {0} of {1} pings there is surface within the range, but nowhere near its view",
          "turn it with mount.rpy_deg or check the trajectory's attitudes"}},
     Row{Doubt::nothing_near,
-        {"in {0} of {1} pings there is no surface within the range in any direction; the nearest "
-         "ever is {2:.4g} m away",
+        {"in {0} of {1} pings there is no surface within the range in any direction; {2}",
          "check the coordinates of the trajectory against the bounds of the scene"}},
     Row{Doubt::below_noise,
         {"its echoes drown in its noise: they are {0:.3g} in the mean of the lit bins, and the "

@@ -110,8 +110,8 @@ class Pack(Sandbox):
                             str(victim.relative_to(self.folder)), "copy the part again")
 
     def test_ten_kills(self):
-        """Each run is killed before a call that writes, at 5 % of the calls of a whole run, at 10 %
-        ... 50 %. What one run leaves behind is at most 45 % done, so the next never ends by itself."""
+        """Each run is killed before a call that writes: after 2.5 % of the calls of a whole run, after
+        5 % ... 25 %. What all of them leave to do takes more calls than that."""
         whole = self.whole()
         log = self.folder / "calls"
         disk = dict(os.environ, LD_PRELOAD=FAULTY_DISK, FAULTY_DISK_BELOW=str(self.out),
@@ -119,9 +119,9 @@ class Pack(Sandbox):
         self.render("-j2", env=dict(disk, FAULTY_DISK_CALL="0"))
         shutil.rmtree(self.out)
         calls = len(log.read_text().splitlines())
-        for twentieth in range(1, 11):
+        for fortieth in range(1, 11):
             killed = self.render("-j2", "--checkpoint", "0.01",
-                                 env=dict(disk, FAULTY_DISK_CALL=str(calls * twentieth // 20)))
+                                 env=dict(disk, FAULTY_DISK_CALL=str(calls * fortieth // 40)))
             self.assertEqual(killed.returncode, -signal.SIGKILL, killed.stderr)
         self.assert_renders()
         self.assertEqual(digest(self.out), whole)
