@@ -6,7 +6,7 @@
 #include <cmath>
 #include <memory>
 
-#include "assembly/poses.h"
+#include "assembly/engine_at.h"
 #include "assembly/spread_pings.h"
 #include "sonar/setup.h"
 #include "sonar/sonar.h"
@@ -63,10 +63,8 @@ double find_full_scale(std::uint64_t seed, const Scene& scene, const Trajectory&
     std::vector<float> lit;
     for (const std::uint32_t pose : spread_pings(trajectory.size(), sonar.config.every, probes)) {
         const TimedPose& at = trajectory[pose];
-        const std::unique_ptr<VisibilityEngine> moment =
-            motions.empty() ? nullptr : engine.at(poses_at(motions, at.t_s));
         const TracedPing traced =
-            trace(sonar, scene, moment ? *moment : engine, at.T_world_vehicle, pose);
+            trace(sonar, scene, *engine_at(engine, motions, at.t_s), at.T_world_vehicle, pose);
         const PingKey key{seed, pose};
         append_lit(form_image(traced, sonar.settings, scene, key, direct_echoes_alone),
                    form_image(traced, sonar.settings, scene, key), lit);

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "assembly/engine_at.h"
 #include "assembly/engine_probes.h"
 #include "core/clock.h"
 #include "core/error.h"
@@ -134,11 +135,10 @@ void render(const Mission& mission, const Assembly& assembly, const std::vector<
             const PingId& id = todo[i];
             const Sonar& sonar = assembly.sonars[id.sensor];
             const TimedPose& pose = assembly.trajectory[id.pose];
-            const std::unique_ptr<VisibilityEngine> moment =
-                assembly.motions.empty() ? nullptr : engine->at(body_poses(assembly, pose.t_s));
-            const VisibilityEngine& now = moment ? *moment : *engine;
+            const std::shared_ptr<const VisibilityEngine> now =
+                engine_at(*engine, assembly.motions, pose.t_s);
             const TracedPing traced =
-                trace(sonar, assembly.scene, now, pose.T_world_vehicle, id.pose);
+                trace(sonar, assembly.scene, *now, pose.T_world_vehicle, id.pose);
             const Ping ping =
                 form_image(traced, sonar.settings, assembly.scene, {mission.seed, id.pose});
             PingReport report{.id = id,
@@ -149,7 +149,7 @@ void render(const Mission& mission, const Assembly& assembly, const std::vector<
                               .brightest = brightest_pixel(ping, sonar.config.name, id.pose),
                               .estimated_l1 = ping.estimated_l1,
                               .goal_l1 = sonar.settings.view.relative_l1};
-            if (to) write_ping(assembly, now, *to, traced, ping, report);
+            if (to) write_ping(assembly, *now, *to, traced, ping, report);
             return report;
         },
         [&](const PingReport& report) {

@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "assembly/engine_at.h"
 #include "assembly/engine_probes.h"
 #include "assembly/spread_pings.h"
 #include "core/clock.h"
@@ -33,14 +34,13 @@ std::vector<PingCost> measure_pings(const Mission& mission, const Assembly& asse
             const std::uint32_t pose = poses[k];
             const TimedPose& at = assembly.trajectory[pose];
             Stopwatch watch;
-            const std::unique_ptr<VisibilityEngine> moment =
-                assembly.motions.empty() ? nullptr : engine->at(body_poses(assembly, at.t_s));
-            const VisibilityEngine& now = moment ? *moment : *engine;
-            const TracedPing traced = trace(sonar, assembly.scene, now, at.T_world_vehicle, pose);
+            const std::shared_ptr<const VisibilityEngine> now =
+                engine_at(*engine, assembly.motions, at.t_s);
+            const TracedPing traced = trace(sonar, assembly.scene, *now, at.T_world_vehicle, pose);
             const Ping ping =
                 form_image(traced, sonar.settings, assembly.scene, {mission.seed, pose});
             const WrittenPing written =
-                encode_ping(assembly, now, writers[i], plan, {pose, i}, traced, ping);
+                encode_ping(assembly, *now, writers[i], plan, {pose, i}, traced, ping);
             if (k == 0) continue;
             costs[i].seconds += watch.lap() / counted;
             for (const std::string& part : written.parts)
