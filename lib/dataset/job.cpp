@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "assembly/engine_at.h"
 #include "assembly/engine_probes.h"
 #include "core/clock.h"
 #include "core/error.h"
@@ -138,11 +139,10 @@ void render(const Mission& mission, const Assembly& assembly, const std::vector<
                 drawn_sonar(mission, assembly.sonars[id.sensor], id.pose);
             const Sonar& sonar = drawn ? *drawn : assembly.sonars[id.sensor];
             const TimedPose& pose = assembly.trajectory[id.pose];
-            const std::unique_ptr<VisibilityEngine> moment =
-                assembly.motions.empty() ? nullptr : engine->at(body_poses(assembly, pose.t_s));
-            const VisibilityEngine& now = moment ? *moment : *engine;
+            const std::shared_ptr<const VisibilityEngine> now =
+                engine_at(*engine, assembly.motions, pose.t_s);
             const TracedPing traced =
-                trace(sonar, assembly.scene, now, pose.T_world_vehicle, id.pose);
+                trace(sonar, assembly.scene, *now, pose.T_world_vehicle, id.pose);
             const Ping ping =
                 form_image(traced, sonar.settings, assembly.scene, {mission.seed, id.pose});
             PingReport report{.id = id,
@@ -153,7 +153,7 @@ void render(const Mission& mission, const Assembly& assembly, const std::vector<
                               .brightest = brightest_pixel(ping, sonar.config.name, id.pose),
                               .estimated_l1 = ping.estimated_l1,
                               .goal_l1 = sonar.settings.view.relative_l1};
-            if (to) write_ping(assembly, now, *to, sonar, traced, ping, report);
+            if (to) write_ping(assembly, *now, *to, sonar, traced, ping, report);
             return report;
         },
         [&](const PingReport& report) {

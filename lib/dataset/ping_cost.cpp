@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 
+#include "assembly/engine_at.h"
 #include "assembly/engine_probes.h"
 #include "assembly/spread_pings.h"
 #include "core/clock.h"
@@ -34,16 +35,15 @@ std::vector<PingCost> measure_pings(const Mission& mission, const Assembly& asse
             const std::uint32_t pose = poses[k];
             const TimedPose& at = assembly.trajectory[pose];
             Stopwatch watch;
-            const std::unique_ptr<VisibilityEngine> moment =
-                assembly.motions.empty() ? nullptr : engine->at(body_poses(assembly, at.t_s));
-            const VisibilityEngine& now = moment ? *moment : *engine;
+            const std::shared_ptr<const VisibilityEngine> now =
+                engine_at(*engine, assembly.motions, at.t_s);
             const std::optional<Sonar> drawn = drawn_sonar(mission, sonar, pose);
             const Sonar& then = drawn ? *drawn : sonar;
-            const TracedPing traced = trace(then, assembly.scene, now, at.T_world_vehicle, pose);
+            const TracedPing traced = trace(then, assembly.scene, *now, at.T_world_vehicle, pose);
             const Ping ping =
                 form_image(traced, then.settings, assembly.scene, {mission.seed, pose});
             const WrittenPing written =
-                encode_ping(assembly, now, writers[i], plan, {pose, i}, then, traced, ping);
+                encode_ping(assembly, *now, writers[i], plan, {pose, i}, then, traced, ping);
             if (k == 0) continue;
             costs[i].seconds += watch.lap() / counted;
             for (const std::string& part : written.parts)

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "assembly/engine_at.h"
 #include "assembly/engine_probes.h"
 #include "core/units.h"
 #include "preview/drawing.h"
@@ -108,30 +109,27 @@ Picture draw_preview(const Mission& mission, const Assembly& assembly, std::uint
     const std::unique_ptr<VisibilityEngine> engine =
         make_engine(assembly.scene, engine_settings(mission, assembly));
     const auto at_pose = [&](std::uint32_t index) {
-        return assembly.motions.empty() ? nullptr
-                                        : engine->at(body_poses(assembly, trajectory[index].t_s));
+        return engine_at(*engine, assembly.motions, trajectory[index].t_s);
     };
     std::vector<Tile> tiles;
     Moment moment{assembly, pose, {}};
-    const std::unique_ptr<VisibilityEngine> bodies_now = at_pose(pose);
     for (std::size_t i = 0; i < assembly.sonars.size(); ++i) {
         const Sonar& sonar = assembly.sonars[i];
         const Rgb colour = sonar_colours[i % sonar_colours.size()];
         const auto render = [&](std::uint32_t index) {
-            const std::unique_ptr<VisibilityEngine> bodies_then = at_pose(index);
             const std::optional<Sonar> drawn = drawn_sonar(mission, sonar, index);
-            return render_ping(drawn ? *drawn : sonar, assembly.scene,
-                               bodies_then ? *bodies_then : *engine,
+            return render_ping(drawn ? *drawn : sonar, assembly.scene, *at_pose(index),
                                trajectory[index].T_world_vehicle, {mission.seed, index});
         };
         SonarPanel panel =
             draw_sonar(sonar, pose, trajectory.size(), render, tile_width, tile_height);
         tiles.push_back({title_of(sonar, pose, panel.white), colour, std::move(panel.picture)});
-        moment.beams.push_back(beam_outline(
-            sonar, bodies_now ? *bodies_now : *engine,
-            sensor_pose(sonar, trajectory[pose].T_world_vehicle, ping_at(sonar, pose)), colour));
+        const std::uint32_t ping = ping_at(sonar, pose);
+        moment.beams.push_back(
+            beam_outline(sonar, *at_pose(ping),
+                         sensor_pose(sonar, trajectory[ping].T_world_vehicle, ping), colour));
     }
-    tiles.push_back({"plan: x to the right, y up; colours: height", ink,
+    tiles.push_back({"plan: x to the right, y up, colours: height", ink,
                      draw_plan(moment, tile_width, tile_height)});
     tiles.push_back({"cut along the heading: ahead to the right, z up", ink,
                      draw_section(moment, false, tile_width, tile_height)});

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/input_limits.h"
+#include "scene/copies.h"
 
 namespace sonarsim {
 
@@ -15,9 +16,11 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Corners = std::array<Vector3d, 3>;
 
-/// Every triangle of the scene as it is at that pose, world.
-void for_each_triangle(const Assembly& assembly, std::uint32_t pose,
-                       const std::function<void(const Corners&)>& visit) {
+/// The triangles of the scene as they are at that pose, world; of copies those whose box is wanted.
+/// Of very many of these every n-th is visited.
+template <class Wanted, class Visit>
+void for_each_triangle(const Assembly& assembly, std::uint32_t pose, const Wanted& wanted,
+                       const Visit& visit) {
     const Scene& scene = assembly.scene;
     const auto resting = [&](std::uint32_t i) -> Vector3d {
         return scene.origin + scene.vertices[i].cast<double>();
@@ -32,6 +35,25 @@ void for_each_triangle(const Assembly& assembly, std::uint32_t pose,
         };
         for (const auto& [a, b, c] : body.triangles)
             visit({moved(a), moved(b), moved(c)});
+    }
+    constexpr std::size_t most_of_copies = 3'000'000;  // about half a second
+    const std::vector<Eigen::AlignedBox3d> boxes = boxes_of_copies(scene);
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < boxes.size(); ++k) {
+        if (wanted(boxes[k])) count += scene.shared_meshes[scene.copies[k].mesh].triangles.size();
+    }
+    const std::size_t step = 1 + count / most_of_copies;
+    for (std::size_t k = 0; k < boxes.size(); ++k) {
+        if (!wanted(boxes[k])) continue;
+        const MeshCopy& copy = scene.copies[k];
+        const SharedMesh& mesh = scene.shared_meshes[copy.mesh];
+        const auto placed = [&](std::uint32_t i) -> Vector3d {
+            return copy.T_world_mesh * mesh.vertices[i].cast<double>();
+        };
+        for (std::size_t t = 0; t < mesh.triangles.size(); t += step) {
+            const auto& [a, b, c] = mesh.triangles[t];
+            visit({placed(a), placed(b), placed(c)});
+        }
     }
 }
 
@@ -117,11 +139,14 @@ std::vector<float> heights_below(const Assembly& assembly, std::uint32_t pose,
         std::vector<float>(static_cast<std::size_t>(frame.plot_width) * frame.plot_height,
                            std::nanf(""))};
     const Vector2d high = frame.low + frame.pixel_m * Vector2d(frame.plot_width, frame.plot_height);
-    for_each_triangle(assembly, pose, [&](const Corners& corner) {
-        const Vector3d least = corner[0].cwiseMin(corner[1]).cwiseMin(corner[2]);
-        const Vector3d most = corner[0].cwiseMax(corner[1]).cwiseMax(corner[2]);
-        if (least.z() > raster.ceiling || (most.head<2>().array() < frame.low.array()).any() ||
-            (least.head<2>().array() > high.array()).any())
+    const auto shows = [&](const Vector3d& least, const Vector3d& most) {
+        return least.z() <= raster.ceiling && (most.head<2>().array() >= frame.low.array()).all() &&
+               (least.head<2>().array() <= high.array()).all();
+    };
+    const auto wanted = [&](const Eigen::AlignedBox3d& box) { return shows(box.min(), box.max()); };
+    for_each_triangle(assembly, pose, wanted, [&](const Corners& corner) {
+        if (!shows(corner[0].cwiseMin(corner[1]).cwiseMin(corner[2]),
+                   corner[0].cwiseMax(corner[1]).cwiseMax(corner[2])))
             return;
         raster.put_face(corner);
         const Vector3d normal = (corner[1] - corner[0]).cross(corner[2] - corner[0]);
@@ -136,7 +161,12 @@ void for_each_cut(const Assembly& assembly, std::uint32_t pose, const Vector3d& 
                   const Vector2d& axis,
                   const std::function<void(const Vector3d&, const Vector3d&)>& visit) {
     const Vector2d normal(-axis.y(), axis.x());
-    for_each_triangle(assembly, pose, [&](const Corners& corner) {
+    const auto meets_plane = [&](const Eigen::AlignedBox3d& box) {
+        const double reach = 0.5 * normal.cwiseAbs().dot(box.sizes().head<2>());
+        return !box.isEmpty() &&
+               std::fabs(normal.dot(box.center().head<2>() - point.head<2>())) <= reach;
+    };
+    for_each_triangle(assembly, pose, meets_plane, [&](const Corners& corner) {
         std::array<double, 3> side;
         for (int k = 0; k < 3; ++k)
             side[k] = normal.dot(corner[k].head<2>() - point.head<2>());

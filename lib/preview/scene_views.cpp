@@ -63,7 +63,8 @@ void draw_heights(Picture& tile, const PlaneFrame& frame, const std::vector<floa
             const bool usable = other < heights.size() && !std::isnan(heights[other]);
             return usable ? heights[other] : heights[k];
         };
-        const float rise = (heights[k] - neighbour(k - 1) + heights[k] - neighbour(k - width)) /
+        const float rise = (heights[k] - neighbour(k % width > 0 ? k - 1 : k) + heights[k] -
+                            neighbour(k - width)) /
                            static_cast<float>(frame.pixel_m);
         const float light = std::clamp(0.55F + 0.25F * rise, 0.3F, 0.8F);
         const Rgb full = blend(stops, (heights[k] - low) / (high - low));

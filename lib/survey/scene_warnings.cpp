@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/text.h"
+#include "scene/copies.h"
 
 namespace sonarsim {
 
@@ -56,23 +57,48 @@ void judge_extent(const Mission& mission, const Assembly& assembly,
     }
 }
 
-/// The share of the surface whose normal lies along each axis of the world, in percent.
-std::array<double, 3> facing(const Scene& scene) {
-    std::array<double, 3> areas{};
+/// Surface, and how much of it has its normal along each axis of the world, in twice m^2.
+struct Facing {
     double all = 0.0;
-    for (const auto& [a, b, c] : scene.triangles) {
-        const Eigen::Vector3f& corner = scene.vertices[a];
-        const Eigen::Vector3d normal =
-            (scene.vertices[b] - corner).cross(scene.vertices[c] - corner).cast<double>();
+    std::array<double, 3> along{};
+
+    /// `normal` is as long as the surface is large.
+    void add(const Eigen::Vector3d& normal) {
         const double area = normal.norm();
         all += area;
         for (int axis = 0; axis < 3; ++axis) {
-            if (std::fabs(normal[axis]) > 0.9 * area) areas[axis] += area;
+            if (std::fabs(normal[axis]) > 0.9 * area) along[axis] += area;
         }
     }
-    for (double& area : areas)
-        area *= all > 0.0 ? 100.0 / all : 0.0;
-    return areas;
+};
+
+/// The normal of a triangle, as long as its two sides span.
+template <class Mesh>
+Eigen::Vector3d normal_of(const Mesh& mesh, std::size_t triangle) {
+    const auto& [a, b, c] = mesh.triangles[triangle];
+    const Eigen::Vector3f& corner = mesh.vertices[a];
+    return (mesh.vertices[b] - corner).cross(mesh.vertices[c] - corner).template cast<double>();
+}
+
+/// The share of the surface whose normal lies along each axis of the world, in percent. Of copies
+/// every n-th triangle stands for n: a few million of them tell enough.
+std::array<double, 3> facing(const Scene& scene) {
+    constexpr std::size_t most_of_copies = 2'000'000;
+    Facing facing;
+    for (std::size_t t = 0; t < scene.triangles.size(); ++t)
+        facing.add(normal_of(scene, t));
+    const std::size_t step = 1 + triangles_of_copies(scene) / most_of_copies;
+    for (const MeshCopy& copy : scene.copies) {
+        const SharedMesh& mesh = scene.shared_meshes[copy.mesh];
+        // It scales alike along all axes: areas grow by the square.
+        const Eigen::Matrix3d turned = copy.T_world_mesh.linear();
+        const double grown = turned.col(0).norm() * static_cast<double>(step);
+        for (std::size_t t = 0; t < mesh.triangles.size(); t += step)
+            facing.add(grown * turned * normal_of(mesh, t));
+    }
+    for (double& area : facing.along)
+        area *= facing.all > 0.0 ? 100.0 / facing.all : 0.0;
+    return facing.along;
 }
 
 /// A sea floor of a file that was taken for y up has its normals along the world's y.
@@ -118,7 +144,7 @@ void judge_materials(const WaterConfig& water, const Scene& scene, std::vector<W
 std::vector<Warning> scene_warnings(const Mission& mission, const Assembly& assembly,
                                     std::span<const SonarSurvey> sonars) {
     std::vector<Warning> out;
-    if (!assembly.scene.triangles.empty()) {
+    if (!assembly.scene.triangles.empty() || !assembly.scene.copies.empty()) {
         judge_extent(mission, assembly, sonars, out);
         judge_axes(assembly.scene, out);
     }

@@ -5,9 +5,11 @@
 #include <optional>
 #include <span>
 
+#include "assembly/engine_at.h"
 #include "assembly/spread_pings.h"
 #include "calibrated/model.h"
 #include "core/units.h"
+#include "scene/copies.h"
 #include "sonar/sonar.h"
 #include "survey/directions.h"
 #include "visibility/view.h"
@@ -88,6 +90,11 @@ std::vector<Eigen::AlignedBox3f> boxes_of(const Scene& scene) {
     for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
         for (const std::uint32_t corner : scene.triangles[t])
             boxes[scene.triangle_instance[t]].extend(scene.vertices[corner]);
+    }
+    const std::vector<Eigen::AlignedBox3d> copies = boxes_of_copies(scene);
+    for (std::size_t k = 0; k < copies.size(); ++k) {
+        if (copies[k].isEmpty()) continue;
+        boxes[scene.copies[k].instance].extend(copies[k].translated(-scene.origin).cast<float>());
     }
     return boxes;
 }
@@ -234,16 +241,15 @@ SonarSurvey survey_sonar(const Mission& mission, const Assembly& assembly, Sonar
         const std::optional<Sonar> drawn = drawn_sonar(mission, sonar, pose);
         const Sonar& then = drawn ? *drawn : sonar;
         const Pose T_world_sensor = sensor_pose(then, at.T_world_vehicle, pose);
-        const std::unique_ptr<VisibilityEngine> moment =
-            assembly.motions.empty() ? nullptr : rays.at(body_poses(assembly, at.t_s));
-        const VisibilityEngine& now = moment ? *moment : rays;
-        const TracedPing traced = trace(then, assembly.scene, now, at.T_world_vehicle, pose);
+        const std::shared_ptr<const VisibilityEngine> now =
+            engine_at(rays, assembly.motions, at.t_s);
+        const TracedPing traced = trace(then, assembly.scene, *now, at.T_world_vehicle, pose);
         const PingKey key{mission.seed, pose};
         const Ping ping = form_image(traced, then.settings, assembly.scene, key);
-        const Surroundings around = look(view, now, T_world_sensor);
+        const Surroundings around = look(view, *now, T_world_sensor);
         ++out.pings;
         take_attitude(at.T_world_vehicle.rotation, out);
-        take_altitude(now, T_world_sensor, out);
+        take_altitude(*now, T_world_sensor, out);
         take_samples(view, traced.samples, out);
         judge_place(assembly.scene, open_upwards, boxes, T_world_sensor, around, out);
         if (ping.counts.occupied_bins == 0) {

@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <string>
 
+#include "assembly/engine_at.h"
 #include "core/text.h"
 #include "core/units.h"
+#include "scene/copies.h"
 #include "sonar/sonar.h"
 #include "visibility/view.h"
 
@@ -46,10 +47,9 @@ std::vector<Extent> extents_of(const Scene& scene) {
             boxes[scene.triangle_instance[t]].extend(scene.origin +
                                                      scene.vertices[corner].cast<double>());
     }
-    for (const MeshCopy& copy : scene.copies) {
-        for (const Eigen::Vector3f& vertex : scene.shared_meshes[copy.mesh].vertices)
-            boxes[copy.instance].extend(copy.T_world_mesh * vertex.cast<double>());
-    }
+    const std::vector<Eigen::AlignedBox3d> copies = boxes_of_copies(scene);
+    for (std::size_t k = 0; k < copies.size(); ++k)
+        boxes[scene.copies[k].instance].extend(copies[k]);
     std::vector<Extent> extents;
     for (const Eigen::AlignedBox3d& box : boxes)
         extents.push_back(box.isEmpty() ? Extent{} : sphere_around(box, -1));
@@ -126,10 +126,9 @@ bool sees(const Assembly& assembly, const Sonar& sonar, const std::vector<PoseIn
     for (std::size_t k = 0; k < tries; ++k) {
         const std::uint32_t pose = poses[(2 * k + 1) * among / (2 * tries)].pose;
         const TimedPose& at = assembly.trajectory[pose];
-        const std::unique_ptr<VisibilityEngine> moment =
-            assembly.motions.empty() ? nullptr : rays.at(body_poses(assembly, at.t_s));
         const TracedPing traced =
-            trace(sonar, assembly.scene, moment ? *moment : rays, at.T_world_vehicle, pose);
+            trace(sonar, assembly.scene, *engine_at(rays, assembly.motions, at.t_s),
+                  at.T_world_vehicle, pose);
         const auto is_it = [&](const Sample& sample) {
             const double range = sample.position.norm();
             return sample.instance == instance && range >= sonar.settings.view.range_min_m &&

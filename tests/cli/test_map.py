@@ -1,4 +1,5 @@
-"""bathymetry.tif as GDAL, and so QGIS, sees it. Skipped without gdalinfo (Debian's gdal-bin)."""
+"""bathymetry.tif as GDAL, and so QGIS, sees it, and soundings.ply as meshio does: Debian's gdal-bin and
+python3-meshio. What is not installed is not asked."""
 import json
 import math
 import shutil
@@ -6,7 +7,14 @@ import subprocess
 import sys
 import unittest
 
+import numpy
+
 from sandbox import Sandbox
+
+try:
+    import meshio
+except ImportError:
+    meshio = None
 
 PROFILER = """\
   mbes: {kind: profiling, azimuth_deg: 60, range_max_m: 6, range_bins: 64, azimuth_bins: 16}
@@ -16,6 +24,18 @@ output:
 
 
 class Map(Sandbox):
+    @unittest.skipIf(meshio is None, "needs python3-meshio")
+    def test_ply(self):
+        self.edit("mission.yaml", "output:\n", PROFILER)
+        self.assert_renders()
+        rows = numpy.load(self.out / "mbes/soundings.npy").reshape(-1, 5)
+        rows = rows[~numpy.isnan(rows[:, 0])]
+        self.assertGreater(len(rows), 0)
+        cloud = meshio.read(self.out / "mbes/soundings.ply")
+        numpy.testing.assert_array_equal(cloud.points, rows[:, 1:4])
+        numpy.testing.assert_array_equal(cloud.point_data["quality"], rows[:, 4].astype(numpy.float32))
+
+    @unittest.skipIf(shutil.which("gdalinfo") is None, "needs gdal-bin")
     def test_gdal(self):
         self.edit("mission.yaml", "output:\n", PROFILER)
         self.assert_renders()
@@ -48,6 +68,6 @@ class Map(Sandbox):
 
 
 if __name__ == "__main__":
-    if shutil.which("gdalinfo") is None:
+    if shutil.which("gdalinfo") is None and meshio is None:
         sys.exit(77)
     unittest.main()

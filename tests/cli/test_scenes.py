@@ -7,6 +7,11 @@ import unittest
 
 from sandbox import Sandbox, box_gltf, digest
 
+try:
+    from PIL import Image
+except ImportError:
+    Image = None
+
 SCENE = "  file: box.gltf\n  materials: materials.csv\n"
 MATERIALS = "material,density_kg_m3,sound_speed_m_s\nConcrete,2400,3200\nsteel,7850,5890\n"
 
@@ -331,6 +336,27 @@ class Shared(Composed):
                 for x, y in zip(one["box_world_m"].pop(end), other["box_world_m"].pop(end)):
                     self.assertAlmostEqual(x, y, places=5)
             self.assertEqual(one, other)
+
+    @unittest.skipIf(Image is None, "needs python3-pil")
+    def test_preview_and_validate_know_copies(self):
+        """The plan and the cuts show three crates, and nothing that validate judges changes."""
+        lines, pictures = {}, {}
+        for repeats in ("copied", "shared"):
+            chosen = ("--set", "engine=rays", "--set", f"scene.repeats={repeats}")
+            done = self.run_sonarsim("preview", "mission.yaml", "--out", f"{repeats}.png", *chosen)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            picture = Image.open(self.folder / f"{repeats}.png").convert("RGB")
+            # The tiles behind that of the only sonar: plan on its right, cuts below.
+            tile = 612, 450
+            pictures[repeats] = [picture.crop((x, y, x + tile[0], y + tile[1])).tobytes()
+                                 for x, y in ((624, 30), (12, 480), (624, 480))]
+            done = self.run_sonarsim("validate", "mission.yaml", *chosen)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            lines[repeats] = [line for line in (done.stdout + done.stderr).splitlines() if "W" in line]
+        self.assertEqual(lines["shared"], lines["copied"])
+        for shared, copied in zip(pictures["shared"], pictures["copied"]):
+            changed = sum(a != b for a, b in zip(shared, copied))
+            self.assertLess(changed, len(copied) / 1000)
 
     def test_small_scenes_are_copied(self):
         self.assert_renders("--set", "scene.repeats=copied")

@@ -1,0 +1,28 @@
+#include "scene/copies.h"
+
+namespace sonarsim {
+
+std::vector<Eigen::AlignedBox3d> boxes_of_copies(const Scene& scene) {
+    std::vector<Eigen::AlignedBox3d> of_meshes;
+    for (const SharedMesh& mesh : scene.shared_meshes) {
+        Eigen::AlignedBox3d& box = of_meshes.emplace_back();
+        for (const Eigen::Vector3f& vertex : mesh.vertices)
+            box.extend(vertex.cast<double>());
+    }
+    std::vector<Eigen::AlignedBox3d> boxes;
+    boxes.reserve(scene.copies.size());
+    for (const MeshCopy& copy : scene.copies) {
+        const Eigen::AlignedBox3d& box = of_meshes[copy.mesh];
+        boxes.push_back(box.isEmpty() ? box : box.transformed(copy.T_world_mesh));
+    }
+    return boxes;
+}
+
+std::size_t triangles_of_copies(const Scene& scene) {
+    std::size_t count = 0;
+    for (const MeshCopy& copy : scene.copies)
+        count += scene.shared_meshes[copy.mesh].triangles.size();
+    return count;
+}
+
+}  // namespace sonarsim
