@@ -115,21 +115,62 @@ Projected project(const Sample& sample, const SonarInScene& sonar) {
             sample.area_m2 / (4.0F * std::fabs(normal[axis]))};
 }
 
+/// Cells that may have their point on a sample.
+struct Candidates {
+    static constexpr int most = 256;
+    int count = 0;
+    std::array<std::int32_t, most> i, j;
+    std::array<std::uint32_t, most> level;
+    std::array<float, most> edge;
+    std::array<float, most> s, t;  ///< where a cell's point lies on the sample, in half edges
+
+    void add(std::int32_t column, std::int32_t row, float edge_m, std::uint32_t name) {
+        i[count] = column;
+        j[count] = row;
+        edge[count] = edge_m;
+        level[count++] = name;
+    }
+
+    /// In plain loops over arrays, several cells at a time.
+    void find_points(const Projected& p) {
+        const double cx = p.centre[p.first];
+        const double cy = p.centre[p.second];
+        const float ux = p.u[p.first];
+        const float uy = p.u[p.second];
+        const float vx = p.v[p.first];
+        const float vy = p.v[p.second];
+        const std::uint32_t face = (p.axis + 1U) << 29;
+        for (int k = 0; k < count; ++k) {
+            const std::uint32_t h = mixed(word_of(i[k]) ^ level[k] << 27, word_of(j[k]) ^ face);
+            const auto part_x = static_cast<std::int32_t>(h & 0xFFFFU);
+            const auto part_y = static_cast<std::int32_t>(h >> 16);
+            const auto x = static_cast<float>((i[k] + part_x * 0x1p-16) * edge[k] - cx);
+            const auto y = static_cast<float>((j[k] + part_y * 0x1p-16) * edge[k] - cy);
+            s[k] = (x * vy - y * vx) / p.determinant;
+            t[k] = (y * ux - x * uy) / p.determinant;
+        }
+    }
+};
+
 /// Adds scatterers to a block.
 struct Collector {
     Scatterers& block;
     const std::function<void(const Scatterers&)>& use;
+    Candidates candidates{};
 
-    /// That of the cell (i, j) in the plane of the sample's projection, if its point lies within.
-    void add(const Projected& p, std::int32_t i, std::int32_t j, float edge, std::uint32_t level) {
-        const std::uint32_t h = mixed(word_of(i) ^ level << 27, word_of(j) ^ (p.axis + 1U) << 29);
-        const double a = (i + (h & 0xFFFFU) * 0x1p-16) * edge - p.centre[p.first];
-        const double b = (j + (h >> 16) * 0x1p-16) * edge - p.centre[p.second];
-        const auto x = static_cast<float>(a);
-        const auto y = static_cast<float>(b);
-        const float s = (x * p.v[p.second] - y * p.v[p.first]) / p.determinant;
-        const float t = (y * p.u[p.first] - x * p.u[p.second]) / p.determinant;
-        if (!(s >= -1.0F && s < 1.0F && t >= -1.0F && t < 1.0F)) return;
+    /// Those of the candidates whose points lie on the sample.
+    void take(const Projected& p) {
+        candidates.find_points(p);
+        for (int k = 0; k < candidates.count; ++k) {
+            const float s = candidates.s[k];
+            const float t = candidates.t[k];
+            if (s >= -1.0F && s < 1.0F && t >= -1.0F && t < 1.0F) add(p, k, s, t);
+        }
+        candidates.count = 0;
+    }
+
+    void add(const Projected& p, int candidate, float s, float t) {
+        const float edge = candidates.edge[candidate];
         PieceBlock& pieces = block.pieces;
         const int at = pieces.count++;
         const Sample& sample = p.sample;
@@ -140,8 +181,8 @@ struct Collector {
         pieces.height_m[at] = sample.height_m;
         pieces.material[at] = sample.material;
         block.edge_m[at] = edge;
-        block.cell[p.first][at] = i;
-        block.cell[p.second][at] = j;
+        block.cell[p.first][at] = candidates.i[candidate];
+        block.cell[p.second][at] = candidates.j[candidate];
         const double along = p.centre[p.axis] + s * p.u[p.axis] + t * p.v[p.axis];
         // Four cells high, the scatterer near the middle: samples of a curved surface are flat and
         // put it a little higher or lower each time, which must not make it another one.
@@ -152,6 +193,21 @@ struct Collector {
     void flush() {
         if (block.pieces.count > 0) use(block);
         block.pieces.count = 0;
+    }
+};
+
+/// Where the points of a projected sample lie along its first axis, by where they lie along the
+/// second: around a line, no further from it than `spread`.
+struct Slant {
+    double slope, spread;
+
+    explicit Slant(const Projected& p) {
+        // Along the edge that goes further along the second axis: not 0 while there is any area.
+        const bool by_u = std::fabs(p.u[p.second]) >= std::fabs(p.v[p.second]);
+        const Eigen::Vector3f& edge = by_u ? p.u : p.v;
+        const Eigen::Vector3f& other = by_u ? p.v : p.u;
+        slope = static_cast<double>(edge[p.first]) / edge[p.second];
+        spread = std::fabs(other[p.first] - slope * other[p.second]);
     }
 };
 
@@ -176,19 +232,30 @@ void add_cells(const Projected& p, const ScattererCells& cells, Collector& colle
     };
     const auto columns = cells_along(p.first);
     const auto rows = cells_along(p.second);
+    const Slant slant(p);
+    Candidates& candidates = collector.candidates;
+    const double beside = slant.spread + 1e-3 * coarse;  // the latter for rounding
     for (std::int32_t j = rows[0]; j <= rows[1]; ++j) {
-        for (std::int32_t i = columns[0]; i <= columns[1]; ++i) {
+        const double one = slant.slope * (j * static_cast<double>(coarse) - p.centre[p.second]);
+        const double other = one + slant.slope * coarse;
+        const double low = p.centre[p.first] + std::min(one, other) - beside;
+        const double high = p.centre[p.first] + std::max(one, other) + beside;
+        const double first = std::max(std::floor(low / coarse), static_cast<double>(columns[0]));
+        const double last = std::min(std::floor(high / coarse), static_cast<double>(columns[1]));
+        for (auto i = static_cast<std::int32_t>(first); i <= last; ++i) {
             const std::uint32_t h = mixed(word_of(i) ^ 0x5bd1e995U, word_of(j) ^ name << 27);
+            if (candidates.count + 4 > Candidates::most) collector.take(p);
             if (unit_float(h) < whole_cells) {
-                collector.add(p, i, j, coarse, name + 1);
+                candidates.add(i, j, coarse, name + 1);
                 continue;
             }
-            collector.add(p, 2 * i, 2 * j, fine, name);
-            collector.add(p, 2 * i + 1, 2 * j, fine, name);
-            collector.add(p, 2 * i, 2 * j + 1, fine, name);
-            collector.add(p, 2 * i + 1, 2 * j + 1, fine, name);
+            candidates.add(2 * i, 2 * j, fine, name);
+            candidates.add(2 * i + 1, 2 * j, fine, name);
+            candidates.add(2 * i, 2 * j + 1, fine, name);
+            candidates.add(2 * i + 1, 2 * j + 1, fine, name);
         }
     }
+    collector.take(p);
 }
 
 }  // namespace
