@@ -13,22 +13,58 @@ target_include_directories(sonarsim_lib INTERFACE $<INSTALL_INTERFACE:${CMAKE_IN
 set_target_properties(sonarsim_lib PROPERTIES OUTPUT_NAME sonarsim EXPORT_NAME sonarsim)
 add_library(sonarsim::sonarsim ALIAS sonarsim_lib)
 
-install(TARGETS sonarsim RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-install(TARGETS sonarsim_lib EXPORT sonarsim ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+# In two components, as Debian has them: the program with its data, and the library.
+install(TARGETS sonarsim RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
+install(TARGETS sonarsim_lib EXPORT sonarsim
+        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
 # embree.h needs a definition that only the library's own files get.
-install(DIRECTORY lib/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/sonarsim
+install(DIRECTORY lib/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/sonarsim COMPONENT development
         FILES_MATCHING PATTERN "*.h" PATTERN "embree.h" EXCLUDE)
-install(FILES README.md CHANGELOG.md CITATION.cff LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
-install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
-install(PROGRAMS scripts/sonarsim_data.py scripts/sweep.mk scripts/contact_sheet.py
-        DESTINATION ${CMAKE_INSTALL_DATADIR}/sonarsim/scripts)
-install(DIRECTORY scripts/slurm DESTINATION ${CMAKE_INSTALL_DATADIR}/sonarsim/scripts
-        USE_SOURCE_PERMISSIONS)
-install(DIRECTORY configs scenes trajectories DESTINATION ${CMAKE_INSTALL_DATADIR}/sonarsim
+install(FILES README.md CHANGELOG.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT licence)
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+install(PROGRAMS scripts/make_scenes.py
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/sonarsim/scripts COMPONENT program)
+install(FILES scripts/sonarsim_data.py scripts/sweep.mk scripts/contact_sheet.py
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/sonarsim/scripts COMPONENT program)
+install(DIRECTORY scripts/slurm scripts/scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/sonarsim/scripts
+        USE_SOURCE_PERMISSIONS COMPONENT program PATTERN "__pycache__" EXCLUDE)
+install(DIRECTORY configs scenes trajectories DESTINATION ${CMAKE_INSTALL_DATADIR}/sonarsim COMPONENT program
         PATTERN "generated" EXCLUDE)
+# Where Debian's Python looks, so that `import sonarsim_data` reads datasets.
+install(FILES scripts/sonarsim_data.py DESTINATION lib/python3/dist-packages COMPONENT program)
+
+# What the program tells of itself: manual page, completions, schema. A sanitized program is slow to
+# start and is not installed.
+if(NOT SONARSIM_SANITIZE)
+    set(TEXTS ${PROJECT_BINARY_DIR}/texts)
+    foreach(text "man|sonarsim.1" "completion bash|sonarsim" "completion zsh|_sonarsim"
+                 "completion fish|sonarsim.fish" "schema|mission.schema.json")
+        string(REPLACE "|" ";" text ${text})
+        list(GET text 0 words)
+        list(GET text 1 name)
+        add_custom_command(OUTPUT ${TEXTS}/${name} DEPENDS sonarsim VERBATIM
+            COMMAND ${CMAKE_COMMAND} -E make_directory ${TEXTS}
+            COMMAND sh -c "\"$1\" $2 >\"$3\"" sh $<TARGET_FILE:sonarsim> ${words} ${TEXTS}/${name})
+        list(APPEND SONARSIM_TEXTS ${TEXTS}/${name})
+    endforeach()
+    add_custom_command(OUTPUT ${TEXTS}/sonarsim.1.gz DEPENDS ${TEXTS}/sonarsim.1 VERBATIM
+                       COMMAND gzip -9nkf ${TEXTS}/sonarsim.1)
+    add_custom_target(texts ALL DEPENDS ${SONARSIM_TEXTS} ${TEXTS}/sonarsim.1.gz)
+    install(FILES ${TEXTS}/sonarsim.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
+    install(FILES ${TEXTS}/sonarsim
+            DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT program)
+    install(FILES ${TEXTS}/_sonarsim
+            DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions COMPONENT program)
+    install(FILES ${TEXTS}/sonarsim.fish
+            DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d COMPONENT program)
+    install(FILES ${TEXTS}/mission.schema.json
+            DESTINATION ${CMAKE_INSTALL_DATADIR}/sonarsim COMPONENT program)
+endif()
 
 set(SONARSIM_PACKAGE ${CMAKE_INSTALL_LIBDIR}/cmake/sonarsim)
-install(EXPORT sonarsim FILE sonarsimTargets.cmake NAMESPACE sonarsim:: DESTINATION ${SONARSIM_PACKAGE})
+install(EXPORT sonarsim FILE sonarsimTargets.cmake NAMESPACE sonarsim:: DESTINATION ${SONARSIM_PACKAGE}
+        COMPONENT development)
 write_basic_package_version_file(sonarsimConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES cmake/sonarsimConfig.cmake ${PROJECT_BINARY_DIR}/sonarsimConfigVersion.cmake
-        DESTINATION ${SONARSIM_PACKAGE})
+        DESTINATION ${SONARSIM_PACKAGE} COMPONENT development)

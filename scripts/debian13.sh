@@ -42,7 +42,7 @@ enter=(unshare --mount bash "$chroot/enter" "$chroot" "$root")
 "${enter[@]}" bash -c "cd '$root' && cmake --preset program -B build-debian13 && cmake --build build-debian13 --target sonarsim"
 
 configs=$root/configs
-# Another OpenImageIO and zlib compress the same pixels otherwise.
+# Another zlib compresses the same pixels otherwise.
 # Debian's Pillow belongs to Debian's Python, which need not be the first on the PATH.
 exec /usr/bin/python3 ./scripts/same_bytes.py --pixels --folder "$root/build-debian13" \
     --mission "$root/tests/four_sonars.yaml,engine=rays" --mission "$root/tests/four_sonars.yaml,engine=octree" \

@@ -84,9 +84,10 @@ def main():
     arguments = parser.parse_args()
     out, folder = arguments.dataset, arguments.folder
     folder.mkdir(parents=True, exist_ok=True)
-    for file in ("labels/coco.json", "labels/coco_fan.json", "labels/coco_records.json"):
+    for name in ("coco", "coco_fan", "coco_records", "coco_scans"):
+        file = f"labels/{name}.json"
         if (out / file).exists():
-            draw_coco(out, folder, file, 1 if "records" in file else arguments.every)
+            draw_coco(out, folder, file, arguments.every if name in ("coco", "coco_fan") else 1)
 
 
 if __name__ == "__main__":

@@ -8,7 +8,7 @@ seconds=${1:-60}
 [[ $seconds =~ ^[1-9][0-9]*$ ]] || { echo "usage: $0 [seconds]" >&2; exit 2; }
 
 export SONARSIM_PRESET=asan
-SONARSIM_BUILD=no ./scripts/setup.sh doctest-dev
+SONARSIM_BUILD=no ./scripts/setup.sh
 cmake --preset asan >&2
 cmake --build build-asan --target fuzz >&2
 

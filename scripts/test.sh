@@ -3,5 +3,5 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 export SONARSIM_PRESET=${SONARSIM_PRESET:-release}
-./scripts/setup.sh doctest-dev
+./scripts/setup.sh
 exec ctest --preset "$SONARSIM_PRESET" -j2

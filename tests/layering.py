@@ -24,8 +24,10 @@ ALLOWED = {
     "sonar": {"core", "mission", "scene", "visibility", "calibrated", "ping", "product"},
     "assembly": {"core", "mission", "scene", "trajectory", "visibility", "calibrated", "ping", "product",
                  "sonar"},
+    "survey": {"core", "mission", "scene", "trajectory", "visibility", "calibrated", "ping", "product",
+               "sonar", "assembly"},
 }
-for upper in ("dataset", "validation", "benchmark"):
+for upper in ("dataset", "validation", "benchmark", "preview", "gallery"):
     ALLOWED[upper] = set(ALLOWED)
 
 # The parts of the folders that have subfolders, from the bottom up; those in one row do not know
@@ -33,8 +35,8 @@ for upper in ("dataset", "validation", "benchmark"):
 PARTS = {
     "dataset": [["*"], ["writers/"], ["writers"],
                 ["layout"], ["journal", "metadata"], ["description", "checksums", "ping_file_reader"], ["listed_files"],
-                ["folder", "resume", "coco"], ["coco_records", "ping_files"], ["shared_files"], ["completion"],
-                ["collection", "job", "merge", "verify"], ["variants"], ["variants_check"]],
+                ["folder", "resume", "coco"], ["coco_records", "coco_scans", "encode_ping", "ping_files"], ["ping_cost", "shared_files"], ["completion"],
+                ["collection", "job", "merge", "verify"], ["variants"], ["status", "variants_check"]],
     "scene": [["*"], ["gltf/", "placing/"]],
     "validation": [["*"], ["hard/"]],
     "visibility": [["*"], ["octree/", "rays/", "slices/"], ["auto_engine"], ["make_engine"]],
@@ -43,7 +45,7 @@ PARTS = {
 OWNERS = {
     "yaml-cpp/": "mission",
     "tiny_gltf.h": "scene",
-    "OpenImageIO/": "dataset",
+    "zlib.h": "dataset",
     "embree3/": "visibility",
     "embree4/": "visibility",
     "CLI/": "apps",

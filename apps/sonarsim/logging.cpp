@@ -9,6 +9,8 @@
 
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <regex>
+#include <string>
 #include <string_view>
 
 #include "core/text.h"
@@ -47,6 +49,18 @@ class TextFormatter : public spdlog::formatter {
     spdlog::pattern_formatter line_;
 };
 
+/// The place in a user's file that a message begins with, "file:line:column: ", as fields.
+void add_place(nlohmann::ordered_json& line, std::string_view message) {
+    static const std::regex place("([^:\\s][^:]*):([0-9]{1,9})(:([0-9]{1,9}))?: ");
+    std::cmatch found;
+    if (!std::regex_search(message.data(), message.data() + message.size(), found, place,
+                           std::regex_constants::match_continuous))
+        return;
+    line["file"] = found[1].str();
+    line["line"] = std::stoi(found[2]);
+    if (found[4].matched) line["column"] = std::stoi(found[4]);
+}
+
 class JsonFormatter : public spdlog::formatter {
   public:
     void format(const spdlog::details::log_msg& message, spdlog::memory_buf_t& out) override {
@@ -56,6 +70,7 @@ class JsonFormatter : public spdlog::formatter {
                                    now.time_since_epoch().count() % 1000);
         line["level"] = view(spdlog::level::to_string_view(message.level));
         line["message"] = view(message.payload);
+        add_place(line, view(message.payload));
         const std::string text = json_line(line);
         out.append(text.data(), text.data() + text.size());
     }
@@ -92,24 +107,33 @@ std::string warning_line(const LogOptions& options, const std::string& message) 
     return start_of_line() + "warning: " + message + "\n";
 }
 
-void warn_about(const Scene& scene) {
+std::vector<std::string> doubts_about(const Scene& scene) {
+    std::vector<std::string> doubts;
     const SceneRejects& rejects = scene.rejects;
-    const auto warn = [](std::uint64_t count, const char* what) {
-        if (count > 0) spdlog::warn("the scene has {} {}; they are left out", count, what);
+    const auto left_out = [&](std::uint64_t count, const char* what) {
+        if (count > 0)
+            doubts.push_back(fmt::format("the scene has {} {}; they are left out", count, what));
     };
-    warn(rejects.degenerate_triangles, "triangles without area");
-    warn(rejects.non_finite_triangles, "triangles with a vertex that is NaN or infinite");
-    warn(rejects.skipped_primitives, "primitives of points or lines");
-    for (const std::string& doubt : scene.doubts)
-        spdlog::warn("{}", doubt);
-    for (const std::string& doubt : unit_doubts(scene.materials))
-        spdlog::warn("{}", doubt);
+    left_out(rejects.degenerate_triangles, "triangles without area");
+    left_out(rejects.non_finite_triangles, "triangles with a vertex that is NaN or infinite");
+    left_out(rejects.skipped_primitives, "primitives of points or lines");
+    doubts.insert(doubts.end(), scene.doubts.begin(), scene.doubts.end());
+    for (std::string& doubt : unit_doubts(scene.materials))
+        doubts.push_back(std::move(doubt));
     if (has_coarse_vertices(scene)) {
-        spdlog::warn(
+        doubts.push_back(fmt::format(
             "the scene's vertices may be off by {:.2g} m: its file holds large coordinates as "
             "floats; put them into the translation of a node instead",
-            scene.vertex_rounding_m);
+            scene.vertex_rounding_m));
     }
+    return doubts;
+}
+
+std::size_t warn_about(const Scene& scene) {
+    const std::vector<std::string> doubts = doubts_about(scene);
+    for (const std::string& doubt : doubts)
+        spdlog::warn("{}", doubt);
+    return doubts.size();
 }
 
 std::string json_line(const nlohmann::ordered_json& json) {

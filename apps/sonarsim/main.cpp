@@ -8,10 +8,15 @@
 #include <exception>
 #include <filesystem>
 #include <new>
+#include <sstream>
+#include <string>
 #include <system_error>
 
+#include "command_texts.h"
 #include "commands.h"
+#include "core/build_info.h"
 #include "core/error.h"
+#include "dataset/png.h"
 #include "logging.h"
 #include "usage.h"
 
@@ -33,10 +38,16 @@ void keep_freed_memory() {
     // NOLINTEND(concurrency-mt-unsafe)
 }
 
+std::string version_text() {
+    const BuildInfo build = build_info();
+    return std::string("sonarsim " SONARSIM_VERSION "\nbuilt by ") + build.compiler + " with " +
+           build.flags + "; arithmetic " + build.arithmetic + "; PNG files by " + png_encoder();
+}
+
 int run(int argc, char** argv) {
     CLI::App app("Renders sonar datasets from a mission: a scene, a trajectory and sonars.");
     app.name("sonarsim");
-    app.set_version_flag("--version", "sonarsim " SONARSIM_VERSION);
+    app.set_version_flag("--version", version_text());
     app.require_subcommand(1);
     app.failure_message(usage_message);
     int exit_code = exit_done;
@@ -44,9 +55,17 @@ int run(int argc, char** argv) {
     add_verify(app, exit_code);
     add_merge(app, exit_code);
     add_validate(app, exit_code);
+    add_preview(app, exit_code);
+    add_gallery(app, exit_code);
     add_inspect(app, exit_code);
     add_report(app, exit_code);
+    add_status(app, exit_code);
     add_keys(app, exit_code);
+    add_schema(app, exit_code);
+    add_import_holoocean(app, exit_code);
+    add_completion(app, exit_code);
+    add_man(app, exit_code);
+    add_examples(app);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -74,7 +93,9 @@ int main(int argc, char** argv) {
         finish_printing();
         return exit_code;
     } catch (const InputError& error) {
-        spdlog::error("{}", error.what());
+        std::istringstream faults(error.what());
+        for (std::string fault; std::getline(faults, fault);)
+            spdlog::error("{}", fault);
         return exit_bad_input;
     } catch (const std::bad_alloc&) {
         spdlog::error(out_of_memory);

@@ -1,7 +1,6 @@
 #include "dataset/merge.h"
 
 #include <spdlog/spdlog.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <memory>
@@ -34,8 +33,7 @@ int collect(const MergeArguments& arguments, const std::atomic<bool>& stop) {
                                                    arguments.folders.end() - 1);
     CollectionSummary summary;
     {
-        const bool quiet = arguments.log.quiet || arguments.log.json;
-        ProgressLine line(!quiet && ::isatty(STDERR_FILENO) == 1, "files");
+        ProgressLine line(progress_of(arguments.log.quiet, arguments.log.json), "files");
         summary = collect_datasets(
             parts, out, arguments.threads,
             [&](std::uint64_t done, std::uint64_t total) { line.show(done, total); }, stop);
@@ -67,9 +65,9 @@ int merge(const MergeArguments& arguments) {
                                                    arguments.folders.end() - 1);
     MergeSummary summary;
     {
-        const bool quiet = arguments.log.quiet || arguments.log.json;
         const bool variants = read_variants(parts.front()).has_value();
-        ProgressLine line(!quiet && ::isatty(STDERR_FILENO) == 1, variants ? "variants" : "pings");
+        ProgressLine line(progress_of(arguments.log.quiet, arguments.log.json),
+                          variants ? "variants" : "pings");
         const auto show = [&](std::uint64_t done, std::uint64_t total) { line.show(done, total); };
         summary = variants ? merge_variants(parts, out, arguments.threads, show, stop)
                            : merge_datasets(parts, out, arguments.threads, show, stop);

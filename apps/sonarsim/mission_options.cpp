@@ -9,7 +9,7 @@
 
 namespace sonarsim {
 
-void add_mission_options(CLI::App& command, MissionOptions& options) {
+void add_mission_options(CLI::App& command, MissionOptions& options, MissionOutput output) {
     command.add_option("mission", options.file, "The mission, a YAML file")->required();
     command
         .add_option("--set", options.settings,
@@ -18,8 +18,10 @@ void add_mission_options(CLI::App& command, MissionOptions& options) {
         ->allow_extra_args(false)
         ->type_name("KEY=VALUE");
     command.add_option("--seed", options.seed, "Short for --set seed=N")->type_name("N");
-    command.add_option("--out", options.out, "Output folder, instead of the mission's")
-        ->type_name("FOLDER");
+    if (output == MissionOutput::dataset) {
+        command.add_option("--out", options.out, "Output folder, instead of the mission's")
+            ->type_name("FOLDER");
+    }
     command
         .add_option("--paths-from", options.paths_from,
                     "Where relative paths of the mission start (default: in its own folder)")

@@ -9,7 +9,7 @@
 
 namespace sonarsim {
 
-/// What render and validate share: the mission and what changes it.
+/// What render, validate and preview share: the mission and what changes it.
 struct MissionOptions {
     std::filesystem::path file;
     std::vector<std::string> settings;
@@ -19,7 +19,11 @@ struct MissionOptions {
         paths_from;  ///< where relative paths start; empty: at the mission's folder
 };
 
-void add_mission_options(CLI::App& command, MissionOptions& options);
+/// What a command makes of a mission: the dataset, with --out for its folder, or something else.
+enum class MissionOutput { dataset, other };
+
+void add_mission_options(CLI::App& command, MissionOptions& options,
+                         MissionOutput output = MissionOutput::dataset);
 
 /// The mission with --set, --seed and --out applied, in this order. InputError as load_mission, and
 /// when the mission comes from a dataset and it is not said where its files are.

@@ -1,12 +1,54 @@
 #include "progress.h"
 
 #include <spdlog/fmt/fmt.h>
+#include <spdlog/spdlog.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <utility>
+#include <vector>
 
 namespace sonarsim {
+
+namespace {
+
+constexpr int bar_width = 20;
+
+/// "trace 41 %, encode 30 %".
+std::string shares_text(std::span<const StageSeconds> stages) {
+    constexpr std::size_t most = 3;
+    std::vector<StageSeconds> sorted(stages.begin(), stages.end());
+    std::ranges::stable_sort(sorted,
+                             [](const auto& a, const auto& b) { return a.second > b.second; });
+    double sum = 0.0;
+    for (const StageSeconds& stage : sorted)
+        sum += stage.second;
+    std::string text;
+    for (std::size_t i = 0; i < std::min(most, sorted.size()) && sorted[i].second > 0.0; ++i) {
+        text += fmt::format("{}{} {:.0f} %", i > 0 ? ", " : "", sorted[i].first,
+                            100.0 * sorted[i].second / sum);
+    }
+    return text;
+}
+
+std::string bar_of(std::uint64_t done, std::uint64_t total) {
+    const auto filled =
+        static_cast<std::size_t>(bar_width * static_cast<double>(done) /
+                                 static_cast<double>(std::max<std::uint64_t>(1, total)));
+    return "[" + std::string(filled, '#') + std::string(bar_width - filled, '.') + "]";
+}
+
+/// A line that is longer than the terminal is wide would not be written over.
+std::size_t columns_of_terminal() {
+    winsize size{};
+    const bool known = ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+    return known ? size.ws_col : 1000;
+}
+
+}  // namespace
 
 std::string duration_text(double seconds) {
     const auto whole = std::llround(seconds);
@@ -15,24 +57,41 @@ std::string duration_text(double seconds) {
     return fmt::format("{} h {} min", whole / 3600, whole % 3600 / 60);
 }
 
-ProgressLine::ProgressLine(bool visible, std::string what)
-    : visible_(visible),
-      what_(std::move(what)),
-      start_(Clock::now()),
-      next_(start_ + std::chrono::milliseconds(300)) {}
-
-ProgressLine::~ProgressLine() {
-    if (visible_) std::fputs("\r\x1b[K", stderr);
+ProgressTo progress_of(bool quiet, bool json) {
+    if (quiet) return ProgressTo::nowhere;
+    return !json && ::isatty(STDERR_FILENO) == 1 ? ProgressTo::terminal : ProgressTo::log;
 }
 
-void ProgressLine::show(std::uint64_t done, std::uint64_t total) {
+ProgressLine::ProgressLine(ProgressTo to, std::string what)
+    : to_(to),
+      what_(std::move(what)),
+      start_(Clock::now()),
+      next_(start_ + (to == ProgressTo::log ? Clock::duration(std::chrono::minutes(1))
+                                            : Clock::duration(std::chrono::milliseconds(300)))) {}
+
+ProgressLine::~ProgressLine() {
+    if (to_ == ProgressTo::terminal) std::fputs("\r\x1b[K", stderr);
+}
+
+void ProgressLine::show(std::uint64_t done, std::uint64_t total,
+                        std::span<const StageSeconds> stages) {
     const Clock::time_point now = Clock::now();
-    if (!visible_ || now < next_ || done == 0) return;
-    next_ = now + std::chrono::milliseconds(100);
+    if (to_ == ProgressTo::nowhere || now < next_ || done == 0) return;
     const double rate =
         static_cast<double>(done) / std::chrono::duration<double>(now - start_).count();
-    fmt::print(stderr, "\r\x1b[K{} of {} {}, {:.0f} {}/s, {} left", done, total, what_, rate, what_,
-               duration_text(static_cast<double>(total - done) / rate));
+    const std::string shares = shares_text(stages);
+    std::string text = fmt::format("{} of {} {}, {:.{}f} {}/s, {} left{}{}", done, total, what_,
+                                   rate, rate < 10.0 ? 2 : 0, what_,
+                                   duration_text(static_cast<double>(total - done) / rate),
+                                   shares.empty() ? "" : "; ", shares);
+    if (to_ == ProgressTo::log) {
+        next_ = now + std::chrono::minutes(1);
+        spdlog::info("{}", text);
+        return;
+    }
+    next_ = now + std::chrono::milliseconds(100);
+    text = bar_of(done, total) + " " + text;
+    fmt::print(stderr, "\r\x1b[K{}", text.substr(0, columns_of_terminal() - 1));
     std::fflush(stderr);
 }
 

@@ -1,6 +1,5 @@
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/spdlog.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -39,6 +38,7 @@ struct RenderArguments {
     RenderOptions render;
     std::optional<Shard> shard;
     bool no_files = false;
+    bool strict = false;
     LogOptions log;
 };
 
@@ -58,13 +58,18 @@ double pings_per_s(const RenderSummary& summary) {
     return summary.seconds > 0.0 ? static_cast<double>(summary.pings) / summary.seconds : 0.0;
 }
 
-void print_table(const RenderSummary& summary) {
-    std::vector<std::pair<std::string_view, double>> stages;
+std::vector<StageSeconds> stage_seconds(const RenderSummary& summary) {
+    std::vector<StageSeconds> stages;
     stages.reserve(ping_timers.size() + 2);
     for (const auto& timer : ping_timers)
         stages.emplace_back(timer.name, summary.stages.*timer.member);
     stages.emplace_back("encode", summary.encode_seconds);
     stages.emplace_back("write", summary.write_seconds);
+    return stages;
+}
+
+void print_table(const RenderSummary& summary) {
+    const std::vector<StageSeconds> stages = stage_seconds(summary);
     double sum = 0.0;
     for (const auto& stage : stages)
         sum += stage.second;
@@ -109,8 +114,8 @@ void log_dropped(const PingCounts& counts) {
         spdlog::info("multipath: {}", sentence(multipath_counters, counts.multipath));
 }
 
-/// What the table does not say.
-void comment(const RenderSummary& summary, const Mission& mission, bool files) {
+/// What the table does not say. Returns how many warnings that took.
+std::size_t comment(const RenderSummary& summary, const Mission& mission, bool files) {
     const std::string folder = mission.output.folder.string();
     if (files && summary.complete) {
         spdlog::info("{}: complete; {} of its pings were there already", folder, summary.skipped);
@@ -123,6 +128,7 @@ void comment(const RenderSummary& summary, const Mission& mission, bool files) {
         spdlog::warn("{}", summary.warnings[i]);
     if (summary.warnings.size() > most)
         spdlog::warn("and {} warnings more like these", summary.warnings.size() - most);
+    return summary.warnings.size();
 }
 
 /// A dataset's own mission.resolved.yaml may be rendered again; overwriting would replace it.
@@ -135,43 +141,59 @@ void spare_mission(const std::filesystem::path& file, const Mission& mission) {
                      "first, or choose another --out");
 }
 
-/// What may be wrong with a scene and the engine that sees it.
-void warn_before(const Mission& mission, const Assembly& assembly) {
-    warn_about(assembly.scene);
+/// What may be wrong with a scene and the engine that sees it. Returns how many warnings that took.
+std::size_t warn_before(const Mission& mission, const Assembly& assembly) {
+    std::size_t warnings = warn_about(assembly.scene);
     for (const Sonar& sonar : assembly.sonars) {
-        const std::string doubt = doubt_about(engine_settings(mission), sonar.settings.view);
-        if (!doubt.empty()) spdlog::warn("sensor '{}': {}", sonar.config.name, doubt);
+        const std::string doubt =
+            doubt_about(engine_settings(mission), sonar.settings.view, sonar.settings.multipath.on);
+        if (doubt.empty()) continue;
+        ++warnings;
+        spdlog::warn("sensor '{}': {}", sonar.config.name, doubt);
     }
     spdlog::info("{}: {} triangles, {} poses", mission.name, assembly.scene.triangles.size(),
                  assembly.trajectory.size());
+    return warnings;
 }
 
-/// Renders the mission, or its variants, and returns what there is to warn of.
-std::vector<std::string> render_all(const RenderArguments& arguments, const Mission& mission,
-                                    const std::atomic<bool>& stop, RenderSummary& summary) {
-    const bool bar = !arguments.log.quiet && !arguments.log.json && ::isatty(STDERR_FILENO) == 1;
+/// What a command came to.
+struct Outcome {
+    RenderSummary summary;
+    std::vector<std::string> warnings;  ///< of the images
+    std::size_t warned_before = 0;      ///< how often, before the first ping
+};
+
+/// Renders the mission, or its variants.
+Outcome render_all(const RenderArguments& arguments, const Mission& mission,
+                   const std::atomic<bool>& stop) {
+    Outcome out;
+    const ProgressTo progress = progress_of(arguments.log.quiet, arguments.log.json);
     const std::vector<Mission> variants = load_variants(arguments.mission, mission);
     if (!variants.empty()) {
         spdlog::info("{}: {} variants", mission.name, variants.size());
-        ProgressLine line(bar, "variants");
+        ProgressLine line(progress, "variants");
         // What is said of the first scene holds for most; of the others the log would be full.
         bool first = true;
         const auto begin = [&](const Mission& variant, const Assembly& assembly) {
-            if (first) warn_before(variant, assembly);
+            if (first) out.warned_before = warn_before(variant, assembly);
             first = false;
         };
-        summary = run_variants(
+        out.summary = run_variants(
             mission, variants, arguments.render, begin,
             [&](std::uint64_t done, std::uint64_t total) { line.show(done, total); }, stop);
-        return {};
+        return out;
     }
     const Assembly assembly = assemble(mission);
-    warn_before(mission, assembly);
-    ProgressLine line(bar);
-    summary = run_job(
+    out.warned_before = warn_before(mission, assembly);
+    ProgressLine line(progress);
+    out.summary = run_job(
         mission, assembly, arguments.render,
-        [&](std::uint64_t done, std::uint64_t total) { line.show(done, total); }, stop);
-    return image_warnings(mission, assembly, summary.sensors);
+        [&](const RenderSummary& so_far, std::uint64_t total) {
+            line.show(so_far.pings, total, stage_seconds(so_far));
+        },
+        stop);
+    out.warnings = image_warnings(mission, assembly, out.summary.sensors);
+    return out;
 }
 
 int render(RenderArguments arguments) {
@@ -182,14 +204,14 @@ int render(RenderArguments arguments) {
         warning_line(arguments.log, std::string("stopped at once; ") + goes_on_from_there));
     const Mission mission = load(arguments.mission);
     if (arguments.render.overwrite) spare_mission(arguments.mission.file, mission);
-    RenderSummary summary;
-    const std::vector<std::string> warnings = render_all(arguments, mission, stop, summary);
-    comment(summary, mission, arguments.render.files);
+    const auto [summary, warnings, warned_before] = render_all(arguments, mission, stop);
+    const std::size_t warned =
+        warned_before + warnings.size() + comment(summary, mission, arguments.render.files);
     for (const std::string& warning : warnings)
         spdlog::warn("{}", warning);
     if (!arguments.log.quiet)
         arguments.log.json ? print_json(summary, mission, warnings) : print_table(summary);
-    if (!summary.stopped) return exit_done;
+    if (!summary.stopped) return arguments.strict && warned > 0 ? exit_warned : exit_done;
     spdlog::warn("stopped after {} pings; {}", summary.pings, goes_on_from_there);
     return exit_signal + signal_received();
 }
@@ -218,6 +240,7 @@ void add_render(CLI::App& app, int& exit_code) {
         ->check(CLI::Range(0.01, 3600.0))
         ->type_name("S");
     command.add_flag("--no-files", arguments->no_files, "Writes nothing, to measure the speed");
+    command.add_flag("--strict", arguments->strict, "Exit code 3 where there was a warning");
     add_log_options(command, arguments->log);
     command.callback([arguments, &exit_code] { exit_code = render(*arguments); });
 }

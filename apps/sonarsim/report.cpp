@@ -83,6 +83,10 @@ int report(const ReportArguments& arguments) {
                          "the report measures scenes that stand still; leave the trajectories of "
                          "objects out");
     }
+    if (!assembly.scene.copies.empty()) {
+        throw InputError({arguments.mission.file.string()},
+                         "the report measures scenes of triangles; set scene.repeats: copied");
+    }
     const double assembled_s = seconds_now() - start;
     warn_about(assembly.scene);
 

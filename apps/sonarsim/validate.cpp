@@ -1,18 +1,28 @@
 #include <spdlog/fmt/fmt.h>
+#include <spdlog/spdlog.h>
+#include <tbb/info.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <system_error>
+#include <utility>
+#include <variant>
 
 #include "commands.h"
 #include "core/text.h"
 #include "dataset/folder.h"
 #include "dataset/metadata.h"
+#include "dataset/ping_cost.h"
 #include "logging.h"
 #include "mission_options.h"
+#include "progress.h"
+#include "survey/find_warnings.h"
+#include "survey_report.h"
+#include "visibility/make_engine.h"
 
 namespace sonarsim {
 
@@ -21,6 +31,7 @@ namespace {
 struct ValidateArguments {
     MissionOptions mission;
     bool overwrite = false;
+    bool strict = false;
     LogOptions log;
 };
 
@@ -39,6 +50,7 @@ struct VariantFindings {
     std::size_t variants = 0;
     std::uint64_t pings = 0;
     double bytes = 0.0;
+    std::vector<Warning> warnings;  ///< of the first
 };
 
 /// What a mission comes to.
@@ -48,9 +60,26 @@ struct Findings {
     std::filesystem::path folder;
     const char* state;
     std::vector<std::size_t> pings;  ///< per sonar
-    double bytes = 0.0;
+    double bytes = 0.0;              ///< at most
+    std::size_t images = 0;          ///< PNG files
+    std::vector<PingCost> costs = {};
+    std::vector<SonarSurvey> sonars = {};  ///< by sensor, as are the costs
+    std::vector<Warning> warnings = {};
 
     std::size_t all_pings() const { return std::reduce(pings.begin(), pings.end()); }
+
+    /// The sum over all pings of what one costs.
+    double cost(double PingCost::*part) const {
+        double sum = 0.0;
+        for (std::size_t i = 0; i < pings.size(); ++i)
+            sum += static_cast<double>(pings[i]) * costs[i].*part;
+        return sum;
+    }
+    /// Wall clock where all threads are at work.
+    double hours() const {
+        constexpr double seconds = 3600.0;
+        return cost(&PingCost::seconds) / seconds / tbb::info::default_concurrency();
+    }
 };
 
 const char* state_text(FolderState state) {
@@ -68,7 +97,11 @@ const char* state_text(FolderState state) {
 nlohmann::ordered_json json_of(const Findings& f) {
     nlohmann::ordered_json sensors = nlohmann::ordered_json::object();
     for (std::size_t i = 0; i < f.pings.size(); ++i) {
-        sensors[f.assembly.sonars[i].config.name] = {{"pings", f.pings[i]}};
+        nlohmann::ordered_json sensor = {{"pings", f.pings[i]},
+                                         {"seconds_per_ping", f.costs[i].seconds},
+                                         {"bytes_per_ping", f.costs[i].bytes}};
+        sensor["survey"] = survey_json(f.sonars[i], f.assembly.scene);
+        sensors[f.assembly.sonars[i].config.name] = std::move(sensor);
     }
     return {{"mission", f.mission.name},
             {"triangles", f.assembly.scene.triangles.size()},
@@ -77,7 +110,11 @@ nlohmann::ordered_json json_of(const Findings& f) {
             {"pings", f.all_pings()},
             {"folder", f.folder.string()},
             {"folder_state", f.state},
-            {"bytes_at_most", f.bytes}};
+            {"images", f.images},
+            {"hours", f.hours()},
+            {"bytes", f.cost(&PingCost::bytes)},
+            {"bytes_at_most", f.bytes},
+            {"warnings", warnings_json(f.warnings)}};
 }
 
 std::string text_of(const Findings& f) {
@@ -94,6 +131,10 @@ std::string text_of(const Findings& f) {
                                       scene.instances.size(), extent.x(), extent.y(), extent.z()));
     text += line("trajectory", fmt::format("{} poses, {:.1f} s", trajectory.size(),
                                            trajectory.back().t_s - trajectory.front().t_s));
+    if (!scene.copies.empty()) {
+        text += line("copies", fmt::format("{} of {} shared meshes", scene.copies.size(),
+                                           scene.shared_meshes.size()));
+    }
     if (!scene.bodies.empty())
         text += line("moving", fmt::format("{} objects", scene.bodies.size()));
     for (std::size_t i = 0; i < f.pings.size(); ++i) {
@@ -101,16 +142,35 @@ std::string text_of(const Findings& f) {
         text +=
             line(sonar.config.name, fmt::format("{} x {} bins, {} pings", sonar.config.range_bins,
                                                 sonar.settings.view.beams, f.pings[i]));
+        text += survey_text(f.sonars[i], scene);
     }
     text +=
         line("dataset", fmt::format("{} pings, at most {:.1f} MB", f.all_pings(), 1e-6 * f.bytes));
+    text += line("about",
+                 fmt::format("{} images, {} on {} threads, {:.3g} GB", f.images,
+                             duration_text(3600.0 * f.hours()), tbb::info::default_concurrency(),
+                             1e-9 * f.cost(&PingCost::bytes)));
     return text + line("folder", fmt::format("{} ({})", f.folder.string(), f.state));
 }
 
+/// The PNG files that a sensor leaves.
+std::size_t count_images(const Writers& writers, std::size_t pings) {
+    std::size_t images = 0;
+    for (const auto& writer : writers) {
+        const WriterOutputs outputs = writer->outputs();
+        const auto* file = std::get_if<PingFile>(&outputs.per_ping);
+        if (file != nullptr && file->extension == ".png") images += pings;
+        images += std::ranges::count_if(outputs.products, [](const Product& product) {
+            return product.file.ends_with(".png");
+        });
+    }
+    return images;
+}
+
 /// Checks one mission against its folder.
-Findings find_out(const Mission& mission, const Assembly& assembly, bool overwrite) {
+Findings find_out(const Mission& mission, const Assembly& assembly,
+                  const std::vector<Writers>& writers, bool overwrite) {
     const std::size_t poses = assembly.trajectory.size();
-    const std::vector<Writers> writers = make_writers(mission, assembly);
     const Layout layout = make_layout(mission, writers, poses);
     protect_inputs(layout, mission);
     const FolderState state =
@@ -119,19 +179,44 @@ Findings find_out(const Mission& mission, const Assembly& assembly, bool overwri
     check_writable(layout.folder);
     Findings findings{mission, assembly, layout.folder, state_text(state),
                       count_pings(mission, poses)};
-    for (std::size_t i = 0; i < writers.size(); ++i)
+    for (std::size_t i = 0; i < writers.size(); ++i) {
         findings.bytes += bytes_at_most(writers[i], findings.pings[i]);
+        findings.images += count_images(writers[i], findings.pings[i]);
+    }
     return findings;
 }
 
-/// Checks every variant. Their scenes differ, and each may fail for reasons of its own.
+/// Casts: looks at the mission through its sonars.
+void look_at(const Mission& mission, const Assembly& assembly, const std::vector<Writers>& writers,
+             Findings& findings) {
+    for (const std::string& doubt : doubts_about(assembly.scene))
+        findings.warnings.push_back(make_warning(Doubt::reading, "scene", doubt));
+    const std::unique_ptr<VisibilityEngine> rays = make_engine(assembly.scene, {});
+    findings.sonars = survey(mission, assembly, *rays);
+    for (Warning& warning : find_warnings(mission, assembly, findings.sonars, *rays))
+        findings.warnings.push_back(std::move(warning));
+    findings.costs = measure_pings(mission, assembly, writers);
+}
+
+int say(const std::vector<Warning>& warnings, bool strict) {
+    for (const Warning& warning : warnings)
+        spdlog::warn("{}", sentence(warning));
+    return strict && !warnings.empty() ? exit_warned : exit_done;
+}
+
+/// Checks every variant, and casts in the first. Their scenes differ, and each may fail for reasons
+/// of its own.
 VariantFindings check_variants(const std::vector<Mission>& variants, bool overwrite) {
     VariantFindings all;
     SceneFiles models;
     for (const Mission& variant : variants) {
         const Assembly assembly = assemble(variant, models);
-        if (all.variants++ == 0) warn_about(assembly.scene);
-        const Findings findings = find_out(variant, assembly, overwrite);
+        const std::vector<Writers> writers = make_writers(variant, assembly);
+        Findings findings = find_out(variant, assembly, writers, overwrite);
+        if (all.variants++ == 0) {
+            look_at(variant, assembly, writers, findings);
+            all.warnings = std::move(findings.warnings);
+        }
         all.pings += findings.all_pings();
         all.bytes += findings.bytes;
     }
@@ -144,7 +229,8 @@ void print_variants(const Mission& mission, const VariantFindings& all, bool as_
                                     {"variants", all.variants},
                                     {"pings", all.pings},
                                     {"folder", mission.output.folder.string()},
-                                    {"bytes_at_most", all.bytes}}));
+                                    {"bytes_at_most", all.bytes},
+                                    {"warnings", warnings_json(all.warnings)}}));
         return;
     }
     fmt::print("{:<12}{}\n{:<12}{}\n{:<12}{} pings, at most {:.1f} MB\n{:<12}{}\n", "mission",
@@ -159,25 +245,28 @@ int validate(const ValidateArguments& arguments) {
     if (!variants.empty()) {
         const VariantFindings all = check_variants(variants, arguments.overwrite);
         if (!arguments.log.quiet) print_variants(mission, all, arguments.log.json);
-        return exit_done;
+        return say(all.warnings, arguments.strict);
     }
     const Assembly assembly = assemble(mission);
-    warn_about(assembly.scene);
-    const Findings findings = find_out(mission, assembly, arguments.overwrite);
+    const std::vector<Writers> writers = make_writers(mission, assembly);
+    Findings findings = find_out(mission, assembly, writers, arguments.overwrite);
+    look_at(mission, assembly, writers, findings);
     if (!arguments.log.quiet) {
         fmt::print("{}", arguments.log.json ? json_line(json_of(findings)) : text_of(findings));
     }
-    return exit_done;
+    return say(findings.warnings, arguments.strict);
 }
 
 }  // namespace
 
 void add_validate(CLI::App& app, int& exit_code) {
-    CLI::App& command =
-        *app.add_subcommand("validate", "Checks a mission and all it names; renders nothing");
+    CLI::App& command = *app.add_subcommand(
+        "validate",
+        "Checks a mission and all it names, and looks at it through its sonars; writes nothing");
     auto arguments = std::make_shared<ValidateArguments>();
     add_mission_options(command, arguments->mission);
     command.add_flag("--overwrite", arguments->overwrite, "Allow any output folder, as in render");
+    command.add_flag("--strict", arguments->strict, "Exit code 3 where there is a warning");
     add_log_options(command, arguments->log);
     command.callback([arguments, &exit_code] { exit_code = validate(*arguments); });
 }

@@ -1,7 +1,6 @@
 #include "dataset/verify.h"
 
 #include <spdlog/spdlog.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -41,9 +40,9 @@ int verify(const VerifyArguments& arguments, const std::filesystem::path& folder
            const std::atomic<bool>& stop) {
     DatasetCheck check;
     {
-        const bool quiet = arguments.log.quiet || arguments.log.json;
         const bool variants = read_variants(folder).has_value();
-        ProgressLine line(!quiet && ::isatty(STDERR_FILENO) == 1, variants ? "variants" : "files");
+        ProgressLine line(progress_of(arguments.log.quiet, arguments.log.json),
+                          variants ? "variants" : "files");
         const auto show = [&](std::uint64_t done, std::uint64_t total) { line.show(done, total); };
         check = variants ? verify_variants(folder, arguments.threads, show, stop)
                          : verify_dataset(folder, arguments.threads, show, stop);
@@ -70,8 +69,15 @@ int verify_all(const VerifyArguments& arguments) {
     const std::atomic<bool>& stop =
         stop_on_signal(warning_line(arguments.log, "stopped at once; nothing was changed"));
     std::vector<std::filesystem::path> folders = collected_folders(arguments.folder);
-    if (folders.empty()) folders.push_back(arguments.folder);
     int worst = exit_done;
+    if (folders.empty()) {
+        folders.push_back(arguments.folder);
+    } else {
+        for (const std::string& fault : collection_faults(arguments.folder)) {
+            spdlog::error("{}", fault);
+            worst = exit_failed;
+        }
+    }
     for (const std::filesystem::path& folder : folders) {
         if (!stop) worst = std::max(worst, verify(arguments, folder, stop));
     }

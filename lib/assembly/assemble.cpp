@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "assembly/brightness.h"
 #include "assembly/poses.h"
 #include "assembly/scene_parts.h"
 #include "core/error.h"
@@ -12,7 +13,6 @@
 #include "scene/gltf/load.h"
 #include "sonar/engine_settings.h"
 #include "trajectory/files.h"
-#include "trajectory/interpolate.h"
 
 namespace sonarsim {
 
@@ -46,6 +46,43 @@ void add_water_surface(const Mission& mission, Scene& scene) {
         "set sensors.NAME.multipath.method");
 }
 
+/// The sonar, which the engine of the mission can see with and its labels can be told of.
+Sonar checked_sonar(const Mission& mission, const SonarConfig& sensor,
+                    const EngineSettings& settings) {
+    Sonar sonar = make_sonar(sensor, mission.accuracy, mission.water);
+    const std::string refusal = refusal_of(settings, sonar.settings.view);
+    if (!refusal.empty()) throw InputError("sensor '" + sensor.name + "': " + refusal);
+    if (has_even_sines(sonar) && !mission.output.labels.empty()) {
+        throw InputError("sensor '" + sensor.name +
+                         "': labels are of beams even in azimuth so far; leave out "
+                         "output.labels, or write instrument.beam.spread: angle");
+    }
+    return sonar;
+}
+
+/// InputError for the files of the scene that are no glTF.
+void read_scene_files(const Mission& mission, SceneFiles& models) {
+    Problems problems;
+    const auto read = [&](const std::filesystem::path& file) {
+        if (!file.empty()) problems.attempt([&] { models.model(file); });
+    };
+    read(mission.scene.file);
+    for (const ObjectConfig& object : mission.scene.objects)
+        read(object.file);
+    for (const ScatterConfig& scatter : mission.scene.scatter)
+        std::ranges::for_each(scatter.files, read);
+    problems.raise();
+}
+
+/// For load_scene. A million triangles take 170 MB.
+std::size_t share_beyond(RepeatedFiles repeats, EngineType engine) {
+    constexpr std::size_t many_triangles = 4'000'000;
+    if (repeats == RepeatedFiles::shared) return 0;
+    const bool may_be_rays = engine == EngineType::automatic || engine == EngineType::rays;
+    const bool may_share = repeats == RepeatedFiles::automatic && may_be_rays;
+    return may_share ? many_triangles : share_nothing;
+}
+
 template <class T>
 std::string hash_of(const std::vector<T>& values) {
     return fnv1a_128({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)});
@@ -60,23 +97,21 @@ Assembly assemble(const Mission& mission) {
 
 Assembly assemble(const Mission& mission, SceneFiles& models) {
     Assembly assembly;
-    assembly.trajectory = poses_of(mission.trajectory);
+    Problems problems;
+    problems.attempt([&] { assembly.trajectory = poses_of(mission.trajectory); });
     const EngineSettings settings = engine_settings(mission);
-    for (const SonarConfig& sensor : mission.sensors) {
-        const Sonar& sonar =
-            assembly.sonars.emplace_back(make_sonar(sensor, mission.accuracy, mission.water));
-        const std::string refusal = refusal_of(settings, sonar.settings.view);
-        if (!refusal.empty()) throw InputError("sensor '" + sensor.name + "': " + refusal);
-        if (has_even_sines(sonar) && !mission.output.labels.empty()) {
-            throw InputError("sensor '" + sensor.name +
-                             "': labels are of beams even in azimuth so far; leave out "
-                             "output.labels, or write instrument.beam.spread: angle");
-        }
-    }
+    for (const SonarConfig& sensor : mission.sensors)
+        problems.attempt(
+            [&] { assembly.sonars.push_back(checked_sonar(mission, sensor, settings)); });
+    MaterialTable materials;
+    problems.attempt([&] { materials = read_materials(mission.scene.materials); });
+    // What moves is checked against the trajectory, and every surface against the materials.
+    if (problems.count() > 0) problems.attempt([&] { read_scene_files(mission, models); });
+    problems.raise();
     SceneParts parts = place_scene(mission, assembly.trajectory, models);
-    assembly.scene = load_scene(parts.files, models, read_materials(mission.scene.materials),
-                                mission.scene.material_default,
-                                {mission.water.density_kg_m3, mission.water.sound_speed_m_s});
+    assembly.scene = load_scene(parts.files, models, materials, mission.scene.material_default,
+                                {mission.water.density_kg_m3, mission.water.sound_speed_m_s},
+                                share_beyond(mission.scene.repeats, settings.type));
     assembly.motions = std::move(parts.motions);
     add_water_surface(mission, assembly.scene);
     if (!mission.output.labels.empty() || !mission.classes.empty()) {
@@ -88,15 +123,13 @@ Assembly assemble(const Mission& mission, SceneFiles& models) {
     const std::string refusal = refusal_of(settings, assembly.scene);
     if (!refusal.empty()) throw InputError(refusal);
     assembly.inputs = inputs_of(mission);
+    assembly.full_scales = find_full_scales(mission, assembly.scene, assembly.trajectory,
+                                            assembly.motions, assembly.sonars);
     return assembly;
 }
 
 std::vector<Pose> body_poses(const Assembly& assembly, double t_s) {
-    std::vector<Pose> poses;
-    poses.reserve(assembly.motions.size());
-    for (const Trajectory& motion : assembly.motions)
-        poses.push_back(interpolate(motion, t_s).T_world_vehicle);
-    return poses;
+    return poses_at(assembly.motions, t_s);
 }
 
 std::string inputs_hash(const Assembly& assembly) {
@@ -120,6 +153,15 @@ std::string inputs_hash(const Assembly& assembly) {
     for (const Body& body : scene.bodies) {
         text += "\nbody " + std::to_string(body.instance) + hash_of(body.vertices) +
                 hash_of(body.triangles) + hash_of(body.triangle_material);
+    }
+    for (const SharedMesh& mesh : scene.shared_meshes) {
+        text += "\nmesh " + hash_of(mesh.vertices) + hash_of(mesh.triangles) +
+                hash_of(mesh.triangle_material);
+    }
+    for (const MeshCopy& copy : scene.copies) {
+        text += "\ncopy " + std::to_string(copy.mesh) + " " + std::to_string(copy.instance);
+        for (const double x : copy.T_world_mesh.matrix().topRows<3>().reshaped())
+            text += " " + number_text(x);
     }
     for (const Trajectory& motion : assembly.motions)
         text += "\n" + write_tum(motion);

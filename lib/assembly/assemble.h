@@ -27,6 +27,7 @@ struct Assembly {
     std::vector<Trajectory> motions;  ///< of Scene::bodies; they last as long as `trajectory`
     std::vector<Sonar> sonars;        ///< in the order of Mission::sensors
     std::vector<InputFile> inputs;    ///< all files that the mission names, each once
+    std::vector<double> full_scales;  ///< by sonar, the intensity that becomes white in pictures
 };
 
 /// Reads the files of a mission and works out its poses. Writes nothing. InputError for whatever

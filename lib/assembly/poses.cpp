@@ -34,6 +34,14 @@ Trajectory form_of(const LawnmowerTrajectoryConfig& config) {
 
 }  // namespace
 
+std::vector<Pose> poses_at(std::span<const Trajectory> motions, double t_s) {
+    std::vector<Pose> poses;
+    poses.reserve(motions.size());
+    for (const Trajectory& motion : motions)
+        poses.push_back(interpolate(motion, t_s).T_world_vehicle);
+    return poses;
+}
+
 Trajectory poses_of(const TrajectoryConfig& config) {
     return std::visit([](const auto& form) { return form_of(form); }, config);
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <memory>
 #include <optional>
 #include <variant>
@@ -110,6 +111,30 @@ class LazyBottom {
     std::unique_ptr<Bottom> bottom_;
 };
 
+/// The surfaces of files that are read alike, each made once.
+class Shapes {
+  public:
+    explicit Shapes(SceneFiles& models) : models_(models) {}
+
+    const Surface& of(const PlacedFile& file, const MeshConfig& mesh) {
+        const auto known = std::ranges::find_if(shapes_, [&](const Shape& shape) {
+            return shape.file == file.file && shape.mesh == mesh;
+        });
+        if (known != shapes_.end()) return known->surface;
+        return shapes_.emplace_back(Shape{file.file, mesh, surface_of(file, models_)}).surface;
+    }
+
+  private:
+    struct Shape {
+        std::filesystem::path file;
+        MeshConfig mesh;
+        Surface surface;
+    };
+
+    SceneFiles& models_;
+    std::deque<Shape> shapes_;  // a deque, since what has been given away stays where it is
+};
+
 /// Where an object of the mission is.
 Eigen::Affine3d transform_of(const ObjectConfig& object, const Surface& shape, LazyBottom& bottom) {
     const Eigen::Vector3d position(object.position_m.data());
@@ -195,10 +220,11 @@ SceneParts place_scene(const Mission& mission, const Trajectory& vehicle, SceneF
     SceneParts parts;
     if (!scene.file.empty()) parts.files.push_back(file_of(scene.file, scene.mesh, scene.place));
     LazyBottom bottom(scene, models);
+    Shapes shapes(models);
     std::vector<Hull> taken;
     for (const ObjectConfig& object : scene.objects) {
         PlacedFile& file = parts.files.emplace_back(file_of(object));
-        const Surface shape = surface_of(file, models);
+        const Surface& shape = shapes.of(file, object.mesh);
         file.T_world_file = transform_of(object, shape, bottom);
         if (object.trajectory) {
             parts.motions.push_back(motion_of(object, vehicle));
@@ -212,7 +238,7 @@ SceneParts place_scene(const Mission& mission, const Trajectory& vehicle, SceneF
                                  " lies wholly below the bottom; raise it by position_m, or let it "
                                  "rest there with place: on_bottom");
         }
-        taken.push_back(hull_of(placed.vertices));
+        if (!scene.scatter.empty()) taken.push_back(hull_of(placed.vertices));
     }
     for (std::size_t i = 0; i < scene.scatter.size(); ++i) {
         scatter_files(scene.scatter[i], static_cast<std::uint32_t>(i), mission.seed, models, bottom,

@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/in_parallel.h"
 #include "core/sha256.h"
+#include "dataset/whole_file.h"
 
 namespace sonarsim {
 
@@ -16,12 +17,12 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t digits_of_sum = 64;
 
-void add_sum(std::string& text, const std::string& sum, const std::string& name) {
-    text.append(sum).append("  ").append(name) += '\n';
+void add_sum(StreamedFile& file, const std::string& sum, const std::string& name) {
+    file.append(sum + "  " + name + '\n');
 }
 
 /// The files that a ping has for itself, in the order of the writers.
-void add_loose(std::string& text, const Layout& layout, std::uint32_t sensor,
+void add_loose(StreamedFile& sums, const Layout& layout, std::uint32_t sensor,
                const JournalEntries& entries) {
     const SensorLayout& own = layout.sensors[sensor];
     for (std::size_t k = 0; k < own.per_ping.size(); ++k) {
@@ -29,19 +30,17 @@ void add_loose(std::string& text, const Layout& layout, std::uint32_t sensor,
         if (!file) continue;
         for (std::uint32_t ping = 0; ping < own.pings; ++ping) {
             const PingId id{ping * own.every, sensor};
-            const auto found = entries.pings.find(id);
-            const auto entry = found != entries.pings.end() && k < found->second.size()
-                                   ? parse_entry(found->second[k])
-                                   : std::nullopt;
+            const auto told = entries.pings.find(id);
+            const auto entry = told && k < told->size() ? parse_entry(told->at(k)) : std::nullopt;
             const fs::path path = layout.file(id, *file);
             if (!entry) throw std::runtime_error("the journal does not tell of " + path.string());
-            add_sum(text, entry->sha256, path.lexically_relative(layout.folder).string());
+            add_sum(sums, entry->sha256, path.lexically_relative(layout.folder).string());
         }
     }
 }
 
 /// They are read, several at a time.
-void add_packs(std::string& text, const Layout& layout, std::uint32_t sensor) {
+void add_packs(StreamedFile& file, const Layout& layout, std::uint32_t sensor) {
     const SensorLayout& own = layout.sensors[sensor];
     std::vector<std::string> sums(layout.packs(sensor));
     const auto pack = [&](std::size_t k) {
@@ -50,7 +49,7 @@ void add_packs(std::string& text, const Layout& layout, std::uint32_t sensor) {
     };
     in_parallel(sums.size(), [&](std::size_t k) { sums[k] = sha256_of_file(pack(k)); });
     for (std::size_t k = 0; k < sums.size(); ++k)
-        add_sum(text, sums[k], pack(k).lexically_relative(layout.folder).string());
+        add_sum(file, sums[k], pack(k).lexically_relative(layout.folder).string());
 }
 
 bool stays_below(const fs::path& name) {
@@ -60,19 +59,19 @@ bool stays_below(const fs::path& name) {
 
 }  // namespace
 
-std::string checksums_text(const Layout& layout, const JournalEntries& entries,
-                           const std::string& description) {
-    std::string text;
+void write_checksums(const Layout& layout, const JournalEntries& entries,
+                     const std::string& description) {
+    StreamedFile sums(layout.folder / checksums_name);
     const auto add_file = [&](const std::string& name) {
-        add_sum(text, sha256_of_file(layout.folder / name), name);
+        add_sum(sums, sha256_of_file(layout.folder / name), name);
     };
-    add_sum(text, sha256(description), description_name);
+    add_sum(sums, sha256(description), description_name);
     for (const char* name : {mission_name, trajectory_name, journal_name})
         add_file(name);
     for (std::uint32_t i = 0; i < layout.sensors.size(); ++i) {
         const SensorLayout& sensor = layout.sensors[i];
-        sensor.pings_per_pack > 0 ? add_packs(text, layout, i)
-                                  : add_loose(text, layout, i, entries);
+        sensor.pings_per_pack > 0 ? add_packs(sums, layout, i)
+                                  : add_loose(sums, layout, i, entries);
         for (const auto& part : sensor.per_ping) {
             if (const auto* record = std::get_if<PingRecord>(&part))
                 add_file(sensor.name + "/" + record->file);
@@ -82,7 +81,7 @@ std::string checksums_text(const Layout& layout, const JournalEntries& entries,
     }
     for (const std::string& product : layout.products)
         add_file(product);
-    return text;
+    sums.finish();
 }
 
 std::map<std::string, std::string> parse_checksums(const std::string& text,

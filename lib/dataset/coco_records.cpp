@@ -19,7 +19,7 @@ using Json = nlohmann::ordered_json;
 /// An object that is not seen for so many pings is passed again when it is.
 constexpr std::size_t most_unseen = 32;
 
-/// The picture that is made of all pings of a sensor.
+/// The picture that is made of all pings of a sensor. A row, or column, may stand for several.
 struct RecordPicture {
     std::uint64_t id;
     std::size_t sensor;
@@ -27,22 +27,27 @@ struct RecordPicture {
     PingRecord ids;    ///< of instances
     bool is_upright;   ///< pings are columns
     std::size_t bins;  ///< of a ping
+    std::size_t rows;  ///< of pings
 
-    std::size_t width(std::size_t pings) const { return is_upright ? pings : bins; }
-    std::size_t height(std::size_t pings) const { return is_upright ? bins : pings; }
+    std::size_t width() const { return is_upright ? rows : bins; }
+    std::size_t height() const { return is_upright ? bins : rows; }
 };
 
 std::optional<RecordPicture> picture_of(const SensorLayout& sensor) {
     const char* const names[] = {"waterfall.png", "echogram.png"};
     const auto file = std::ranges::find_first_of(sensor.products, names);
-    if (file == sensor.products.end() || sensor.pings > most_picture_rows) return std::nullopt;
+    if (file == sensor.products.end()) return std::nullopt;
     for (const auto& part : sensor.per_ping) {
         const auto* record = std::get_if<PingRecord>(&part);
         if (!record || record->label != "instance") continue;
         const bool is_upright = record->format.fortran_order;
-        return RecordPicture{
-            0,       0,          *file,
-            *record, is_upright, is_upright ? record->format.shape[0] : record->format.shape[1]};
+        return RecordPicture{.id = 0,
+                             .sensor = 0,
+                             .file = *file,
+                             .ids = *record,
+                             .is_upright = is_upright,
+                             .bins = record->format.shape[is_upright ? 0 : 1],
+                             .rows = static_cast<std::size_t>(picture_rows(sensor.pings))};
     }
     return std::nullopt;
 }
@@ -53,7 +58,8 @@ struct Passing {
     std::size_t last = 0;      ///< ping that saw it
 };
 
-/// The passes of a picture by numbers from 1 on, in the order of object_masks().
+/// The passes of a picture by numbers from 1 on, in the order of object_masks(). Where a row stands
+/// for several pings, the first of them that shows an object counts.
 struct Passes {
     std::vector<std::uint16_t> of_pixel;
     std::vector<std::uint16_t> instance{0};  ///< by number
@@ -62,7 +68,8 @@ struct Passes {
 Passes passes_of(const RecordPicture& picture, const RecordFile& records) {
     const std::size_t pings = records.records();
     Passes out;
-    out.of_pixel.resize(picture.bins * pings);
+    out.of_pixel.resize(picture.bins * picture.rows);
+    const std::size_t each = pings_per_row(pings);
     std::vector<Passing> passing(65536);
     std::vector<std::uint16_t> record(picture.bins);
     for (std::size_t ping = 0; ping < pings; ++ping) {
@@ -77,8 +84,10 @@ Passes passes_of(const RecordPicture& picture, const RecordFile& records) {
                 out.instance.push_back(id);
             }
             one.last = ping;
-            out.of_pixel[picture.is_upright ? ping * picture.bins + bin : bin * pings + ping] =
-                one.number;
+            const std::size_t row = ping / each;
+            std::uint16_t& pixel = out.of_pixel[picture.is_upright ? row * picture.bins + bin
+                                                                   : bin * picture.rows + row];
+            if (pixel == 0) pixel = one.number;
         }
     }
     return out;
@@ -105,8 +114,8 @@ void write_record_coco(const Layout& layout, const Json& description,
         const SensorLayout& sensor = layout.sensors[picture.sensor];
         out.add({{"id", picture.id},
                  {"file_name", sensor.name + "/" + picture.file},
-                 {"width", picture.width(sensor.pings)},
-                 {"height", picture.height(sensor.pings)},
+                 {"width", picture.width()},
+                 {"height", picture.height()},
                  {"sensor", sensor.name}});
     }
     out.end_list();
@@ -119,7 +128,7 @@ void write_record_coco(const Layout& layout, const Json& description,
                                  picture.ids.format, pings, RecordAccess::read);
         const Passes passes = passes_of(picture, records);
         for (const ObjectMask& mask :
-             object_masks(passes.of_pixel, static_cast<int>(picture.height(pings)))) {
+             object_masks(passes.of_pixel, static_cast<int>(picture.height()))) {
             const std::uint16_t instance = passes.instance[mask.id];
             out.add(annotation_json({.id = annotation_id++,
                                      .image_id = picture.id,
@@ -130,8 +139,8 @@ void write_record_coco(const Layout& layout, const Json& description,
                                      .width = mask.right - mask.left,
                                      .height = mask.bottom - mask.top,
                                      .area = mask.area,
-                                     .image_width = picture.width(pings),
-                                     .image_height = picture.height(pings),
+                                     .image_width = picture.width(),
+                                     .image_height = picture.height(),
                                      .counts = coco_counts(mask.runs)}));
         }
     }

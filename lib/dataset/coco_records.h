@@ -7,10 +7,11 @@
 
 namespace sonarsim {
 
-/// Writes a COCO file of the objects in the waterfalls and echograms of a dataset: a picture each,
-/// if it has a row or column for every ping. An object that is not seen for 32 pings and then again
-/// is another annotation. Ids go on where those of the pings end (write_coco()). In memory are the
-/// ids of the bins of one picture. `description` is dataset.json.
+/// Writes a COCO file of the objects in the waterfalls and echograms of a dataset: a picture each.
+/// Where one row or column of it stands for several pings, it shows what is in any of them. An
+/// object that is not seen for 32 pings and then again is another annotation. Ids go on where those
+/// of the pings end (write_coco()). In memory are the ids of the bins of one picture. `description`
+/// is dataset.json.
 void write_record_coco(const Layout& layout, const nlohmann::ordered_json& description,
                        const SharedProduct& product);
 

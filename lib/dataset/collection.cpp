@@ -241,4 +241,44 @@ std::vector<fs::path> collected_folders(const fs::path& folder) {
     return folders;
 }
 
+std::vector<std::string> collection_faults(const fs::path& folder) {
+    const std::optional<Json> json = read_collection(folder);
+    std::vector<std::string> faults;
+    if (!json || json->value("complete", Json()) != true) {
+        faults.push_back(std::string(collection_name) +
+                         ": is not complete; the merge command that made it, run again, goes on");
+        return faults;
+    }
+    const std::string cure =
+        "; the merge command that made the collection, run into an empty "
+        "folder, makes it anew";
+    const fs::path sums_file = folder / checksums_name;
+    if (!fs::is_regular_file(sums_file))
+        return {std::string(checksums_name) + ": is missing" + cure};
+    auto sums = parse_checksums(read_file(sums_file, largest_text), sums_file.string());
+    const auto check = [&](const std::string& name, const std::string& sum) {
+        const auto told = sums.extract(name);
+        if (told.empty()) {
+            faults.push_back(name + ": SHA256SUMS of the collection does not list it" + cure);
+        } else if (told.mapped() != sum) {
+            faults.push_back(name + ": is not what SHA256SUMS of the collection tells" + cure);
+        }
+    };
+    check(collection_name, sha256_of_file(folder / collection_name));
+    for (const fs::path& dataset : collected_folders(folder)) {
+        const std::string prefix = dataset.filename().string() + "/";
+        const fs::path own = dataset / checksums_name;
+        // What is wrong with a dataset is told of that dataset.
+        if (!fs::is_regular_file(own)) continue;
+        check(prefix + checksums_name, sha256_of_file(own));
+        for (const auto& [name, sum] : parse_checksums(read_file(own, largest_text), own.string()))
+            check(prefix + name, sum);
+    }
+    for (const auto& [name, sum] : sums) {
+        if (fs::is_regular_file(folder / name)) continue;
+        faults.push_back(name + ": is missing, and SHA256SUMS of the collection lists it" + cure);
+    }
+    return faults;
+}
+
 }  // namespace sonarsim

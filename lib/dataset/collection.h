@@ -35,4 +35,9 @@ CollectionSummary collect_datasets(
 /// InputError when its collection.json is damaged.
 std::vector<std::filesystem::path> collected_folders(const std::filesystem::path& folder);
 
+/// What is wrong with a collection besides its datasets, a sentence each: whether its own
+/// SHA256SUMS tells what those of the datasets do. Their files are not read. InputError as above,
+/// and for sums that are none.
+std::vector<std::string> collection_faults(const std::filesystem::path& folder);
+
 }  // namespace sonarsim

@@ -73,6 +73,27 @@ std::optional<Json> read_description(const std::filesystem::path& folder) {
     return std::nullopt;
 }
 
+Json require_description(const std::filesystem::path& folder) {
+    if (!std::filesystem::is_regular_file(folder / description_name)) {
+        throw InputError({folder.string()},
+                         "is no dataset: it has no dataset.json; give the output folder of a "
+                         "render");
+    }
+    std::optional<Json> description = read_description(folder);
+    if (!description) {
+        throw InputError({(folder / description_name).string()},
+                         "is not sonarsim's, or damaged; give the output folder of a render");
+    }
+    const Json version = description->value("format_version", Json());
+    if (version != dataset_format_version) {
+        throw InputError({(folder / description_name).string()},
+                         "has format_version " + version.dump() + ", and this program knows " +
+                             std::to_string(dataset_format_version) +
+                             "; use the version that made the dataset");
+    }
+    return *std::move(description);
+}
+
 std::string difference_between(const Json& found, const Json& expected) {
     const auto differs = [&](const char* key) {
         return found.value(key, Json()) != expected.value(key, Json());

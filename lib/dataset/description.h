@@ -13,6 +13,9 @@ namespace sonarsim {
 /// read.
 std::optional<nlohmann::ordered_json> read_description(const std::filesystem::path& folder);
 
+/// The same of a folder that must hold a dataset of this version of the format: else InputError.
+nlohmann::ordered_json require_description(const std::filesystem::path& folder);
+
 /// What sets the dataset that `found` describes apart from that of `expected`, to follow "a
 /// dataset": "of another mission". Empty when both are the same dataset, complete or not.
 std::string difference_between(const nlohmann::ordered_json& found,

@@ -7,22 +7,18 @@
 
 namespace sonarsim {
 
-namespace {
-
-/// Pings to a row.
-std::size_t fold_of(std::size_t pings) {
+std::size_t pings_per_row(std::size_t pings) {
     return std::max<std::size_t>(1, (pings + most_picture_rows - 1) / most_picture_rows);
 }
 
-}  // namespace
-
 int picture_rows(std::size_t pings) {
-    return static_cast<int>((pings + fold_of(pings) - 1) / fold_of(pings));
+    const std::size_t each = pings_per_row(pings);
+    return static_cast<int>((pings + each - 1) / each);
 }
 
 FoldedRecords::FoldedRecords(const RecordFile& records)
     : records_(records),
-      fold_(fold_of(records.records())),
+      fold_(pings_per_row(records.records())),
       rows_(picture_rows(records.records())),
       record_(records.record_bytes() / sizeof(float)),
       mean_(record_.size()) {}

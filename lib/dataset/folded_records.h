@@ -11,6 +11,9 @@ namespace sonarsim {
 /// pings as it takes. A PNG cannot be much longer.
 inline constexpr std::size_t most_picture_rows = 60'000;
 
+/// How many pings share a row.
+std::size_t pings_per_row(std::size_t pings);
+
 /// How many rows that makes.
 int picture_rows(std::size_t pings);
 

@@ -185,12 +185,13 @@ void remove_journal_parts(const Layout& layout) {
 }
 
 void finish_dataset(const Layout& layout, const Json& description, const JournalEntries& entries) {
-    write_file_durably(layout.folder / journal_name, journal_text(entries));
+    write_journal(layout.folder / journal_name, entries);
     sync_file_system(layout.folder);
     Json finished = description;
     finished["complete"] = true;
     const std::string text = json_text(finished);
-    write_file_durably(layout.folder / checksums_name, checksums_text(layout, entries, text));
+    write_checksums(layout, entries, text);
+    sync_file_system(layout.folder);
     write_file_durably(layout.folder / description_name, text);
     remove_journal_parts(layout);
 }

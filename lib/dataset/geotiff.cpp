@@ -2,6 +2,8 @@
 
 #include <bit>
 #include <cstdint>
+#include <cstring>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 
@@ -91,6 +93,26 @@ void write_geotiff(const std::filesystem::path& path, std::span<const float> val
     file.append(header(width, height, place, size));
     file.append({reinterpret_cast<const char*>(values.data()), values.size_bytes()});
     file.finish();
+}
+
+GeotiffShape geotiff_shape(std::string_view start) {
+    // Width and height are the first two tags, each a number behind its 8 bytes of tag, type,
+    // count.
+    constexpr std::size_t width_at = 10 + 8;
+    constexpr std::size_t height_at = width_at + 12;
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+    if (start.size() > height_at + sizeof height) {
+        std::memcpy(&width, &start[width_at], sizeof width);
+        std::memcpy(&height, &start[height_at], sizeof height);
+    }
+    // All but the pixels and the numbers in the tags is the same in every such file.
+    const std::size_t size = header(width, height, {}, 0).size();
+    const std::string own = header(width, height, {}, static_cast<std::uint32_t>(size));
+    constexpr std::size_t tags = 10 + 13 * 12;
+    if (width == 0 || height == 0 || start.substr(0, tags) != own.substr(0, tags))
+        throw std::runtime_error("is no map of sonarsim");
+    return {height, width, size + std::uint64_t{4} * width * height};
 }
 
 }  // namespace sonarsim

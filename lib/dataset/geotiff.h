@@ -1,7 +1,10 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string_view>
 
 namespace sonarsim {
 
@@ -16,10 +19,19 @@ struct MapPlace {
 /// in its place: float32 [rows, columns], not compressed, NaN where nothing is known, which is also
 /// the map's nodata value. The world's frame has no name on Earth, so no reference system is
 /// given. `values` has a whole number of rows of `columns`, at least one, and less than 4 GB.
-/// OpenImageIO's TIFF writer drops the tags of GeoTIFF, hence this one.
 ///
 /// std::system_error when the disk does not take the file.
 void write_geotiff(const std::filesystem::path& path, std::span<const float> values, int columns,
                    const MapPlace& place);
+
+struct GeotiffShape {
+    std::size_t rows = 0;
+    std::size_t columns = 0;
+    std::uint64_t file_bytes = 0;  ///< that such a file has
+};
+
+/// What the start of a file, its header at least, tells of a map that write_geotiff() wrote.
+/// std::runtime_error where it is none.
+GeotiffShape geotiff_shape(std::string_view start);
 
 }  // namespace sonarsim

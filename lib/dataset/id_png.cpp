@@ -4,12 +4,13 @@
 #include <bit>
 #include <cstring>
 #include <stdexcept>
-#include <string_view>
 #include <utility>
 #include <vector>
 
-// PNG: www.w3.org/TR/png. Deflate: RFC 1951, here one block with the fixed codes of its 3.2.6. The
-// stream around it and Adler-32: RFC 1950.
+#include "dataset/png_file.h"
+
+// Deflate: RFC 1951, here one block with the fixed codes of its 3.2.6. The stream around it and
+// Adler-32: RFC 1950.
 
 namespace sonarsim {
 
@@ -158,61 +159,6 @@ void deflate_row(ZeroRunDeflater& out, const std::vector<std::uint8_t>& row) {
     }
 }
 
-constexpr auto make_crc_tables() {
-    std::array<std::array<std::uint32_t, 256>, 8> tables{};
-    for (std::uint32_t n = 0; n < 256; ++n) {
-        std::uint32_t c = n;
-        for (int k = 0; k < 8; ++k)
-            c = (c & 1U) ? 0xEDB88320U ^ c >> 1 : c >> 1;
-        tables[0][n] = c;
-    }
-    for (std::size_t t = 1; t < 8; ++t) {
-        for (std::size_t n = 0; n < 256; ++n) {
-            const std::uint32_t before = tables[t - 1][n];
-            tables[t][n] = before >> 8 ^ tables[0][before & 0xFF];
-        }
-    }
-    return tables;
-}
-
-/// The CRC of a chunk's type and data, eight bytes at a time.
-std::uint32_t crc_of(std::string_view bytes) {
-    static constexpr auto tables = make_crc_tables();
-    std::uint32_t crc = 0xFFFFFFFFU;
-    std::size_t k = 0;
-    for (; k + 8 <= bytes.size(); k += 8) {
-        std::uint64_t eight = 0;
-        std::memcpy(&eight, bytes.data() + k, 8);
-        eight ^= crc;
-        crc = 0;
-        for (std::size_t t = 0; t < 8; ++t)
-            crc ^= tables[7 - t][eight >> 8 * t & 0xFF];
-    }
-    for (; k < bytes.size(); ++k)
-        crc = tables[0][(crc ^ static_cast<std::uint8_t>(bytes[k])) & 0xFF] ^ crc >> 8;
-    return ~crc;
-}
-
-void append_number(std::string& out, std::uint32_t number) {
-    for (int shift = 24; shift >= 0; shift -= 8)
-        out += static_cast<char>(number >> shift & 0xFF);
-}
-
-void append_chunk(std::string& out, const char* type, std::string_view data) {
-    append_number(out, static_cast<std::uint32_t>(data.size()));
-    const std::size_t begin = out.size();
-    out.append(type).append(data);
-    append_number(out, crc_of(std::string_view(out).substr(begin)));
-}
-
-std::string header_of(int width, int height, char bits, char colour_type) {
-    std::string header;
-    append_number(header, static_cast<std::uint32_t>(width));
-    append_number(header, static_cast<std::uint32_t>(height));
-    header.append({bits, colour_type, '\0', '\0', '\0'});
-    return header;
-}
-
 /// [height, width] pixels as the zlib stream of a PNG: `write` puts a pixel into a row, big endian.
 template <class Pixel, class Write>
 std::string deflate_pixels(std::span<const Pixel> pixels, int width, int height, Write write) {
@@ -235,38 +181,29 @@ std::string deflate_pixels(std::span<const Pixel> pixels, int width, int height,
     return out.finish();
 }
 
-constexpr std::string_view signature = "\x89PNG\r\n\x1a\n";
-
 }  // namespace
 
 std::string id_png_bytes(std::span<const std::uint16_t> ids, int width, int height) {
-    std::string out(signature);
-    append_chunk(out, "IHDR", header_of(width, height, 16, 0));
     const auto big_endian = [](const std::uint16_t* from, std::size_t count, std::uint8_t* to) {
         for (std::size_t k = 0; k < count; ++k) {
             const auto swapped = static_cast<std::uint16_t>(from[k] << 8 | from[k] >> 8);
             std::memcpy(to + 2 * k, &swapped, 2);
         }
     };
-    append_chunk(out, "IDAT", deflate_pixels(ids, width, height, big_endian));
-    append_chunk(out, "IEND", {});
-    return out;
+    return png_file({width, height, 16, PngColours::grey},
+                    deflate_pixels(ids, width, height, big_endian));
 }
 
 std::string palette_png_bytes(std::span<const std::uint8_t> indices, int width, int height,
                               std::span<const Colour> table) {
-    std::string out(signature);
-    append_chunk(out, "IHDR", header_of(width, height, 8, 3));
     std::string colours;
     for (const Colour& colour : table)
         colours.append(reinterpret_cast<const char*>(colour.data()), colour.size());
-    append_chunk(out, "PLTE", colours);
     const auto copy = [](const std::uint8_t* from, std::size_t count, std::uint8_t* to) {
         std::memcpy(to, from, count);
     };
-    append_chunk(out, "IDAT", deflate_pixels(indices, width, height, copy));
-    append_chunk(out, "IEND", {});
-    return out;
+    return png_file({width, height, 8, PngColours::table},
+                    deflate_pixels(indices, width, height, copy), colours);
 }
 
 double id_png_bytes_at_most(int width, int height, int bytes_per_pixel) {

@@ -15,7 +15,6 @@ namespace sonarsim {
 namespace {
 
 // The shares from which on a user is told.
-constexpr double many_dark_pings = 0.5;
 constexpr double many_lost = 0.5;
 constexpr double long_noise = 0.1;         // its mean, of the range
 constexpr double fewest_fan_greys = 16.0;  // of 255
@@ -53,7 +52,7 @@ bool noise_is_long(const SonarConfig& config) {
 std::string cure_of_blindness(const Assembly& assembly, const Sonar& sonar,
                               const SensorSummary& summary) {
     const SonarConfig& config = sonar.config;
-    if (assembly.scene.triangles.empty()) {
+    if (assembly.scene.triangles.empty() && assembly.scene.copies.empty()) {
         return assembly.scene.bodies.empty() ? "the scene has no triangles"
                                              : "nothing of what moves came into its view";
     }
@@ -94,7 +93,7 @@ void judge_sight(const Assembly& assembly, const Sonar& sonar, const SensorSumma
         out.push_back(fmt::format("sensor '{}' saw no surface in any of its {} pings: {}",
                                   config.name, summary.pings,
                                   cure_of_blindness(assembly, sonar, summary)));
-    } else if (share(summary.dark_pings, summary.pings) > many_dark_pings) {
+    } else if (summary.dark_pings > 0) {
         out.push_back(
             fmt::format("sensor '{}' saw no surface in {} of its {} pings: check the "
                         "trajectory and the range",
@@ -122,16 +121,17 @@ void judge_error(const AccuracyConfig& accuracy, const Sonar& sonar, const Senso
 }
 
 /// Images that are too dark or too bright for the scale of the pictures.
-void judge_brightness(const OutputConfig& output, const Sonar& sonar, const SensorSummary& summary,
-                      std::vector<std::string>& out) {
+void judge_brightness(const OutputConfig& output, const Sonar& sonar, double full_scale,
+                      const SensorSummary& summary, std::vector<std::string>& out) {
     const std::string& name = sonar.config.name;
-    const double of_white = summary.brightest / output.full_scale;
+    const double of_white = summary.brightest / full_scale;
     const double fan_greys = 255.0 * std::sqrt(of_white);
-    if (summary.clipped_pixels > 0) {
+    // A scale that was found leaves the brightest bins white on purpose.
+    if (summary.clipped_pixels > 0 && output.full_scale > 0.0) {
         out.push_back(
             fmt::format("sensor '{}': {} pixels are above output.full_scale ({:.4g}) and "
                         "white in the PNG files; the brightest is {:.4g}",
-                        name, summary.clipped_pixels, output.full_scale, summary.brightest));
+                        name, summary.clipped_pixels, full_scale, summary.brightest));
     }
     if (summary.dark_pings == summary.pings) return;  // told already
     if (summary.brightest == 0.0F) {
@@ -143,11 +143,10 @@ void judge_brightness(const OutputConfig& output, const Sonar& sonar, const Sens
         const bool has_fans = kind_of(sonar.config.kind).has_images;
         const std::string fans =
             has_fans ? fmt::format(" in images and {:.0f} of 255 in fans", fan_greys) : "";
-        out.push_back(
-            fmt::format("sensor '{}': its brightest pixel is {:.3g}, grey level {:.0f} "
-                        "of 65535{}: lower output.full_scale from {:.4g} to about {:.1g}",
-                        name, summary.brightest, 65535.0 * of_white, fans, output.full_scale,
-                        summary.brightest));
+        out.push_back(fmt::format(
+            "sensor '{}': its brightest pixel is {:.3g}, grey level {:.0f} "
+            "of 65535{}: lower output.full_scale from {:.4g} to about {:.1g}",
+            name, summary.brightest, 65535.0 * of_white, fans, full_scale, summary.brightest));
     }
 }
 
@@ -187,7 +186,8 @@ std::vector<std::string> image_warnings(const Mission& mission, const Assembly& 
         if (sensors[i].pings == 0) continue;
         judge_sight(assembly, assembly.sonars[i], sensors[i], out);
         judge_error(mission.accuracy, assembly.sonars[i], sensors[i], out);
-        judge_brightness(mission.output, assembly.sonars[i], sensors[i], out);
+        judge_brightness(mission.output, assembly.sonars[i], assembly.full_scales[i], sensors[i],
+                         out);
         judge_fan(mission.output, assembly.sonars[i], out);
     }
     return out;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "assembly/engine_probes.h"
@@ -14,14 +15,14 @@
 #include "core/error.h"
 #include "core/ordered_pipeline.h"
 #include "dataset/completion.h"
+#include "dataset/encode_ping.h"
 #include "dataset/finite_image.h"
 #include "dataset/folder.h"
 #include "dataset/journal.h"
-#include "dataset/labelled_ping.h"
 #include "dataset/metadata.h"
 #include "dataset/ping_files.h"
 #include "dataset/resume.h"
-#include "sonar/measured.h"
+#include "sonar/sonar.h"
 #include "trajectory/files.h"
 
 namespace sonarsim {
@@ -102,42 +103,26 @@ struct Destination {
     Journal& journal;
 };
 
-/// Hands a ping to the writers of its sensor.
-void write_ping(const Mission& mission, const Assembly& assembly, const VisibilityEngine& engine,
-                const Destination& to, const TracedPing& traced, const Ping& ping,
-                PingReport& report) {
+/// Hands a ping to the writers of its sensor and what they make of it to the disk.
+void write_ping(const Assembly& assembly, const VisibilityEngine& engine, const Destination& to,
+                const TracedPing& traced, const Ping& ping, PingReport& report) {
     const PingId& id = report.id;
     Stopwatch watch;
-    const auto white = static_cast<float>(mission.output.full_scale);
-    report.clipped_pixels =
-        std::ranges::count_if(ping.intensity, [&](float v) { return v > white; });
-    const auto metadata = measured(
-        {assembly.sonars[id.sensor], assembly.trajectory[id.pose].T_world_vehicle, id.pose, ping},
-        engine);
-    LabelledPing labels;
-    const LabelPlan& plan = to.labels[id.sensor];
-    if (plan.on) {
-        labels = label_for_writers(
-            plan, label_ping(traced, assembly.sonars[id.sensor].settings, assembly.scene,
-                             assembly.objects, engine, plan.request));
-    }
-    const FinishedPing finished{
-        id, traced, ping, metadata, report.clipped_pixels, plan.on ? &labels : nullptr};
-    EncodedPing encoded;
-    for (const auto& writer : to.writers[id.sensor])
-        encoded.push_back(writer->encode(finished));
+    WrittenPing written = encode_ping(assembly, engine, to.writers[id.sensor], to.labels[id.sensor],
+                                      id, traced, ping);
+    report.clipped_pixels = written.clipped_pixels;
     report.encode_seconds = watch.lap();
-    to.files.write(id, encoded);
+    to.files.write(id, written.parts);
     const SensorLayout& sensor = to.layout.sensors[id.sensor];
-    report.words = journal_words(sensor, encoded);
-    if (sensor.pings_per_pack > 0) report.encoded = std::move(encoded);
+    report.words = journal_words(sensor, written.parts);
+    if (sensor.pings_per_pack > 0) report.encoded = std::move(written.parts);
     report.write_seconds = watch.lap();
 }
 
 /// Renders `todo`, several pings at a time; at most twice as many as threads are in memory. Without
 /// a destination nothing is written.
 void render(const Mission& mission, const Assembly& assembly, const std::vector<PingId>& todo,
-            const Destination* to, int threads, const ProgressCallback& progress,
+            const Destination* to, int threads, const JobCallback& progress,
             const std::atomic<bool>& stop, RenderSummary& summary) {
     if (todo.empty()) return;
     const std::unique_ptr<VisibilityEngine> engine =
@@ -164,7 +149,7 @@ void render(const Mission& mission, const Assembly& assembly, const std::vector<
                               .brightest = brightest_pixel(ping, sonar.config.name, id.pose),
                               .estimated_l1 = ping.estimated_l1,
                               .goal_l1 = sonar.settings.view.relative_l1};
-            if (to) write_ping(mission, assembly, now, *to, traced, ping, report);
+            if (to) write_ping(assembly, now, *to, traced, ping, report);
             return report;
         },
         [&](const PingReport& report) {
@@ -175,7 +160,7 @@ void render(const Mission& mission, const Assembly& assembly, const std::vector<
                 summary.write_seconds += packing.lap();
                 to->journal.add(report.id, report.words);
             }
-            if (progress) progress(summary.pings, todo.size());
+            if (progress) progress(summary, todo.size());
         });
     summary.seconds = watch.lap();
     summary.stopped = summary.pings < todo.size();
@@ -185,7 +170,7 @@ void render(const Mission& mission, const Assembly& assembly, const std::vector<
 }  // namespace
 
 RenderSummary run_job(const Mission& mission, const Assembly& assembly,
-                      const RenderOptions& options, const ProgressCallback& progress,
+                      const RenderOptions& options, const JobCallback& progress,
                       const std::atomic<bool>& stop) {
     check(options);
     const int threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
@@ -250,7 +235,7 @@ RenderSummary run_job(const Mission& mission, const Assembly& assembly,
 }
 
 RenderSummary run_job(const Mission& mission, const RenderOptions& options,
-                      const ProgressCallback& progress, const std::atomic<bool>& stop) {
+                      const JobCallback& progress, const std::atomic<bool>& stop) {
     return run_job(mission, assemble(mission), options, progress, stop);
 }
 

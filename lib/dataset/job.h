@@ -41,6 +41,9 @@ struct RenderSummary {
 /// thread, but never twice at a time, and in ascending order.
 using ProgressCallback = std::function<void(std::uint64_t done, std::uint64_t total)>;
 
+/// The same of a job, with what its pings came to so far.
+using JobCallback = std::function<void(const RenderSummary& so_far, std::uint64_t total)>;
+
 /// Renders a mission into its output folder.
 ///
 /// A folder with an unfinished dataset of the same mission, inputs and program version is resumed:
@@ -55,11 +58,11 @@ using ProgressCallback = std::function<void(std::uint64_t done, std::uint64_t to
 /// would replace a file that the mission reads; std::system_error when the disk does not take a
 /// file; std::runtime_error when files vanish while the run is under way.
 RenderSummary run_job(const Mission& mission, const Assembly& assembly,
-                      const RenderOptions& options, const ProgressCallback& progress,
+                      const RenderOptions& options, const JobCallback& progress,
                       const std::atomic<bool>& stop);
 
 /// The same, with the assembly made on the way.
 RenderSummary run_job(const Mission& mission, const RenderOptions& options,
-                      const ProgressCallback& progress, const std::atomic<bool>& stop);
+                      const JobCallback& progress, const std::atomic<bool>& stop);
 
 }  // namespace sonarsim

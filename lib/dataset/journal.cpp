@@ -1,11 +1,14 @@
 #include "dataset/journal.h"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <cmath>
+#include <fstream>
 #include <optional>
 #include <sstream>
 #include <system_error>
@@ -15,6 +18,7 @@
 #include "core/hash.h"
 #include "core/text.h"
 #include "dataset/layout.h"
+#include "dataset/whole_file.h"
 
 namespace sonarsim {
 
@@ -22,7 +26,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t largest_part = std::size_t{1} << 32;
 constexpr std::size_t hash_digits = 8;
 
 /// The line with its hash and line feed.
@@ -56,10 +59,10 @@ void read_line(const std::string& line, JournalEntries& entries) {
     if (word == "ping") {
         PingId ping{0, sensor};
         words >> ping.pose;
-        std::vector<std::string>& what = entries.pings[ping];
-        what.clear();
+        std::vector<std::string> what;
         while (words >> word)
             what.push_back(word);
+        entries.pings.add(ping, what);
     } else if (word == "product") {
         std::uint64_t size = 0;
         words >> word >> size;
@@ -67,32 +70,30 @@ void read_line(const std::string& line, JournalEntries& entries) {
     }
 }
 
+double seconds_since_1970() {
+    return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch())
+        .count();
+}
+
+/// A line that tells when something was.
+std::string time_line(const char* what, double seconds) {
+    constexpr double milli = 1e3;
+    return sealed(std::string(what) + ' ' + number_text(std::round(seconds * milli) / milli));
+}
+
+/// Line by line, since it may be long.
 void read_part(const fs::path& path, JournalEntries& entries) {
-    std::string text;
-    try {
-        text = read_file(path, largest_part);
-    } catch (const InputError&) {
+    std::ifstream lines(path, std::ios::binary);
+    if (!lines) {
         // The run that completes a dataset removes the parts; journal.txt has all of them then.
-        if (fs::exists(path)) throw;
+        if (fs::exists(path)) throw InputError({path.string()}, "cannot be read");
         return;
     }
-    std::istringstream lines(text);
     for (std::string line; std::getline(lines, line);)
         read_line(line, entries);
 }
 
 }  // namespace
-
-std::string entry_text(const FileEntry& entry) {
-    return std::to_string(entry.bytes) + ':' + entry.sha256;
-}
-
-std::optional<FileEntry> parse_entry(const std::string& text) {
-    const std::size_t colon = text.find(':');
-    const auto bytes = parse_unsigned(std::string_view(text).substr(0, colon));
-    if (colon == std::string::npos || !bytes) return std::nullopt;
-    return FileEntry{*bytes, text.substr(colon + 1)};
-}
 
 JournalEntries read_journal(const fs::path& folder) {
     JournalEntries entries;
@@ -106,25 +107,49 @@ JournalEntries read_journal(const fs::path& folder) {
         }
     }
     if (fs::is_regular_file(folder / journal_name)) read_part(folder / journal_name, entries);
+    entries.pings.sort();
     return entries;
 }
 
-std::string journal_text(const JournalEntries& entries) {
-    std::string text;
-    for (const auto& [ping, what] : entries.pings)
-        text += ping_line(ping, what);
-    for (const auto& [product, size] : entries.products) {
-        text += sealed("product " + std::to_string(product.first) + ' ' + product.second + ' ' +
-                       std::to_string(size));
+JournalRun read_journal_run(const fs::path& part) {
+    JournalRun run;
+    std::ifstream lines(part,
+                        std::ios::binary);  // none: the run that completed the dataset removed it
+    for (std::string line; std::getline(lines, line);) {
+        const std::optional<std::string> text = opened(line);
+        if (!text) continue;
+        std::istringstream words(*text);
+        std::string word;
+        std::string value;
+        words >> word >> value;
+        const double seconds = parse_number(value).value_or(0.0);
+        if (word == "run") run = {0, seconds, seconds};
+        if (word == "checkpoint") run.last_s = seconds;
+        run.pings += word == "ping";
     }
-    return text;
+    return run;
+}
+
+void write_journal(const fs::path& path, const JournalEntries& entries) {
+    StreamedFile file(path);
+    entries.pings.for_each([&](const PingId& ping, const std::vector<std::string>& what) {
+        file.append(ping_line(ping, what));
+    });
+    for (const auto& [product, size] : entries.products) {
+        file.append(sealed("product " + std::to_string(product.first) + ' ' + product.second + ' ' +
+                           std::to_string(size)));
+    }
+    file.finish();
 }
 
 Journal::Journal(const fs::path& folder, const std::string& name, double checkpoint_seconds)
     : folder_(folder),
       path_(folder / journal_folder_name / name),
-      fd_(::open(path_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW, 0666)) {
+      fd_(::open(path_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW, 0666)),
+      start_s_(seconds_since_1970()) {
     if (fd_ < 0) throw_errno("cannot write", path_);
+    // Only so that status can tell; where the file system has no locks, it cannot.
+    ::flock(fd_, LOCK_SH | LOCK_NB);
     // What an interrupted run left may end in the middle of a line.
     if (::lseek(fd_, 0, SEEK_END) > 0) pending_ = "\n";
     thread_ = std::thread([this, checkpoint_seconds] { run(checkpoint_seconds); });
@@ -182,6 +207,12 @@ void Journal::checkpoint() {
     }
     if (lines.empty()) return;
     sync_file_system(folder_);
+    if (start_s_ > 0.0) {
+        // A line that an interrupted run left unfinished ends before it.
+        const std::size_t begin = lines.front() == '\n' ? 1 : 0;
+        lines.insert(begin, time_line("run", std::exchange(start_s_, 0.0)));
+    }
+    lines += time_line("checkpoint", seconds_since_1970());
     for (std::string_view rest = lines; !rest.empty();) {
         const ssize_t put = ::write(fd_, rest.data(), rest.size());
         if (put < 0 && errno == EINTR) continue;

@@ -6,13 +6,12 @@
 #include <filesystem>
 #include <map>
 #include <mutex>
-#include <optional>
 #include <string>
 #include <thread>
 #include <utility>
 #include <vector>
 
-#include "dataset/writer.h"
+#include "dataset/told_pings.h"
 
 namespace sonarsim {
 
@@ -26,33 +25,35 @@ using ProductSizes = std::map<std::pair<std::uint32_t, std::string>, std::uint64
 ///                               size in bytes, or the hash of its record
 ///     product SENSOR FILE SIZE  in the finished dataset; of all sensors together where SENSOR is
 ///                               their number
+///     run SECONDS               in a part: a run began to write here, seconds since 1970
+///     checkpoint SECONDS        in a part: the lines before it became durable then
 ///
 /// SENSOR is the index in dataset.json, POSE that of the pose. Each line ends in a hash of what
 /// stands before it, so that a line that a power cut tore does not count.
 struct JournalEntries {
-    std::map<PingId, std::vector<std::string>> pings;
+    ToldPings pings;
     ProductSizes products;
 };
-
-/// What the journal says of a ping's file.
-struct FileEntry {
-    std::uint64_t bytes = 0;
-    std::string sha256;
-};
-std::string entry_text(const FileEntry& entry);
-/// Nothing when the text is no such entry.
-std::optional<FileEntry> parse_entry(const std::string& text);
 
 /// Reads OUT/journal.txt and all parts in OUT/journal.d/ (those of shards that ran in other
 /// folders are copied there when these are merged). Lines that are torn are left out.
 JournalEntries read_journal(const std::filesystem::path& folder);
 
-/// The text of OUT/journal.txt: the same for all ways in which a dataset may have come about.
-std::string journal_text(const JournalEntries& entries);
+/// What the last run that wrote to a part of the journal has done.
+struct JournalRun {
+    std::uint64_t pings = 0;
+    double first_s = 0.0;  ///< when it opened the part, since 1970; 0: unknown
+    double last_s = 0.0;   ///< when it made its last checkpoint
+};
+JournalRun read_journal_run(const std::filesystem::path& part);
+
+/// Writes OUT/journal.txt: the same for all ways in which a dataset may have come about.
+void write_journal(const std::filesystem::path& path, const JournalEntries& entries);
 
 /// The part of the journal that one run writes. A background thread makes a checkpoint every few
 /// seconds: it makes durable what has been written so far and then adds the lines of the pings that
 /// were finished before. So a power cut costs the pings since the last checkpoint and nothing else.
+/// The part is locked as long as the run goes on (flock), so that others can tell.
 class Journal {
   public:
     /// Adds to OUT/journal.d/`name`. std::system_error when the disk does not allow it.
@@ -78,6 +79,7 @@ class Journal {
     std::mutex mutex_;
     std::condition_variable wake_;
     std::string pending_;  ///< lines of pings that are not durable yet
+    double start_s_;       ///< of the run, since 1970; 0 once the part says so
     bool ending_ = false;
     std::exception_ptr fault_;
     std::thread thread_;  ///< last, so that it starts when the rest is there

@@ -27,7 +27,31 @@ std::vector<Eigen::AlignedBox3d> object_boxes(const Assembly& assembly) {
         for (const std::uint32_t vertex : scene.triangles[k])
             box.extend(scene.origin + scene.vertices[vertex].cast<double>());
     }
+    for (const MeshCopy& copy : scene.copies) {
+        Eigen::AlignedBox3d& box = boxes[assembly.objects.object_of(copy.instance)];
+        for (const Eigen::Vector3f& vertex : scene.shared_meshes[copy.mesh].vertices)
+            box.extend(copy.T_world_mesh * vertex.cast<double>());
+    }
+    for (const Body& body : scene.bodies)
+        boxes[assembly.objects.object_of(body.instance)].setEmpty();
     return boxes;
+}
+
+std::vector<std::optional<MovingObject>> moving_objects(const Assembly& assembly) {
+    const Scene& scene = assembly.scene;
+    const SceneObjects& objects = assembly.objects;
+    std::vector<int> parts(objects.objects.size(), 0);
+    for (const std::uint32_t object : objects.object_of_instance)
+        ++parts[object];
+    std::vector<std::optional<MovingObject>> moving(parts.size());
+    for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
+        const std::uint32_t object = objects.object_of(scene.bodies[k].instance);
+        if (parts[object] > 1) continue;
+        MovingObject& own = moving[object].emplace(MovingObject{k, {}});
+        for (const Eigen::Vector3f& vertex : scene.bodies[k].vertices)
+            own.box.extend(vertex.cast<double>());
+    }
+    return moving;
 }
 
 Json describe_label_ids(const Assembly& assembly) {

@@ -9,6 +9,7 @@
 #include "core/file.h"
 #include "core/text.h"
 #include "dataset/description.h"
+#include "dataset/gallery_file.h"
 #include "dataset/layout.h"
 
 namespace sonarsim {
@@ -141,6 +142,7 @@ void remove_listed_files(const fs::path& folder, const Json& description,
     }
     for (const fs::path& inner : folders)
         tidy(folder, inner, files);
+    if (has_gallery(folder)) fs::remove(folder / gallery_name);  // it shows what is gone
     tidy(folder, "", files);
     // Last: while it is there, the folder is known as ours and the removal can be run again.
     remove_file(folder, description_name);

@@ -70,6 +70,20 @@ struct MergeContext {
     Assembly assembly;
 };
 
+/// The white of each sensor's pictures, which the scene was needed to find.
+std::vector<double> full_scales_of(const Json& description, const fs::path& part) {
+    std::vector<double> scales;
+    for (const Json& sensor : description.value("sensors", Json::array())) {
+        const Json scale = sensor.is_object() ? sensor.value("full_scale", Json()) : Json();
+        if (!scale.is_number() || scale.get<double>() <= 0.0) {
+            throw InputError({(part / description_name).string()},
+                             "a sensor has no full_scale above 0");
+        }
+        scales.push_back(scale.get<double>());
+    }
+    return scales;
+}
+
 MergeContext read_context(const fs::path& part, const CommonFiles& common, const fs::path& out) {
     MergeContext context;
     const std::string file = (part / mission_name).string();
@@ -85,6 +99,9 @@ MergeContext read_context(const fs::path& part, const CommonFiles& common, const
     for (const SonarConfig& sensor : context.mission.sensors)
         context.assembly.sonars.push_back(
             make_sonar(sensor, context.mission.accuracy, context.mission.water));
+    context.assembly.full_scales = full_scales_of(common.description, part);
+    if (context.assembly.full_scales.size() != context.assembly.sonars.size())
+        throw InputError({(part / description_name).string()}, "lists other sensors");
     return context;
 }
 
@@ -166,7 +183,7 @@ EncodedPing sound_ping(const Copy& copy) {
     EncodedPing encoded = read_ping(from.layout, from.records, *from.finished, copy.id);
     const SensorLayout& sensor = from.layout.sensors[copy.id.sensor];
     const std::vector<std::string> found = journal_words(sensor, encoded);
-    const std::vector<std::string>& told = from.finished->words_of(copy.id);
+    const std::vector<std::string> told = from.finished->words_of(copy.id);
     const auto differs = std::ranges::mismatch(found, told).in1;
     if (differs == found.end()) return encoded;
     const auto* file = std::get_if<PingFile>(&sensor.per_ping[differs - found.begin()]);

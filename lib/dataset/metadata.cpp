@@ -29,12 +29,17 @@ Json describe_inputs(const Mission& mission, const Assembly& assembly) {
 
 /// What of the scene's files is rendered, how well it is known, and what is left out.
 Json describe_scene_use(const Scene& scene) {
-    return {{"triangles", scene.triangles.size()},
-            {"vertex_rounding_m", scene.vertex_rounding_m},
-            {"dropped",
-             {{"degenerate_triangles", scene.rejects.degenerate_triangles},
-              {"non_finite_triangles", scene.rejects.non_finite_triangles},
-              {"skipped_primitives", scene.rejects.skipped_primitives}}}};
+    Json json = {{"triangles", scene.triangles.size()},
+                 {"vertex_rounding_m", scene.vertex_rounding_m},
+                 {"dropped",
+                  {{"degenerate_triangles", scene.rejects.degenerate_triangles},
+                   {"non_finite_triangles", scene.rejects.non_finite_triangles},
+                   {"skipped_primitives", scene.rejects.skipped_primitives}}}};
+    if (!scene.copies.empty()) {
+        json["shared_meshes"] = scene.shared_meshes.size();
+        json["copies"] = scene.copies.size();
+    }
+    return json;
 }
 
 Json describe_build() {
@@ -63,7 +68,7 @@ Json describe_instrument(const Sonar& sonar) {
         {"wavelength_m", model.wavelength_m}};
 }
 
-Json describe_sensor(const Sonar& sonar, const Mission& mission, const Layout& layout,
+Json describe_sensor(const Sonar& sonar, double full_scale, const Layout& layout,
                      const SensorLayout& own, const Writers& writers) {
     const SonarConfig& config = sonar.config;
     Json json = {{"name", config.name},
@@ -73,7 +78,7 @@ Json describe_sensor(const Sonar& sonar, const Mission& mission, const Layout& l
                  {"every", config.every},
                  {"pings", own.pings},
                  {"T_vehicle_sensor", describe_pose(sonar.T_vehicle_sensor)},
-                 {"full_scale", mission.output.full_scale}};
+                 {"full_scale", full_scale}};
     if (sonar.settings.calibrated) json["instrument"] = describe_instrument(sonar);
     json["files"] = Json::object();
     const std::string number = "%0" + std::to_string(layout.digits) + "d";
@@ -131,8 +136,8 @@ Json describe_dataset(const Mission& mission, const Assembly& assembly, const La
     if (!mission.output.labels.empty()) json["labels"] = describe_label_ids(assembly);
     Json sensors = Json::array();
     for (std::size_t i = 0; i < assembly.sonars.size(); ++i) {
-        sensors.push_back(
-            describe_sensor(assembly.sonars[i], mission, layout, layout.sensors[i], writers[i]));
+        sensors.push_back(describe_sensor(assembly.sonars[i], assembly.full_scales[i], layout,
+                                          layout.sensors[i], writers[i]));
     }
     json["sensors"] = std::move(sensors);
     if (!layout.products.empty()) json["products"] = layout.products;

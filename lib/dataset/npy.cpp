@@ -72,9 +72,9 @@ NpyFormat npy_format(std::string_view start) {
 
 std::string npy_bytes(std::span<const float> values, std::size_t rows, std::size_t columns) {
     const std::string head = npy_header({"<f4", {rows, columns}});
-    std::string bytes(head.size() + values.size_bytes(), '\0');
-    std::memcpy(bytes.data(), head.data(), head.size());
-    std::memcpy(bytes.data() + head.size(), values.data(), values.size_bytes());
+    std::string bytes;
+    bytes.reserve(head.size() + values.size_bytes());
+    bytes.append(head).append(reinterpret_cast<const char*>(values.data()), values.size_bytes());
     return bytes;
 }
 

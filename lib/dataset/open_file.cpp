@@ -1,8 +1,5 @@
 #include "dataset/open_file.h"
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
-
 #include <algorithm>
 #include <cstring>
 #include <fstream>
@@ -12,7 +9,9 @@
 #include <stdexcept>
 #include <string>
 
+#include "dataset/geotiff.h"
 #include "dataset/npy.h"
+#include "dataset/png_reader.h"
 
 namespace sonarsim {
 
@@ -20,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t longest_npy_header = 4096;
+constexpr std::size_t longest_header = 4096;
 /// Of an image, what is decoded at a time.
 constexpr std::size_t strip_bytes = std::size_t{1} << 22;
 
@@ -35,34 +34,36 @@ std::uint16_t largest_of(std::span<const std::byte> bytes) {
     return largest;
 }
 
-/// Pictures may be longer than memory: they are decoded strip by strip and dropped. `bytes`: the
-/// file, where it is in memory.
-OpenedFile open_image(const std::string& name, const char* format,
-                      OIIO::Filesystem::IOProxy* bytes) {
-    const auto in = OIIO::ImageInput::open(name, nullptr, bytes);
-    if (!in) throw std::runtime_error(OIIO::geterror());
-    if (std::string(in->format_name()) != format)
-        throw std::runtime_error(std::string("is no ") + format + " file");
-    const OIIO::ImageSpec& spec = in->spec();
-    const auto row_bytes = static_cast<std::size_t>(spec.scanline_bytes(true));
-    const int rows = static_cast<int>(std::max<std::size_t>(1, strip_bytes / row_bytes));
-    std::vector<std::byte> strip(rows * row_bytes);
-    const bool has_ids = spec.format == OIIO::TypeDesc::UINT16 && spec.nchannels == 1;
+/// Pictures may be longer than memory: they are decoded row by row and dropped.
+OpenedFile open_png(std::istream& file) {
     std::uint16_t largest = 0;
-    for (int y = 0; y < spec.height; y += rows) {
-        const int end = std::min(y + rows, spec.height);
-        if (!in->read_scanlines(0, 0, y, end, 0, 0, spec.nchannels, spec.format, strip.data()))
-            throw std::runtime_error(in->geterror());
-        if (has_ids)
-            largest = std::max(largest, largest_of(std::span(strip).first((end - y) * row_bytes)));
-    }
-    return {{static_cast<std::size_t>(spec.height), static_cast<std::size_t>(spec.width)},
+    bool has_ids = false;
+    const PngShape shape =
+        read_png(file, [&](const PngShape& of, std::span<const std::uint8_t> row) {
+            has_ids = of.bits == 16 && of.channels == 1;
+            for (std::size_t k = 0; has_ids && k < row.size(); k += 2)
+                largest = std::max(largest, static_cast<std::uint16_t>(row[k] << 8 | row[k + 1]));
+        });
+    return {{static_cast<std::size_t>(shape.height), static_cast<std::size_t>(shape.width)},
             has_ids ? std::optional(largest) : std::nullopt};
+}
+
+/// `bytes`: how long the file is.
+OpenedFile open_geotiff(std::istream& file, std::uint64_t bytes) {
+    std::string start(longest_header, '\0');
+    file.read(start.data(), static_cast<std::streamsize>(start.size()));
+    start.resize(static_cast<std::size_t>(file.gcount()));
+    const GeotiffShape shape = geotiff_shape(start);
+    if (bytes != shape.file_bytes) {
+        throw std::runtime_error("is " + std::to_string(bytes) + " bytes long instead of " +
+                                 std::to_string(shape.file_bytes));
+    }
+    return {{shape.rows, shape.columns}};
 }
 
 /// `file` is at its begin and `bytes` long.
 OpenedFile open_npy(std::istream& file, std::uint64_t bytes) {
-    std::string start(longest_npy_header, '\0');
+    std::string start(longest_header, '\0');
     file.read(start.data(), static_cast<std::streamsize>(start.size()));
     start.resize(static_cast<std::size_t>(file.gcount()));
     const NpyFormat format = npy_format(start);
@@ -98,9 +99,9 @@ void open_json(std::istream& file) {
 
 OpenedFile open_file(const fs::path& path) {
     const std::string extension = path.extension().string();
-    if (extension == ".png") return open_image(path.string(), "png", nullptr);
-    if (extension == ".tif") return open_image(path.string(), "tiff", nullptr);
     std::ifstream file(path, std::ios::binary);
+    if (extension == ".png") return open_png(file);
+    if (extension == ".tif") return open_geotiff(file, fs::file_size(path));
     if (extension == ".npy") return open_npy(file, fs::file_size(path));
     if (extension == ".json") open_json(file);  // COCO files may be longer than memory
     return {};
@@ -108,9 +109,8 @@ OpenedFile open_file(const fs::path& path) {
 
 OpenedFile open_bytes(const std::string& name, const std::string& bytes) {
     const std::string extension = fs::path(name).extension().string();
-    OIIO::Filesystem::IOMemReader memory(const_cast<char*>(bytes.data()), bytes.size());
-    if (extension == ".png") return open_image(name, "png", &memory);
     std::istringstream file(bytes);
+    if (extension == ".png") return open_png(file);
     if (extension == ".npy") return open_npy(file, bytes.size());
     if (extension == ".json") open_json(file);
     return {};

@@ -15,10 +15,10 @@ struct OpenedFile {
     std::optional<std::uint16_t> largest = {};
 };
 
-/// Opens a file of a dataset as its reader would: every pixel of a PNG or TIFF is decoded, the
-/// header of an .npy file is read and its length compared with it, those of 16 bits are read whole,
-/// JSON is parsed; other files are taken as they are. std::runtime_error with the reason when it
-/// does not open.
+/// Opens a file of a dataset as its reader would: every pixel of a PNG is decoded, the
+/// header of an .npy or GeoTIFF file is read and its length compared with it, .npy files of 16 bits
+/// are read whole, JSON is parsed; other files are taken as they are. std::runtime_error with the
+/// reason when it does not open.
 OpenedFile open_file(const std::filesystem::path& path);
 
 /// The same for a file that is in memory and would bear this name: a PNG, .npy or JSON.

@@ -44,7 +44,7 @@ Json describe_ping(const Mission& mission, const Assembly& assembly, const Finis
         {"T_world_vehicle", describe_pose(pose.T_world_vehicle)},
         {"T_world_sensor", describe_pose(T_world_sensor)},
         {"random", {{"seed", mission.seed}, {"stream", sonar.settings.stream}, {"ping", id.pose}}},
-        {"full_scale", mission.output.full_scale},
+        {"full_scale", assembly.full_scales[id.sensor]},
         {"clipped_pixels", finished.clipped_pixels},
         {"counts", json_object<Json>(ping_counters, counts)}};
     json["counts"]["multipath"] = json_object<Json>(multipath_counters, counts.multipath);

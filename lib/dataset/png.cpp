@@ -1,35 +1,20 @@
 #include "dataset/png.h"
 
-#include <OpenImageIO/imageio.h>
 #include <zlib.h>
 
 #include <algorithm>
 #include <iterator>
 #include <stdexcept>
-#include <string_view>
 #include <vector>
 
 #include "dataset/deflate.h"
+#include "dataset/png_file.h"
 
 namespace sonarsim {
 
 namespace {
 
 using PngRows = std::vector<std::uint8_t>;
-
-void add_number(std::string& out, std::uint32_t value) {
-    for (int shift = 24; shift >= 0; shift -= 8)
-        out += static_cast<char>(value >> shift & 0xFF);
-}
-
-void add_chunk(std::string& out, std::string_view kind, std::string_view data) {
-    add_number(out, static_cast<std::uint32_t>(data.size()));
-    const std::size_t begin = out.size();
-    out.append(kind).append(data);
-    const auto* const summed = reinterpret_cast<const unsigned char*>(out.data() + begin);
-    add_number(out, static_cast<std::uint32_t>(
-                        ::crc32_z(::crc32_z(0, nullptr, 0), summed, out.size() - begin)));
-}
 
 void check_size(std::size_t values, int width, int height, int channels) {
     if (values == static_cast<std::size_t>(width) * height * channels) return;
@@ -39,21 +24,12 @@ void check_size(std::size_t values, int width, int height, int channels) {
 /// `rows`: each with its filter in front.
 std::string encode(const PngRows& rows, int width, int height, int channels, int bits,
                    Packing packing) {
-    std::string header;
-    add_number(header, static_cast<std::uint32_t>(width));
-    add_number(header, static_cast<std::uint32_t>(height));
-    header += static_cast<char>(bits);
-    header += channels == 3 ? '\2' : '\0';
-    header.append(3, '\0');
-    std::string out("\x89PNG\r\n\x1a\n");
-    add_chunk(out, "IHDR", header);
     // Measured for a noisy ping of 512 x 256 bins in 16 bits (256 KiB, stored) and its fan of
     // 539 x 539 pixels in 8 bits (284 KiB, packed to 0.32 of that): 0.18 and 0.47 ms. With the same
     // filters and looking for runs alone, OpenImageIO 2.4 with zlib 1.2.13 took 0.34 and 1.69 ms;
     // libdeflate 1.14 at level 1 took 1.59 ms for the fan, and 5 % more room.
-    add_chunk(out, "IDAT", zlib_bytes(rows, channels * bits / 8, packing));
-    add_chunk(out, "IEND", {});
-    return out;
+    return png_file({width, height, bits, channels == 3 ? PngColours::rgb : PngColours::grey},
+                    zlib_bytes(rows, channels * bits / 8, packing));
 }
 
 constexpr std::uint8_t filter_none = 0;
@@ -102,9 +78,7 @@ double png_bytes_at_most(int width, int height, int bytes_per_pixel) {
 }
 
 std::string png_encoder() {
-    const int version = OIIO::openimageio_version();  // 20407 is 2.4.7
-    return "sonarsim 1; of products OpenImageIO " + std::to_string(version / 10000) + "." +
-           std::to_string(version / 100 % 100) + "." + std::to_string(version % 100);
+    return std::string("sonarsim 1; of products zlib ") + ::zlibVersion();
 }
 
 }  // namespace sonarsim

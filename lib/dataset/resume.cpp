@@ -91,8 +91,8 @@ std::uint64_t FinishedPings::bytes_of(const PingId& ping, std::size_t k) const {
     return parse_entry(words_of(ping).at(k)).value_or(FileEntry{}).bytes;
 }
 
-const std::vector<std::string>& FinishedPings::words_of(const PingId& ping) const {
-    return entries_.pings.at(ping);
+std::vector<std::string> FinishedPings::words_of(const PingId& ping) const {
+    return entries_.pings.find(ping).value();
 }
 
 bool FinishedPings::operator()(const PingId& ping) const {
@@ -101,12 +101,12 @@ bool FinishedPings::operator()(const PingId& ping) const {
 }
 
 bool FinishedPings::is_told(const PingId& ping) const {
-    const auto entry = entries_.pings.find(ping);
+    const auto words = entries_.pings.find(ping);
     const SensorLayout& sensor = layout_.sensors[ping.sensor];
     const auto& parts = sensor.per_ping;
-    if (entry == entries_.pings.end() || entry->second.size() != parts.size()) return false;
+    if (!words || words->size() != parts.size()) return false;
     for (std::size_t k = 0; k < parts.size(); ++k) {
-        const std::string& expected = entry->second[k];
+        const std::string& expected = (*words)[k];
         if (const auto* file = std::get_if<PingFile>(&parts[k])) {
             const auto told = parse_entry(expected);
             if (!told) return false;

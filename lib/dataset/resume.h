@@ -29,7 +29,7 @@ class FinishedPings {
     /// Of a finished ping the bytes of its k-th file.
     std::uint64_t bytes_of(const PingId& ping, std::size_t k) const;
     /// What the journal says of a finished ping.
-    const std::vector<std::string>& words_of(const PingId& ping) const;
+    std::vector<std::string> words_of(const PingId& ping) const;
 
   private:
     bool is_told(const PingId& ping) const;

@@ -5,6 +5,7 @@
 #include "core/file.h"
 #include "dataset/coco.h"
 #include "dataset/coco_records.h"
+#include "dataset/coco_scans.h"
 #include "dataset/shared_products.h"
 #include "dataset/split.h"
 
@@ -43,6 +44,8 @@ void write_shared_products(const Layout& layout, const Mission& mission,
             case SharedProduct::Kind::coco:
                 if (product.picture == CocoPicture::record) {
                     write_record_coco(layout, description, product);
+                } else if (product.picture == CocoPicture::scan) {
+                    write_scan_coco(layout, mission, description, product);
                 } else {
                     write_coco(layout, description, product, part_of_pose);
                 }

@@ -20,6 +20,11 @@ bool has_pictures(const Mission& mission, CocoPicture picture) {
                    (record == RecordKind::echogram && output.echogram);
         });
     }
+    if (picture == CocoPicture::scan) {
+        return output.scan && std::ranges::any_of(mission.sensors, [](const SonarConfig& sensor) {
+                   return kind_of(sensor.kind).record == RecordKind::scan;
+               });
+    }
     const bool written = picture == CocoPicture::fan ? output.fan : output.image || output.polar;
     return written && std::ranges::any_of(mission.sensors, [](const SonarConfig& sensor) {
                return kind_of(sensor.kind).has_images;
@@ -32,10 +37,12 @@ std::string part_name(SplitPart part) {
 
 void add_coco(const Mission& mission, CocoPicture picture, std::vector<SharedProduct>& products) {
     if (!has_pictures(mission, picture)) return;
-    const char* const stems[] = {"labels/coco", "labels/coco_fan", "labels/coco_records"};
+    const char* const stems[] = {"labels/coco", "labels/coco_fan", "labels/coco_records",
+                                 "labels/coco_scans"};
     const std::string stem = stems[static_cast<std::size_t>(picture)];
     products.push_back({SharedProduct::Kind::coco, stem + ".json", picture, SplitPart::none});
-    if (picture == CocoPicture::record) return;  // pictures of the whole trajectory
+    const bool of_pings = picture == CocoPicture::polar || picture == CocoPicture::fan;
+    if (!of_pings) return;
     for (const SplitPart part : parts_of(mission.output.split)) {
         products.push_back(
             {SharedProduct::Kind::coco, stem + "_" + part_name(part) + ".json", picture, part});
@@ -59,6 +66,7 @@ std::vector<SharedProduct> shared_products(const Mission& mission) {
         add_coco(mission, CocoPicture::polar, products);
         add_coco(mission, CocoPicture::fan, products);
         add_coco(mission, CocoPicture::record, products);
+        add_coco(mission, CocoPicture::scan, products);
     }
     if (is_asked(mission, Label::yolo) || is_asked(mission, Label::yolo_polygons)) {
         products.push_back({SharedProduct::Kind::class_names, "labels/classes.txt"});
@@ -82,7 +90,9 @@ void check_shared_products(const Mission& mission, std::size_t poses) {
     const std::array needs{
         Need{Label::fan, "fan", fan, "output.fan: true"},
         Need{Label::semantic, "semantic", imaging, ""},
-        Need{Label::coco, "coco", polar || fan || has_pictures(mission, CocoPicture::record),
+        Need{Label::coco, "coco",
+             polar || fan || has_pictures(mission, CocoPicture::record) ||
+                 has_pictures(mission, CocoPicture::scan),
              "output.image, polar or fan: true"},
         Need{Label::yolo, "yolo", imaging, ""},
         Need{Label::yolo_polygons, "yolo_polygons", imaging, ""},

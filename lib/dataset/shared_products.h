@@ -14,6 +14,7 @@ enum class CocoPicture {
     polar,
     fan,
     record,  ///< of all pings of a sensor: waterfalls and echograms
+    scan,    ///< of the sweeps of a scanning sonar
 };
 
 /// A file that is made of the pings of all sonars when all of them are there.

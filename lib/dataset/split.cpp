@@ -22,7 +22,11 @@ std::vector<SplitPart> parts_of(const SplitConfig& config) {
     return parts;
 }
 
-std::vector<SplitPart> split_poses(const SplitConfig& config, std::size_t poses) {
+namespace {
+
+/// `what`: of which there are `poses`.
+std::vector<SplitPart> split(const SplitConfig& config, std::size_t poses,
+                             const std::string& what) {
     const std::vector<SplitPart> parts = parts_of(config);
     std::vector<SplitPart> of_pose(poses, SplitPart::none);
     std::vector<std::size_t> borders;
@@ -53,11 +57,23 @@ std::vector<SplitPart> split_poses(const SplitConfig& config, std::size_t poses)
     for (const SplitPart part : parts) {
         if (std::ranges::find(of_pose, part) != of_pose.end()) continue;
         throw InputError(config.place.location,
-                         "of " + std::to_string(poses) + " poses none is left for '" +
+                         "of " + std::to_string(poses) + " " + what + " none is left for '" +
                              std::string(split_part_names[static_cast<std::size_t>(part)]) +
                              "': take a smaller gap, fewer rounds, or leave the part out");
     }
     return of_pose;
+}
+
+}  // namespace
+
+std::vector<SplitPart> split_poses(const SplitConfig& config, std::size_t poses) {
+    return split(config, poses, "poses");
+}
+
+std::vector<SplitPart> split_variants(const SplitConfig& config, std::size_t variants) {
+    SplitConfig without_gap = config;
+    without_gap.gap = 0;
+    return split(without_gap, variants, "variants");
 }
 
 }  // namespace sonarsim

@@ -27,4 +27,7 @@ std::vector<SplitPart> parts_of(const SplitConfig& config);
 /// have neighbours. InputError when a part would get no pose.
 std::vector<SplitPart> split_poses(const SplitConfig& config, std::size_t poses);
 
+/// The part of each variant, which has neighbours nowhere: as of poses, and without gaps.
+std::vector<SplitPart> split_variants(const SplitConfig& config, std::size_t variants);
+
 }  // namespace sonarsim

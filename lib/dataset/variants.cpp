@@ -12,6 +12,7 @@
 #include "dataset/layout.h"
 #include "dataset/metadata.h"
 #include "dataset/ping_metadata.h"
+#include "dataset/split.h"
 #include "mission/resolved.h"
 #include "mission/variants.h"
 #include "scene/gltf/scene_files.h"
@@ -47,6 +48,24 @@ void remove_variant(const fs::path& folder, const Mission& mission) {
     layout.folder = folder;
     remove_dataset(layout, mission);
     if (fs::is_empty(folder)) fs::remove(folder);
+}
+
+/// Where the variants are parted: their folders in a file for each part, a line each.
+void write_split(const fs::path& folder, const Json& json) {
+    for (const std::string_view part : split_part_names) {
+        std::string lines;
+        for (const Json& variant : json.at("variants")) {
+            if (variant.value("split", "") == part)
+                lines += variant.at("folder").get<std::string>() + '\n';
+        }
+        const fs::path file = folder / "split" / (std::string(part) + ".txt");
+        if (lines.empty()) {
+            fs::remove(file);  // of the variants that were there before
+            continue;
+        }
+        fs::create_directories(file.parent_path());
+        write_file(file, lines);
+    }
 }
 
 void add(RenderSummary& all, const RenderSummary& one) {
@@ -86,6 +105,11 @@ Json describe_variants(const Mission& mission, std::span<const Mission> variants
         json["variants"].push_back({{"folder", variant_folder(variant.variant.index)},
                                     {"seed", variant.seed},
                                     {"drawn", describe_drawn(variant.variant)}});
+    }
+    if (mission.output.split.is_on()) {
+        const std::vector<SplitPart> parts = split_variants(mission.output.split, variants.size());
+        for (std::size_t i = 0; i < parts.size(); ++i)
+            json["variants"][i]["split"] = split_part_names[static_cast<std::size_t>(parts[i])];
     }
     return json;
 }
@@ -130,6 +154,7 @@ void begin_variants(const fs::path& folder, const Json& json, std::span<const Mi
     }
     fs::create_directories(folder);
     write_file_durably(folder / variants_name, json_text(json));
+    write_split(folder, json);
 }
 
 RenderSummary run_variants(const Mission& mission, std::span<const Mission> variants,

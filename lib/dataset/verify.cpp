@@ -17,6 +17,7 @@
 #include "core/text.h"
 #include "dataset/checksums.h"
 #include "dataset/description.h"
+#include "dataset/gallery_file.h"
 #include "dataset/layout.h"
 #include "dataset/metadata.h"
 #include "dataset/open_file.h"
@@ -39,27 +40,6 @@ constexpr const char* render_again =
 
 void add_fault(DatasetCheck& check, const std::string& fault) {
     check.faults.size() < most_faults ? check.faults.push_back(fault) : void(++check.more_faults);
-}
-
-Json require_dataset(const fs::path& folder) {
-    if (!fs::is_regular_file(folder / description_name)) {
-        throw InputError({folder.string()},
-                         "is no dataset: it has no dataset.json; give the output folder of a "
-                         "render");
-    }
-    std::optional<Json> description = read_description(folder);
-    if (!description) {
-        throw InputError({(folder / description_name).string()},
-                         "is not sonarsim's, or damaged; give the output folder of a render");
-    }
-    const Json version = description->value("format_version", Json());
-    if (version != dataset_format_version) {
-        throw InputError({(folder / description_name).string()},
-                         "has format_version " + version.dump() + ", and this program knows " +
-                             std::to_string(dataset_format_version) +
-                             "; use the version that made the dataset");
-    }
-    return *std::move(description);
 }
 
 /// A file that is to be looked at.
@@ -245,7 +225,7 @@ std::vector<std::string> strangers_in(const fs::path& folder,
 DatasetCheck verify_dataset(const fs::path& folder, int threads,
                             const std::function<void(std::uint64_t, std::uint64_t)>& progress,
                             const std::atomic<bool>& stop) {
-    const Json description = require_dataset(folder);
+    const Json description = require_description(folder);
     const bool complete = description.value("complete", Json()) == true;
     DatasetCheck check;
     if (!complete) {
@@ -267,6 +247,7 @@ DatasetCheck verify_dataset(const fs::path& folder, int threads,
                                      "them was changed: render the dataset anew (--overwrite)");
             }
         }
+        if (has_gallery(folder)) expected.insert(gallery_name);
         check.strangers = strangers_in(folder, expected);
     }
     if (threads <= 0) threads = tbb::info::default_concurrency();

@@ -23,12 +23,21 @@ StreamedFile::StreamedFile(const std::filesystem::path& path)
 }
 
 void StreamedFile::append(std::string_view bytes) {
+    constexpr std::size_t most_pending = std::size_t{1} << 16;
+    pending_ += bytes;
+    if (pending_.size() < most_pending) return;
+    put(pending_);
+    pending_.clear();
+}
+
+void StreamedFile::put(std::string_view bytes) {
     if (std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size()) {
         throw_errno("cannot write", whole_.part());
     }
 }
 
 void StreamedFile::finish() {
+    put(pending_);
     if (std::fclose(file_.release()) != 0) throw_errno("cannot write", whole_.part());
     whole_.keep();
 }

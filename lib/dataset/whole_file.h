@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <string_view>
 
 namespace sonarsim {
@@ -39,8 +40,11 @@ class StreamedFile {
         void operator()(std::FILE* file) const { std::fclose(file); }
     };
 
+    void put(std::string_view bytes);
+
     WholeFile whole_;
     std::unique_ptr<std::FILE, Close> file_;
+    std::string pending_;  ///< lines come in by the thousand
 };
 
 }  // namespace sonarsim

@@ -35,6 +35,7 @@ struct WriterContext {
 
     const Sonar& sonar() const { return assembly.sonars[sensor]; }
     const KindOfSonar& kind() const { return kind_of(sonar().config.kind); }
+    double full_scale() const { return assembly.full_scales[sensor]; }
 };
 
 /// A finished ping, with all that a writer may ask about it.

@@ -180,15 +180,27 @@ struct SplitConfig {
 /// What the files of pings are put together in.
 enum class Pack { none, tar };
 
+enum class FanColours { grey, copper, amber, sea };
+
+/// How fans are drawn; as it stands here they are grey and bare.
+struct FanStyleConfig {
+    FanColours colours = FanColours::grey;
+    bool rings = false;     ///< of equal range, with their numbers
+    bool bearings = false;  ///< lines of equal azimuth, with theirs
+
+    bool operator==(const FanStyleConfig&) const = default;
+};
+
 struct OutputConfig {
     std::filesystem::path folder;
-    bool polar = true;        ///< float32 .npy
-    bool image = false;       ///< 16-bit polar PNG
-    bool fan = true;          ///< 8-bit Cartesian PNG
-    bool meta = true;         ///< JSON per ping
-    bool stages = false;      ///< 8-bit PNG of five fans, one term of the model after the other
-    int fan_width_px = 0;     ///< 0: one pixel per range bin, at most 1024
-    double full_scale = 1.0;  ///< intensity that becomes white
+    bool polar = true;     ///< float32 .npy
+    bool image = false;    ///< 16-bit polar PNG
+    bool fan = true;       ///< 8-bit Cartesian PNG
+    bool meta = true;      ///< JSON per ping
+    bool stages = false;   ///< 8-bit PNG of five fans, one term of the model after the other
+    int fan_width_px = 0;  ///< 0: one pixel per range bin, at most 1024
+    FanStyleConfig fan_style = {};
+    double full_scale = 0.0;         ///< intensity that becomes white; 0: found for each sonar
     std::vector<Label> labels = {};  ///< each at most once, in the order of the enumeration
     Place labels_place = {};
     SplitConfig split = {};
@@ -202,6 +214,9 @@ struct OutputConfig {
     bool soundings = true;           ///< of profiling sonars, and the map made of them
     bool scan = true;                ///< of scanning sonars
     double bathymetry_cell_m = 0.0;  ///< 0: by the number of soundings
+    bool xtf = false;                ///< of side-scan, for other programs
+    bool mosaic = false;             ///< of side-scan, on the ground
+    double mosaic_cell_m = 0.0;      ///< 0: by the distance of pings
 
     bool operator==(const OutputConfig&) const = default;
 };

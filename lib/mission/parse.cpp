@@ -52,9 +52,13 @@ Mission parse_mission(const YamlNode& root, const std::string& file_name,
     mission.name = std::filesystem::path(file_name).stem().string();
     YamlNode filled = root;
     fill_in_presets(filled, base_folder);
-    MissionReader reader(filled, "mission", base_folder, sonars);
-    describe(reader, mission);
-    reader.finish();
+    Problems problems;
+    problems.attempt([&] {
+        MissionReader reader(filled, "mission", base_folder, sonars, problems);
+        describe(reader, mission);
+        reader.finish();
+    });
+    problems.raise();
     if (mission.water.sound_speed_m_s == 0.0)
         mission.water.sound_speed_m_s = sound_speed_m_s(mission.water);
     if (mission.output.folder.empty()) {

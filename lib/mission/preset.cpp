@@ -1,6 +1,8 @@
 #include "mission/preset.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <system_error>
 
 #include "core/file.h"
 
@@ -24,13 +26,33 @@ void fill_in(YamlNode& section, const YamlNode& preset) {
     }
 }
 
+/// A preset that came with the program, "sensors/NAME.yaml": installed below share/, or in the
+/// checkout that holds the build folder. Empty where there is none.
+std::filesystem::path shipped_preset(const std::filesystem::path& name) {
+    std::error_code unknown;
+    const auto program = std::filesystem::read_symlink("/proc/self/exe", unknown);
+    if (unknown || name.is_absolute()) return {};
+    const std::filesystem::path above = program.parent_path().parent_path();
+    for (const char* folder : {"share/sonarsim/configs", "configs"}) {
+        const std::filesystem::path path = above / folder / name;
+        if (std::filesystem::is_regular_file(path, unknown)) return path;
+    }
+    return {};
+}
+
 YamlNode read_preset(const YamlNode& name, const std::filesystem::path& base_folder) {
     if (name.kind != YamlNode::Kind::scalar || name.text.empty()) {
         throw InputError(name.place.location(), "'preset' must be the path of a YAML file");
     }
-    const auto path = std::filesystem::absolute(base_folder / name.text).lexically_normal();
+    auto path = std::filesystem::absolute(base_folder / name.text).lexically_normal();
     if (!std::filesystem::is_regular_file(path)) {
-        throw InputError(name.place.location(), "there is no preset " + in_quotes(path.string()));
+        const std::filesystem::path shipped = shipped_preset(name.text);
+        if (shipped.empty()) {
+            throw InputError(name.place.location(),
+                             "there is no preset " + in_quotes(path.string()) +
+                                 ", and none of this name came with the program");
+        }
+        path = shipped;
     }
     YamlNode preset = read_document(read_file(path, largest_preset), path.string());
     if (preset.kind != YamlNode::Kind::map) {

@@ -80,8 +80,13 @@ bool is_name(std::string_view text) {
 }  // namespace
 
 MissionReader::MissionReader(const YamlNode& node, std::string name,
-                             const std::filesystem::path& base_folder, SonarKeyTable sonars)
-    : node_(node), name_(std::move(name)), base_folder_(base_folder), sonars_(sonars) {
+                             const std::filesystem::path& base_folder, SonarKeyTable sonars,
+                             Problems& problems)
+    : node_(node),
+      name_(std::move(name)),
+      base_folder_(base_folder),
+      sonars_(sonars),
+      problems_(problems) {
     if (node.kind != YamlNode::Kind::map) refuse_type(node, name_, "a section of keys");
 }
 
@@ -116,119 +121,144 @@ const SonarKeys& MissionReader::sonar_kind(const char* key, SonarConfig& value,
 
 void MissionReader::number(const char* key, double& value, const Limits& limits,
                            const char* /*meaning*/, Presence presence) {
-    if (const YamlNode* node = find(key, presence)) value = read_number(*node, key, limits);
+    attempt(key, [&] {
+        if (const YamlNode* node = find(key, presence)) value = read_number(*node, key, limits);
+    });
 }
 
 void MissionReader::number_or_auto(const char* key, double& value, const Limits& limits,
                                    const char* /*meaning*/) {
-    const YamlNode* node = find(key, Presence::optional);
-    if (node == nullptr) return;
-    if (node->kind == YamlNode::Kind::scalar && node->text == "auto") {
-        value = 0.0;
-        return;
-    }
-    const bool is_number = is_plain(*node) && parse_number(node->text);
-    if (!is_number) refuse_type(*node, key, "auto or a number");
-    value = read_number(*node, key, limits);
+    attempt(key, [&] {
+        const YamlNode* node = find(key, Presence::optional);
+        if (node == nullptr) return;
+        if (node->kind == YamlNode::Kind::scalar && node->text == "auto") {
+            value = 0.0;
+            return;
+        }
+        const bool is_number = is_plain(*node) && parse_number(node->text);
+        if (!is_number) refuse_type(*node, key, "auto or a number");
+        value = read_number(*node, key, limits);
+    });
 }
 
 void MissionReader::integer(const char* key, int& value, const Limits& limits,
                             const char* /*meaning*/) {
-    const YamlNode* node = find(key, Presence::optional);
-    if (node == nullptr) return;
-    const std::optional<std::int64_t> number =
-        is_plain(*node) ? parse_integer(node->text) : std::nullopt;
-    if (!number) refuse_type(*node, key, "a whole number");
-    check_limits(*node, key, static_cast<double>(*number), limits);
-    value = static_cast<int>(*number);
+    attempt(key, [&] {
+        const YamlNode* node = find(key, Presence::optional);
+        if (node == nullptr) return;
+        const std::optional<std::int64_t> number =
+            is_plain(*node) ? parse_integer(node->text) : std::nullopt;
+        if (!number) refuse_type(*node, key, "a whole number");
+        check_limits(*node, key, static_cast<double>(*number), limits);
+        value = static_cast<int>(*number);
+    });
 }
 
 void MissionReader::integer(const char* key, std::uint64_t& value, const char* /*meaning*/) {
-    const YamlNode* node = find(key, Presence::optional);
-    if (node == nullptr) return;
-    const std::optional<std::uint64_t> number =
-        is_plain(*node) ? parse_unsigned(node->text) : std::nullopt;
-    if (!number) refuse_type(*node, key, "a whole number from 0 to 2^64 - 1");
-    value = *number;
+    attempt(key, [&] {
+        const YamlNode* node = find(key, Presence::optional);
+        if (node == nullptr) return;
+        const std::optional<std::uint64_t> number =
+            is_plain(*node) ? parse_unsigned(node->text) : std::nullopt;
+        if (!number) refuse_type(*node, key, "a whole number from 0 to 2^64 - 1");
+        value = *number;
+    });
 }
 
 void MissionReader::flag(const char* key, bool& value, const char* /*meaning*/) {
-    const YamlNode* node = find(key, Presence::optional);
-    if (node == nullptr) return;
-    const bool yes = is_plain(*node) && node->text == "true";
-    if (!yes && !(is_plain(*node) && node->text == "false")) {
-        refuse_type(*node, key, "true or false");
-    }
-    value = yes;
+    attempt(key, [&] {
+        const YamlNode* node = find(key, Presence::optional);
+        if (node == nullptr) return;
+        const bool yes = is_plain(*node) && node->text == "true";
+        if (!yes && !(is_plain(*node) && node->text == "false")) {
+            refuse_type(*node, key, "true or false");
+        }
+        value = yes;
+    });
 }
 
 void MissionReader::text(const char* key, std::string& value, const char* /*meaning*/,
                          Presence presence) {
-    if (const YamlNode* node = find(key, presence)) value = read_text(*node, key);
+    attempt(key, [&] {
+        if (const YamlNode* node = find(key, presence)) value = read_text(*node, key);
+    });
 }
 
 void MissionReader::texts(const char* key, std::vector<std::string>& values,
                           const char* /*meaning*/) {
-    const YamlNode* node = find(key, Presence::optional);
-    if (node == nullptr) return;
-    if (node->kind != YamlNode::Kind::list) refuse_type(*node, key, "a list of texts");
-    values.clear();
-    for (const YamlNode& item : node->items)
-        values.push_back(read_text(item, key));
+    attempt(key, [&] {
+        const YamlNode* node = find(key, Presence::optional);
+        if (node == nullptr) return;
+        if (node->kind != YamlNode::Kind::list) refuse_type(*node, key, "a list of texts");
+        values.clear();
+        for (const YamlNode& item : node->items)
+            values.push_back(read_text(item, key));
+    });
 }
 
 void MissionReader::renaming(const char* key,
                              std::vector<std::pair<std::string, std::string>>& values,
                              const char* /*meaning*/) {
-    const YamlNode* node = find(key, Presence::optional);
-    if (node == nullptr) return;
-    if (node->kind != YamlNode::Kind::map) refuse_type(*node, key, "a section of names");
-    values.clear();
-    for (const YamlNode& item : node->items)
-        values.emplace_back(item.key, read_text(item, key));
+    attempt(key, [&] {
+        const YamlNode* node = find(key, Presence::optional);
+        if (node == nullptr) return;
+        if (node->kind != YamlNode::Kind::map) refuse_type(*node, key, "a section of names");
+        values.clear();
+        for (const YamlNode& item : node->items)
+            values.emplace_back(item.key, read_text(item, key));
+    });
 }
 
 void MissionReader::values(const char* key, std::vector<std::string>& values,
                            const char* /*meaning*/) {
-    const YamlNode* node = find(key, Presence::optional);
-    if (node == nullptr) return;
-    if (node->kind != YamlNode::Kind::list || node->items.empty())
-        refuse_type(*node, key, "a list of one or more values");
-    values.clear();
-    for (const YamlNode& item : node->items)
-        values.push_back(flow_text(item));
+    attempt(key, [&] {
+        const YamlNode* node = find(key, Presence::optional);
+        if (node == nullptr) return;
+        if (node->kind != YamlNode::Kind::list || node->items.empty())
+            refuse_type(*node, key, "a list of one or more values");
+        values.clear();
+        for (const YamlNode& item : node->items)
+            values.push_back(flow_text(item));
+    });
 }
 
 void MissionReader::range(const char* key, std::array<double, 2>& value, const Limits& limits,
                           const char* /*meaning*/) {
-    const YamlNode* node = find(key, Presence::optional);
-    if (node == nullptr) return;
-    if (node->kind != YamlNode::Kind::list) {
-        value.fill(read_number(*node, key, limits));
-        return;
-    }
-    read_list(*node, key, value.data(), 2, limits);
-    if (value[0] > value[1])
-        refuse(*node, "'" + std::string(key) + "': the first number must not be above the second");
+    attempt(key, [&] {
+        const YamlNode* node = find(key, Presence::optional);
+        if (node == nullptr) return;
+        if (node->kind != YamlNode::Kind::list) {
+            value.fill(read_number(*node, key, limits));
+            return;
+        }
+        read_list(*node, key, value.data(), 2, limits);
+        if (value[0] > value[1])
+            refuse(*node,
+                   "'" + std::string(key) + "': the first number must not be above the second");
+    });
 }
 
 void MissionReader::path(const char* key, std::filesystem::path& value, const char* /*meaning*/,
                          Presence presence) {
-    if (const YamlNode* node = find(key, presence)) value = path_of(*node, key);
+    attempt(key, [&] {
+        if (const YamlNode* node = find(key, presence)) value = path_of(*node, key);
+    });
 }
 
 void MissionReader::paths(const char* key, std::vector<std::filesystem::path>& values,
                           const char* /*meaning*/, Presence presence) {
-    const YamlNode* node = find(key, presence);
-    if (node == nullptr) return;
-    values.clear();
-    if (node->kind != YamlNode::Kind::list) {
-        values.push_back(path_of(*node, key));
-        return;
-    }
-    if (node->items.empty()) refuse_type(*node, key, "a path or a list of one or more");
-    for (const YamlNode& item : node->items)
-        values.push_back(path_of(item, key));
+    attempt(key, [&] {
+        const YamlNode* node = find(key, presence);
+        if (node == nullptr) return;
+        values.clear();
+        if (node->kind != YamlNode::Kind::list) {
+            values.push_back(path_of(*node, key));
+            return;
+        }
+        if (node->items.empty()) refuse_type(*node, key, "a path or a list of one or more");
+        for (const YamlNode& item : node->items)
+            values.push_back(path_of(item, key));
+    });
 }
 
 std::filesystem::path MissionReader::path_of(const YamlNode& node, const char* key) const {
@@ -325,8 +355,12 @@ const std::vector<YamlNode>& MissionReader::named_items(const char* key) {
 }
 
 void MissionReader::require(bool holds, std::initializer_list<const char*> keys,
-                            const char* message) const {
+                            const char* message) {
     if (holds) return;
+    const auto is_faulty = [&](const char* key) {
+        return std::ranges::find(faulty_, key) != faulty_.end();
+    };
+    if (std::ranges::any_of(keys, is_faulty)) return;
     const YamlNode* last = nullptr;
     // An override, which has no line, was written after all of the file.
     const auto after = [](const YamlPlace& a, const YamlPlace& b) {
@@ -337,16 +371,17 @@ void MissionReader::require(bool holds, std::initializer_list<const char*> keys,
         const YamlNode* node = node_.find(key);
         if (node != nullptr && (last == nullptr || after(node->place, last->place))) last = node;
     }
-    refuse(last != nullptr ? *last : node_, message);
+    problems_.attempt([&] { refuse(last != nullptr ? *last : node_, message); });
+    faulty_.insert(faulty_.end(), keys.begin(), keys.end());
 }
 
-void MissionReader::finish() const {
+void MissionReader::finish() {
     for (const YamlNode& item : node_.items) {
         if (std::ranges::find(known_, item.key) != known_.end()) continue;
         const std::string hint = did_you_mean(item.key, known_);
-        throw InputError(item.key_place.location(),
-                         "unknown key " + in_quotes(item.key) +
-                             (hint.empty() ? "; known here: " + listed(known_) : hint));
+        problems_.add(InputError(item.key_place.location(),
+                                 "unknown key " + in_quotes(item.key) +
+                                     (hint.empty() ? "; known here: " + listed(known_) : hint)));
     }
 }
 

@@ -12,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/error.h"
 #include "mission/document.h"
 #include "mission/limits.h"
 #include "mission/sonar_keys.h"
@@ -19,12 +20,15 @@
 namespace sonarsim {
 
 /// The visitor that fills a section of a mission from YAML. A key that the document leaves out
-/// keeps its value. Whatever is not exactly right is an InputError at the place of the fault.
+/// keeps its value. Whatever is not exactly right goes to `problems`, with the place of the fault;
+/// only where nothing more can be told of a section, its kind being unknown, an InputError is
+/// thrown.
 class MissionReader {
   public:
-    /// `name` is what messages call the section. Relative paths start at `base_folder`.
+    /// `name` is what messages call the section. Relative paths start at `base_folder`. InputError
+    /// when the node is no section.
     MissionReader(const YamlNode& node, std::string name, const std::filesystem::path& base_folder,
-                  SonarKeyTable sonars);
+                  SonarKeyTable sonars, Problems& problems);
 
     void number(const char* key, double& value, const Limits& limits, const char* meaning,
                 Presence presence = Presence::optional);
@@ -54,15 +58,19 @@ class MissionReader {
     template <std::size_t N>
     void numbers(const char* key, std::array<double, N>& values, const Limits& limits,
                  const char* /*meaning*/, Presence presence = Presence::optional) {
-        if (const YamlNode* node = find(key, presence))
-            read_list(*node, key, values.data(), N, limits);
+        attempt(key, [&] {
+            if (const YamlNode* node = find(key, presence))
+                read_list(*node, key, values.data(), N, limits);
+        });
     }
 
     template <std::size_t N>
     void optional_numbers(const char* key, std::optional<std::array<double, N>>& values,
                           const Limits& limits, const char* /*meaning*/) {
-        if (const YamlNode* node = find(key, Presence::optional))
-            read_list(*node, key, values.emplace().data(), N, limits);
+        attempt(key, [&] {
+            if (const YamlNode* node = find(key, Presence::optional))
+                read_list(*node, key, values.emplace().data(), N, limits);
+        });
     }
 
     template <class T, std::size_t N>
@@ -72,9 +80,10 @@ class MissionReader {
         names.reserve(N);
         for (const Choice<T>& one : choices)
             names.emplace_back(one.name);
-        if (const YamlNode* node = find(key, presence)) {
-            value = choices[index_of(*node, key, names)].value;
-        }
+        attempt(key, [&] {
+            if (const YamlNode* node = find(key, presence))
+                value = choices[index_of(*node, key, names)].value;
+        });
     }
 
     /// `true` for all of the choices, `false` for none, or a list of some of them.
@@ -87,11 +96,13 @@ class MissionReader {
         names.reserve(N);
         for (const Choice<T>& one : choices)
             names.emplace_back(one.name);
-        const std::vector<bool> chosen = read_subset(*node, key, names);
-        values.clear();
-        for (std::size_t i = 0; i < N; ++i) {
-            if (chosen[i]) values.push_back(choices[i].value);
-        }
+        attempt(key, [&] {
+            const std::vector<bool> chosen = read_subset(*node, key, names);
+            values.clear();
+            for (std::size_t i = 0; i < N; ++i) {
+                if (chosen[i]) values.push_back(choices[i].value);
+            }
+        });
     }
 
     /// Where the section stands.
@@ -107,32 +118,41 @@ class MissionReader {
     template <class T>
     void section(const char* key, T& value, const char* /*meaning*/,
                  Presence presence = Presence::optional) {
-        if (const YamlNode* node = find(key, presence)) read(*node, key, value);
+        attempt(key, [&] {
+            if (const YamlNode* node = find(key, presence)) read(*node, key, value);
+        });
     }
 
     template <class T>
     void optional_section(const char* key, std::optional<T>& value, const char* /*meaning*/) {
-        if (const YamlNode* node = find(key, Presence::optional)) read(*node, key, value.emplace());
+        attempt(key, [&] {
+            if (const YamlNode* node = find(key, Presence::optional))
+                read(*node, key, value.emplace());
+        });
     }
 
     /// A list of sections, at least `fewest` of them; where that is 0 it may be left out.
     template <class T>
     void list(const char* key, std::vector<T>& values, std::size_t fewest,
               const char* /*meaning*/) {
-        for (const YamlNode& item : list_items(key, fewest)) {
-            std::string item_name = key + ("." + std::to_string(values.size()));
-            read(item, std::move(item_name), values.emplace_back());
-        }
+        attempt(key, [&] {
+            for (const YamlNode& item : list_items(key, fewest)) {
+                std::string item_name = key + ("." + std::to_string(values.size()));
+                read(item, std::move(item_name), values.emplace_back());
+            }
+        });
     }
 
     /// A map from names to sections, at least one of them. The elements keep their `name`.
     template <class T>
     void named(const char* key, std::vector<T>& values, const char* /*meaning*/) {
-        for (const YamlNode& item : named_items(key)) {
-            T& value = values.emplace_back();
-            value.name = item.key;
-            read(item, item.key, value);
-        }
+        attempt(key, [&] {
+            for (const YamlNode& item : named_items(key)) {
+                T& value = values.emplace_back();
+                value.name = item.key;
+                read(item, item.key, value);
+            }
+        });
     }
 
     /// Chooses the alternative of `value` by the one key of `keys` that is present.
@@ -146,17 +166,28 @@ class MissionReader {
     }
 
     /// A check across several keys. A failure is reported where the last-written of `keys` stands.
-    void require(bool holds, std::initializer_list<const char*> keys, const char* message) const;
+    /// It waits until each of them is right by itself; when it fails, none of them is right.
+    void require(bool holds, std::initializer_list<const char*> keys, const char* message);
 
     /// To be called when all keys are read: what then is left over is unknown.
-    void finish() const;
+    void finish();
 
   private:
     template <class T>
     void read(const YamlNode& node, std::string name, T& value) {
-        MissionReader reader(node, std::move(name), base_folder_, sonars_);
-        describe(reader, value);
-        reader.finish();
+        problems_.attempt([&] {
+            MissionReader reader(node, std::move(name), base_folder_, sonars_, problems_);
+            describe(reader, value);
+            reader.finish();
+        });
+    }
+
+    /// Reads one key. When it is wrong its value is not to be used.
+    template <class Read>
+    void attempt(const char* key, Read&& read_key) {
+        const std::size_t before = problems_.count();
+        problems_.attempt(read_key);
+        if (problems_.count() > before) faulty_.emplace_back(key);
     }
 
     const YamlNode* find(const char* key, Presence presence);
@@ -175,7 +206,9 @@ class MissionReader {
     std::string name_;
     const std::filesystem::path& base_folder_;
     SonarKeyTable sonars_;
+    Problems& problems_;
     std::vector<std::string> known_;
+    std::vector<std::string> faulty_;  ///< keys with something wrong in them
 };
 
 }  // namespace sonarsim

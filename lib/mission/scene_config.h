@@ -71,6 +71,9 @@ struct ScatterConfig {
     bool operator==(const ScatterConfig&) const = default;
 };
 
+/// What becomes of a file that is put into the scene many times.
+enum class RepeatedFiles { automatic, copied, shared };
+
 /// The surface of the water, a mirror for sound from below.
 struct WaterSurfaceConfig {
     double height_m = 0.0;
@@ -87,6 +90,7 @@ struct SceneConfig {
     std::vector<std::string> bottom = {};  ///< patterns of nodes of `file` that objects rest on
     std::vector<ObjectConfig> objects = {};
     std::vector<ScatterConfig> scatter = {};
+    RepeatedFiles repeats = RepeatedFiles::automatic;
     std::optional<WaterSurfaceConfig> water_surface = {};
     Place place = {};
 

@@ -18,6 +18,10 @@ inline constexpr std::array up_axes{Choice<UpAxis>{"y", UpAxis::y}, Choice<UpAxi
 inline constexpr std::array object_places{Choice<ObjectPlace>{"free", ObjectPlace::free},
                                           Choice<ObjectPlace>{"on_bottom", ObjectPlace::on_bottom}};
 
+inline constexpr std::array repeated_files{Choice<RepeatedFiles>{"auto", RepeatedFiles::automatic},
+                                           Choice<RepeatedFiles>{"copied", RepeatedFiles::copied},
+                                           Choice<RepeatedFiles>{"shared", RepeatedFiles::shared}};
+
 /// The largest factor by which an object is enlarged or made smaller.
 inline constexpr double largest_scale = 1e6;
 
@@ -114,6 +118,10 @@ void describe(Visitor& v, SceneConfig& c) {
             "object where there is no `file`");
     v.list("objects", c.objects, 0, "files that are put into the scene, one by one");
     v.list("scatter", c.scatter, 0, "files that are strewn over the bottom at random");
+    v.choice("repeats", c.repeats, repeated_files,
+             "a file that is used again: `copied` repeats its triangles; `shared` keeps them once, "
+             "for objects with names that stand still, and only rays see them; `auto` shares when "
+             "the copies have more than four million triangles and the engine can be rays");
     v.optional_section("water_surface", c.water_surface,
                        "the surface of the water: a mirror for multipath, and invisible otherwise");
     v.require(!c.file.empty() || !c.objects.empty(), {}, "'scene' needs the key 'file' or objects");

@@ -50,6 +50,10 @@ inline constexpr std::array label_names{Choice<Label>{"instance", Label::instanc
                                         Choice<Label>{"yolo", Label::yolo},
                                         Choice<Label>{"yolo_polygons", Label::yolo_polygons}};
 
+inline constexpr std::array fan_colours{
+    Choice<FanColours>{"grey", FanColours::grey}, Choice<FanColours>{"copper", FanColours::copper},
+    Choice<FanColours>{"amber", FanColours::amber}, Choice<FanColours>{"sea", FanColours::sea}};
+
 inline constexpr std::array packs{Choice<Pack>{"none", Pack::none}, Choice<Pack>{"tar", Pack::tar}};
 
 /// Fit for the name of a folder that holds nothing but one mission.
@@ -245,6 +249,15 @@ void describe(Visitor& v, SplitConfig& c) {
 }
 
 template <class Visitor>
+void describe(Visitor& v, FanStyleConfig& c) {
+    v.choice("colours", c.colours, fan_colours,
+             "what dark to bright become; `sea` goes from violet over green to yellow");
+    v.flag("rings", c.rings, "draw rings of equal range, with their numbers");
+    v.flag("bearings", c.bearings,
+           "draw lines of equal azimuth, with their degrees to port (P) and starboard (S)");
+}
+
+template <class Visitor>
 void describe(Visitor& v, OutputConfig& c) {
     v.path("folder", c.folder,
            "folder of the dataset; out/NAME in the current directory where left out");
@@ -260,7 +273,13 @@ void describe(Visitor& v, OutputConfig& c) {
            "noise and streaks");
     v.integer("fan_width_px", c.fan_width_px, between(0, 8192),
               "width of the fan; 0 means one pixel per range bin, at most 1024");
-    v.number("full_scale", c.full_scale, above(0), "intensity that becomes white");
+    v.section("fan_style", c.fan_style,
+              "how the fans and scans in PNG files are drawn: grey of one channel where nothing is "
+              "set, else RGB");
+    v.number_or_auto(
+        "full_scale", c.full_scale, above(0),
+        "intensity that becomes white in pictures; `auto`: found for each sonar from a few pings, "
+        "and told in dataset.json");
     v.subset("labels", c.labels, label_names,
              "write what is in every bin: `true` for all, or a list of them");
     v.place("labels", c.labels_place);
@@ -278,6 +297,13 @@ void describe(Visitor& v, OutputConfig& c) {
     v.flag("scan", c.scan, "write the scans of scanning sonars");
     v.number("bathymetry_cell_m", c.bathymetry_cell_m, at_least(0),
              "cell of the map of soundings; 0 means four soundings to a cell or more on average");
+    v.flag("xtf", c.xtf, "with `waterfall`, write it as XTF as well, for other programs");
+    v.flag("mosaic", c.mosaic,
+           "with `waterfall`, lay it on the ground: a map of echoes as GeoTIFF");
+    v.number("mosaic_cell_m", c.mosaic_cell_m, at_least(0),
+             "cell of the mosaic; 0 means as wide as pings lie apart");
+    v.require(c.waterfall || !(c.xtf || c.mosaic), {"waterfall", "xtf", "mosaic"},
+              "xtf and mosaic are made of the waterfall: write waterfall: true");
 }
 
 template <class Visitor>

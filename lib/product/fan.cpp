@@ -23,10 +23,13 @@ constexpr double most_bins = 128.0;
 /// From one ring to the next a pixel covers this many times as many beams.
 constexpr double ring_step = 1.125;
 
-/// The share of a pixel inside the sector, counted at 64 points of it: a rank-1 lattice, whose
-/// projections on either axis (and so on an edge) do not coincide.
-float covered_share(const View& view, const FanFrame& frame, int column, int row) {
-    constexpr int count = 64;
+/// Points at which it is counted how much of a pixel lies inside the sector.
+constexpr int cover_points = 64;
+
+/// How many of a pixel's points lie inside the sector: a rank-1 lattice, whose projections on
+/// either axis (and so on an edge) do not coincide.
+int covered_points(const View& view, const FanFrame& frame, int column, int row) {
+    constexpr int count = cover_points;
     constexpr int step = 19;
     int inside = 0;
     for (int k = 0; k < count; ++k) {
@@ -35,7 +38,7 @@ float covered_share(const View& view, const FanFrame& frame, int column, int row
         inside +=
             is_inside_sector(view, fan_place(frame, view.range_max_m, column + right, row + down));
     }
-    return static_cast<float>(inside) / count;
+    return inside;
 }
 
 /// Whether an edge of the sector may cross the pixel.
@@ -59,17 +62,23 @@ std::size_t ring_of(double extent) {
 }
 
 /// A pixel of a ring, from the places of its centre in range and in azimuth.
-FanMap::Pixel pixel_at(const FanMap& map, const FanMap::Ring& ring, int beams, int index,
-                       const KernelPlace& range, const KernelPlace& beam, float covered) {
-    const KernelTable& range_kernel = map.range_kernel;
-    const KernelTable& beam_kernel = ring.beam_kernel;
-    const int row = range.bin + range_kernel.first[range.phase] + map.range_padding;
-    const int column = beam.bin + beam_kernel.first[beam.phase] + map.beam_padding;
-    return {.index = index,
-            .first_bin = row * (beams + 2 * map.beam_padding) + column,
-            .range_weights = static_cast<std::uint16_t>(range.phase * range_kernel.taps),
-            .beam_weights = static_cast<std::uint16_t>(beam.phase * beam_kernel.taps),
-            .covered = covered};
+FanMap::Pixel pixel_at(const FanMap& map, const FanMap::Ring& ring, int beams,
+                       const KernelPlace& range, const KernelPlace& beam, int covered) {
+    static_assert(KernelTable::phases <= 256 && cover_points < 256);
+    const int row = range.bin + map.range_kernel.first[range.phase] + map.range_padding;
+    const int column = beam.bin + ring.beam_kernel.first[beam.phase] + map.beam_padding;
+    return {.first_bin = row * (beams + 2 * map.beam_padding) + column,
+            .range_phase = static_cast<std::uint8_t>(range.phase),
+            .beam_phase = static_cast<std::uint8_t>(beam.phase),
+            .covered = static_cast<std::uint8_t>(covered)};
+}
+
+/// Adds a pixel to a ring, whose pixels come in the order of the picture.
+void add_pixel(FanMap::Ring& ring, const FanMap::Pixel& pixel, int index) {
+    ring.pixels.push_back(pixel);
+    const bool goes_on =
+        !ring.runs.empty() && ring.runs.back().index + ring.runs.back().count == index;
+    goes_on ? void(++ring.runs.back().count) : ring.runs.push_back({index, 1});
 }
 
 /// An image with a margin of bins on all sides.
@@ -106,6 +115,31 @@ using Taps = std::integral_constant<int, count>;
 
 constexpr std::size_t block = 256;
 
+/// Puts the values of a ring's pixels, which come one after the other, where they belong.
+class RunWriter {
+  public:
+    RunWriter(const FanMap::Ring& ring, std::vector<std::uint8_t>& picture)
+        : run_(ring.runs.begin()), picture_(picture) {}
+
+    void put(std::span<const std::uint8_t> values) {
+        while (!values.empty()) {
+            const std::size_t count =
+                std::min(values.size(), static_cast<std::size_t>(run_->count) - done_);
+            std::copy_n(values.begin(), count, picture_.begin() + run_->index + done_);
+            values = values.subspan(count);
+            done_ += count;
+            if (done_ < static_cast<std::size_t>(run_->count)) continue;
+            done_ = 0;
+            ++run_;
+        }
+    }
+
+  private:
+    std::vector<FanMap::Run>::const_iterator run_;
+    std::size_t done_ = 0;  ///< of its pixels
+    std::vector<std::uint8_t>& picture_;
+};
+
 /// The means of at most `block` pixels. The numbers of taps are ints or Taps; that of the beams is
 /// a multiple of 4.
 template <class RangeTaps, class BeamTaps>
@@ -119,8 +153,8 @@ void take_means(const FanMap& map, RangeTaps range_taps, const KernelTable& beam
     const std::ptrdiff_t width = bins.width;
     for (std::size_t p = 0; p < pixels.size(); ++p) {
         const FanMap::Pixel& pixel = pixels[p];
-        const float* const range_weight = range_weights + pixel.range_weights;
-        const float* const beam_weight = beam_weights + pixel.beam_weights;
+        const float* const range_weight = range_weights + pixel.range_phase * range_taps;
+        const float* const beam_weight = beam_weights + pixel.beam_phase * beam_taps;
         Four sum = Four::Zero();
         for (int b = 0; b < beam_taps; b += 4) {
             const float* const first = values + pixel.first_bin + b;
@@ -129,7 +163,7 @@ void take_means(const FanMap& map, RangeTaps range_taps, const KernelTable& beam
                 over_range += range_weight[k] * Eigen::Map<const Four>(first + k * width);
             sum += over_range * Eigen::Map<const Four>(beam_weight + b);
         }
-        means[p] = sum.sum() * pixel.covered;
+        means[p] = sum.sum() * (static_cast<float>(pixel.covered) / cover_points);
     }
 }
 
@@ -178,23 +212,24 @@ FanMap make_fan_map(const Sonar& sonar, int width_px) {
     const double nearest_m = std::max(view.range_min_m - map.frame.pixel_m, 0.0);
     double extent = 1.0;
     for (std::size_t k = 0; k <= ring_of(beams_across(nearest_m)); ++k, extent *= ring_step)
-        map.rings.push_back({make_kernel(extent, 4), {}});
+        map.rings.push_back({make_kernel(extent, 4), {}, {}});
     map.beam_padding = map.rings.back().beam_kernel.taps;
     for (int row = 0; row < map.frame.height; ++row) {
         for (int column = 0; column < map.frame.width; ++column) {
             const FanPlace place = fan_place(map.frame, view.range_max_m, column, row);
-            const float covered = is_near_edge(view, map.frame, place)
-                                      ? covered_share(view, map.frame, column, row)
-                                      : static_cast<float>(is_inside_sector(view, place));
-            if (covered == 0.0F) continue;
+            const int covered = is_near_edge(view, map.frame, place)
+                                    ? covered_points(view, map.frame, column, row)
+                                    : (is_inside_sector(view, place) ? cover_points : 0);
+            if (covered == 0) continue;
             // The centre of a pixel on the edge may lie outside.
             const double bins = (place.range_m - view.range_min_m) / view.bin_m();
             const double beams = column_at(sonar, place.azimuth_rad);
             FanMap::Ring& ring = map.rings[ring_of(beams_across(place.range_m))];
-            ring.pixels.push_back(
-                pixel_at(map, ring, view.beams, row * map.frame.width + column,
-                         kernel_place(std::clamp(bins, 0.0, view.range_bins - 1e-6)),
-                         kernel_place(std::clamp(beams, 0.0, view.beams - 1e-6)), covered));
+            add_pixel(ring,
+                      pixel_at(map, ring, view.beams,
+                               kernel_place(std::clamp(bins, 0.0, view.range_bins - 1e-6)),
+                               kernel_place(std::clamp(beams, 0.0, view.beams - 1e-6)), covered),
+                      row * map.frame.width + column);
         }
     }
     return map;
@@ -207,10 +242,10 @@ std::vector<std::uint8_t> render_fan(const FanMap& map, const Ping& ping, double
                                       0);
     std::array<float, block> means{};
     std::array<std::uint8_t, block> grey;
-    std::uint8_t* const out = picture.data();
     const int range_taps = map.range_kernel.taps;
     for (const FanMap::Ring& ring : map.rings) {
         const KernelTable& kernel = ring.beam_kernel;
+        RunWriter out(ring, picture);
         for (std::size_t begin = 0; begin < ring.pixels.size(); begin += block) {
             const auto pixels =
                 std::span(ring.pixels).subspan(begin, std::min(block, ring.pixels.size() - begin));
@@ -226,8 +261,7 @@ std::vector<std::uint8_t> render_fan(const FanMap& map, const Ping& ping, double
                 grey[p] = static_cast<std::uint8_t>(
                     static_cast<std::int32_t>(255.0F * std::sqrt(share) + 0.5F));
             }
-            for (std::size_t p = 0; p < pixels.size(); ++p)
-                out[pixels[p].index] = grey[p];
+            out.put(std::span(grey).first(pixels.size()));
         }
     }
     return picture;

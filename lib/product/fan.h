@@ -39,17 +39,23 @@ bool is_inside_sector(const View& view, const FanPlace& place);
 /// sector counts as black, so that edges are smooth: the covered share of a pixel on the edge is
 /// counted at 64 points.
 struct FanMap {
+    /// Small, since all of them pass through the caches for every ping.
     struct Pixel {
-        std::int32_t index;           ///< into the picture, row by row
-        std::int32_t first_bin;       ///< of the first taps, into the padded image
-        std::uint16_t range_weights;  ///< where its weights begin in the range kernel
-        std::uint16_t beam_weights;   ///< and in the beam kernel
-        float covered;                ///< share of the pixel inside the sector
+        std::int32_t first_bin;    ///< of the first taps, into the padded image
+        std::uint8_t range_phase;  ///< of its weights in the range kernel
+        std::uint8_t beam_phase;   ///< and in the beam kernel
+        std::uint8_t covered;      ///< 64ths of the pixel that lie inside the sector
+    };
+    /// Pixels of a row side by side.
+    struct Run {
+        std::int32_t index;  ///< of the first one in the picture, row by row
+        std::int32_t count;
     };
     /// Pixels that share a beam kernel: the nearer to the apex, the more beams a pixel covers.
     struct Ring {
         KernelTable beam_kernel;
         std::vector<Pixel> pixels;
+        std::vector<Run> runs;  ///< where they are, one after the other
     };
 
     FanFrame frame;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -49,6 +49,21 @@ struct Body {
     std::vector<std::uint32_t> triangle_material;         ///< index into Scene::materials
 };
 
+/// A mesh that stands in the scene many times. Its vertices are floats in a frame of its own.
+struct SharedMesh {
+    std::vector<Eigen::Vector3f> vertices;
+    std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices into `vertices`
+    std::vector<std::uint32_t> triangle_material;         ///< index into Scene::materials
+};
+
+/// A place where a shared mesh stands still.
+struct MeshCopy {
+    std::uint32_t mesh = 0;      ///< index into Scene::shared_meshes
+    std::uint32_t instance = 0;  ///< index into Scene::instances
+    /// Turns, moves and scales by the same factor along all axes.
+    Eigen::Affine3d T_world_mesh = Eigen::Affine3d::Identity();
+};
+
 /// The world as triangles, immutable once read. World frame: right-handed, z up, metres.
 /// Vertices are floats relative to `origin`, which lies near the scene's centre, so that
 /// UTM-sized coordinates lose nothing: p_world = origin + p.
@@ -59,6 +74,8 @@ struct Scene {
     std::vector<std::uint32_t> triangle_material;         ///< index into `materials`
     std::vector<std::uint32_t> triangle_instance;         ///< index into `instances`
     std::vector<Body> bodies;                             ///< what moves is not in `triangles`
+    std::vector<SharedMesh> shared_meshes;                ///< what stands in it many times
+    std::vector<MeshCopy> copies;                         ///< is not in `triangles` either
     std::vector<Material> materials;                      ///< those that the scene uses
     std::vector<std::string> instances;                   ///< node names
     std::vector<std::string> instance_classes;  ///< extras.sonar.class, by instance; "": none

@@ -74,7 +74,7 @@ bool rays_are_better(const RaysTrial& trial, const View& view) {
 
 std::unique_ptr<VisibilityEngine> make_auto_engine(const Scene& scene, const SlicesOptions& options,
                                                    std::span<const Probe> probes) {
-    if (!scene.bodies.empty()) return make_rays_engine(scene);
+    if (!scene.bodies.empty() || !scene.copies.empty()) return make_rays_engine(scene);
     auto slices = make_slices_engine(scene, options);
     const bool few = scene.triangles.size() < few_triangles;
     if (few && std::ranges::none_of(probes, &Probe::multipath)) return slices;

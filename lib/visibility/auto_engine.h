@@ -35,9 +35,9 @@ bool rays_are_better(const RaysTrial& trial, const View& view);
 /// Slices, or rays for those views among the `probes` for which these are better, and for those
 /// with multipath: a sample of the slices may be as long as a beam is high, and sound goes on from
 /// the middle of each. Nothing is timed: the same scene and probes give the same choice everywhere.
-/// Scenes of few triangles get slices without a look, those with bodies rays, which alone see them.
-/// The estimated error of a ping by rays is the bound found on the probes. `scene` must outlive it.
-/// Throws std::runtime_error when Embree cannot build its tree.
+/// Scenes of few triangles get slices without a look, those with bodies or copies rays, which alone
+/// see them. The estimated error of a ping by rays is the bound found on the probes. `scene` must
+/// outlive it. Throws std::runtime_error when Embree cannot build its tree.
 std::unique_ptr<VisibilityEngine> make_auto_engine(const Scene& scene, const SlicesOptions& slices,
                                                    std::span<const Probe> probes);
 

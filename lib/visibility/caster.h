@@ -25,16 +25,16 @@ class Caster {
   public:
     static constexpr std::uint32_t nothing = 0xFFFFFFFFU;
 
-    /// Builds the tree over `scene`, and one over each of its bodies. These are not met before
-    /// `moved` has put them somewhere.
+    /// Builds the tree over `scene`, and one over each of its bodies and shared meshes. Bodies are
+    /// not met before `moved` has put them somewhere.
     explicit Caster(const Scene& scene);
     ~Caster();
     Caster(Caster&&) noexcept;
     Caster(const Caster&) = delete;
     Caster& operator=(const Caster&) = delete;
 
-    /// The same trees, with the bodies at these poses. Takes time for each body, not for its
-    /// triangles. Scene-local frame.
+    /// The same trees, with the bodies at these poses. Takes time for each body and each copy of a
+    /// shared mesh, not for their triangles. Scene-local frame.
     Caster moved(std::span<const Pose> T_local_body) const;
 
     /// Rays from one point: `facets[i]` is what direction i meets within `reach_m`, or `nothing`.
@@ -47,14 +47,14 @@ class Caster {
     void cast(std::span<const Eigen::Vector3f> origins, std::span<const Eigen::Vector3f> directions,
               std::span<std::uint32_t> facets) const;
 
-    /// Where it is now, in the scene-local frame.
+    /// Where it is now, in the scene-local frame. Copies of a mesh have numbers of their own.
     Facet facet(std::uint32_t index) const {
-        return index < still_ ? facets_[index] : moved_facet(index);
+        return index < still_ ? facets_[index] : placed_facet(index);
     }
 
     /// Fetches a facet that is soon asked for; `nothing` is allowed.
     void prefetch(std::uint32_t index) const {
-        if (index != nothing) __builtin_prefetch(&facets_[index]);
+        if (index < still_) __builtin_prefetch(&facets_[index]);
     }
 
   private:
@@ -62,12 +62,13 @@ class Caster {
     struct Moment;
     Caster(std::shared_ptr<const Trees> trees, std::unique_ptr<Moment> moment);
     static std::shared_ptr<const Trees> make_trees(const Scene& scene);
-    Facet moved_facet(std::uint32_t index) const;
+    static std::unique_ptr<Moment> place(const Trees& trees, std::span<const Pose> T_local_body);
+    Facet placed_facet(std::uint32_t index) const;
 
     std::shared_ptr<const Trees> trees_;
-    std::unique_ptr<Moment> moment_;  ///< null: without the bodies
-    const Facet* facets_ = nullptr;   ///< of what stands still, then of the bodies in their frames
-    std::uint32_t still_ = 0;         ///< how many of them stand still
+    std::unique_ptr<Moment> moment_;  ///< null: neither bodies nor copies
+    const Facet* facets_ = nullptr;   ///< of the scene's own triangles, then of each other tree
+    std::uint32_t still_ = 0;         ///< how many are the scene's own
 };
 
 }  // namespace sonarsim

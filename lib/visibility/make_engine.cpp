@@ -38,6 +38,11 @@ std::string refusal_of(const EngineSettings& settings, const Scene& scene) {
         return std::string(is_octree ? "engine: octree" : "engine: slices") +
                " sees no objects that move; use engine: auto or engine: rays";
     }
+    if (!scene.copies.empty() && (is_octree || settings.type == EngineType::slices)) {
+        return std::string(is_octree ? "engine: octree" : "engine: slices") +
+               " sees no copies of shared meshes; use engine: auto or engine: rays, or "
+               "scene.repeats: copied";
+    }
     if (settings.type != EngineType::octree) return "";
     const double length_m = (scene.bounds_max - scene.bounds_min).maxCoeff();
     const double longest_m = longest_octree_scene_m(settings.octree);
@@ -60,7 +65,13 @@ std::string refusal_of(const EngineSettings& settings, const View& view) {
            "; use engine: rays";
 }
 
-std::string doubt_about(const EngineSettings& settings, const View& view) {
+std::string doubt_about(const EngineSettings& settings, const View& view, bool multipath) {
+    // A box under a water surface: 669 echoes by way of both with rays, none with slices.
+    if (settings.type == EngineType::slices && multipath) {
+        return "engine: slices finds little multipath: sound goes on from the middle of each piece "
+               "of surface, and a piece of the slices may be as long as a beam is high; use "
+               "engine: auto or engine: rays";
+    }
     if (settings.type != EngineType::octree || settings.octree.literal) return "";
     const double error = estimated_octree_error(view, settings.octree.leaf_m);
     if (error <= view.relative_l1) return "";

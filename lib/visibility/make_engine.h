@@ -33,8 +33,8 @@ std::string refusal_of(const EngineSettings& settings, const Scene& scene);
 /// can.
 std::string refusal_of(const EngineSettings& settings, const View& view);
 
-/// Why the images of this view will probably miss its error goal, in a sentence with the figures
-/// that names the mission's keys; empty when they should meet it.
-std::string doubt_about(const EngineSettings& settings, const View& view);
+/// Why the images of this view, with `multipath` or without, will probably be off by more than its
+/// error goal, in a sentence that names the mission's keys; empty when they should meet it.
+std::string doubt_about(const EngineSettings& settings, const View& view, bool multipath = false);
 
 }  // namespace sonarsim

@@ -64,6 +64,20 @@ class Collection(Sandbox):
         self.assertEqual(digest(self.folder / "all"), whole)
         self.assertEqual(self.run_sonarsim("verify", "all").returncode, 0)
 
+    def test_another_dataset_in_the_place_of_one(self):
+        """Whole by itself, and not what was collected."""
+        self.collect("a", "b", "all")
+        shutil.rmtree(self.folder / "all/pool")
+        shutil.copytree(self.folder / "a", self.folder / "all/pool")
+        result = self.run_sonarsim("verify", "all")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("pool/SHA256SUMS: is not what SHA256SUMS of the collection tells",
+                      result.stderr)
+        (self.folder / "all/SHA256SUMS").unlink()
+        result = self.run_sonarsim("verify", "all")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("SHA256SUMS: is missing", result.stderr)
+
     def test_not_without_saying_so(self):
         self.assert_refused(self.run_sonarsim("merge", "a", "b", "all"), "another mission",
                             "--different")

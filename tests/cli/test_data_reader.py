@@ -76,8 +76,9 @@ class Reader(Sandbox):
         self.assertEqual(sample["meta"]["ping"], sample.ping)
         polar = sample["polar"]
         self.assertEqual((polar.dtype, polar.shape), (np.float32, (40, 24)))
-        # image is 65535 polar, clipped at 1 and rounded.
-        expected = np.floor(65535 * polar.clip(0, 1).astype(np.float64) + 0.5)
+        # image is 65535 polar / full_scale, clipped at 1 and rounded.
+        white = fls.description["full_scale"]
+        expected = np.floor(65535 * (polar.astype(np.float64) / white).clip(0, 1) + 0.5)
         self.assertLessEqual(np.abs(sample["image"] - expected).max(), 1)
         self.assertGreater(sample["image"].max(), 1000)
         # The box is the one instance, and lights every bin that is lit.

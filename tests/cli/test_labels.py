@@ -2,6 +2,7 @@
 Every file is read by code of this test, from what the formats' authors publish."""
 import itertools
 import json
+import math
 import shutil
 import struct
 import subprocess
@@ -229,6 +230,39 @@ class Labels(Sandbox):
             self.assertEqual(len(told[1]), 1)  # the walls are always in sight
             if not upright:
                 self.assertEqual([(box_of(p)[1], box_of(p)[3]) for p in told[2]], [(0, 5), (45, 5)])
+
+    def test_coco_of_scans(self):
+        """Every pixel of a round picture holds the instance of the bin that its centre lies in."""
+        self.write("path.csv", path_csv(20))
+        self.edit("mission.yaml", "classes:\n",
+                  "  head: {kind: scanning, sector_deg: 360, step_deg: 30, range_max_m: 4, "
+                  "range_bins: 40}\nclasses:\n")
+        self.edit("mission.yaml", "labels: true", "labels: [coco]")
+        self.assert_renders()
+        coco = self.load("labels/coco_scans.json")
+        self.assertEqual([(one["file_name"], one["width"], one["height"]) for one in coco["images"]],
+                         [(f"head/scan_000{k}.png", 64, 64) for k in (0, 1)])
+        others = [self.load(f"labels/{name}.json") for name in ("coco", "coco_fan", "coco_records")]
+        taken = {one["id"] for other in others for one in other["images"] + other["annotations"]}
+        self.assertFalse(taken & {one["id"] for one in coco["images"] + coco["annotations"]})
+        rows = read_ids(self.out / "head/instance.npy", False)
+        least = next(s for s in self.dataset()["sensors"] if s["name"] == "head")["range_edges_m"][0]
+        shown = {}  # by step; 20 pings are a sweep of 12 and eight of the next
+        for sweep, image in enumerate(coco["images"]):
+            shown.update({ping % 12: rows[ping] for ping in range(12 * sweep, min(12 * sweep + 12, 20))})
+            expected = {}
+            for row, column in itertools.product(range(64), repeat=2):
+                x, y = 4 - (row + 0.5) / 8, 4 - (column + 0.5) / 8  # pixels of 1/8 m
+                distance, turn = math.hypot(x, y), math.atan2(y, x) / math.tau + 0.5
+                if least <= distance < 4:
+                    bins = shown[min(int(12 * turn), 11)]
+                    value = bins[int((distance - least) / (4 - least) * 40)]
+                    if value:
+                        expected.setdefault(value, set()).add((column, row))
+            told = {one["instance_id"]: mask_of(one["segmentation"]) for one in coco["annotations"]
+                    if one["image_id"] == image["id"]}
+            self.assertEqual({key: set(pixels) for key, pixels in told.items()}, expected)
+            self.assertTrue(expected)
 
     def test_coco_against_the_published_format(self):
         python = python_with("jsonschema")

@@ -229,6 +229,35 @@ class Moving(Composed):
                 self.assertAlmostEqual(got, wanted, places=9)
         self.assertEqual(len({v for k, v in first.items() if "polar" in k}), 6)
 
+    def test_labels_have_its_box_at_every_ping(self):
+        self.edit("mission.yaml", "output:\n", "output:\n  labels: [objects]\n")
+        self.assert_renders()
+        fish = self.dataset()["labels"]["instances"][1]
+        self.assertEqual((fish["name"], fish["box_world_m"]), ("fish", None))
+        seen = 0
+        for k in range(6):
+            meta = json.loads((self.out / f"fls/meta/{k:06}.json").read_text())
+            objects = json.loads((self.out / f"fls/objects/{k:06}.json").read_text())["objects"]
+            for one in objects:
+                if one["name"] != "fish":
+                    self.assertNotIn("T_world_object", one)
+                    continue
+                seen += 1
+                self.assertEqual(one["T_world_object"], meta["T_world_object"]["fish"])
+                # A cube of 1 m that is not turned: its centre is where its pose is, and it is turned
+                # against the sonar as the world is.
+                box = one["box_sensor"]
+                for size in box["size_m"]:
+                    self.assertAlmostEqual(size, 1.0, places=6)
+                at = [a - b for a, b in zip(one["T_world_object"]["position_m"],
+                                            meta["T_world_sensor"]["position_m"])]
+                self.assertAlmostEqual(math.dist(box["position_m"], (0, 0, 0)),
+                                       math.dist(at, (0, 0, 0)), places=9)
+                x, y, z, w = meta["T_world_sensor"]["quaternion_xyzw"]
+                for got, wanted in zip(box["quaternion_xyzw"], (-x, -y, -z, w)):
+                    self.assertAlmostEqual(got, wanted, places=9)
+        self.assertGreater(seen, 1)
+
     def test_where_it_stands_still_it_is_like_any_other(self):
         """Moving to where it is: within rounding the picture of the still object."""
         self.objects(["{name: fish, file: crate.gltf, material: steel, trajectory: {waypoints: "
@@ -264,6 +293,56 @@ class Moving(Composed):
     def test_not_on_the_bottom(self):
         self.edit("mission.yaml", "name: fish,", "name: fish, place: on_bottom,")
         self.refused("mission.yaml:7:", "an object that moves cannot rest on the bottom")
+
+
+class Shared(Composed):
+    def setUp(self):
+        super().setUp()
+        self.objects(["{name: a, class: crate, file: crate.gltf, position_m: [4.25, 1.5, 0.5]}",
+                      "{name: b, class: crate, file: crate.gltf, position_m: [6.5, -0.5, 0.75], "
+                      "scale: 1.5}",
+                      "{name: c, class: crate, file: crate.gltf, position_m: [5, -2.5, 0.625], "
+                      "rpy_deg: [0, 0, 30]}"])
+        self.edit("mission.yaml", "output:\n", "output:\n  labels: [instance]\n")
+
+    def test_shared_is_what_copied_is(self):
+        """One mesh and three transforms: within rounding the picture of three crates."""
+        told, images = {}, {}
+        for repeats in ("copied", "shared"):
+            self.assert_renders("--overwrite", "--set", "engine=rays", "--set",
+                                f"scene.repeats={repeats}")
+            told[repeats] = self.dataset()
+            images[repeats] = struct.unpack(
+                f"<{48 * 32}f", (self.out / "fls/polar/000000.npy").read_bytes()[-4 * 48 * 32:])
+        first = digest(self.out)
+        self.assert_renders("--overwrite", "-j", "3", "--set", "scene.repeats=shared")
+        self.assertEqual({k: v for k, v in digest(self.out).items() if "/polar/" in k},
+                         {k: v for k, v in first.items() if "/polar/" in k})
+        a, b = images["shared"], images["copied"]
+        self.assertNotEqual(a, b)
+        self.assertLess(sum(abs(x - y) for x, y in zip(a, b)) / sum(b), 1e-3)
+        self.assertEqual(told["copied"]["scene"]["triangles"], 128 + 3 * 12)
+        self.assertNotIn("copies", told["copied"]["scene"])
+        use = told["shared"]["scene"]
+        self.assertEqual((use["triangles"], use["shared_meshes"], use["copies"]), (128, 1, 3))
+        for one, other in zip(told["shared"]["labels"]["instances"],
+                              told["copied"]["labels"]["instances"]):
+            for end in ("min", "max"):
+                for x, y in zip(one["box_world_m"].pop(end), other["box_world_m"].pop(end)):
+                    self.assertAlmostEqual(x, y, places=5)
+            self.assertEqual(one, other)
+
+    def test_small_scenes_are_copied(self):
+        self.assert_renders("--set", "scene.repeats=copied")
+        copied = self.images()
+        self.assert_renders("--overwrite")
+        self.assertEqual(self.images(), copied)
+
+    def test_other_engines_refuse(self):
+        for engine in ("octree", "slices"):
+            self.refused(f"engine: {engine} sees no copies of shared meshes",
+                         "scene.repeats: copied",
+                         arguments=["--set", f"engine={engine}", "--set", "scene.repeats=shared"])
 
 
 class BadObjects(Composed):

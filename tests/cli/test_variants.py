@@ -73,6 +73,27 @@ class Variants(Sandbox):
         self.assert_renders()
         self.assertEqual(digest(self.out), whole)
 
+    def test_whole_variants_are_parted(self):
+        self.edit("mission.yaml", "output:\n",
+                  "output:\n  split: {train: 0.5, val: 0.25, test: 0.25}\n")
+        self.assert_renders()
+        parts = {part: (self.out / f"split/{part}.txt").read_text().split()
+                 for part in ("train", "val", "test")}
+        # They meet at 3 and at 4.5, which is rounded up.
+        self.assertEqual(parts, {"train": ["variant_0000", "variant_0001", "variant_0002"],
+                                 "val": ["variant_0003", "variant_0004"],
+                                 "test": ["variant_0005"]})
+        for one in self.index():
+            self.assertIn(one["folder"], parts[one["split"]])
+            self.assertFalse((self.out / one["folder"] / "split").exists())
+        self.edit("mission.yaml", "  split: {train: 0.5, val: 0.25, test: 0.25}\n",
+                  "  split: {train: 0.9, test: 0.1}\n")
+        result = self.run_sonarsim("render", "mission.yaml", "--overwrite", "--set", "variants=3")
+        self.assert_refused(result, "of 3 variants none is left for 'test'")
+        self.edit("mission.yaml", "  split: {train: 0.9, test: 0.1}\n", "")
+        self.assert_renders("--overwrite")
+        self.assertFalse(list(self.out.glob("split/*")))
+
     def test_merge_and_verify(self):
         self.assert_renders()
         whole = digest(self.out)

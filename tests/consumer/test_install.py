@@ -20,7 +20,9 @@ def main(build, compiler):
         prefix, own = pathlib.Path(folder, "prefix"), pathlib.Path(folder, "build")
         run("cmake", "--install", build, "--prefix", prefix)
         for name in ("bin/sonarsim", "share/doc/sonarsim/README.md", "share/doc/sonarsim/docs/model.md",
-                     "share/sonarsim/scenes/tank.glb", "share/sonarsim/scripts/sonarsim_data.py",
+                     "share/sonarsim/scenes/tank.glb", "share/man/man1/sonarsim.1.gz",
+                     "share/bash-completion/completions/sonarsim", "share/sonarsim/mission.schema.json",
+                     "share/sonarsim/scripts/sonarsim_data.py",
                      "share/sonarsim/scripts/slurm/render.sh"):
             assert (prefix / name).exists(), f"not installed: {name}"
         run(prefix / "bin/sonarsim", "validate", prefix / "share/sonarsim/configs/tank_imaging.yaml")

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <stdexcept>
 #include <string>
 
 using namespace sonarsim;
@@ -19,5 +20,23 @@ TEST_SUITE("core") {
         CHECK(std::string(InputError({"a.yaml", 3, 7}, "no such key").what()) ==
               "a.yaml:3:7: no such key");
         CHECK(std::string(InputError("no such key").what()) == "no such key");
+    }
+
+    TEST_CASE("error: problems are gathered, each once, and told together") {
+        Problems problems;
+        CHECK_NOTHROW(problems.raise());
+        CHECK(problems.attempt([] {}));
+        for (const char* fault : {"one", "two", "one"})
+            CHECK_FALSE(problems.attempt([&] { throw InputError(fault); }));
+        CHECK(problems.count() == 2);
+        CHECK_THROWS_WITH_AS(problems.raise(), "one\ntwo", InputError);
+        // What is no fault of the input goes through.
+        CHECK_THROWS_AS(problems.attempt([] { throw std::runtime_error("disk"); }),
+                        std::runtime_error);
+        for (int i = 0; i < 100; ++i)
+            problems.add(InputError(std::to_string(i)));
+        CHECK(problems.count() == 102);
+        CHECK_THROWS_WITH_AS(problems.raise(),
+                             doctest::Contains("47\nand 52 more faults like these"), InputError);
     }
 }

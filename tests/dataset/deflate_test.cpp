@@ -54,6 +54,7 @@ TEST_SUITE("dataset") {
             check_round_trip(noise(count, 8));
             check_round_trip(noise(count, 2));
             check_round_trip(Bytes(count, 7));
+            check_round_trip(Bytes(count, 255));  // the largest sums
         }
     }
 

@@ -64,7 +64,11 @@ TEST_SUITE("dataset") {
         CHECK(run.warnings() ==
               Warnings{"sensor 'left' saw no surface in 7 of its 10 pings: check the trajectory "
                        "and the range"});
-        run.sensors[1].dark_pings = 3;
+        run.sensors[1].dark_pings = 1;
+        CHECK(run.warnings() ==
+              Warnings{"sensor 'left' saw no surface in 1 of its 10 pings: check the trajectory "
+                       "and the range"});
+        run.sensors[1].dark_pings = 0;
         CHECK(run.warnings().empty());
     }
 

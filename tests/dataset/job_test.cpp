@@ -27,7 +27,9 @@ RenderSummary run(const Mission& mission, const RenderOptions& options = {}) {
 /// Renders until `count` pings are done, then asks to stop.
 RenderSummary run_until(const Mission& mission, std::uint64_t count) {
     std::atomic<bool> stop = false;
-    const auto progress = [&](std::uint64_t done, std::uint64_t) { stop = done >= count; };
+    const auto progress = [&](const RenderSummary& so_far, std::uint64_t) {
+        stop = so_far.pings >= count;
+    };
     return run_job(mission, small_assembly(mission, poses), {.threads = 1}, progress, stop);
 }
 
@@ -51,9 +53,9 @@ TEST_SUITE("dataset") {
         std::vector<std::uint64_t> seen;
         run_job(
             mission, small_assembly(mission, poses), {.threads = 3},
-            [&](std::uint64_t done, std::uint64_t total) {
+            [&](const RenderSummary& so_far, std::uint64_t total) {
                 CHECK(total == pings);
-                seen.push_back(done);
+                seen.push_back(so_far.pings);
             },
             std::atomic<bool>(false));
         CHECK(seen == std::vector<std::uint64_t>{1, 2, 3, 4, 5, 6, 7, 8, 9, 10});
@@ -155,8 +157,8 @@ TEST_SUITE("dataset") {
         const TemporaryFolder temporary;
         const fs::path out = temporary.path / "out";
         const Mission mission = small_mission(out);
-        const auto thief = [&](std::uint64_t done, std::uint64_t total) {
-            if (done == total) fs::remove(out / "front/polar/000000.npy");
+        const auto thief = [&](const RenderSummary& so_far, std::uint64_t total) {
+            if (so_far.pings == total) fs::remove(out / "front/polar/000000.npy");
         };
         CHECK_THROWS_AS(
             run_job(mission, small_assembly(mission, poses), {}, thief, std::atomic<bool>(false)),
@@ -172,8 +174,8 @@ TEST_SUITE("dataset") {
         const fs::path file = mission.output.folder / "mbes/soundings.npy";
         for (const bool replaced : {false, true}) {
             fs::remove_all(mission.output.folder);
-            const auto thief = [&](std::uint64_t done, std::uint64_t) {
-                if (done != 1) return;
+            const auto thief = [&](const RenderSummary& so_far, std::uint64_t) {
+                if (so_far.pings != 1) return;
                 if (replaced) fs::copy_file(file, temporary.path / "copy");
                 fs::remove(file);
                 if (replaced) fs::rename(temporary.path / "copy", file);

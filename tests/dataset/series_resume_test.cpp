@@ -36,7 +36,7 @@ TEST_SUITE("dataset") {
         std::atomic<bool> stop = false;
         const RenderSummary first = run_job(
             stopped, small_assembly(stopped, poses), {.threads = 1},
-            [&](std::uint64_t done, std::uint64_t) { stop = done >= 9; }, stop);
+            [&](const RenderSummary& so_far, std::uint64_t) { stop = so_far.pings >= 9; }, stop);
         CHECK(first.stopped);
         // What is there can be opened; what is not yet is zero; products come at the end.
         const auto part =

@@ -239,6 +239,7 @@ TEST_SUITE("dataset") {
         mission.sensors = {config};
         Assembly assembly;
         assembly.sonars = {make_sonar(config, {})};
+        assembly.full_scales = {1.0};
         constexpr std::size_t pings = most_picture_rows + 3;  // two to a column, the last alone
         const RecordFile file(temporary.path / "echogram.npy", {"<f4", {4, pings}, true}, pings);
         const std::vector<float> one(4, 1.0F);

@@ -23,13 +23,14 @@ inline Mission parse(const std::string& text, const std::vector<std::string>& ov
     return parse_mission(text, "m.yaml", "/base", overrides, sonar_keys());
 }
 
-/// The message of the InputError that reading `text` ends in; "" when it does not.
+/// The first fault of the InputError that reading `text` ends in; "" when it does not.
 inline std::string refusal(const std::string& text,
                            const std::vector<std::string>& overrides = {}) {
     try {
         parse(text, overrides);
     } catch (const InputError& error) {
-        return error.what();
+        const std::string faults = error.what();
+        return faults.substr(0, faults.find('\n'));
     }
     return "";
 }

@@ -96,7 +96,7 @@ output:
     CHECK(mission.accuracy == AccuracyConfig{0.1});
     CHECK(mission.engine == EngineKind::octree);
     CHECK(mission.octree == OctreeConfig{0.05, 100, true});
-    CHECK(mission.output == OutputConfig{"/o", false, false, false, false, false, 300, 0.25});
+    CHECK(mission.output == OutputConfig{"/o", false, false, false, false, false, 300, {}, 0.25});
 }
 
 TEST_CASE("waypoints") {
@@ -198,6 +198,32 @@ TEST_CASE("a value outside its range is refused at its place") {
                   "    azimuth_deg: 360\n    elevation_deg: 180\n    range_min_m: 0\n"
                   "    range_bins: 8192\n    azimuth_bins: 8192\n    every: 1\n"
                   "accuracy: {relative_l1: 0.5}\n") == "");
+}
+
+TEST_CASE("every fault is told, each where it stands") {
+    const auto faults = [](const std::string& text) {
+        try {
+            parse(text);
+        } catch (const InputError& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    CHECK(faults(smallest_mission +
+                 "    azimut_deg: 60\n    range_bins: many\n    range_min_m: -1\n"
+                 "output: {fan: yes, polr: true}\nseed: -1\n") ==
+          "m.yaml:10:7: 'seed' must be a whole number from 0 to 2^64 - 1, not '-1'\n"
+          "m.yaml:8:18: 'range_min_m' must be at least 0, not '-1'\n"
+          "m.yaml:7:17: 'range_bins' must be a whole number, not 'many'\n"
+          "m.yaml:6:5: unknown key 'azimut_deg' (did you mean 'azimuth_deg'?)\n"
+          "m.yaml:9:15: 'fan' must be true or false, not 'yes'\n"
+          "m.yaml:9:20: unknown key 'polr' (did you mean 'polar'?)");
+    // Of a section whose kind is not known nothing else can be told; the others are read.
+    CHECK(faults("scene: {file: a}\nsensors: {s: {kind: imagin, every: 0}}\n") ==
+          "m.yaml:1:8: 'scene' lacks the key 'materials'\n"
+          "m.yaml:1:1: 'mission' lacks the key 'trajectory'\n"
+          "m.yaml:2:21: unknown kind 'imagin' (did you mean 'imaging'?); known: imaging, "
+          "profiling, sidescan, echosounder, scanning");
 }
 
 TEST_CASE("ranges of the trajectory forms") {

@@ -41,6 +41,7 @@ Mission unusual_mission() {
                       .meta = false,
                       .stages = true,
                       .fan_width_px = 99,
+                      .fan_style = {FanColours::sea, true, true},
                       .full_scale = 0.125,
                       .pack = Pack::tar,
                       .pack_size_mb = 3.5,
@@ -87,6 +88,7 @@ scene:
   up: y
   objects: []
   scatter: []
+  repeats: auto
 trajectory:
   file: "/base/a.tum"
   rate_hz: 0
@@ -139,7 +141,11 @@ output:
   meta: true
   stages: false
   fan_width_px: 0
-  full_scale: 1
+  fan_style:
+    colours: grey
+    rings: false
+    bearings: false
+  full_scale: auto
   labels: false
   split:
     train: 0
@@ -154,6 +160,9 @@ output:
   soundings: true
   scan: true
   bathymetry_cell_m: 0
+  xtf: false
+  mosaic: false
+  mosaic_cell_m: 0
 variants: 0
 vary: []
 )");

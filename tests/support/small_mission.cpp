@@ -1,5 +1,6 @@
 #include "support/small_mission.h"
 
+#include "assembly/brightness.h"
 #include "core/file.h"
 #include "sonar/kinds.h"
 #include "support/scenes.h"
@@ -71,6 +72,8 @@ Assembly small_assembly(const Mission& mission, int poses) {
         assembly.sonars.push_back(make_sonar(sensor, mission.accuracy));
     }
     assembly.objects = group_objects(assembly.scene, {});
+    assembly.full_scales = find_full_scales(mission, assembly.scene, assembly.trajectory,
+                                            assembly.motions, assembly.sonars);
     return assembly;
 }
 

@@ -4,10 +4,12 @@
 
 #include <cmath>
 #include <cstring>
+#include <string>
 #include <vector>
 
 #include "core/units.h"
 #include "support/scenes.h"
+#include "visibility/make_engine.h"
 #include "visibility/rays/rays_engine.h"
 
 using namespace sonarsim;
@@ -105,6 +107,19 @@ TEST_CASE("of few triangles, and without a view to try, auto makes slices") {
         CHECK(same(make_auto_engine(scene, {}, bouncing)->visible_surface(view, pose),
                    make_rays_engine(scene)->visible_surface(view, pose)));
     }
+}
+
+TEST_CASE("slices that were asked for by name are doubted where there is multipath") {
+    const View view = auto_view();
+    const auto doubt = [&](EngineType type, bool multipath) {
+        EngineSettings settings;
+        settings.type = type;
+        return doubt_about(settings, view, multipath);
+    };
+    CHECK(doubt(EngineType::slices, true).find("use engine: auto") != std::string::npos);
+    CHECK(doubt(EngineType::slices, false).empty());
+    CHECK(doubt(EngineType::automatic, true).empty());
+    CHECK(doubt(EngineType::rays, true).empty());
 }
 
 TEST_SUITE_END();

@@ -34,7 +34,7 @@ class EchogramWriter final : public Writer {
     explicit EchogramWriter(const WriterContext& context)
         : config_(context.sonar().config),
           pings_(context.pings),
-          full_scale_(context.mission.output.full_scale) {}
+          full_scale_(context.full_scale()) {}
 
     WriterOutputs outputs() const override {
         const auto bins = static_cast<std::size_t>(config_.range_bins);

@@ -1,32 +1,28 @@
-#include "product/fan.h"
-
-#include "dataset/png.h"
+#include "dataset/fan_png.h"
 #include "dataset/writers/formats.h"
 
 namespace sonarsim {
 
 namespace {
 
-/// fan/NNNNNN.png: 8 bits, as an operator sees it.
+/// fan/NNNNNN.png: 8 bits per channel, as an operator sees it.
 class FanWriter final : public Writer {
   public:
     explicit FanWriter(const WriterContext& context)
-        : map_(make_fan_map(context.sonar(), context.mission.output.fan_width_px)),
+        : png_(make_fan_png(context.sonar(), context.mission.output)),
           range_max_m_(context.sonar().settings.view.range_max_m),
-          full_scale_(context.mission.output.full_scale) {}
+          full_scale_(context.full_scale()) {}
 
     WriterOutputs outputs() const override {
-        return {
-            PingFile{"fan", ".png"}, png_bytes_at_most(map_.frame.width, map_.frame.height, 1), {}};
+        return {PingFile{"fan", ".png"}, fan_png_bytes_at_most(png_), {}};
     }
 
     std::string encode(const FinishedPing& finished) const override {
-        return png_bytes(render_fan(map_, finished.ping, full_scale_), map_.frame.width,
-                         map_.frame.height);
+        return fan_png_bytes(png_, finished.ping, full_scale_);
     }
 
     void describe(nlohmann::ordered_json& sensor) const override {
-        const FanFrame& frame = map_.frame;
+        const FanFrame& frame = png_.map.frame;
         sensor["fan"] = {{"width_px", frame.width},
                          {"height_px", frame.height},
                          {"pixel_m", frame.pixel_m},
@@ -34,7 +30,7 @@ class FanWriter final : public Writer {
     }
 
   private:
-    FanMap map_;
+    FanPng png_;
     double range_max_m_;
     double full_scale_;
 };

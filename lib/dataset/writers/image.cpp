@@ -10,10 +10,17 @@ namespace {
 class ImageWriter final : public Writer {
   public:
     explicit ImageWriter(const WriterContext& context)
-        : view_(context.sonar().settings.view), full_scale_(context.mission.output.full_scale) {}
+        : view_(context.sonar().settings.view), full_scale_(context.full_scale()) {}
 
     WriterOutputs outputs() const override {
         return {PingFile{"image", ".png"}, png_bytes_at_most(view_.beams, view_.range_bins, 2), {}};
+    }
+
+    /// Rows and columns are those of polar/, which is not how a fan lies.
+    void describe(nlohmann::ordered_json& sensor) const override {
+        sensor["image"] = {{"axes", {"range", "azimuth"}},
+                           {"first_row", "nearest range"},
+                           {"first_column", "starboard"}};
     }
 
     std::string encode(const FinishedPing& finished) const override {

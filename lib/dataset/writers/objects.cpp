@@ -2,6 +2,9 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <optional>
+#include <span>
+#include <vector>
 
 #include "dataset/coco_counts.h"
 #include "dataset/label_description.h"
@@ -24,13 +27,16 @@ Json seen_box_json(const Eigen::AlignedBox3f& box) {
     return {{"min", corner(box.min())}, {"max", corner(box.max())}};
 }
 
-/// The box around all of an object along the axes of the world, as the sensor has it before it.
-Json placed_box_json(const Eigen::AlignedBox3d& world, const Pose& T_world_sensor) {
-    if (world.isEmpty()) return nullptr;
-    const Eigen::Vector3d size = world.sizes();
+/// The box around all of an object along the axes of a frame, as the sensor has it before it.
+Json placed_box_json(const Eigen::AlignedBox3d& box, const Pose& T_world_frame,
+                     const Pose& T_world_sensor) {
+    if (box.isEmpty()) return nullptr;
+    const Eigen::Vector3d size = box.sizes();
+    const Eigen::Vector3d centre =
+        T_world_frame.rotation * box.center() + T_world_frame.translation;
     const Eigen::Quaterniond to_sensor = T_world_sensor.rotation.conjugate();
-    Json json =
-        describe_pose({to_sensor, to_sensor * (world.center() - T_world_sensor.translation)});
+    Json json = describe_pose(
+        {to_sensor * T_world_frame.rotation, to_sensor * (centre - T_world_sensor.translation)});
     json["size_m"] = {size.x(), size.y(), size.z()};
     return json;
 }
@@ -47,10 +53,11 @@ class ObjectsWriter final : public Writer {
         : context_(context),
           view_(context.sonar().settings.view),
           with_masks_(is_asked(context.mission, Label::coco)),
-          boxes_(object_boxes(context.assembly)) {}
+          boxes_(object_boxes(context.assembly)),
+          moving_(moving_objects(context.assembly)) {}
 
     WriterOutputs outputs() const override {
-        constexpr double longest_object = 1500.0;
+        constexpr double longest_object = 1700.0;
         constexpr double masks_per_pixel = 1.0;  // bytes, where ids are as ragged as noise
         const double bins = static_cast<double>(view_.range_bins) * view_.beams;
         const auto objects = static_cast<double>(context_.assembly.objects.objects.size());
@@ -67,16 +74,19 @@ class ObjectsWriter final : public Writer {
         std::string text = "{\"ping\": " + std::to_string(finished.id.pose) + ", \"objects\": [";
         constexpr auto replace = Json::error_handler_t::replace;
         const char* before = "\n";
+        const std::vector<Pose> T_world_body =
+            body_poses(context_.assembly, context_.assembly.trajectory[finished.id.pose].t_s);
         for (const SeenObject& seen : seen_objects(context_.sonar(), objects, finished.traced,
                                                    finished.labels->bins, finished.ping)) {
-            text += before + seen_json(seen, finished).dump(-1, ' ', false, replace);
+            text += before + seen_json(seen, finished, T_world_body).dump(-1, ' ', false, replace);
             before = ",\n";
         }
         return text + "\n]}\n";
     }
 
   private:
-    Json seen_json(const SeenObject& seen, const FinishedPing& finished) const {
+    Json seen_json(const SeenObject& seen, const FinishedPing& finished,
+                   std::span<const Pose> T_world_body) const {
         const SceneObjects& objects = context_.assembly.objects;
         const SceneObjects::Object& object = objects.objects[seen.id - 1];
         Json json = {{"id", seen.id},
@@ -91,7 +101,14 @@ class ObjectsWriter final : public Writer {
                      {"range_m", seen.range_m},
                      {"azimuth_rad", number_or_null(seen.azimuth_rad)}};
         json["seen_box_sensor_m"] = seen_box_json(seen.box_sensor_m);
-        json["box_sensor"] = placed_box_json(boxes_[seen.id - 1], finished.traced.T_world_sensor);
+        const Pose& T_world_sensor = finished.traced.T_world_sensor;
+        if (const std::optional<MovingObject>& moving = moving_[seen.id - 1]) {
+            const Pose& T_world_object = T_world_body[moving->body];
+            json["T_world_object"] = describe_pose(T_world_object);
+            json["box_sensor"] = placed_box_json(moving->box, T_world_object, T_world_sensor);
+        } else {
+            json["box_sensor"] = placed_box_json(boxes_[seen.id - 1], {}, T_world_sensor);
+        }
         if (!finished.labels->bins.visible_share.empty())
             json["visible_share"] = finished.labels->bins.visible_share[seen.id - 1];
         const ObjectMask* const polar = mask_of(finished.labels->polar, seen.id);
@@ -115,7 +132,8 @@ class ObjectsWriter final : public Writer {
     WriterContext context_;
     const View& view_;
     bool with_masks_;
-    std::vector<Eigen::AlignedBox3d> boxes_;  ///< by object, world frame
+    std::vector<Eigen::AlignedBox3d> boxes_;           ///< by object, world frame
+    std::vector<std::optional<MovingObject>> moving_;  ///< by object
 };
 
 }  // namespace

@@ -1,12 +1,9 @@
 #include "product/scan.h"
 
-#include "dataset/image_file.h"
+#include "dataset/fan_png.h"
 #include "dataset/npy.h"
-#include "dataset/png.h"
 #include "dataset/whole_file.h"
 #include "dataset/writers/formats.h"
-#include "product/fan.h"
-#include "product/grey.h"
 
 namespace sonarsim {
 
@@ -14,15 +11,16 @@ namespace {
 
 /// scan.npy: float32 [ping, range], one column of the display per ping. Of each sweep of the head,
 /// and of the unfinished one at the end, the display as it stood then: scan_NNNN.npy, float32
-/// [range, step], and scan_NNNN.png, 8 bits, round, boresight up.
+/// [range, step], and scan_NNNN.png, 8 bits per channel, round,
+/// boresight up.
 class ScanWriter final : public Writer {
   public:
     explicit ScanWriter(const WriterContext& context)
         : sonar_(context.sonar()),
           pings_(context.pings),
-          full_scale_(context.mission.output.full_scale),
+          full_scale_(context.full_scale()),
           steps_(scan_steps(sonar_.config)),
-          map_(make_fan_map(whole_scan(sonar_), context.mission.output.fan_width_px)) {}
+          png_(make_fan_png(whole_scan(sonar_), context.mission.output)) {}
 
     WriterOutputs outputs() const override {
         const auto bins = static_cast<std::size_t>(sonar_.config.range_bins);
@@ -31,8 +29,7 @@ class ScanWriter final : public Writer {
         for (std::size_t sweep = 0; sweep < sweeps(); ++sweep) {
             outputs.products.push_back(
                 {name(sweep, ".npy"), 128.0 + 4.0 * static_cast<double>(bins * steps_)});
-            outputs.products.push_back(
-                {name(sweep, ".png"), png_bytes_at_most(map_.frame.width, map_.frame.height, 1)});
+            outputs.products.push_back({name(sweep, ".png"), fan_png_bytes_at_most(png_)});
         }
         return outputs;
     }
@@ -74,8 +71,7 @@ class ScanWriter final : public Writer {
         array.append(npy_bytes(image.intensity, image.range_bins, image.beams));
         array.finish();
         StreamedFile picture(folder / name(sweep, ".png"));
-        picture.append(
-            png_bytes(render_fan(map_, image, full_scale_), map_.frame.width, map_.frame.height));
+        picture.append(fan_png_bytes(png_, image, full_scale_));
         picture.finish();
     }
 
@@ -83,7 +79,7 @@ class ScanWriter final : public Writer {
     std::size_t pings_;
     double full_scale_;
     std::size_t steps_;
-    FanMap map_;
+    FanPng png_;
 };
 
 }  // namespace

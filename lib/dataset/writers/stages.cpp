@@ -30,7 +30,7 @@ class StagesWriter final : public Writer {
         const std::array<Ping, panels> stages =
             form_stages(finished.traced, context_.sonar(), context_.assembly.scene,
                         {mission.seed, finished.id.pose});
-        return png_bytes(render_panels(map_, stages, mission.output.full_scale),
+        return png_bytes(render_panels(map_, stages, context_.full_scale()),
                          panels * map_.frame.width, map_.frame.height);
     }
 

@@ -4,6 +4,7 @@
 #include "dataset/image_file.h"
 #include "dataset/png.h"
 #include "dataset/writers/formats.h"
+#include "dataset/writers/swath_files.h"
 #include "product/grey.h"
 #include "product/sidescan_row.h"
 
@@ -16,9 +17,10 @@ namespace {
 class WaterfallWriter final : public Writer {
   public:
     explicit WaterfallWriter(const WriterContext& context)
-        : sonar_(context.sonar()),
+        : context_(context),
+          sonar_(context.sonar()),
           pings_(context.pings),
-          full_scale_(context.mission.output.full_scale) {}
+          full_scale_(context.full_scale()) {}
 
     WriterOutputs outputs() const override {
         const auto columns = static_cast<std::size_t>(waterfall_columns(sonar_.config));
@@ -31,6 +33,8 @@ class WaterfallWriter final : public Writer {
         outputs.products = {
             {"waterfall.png", png_bytes_at_most(static_cast<int>(columns), rows, 2)},
             {"waterfall_view.png", png_bytes_at_most(axis.width, axis.height + rows, 3)}};
+        for (Product& product : swath_products(context_))
+            outputs.products.push_back(std::move(product));
         return outputs;
     }
 
@@ -59,6 +63,7 @@ class WaterfallWriter final : public Writer {
         }
         plain.finish();
         view.finish();
+        write_swath_files(context_, file, folder);
     }
 
     void describe(nlohmann::ordered_json& sensor) const override {
@@ -71,6 +76,7 @@ class WaterfallWriter final : public Writer {
     }
 
   private:
+    WriterContext context_;
     const Sonar& sonar_;
     std::size_t pings_;
     double full_scale_;

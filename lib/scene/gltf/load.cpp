@@ -2,19 +2,18 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstdint>
-#include <map>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "core/error.h"
-#include "core/input_limits.h"
 #include "core/text.h"
+#include "scene/gltf/extent.h"
+#include "scene/gltf/mesh_builder.h"
 #include "scene/gltf/pieces.h"
+#include "scene/gltf/repeats.h"
 
 namespace sonarsim {
 
@@ -23,59 +22,6 @@ namespace {
 /// Beyond these a file is probably not in the unit that it is read in.
 constexpr double suspicious_length_m = 1e4;
 constexpr double suspicious_smallness_m = 1e-3;
-
-bool has_area(const std::array<Eigen::Vector3d, 3>& p) {
-    return (p[1] - p[0]).cross(p[2] - p[0]).squaredNorm() > 0.0;
-}
-
-bool is_finite(const std::array<Eigen::Vector3d, 3>& p) {
-    return p[0].allFinite() && p[1].allFinite() && p[2].allFinite();
-}
-
-/// By how much a float of this size may be off for being a float: half a unit in the last place.
-double half_unit(double x) {
-    int exponent = 0;
-    std::frexp(x, &exponent);
-    return x == 0.0 ? 0.0 : std::ldexp(1.0, exponent - 25);
-}
-
-struct Extent {
-    /// Around the triangles that have an area, before any rounding of ours.
-    Eigen::AlignedBox3d box;
-    double vertex_rounding_m = 0.0;  ///< as in Scene
-};
-
-Extent find_extent(const OpenFile& file, ReadingLimit& limit) {
-    Extent extent;
-    for_each_piece(file, limit, [&extent](const Piece& piece) {
-        Eigen::Vector3d farthest = Eigen::Vector3d::Zero();  // in the mesh's own axes
-        for (std::size_t i = 0; i < piece.source.count; ++i) {
-            const auto vertices = triangle(piece.source, i, piece.where);
-            std::array<Eigen::Vector3d, 3> points;
-            Eigen::Vector3d reach = Eigen::Vector3d::Zero();
-            for (int k = 0; k < 3; ++k) {
-                points[k] = position(piece.source.positions, vertices[k]);
-                reach = reach.cwiseMax(points[k].cwiseAbs());
-                points[k] = piece.mesh.T_world_mesh * points[k];
-            }
-            if (!is_finite(points) || !has_area(points)) continue;
-            farthest = farthest.cwiseMax(reach);
-            for (const Eigen::Vector3d& point : points) {
-                if (point.cwiseAbs().maxCoeff() > furthest_m) {
-                    throw InputError(piece.where +
-                                     ": a vertex lies more than 1e8 m from the origin");
-                }
-                extent.box.extend(point);
-            }
-        }
-        // Integers are what their exporter made them.
-        if (piece.source.positions.component_type != TINYGLTF_COMPONENT_TYPE_FLOAT) return;
-        const Eigen::Vector3d off =
-            piece.mesh.T_world_mesh.linear().cwiseAbs() * farthest.unaryExpr(&half_unit);
-        extent.vertex_rounding_m = std::max(extent.vertex_rounding_m, off.maxCoeff());
-    });
-    return extent;
-}
 
 Eigen::Vector3d choose_origin(const Eigen::AlignedBox3d& box) {
     if (box.isEmpty()) return Eigen::Vector3d::Zero();
@@ -88,66 +34,6 @@ Eigen::Vector3d choose_origin(const Eigen::AlignedBox3d& box) {
     const Eigen::Vector3d cells = box.center() / grid;
     return grid * (cells.array() + 0.5 + aside).floor().matrix();
 }
-
-/// Adds triangles to a scene or a body, vertex by vertex as triangles ask for them.
-template <class Mesh>
-struct MeshBuilder {
-    Mesh& mesh;
-    SceneRejects& rejects;
-    Eigen::Vector3d origin;
-    // Where a piece's vertex stands in `mesh.vertices`, plus 1. What earlier pieces left is not
-    // above their number of vertices, so nothing has to be cleared.
-    std::vector<std::uint32_t> slots = {};
-
-    /// Calls `note` for every triangle that is added.
-    template <class Note>
-    void add(const Piece& piece, const Note& note) {
-        const std::size_t first = mesh.vertices.size();
-        slots.resize(std::max(slots.size(), piece.source.positions.count), 0);
-        for (std::size_t i = 0; i < piece.source.count; ++i) {
-            std::array<std::uint32_t, 3> vertices = triangle(piece.source, i, piece.where);
-            std::array<Eigen::Vector3f, 3> local;
-            std::array<Eigen::Vector3d, 3> rounded;
-            for (std::size_t k = 0; k < 3; ++k) {
-                local[k] = (corner(piece, vertices[k]) - origin).template cast<float>();
-                rounded[k] = local[k].template cast<double>();
-            }
-            if (!is_finite(rounded)) {
-                ++rejects.non_finite_triangles;
-                continue;
-            }
-            if (!has_area(rounded)) {
-                ++rejects.degenerate_triangles;
-                continue;
-            }
-            for (std::size_t k = 0; k < 3; ++k) {
-                std::uint32_t& slot = slots[vertices[k]];
-                if (slot <= first) {
-                    mesh.vertices.push_back(local[k]);
-                    slot = static_cast<std::uint32_t>(mesh.vertices.size());
-                }
-                vertices[k] = slot - 1;
-            }
-            mesh.triangles.push_back(vertices);
-            note();
-        }
-    }
-};
-
-/// Numbers the materials of a scene in the order in which they come.
-struct MaterialNumbers {
-    std::map<std::string, std::uint32_t> numbers = {};
-
-    std::uint32_t of(const std::string& name, Scene& scene) {
-        const auto number = static_cast<std::uint32_t>(scene.materials.size());
-        const auto [entry, is_new] = numbers.emplace(name, number);
-        if (is_new) {
-            scene.materials.emplace_back();
-            scene.materials.back().name = name;
-        }
-        return entry->second;
-    }
-};
 
 /// Opens the files and names their instances. Names that objects are given come first: what nodes
 /// are called gives way to them.
@@ -195,28 +81,71 @@ void doubt_units(const OpenFile& file, const Eigen::AlignedBox3d& box,
                            "are with `units`, as in units: mm");
 }
 
-void find_extents(const std::vector<OpenFile>& open, Scene& scene) {
-    Eigen::AlignedBox3d whole;
+/// Where the files reach. Those of repeated ones are looked at once.
+std::vector<Extent> find_extents(const std::vector<OpenFile>& open, const Repeats& repeats) {
     ReadingLimit limit;
+    std::vector<Extent> of_repeat;
+    for (const RepeatedFile& repeated : repeats.files) {
+        require_renamed(repeated.open);
+        of_repeat.push_back(find_extent(repeated.open, limit));
+    }
+    std::vector<Extent> extents;
+    for (std::size_t i = 0; i < open.size(); ++i) {
+        if (repeats.of_file[i] == Repeats::none) {
+            require_renamed(open[i]);
+            extents.push_back(find_extent(open[i], limit));
+        } else {
+            extents.push_back(moved(of_repeat[repeats.of_file[i]], open[i].placed->T_world_file));
+        }
+    }
+    return extents;
+}
+
+/// What the extents say of the whole scene.
+void note_extents(const std::vector<OpenFile>& open, const std::vector<Extent>& extents,
+                  Scene& scene) {
+    Eigen::AlignedBox3d whole;
     std::set<std::pair<std::string, double>> doubted;
-    for (const OpenFile& file : open) {
-        require_renamed(file);
-        const Extent extent = find_extent(file, limit);
-        doubt_units(file, extent.box, doubted, scene);
+    for (std::size_t i = 0; i < open.size(); ++i) {
+        const Extent& extent = extents[i];
+        doubt_units(open[i], extent.box, doubted, scene);
         scene.vertex_rounding_m = std::max(scene.vertex_rounding_m, extent.vertex_rounding_m);
-        if (!file.placed->moves) whole.extend(extent.box);
+        if (!open[i].placed->moves) whole.extend(extent.box);
     }
     scene.origin = choose_origin(whole);
 }
 
-Scene compose(std::span<const PlacedFile> files, SceneFiles& models, const MaterialRules& rules) {
+void set_bounds(const std::vector<Extent>& extents, const Repeats& repeats, Scene& scene) {
+    Eigen::AlignedBox3d box;
+    for (const Eigen::Vector3f& vertex : scene.vertices)
+        box.extend(vertex.cast<double>());
+    for (std::size_t i = 0; i < extents.size(); ++i) {
+        if (repeats.of_file[i] == Repeats::none || extents[i].box.isEmpty()) continue;
+        box.extend(Eigen::AlignedBox3d(extents[i].box.min() - scene.origin,
+                                       extents[i].box.max() - scene.origin));
+    }
+    if (box.isEmpty()) return;
+    scene.bounds_min = scene.origin + box.min();
+    scene.bounds_max = scene.origin + box.max();
+}
+
+Scene compose(std::span<const PlacedFile> files, SceneFiles& models, const MaterialRules& rules,
+              std::size_t share_beyond) {
     Scene scene;
     const std::vector<OpenFile> open = open_files(files, models, scene);
-    find_extents(open, scene);
+    const Repeats repeats = find_repeats(open, share_beyond);
+    const std::vector<Extent> extents = find_extents(open, repeats);
+    note_extents(open, extents, scene);
     MaterialNumbers materials;
     ReadingLimit limit;
     MeshBuilder<Scene> still{scene, scene.rejects, scene.origin};
-    for (const OpenFile& file : open) {
+    SharedMeshes shared(repeats);
+    for (std::size_t i = 0; i < open.size(); ++i) {
+        const OpenFile& file = open[i];
+        if (repeats.of_file[i] != Repeats::none) {
+            shared.add_copy(repeats.of_file[i], file, rules, limit, materials, scene);
+            continue;
+        }
         Body body;
         MeshBuilder<Body> moving{body, scene.rejects, Eigen::Vector3d::Zero()};
         scene.rejects.skipped_primitives += for_each_piece(file, limit, [&](const Piece& piece) {
@@ -235,14 +164,7 @@ Scene compose(std::span<const PlacedFile> files, SceneFiles& models, const Mater
         body.instance = file.instance_of_mesh.front();
         scene.bodies.push_back(std::move(body));
     }
-
-    Eigen::AlignedBox3d box;
-    for (const Eigen::Vector3f& vertex : scene.vertices)
-        box.extend(vertex.cast<double>());
-    if (!box.isEmpty()) {
-        scene.bounds_min = scene.origin + box.min();
-        scene.bounds_max = scene.origin + box.max();
-    }
+    set_bounds(extents, repeats, scene);
     return scene;
 }
 
@@ -267,13 +189,14 @@ void require_materials(std::span<const PlacedFile> files, const MaterialTable& t
 }  // namespace
 
 Scene load_scene(std::span<const PlacedFile> files, SceneFiles& models, const MaterialTable& table,
-                 const std::string& material_default, const Water& water) {
+                 const std::string& material_default, const Water& water,
+                 std::size_t share_beyond) {
     require_materials(files, table);
     MaterialRules rules;
     rules.fallback = material_default;
     for (const Material& material : table.materials)
         rules.known.insert(material.name);
-    Scene scene = compose(files, models, rules);
+    Scene scene = compose(files, models, rules, share_beyond);
     resolve_materials(scene, table, water);
     return scene;
 }
@@ -289,7 +212,7 @@ Scene load_scene(const std::filesystem::path& gltf, const std::filesystem::path&
 Scene load_scene_geometry(const std::filesystem::path& gltf) {
     SceneFiles models;
     const PlacedFile file{.file = gltf};
-    return compose({&file, 1}, models, {true, {}, {}});
+    return compose({&file, 1}, models, {true, {}, {}}, share_nothing);
 }
 
 }  // namespace sonarsim

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <limits>
 #include <span>
 #include <string>
 
@@ -30,13 +32,20 @@ namespace sonarsim {
 Scene load_scene(const std::filesystem::path& gltf, const std::filesystem::path& materials_csv,
                  const Water& water);
 
+/// For load_scene: every copy of a file becomes triangles of the scene.
+inline constexpr std::size_t share_nothing = std::numeric_limits<std::size_t>::max();
+
 /// The same of many files, each where it is placed; those that move become bodies. The scene is bit
 /// by bit that of one file with all their nodes, in their order and with their transforms. What
 /// `table` lacks or has no name becomes `material_default`, unless that is empty. InputError
 /// besides at the place of a file for a name that is taken, a pattern of `exclude` or a material to
 /// rename that the file does not have, and a material that the table lacks.
+///
+/// Where files that are placed more than once, under a name and without moving, make more than
+/// `share_beyond` triangles together, each becomes one shared mesh with copies.
 Scene load_scene(std::span<const PlacedFile> files, SceneFiles& models, const MaterialTable& table,
-                 const std::string& material_default, const Water& water);
+                 const std::string& material_default, const Water& water,
+                 std::size_t share_beyond = share_nothing);
 
 /// The same without a CSV: materials have a name alone, "(no material)" where the file names none.
 Scene load_scene_geometry(const std::filesystem::path& gltf);

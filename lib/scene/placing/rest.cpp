@@ -53,6 +53,20 @@ double rise_of(const Corners& object, const Corners& ground) {
     return rise;
 }
 
+/// The highest corner of the bottom's triangles near an object, seen from above.
+double highest_below(const Bottom& bottom, const Surface& object) {
+    Eigen::AlignedBox2d box;
+    for (const Eigen::Vector3d& vertex : object.vertices)
+        box.extend(vertex.head<2>());
+    double highest = -std::numeric_limits<double>::infinity();
+    if (box.isEmpty()) return highest;
+    bottom.for_each_near(box, [&](std::uint32_t near) {
+        for (const Eigen::Vector3d& corner : corners_at(bottom.surface(), near))
+            highest = std::max(highest, corner.z());
+    });
+    return highest;
+}
+
 }  // namespace
 
 std::optional<double> lift_to_rest(const Bottom& bottom, const Surface& object) {
@@ -62,8 +76,10 @@ std::optional<double> lift_to_rest(const Bottom& bottom, const Surface& object) 
         if (!heights) return std::nullopt;
         lift = std::max(lift, heights->highest - vertex.z());
     }
+    const double ground_top = highest_below(bottom, object);
     for (std::size_t t = 0; t < object.triangles.size(); ++t) {
         const Corners own = corners_at(object, t);
+        if (ground_top - std::min({own[0].z(), own[1].z(), own[2].z()}) <= lift) continue;
         const Eigen::AlignedBox2d box = box_from_above(own);
         const double lowest = std::min({own[0].z(), own[1].z(), own[2].z()});
         bottom.for_each_near(box, [&](std::uint32_t near) {

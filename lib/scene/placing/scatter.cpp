@@ -1,6 +1,7 @@
 #include "scene/placing/scatter.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/pose.h"
 #include "core/random.h"
@@ -70,12 +71,39 @@ Hull shifted(const Hull& hull, const Eigen::Vector2d& by) {
     return out;
 }
 
-bool is_free(const Hull& room, const std::vector<Hull>& taken, double spacing_m) {
-    return std::ranges::none_of(taken, [&](const Hull& other) {
-        const double distance = distance_between(room, other);
-        return distance <= 0.0 || distance < spacing_m;
-    });
+Eigen::AlignedBox2d box_around(const Hull& hull) {
+    Eigen::AlignedBox2d box;
+    for (const Eigen::Vector2d& corner : hull)
+        box.extend(corner);
+    return box;
 }
+
+/// The ground that is taken, with boxes that tell quickly what is far away.
+struct TakenGround {
+    std::vector<Hull>& hulls;
+    std::vector<Eigen::AlignedBox2d> boxes = {};
+
+    explicit TakenGround(std::vector<Hull>& taken) : hulls(taken) {
+        for (const Hull& hull : taken)
+            boxes.push_back(box_around(hull));
+    }
+    void add(Hull hull) {
+        boxes.push_back(box_around(hull));
+        hulls.push_back(std::move(hull));
+    }
+    bool has_room_for(const Hull& room, double spacing_m) const {
+        const Eigen::AlignedBox2d box = box_around(room);
+        // More than rounding can make of the distance between two hulls.
+        const double near_m = 1.001 * spacing_m + 1e-6 * (1.0 + box.max().cwiseAbs().maxCoeff() +
+                                                          box.min().cwiseAbs().maxCoeff());
+        for (std::size_t k = 0; k < hulls.size(); ++k) {
+            if (box.squaredExteriorDistance(boxes[k]) > near_m * near_m) continue;
+            const double distance = distance_between(room, hulls[k]);
+            if (distance <= 0.0 || distance < spacing_m) return false;
+        }
+        return true;
+    }
+};
 
 /// What is tried for one object at one place after the other.
 struct Attempt {
@@ -88,12 +116,12 @@ struct Attempt {
 
 /// The object's transform where there is room for it, which is taken then.
 std::optional<Eigen::Affine3d> try_at(const Eigen::Vector2d& position, const Attempt& attempt,
-                                      std::vector<Hull>& taken, Refusals& refusals) {
+                                      TakenGround& taken, Refusals& refusals) {
     const ScatterRule& rule = attempt.rule;
     const auto fits = [&](const Hull& room) {
         const bool inside = std::ranges::all_of(
             room, [&](const Eigen::Vector2d& p) { return rule.area.contains(p); });
-        const bool alone = inside && is_free(room, taken, rule.spacing_m);
+        const bool alone = inside && taken.has_room_for(room, rule.spacing_m);
         refusals.outside += !inside;
         refusals.taken += inside && !alone;
         return alone;
@@ -109,7 +137,7 @@ std::optional<Eigen::Affine3d> try_at(const Eigen::Vector2d& position, const Att
     // On a slope it may be tilted.
     Hull room = hull_of(moved(attempt.shape, *T_world_shape).vertices);
     if (rule.align && !fits(room)) return std::nullopt;
-    taken.push_back(std::move(room));
+    taken.add(std::move(room));
     return T_world_shape;
 }
 
@@ -140,6 +168,7 @@ std::vector<ScatteredObject> scatter(const ScatterRule& rule, std::uint32_t rule
                                      std::uint64_t seed, const Bottom& bottom,
                                      std::vector<Hull>& taken) {
     const std::size_t count = count_of(rule, seed, rule_index);
+    TakenGround ground(taken);
     std::vector<ScatteredObject> objects;
     for (std::size_t i = 0; i < count; ++i) {
         const Draws draws(seed, rule_index, static_cast<std::uint32_t>(i));
@@ -162,7 +191,7 @@ std::vector<ScatteredObject> scatter(const ScatterRule& rule, std::uint32_t rule
             const Eigen::Vector2d position(
                 draws.in({rule.area.min().x(), rule.area.max().x()}, Draw::x, n),
                 draws.in({rule.area.min().y(), rule.area.max().y()}, Draw::y, n));
-            found = try_at(position, {rule, bottom, shape, stance, outline}, taken, refusals);
+            found = try_at(position, {rule, bottom, shape, stance, outline}, ground, refusals);
         }
         if (!found) give_up(rule, i, count, refusals);
         objects.push_back({chosen, *found});

@@ -78,7 +78,11 @@ void AgreeingSlices::see_gap(std::uint32_t gap) {
 void AgreeingSlices::split_where_wanted(std::uint32_t gap) {
     for (const WantedSlice& wanted : scan_.wanted_in(gap)) {
         const Between& last = between_.back();
-        if (wanted.u - seen_[last.low].slice.u < least_width(gap)) continue;
+        const float least = least_width(gap);
+        if (wanted.u - seen_[last.low].slice.u < least) continue;
+        // Midway to a slice that is one float away lies that slice itself: nothing would be left
+        // for the last slice of a frame.
+        if (seen_[last.high].slice.u - wanted.u < least) continue;
         split(between_.size() - 1, wanted.u);
     }
 }

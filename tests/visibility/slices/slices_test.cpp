@@ -299,4 +299,25 @@ TEST_CASE("slices: a finer goal asks for more slices and promises less error") {
     CHECK(engine->visible_surface(view, pose).estimated_l1 > 0.001);
 }
 
+// A pole that is narrower than a gap gets a slice of its own. Where that lay one float before the
+// last slice of the view, the last strip had no width, and what was written lay beyond the last
+// beam.
+TEST_CASE("slices: a pole at the very border of the view ends its last beam once") {
+    View view = fan_view();
+    view.azimuth_rad = radians(90.0);  // u = y / x runs from -1 to 1
+    view.beams = 4;
+    for (int k = 0; k < 40; ++k) {
+        Scene scene = shapes::empty_scene();
+        constexpr float ulp = 4.77e-7F;  // of 4 to 8
+        const float left = 5.0F - ulp * static_cast<float>(k / 4 + k % 4 + 1);
+        const float right = 5.0F - ulp * static_cast<float>(k / 4);
+        shapes::add_box(scene, {5.0F, left, -0.5F}, {5.0F + ulp, right, 0.5F},
+                        shapes::add_material(scene, 1.0F));
+        const Samples samples = seen(scene, view, Pose{}, 1);
+        REQUIRE(samples.beam_begin.size() == 5);
+        CHECK(std::ranges::is_sorted(samples.beam_begin));
+        CHECK(samples.beam_begin.back() == samples.items.size());
+    }
+}
+
 TEST_SUITE_END();

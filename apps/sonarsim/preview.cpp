@@ -1,0 +1,72 @@
+#include "preview/preview.h"
+
+#include <spdlog/spdlog.h>
+
+#include <memory>
+#include <optional>
+
+#include "commands.h"
+#include "core/error.h"
+#include "dataset/image_file.h"
+#include "logging.h"
+#include "mission_options.h"
+
+namespace sonarsim {
+
+namespace {
+
+struct PreviewArguments {
+    MissionOptions mission;
+    std::optional<std::uint32_t> ping;
+    std::filesystem::path out;  ///< "": NAME_preview.png here
+    LogOptions log;
+};
+
+/// Of a mission with variants the first one, which is the mission as it would be rendered.
+Mission load_one(const MissionOptions& options) {
+    Mission mission = load(options);
+    const std::vector<Mission> variants = load_variants(options, mission);
+    if (variants.empty()) return mission;
+    spdlog::info("{} variants: this is the first of them", variants.size());
+    return variants.front();
+}
+
+int preview(const PreviewArguments& arguments) {
+    start_logging(arguments.log);
+    const Mission mission = load_one(arguments.mission);
+    const Assembly assembly = assemble(mission);
+    warn_about(assembly.scene);
+    const std::size_t poses = assembly.trajectory.size();
+    const auto pose = arguments.ping.value_or(static_cast<std::uint32_t>(poses / 2));
+    if (pose >= poses) {
+        throw InputError("--ping " + std::to_string(pose) + ": the mission has the pings 0 to " +
+                         std::to_string(poses - 1));
+    }
+    const std::filesystem::path out = arguments.out.empty()
+                                          ? std::filesystem::path(mission.name + "_preview.png")
+                                          : arguments.out;
+    write_picture(out, draw_preview(mission, assembly, pose));
+    spdlog::info("{}: ping {} of {}", out.string(), pose, mission.name);
+    return exit_done;
+}
+
+}  // namespace
+
+void add_preview(CLI::App& app, int& exit_code) {
+    CLI::App& command = *app.add_subcommand(
+        "preview", "Draws one picture of a mission: what the sonars see, and from where");
+    auto arguments = std::make_shared<PreviewArguments>();
+    add_mission_options(command, arguments->mission, MissionOutput::other);
+    command
+        .add_option("--ping", arguments->ping,
+                    "Number of the ping, that of its pose (default: in the middle)")
+        ->type_name("N");
+    command
+        .add_option("--out", arguments->out,
+                    "The picture (default: NAME_preview.png in the current folder)")
+        ->type_name("FILE.png");
+    add_log_options(command, arguments->log);
+    command.callback([arguments, &exit_code] { exit_code = preview(*arguments); });
+}
+
+}  // namespace sonarsim

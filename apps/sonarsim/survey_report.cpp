@@ -1,0 +1,107 @@
+#include "survey_report.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "core/text.h"
+
+namespace sonarsim {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Instances with their share of the surface that was seen, most first.
+std::vector<std::pair<std::string, double>> seen_most(const SonarSurvey& found,
+                                                      const Scene& scene) {
+    constexpr std::size_t most = 5;
+    const double all = std::reduce(found.seen_m2.begin(), found.seen_m2.end());
+    std::vector<std::pair<std::string, double>> seen;
+    for (std::size_t i = 0; i < found.seen_m2.size(); ++i) {
+        if (found.seen_m2[i] > 0.0) seen.emplace_back(scene.instances[i], found.seen_m2[i] / all);
+    }
+    std::ranges::stable_sort(seen,
+                             [](const auto& a, const auto& b) { return a.second > b.second; });
+    if (seen.size() > most) seen.resize(most);
+    return seen;
+}
+
+std::string text_of(const Interval& interval, const char* unit) {
+    if (interval.empty()) return "none";
+    return fmt::format("{:.4g} to {:.4g} {}", interval.low, interval.high, unit);
+}
+
+Json json_of(const Interval& interval) {
+    if (interval.empty()) return nullptr;
+    return {interval.low, interval.high};
+}
+
+/// To a tenth, without a minus before a zero.
+double round_off(double value) {
+    constexpr double tenths = 10.0;
+    return std::round(tenths * value) / tenths + 0.0;
+}
+
+}  // namespace
+
+std::string survey_text(const SonarSurvey& found, const Scene& scene) {
+    const auto line = [](const std::string& text) { return fmt::format("{:<12}{}\n", "", text); };
+    const Interval roll{round_off(found.roll_deg.low), round_off(found.roll_deg.high)};
+    const Interval pitch{round_off(found.pitch_deg.low), round_off(found.pitch_deg.high)};
+    std::string text =
+        line(fmt::format("altitude {}, roll {}, pitch {}", text_of(found.altitude_m, "m"),
+                         text_of(roll, "deg"), text_of(pitch, "deg")));
+    text += line(fmt::format("{} of {} pings tried are blind, {:.1f} % of the bins are lit",
+                             found.blind, found.pings, 100.0 * found.lit_share));
+    if (found.first_echo_m.empty()) return text;
+    text += line(fmt::format("first echo at {}, last at {}", text_of(found.first_echo_m, "m"),
+                             text_of(found.last_echo_m, "m")));
+    std::string seen;
+    for (const auto& [name, share] : seen_most(found, scene)) {
+        constexpr double least = 0.005;
+        if (share < least) break;
+        seen += fmt::format("{}{} ({:.0f} %)", seen.empty() ? "" : ", ", printable(name),
+                            100.0 * share);
+    }
+    text += line("sees most of " + seen);
+    return text + line(fmt::format("signal {:.3g}, noise {:.3g}, {:.1f} % of the lit bins white",
+                                   found.signal, found.noise, 100.0 * found.white_share));
+}
+
+Json survey_json(const SonarSurvey& found, const Scene& scene) {
+    Json seen = Json::object();
+    for (const auto& [name, share] : seen_most(found, scene))
+        seen[name] = share;
+    return {{"pings_tried", found.pings},
+            {"blind", found.blind},
+            {"altitude_m", json_of(found.altitude_m)},
+            {"roll_deg", json_of(found.roll_deg)},
+            {"pitch_deg", json_of(found.pitch_deg)},
+            {"lit_share", found.lit_share},
+            {"first_echo_m", json_of(found.first_echo_m)},
+            {"last_echo_m", json_of(found.last_echo_m)},
+            {"seen_most", seen},
+            {"signal", found.signal},
+            {"noise", found.noise},
+            {"white_share", found.white_share},
+            {"brightest", found.brightest}};
+}
+
+Json warnings_json(std::span<const Warning> warnings) {
+    Json out = Json::array();
+    for (const Warning& warning : warnings) {
+        out.push_back({{"number", number_of(warning.doubt)},
+                       {"about", warning.about},
+                       {"what", warning.what},
+                       {"cure", warning.cure}});
+    }
+    return out;
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,48 @@
+# `cpack -G DEB` in a build folder, as scripts/package.sh does: sonarsim_*.deb, the program with examples
+# and documents, and libsonarsim-dev_*.deb, the library for find_package(sonarsim).
+set(DEBIAN ${PROJECT_BINARY_DIR}/debian)
+foreach(package sonarsim libsonarsim-dev)
+    configure_file(cmake/debian/changelog.in ${DEBIAN}/${package}/changelog @ONLY)
+    add_custom_command(OUTPUT ${DEBIAN}/${package}/changelog.gz DEPENDS ${DEBIAN}/${package}/changelog
+                       VERBATIM COMMAND gzip -9nkf ${DEBIAN}/${package}/changelog)
+    list(APPEND SONARSIM_CHANGELOGS ${DEBIAN}/${package}/changelog.gz)
+    set(component program)
+    if(package STREQUAL "libsonarsim-dev")
+        set(component development)
+    endif()
+    install(FILES ${DEBIAN}/${package}/changelog.gz cmake/debian/copyright
+            DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${package} COMPONENT ${component})
+endforeach()
+add_custom_target(changelogs ALL DEPENDS ${SONARSIM_CHANGELOGS})
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_PACKAGE_CONTACT "the sonarsim authors <sonarsim@users.noreply.github.com>")
+set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
+# The licence is in the copyright file.
+set(CPACK_COMPONENTS_ALL program development)
+set(CPACK_COMPONENTS_GROUPING IGNORE)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
+    OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME sonarsim)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS python3)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS python3-numpy)
+set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "simulator of sonars that writes datasets
+Turns a mission (a glTF scene, a trajectory and sonars) into a dataset of
+imaging, profiling, side-scan, scanning and echosounder data that can be
+made again to the byte, on the processor alone.")
+
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libsonarsim-dev)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
+    "libeigen3-dev, libembree-dev, libtbb-dev, libspdlog-dev, libyaml-cpp-dev, nlohmann-json3-dev, libtinygltf-dev, zlib1g-dev")
+set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "simulator of sonars, as a library
+Headers and a static library, for projects that say find_package(sonarsim)
+in CMake. The package sonarsim holds the program.")
+include(CPack)

@@ -1,0 +1,103 @@
+#include "assembly/brightness.h"
+
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "assembly/poses.h"
+#include "assembly/spread_pings.h"
+#include "sonar/setup.h"
+#include "sonar/sonar.h"
+#include "visibility/make_engine.h"
+
+namespace sonarsim {
+
+namespace {
+
+constexpr std::size_t most_pings_for_white = 8;  // per sonar
+constexpr std::size_t most_calibrated = 3;       // of the calibrated model, which takes long
+constexpr std::size_t most_bins = 1U << 24;      // of all of a sonar's probes
+constexpr double coarse_l1 = 0.1;                // brightness needs no fine sampling
+constexpr double share_below_white = 0.99;       // of the lit bins
+// Where a few glints are far above all else, as with the calibrated model, they burn out.
+constexpr double share_usual = 0.9;
+constexpr double most_above_usual = 10.0;
+constexpr double nothing_seen = 1.0;  // any value does
+
+/// Rounded up to two digits. Multiplied and divided rather than by powers and logarithms, whose
+/// last bit depends on the library.
+double two_digits_up(double value) {
+    double scale = 1.0;
+    while (value * scale < 10.0)
+        scale *= 10.0;
+    double unit = 1.0;
+    while (value >= 100.0 * unit)
+        unit *= 10.0;
+    return std::min(1e9, std::ceil(value * scale / unit) * unit / scale);
+}
+
+/// What this share of the values does not exceed. Moves them about.
+float quantile(std::vector<float>& values, double share) {
+    const auto index = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+    std::ranges::nth_element(values, values.begin() + index);
+    return values[static_cast<std::size_t>(index)];
+}
+
+/// The intensities of the bins that see surface.
+void append_lit(const Ping& clean, const Ping& ping, std::vector<float>& lit) {
+    for (std::size_t i = 0; i < ping.intensity.size(); ++i) {
+        if (clean.intensity[i] > 0.0F && ping.intensity[i] > 0.0F) lit.push_back(ping.intensity[i]);
+    }
+}
+
+double find_full_scale(std::uint64_t seed, const Scene& scene, const Trajectory& trajectory,
+                       std::span<const Trajectory> motions, Sonar sonar,
+                       const VisibilityEngine& engine) {
+    View& view = sonar.settings.view;
+    view.relative_l1 = std::max(view.relative_l1, coarse_l1);
+    const auto bins = static_cast<std::size_t>(view.range_bins) * view.beams;
+    const std::size_t most = sonar.settings.calibrated ? most_calibrated : most_pings_for_white;
+    const std::size_t probes = std::clamp<std::size_t>(most_bins / bins, 1, most);
+    std::vector<float> lit;
+    for (const std::uint32_t pose : spread_pings(trajectory.size(), sonar.config.every, probes)) {
+        const TimedPose& at = trajectory[pose];
+        const std::unique_ptr<VisibilityEngine> moment =
+            motions.empty() ? nullptr : engine.at(poses_at(motions, at.t_s));
+        const TracedPing traced =
+            trace(sonar, scene, moment ? *moment : engine, at.T_world_vehicle, pose);
+        const PingKey key{seed, pose};
+        append_lit(form_image(traced, sonar.settings, scene, key, direct_echoes_alone),
+                   form_image(traced, sonar.settings, scene, key), lit);
+    }
+    if (lit.empty()) return nothing_seen;
+    const double white = std::min<double>(quantile(lit, share_below_white),
+                                          most_above_usual * quantile(lit, share_usual));
+    return std::isfinite(white) ? two_digits_up(white) : nothing_seen;
+}
+
+}  // namespace
+
+std::vector<double> find_full_scales(const Mission& mission, const Scene& scene,
+                                     const Trajectory& trajectory,
+                                     std::span<const Trajectory> motions,
+                                     std::span<const Sonar> sonars) {
+    if (mission.output.full_scale > 0.0)
+        return std::vector<double>(sonars.size(), mission.output.full_scale);
+    std::vector<double> scales;
+    // In an arena of its own: where there is no memory for more threads, it says so before Embree,
+    // which would end the program.
+    tbb::task_arena arena;
+    arena.execute([&] {
+        const std::unique_ptr<VisibilityEngine> engine =
+            make_engine(scene, {.type = EngineType::rays, .octree = {}});
+        for (const Sonar& sonar : sonars) {
+            scales.push_back(
+                find_full_scale(mission.seed, scene, trajectory, motions, sonar, *engine));
+        }
+    });
+    return scales;
+}
+
+}  // namespace sonarsim

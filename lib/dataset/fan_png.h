@@ -1,0 +1,26 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "mission/mission.h"
+#include "product/fan.h"
+#include "product/fan_style.h"
+
+namespace sonarsim {
+
+/// What draws the fans of a sonar into PNG files, as output.fan_style has it: grey of one channel
+/// where that asks for nothing, else RGB.
+struct FanPng {
+    FanMap map;
+    std::optional<FanStyle> style;
+};
+
+FanPng make_fan_png(const Sonar& sonar, const OutputConfig& output);
+
+std::string fan_png_bytes(const FanPng& png, const Ping& ping, double full_scale);
+
+/// The most that such a file takes.
+double fan_png_bytes_at_most(const FanPng& png);
+
+}  // namespace sonarsim

@@ -1,0 +1,195 @@
+#include "dataset/status.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "dataset/description.h"
+#include "dataset/journal.h"
+#include "dataset/layout.h"
+#include "dataset/variants.h"
+
+namespace sonarsim {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+Json description_of(const fs::path& folder) {
+    std::optional<Json> description;
+    if (fs::exists(folder / description_name)) description = read_description(folder);
+    if (!description) throw InputError({folder.string()}, "holds no sonarsim dataset");
+    return *std::move(description);
+}
+
+/// As much of the layout as tells which ping is in which shard.
+Layout layout_of(const fs::path& folder, const Json& description) {
+    Layout layout;
+    layout.folder = folder;
+    try {
+        layout.poses = description.at("poses").get<std::size_t>();
+        for (const Json& sensor : description.at("sensors")) {
+            SensorLayout own;
+            own.name = sensor.at("name").get<std::string>();
+            own.every = sensor.at("every").get<std::uint32_t>();
+            own.pings = sensor.at("pings").get<std::size_t>();
+            if (sensor.contains("packs"))
+                own.pings_per_pack = sensor["packs"].at("pings").get<std::size_t>();
+            if (own.every == 0) throw InputError({folder.string()}, "its dataset.json is damaged");
+            layout.sensors.push_back(std::move(own));
+        }
+    } catch (const Json::exception& error) {
+        throw InputError({(folder / description_name).string()},
+                         std::string("is damaged: ") + error.what());
+    }
+    return layout;
+}
+
+/// Every ping of the dataset, as list_pings() has them.
+std::vector<PingId> pings_of(const Layout& layout) {
+    std::vector<PingId> pings;
+    for (std::uint32_t pose = 0; pose < layout.poses; ++pose) {
+        for (std::uint32_t sensor = 0; sensor < layout.sensors.size(); ++sensor) {
+            if (pose % layout.sensors[sensor].every == 0) pings.push_back({pose, sensor});
+        }
+    }
+    return pings;
+}
+
+/// Whether a run holds the lock of its part of the journal.
+bool is_locked(const fs::path& part) {
+    const int fd = ::open(part.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
+    if (fd < 0) return false;
+    const bool locked = ::flock(fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+    ::close(fd);
+    return locked;
+}
+
+/// The shards that a name of the form journal_part() stands for.
+std::pair<int, int> shard_of_part(const std::string& name) {
+    const std::size_t of = name.find("-of-");
+    const auto shard = parse_integer(name.substr(0, of));
+    const auto shards = parse_integer(name.substr(of + 4, name.size() - of - 8));
+    return {static_cast<int>(shard.value_or(1)), static_cast<int>(shards.value_or(1))};
+}
+
+/// The parts of the journals in the folders, by the shard that writes them.
+std::map<std::pair<int, int>, fs::path> parts_in(const std::vector<fs::path>& folders) {
+    std::map<std::pair<int, int>, fs::path> parts;
+    for (const fs::path& folder : folders) {
+        const fs::path own = folder / journal_folder_name;
+        if (!fs::is_directory(own)) continue;
+        for (const fs::directory_entry& part : fs::directory_iterator(own)) {
+            const std::string name = part.path().filename().string();
+            if (is_journal_part(name)) parts.try_emplace(shard_of_part(name), part.path());
+        }
+    }
+    return parts;
+}
+
+ShardStatus status_of(const fs::path& part, double now_s) {
+    ShardStatus status;
+    status.begun = true;
+    const JournalRun run = read_journal_run(part);
+    status.running = is_locked(part);
+    const double seconds = run.last_s - run.first_s;
+    if (seconds > 0.0) status.pings_per_s = static_cast<double>(run.pings) / seconds;
+    if (run.last_s > 0.0) status.age_s = std::max(0.0, now_s - run.last_s);
+    return status;
+}
+
+/// Adds the shards of one division of the job that nobody has begun.
+std::vector<ShardStatus> with_missing(const std::vector<ShardStatus>& begun) {
+    std::vector<ShardStatus> all = begun;
+    std::set<int> divisions;
+    for (const ShardStatus& one : begun)
+        divisions.insert(one.shards);
+    if (divisions.size() != 1) return all;
+    for (int shard = 1; shard <= *divisions.begin(); ++shard) {
+        const auto is_it = [&](const ShardStatus& one) { return one.shard == shard; };
+        if (std::ranges::none_of(begun, is_it))
+            all.push_back({.shard = shard, .shards = *divisions.begin(), .pings = {}});
+    }
+    std::ranges::sort(all, {}, &ShardStatus::shard);
+    return all;
+}
+
+}  // namespace
+
+bool JobStatus::running() const {
+    return std::ranges::any_of(shards, &ShardStatus::running);
+}
+
+double JobStatus::pings_per_s() const {
+    double sum = 0.0;
+    for (const ShardStatus& shard : shards)
+        sum += shard.running ? shard.pings_per_s : 0.0;
+    return sum;
+}
+
+JobStatus read_status(const std::vector<fs::path>& folders, double now_s) {
+    const Json description = description_of(folders.at(0));
+    const Layout layout = layout_of(folders[0], description);
+    JobStatus status;
+    status.mission = description.value("mission", std::string());
+    status.complete = description.value("complete", false);
+    for (const SensorLayout& sensor : layout.sensors)
+        status.sensors.push_back({sensor.name, {0, sensor.pings}});
+    std::set<PingId> done;
+    for (const fs::path& folder : folders) {
+        const std::string difference = difference_between(description_of(folder), description);
+        if (!difference.empty())
+            throw InputError({folder.string()}, "holds a dataset " + difference);
+        read_journal(folder).pings.for_each(
+            [&](const PingId& ping, const std::vector<std::string>&) { done.insert(ping); });
+    }
+    for (const auto& [shard, part] : parts_in(folders)) {
+        ShardStatus one = status_of(part, now_s);
+        one.shard = shard.first;
+        one.shards = shard.second;
+        status.shards.push_back(one);
+    }
+    status.shards = status.complete ? std::vector<ShardStatus>() : with_missing(status.shards);
+    const std::vector<PingId> all = pings_of(layout);
+    status.pings.all = all.size();
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const bool is_done = status.complete || done.contains(all[i]);
+        status.pings.done += is_done;
+        status.sensors[all[i].sensor].second.done += is_done;
+        for (ShardStatus& shard : status.shards) {
+            if (shard_of(layout, all[i], i, shard.shards) + 1 != shard.shard) continue;
+            ++shard.pings.all;
+            shard.pings.done += is_done;
+        }
+    }
+    return status;
+}
+
+VariantsStatus read_variants_status(const fs::path& folder, double now_s) {
+    VariantsStatus status;
+    const std::optional<Json> json = read_variants(folder);
+    if (!json) throw InputError({folder.string()}, "holds no variants of a sonarsim mission");
+    for (const fs::path& variant : folders_of_variants(folder, *json)) {
+        ++status.variants;
+        if (!fs::exists(variant / description_name)) continue;
+        JobStatus one = read_status({variant}, now_s);
+        if (one.complete) {
+            ++status.complete;
+        } else {
+            status.under_way.emplace_back(variant.filename().string(), std::move(one));
+        }
+    }
+    return status;
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,150 @@
+#include "dataset/writers/swath_files.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
+
+#include "core/file.h"
+#include "core/units.h"
+#include "dataset/geotiff.h"
+#include "dataset/ping_metadata.h"
+#include "dataset/whole_file.h"
+#include "dataset/xtf.h"
+#include "product/grey.h"
+#include "product/mosaic.h"
+#include "product/sidescan_row.h"
+
+namespace sonarsim {
+
+namespace {
+
+struct RecordedRow {
+    std::size_t pose;
+    Pose T_world_sensor;
+    std::span<const float> values;
+    std::optional<Swath> swath;
+};
+
+void for_each_row(const WriterContext& context, const RecordFile& rows,
+                  const std::function<void(const RecordedRow&)>& visit) {
+    const Sonar& sonar = context.sonar();
+    std::vector<float> values(rows.record_bytes() / sizeof(float));
+    for (std::size_t k = 0; k < rows.records(); ++k) {
+        rows.read(k, std::as_writable_bytes(std::span(values)));
+        const std::size_t pose = k * static_cast<std::size_t>(sonar.config.every);
+        const Pose T_world_sensor =
+            sensor_pose(sonar, context.assembly.trajectory[pose].T_world_vehicle,
+                        static_cast<std::uint32_t>(pose));
+        visit({pose, T_world_sensor, values, swath_of(sonar, T_world_sensor, values)});
+    }
+}
+
+XtfPing xtf_ping(const WriterContext& context, const RecordedRow& row) {
+    const SonarConfig& config = context.sonar().config;
+    const Trajectory& trajectory = context.assembly.trajectory;
+    const Pose& T_world_vehicle = trajectory[row.pose].T_world_vehicle;
+    const Eigen::Matrix3d axes = T_world_vehicle.rotation.toRotationMatrix();
+    const Eigen::Vector3d bow = axes.col(0);
+    const std::size_t next = row.pose + static_cast<std::size_t>(config.every);
+    const Eigen::Vector3d& position = row.T_world_sensor.translation;
+    return {.number = static_cast<std::uint32_t>(row.pose),
+            .t_s = trajectory[row.pose].t_s,
+            .x_m = position.x(),
+            .y_m = position.y(),
+            .depth_m = -position.z(),
+            .altitude_m = row.swath ? row.swath->altitude_m : 0.0,
+            .heading_deg = std::fmod(degrees(std::atan2(bow.x(), bow.y())) + 360.0, 360.0),
+            .pitch_deg = degrees(std::asin(std::clamp(bow.z(), -1.0, 1.0))),
+            .roll_deg = degrees(std::atan2(axes(2, 1), axes(2, 2))),
+            .sound_speed_m_s = context.mission.water.sound_speed_m_s,
+            .range_max_m = config.range_max_m,
+            .seconds_per_ping =
+                next < trajectory.size() ? trajectory[next].t_s - trajectory[row.pose].t_s : 0.0};
+}
+
+void write_xtf(const WriterContext& context, const RecordFile& rows,
+               const std::filesystem::path& folder) {
+    const SonarConfig& config = context.sonar().config;
+    StreamedFile file(folder / "waterfall.xtf");
+    file.append(xtf_header({.sonar_name = config.name,
+                            .azimuth_deg = static_cast<float>(config.azimuth_deg),
+                            .beam_width_deg = static_cast<float>(config.elevation_deg)}));
+    for_each_row(context, rows, [&](const RecordedRow& row) {
+        file.append(xtf_record(xtf_ping(context, row), grey_16(row.values, context.full_scale())));
+    });
+    file.finish();
+}
+
+/// Wide enough that neighbouring pings and bins leave no cell between them empty.
+double own_cell_m(const WriterContext& context) {
+    const Trajectory& trajectory = context.assembly.trajectory;
+    double way_m = 0.0;
+    for (std::size_t k = 1; k < trajectory.size(); ++k) {
+        way_m += (trajectory[k].T_world_vehicle.translation -
+                  trajectory[k - 1].T_world_vehicle.translation)
+                     .norm();
+    }
+    const double spacing_m = way_m / static_cast<double>(std::max<std::size_t>(1, context.pings));
+    return round_up_125(std::max(1.2 * spacing_m, context.sonar().settings.view.bin_m()));
+}
+
+void write_mosaic(const WriterContext& context, const RecordFile& rows,
+                  const std::filesystem::path& folder) {
+    const double asked_m = context.mission.output.mosaic_cell_m;
+    SoundingBounds bounds;
+    std::uint64_t dark = 0;
+    for_each_row(context, rows, [&](const RecordedRow& row) {
+        row.swath ? add_bounds(*row.swath, bounds) : void(++dark);
+    });
+    Bathymetry map = make_bathymetry(bounds, asked_m > 0.0 ? asked_m : own_cell_m(context));
+    const double bin_m = context.sonar().settings.view.bin_m();
+    for_each_row(context, rows, [&](const RecordedRow& row) {
+        if (row.swath) lay_down(*row.swath, bin_m, row.values, map);
+    });
+    // A TIFF has a pixel at least; where no ping shows the bottom it is NaN.
+    std::vector<float> echoes = map.mean_z();
+    if (echoes.empty()) echoes.push_back(std::nanf(""));
+    write_geotiff(folder / "mosaic.tif", echoes, std::max(map.columns, 1),
+                  {map.west_m, map.north_m, map.cell_m > 0.0 ? map.cell_m : 1.0});
+    const nlohmann::ordered_json json{
+        {"file", "mosaic.tif"},
+        {"values", "mean echo of the pings over a cell; NaN where there are none"},
+        {"rows", map.rows},
+        {"columns", map.columns},
+        {"cell_m", map.cell_m},
+        {"cell_asked_m", asked_m},
+        {"west_m", map.west_m},
+        {"north_m", map.north_m},
+        {"ground", "level, at the first return of each ping"},
+        {"pings", rows.records() - dark},
+        {"pings_left_out", dark}};
+    write_file(folder / "mosaic.json", json_text(json));
+}
+
+}  // namespace
+
+std::vector<Product> swath_products(const WriterContext& context) {
+    std::vector<Product> products;
+    const auto columns = static_cast<std::size_t>(waterfall_columns(context.sonar().config));
+    if (context.mission.output.xtf) {
+        products.push_back(
+            {"waterfall.xtf", 1024.0 + static_cast<double>(xtf_record_bytes(columns)) *
+                                           static_cast<double>(context.pings)});
+    }
+    if (context.mission.output.mosaic) {
+        products.push_back({"mosaic.tif", 1000.0 + 4.0 * most_map_cells});
+        products.push_back({"mosaic.json", 1000.0});
+    }
+    return products;
+}
+
+void write_swath_files(const WriterContext& context, const RecordFile& rows,
+                       const std::filesystem::path& folder) {
+    if (context.mission.output.xtf) write_xtf(context, rows, folder);
+    if (context.mission.output.mosaic) write_mosaic(context, rows, folder);
+}
+
+}  // namespace sonarsim

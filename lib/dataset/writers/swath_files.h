@@ -1,0 +1,19 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "dataset/record_file.h"
+#include "dataset/writer.h"
+
+namespace sonarsim {
+
+/// The files of a side-scan sonar for the tools of the trade: waterfall.xtf, and mosaic.tif with
+/// mosaic.json. What the mission does not ask for is left out.
+std::vector<Product> swath_products(const WriterContext& context);
+
+/// `rows`: waterfall.npy.
+void write_swath_files(const WriterContext& context, const RecordFile& rows,
+                       const std::filesystem::path& folder);
+
+}  // namespace sonarsim

@@ -1,0 +1,157 @@
+#include "gallery/ping_tables.h"
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+#include <sstream>
+
+#include "core/file.h"
+#include "dataset/description.h"
+
+namespace sonarsim {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t largest_ping_file = std::size_t{1} << 26;
+
+/// The text of a ping's file; nothing where it is not rendered yet.
+std::optional<std::string> text_of(const fs::path& folder, const Json& sensor, const char* kind,
+                                   std::uint64_t ping) {
+    const auto every = sensor.at("every").get<std::uint64_t>();
+    const fs::path file =
+        folder / numbered(sensor.at("files").at(kind).get<std::string>(), ping * every);
+    if (!fs::is_regular_file(file)) return std::nullopt;
+    return read_file(file, largest_ping_file);
+}
+
+/// To five digits: it is to be looked at.
+Json short_number(double value) {
+    char text[32];
+    const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, 5);
+    double rounded = 0.0;
+    std::from_chars(text, end.ptr, rounded);
+    return rounded;
+}
+
+/// Every number in a tree, by the names on the way to it.
+template <class Visit>
+void for_each_number(const std::string& name, const Json& json, const Visit& visit) {
+    if (!name.empty() && (json.is_number() || json.is_null())) visit(name, json);
+    if (!json.is_object()) return;
+    for (const auto& [key, value] : json.items())
+        for_each_number(name.empty() ? key : name + "." + key, value, visit);
+}
+
+Json box(std::size_t label, double left, double top, double right, double bottom) {
+    const auto tenth = [](double pixels) { return short_number(pixels); };
+    return {label, tenth(left), tenth(top), tenth(right - left), tenth(bottom - top)};
+}
+
+void add_or_zero(Json& pings, Json&& boxes) {
+    pings.push_back(boxes.empty() ? Json(0) : std::move(boxes));
+}
+
+PingBoxes boxes_of_objects(const fs::path& folder, const Json& sensor, BoxLabels& labels) {
+    PingBoxes all{Json::array(), Json::array()};
+    const auto pings = sensor.at("pings").get<std::uint64_t>();
+    for (std::uint64_t ping = 0; ping < pings; ++ping) {
+        Json image = Json::array();
+        Json fan = Json::array();
+        const std::optional<std::string> text = text_of(folder, sensor, "objects", ping);
+        const Json objects = text ? Json::parse(*text).at("objects") : Json::array();
+        for (const Json& object : objects) {
+            const auto name = object.at("name").get<std::string>();
+            const auto kind = object.at("class").get<std::string>();
+            const std::size_t label =
+                labels.index_of(name == kind ? name : name + " (" + kind + ")");
+            const Json& bins = object.at("box_bins");
+            image.push_back(
+                box(label, bins["beam"][0], bins["range"][0], bins["beam"][1], bins["range"][1]));
+            if (!object.contains("fan") || object["fan"].is_null()) continue;
+            const Json& px = object["fan"].at("box_px");
+            fan.push_back(box(label, px["x"][0], px["y"][0], px["x"][1], px["y"][1]));
+        }
+        add_or_zero(all.in_image, std::move(image));
+        add_or_zero(all.in_fan, std::move(fan));
+    }
+    return all;
+}
+
+/// Lines of class, middle, width and height as shares of a picture of this size.
+Json boxes_of_yolo(const fs::path& folder, const Json& description, const Json& sensor,
+                   const char* kind, double width, double height, BoxLabels& labels) {
+    if (!sensor.at("files").contains(kind)) return nullptr;
+    const Json& classes = description.at("labels").at("classes");
+    Json all = Json::array();
+    const auto pings = sensor.at("pings").get<std::uint64_t>();
+    for (std::uint64_t ping = 0; ping < pings; ++ping) {
+        Json boxes = Json::array();
+        std::istringstream lines(text_of(folder, sensor, kind, ping).value_or(""));
+        std::size_t number = 0;
+        double x = 0.0;
+        double y = 0.0;
+        double w = 0.0;
+        double h = 0.0;
+        while (lines >> number >> x >> y >> w >> h) {
+            const std::size_t label = labels.index_of(classes.at(number).at("name"));
+            boxes.push_back(box(label, (x - 0.5 * w) * width, (y - 0.5 * h) * height,
+                                (x + 0.5 * w) * width, (y + 0.5 * h) * height));
+        }
+        add_or_zero(all, std::move(boxes));
+    }
+    return all;
+}
+
+}  // namespace
+
+std::size_t BoxLabels::index_of(const std::string& text) {
+    const auto found = std::ranges::find(texts, text);
+    if (found != texts.end()) return static_cast<std::size_t>(found - texts.begin());
+    texts.push_back(text);
+    return texts.size() - 1;
+}
+
+Json measured_columns(const fs::path& folder, const Json& sensor) {
+    Json columns = Json::object();
+    if (!sensor.at("files").contains("meta")) return columns;
+    const auto pings = sensor.at("pings").get<std::uint64_t>();
+    for (std::uint64_t ping = 0; ping < pings; ++ping) {
+        const std::optional<std::string> text = text_of(folder, sensor, "meta", ping);
+        if (!text) continue;
+        const Json meta = Json::parse(*text);
+        const auto put = [&](const std::string& name, const Json& value) {
+            Json& column = columns[name];
+            if (column.is_null()) column = Json(pings, nullptr);
+            if (value.is_number()) column[ping] = short_number(value.get<double>());
+        };
+        for_each_number("", meta.value("measured", Json()), put);
+        for (const char* name : {"estimated_error", "clipped_pixels"}) {
+            if (meta.contains(name)) put(name, meta[name]);
+        }
+    }
+    return columns;
+}
+
+PingBoxes ping_boxes(const fs::path& folder, const Json& description, const Json& sensor,
+                     BoxLabels& labels) {
+    const Json& files = sensor.at("files");
+    if (files.contains("objects")) return boxes_of_objects(folder, sensor, labels);
+    if (!files.contains("yolo") && !files.contains("fan_yolo")) return {};
+    PingBoxes all;
+    const auto bins = [&](const char* edges) {
+        return static_cast<double>(sensor.at(edges).size()) - 1.0;
+    };
+    all.in_image = boxes_of_yolo(folder, description, sensor, "yolo", bins("azimuth_edges_rad"),
+                                 bins("range_edges_m"), labels);
+    if (sensor.contains("fan")) {
+        const Json& fan = sensor["fan"];
+        all.in_fan = boxes_of_yolo(folder, description, sensor, "fan_yolo", fan.at("width_px"),
+                                   fan.at("height_px"), labels);
+    }
+    return all;
+}
+
+}  // namespace sonarsim

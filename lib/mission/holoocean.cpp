@@ -1,0 +1,196 @@
+#include "mission/holoocean.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/text.h"
+#include "mission/document.h"
+#include "mission/holoocean_sonar.h"
+#include "mission/json_values.h"
+#include "mission/limits.h"
+
+namespace sonarsim {
+
+namespace {
+
+std::string list_text(const std::array<double, 3>& values) {
+    return "[" + number_text(values[0]) + ", " + number_text(values[1]) + ", " +
+           number_text(values[2]) + "]";
+}
+
+/// Letters, digits, '_' and '-', as the name of a sensor takes them.
+std::string name_from(std::string text) {
+    constexpr std::string_view allowed =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
+    for (char& c : text) {
+        if (allowed.find(c) == std::string_view::npos) c = '_';
+    }
+    return text.empty() ? "sonar" : text.substr(0, 60);
+}
+
+/// "noise.add_sigma" into the section of its name.
+std::string sonar_yaml(const std::string& name, const SonarType& type, const ImportedSonar& sonar,
+                       int every, const YamlNode& sensor) {
+    std::string text = "  " + name + ":\n    kind: " + type.kind + "\n";
+    const auto place = vector_in(sensor, "location", any_position_m);
+    const auto turn = vector_in(sensor, "rotation", any_angle_deg);
+    if (place != std::array<double, 3>{} || turn != std::array<double, 3>{}) {
+        text += "    mount: {translation_m: " + list_text(place) + ", rpy_deg: " + list_text(turn) +
+                "}\n";
+    }
+    if (every > 1) text += "    every: " + std::to_string(every) + "\n";
+    for (const auto& [key, value] : sonar.settings) {
+        if (key.find('.') == std::string::npos) text += "    " + key + ": " + value + "\n";
+    }
+    for (const std::string section : {"noise", "multipath", "streaks"}) {
+        std::string keys;
+        for (const auto& [key, value] : sonar.settings) {
+            if (key.starts_with(section + "."))
+                keys += "      " + key.substr(section.size() + 1) + ": " + value + "\n";
+        }
+        if (!keys.empty()) text += "    " + section + ":\n" + keys;
+    }
+    for (const std::string& remark : sonar.remarks)
+        text += "    # without a counterpart: " + remark + "\n";
+    return text;
+}
+
+const YamlNode& main_agent(const YamlNode& scenario, std::vector<std::string>& warnings) {
+    const YamlNode* const agents = map_at(scenario, "scenario").find("agents");
+    if (agents == nullptr || agents->kind != YamlNode::Kind::list || agents->items.empty())
+        refuse_at(agents != nullptr ? *agents : scenario, "a scenario needs a list of 'agents'");
+    const YamlNode* const wanted = scenario.find("main_agent");
+    const YamlNode* chosen = nullptr;
+    for (const YamlNode& agent : agents->items) {
+        const YamlNode* const name = map_at(agent, "agents").find("agent_name");
+        const bool is_main =
+            wanted == nullptr || (name != nullptr && name->text == text_in(*wanted, "main_agent"));
+        if (is_main && chosen == nullptr) {
+            chosen = &agent;
+        } else {
+            warnings.push_back(agent.place.location().text() +
+                               ": this agent is left out: a mission has one vehicle");
+        }
+    }
+    if (chosen == nullptr) refuse_at(*wanted, "no agent is called " + in_quotes(wanted->text));
+    return *chosen;
+}
+
+double rate_of(const YamlNode& sensor, double ticks) {
+    const YamlNode* const rate = sensor.find("Hz");
+    return rate != nullptr ? number_in(*rate, "Hz", above(0)) : ticks;
+}
+
+}  // namespace
+
+ImportedMission import_holoocean(std::string_view text, const std::string& file,
+                                 const HoloOceanWorld& world) {
+    // JSON is YAML, but for what no scenario holds.
+    const YamlNode scenario = read_document(text, file);
+    ImportedMission mission;
+    std::vector<std::string>& warnings = mission.warnings;
+    const YamlNode& agent = main_agent(scenario, warnings);
+    const YamlNode* const told_ticks = scenario.find("ticks_per_sec");
+    const double ticks =
+        told_ticks != nullptr ? number_in(*told_ticks, "ticks_per_sec", above(0)) : 30.0;
+
+    const YamlNode* const sensors = agent.find("sensors");
+    if (sensors == nullptr || sensors->kind != YamlNode::Kind::list)
+        refuse_at(agent, "the agent needs a list of 'sensors'");
+    double rate_hz = 0.0;
+    std::vector<std::pair<const YamlNode*, const SonarType*>> sonars;
+    for (const YamlNode& sensor : sensors->items) {
+        const YamlNode* const type = map_at(sensor, "sensors").find("sensor_type");
+        if (type == nullptr) refuse_at(sensor, "a sensor needs the key 'sensor_type'");
+        const auto known = std::ranges::find_if(
+            sonar_types(), [&](const SonarType& one) { return type->text == one.type; });
+        if (known == sonar_types().end()) {
+            warnings.push_back(type->place.location().text() + ": " + in_quotes(type->text) +
+                               " is left out: it is no sonar that sonarsim has");
+            continue;
+        }
+        sonars.emplace_back(&sensor, &*known);
+        rate_hz = std::max(rate_hz, rate_of(sensor, ticks));
+    }
+    if (sonars.empty()) refuse_at(*sensors, "none of the sensors is a sonar");
+
+    std::string blocks;
+    Settings water;
+    std::vector<std::string> names;
+    for (const auto& [sensor, type] : sonars) {
+        const ImportedSonar sonar = import_sonar(*sensor, *type, warnings);
+        for (const auto& [key, value] : sonar.water) {
+            const std::string* const other = setting(water, key);
+            if (other != nullptr && *other != value) {
+                warnings.push_back(sensor->place.location().text() +
+                                   ": another water than that of the sonars before; a mission has "
+                                   "one: " +
+                                   key + " stays " + *other);
+            } else {
+                set_key(water, key, value);
+            }
+        }
+        const YamlNode* const told = sensor->find("sensor_name");
+        std::string name = name_from(told != nullptr ? text_in(*told, "sensor_name") : type->type);
+        const auto same = std::ranges::count(names, name);
+        names.push_back(name);
+        if (same > 0) name += "_" + std::to_string(same + 1);
+        const double every = std::round(rate_hz / rate_of(*sensor, ticks));
+        blocks += sonar_yaml(name, *type, sonar, static_cast<int>(std::max(1.0, every)), *sensor);
+        if (const YamlNode* const socket = sensor->find("socket")) {
+            const std::string where = type->looks_down ? "; by default it looks down here" : "";
+            warnings.push_back(
+                socket->place.location().text() + ": where the socket " + in_quotes(socket->text) +
+                " sits on the agent is not in the scenario: check mount of '" + name + "'" + where);
+        }
+    }
+
+    const auto start = vector_in(agent, "location", any_position_m);
+    const auto turn = vector_in(agent, "rotation", any_angle_deg);
+    // R = Rz Ry Rx, its first column: where the bow points.
+    const double degree = std::acos(-1.0) / 180.0;
+    const double along[] = {std::cos(turn[2] * degree) * std::cos(turn[1] * degree),
+                            std::sin(turn[2] * degree) * std::cos(turn[1] * degree),
+                            -std::sin(turn[1] * degree)};
+    std::array<double, 3> end = start;
+    for (std::size_t k = 0; k < 3; ++k)
+        end[k] = std::round((start[k] + 10.0 * along[k]) * 1e6) / 1e6;
+    warnings.push_back(agent.place.location().text() +
+                       ": a scenario says where the agent starts, not where it goes: the mission "
+                       "goes 10 m ahead; write a trajectory of your own");
+    warnings.push_back(
+        scenario.place.location().text() +
+        ": the world is a level of the game engine: export it, or name another scene");
+
+    std::string& yaml = mission.yaml;
+    std::string remarks;
+    for (const YamlNode& item : scenario.items) {
+        if (!item.key.starts_with("octree_") && !item.key.starts_with("env_")) continue;
+        warnings.push_back(item.key_place.location().text() + ": " + in_quotes(item.key) +
+                           " has no counterpart: there is no octree to prepare");
+        remarks += "# without a counterpart: " + shown(item.key, 60) + "\n";
+    }
+    yaml = "# From the HoloOcean scenario " + shown(file, 200) + ".\n";
+    yaml += remarks;
+    if (const YamlNode* const name = scenario.find("name"))
+        yaml += "name: " + quoted_text(name_from(text_in(*name, "name"))) + "\n";
+    if (!water.empty()) {
+        yaml += "water:\n";
+        for (const auto& [key, value] : water)
+            yaml += "  " + key + ": " + value + "\n";
+    }
+    yaml += "scene:\n  file: " + quoted_text(world.scene) +
+            "  # the scenario's world is a level of the game engine\n  materials: " +
+            quoted_text(world.materials) + "\n";
+    yaml +=
+        "trajectory:\n  # A scenario says where the agent starts; from there 10 m ahead.\n"
+        "  waypoints:\n";
+    for (const auto& position : {start, end})
+        yaml +=
+            "    - {position_m: " + list_text(position) + ", rpy_deg: " + list_text(turn) + "}\n";
+    yaml += "  rate_hz: " + number_text(rate_hz) + "\nsensors:\n" + blocks;
+    return mission;
+}
+
+}  // namespace sonarsim

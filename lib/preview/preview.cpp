@@ -1,0 +1,139 @@
+#include "preview/preview.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <memory>
+#include <string>
+
+#include "assembly/engine_probes.h"
+#include "core/units.h"
+#include "preview/drawing.h"
+#include "preview/scene_views.h"
+#include "preview/sonar_panel.h"
+#include "sonar/kinds.h"
+#include "visibility/make_engine.h"
+
+namespace sonarsim {
+
+namespace {
+
+constexpr int tile_width = 600;
+constexpr int tile_height = 420;
+constexpr int gap = 12;
+constexpr int head_height = 30;
+constexpr int title_height = 18;
+
+constexpr std::array<Rgb, 6> sonar_colours{{{255, 196, 84},
+                                            {120, 205, 235},
+                                            {242, 120, 160},
+                                            {160, 226, 110},
+                                            {196, 160, 250},
+                                            {250, 150, 90}}};
+
+struct Tile {
+    std::string title;
+    Rgb colour;
+    Picture picture;
+};
+
+std::string fixed(double value, int decimals) {
+    std::array<char, 64> text;
+    const auto end = std::to_chars(text.data(), text.data() + text.size(), value,
+                                   std::chars_format::fixed, decimals);
+    return {text.data(), end.ptr};
+}
+
+std::string significant(double value) {
+    std::array<char, 64> text;
+    const auto end =
+        std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 3);
+    return {text.data(), end.ptr};
+}
+
+/// The font's only small letter is that of the metre, which a name shall not have.
+std::string capitals(std::string text) {
+    for (char& letter : text) {
+        if (letter == 'm') letter = 'M';
+    }
+    return text;
+}
+
+std::string head_text(const Mission& mission, const Trajectory& trajectory, std::uint32_t pose) {
+    const TimedPose& now = trajectory[pose];
+    const Eigen::Vector3d& at = now.T_world_vehicle.translation;
+    const Eigen::Vector3d bow = now.T_world_vehicle.rotation * Eigen::Vector3d::UnitX();
+    return capitals(mission.name) + "   ping " + std::to_string(pose) + " of 0 to " +
+           std::to_string(trajectory.size() - 1) + "   t = " + fixed(now.t_s, 2) +
+           " s   x = " + fixed(at.x(), 2) + " m   y = " + fixed(at.y(), 2) +
+           " m   z = " + fixed(at.z(), 2) +
+           " m   yaw = " + fixed(degrees(std::atan2(bow.y(), bow.x())), 1) + " deg";
+}
+
+std::string title_of(const Sonar& sonar, std::uint32_t pose, double white) {
+    const View& view = sonar.settings.view;
+    return capitals(sonar.config.name + ": " + std::string(name_of(sonar.config.kind))) +
+           "   ping " + std::to_string(ping_at(sonar, pose)) + "   " +
+           significant(view.range_min_m) + " - " + significant(view.range_max_m) + " m   " +
+           std::to_string(view.range_bins) + " x " + std::to_string(view.beams) +
+           " bins   white = " + significant(white);
+}
+
+/// Rows of as many tiles as look well.
+Picture arrange(const std::string& head, const std::vector<Tile>& tiles) {
+    const int columns = tiles.size() > 6 ? 3 : 2;
+    const int rows = (static_cast<int>(tiles.size()) + columns - 1) / columns;
+    const int step_x = tile_width + gap;
+    const int step_y = title_height + tile_height + gap;
+    Picture picture(gap + columns * step_x, head_height + rows * step_y, paper);
+    write(picture, gap, 12, head, Align::left, ink);
+    for (std::size_t k = 0; k < tiles.size(); ++k) {
+        const Tile& tile = tiles[k];
+        const int x = gap + static_cast<int>(k) % columns * step_x;
+        const int y = head_height + static_cast<int>(k) / columns * step_y;
+        fill(picture, x, y + 1, 7, 7, tile.colour);
+        write(picture, x + 12, y + 1, tile.title, Align::left, ink);
+        paste(picture, tile.picture, x + (tile_width - tile.picture.width) / 2, y + title_height);
+    }
+    return picture;
+}
+
+}  // namespace
+
+Picture draw_preview(const Mission& mission, const Assembly& assembly, std::uint32_t pose) {
+    const Trajectory& trajectory = assembly.trajectory;
+    const std::unique_ptr<VisibilityEngine> engine =
+        make_engine(assembly.scene, engine_settings(mission, assembly));
+    const auto at_pose = [&](std::uint32_t index) {
+        return assembly.motions.empty() ? nullptr
+                                        : engine->at(body_poses(assembly, trajectory[index].t_s));
+    };
+    std::vector<Tile> tiles;
+    Moment moment{assembly, pose, {}};
+    const std::unique_ptr<VisibilityEngine> bodies_now = at_pose(pose);
+    for (std::size_t i = 0; i < assembly.sonars.size(); ++i) {
+        const Sonar& sonar = assembly.sonars[i];
+        const Rgb colour = sonar_colours[i % sonar_colours.size()];
+        const auto render = [&](std::uint32_t index) {
+            const std::unique_ptr<VisibilityEngine> bodies_then = at_pose(index);
+            return render_ping(sonar, assembly.scene, bodies_then ? *bodies_then : *engine,
+                               trajectory[index].T_world_vehicle, {mission.seed, index});
+        };
+        SonarPanel panel =
+            draw_sonar(sonar, pose, trajectory.size(), render, tile_width, tile_height);
+        tiles.push_back({title_of(sonar, pose, panel.white), colour, std::move(panel.picture)});
+        moment.beams.push_back(beam_outline(
+            sonar, bodies_now ? *bodies_now : *engine,
+            sensor_pose(sonar, trajectory[pose].T_world_vehicle, ping_at(sonar, pose)), colour));
+    }
+    tiles.push_back({"plan: x to the right, y up; colours: height", ink,
+                     draw_plan(moment, tile_width, tile_height)});
+    tiles.push_back({"cut along the heading: ahead to the right, z up", ink,
+                     draw_section(moment, false, tile_width, tile_height)});
+    tiles.push_back({"cut across the heading: starboard to the right, z up", ink,
+                     draw_section(moment, true, tile_width, tile_height)});
+    return arrange(head_text(mission, trajectory, pose), tiles);
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,150 @@
+#include "preview/scene_views.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "preview/drawing.h"
+#include "preview/scene_raster.h"
+#include "product/colour_map.h"
+
+namespace sonarsim {
+
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr Rgb path_colour{255, 255, 255};
+constexpr Rgb surface_colour{205, 195, 170};
+
+struct Box2 {
+    Vector2d low = Vector2d::Constant(1e300);
+    Vector2d high = Vector2d::Constant(-1e300);
+
+    void add(const Vector2d& at) {
+        low = low.cwiseMin(at);
+        high = high.cwiseMax(at);
+    }
+    /// Larger by a share of its longer side on all sides, and at least a metre.
+    Box2 padded(double share) const {
+        const double by = std::max(0.5, share * (high - low).maxCoeff());
+        return {low.array() - by, high.array() + by};
+    }
+};
+
+/// Lines from the sonar to the edge of its view, faint, and the edge itself.
+template <class Project>
+void draw_beam(Picture& tile, const PlaneFrame& frame, const BeamOutline& beam,
+               const Project& project) {
+    constexpr float ray_share = 0.12F;
+    const Vector2d from = frame.pixel(project(beam.origin));
+    for (std::size_t k = 0; k < beam.ends.size(); ++k) {
+        const Vector2d here = frame.pixel(project(beam.ends[k]));
+        const Vector2d next = frame.pixel(project(beam.ends[(k + 1) % beam.ends.size()]));
+        draw_line(tile, from, here, beam.colour, ray_share);
+        draw_line(tile, here, next, beam.colour);
+    }
+}
+
+/// The heights in colours, less bright than what is drawn over them, lit from the north-west.
+void draw_heights(Picture& tile, const PlaneFrame& frame, const std::vector<float>& heights) {
+    std::vector<float> known;
+    std::ranges::copy_if(heights, std::back_inserter(known),
+                         [](float z) { return !std::isnan(z); });
+    if (known.empty()) return;
+    std::ranges::sort(known);
+    const float low = known[known.size() / 50];
+    const float high = std::max(known[known.size() - 1 - known.size() / 50], low + 1e-3F);
+    const std::span<const Rgb> stops = stops_of(FanColours::sea);
+    const auto width = static_cast<std::size_t>(frame.plot_width);
+    for (std::size_t k = 0; k < heights.size(); ++k) {
+        if (std::isnan(heights[k])) continue;
+        const auto neighbour = [&](std::size_t other) {
+            const bool usable = other < heights.size() && !std::isnan(heights[other]);
+            return usable ? heights[other] : heights[k];
+        };
+        const float rise = (heights[k] - neighbour(k - 1) + heights[k] - neighbour(k - width)) /
+                           static_cast<float>(frame.pixel_m);
+        const float light = std::clamp(0.55F + 0.25F * rise, 0.3F, 0.8F);
+        const Rgb full = blend(stops, (heights[k] - low) / (high - low));
+        const Rgb ends[] = {paper, full};
+        tile.row(frame.top + static_cast<int>(k / width))[frame.left + k % width] =
+            blend(ends, light);
+    }
+}
+
+Vector2d heading_of(const Pose& T_world_vehicle) {
+    const Vector3d bow = T_world_vehicle.rotation * Vector3d::UnitX();
+    // Straight up or down there is none: any will do.
+    return bow.head<2>().norm() < 1e-6 ? Vector2d(1.0, 0.0) : Vector2d(bow.head<2>().normalized());
+}
+
+}  // namespace
+
+Picture draw_plan(const Moment& moment, int width, int height) {
+    const auto flat = [](const Vector3d& p) -> Vector2d { return p.head<2>(); };
+    const Trajectory& trajectory = moment.assembly.trajectory;
+    Box2 box;
+    for (const TimedPose& pose : trajectory)
+        box.add(flat(pose.T_world_vehicle.translation));
+    for (const BeamOutline& beam : moment.beams) {
+        for (const Vector3d& end : beam.ends)
+            box.add(flat(end));
+    }
+    box = box.padded(0.1);
+    // All of the scene where it is not much larger.
+    const Scene& scene = moment.assembly.scene;
+    const Vector2d scene_low = flat(scene.bounds_min);
+    const Vector2d scene_high = flat(scene.bounds_max);
+    if ((scene_high - scene_low).maxCoeff() < 2.0 * (box.high - box.low).maxCoeff()) {
+        box.add(scene_low);
+        box.add(scene_high);
+    }
+    const PlaneFrame frame = plane_frame(width, height, box.low, box.high);
+    Picture tile(width, height, paper);
+    const Pose& now = trajectory[moment.pose].T_world_vehicle;
+    draw_heights(tile, frame, heights_below(moment.assembly, moment.pose, frame));
+    for (std::size_t k = 1; k < trajectory.size(); ++k) {
+        draw_line(tile, frame.pixel(flat(trajectory[k - 1].T_world_vehicle.translation)),
+                  frame.pixel(flat(trajectory[k].T_world_vehicle.translation)), path_colour, 0.7F);
+    }
+    for (const BeamOutline& beam : moment.beams)
+        draw_beam(tile, frame, beam, flat);
+    const Vector2d here = frame.pixel(flat(now.translation));
+    const Vector2d ahead = heading_of(now);
+    draw_line(tile, here, here + 18.0 * Vector2d(ahead.x(), -ahead.y()), path_colour);
+    draw_dot(tile, here, 2, path_colour);
+    draw_axes(tile, frame);
+    return tile;
+}
+
+Picture draw_section(const Moment& moment, bool across, int width, int height) {
+    const Pose& now = moment.assembly.trajectory[moment.pose].T_world_vehicle;
+    const Vector2d ahead = heading_of(now);
+    // To starboard where it runs across, so that port is on the left as seen from astern.
+    const Vector2d axis = across ? Vector2d(ahead.y(), -ahead.x()) : ahead;
+    const auto project = [&](const Vector3d& p) -> Vector2d {
+        return {axis.dot(p.head<2>() - now.translation.head<2>()), p.z()};
+    };
+    Box2 box;
+    box.add(project(now.translation));
+    for (const BeamOutline& beam : moment.beams) {
+        for (const Vector3d& end : beam.ends)
+            box.add(project(end));
+    }
+    box = box.padded(0.15);
+    const PlaneFrame frame = plane_frame(width, height, box.low, box.high);
+    Picture tile(width, height, paper);
+    for (const BeamOutline& beam : moment.beams)
+        draw_beam(tile, frame, beam, project);
+    for_each_cut(moment.assembly, moment.pose, now.translation, axis,
+                 [&](const Vector3d& a, const Vector3d& b) {
+                     draw_line(tile, frame.pixel(project(a)), frame.pixel(project(b)),
+                               surface_colour);
+                 });
+    draw_dot(tile, frame.pixel(project(now.translation)), 2, path_colour);
+    draw_axes(tile, frame);
+    return tile;
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,200 @@
+#include "preview/sonar_panel.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/in_parallel.h"
+#include "core/text.h"
+#include "product/colour_map.h"
+#include "product/fan_style.h"
+#include "product/gain.h"
+#include "product/scan.h"
+#include "product/sidescan_row.h"
+#include "sonar/kinds.h"
+
+namespace sonarsim {
+
+namespace {
+
+constexpr std::size_t series_pings = 120;  // of a waterfall or an echogram
+constexpr FanStyleConfig fan_style{FanColours::amber, true, true};
+constexpr Rgb mark_colour{120, 205, 235};
+constexpr int axis_px = 20;    // below a waterfall
+constexpr int number_px = 52;  // beside an echogram
+
+/// The poses of `count` pings of a sonar that end with `last`, fewer at the beginning.
+std::vector<std::uint32_t> poses_until(const Sonar& sonar, std::uint32_t last, std::size_t count) {
+    const auto every = static_cast<std::uint32_t>(sonar.config.every);
+    std::vector<std::uint32_t> poses;
+    for (std::uint32_t ping = last / every; poses.size() < count; --ping) {
+        poses.push_back(ping * every);
+        if (ping == 0) break;
+    }
+    std::ranges::reverse(poses);
+    return poses;
+}
+
+std::vector<Ping> render_all(const std::vector<std::uint32_t>& poses, const RenderPing& render) {
+    std::vector<Ping> pings(poses.size());
+    in_parallel(poses.size(), [&](std::size_t k) { pings[k] = render(poses[k]); });
+    return pings;
+}
+
+/// The fan, as large as fits.
+SonarPanel draw_fan(const Sonar& sonar, const Ping& ping, int width, int height) {
+    const FanFrame full = fan_frame(sonar, width);
+    const int fits = full.height <= height
+                         ? width
+                         : std::max(1, static_cast<int>(std::floor(static_cast<double>(width) *
+                                                                   height / full.height)) -
+                                           1);
+    const FanMap map = make_fan_map(sonar, fits);
+    Gain gain;
+    gain.add(ping.intensity);
+    const FanStyle style = make_fan_style(sonar, map.frame, fan_style);
+    return {styled_fan(style, render_fan(map, ping, gain.white())), gain.white()};
+}
+
+SonarPanel draw_scan(const Sonar& sonar, std::uint32_t pose, const RenderPing& render, int width,
+                     int height) {
+    const auto steps = static_cast<std::size_t>(scan_steps(sonar.config));
+    const std::vector<std::uint32_t> poses = poses_until(sonar, pose, steps);
+    const std::vector<Ping> pings = render_all(poses, render);
+    ScanDisplay display(sonar);
+    for (std::size_t k = 0; k < poses.size(); ++k)
+        display.show(poses[k] / static_cast<std::uint32_t>(sonar.config.every), pings[k].intensity);
+    return draw_fan(whole_scan(sonar), display.image(), width, height);
+}
+
+/// Values [rows, columns] that a picture is made of.
+struct Values {
+    std::size_t rows;
+    std::size_t columns;
+    std::vector<float> value;
+};
+
+/// A pixel shows the mean of the values that it covers, at least one.
+void draw_values(Picture& picture, int left, int width, int height, const Values& values,
+                 double white, std::span<const Rgb> stops) {
+    const auto span_of = [](int pixel, int pixels, std::size_t count) {
+        const std::size_t begin = static_cast<std::size_t>(pixel) * count / pixels;
+        const std::size_t end = (static_cast<std::size_t>(pixel) + 1) * count / pixels;
+        return std::pair(begin, std::max(end, begin + 1));
+    };
+    for (int y = 0; y < height; ++y) {
+        const auto rows = span_of(y, height, values.rows);
+        for (int x = 0; x < width; ++x) {
+            const auto columns = span_of(x, width, values.columns);
+            float sum = 0.0F;
+            for (std::size_t i = rows.first; i < rows.second; ++i) {
+                for (std::size_t j = columns.first; j < columns.second; ++j)
+                    sum += values.value[i * values.columns + j];
+            }
+            const auto count =
+                static_cast<float>((rows.second - rows.first) * (columns.second - columns.first));
+            picture.row(y)[left + x] = blend(stops, shade(sum / count, static_cast<float>(white)));
+        }
+    }
+}
+
+/// The pings around one, and which of them it is.
+struct Series {
+    std::vector<Ping> pings;
+    std::size_t here;
+    double white;
+};
+
+Series render_series(const Sonar& sonar, std::uint32_t pose, std::size_t poses,
+                     const RenderPing& render) {
+    const auto every = static_cast<std::size_t>(sonar.config.every);
+    const std::size_t all = (poses + every - 1) / every;
+    const std::size_t count = std::min(all, series_pings);
+    const std::size_t here = pose / every;
+    const std::size_t first = std::min(here - std::min(here, count / 2), all - count);
+    const auto last = static_cast<std::uint32_t>((first + count - 1) * every);
+    Series series{render_all(poses_until(sonar, last, count), render), here - first, 1.0};
+    Gain gain;
+    for (const Ping& ping : series.pings)
+        gain.add(ping.intensity);
+    series.white = gain.white();
+    return series;
+}
+
+SonarPanel draw_waterfall(const Sonar& sonar, const Series& series, int width, int height) {
+    const SonarConfig& config = sonar.config;
+    Values values{series.pings.size(), static_cast<std::size_t>(waterfall_columns(config)), {}};
+    for (const Ping& ping : series.pings) {
+        const std::vector<float> row = sidescan_row(config, ping);
+        values.value.insert(values.value.end(), row.begin(), row.end());
+    }
+    Picture picture(width, height, paper);
+    const int bottom = height - axis_px;
+    draw_values(picture, 0, width, bottom, values, series.white, stops_of(FanColours::copper));
+    const double px_per_m = 0.5 * width / config.range_max_m;
+    for (const double range : axis_marks(0.0, config.range_max_m, 5.0)) {
+        for (const double side : {-1.0, 1.0}) {
+            const int x = static_cast<int>(0.5 * width + side * range * px_per_m);
+            fill(picture, x, bottom, 1, 4, ink);
+            const std::string text = number_text(range) + " m";
+            const int half = text_width(text) / 2 + 1;
+            if (x >= half && x + half < width)
+                write(picture, x, bottom + 8, text, Align::middle, ink);
+        }
+    }
+    const int y = static_cast<int>((series.here + 0.5) * bottom / series.pings.size());
+    fill(picture, 0, y, 14, 1, mark_colour);
+    fill(picture, width - 14, y, 14, 1, mark_colour);
+    write(picture, 18, 3, "port", Align::left, mark_colour);
+    write(picture, width - 18, 3, "starboard", Align::right, mark_colour);
+    return {std::move(picture), series.white};
+}
+
+SonarPanel draw_echogram(const Sonar& sonar, const Series& series, int width, int height) {
+    const SonarConfig& config = sonar.config;
+    Values values{static_cast<std::size_t>(config.range_bins), series.pings.size(), {}};
+    for (int bin = 0; bin < config.range_bins; ++bin) {
+        for (const Ping& ping : series.pings)
+            values.value.push_back(ping.at(bin, 0));
+    }
+    Picture picture(width, height, paper);
+    const int left = number_px;
+    draw_values(picture, left, width - left, height, values, series.white,
+                stops_of(FanColours::sea));
+    const double px_per_m = height / (config.range_max_m - config.range_min_m);
+    for (const double range : axis_marks(config.range_min_m, config.range_max_m, 8.0)) {
+        const int y = static_cast<int>((range - config.range_min_m) * px_per_m);
+        fill(picture, left - 5, y, 5, 1, ink);
+        write(picture, left - 8, std::clamp(y - 3, 0, height - 8), number_text(range) + " m",
+              Align::right, ink);
+    }
+    const int x =
+        left + static_cast<int>((series.here + 0.5) * (width - left) / series.pings.size());
+    fill(picture, x, 0, 1, 14, mark_colour);
+    fill(picture, x, height - 14, 1, 14, mark_colour);
+    return {std::move(picture), series.white};
+}
+
+}  // namespace
+
+std::uint32_t ping_at(const Sonar& sonar, std::uint32_t pose) {
+    return pose - pose % static_cast<std::uint32_t>(sonar.config.every);
+}
+
+SonarPanel draw_sonar(const Sonar& sonar, std::uint32_t pose, std::size_t poses,
+                      const RenderPing& render, int width, int height) {
+    const std::uint32_t own = ping_at(sonar, pose);
+    switch (kind_of(sonar.config.kind).record) {
+        case RecordKind::waterfall:
+            return draw_waterfall(sonar, render_series(sonar, own, poses, render), width, height);
+        case RecordKind::echogram:
+            return draw_echogram(sonar, render_series(sonar, own, poses, render), width, height);
+        case RecordKind::scan:
+            return draw_scan(sonar, own, render, width, height);
+        case RecordKind::none:
+        case RecordKind::soundings:
+            break;
+    }
+    return draw_fan(sonar, render(own), width, height);
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "mission/mission.h"
+#include "product/picture.h"
+
+namespace sonarsim {
+
+/// The stops of a colour map from dark to bright, equally spaced, for blend(). The brightness grows
+/// along each of them.
+std::span<const Rgb> stops_of(FanColours colours);
+
+/// The colours of the 256 grey values.
+using ColourTable = std::array<Rgb, 256>;
+ColourTable colour_table(FanColours colours);
+
+}  // namespace sonarsim

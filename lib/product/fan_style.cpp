@@ -1,0 +1,168 @@
+#include "product/fan_style.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "core/elementary.h"
+#include "core/text.h"
+#include "core/units.h"
+
+namespace sonarsim {
+
+namespace {
+
+constexpr Rgb mark_colour{120, 205, 235};
+constexpr float line_share = 0.45F;
+constexpr float halo_share = 0.6F;
+constexpr int least_px = 160;  // a smaller fan has no room for numbers
+
+/// How far apart lines of equal azimuth are, degrees: at most ten of them.
+double bearing_step_deg(double azimuth_deg) {
+    for (const double step : {1.0, 2.0, 5.0, 10.0, 15.0, 30.0}) {
+        if (azimuth_deg <= 9.0 * step) return step;
+    }
+    return 45.0;
+}
+
+std::vector<double> ring_ranges(const View& view) {
+    std::vector<double> ranges = axis_marks(view.range_min_m, view.range_max_m, 5.0);
+    std::erase(ranges, 0.0);
+    return ranges;
+}
+
+std::vector<double> bearings_deg(const View& view) {
+    const double azimuth_deg = degrees(view.azimuth_rad);
+    const double step = bearing_step_deg(azimuth_deg);
+    const double last = std::floor(0.5 * azimuth_deg / step + 1e-9);
+    std::vector<double> bearings;
+    for (double k = -last; k <= last; ++k)
+        bearings.push_back(k * step + 0.0);
+    // All the way round, astern is one line.
+    if (azimuth_deg >= 360.0 && bearings.size() > 1) bearings.erase(bearings.begin());
+    return bearings;
+}
+
+/// A line of one pixel, smooth, whose middle is `pixels` away.
+float cover(double pixels) {
+    return line_share * static_cast<float>(std::max(0.0, 1.0 - std::fabs(pixels)));
+}
+
+void mark_lines(FanStyle& style, const View& view, const FanStyleConfig& config) {
+    const std::vector<double> ranges = config.rings ? ring_ranges(view) : std::vector<double>{};
+    const std::vector<double> bearings =
+        config.bearings ? bearings_deg(view) : std::vector<double>{};
+    const FanFrame& frame = style.frame;
+    for (int row = 0; row < frame.height; ++row) {
+        for (int column = 0; column < frame.width; ++column) {
+            const FanPlace place = fan_place(frame, view.range_max_m, column, row);
+            if (!is_inside_sector(view, place)) continue;
+            float share = 0.0F;
+            for (const double range : ranges)
+                share = std::max(share, cover((place.range_m - range) / frame.pixel_m));
+            for (const double bearing : bearings) {
+                const SinCos off = sincos(place.azimuth_rad - radians(bearing));
+                if (off.cos > 0.0)
+                    share = std::max(share, cover(place.range_m * off.sin / frame.pixel_m));
+            }
+            if (share > 0.0F)
+                style.marks.push_back({row * frame.width + column, mark_colour, share});
+        }
+    }
+}
+
+struct Pixel {
+    int x;
+    int y;
+};
+
+Pixel pixel_of(const FanFrame& frame, const View& view, double range_m, double azimuth_rad) {
+    const SinCos at = sincos(azimuth_rad);
+    return {static_cast<int>(std::floor(0.5 * frame.width - range_m * at.sin / frame.pixel_m)),
+            static_cast<int>(std::floor((view.range_max_m - range_m * at.cos) / frame.pixel_m))};
+}
+
+/// Writes within the picture; `x` is the left end.
+void write_inside(Picture& text, int x, int y, const std::string& number) {
+    x = std::clamp(x, 1, std::max(1, text.width - text_width(number) - 1));
+    y = std::clamp(y, 1, std::max(1, text.height - 8));
+    write(text, x, y, number, Align::left, mark_colour);
+}
+
+void write_range(Picture& text, const FanFrame& frame, const View& view, double range_m) {
+    const bool wide = view.azimuth_rad > pi;
+    const Pixel at = pixel_of(frame, view, range_m, wide ? 0.0 : -0.5 * view.azimuth_rad);
+    write_inside(text, at.x + 5, wide ? at.y + 3 : at.y - 1, number_text(range_m) + " m");
+}
+
+void write_bearing(Picture& text, const FanFrame& frame, const View& view, double bearing_deg) {
+    const double in_m = 14.0 * frame.pixel_m;
+    const Pixel at = pixel_of(frame, view, view.range_max_m - in_m, radians(bearing_deg));
+    const char* side = "";
+    if (bearing_deg > 0.0 && bearing_deg < 180.0) side = "P";
+    if (bearing_deg < 0.0) side = "S";
+    const std::string number = number_text(std::fabs(bearing_deg)) + side;
+    write_inside(text, at.x - text_width(number) / 2, at.y - 3, number);
+}
+
+/// The text, and around it a dark seam so that it can be read on any picture.
+void mark_text(FanStyle& style, const Picture& text) {
+    const auto is_set = [&](int x, int y) {
+        return x >= 0 && y >= 0 && x < text.width && y < text.height &&
+               text.pixels[static_cast<std::size_t>(y) * text.width + x] == mark_colour;
+    };
+    for (int y = 0; y < text.height; ++y) {
+        for (int x = 0; x < text.width; ++x) {
+            bool near = false;
+            for (int j = -1; j <= 1; ++j) {
+                for (int i = -1; i <= 1; ++i)
+                    near = near || is_set(x + i, y + j);
+            }
+            if (!near) continue;
+            const int index = y * text.width + x;
+            is_set(x, y) ? style.marks.push_back({index, mark_colour, 1.0F})
+                         : style.marks.push_back({index, paper, halo_share});
+        }
+    }
+}
+
+void mark_numbers(FanStyle& style, const View& view, const FanStyleConfig& config) {
+    const FanFrame& frame = style.frame;
+    if (std::min(frame.width, frame.height) < least_px) return;
+    Picture text(frame.width, frame.height, paper);
+    if (config.rings) {
+        for (const double range : ring_ranges(view)) {
+            // Where the outermost bearing has its number.
+            const bool taken = config.bearings && range > 0.97 * view.range_max_m;
+            if (!taken) write_range(text, frame, view, range);
+        }
+    }
+    if (config.bearings) {
+        for (const double bearing : bearings_deg(view))
+            write_bearing(text, frame, view, bearing);
+    }
+    mark_text(style, text);
+}
+
+}  // namespace
+
+FanStyle make_fan_style(const Sonar& sonar, const FanFrame& frame, const FanStyleConfig& config) {
+    FanStyle style{frame, colour_table(config.colours), {}};
+    mark_lines(style, sonar.settings.view, config);
+    mark_numbers(style, sonar.settings.view, config);
+    return style;
+}
+
+Picture styled_fan(const FanStyle& style, std::span<const std::uint8_t> grey) {
+    Picture picture(style.frame.width, style.frame.height, paper);
+    for (std::size_t k = 0; k < grey.size(); ++k)
+        picture.pixels[k] = style.colours[grey[k]];
+    for (const FanStyle::Mark& mark : style.marks) {
+        Rgb& pixel = picture.pixels[static_cast<std::size_t>(mark.index)];
+        const Rgb ends[] = {pixel, mark.colour};
+        pixel = blend(ends, mark.share);
+    }
+    return picture;
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,70 @@
+#include "scene/gltf/extent.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/input_limits.h"
+#include "scene/gltf/corners.h"
+
+namespace sonarsim {
+
+namespace {
+
+/// By how much a float of this size may be off for being a float: half a unit in the last place.
+double half_unit(double x) {
+    int exponent = 0;
+    std::frexp(x, &exponent);
+    return x == 0.0 ? 0.0 : std::ldexp(1.0, exponent - 25);
+}
+
+}  // namespace
+
+Extent find_extent(const OpenFile& file, ReadingLimit& limit) {
+    Extent extent;
+    for_each_piece(file, limit, [&extent](const Piece& piece) {
+        Eigen::Vector3d farthest = Eigen::Vector3d::Zero();  // in the mesh's own axes
+        for (std::size_t i = 0; i < piece.source.count; ++i) {
+            const auto vertices = triangle(piece.source, i, piece.where);
+            std::array<Eigen::Vector3d, 3> points;
+            Eigen::Vector3d reach = Eigen::Vector3d::Zero();
+            for (int k = 0; k < 3; ++k) {
+                points[k] = position(piece.source.positions, vertices[k]);
+                reach = reach.cwiseMax(points[k].cwiseAbs());
+                points[k] = piece.mesh.T_world_mesh * points[k];
+            }
+            if (!is_finite(points) || !has_area(points)) continue;
+            farthest = farthest.cwiseMax(reach);
+            for (const Eigen::Vector3d& point : points) {
+                if (point.cwiseAbs().maxCoeff() > furthest_m) {
+                    throw InputError(piece.where +
+                                     ": a vertex lies more than 1e8 m from the origin");
+                }
+                extent.box.extend(point);
+            }
+        }
+        // Integers are what their exporter made them.
+        if (piece.source.positions.component_type != TINYGLTF_COMPONENT_TYPE_FLOAT) return;
+        const Eigen::Vector3d off =
+            piece.mesh.T_world_mesh.linear().cwiseAbs() * farthest.unaryExpr(&half_unit);
+        extent.vertex_rounding_m = std::max(extent.vertex_rounding_m, off.maxCoeff());
+    });
+    return extent;
+}
+
+Extent moved(const Extent& extent, const Eigen::Affine3d& transform) {
+    if (extent.box.isEmpty()) return extent;
+    Extent out;
+    for (int corner = 0; corner < 8; ++corner) {
+        out.box.extend(transform *
+                       extent.box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner)));
+    }
+    if (out.box.min().cwiseAbs().cwiseMax(out.box.max().cwiseAbs()).maxCoeff() > furthest_m)
+        throw InputError("an object lies more than 1e8 m from the origin");
+    out.vertex_rounding_m =
+        extent.vertex_rounding_m * transform.linear().cwiseAbs().rowwise().sum().maxCoeff();
+    return out;
+}
+
+}  // namespace sonarsim

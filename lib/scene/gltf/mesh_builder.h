@@ -1,0 +1,77 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "scene/gltf/corners.h"
+#include "scene/gltf/pieces.h"
+#include "scene/scene.h"
+
+namespace sonarsim {
+
+/// Adds triangles to a scene, a body or a shared mesh, vertex by vertex as triangles ask for them.
+template <class Mesh>
+struct MeshBuilder {
+    Mesh& mesh;
+    SceneRejects& rejects;
+    Eigen::Vector3d origin;
+    // Where a piece's vertex stands in `mesh.vertices`, plus 1. What earlier pieces left is not
+    // above their number of vertices, so nothing has to be cleared.
+    std::vector<std::uint32_t> slots = {};
+
+    /// Calls `note` for every triangle that is added.
+    template <class Note>
+    void add(const Piece& piece, const Note& note) {
+        const std::size_t first = mesh.vertices.size();
+        slots.resize(std::max(slots.size(), piece.source.positions.count), 0);
+        for (std::size_t i = 0; i < piece.source.count; ++i) {
+            std::array<std::uint32_t, 3> vertices = triangle(piece.source, i, piece.where);
+            std::array<Eigen::Vector3f, 3> local;
+            std::array<Eigen::Vector3d, 3> rounded;
+            for (std::size_t k = 0; k < 3; ++k) {
+                local[k] = (corner(piece, vertices[k]) - origin).template cast<float>();
+                rounded[k] = local[k].template cast<double>();
+            }
+            if (!is_finite(rounded)) {
+                ++rejects.non_finite_triangles;
+                continue;
+            }
+            if (!has_area(rounded)) {
+                ++rejects.degenerate_triangles;
+                continue;
+            }
+            for (std::size_t k = 0; k < 3; ++k) {
+                std::uint32_t& slot = slots[vertices[k]];
+                if (slot <= first) {
+                    mesh.vertices.push_back(local[k]);
+                    slot = static_cast<std::uint32_t>(mesh.vertices.size());
+                }
+                vertices[k] = slot - 1;
+            }
+            mesh.triangles.push_back(vertices);
+            note();
+        }
+    }
+};
+
+/// Numbers the materials of a scene in the order in which they come.
+struct MaterialNumbers {
+    std::map<std::string, std::uint32_t> numbers = {};
+
+    std::uint32_t of(const std::string& name, Scene& scene) {
+        const auto number = static_cast<std::uint32_t>(scene.materials.size());
+        const auto [entry, is_new] = numbers.emplace(name, number);
+        if (is_new) {
+            scene.materials.emplace_back();
+            scene.materials.back().name = name;
+        }
+        return entry->second;
+    }
+};
+
+}  // namespace sonarsim

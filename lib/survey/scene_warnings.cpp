@@ -1,0 +1,130 @@
+#include "survey/scene_warnings.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/text.h"
+
+namespace sonarsim {
+
+namespace {
+
+constexpr double huge_m = 10e3;
+constexpr double tiny_m = 0.1;
+constexpr double tiny_of_range = 0.01;
+constexpr double out_of_scale = 20.0;
+// Of the scene's surface, in percent.
+constexpr double upright_of_an_edge = 50.0;
+constexpr double flat_of_an_edge = 10.0;
+
+double farthest_range_m(const Mission& mission) {
+    double range = 0.0;
+    for (const SonarConfig& sensor : mission.sensors)
+        range = std::max(range, sensor.range_max_m);
+    return range;
+}
+
+double way_m(const Trajectory& trajectory) {
+    Eigen::AlignedBox3d box;
+    for (const TimedPose& pose : trajectory)
+        box.extend(pose.T_world_vehicle.translation);
+    return box.diagonal().norm();
+}
+
+void judge_extent(const Mission& mission, const Assembly& assembly,
+                  std::span<const SonarSurvey> sonars, std::vector<Warning>& out) {
+    const Eigen::Vector3d extent = assembly.scene.bounds_max - assembly.scene.bounds_min;
+    const double length = extent.maxCoeff();
+    const double range = farthest_range_m(mission);
+    std::size_t pings = 0;
+    std::size_t blind = 0;
+    for (const SonarSurvey& sonar : sonars) {
+        pings += sonar.pings;
+        blind += sonar.blind;
+    }
+    const double ratio = length / (way_m(assembly.trajectory) + 2.0 * range);
+    if (length > huge_m) {
+        out.push_back(make_warning(Doubt::scene_huge, "scene", extent.x(), extent.y(), extent.z()));
+    } else if (length < tiny_m || length < tiny_of_range * range) {
+        out.push_back(
+            make_warning(Doubt::scene_tiny, "scene", extent.x(), extent.y(), extent.z(), range));
+    } else if (ratio > out_of_scale && 2 * blind > pings) {
+        out.push_back(
+            make_warning(Doubt::scene_out_of_scale, "scene", length, ratio, blind, pings));
+    }
+}
+
+/// The share of the surface whose normal lies along each axis of the world, in percent.
+std::array<double, 3> facing(const Scene& scene) {
+    std::array<double, 3> areas{};
+    double all = 0.0;
+    for (const auto& [a, b, c] : scene.triangles) {
+        const Eigen::Vector3f& corner = scene.vertices[a];
+        const Eigen::Vector3d normal =
+            (scene.vertices[b] - corner).cross(scene.vertices[c] - corner).cast<double>();
+        const double area = normal.norm();
+        all += area;
+        for (int axis = 0; axis < 3; ++axis) {
+            if (std::fabs(normal[axis]) > 0.9 * area) areas[axis] += area;
+        }
+    }
+    for (double& area : areas)
+        area *= all > 0.0 ? 100.0 / all : 0.0;
+    return areas;
+}
+
+/// A sea floor of a file that was taken for y up has its normals along the world's y.
+void judge_axes(const Scene& scene, std::vector<Warning>& out) {
+    const std::array<double, 3> share = facing(scene);
+    const Eigen::Vector3d extent = scene.bounds_max - scene.bounds_min;
+    const bool thin = extent.y() < 0.5 * extent.x() && extent.y() < 0.5 * extent.z();
+    if (!thin || share[1] < upright_of_an_edge || share[2] > flat_of_an_edge) return;
+    out.push_back(make_warning(Doubt::scene_on_edge, "scene", share[1], share[2]));
+}
+
+void judge_water(const WaterConfig& water, std::vector<Warning>& out) {
+    if (water.density_kg_m3 < 950.0 || water.density_kg_m3 > 1200.0)
+        out.push_back(make_warning(Doubt::water_density, "water", water.density_kg_m3));
+    if (water.sound_speed_m_s < 1350.0 || water.sound_speed_m_s > 1700.0)
+        out.push_back(make_warning(Doubt::water_speed, "water", water.sound_speed_m_s));
+}
+
+void judge_materials(const WaterConfig& water, const Scene& scene, std::vector<Warning>& out) {
+    constexpr double densest = 25e3;          // kg/m^3; osmium has 22,600
+    constexpr double fastest = 20e3;          // m/s; diamond has 18,000
+    constexpr float faintest = 1.0F / 65535;  // of the power: impedances within 0.8 %
+    for (const Material& material : scene.materials) {
+        const std::string about = "material '" + printable(material.name) + "'";
+        if (material.density_kg_m3 > densest) {
+            out.push_back(
+                make_warning(Doubt::material_units, about, "density", material.density_kg_m3));
+        }
+        if (material.sound_speed_m_s > fastest) {
+            out.push_back(make_warning(Doubt::material_units, about, "speed of sound",
+                                       material.sound_speed_m_s));
+        }
+        if (material.reflection < faintest) {
+            out.push_back(make_warning(Doubt::material_silent, about, material.density_kg_m3,
+                                       material.sound_speed_m_s, material.reflection,
+                                       water.density_kg_m3, water.sound_speed_m_s));
+        }
+    }
+}
+
+}  // namespace
+
+std::vector<Warning> scene_warnings(const Mission& mission, const Assembly& assembly,
+                                    std::span<const SonarSurvey> sonars) {
+    std::vector<Warning> out;
+    if (!assembly.scene.triangles.empty()) {
+        judge_extent(mission, assembly, sonars, out);
+        judge_axes(assembly.scene, out);
+    }
+    judge_water(mission.water, out);
+    judge_materials(mission.water, assembly.scene, out);
+    return out;
+}
+
+}  // namespace sonarsim

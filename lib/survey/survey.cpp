@@ -1,0 +1,251 @@
+#include "survey/survey.h"
+
+#include <cmath>
+#include <memory>
+#include <span>
+
+#include "assembly/spread_pings.h"
+#include "calibrated/model.h"
+#include "core/units.h"
+#include "sonar/sonar.h"
+#include "survey/directions.h"
+#include "visibility/view.h"
+
+namespace sonarsim {
+
+namespace {
+
+constexpr std::size_t most_pings = 36;       // per sonar
+constexpr std::size_t most_bins = 1U << 25;  // of all of them
+constexpr std::size_t most_calibrated = 9;   // pings of the calibrated model, which take long
+constexpr double coarse_l1 = 0.2;
+
+/// What stands around a sonar.
+struct Surroundings {
+    std::vector<Eigen::Vector3f> directions;
+    std::vector<Intersection> met;  ///< by direction
+};
+
+Surroundings look(const View& view, const VisibilityEngine& engine, const Pose& T_world_sensor) {
+    Surroundings around{look_around(view), {}};
+    std::vector<Ray> rays;
+    for (const Eigen::Vector3f& direction : around.directions)
+        rays.push_back({Eigen::Vector3f::Zero(), direction});
+    around.met.resize(rays.size());
+    engine.intersect(T_world_sensor, rays, around.met);
+    return around;
+}
+
+double elevation_deg(const Eigen::Vector3f& direction) {
+    return degrees(std::asin(std::clamp(static_cast<double>(direction.z()), -1.0, 1.0)));
+}
+
+/// Finds out why a ping saw nothing.
+void explain(const View& view, const Surroundings& around, Blindness& why) {
+    Interval in_view;
+    double nearest = std::numeric_limits<double>::infinity();
+    bool somewhere = false;
+    double flattest = std::numeric_limits<double>::infinity();  // off the view's middle, in degrees
+    for (std::size_t i = 0; i < around.directions.size(); ++i) {
+        const Eigen::Vector3f& direction = around.directions[i];
+        const double distance = around.met[i].distance_m;
+        if (!std::isfinite(distance)) continue;
+        nearest = std::min(nearest, distance);
+        const bool within = distance >= view.range_min_m && distance < view.range_max_m;
+        somewhere = somewhere || within;
+        if (beam_of(view, direction) >= 0) {
+            in_view.take(distance);
+        } else if (within && is_in_azimuth(view, direction)) {
+            const double off = elevation_deg(direction);
+            if (std::fabs(off) < std::fabs(flattest)) flattest = off;
+        }
+    }
+    if (!in_view.empty() && in_view.low >= view.range_max_m) {
+        ++why.too_far;
+        why.in_view_m.take(in_view.low);
+    } else if (!in_view.empty() && in_view.high < view.range_min_m) {
+        ++why.too_near;
+        why.ends_m.take(in_view.high);
+    } else if (std::isfinite(flattest)) {
+        ++why.too_flat;
+        why.elevation_deg.take(flattest);
+    } else if (somewhere) {
+        ++why.elsewhere;
+    } else {
+        ++why.nothing;
+        if (std::isfinite(nearest)) why.nearest_m.take(nearest);
+    }
+}
+
+/// Boxes around the instances, of what does not move.
+std::vector<Eigen::AlignedBox3f> boxes_of(const Scene& scene) {
+    std::vector<Eigen::AlignedBox3f> boxes(scene.instances.size());
+    for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
+        for (const std::uint32_t corner : scene.triangles[t])
+            boxes[scene.triangle_instance[t]].extend(scene.vertices[corner]);
+    }
+    return boxes;
+}
+
+/// A basin around the whole scene is no object that a sonar is in by mistake.
+bool holds_all(const Eigen::AlignedBox3f& box, const Scene& scene) {
+    const Eigen::Vector3d extent = scene.bounds_max - scene.bounds_min;
+    return !box.isEmpty() && (box.sizes().cast<double>().array() >= 0.9 * extent.array()).all();
+}
+
+/// Whether the sonar is where no vehicle can be.
+void judge_place(const Scene& scene, std::span<const Eigen::AlignedBox3f> boxes,
+                 const Pose& T_world_sensor, const Surroundings& around, SonarSurvey& out) {
+    std::size_t above = 0;
+    std::size_t below = 0;
+    std::size_t met_above = 0;
+    std::size_t met_below = 0;
+    std::vector<std::size_t> met(scene.instances.size());
+    for (std::size_t i = 0; i < around.directions.size(); ++i) {
+        const bool up = (T_world_sensor.rotation * around.directions[i].cast<double>()).z() > 0.0;
+        const bool meets = std::isfinite(around.met[i].distance_m);
+        (up ? above : below) += 1;
+        (up ? met_above : met_below) += meets;
+        if (meets) ++met[around.met[i].instance];
+    }
+    // Beneath a sea floor there is surface all above and none below.
+    out.below_surface += 2 * met_above > above && 50 * met_below <= below;
+    const auto most = std::ranges::max_element(met);
+    if (scene.instances.size() < 2 || 100 * *most < 98 * around.directions.size()) return;
+    const auto instance = static_cast<std::size_t>(most - met.begin());
+    if (boxes[instance].isEmpty() || holds_all(boxes[instance], scene)) return;
+    ++out.enclosed;
+    out.enclosed_by = scene.instances[instance];
+}
+
+/// Roll and pitch of rotation_from_rpy().
+void take_attitude(const Eigen::Quaterniond& rotation, SonarSurvey& out) {
+    const Eigen::Matrix3d r = rotation.toRotationMatrix();
+    out.roll_deg.take(degrees(std::atan2(r(2, 1), r(2, 2))));
+    out.pitch_deg.take(degrees(-std::asin(std::clamp(r(2, 0), -1.0, 1.0))));
+}
+
+void take_altitude(const VisibilityEngine& engine, const Pose& T_world_sensor, SonarSurvey& out) {
+    const Eigen::Vector3d down =
+        T_world_sensor.rotation.conjugate() * Eigen::Vector3d(0.0, 0.0, -1.0);
+    const Ray ray{Eigen::Vector3f::Zero(), down.cast<float>()};
+    Intersection bottom{};
+    engine.intersect(T_world_sensor, {&ray, 1}, {&bottom, 1});
+    if (std::isfinite(bottom.distance_m)) out.altitude_m.take(bottom.distance_m);
+}
+
+/// What surface a ping saw, and how far away.
+void take_samples(const View& view, const Samples& samples, SonarSurvey& out) {
+    Interval echoes;
+    for (const Sample& sample : samples.items) {
+        const double range = sample.position.norm();
+        if (range < view.range_min_m || range >= view.range_max_m) continue;
+        echoes.take(range);
+        out.seen_m2[sample.instance] += sample.area_m2;
+    }
+    if (echoes.empty()) return;
+    out.first_echo_m.take(echoes.low);
+    out.last_echo_m.take(echoes.high);
+}
+
+/// Sums over the bins of a sonar's pings.
+struct BinSums {
+    std::size_t bins = 0;
+    std::size_t lit = 0;
+    std::size_t white = 0;
+    std::size_t occupied = 0;
+    double signal = 0.0;
+    double noise = 0.0;
+};
+
+/// `clean` is without pixel noise. The paper's noise is known by its deviation, that of a receiver
+/// by what it changes.
+void add_bins(const Sonar& sonar, double full_scale, const Ping& clean, const Ping& ping,
+              BinSums& sums, SonarSurvey& out) {
+    const PixelNoise& noise = sonar.settings.pixel_noise;
+    const bool paper = !sonar.settings.calibrated;
+    for (std::size_t i = 0; i < ping.intensity.size(); ++i) {
+        const float value = ping.intensity[i];
+        out.brightest = std::max(out.brightest, value);
+        if (clean.intensity[i] <= 0.0F) continue;
+        ++sums.lit;
+        sums.white += value > full_scale;
+        if (!paper) {
+            sums.signal += clean.intensity[i];
+            sums.noise += std::fabs(value - clean.intensity[i]);
+            continue;
+        }
+        const std::size_t row = i / static_cast<std::size_t>(ping.beams);
+        const std::size_t column = i % static_cast<std::size_t>(ping.beams);
+        constexpr double spread_of_rayleigh = 0.6551363775620335;  // sqrt(2 - pi / 2)
+        sums.signal += noise.gain * clean.intensity[i];
+        sums.noise += spread_of_rayleigh * noise.add_sigma * noise.range_scale[row] *
+                      noise.lobe_scale[column];
+    }
+    sums.bins += ping.intensity.size();
+    sums.occupied += ping.counts.occupied_bins;
+}
+
+void finish(const BinSums& sums, SonarSurvey& out) {
+    if (sums.bins == 0 || sums.lit == 0) return;
+    const auto lit = static_cast<double>(sums.lit);
+    out.lit_share = static_cast<double>(sums.occupied) / static_cast<double>(sums.bins);
+    out.white_share = static_cast<double>(sums.white) / lit;
+    out.noise = sums.noise / lit;
+    out.signal = sums.signal / lit;
+}
+
+SonarSurvey survey_sonar(const Mission& mission, const Assembly& assembly, Sonar sonar,
+                         double full_scale, std::span<const Eigen::AlignedBox3f> boxes,
+                         const VisibilityEngine& rays) {
+    SonarSurvey out;
+    out.seen_m2.resize(assembly.scene.instances.size());
+    View& view = sonar.settings.view;
+    view.relative_l1 = std::max(view.relative_l1, coarse_l1);
+    const auto bins = static_cast<std::size_t>(view.range_bins) * view.beams;
+    const std::size_t most = sonar.settings.calibrated ? most_calibrated : most_pings;
+    BinSums sums;
+    for (const std::uint32_t pose :
+         spread_pings(assembly.trajectory.size(), sonar.config.every,
+                      std::clamp<std::size_t>(most_bins / bins, 3, most))) {
+        const TimedPose& at = assembly.trajectory[pose];
+        const Pose T_world_sensor = sensor_pose(sonar, at.T_world_vehicle, pose);
+        const std::unique_ptr<VisibilityEngine> moment =
+            assembly.motions.empty() ? nullptr : rays.at(body_poses(assembly, at.t_s));
+        const VisibilityEngine& now = moment ? *moment : rays;
+        const TracedPing traced = trace(sonar, assembly.scene, now, at.T_world_vehicle, pose);
+        const PingKey key{mission.seed, pose};
+        const Ping ping = form_image(traced, sonar.settings, assembly.scene, key);
+        const Surroundings around = look(view, now, T_world_sensor);
+        ++out.pings;
+        take_attitude(at.T_world_vehicle.rotation, out);
+        take_altitude(now, T_world_sensor, out);
+        take_samples(view, traced.samples, out);
+        judge_place(assembly.scene, boxes, T_world_sensor, around, out);
+        if (ping.counts.occupied_bins == 0) {
+            ++out.blind;
+            explain(view, around, out.why);
+        }
+        add_bins(sonar, full_scale,
+                 form_image(traced, sonar.settings, assembly.scene, key,
+                            {.pixel_noise = false, .streaks = false}),
+                 ping, sums, out);
+    }
+    finish(sums, out);
+    return out;
+}
+
+}  // namespace
+
+std::vector<SonarSurvey> survey(const Mission& mission, const Assembly& assembly,
+                                const VisibilityEngine& rays) {
+    const std::vector<Eigen::AlignedBox3f> boxes = boxes_of(assembly.scene);
+    std::vector<SonarSurvey> out;
+    for (std::size_t i = 0; i < assembly.sonars.size(); ++i) {
+        out.push_back(survey_sonar(mission, assembly, assembly.sonars[i], assembly.full_scales[i],
+                                   boxes, rays));
+    }
+    return out;
+}
+
+}  // namespace sonarsim

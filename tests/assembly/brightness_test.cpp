@@ -1,0 +1,67 @@
+#include "assembly/brightness.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "assembly/spread_pings.h"
+#include "support/small_mission.h"
+
+using namespace sonarsim;
+using namespace sonarsim::test;
+
+namespace {
+
+std::vector<double> scales_of(const Mission& mission) {
+    const Assembly assembly = small_assembly(mission, 9);
+    return assembly.full_scales;
+}
+
+}  // namespace
+
+TEST_SUITE("assembly") {
+    TEST_CASE("spread pings: in the middle of equal parts, on poses with a ping") {
+        using Poses = std::vector<std::uint32_t>;
+        CHECK(spread_pings(12, 1, 3) == Poses{2, 6, 10});
+        // Poses 0, 3, 6 and 9 have pings: the halves are {0, 3} and {6, 9}.
+        CHECK(spread_pings(12, 3, 2) == Poses{3, 9});
+        CHECK(spread_pings(2, 1, 5) == Poses{0, 1});
+        CHECK(spread_pings(0, 1, 5).empty());
+    }
+
+    TEST_CASE("brightness: a number of the mission is taken as it stands") {
+        Mission mission = small_mission("out");
+        mission.output.full_scale = 0.37;
+        CHECK(scales_of(mission) == std::vector<double>{0.37, 0.37});
+    }
+
+    TEST_CASE("brightness: auto has two digits and grows with the gain") {
+        Mission mission = small_mission("out");
+        mission.output.full_scale = 0.0;
+        for (SonarConfig& sensor : mission.sensors)
+            sensor.noise = {};
+        mission.sensors[0].noise.gain = 0.5;
+        mission.sensors[1].noise.gain = 0.5;
+        const std::vector<double> half = scales_of(mission);
+        mission.sensors[0].noise.gain = 50.0;
+        const std::vector<double> more = scales_of(mission);
+        // Without noise an intensity is proportional to the gain; a power of ten moves no digit.
+        CHECK(more[0] / half[0] == doctest::Approx(100.0));
+        CHECK(more[1] == half[1]);
+        // No echo of a surface with reflection below 1 is above the gain.
+        for (const double scale : half) {
+            CHECK(scale > 0.0);
+            CHECK(scale <= 0.5);
+            const double digits = scale * std::pow(10.0, 1.0 - std::floor(std::log10(scale)));
+            CHECK(std::fabs(digits - std::round(digits)) < 1e-9);
+        }
+    }
+
+    TEST_CASE("brightness: auto is 1 where nothing is seen") {
+        Mission mission = small_mission("out");
+        mission.output.full_scale = 0.0;
+        mission.sensors[1].range_max_m = 0.11;  // the walls are farther away
+        CHECK(scales_of(mission)[1] == 1.0);
+    }
+}

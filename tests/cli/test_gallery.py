@@ -1,0 +1,143 @@
+"""sonarsim gallery: the page beside a dataset, looked at by a headless Chromium."""
+import json
+import os
+import re
+import sys
+import unittest
+
+import browser
+from sandbox import Sandbox, digest
+
+SENSORS = """\
+sensors:
+  fls: {kind: imaging, azimuth_deg: 60, range_max_m: 6, range_bins: 48, azimuth_bins: 32}
+  sss: {kind: sidescan, range_max_m: 6, range_bins: 48, every: 2}
+  sounder: {kind: echosounder, range_max_m: 6, range_bins: 48}
+  head: {kind: scanning, range_max_m: 6, range_bins: 48, step_deg: 120}
+output: {folder: out, fan_width_px: 64, image: true, labels: [coco]}
+"""
+
+
+def dataset_in(page):
+    """The JSON in a page."""
+    text = re.search(r'<script type="application/json" id="dataset">(.*?)</script>', page, re.DOTALL)
+    return json.loads(text.group(1))
+
+
+class Gallery(Sandbox):
+    def setUp(self):
+        super().setUp()
+        text = (self.folder / "mission.yaml").read_text()
+        self.write("mission.yaml", text[:text.index("sensors:")] + SENSORS)
+
+    def gallery(self):
+        done = self.run_sonarsim("gallery", "out")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return (self.out / "index.html").read_text()
+
+    def test_the_page_is_no_part_of_the_dataset(self):
+        self.assert_renders()
+        before = digest(self.out)
+        page = self.gallery()
+        self.assertEqual(self.gallery(), page)  # it replaces its own
+        self.assertEqual(digest(self.out, without=("index.html",)), before)
+        self.assertNotRegex(page, r"https?://")
+        verified = self.run_sonarsim("verify", "out")
+        self.assertEqual(verified.returncode, 0, verified.stderr)
+        self.assertNotIn("index.html", verified.stderr)
+        # What the page knows is what the dataset says.
+        shown = dataset_in(page)
+        self.assertEqual([s["name"] for s in shown["sensors"]], ["fls", "sss", "sounder", "head"])
+        yaw = 0
+        for k, difference in enumerate(shown["track"]["yaw"]):
+            yaw += difference
+            self.assertEqual(yaw, 300 * k)  # 3 degrees from pose to pose, in hundredths
+        fls = shown["sensors"][0]
+        for view in fls["views"]:
+            self.assertTrue((self.out / (view["file"] % 5)).is_file(), view)
+        for index, table in (("fan", "fan"), ("image", "polar")):
+            boxes = next(v for v in fls["views"] if v["title"] == table)["boxes"]
+            coco = "coco.json" if index == "image" else "coco_fan.json"
+            told = json.loads((self.out / "labels" / coco).read_text())
+            names = {image["id"]: image["file_name"] for image in told["images"]}
+            for annotation in told["annotations"]:
+                ping = int(names[annotation["image_id"]][-10:-4])
+                self.assertIn(annotation["bbox"], [box[1:] for box in boxes[ping]])
+        # A resume leaves the page alone, a new dataset takes it away.
+        self.assert_renders()
+        self.assertTrue((self.out / "index.html").exists())
+        self.assert_renders("--overwrite", "--seed", 8)
+        self.assertFalse((self.out / "index.html").exists())
+
+    def test_what_the_page_cannot_show_is_told(self):
+        self.assert_renders("--set", "output.pack=tar", "--set", "output.labels=false")
+        notes = [s["note"] for s in dataset_in(self.gallery())["sensors"]]
+        self.assertIn("Render with output.pack: none", notes[0])
+        self.assert_renders("--overwrite", "--set", "output.fan=false", "--set", "output.image=false",
+                            "--set", "output.labels=false")
+        notes = [s["note"] for s in dataset_in(self.gallery())["sensors"]]
+        self.assertIn("output.fan or output.image", notes[0])
+        self.assertEqual(notes[1:], ["", "", ""])
+
+    def test_folders_that_are_no_dataset(self):
+        (self.folder / "empty").mkdir()
+        self.assert_refused(self.run_sonarsim("gallery", "empty"), "is no dataset")
+        self.assert_renders("--set", "output.labels=false")
+        self.write("out/index.html", "<p>mine</p>")
+        self.assert_refused(self.run_sonarsim("gallery", "out"), "is not of sonarsim's making")
+        self.assertEqual((self.out / "index.html").read_text(), "<p>mine</p>")
+        self.assertIn("index.html: is not the dataset's",
+                      self.run_sonarsim("verify", "out").stderr)
+
+    @unittest.skipUnless(browser.available(), "Debian's chromium and chromium-driver are not here")
+    def test_in_a_browser(self):
+        self.assert_renders()
+        self.gallery()
+        seen = "return document.getElementById('seen').textContent"
+        number = "return Number(document.getElementById('number').value)"
+        ready = "return image_of(url_of(view(), state.ping)).naturalWidth"
+        with browser.Browser() as window:
+            window.open(self.out / "index.html")
+            self.assertEqual(window.wait_for(ready), 64)
+            self.assertRegex(window.run(seen), r"^1 box: walls")
+            # Boxes are drawn: without them the picture looks different.
+            boxed = window.screenshot("#picture")
+            window.press("b")
+            self.assertEqual(window.run(seen), "")
+            self.assertNotEqual(window.screenshot("#picture"), boxed)
+            window.press("b")
+            self.assertEqual(window.screenshot("#picture"), boxed)
+            # Arrows change the ping, and the picture with it.
+            window.press("right", "right")
+            self.assertEqual(window.run(number), 2)
+            window.wait_for(ready)
+            self.assertIn("fls/fan/000002.png", window.run("return url_of(view(), state.ping)"))
+            self.assertNotEqual(window.screenshot("#picture"), boxed)
+            window.press("left")
+            self.assertEqual(window.run(number), 1)
+            window.press("end", "right")
+            self.assertEqual(window.run(number), 5)
+            # The polar picture is shown as the fan is: turned by half a turn.
+            window.press("v")
+            self.assertEqual(window.wait_for(ready), 32)
+            self.assertTrue(window.run("return view().turned"))
+            # Of a sensor that pings at every other pose the ping nearest to this one.
+            for name, where in (("sss", 4), ("sounder", 4), ("head", 4)):
+                window.press("down")
+                window.wait_for(ready)
+                self.assertEqual(window.run("return sensor().name"), name)
+                self.assertEqual(window.run(number), where)
+            # Zooming in and all of it again.
+            wheel = ("document.getElementById('picture').dispatchEvent(new WheelEvent('wheel',"
+                     "{deltaY: -800, clientX: 300, clientY: 300})); return picture.zoom")
+            self.assertGreater(window.run(wheel), 2)
+            self.assertEqual(window.run("document.getElementById('picture').dispatchEvent("
+                                        "new MouseEvent('dblclick')); return picture.zoom"), 1)
+            self.assertEqual(window.complaints(), [])
+
+
+if __name__ == "__main__":
+    if os.environ.get("SANITIZED") == "1":
+        print("the page is the same in a sanitized build")
+        sys.exit(77)
+    unittest.main()

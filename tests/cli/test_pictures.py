@@ -1,0 +1,82 @@
+"""sonarsim preview, and the style of fans."""
+import struct
+import unittest
+
+from sandbox import Sandbox, digest
+
+
+def png_header(data):
+    """Width, height and colour type: 0 is grey, 2 RGB."""
+    assert data.startswith(b"\x89PNG\r\n\x1a\n")
+    width, height, _, colour = struct.unpack(">IIBB", data[16:26])
+    return width, height, colour
+
+
+ALL_KINDS = """\
+sensors:
+  fls: {kind: imaging, range_max_m: 6, range_bins: 48, azimuth_bins: 32}
+  mbes: {kind: profiling, range_max_m: 6, range_bins: 48, azimuth_bins: 32}
+  sss: {kind: sidescan, range_max_m: 6, range_bins: 48, every: 2}
+  sounder: {kind: echosounder, range_max_m: 6, range_bins: 48}
+  head: {kind: scanning, range_max_m: 6, range_bins: 48, step_deg: 45}
+output: {folder: out}
+"""
+
+
+class Preview(Sandbox):
+    def test_one_picture_of_every_kind(self):
+        text = (self.folder / "mission.yaml").read_text()
+        self.write("mission.yaml", text[:text.index("sensors:")] + ALL_KINDS)
+        done = self.run_sonarsim("preview", "mission.yaml", "--ping", 5)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("box_preview.png: ping 5 of box", done.stderr)
+        picture = (self.folder / "box_preview.png").read_bytes()
+        # Five sonars and three views of the scene: three columns of tiles.
+        width, height, colour = png_header(picture)
+        self.assertEqual((width, colour), (3 * 612 + 12, 2))
+        self.assertEqual(height, 30 + 3 * 450)
+        self.assertFalse(self.out.exists())
+        # The same bytes from one thread's order and another's; another ping is another picture.
+        again = self.run_sonarsim("preview", "mission.yaml", "--ping", 5, "--out", "again.png")
+        self.assertEqual(again.returncode, 0, again.stderr)
+        self.assertEqual((self.folder / "again.png").read_bytes(), picture)
+        other = self.run_sonarsim("preview", "mission.yaml", "--ping", 0, "--out", "other.png",
+                                  "--set", "sensors.fls.range_max_m=4", "-q")
+        self.assertEqual((other.returncode, other.stderr), (0, ""))
+        self.assertNotEqual((self.folder / "other.png").read_bytes(), picture)
+
+    def test_a_ping_that_is_not_there(self):
+        self.assert_refused(self.run_sonarsim("preview", "mission.yaml", "--ping", 6),
+                            "--ping 6: the mission has the pings 0 to 5")
+        self.assertEqual(list(self.folder.glob("*.png")), [])
+
+
+class FanStyle(Sandbox):
+    def test_colours_rings_and_bearings(self):
+        """A style changes the fans to RGB, and nothing else; verify opens them."""
+        self.assert_renders("--out", "plain", "--set", "output.fan_width_px=200")
+        self.assert_renders("--out", "styled", "--set", "output.fan_width_px=200", "--set",
+                    "output.fan_style={colours: copper, rings: true, bearings: true}")
+        plain, styled = digest(self.folder / "plain"), digest(self.folder / "styled")
+        self.assertEqual(plain.keys(), styled.keys())
+        differ = {name for name in plain if plain[name] != styled[name]}
+        told = {"dataset.json", "mission.resolved.yaml", "journal.txt", "SHA256SUMS"}
+        self.assertEqual(differ - told, {f"fls/fan/{k:06d}.png" for k in range(6)})
+        first = "fls/fan/000000.png"
+        headers = [png_header((self.folder / d / first).read_bytes()) for d in ("plain", "styled")]
+        self.assertEqual([h[2] for h in headers], [0, 2])
+        self.assertEqual(headers[0][:2], headers[1][:2])
+        self.assertEqual(self.run_sonarsim("verify", "styled").returncode, 0)
+
+    def test_what_a_style_may_not_be(self):
+        for value, message in (
+                ("{colours: gray}", "unknown colours 'gray' (did you mean 'grey'?)"),
+                ("{colour: grey}", "unknown key 'colour' (did you mean 'colours'?)"),
+                ("{rings: 5}", "'rings' must be true or false")):
+            with self.subTest(value):
+                self.assert_refused(self.run_sonarsim("validate", "mission.yaml", "--set",
+                                                      f"output.fan_style={value}"), message)
+
+
+if __name__ == "__main__":
+    unittest.main()

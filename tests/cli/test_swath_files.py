@@ -1,0 +1,151 @@
+"""waterfall.xtf as a reader sees it that knows the published format alone (Debian has no program that reads
+XTF), and mosaic.tif as GDAL sees it: a bright target lies where the scene has it."""
+import json
+import math
+import shutil
+import struct
+import subprocess
+import unittest
+
+from sandbox import Sandbox, box_gltf
+
+# A flat sea floor at z = -10 of 60 x 60 m and a steel block on it, half a metre each way, at (6, -12).
+MISSION = """\
+name: swath
+scene:
+  materials: materials.csv
+  objects:
+    - {name: floor, file: floor.gltf, position_m: [0, 0, -11]}
+    - {name: block, file: block.gltf, position_m: [6, -12, -9.5]}
+trajectory:
+  waypoints:
+    - {position_m: [-5, 0, 0], rpy_deg: [0, 0, 0]}
+    - {position_m: [15, 0, 0], rpy_deg: [0, 0, 0]}
+  speed_m_s: 1
+  rate_hz: 4
+sensors:
+  sss: {kind: sidescan, elevation_deg: 1, range_max_m: 25, range_bins: 245}
+output: {folder: out, polar: false, fan: false, meta: false, xtf: true, mosaic: true, mosaic_cell_m: 0.25,
+         full_scale: 0.5}
+"""
+MATERIALS = "material,density_kg_m3,sound_speed_m_s\nSand,1400,1520\nSteel,7850,5890\n"
+
+
+class Channel:
+    def __init__(self, record, at):
+        (self.number, _, self.slant_m, self.ground_m, _, self.duration_s,
+         self.interval_s) = struct.unpack_from("<HHfffff", record, at)
+        count, = struct.unpack_from("<I", record, at + 42)
+        self.samples = struct.unpack_from(f"<{count}H", record, at + 64)
+        self.end = at + 64 + 2 * count
+
+
+class Ping:
+    def __init__(self, record):
+        (self.magic, self.kind, _, self.channel_count, _, _, self.length, self.year, self.month, self.day,
+         self.hour, self.minute, self.second, self.hundredth, self.day_of_year) = struct.unpack_from(
+            "<HBBHHHIHBBBBBBH", record)
+        _, self.number, self.half_speed = struct.unpack_from("<IIf", record, 24)
+        self.y, self.x = struct.unpack_from("<dd", record, 160)
+        self.depth, self.altitude = struct.unpack_from("<ff", record, 192)
+        self.pitch, self.roll, self.heading = struct.unpack_from("<fff", record, 204)
+        self.channels, at = [], 256
+        for _ in range(self.channel_count):
+            self.channels.append(Channel(record, at))
+            at = self.channels[-1].end
+
+
+def read_xtf(data):
+    header = {"format": data[0], "program": data[2:10], "units": struct.unpack_from("<H", data, 164)[0],
+              "channels": [(data[at], struct.unpack_from("<H", data, at + 6)[0], data[at + 12:at + 28])
+                           for at in (256, 384)]}
+    pings, at = [], 1024
+    while at < len(data):
+        length, = struct.unpack_from("<I", data, at + 10)
+        pings.append(Ping(data[at:at + length]))
+        at += length
+    assert at == len(data)
+    return header, pings
+
+
+class SwathFiles(Sandbox):
+    def setUp(self):
+        super().setUp()
+        self.write("mission.yaml", MISSION)
+        self.write("materials.csv", MATERIALS)
+        self.write("floor.gltf", box_gltf((30, 1, 30), "Sand"))  # y is up in glTF
+        self.write("block.gltf", box_gltf((0.5, 0.5, 0.5), "Steel"))
+        self.assert_renders()
+
+    def test_xtf(self):
+        header, pings = read_xtf((self.out / "sss/waterfall.xtf").read_bytes())
+        self.assertEqual((header["format"], header["units"]), (123, 0))
+        self.assertEqual(header["program"], b"sonarsim")
+        self.assertEqual([(kind, size, name.rstrip(b"\0")) for kind, size, name in header["channels"]],
+                         [(1, 2, b"Port"), (2, 2, b"Starboard")])
+        self.assertEqual(len(pings), 81)
+        for k, ping in enumerate(pings):
+            self.assertEqual((ping.magic, ping.kind, ping.channel_count, ping.length % 64),
+                             (0xFACE, 0, 2, 0))
+            self.assertEqual(ping.number, k)
+            # A quarter of a second and of a metre from ping to ping, from 1970 on, along x: east.
+            self.assertEqual((ping.year, ping.month, ping.day, ping.day_of_year), (1970, 1, 1, 1))
+            self.assertEqual((ping.second, ping.hundredth), (k // 4, 25 * (k % 4)))
+            self.assertAlmostEqual(ping.x, -5 + 0.25 * k, delta=1e-9)
+            self.assertAlmostEqual(ping.y, 0, delta=1e-9)
+            self.assertAlmostEqual(ping.heading, 90, delta=1e-4)
+            self.assertAlmostEqual(ping.depth, 0, delta=1e-9)
+            self.assertAlmostEqual(ping.altitude, 10, delta=0.2)
+            self.assertAlmostEqual(ping.half_speed, 740, delta=1e-3)
+            port, starboard = ping.channels
+            self.assertEqual((port.number, starboard.number), (0, 1))
+            self.assertEqual(port.slant_m, 25)
+            self.assertAlmostEqual(port.duration_s, 2 * 25 / 1480, delta=1e-6)
+            self.assertAlmostEqual(port.ground_m, math.sqrt(25**2 - ping.altitude**2), delta=1e-3)
+            # 24.5 m in 245 bins, and one blank one before.
+            self.assertEqual((len(port.samples), len(starboard.samples)), (250, 250))
+            # Nothing echoes before the bottom does: port ends at nadir, starboard begins there.
+            self.assertEqual(max(port.samples[-90:]), 0)
+            self.assertEqual(max(starboard.samples[:90]), 0)
+            self.assertGreater(max(port.samples[:-110]), 0)
+        # The block is to starboard, 11.5 m off track and 9 to 10 m below, where x is 6.
+        beside = pings[44].channels
+        brightest = max(range(250), key=lambda i: beside[1].samples[i])
+        near = math.sqrt(11.5**2 + 9**2)
+        self.assertAlmostEqual((brightest + 0.5) * 0.1, near, delta=1.0)
+        self.assertGreater(max(beside[1].samples), 3 * max(beside[0].samples))
+
+    @unittest.skipIf(shutil.which("gdalinfo") is None, "needs gdalinfo")
+    def test_mosaic(self):
+        path = self.out / "sss/mosaic.tif"
+        result = subprocess.run(["gdalinfo", "-json", "-stats", path], capture_output=True, text=True,
+                                timeout=60, check=True)
+        self.assertEqual(result.stderr, "")
+        info = json.loads(result.stdout)
+        place = json.loads((self.out / "sss/mosaic.json").read_text())
+        self.assertEqual(info["geoTransform"],
+                         [place["west_m"], 0.25, 0, place["north_m"], 0, -0.25])
+        self.assertTrue(math.isnan(float(info["bands"][0]["noDataValue"])))
+
+        def echo(x, y):
+            found = subprocess.run(["gdallocationinfo", "-valonly", "-geoloc", path, str(x), str(y)],
+                                   capture_output=True, text=True, timeout=60, check=True)
+            return float(found.stdout)
+
+        # The side of the block that faces the sonar echoes before the floor below it: at the slant range
+        # of its foot and of its top, (11.5, 10) and (11.5, 9), that is 11.5 and 10.7 m on level ground.
+        block = max(echo(6, y / 10) for y in range(-120, -104, 2))
+        self.assertGreater(block, 3 * echo(6, 11))
+        self.assertGreater(block, 3 * echo(2, -11))
+        self.assertGreater(block, 3 * echo(10, -11))
+        # Behind it lies its shadow: from its top at (11.5..12.5, 9) the ray meets the floor at
+        # 12.5 * 10 / 9 = 13.9 m.
+        self.assertLess(echo(6, -13.2), 0.2 * echo(2, -13.2))
+        # As long as the track, and as wide as 25 m of slant range reach on ground 10 m below.
+        self.assertAlmostEqual(place["columns"] * 0.25, 20, delta=0.5)
+        self.assertAlmostEqual(place["rows"] * 0.25, 2 * math.sqrt(25**2 - 10**2), delta=0.6)
+        self.assertEqual((place["pings"], place["pings_left_out"]), (81, 0))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,104 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "core/units.h"
+#include "support/scenes.h"
+#include "visibility/make_engine.h"
+#include "visibility/rays/rays_engine.h"
+
+using namespace sonarsim;
+using namespace sonarsim::test;
+
+namespace {
+
+/// A scene of copies of a sphere of radius 1 m, with nothing else.
+Scene spheres(std::span<const Eigen::Affine3d> T_world_sphere, const Eigen::Vector3d& origin) {
+    Scene shape = empty_scene();
+    add_sphere(shape, {0, 0, 0}, 1.0F, add_material(shape, 1.0F), 512);
+    Scene scene = empty_scene(origin);
+    scene.materials = shape.materials;
+    scene.shared_meshes.push_back({shape.vertices, shape.triangles, shape.triangle_material});
+    scene.instances.clear();
+    scene.instance_classes.clear();
+    for (std::size_t k = 0; k < T_world_sphere.size(); ++k) {
+        scene.instances.push_back("sphere_" + std::to_string(k));
+        scene.instance_classes.emplace_back("");
+        scene.copies.push_back({0, static_cast<std::uint32_t>(k), T_world_sphere[k]});
+    }
+    return scene;
+}
+
+Eigen::Affine3d placed(const Eigen::Vector3d& position, double scale, double turn) {
+    Eigen::Affine3d T = Eigen::Affine3d::Identity();
+    T.translation() = position;
+    T.linear() = scale * rotation_from_rpy(turn, 0.3, -turn).toRotationMatrix();
+    return T;
+}
+
+}  // namespace
+
+TEST_SUITE("visibility") {
+    TEST_CASE("copies: every copy of a sphere is met where it stands, in its own size") {
+        // Far from the world's origin, where floats are a quarter of a metre apart.
+        const Eigen::Vector3d origin(4e6, 5e6, 0.0);
+        std::vector<Eigen::Affine3d> places;
+        for (int k = 0; k < 20; ++k)
+            places.push_back(placed(origin + Eigen::Vector3d(3.0 + 0.2 * k, 5.0 * k, 0.0),
+                                    0.2 + 0.1 * k, 0.4 * k));
+        const auto engine = make_rays_engine(spheres(places, origin));
+        for (int k = 0; k < 20; ++k) {
+            // A ray along x that passes the centre at 0.3 radii meets the sphere sqrt(1 - 0.3^2)
+            // radii before it. Facets lie at most r (1 - cos(pi / 512)) = 1.9e-5 r inside.
+            const double r = 0.2 + 0.1 * k;
+            const Pose sonar{Eigen::Quaterniond::Identity(),
+                             origin + Eigen::Vector3d(0.0, 5.0 * k + 0.3 * r, 0.0)};
+            const Ray ray{Eigen::Vector3f::Zero(), Eigen::Vector3f::UnitX()};
+            Intersection hit{};
+            engine->intersect(sonar, {&ray, 1}, {&hit, 1});
+            const double along = std::sqrt(1.0 - 0.09);
+            CHECK(std::fabs(hit.distance_m - (3.0 + 0.2 * k - along * r)) < 5e-5 * r + 2e-5);
+            CHECK((hit.normal.cast<double>() - Eigen::Vector3d(-along, 0.3, 0.0)).norm() < 0.02);
+            CHECK(std::fabs(hit.normal.norm() - 1.0F) < 1e-5F);
+            CHECK(hit.instance == static_cast<std::uint32_t>(k));
+        }
+    }
+
+    TEST_CASE("copies: beside a body that moves both are met") {
+        const std::vector<Eigen::Affine3d> places{placed({6.0, 0.0, 0.0}, 1.0, 0.0),
+                                                  placed({6.0, 4.0, 0.0}, 1.0, 0.0)};
+        Scene scene = spheres(places, Eigen::Vector3d::Zero());
+        Scene box = empty_scene();
+        add_box(box, {-0.5F, -0.5F, -0.5F}, {0.5F, 0.5F, 0.5F}, add_material(box, 1.0F));
+        scene.instances.emplace_back("box");
+        scene.instance_classes.emplace_back("");
+        scene.bodies.push_back({2, box.vertices, box.triangles, box.triangle_material});
+        const auto engine = make_rays_engine(scene);
+        const Pose at{Eigen::Quaterniond::Identity(), {3.0, 4.0, 0.0}};
+        const auto now = engine->at({&at, 1});
+        for (const double y : {0.0, 4.0}) {
+            const Pose sonar{Eigen::Quaterniond::Identity(), {0.0, y, 0.0}};
+            const Ray ray{Eigen::Vector3f::Zero(), Eigen::Vector3f::UnitX()};
+            Intersection before{};
+            Intersection after{};
+            engine->intersect(sonar, {&ray, 1}, {&before, 1});
+            now->intersect(sonar, {&ray, 1}, {&after, 1});
+            CHECK(std::fabs(before.distance_m - 5.0F) < 1e-3F);
+            CHECK(before.instance == (y > 0.0 ? 1 : 0));
+            CHECK(std::fabs(after.distance_m - (y > 0.0 ? 2.5F : 5.0F)) < 1e-3F);
+            CHECK(after.instance == (y > 0.0 ? 2 : 0));
+        }
+    }
+
+    TEST_CASE("copies: the octree and the slices refuse") {
+        const Eigen::Affine3d place = placed({5.0, 0.0, 0.0}, 1.0, 0.0);
+        const Scene scene = spheres({&place, 1}, Eigen::Vector3d::Zero());
+        CHECK(refusal_of({.type = EngineType::rays, .octree = {}}, scene).empty());
+        CHECK(refusal_of({.type = EngineType::automatic, .octree = {}}, scene).empty());
+        CHECK(refusal_of({.type = EngineType::octree, .octree = {}}, scene) ==
+              "engine: octree sees no copies of shared meshes; use engine: auto or engine: rays, "
+              "or scene.repeats: copied");
+        CHECK(refusal_of({.type = EngineType::slices, .octree = {}}, scene).find("slices sees") !=
+              std::string::npos);
+    }
+}
