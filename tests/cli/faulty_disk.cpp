@@ -7,7 +7,7 @@
 //   FAULTY_DISK_MODE   "full": that call and all later ones fail with ENOSPC; "once": it alone
 //                      fails, with EIO; "short": a write takes half of what it is given;
 //                      "interrupted": every third one is, by a signal; "stall": that call never
-//                      comes back
+//                      comes back; "kill": the program is killed (SIGKILL) before that call
 
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -18,6 +18,7 @@
 #include <array>
 #include <atomic>
 #include <cerrno>
+#include <csignal>
 #include <cstdarg>
 #include <cstdio>
 #include <cstdlib>
@@ -70,6 +71,7 @@ bool fails(const char* call, const char* path) {
     log(call, path);
     while (number == first && setting("FAULTY_DISK_MODE") == "stall")
         pause();
+    if (number == first && setting("FAULTY_DISK_MODE") == "kill") std::raise(SIGKILL);
     const bool full = setting("FAULTY_DISK_MODE") == "full";
     if (first == 0 || (full ? number < first : number != first)) return false;
     errno = full ? ENOSPC : EIO;
