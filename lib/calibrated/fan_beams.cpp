@@ -87,7 +87,8 @@ std::uint64_t find_columns(const FanBeams& beams, const PieceBlock& pieces, Poin
     const auto last_column = static_cast<float>(grid.columns - 1);
     int outside = 0;
     for (int k = 0; k < echoes.count; ++k) {
-        const float column = (pieces.y[k] / echoes.range_m[k] - first_sine) * per_step;
+        const float inverse = 1.0F / echoes.range_m[k];
+        const float column = (pieces.y[k] * inverse - first_sine) * per_step;
         const bool inside = column >= 0.0F && column < last_column;
         outside += echoes.power[k] > 0.0F && !inside ? 1 : 0;
         echoes.power[k] = inside ? echoes.power[k] : 0.0F;
