@@ -16,18 +16,10 @@ namespace {
 // Pieces that a grid of bins and columns cannot tell from points.
 constexpr float most_depth_by_bin = 0.5F;
 constexpr float most_sine_by_step = 0.5F;
-// Of the elevation's half-power width: the pattern bends within it.
-constexpr double most_elevation_by_width = 0.1;
+// Of a half-power width: the pattern bends within it.
+constexpr double most_by_width = 0.1;
 
 constexpr double no_common_mode_db = -300.0;
-
-LineArray receiving_array(const BeamConfig& beam) {
-    LineArray array = line_array(radians(beam.width_deg), beam.side_lobe_db);
-    array.quadratic_rad = beam.aberration_rad[0];
-    array.cubic_rad = beam.aberration_rad[1];
-    array.quartic_rad = beam.aberration_rad[2];
-    return array;
-}
 
 std::vector<Backscatter> scattering_of(const Scene& scene) {
     std::vector<Backscatter> out;
@@ -68,78 +60,107 @@ void draw_places(EchoGrid& grid, float gain, PhiloxKey key) {
     }
 }
 
-/// Writes 8 bins of all beams into rows of the image, each times its gain.
-void write_rows(const std::vector<Lanes>& beams, int row, std::span<const float> row_gain,
-                std::span<float> image, bool add) {
-    const int count = std::min(lanes_at_once, static_cast<int>(row_gain.size()) - row);
-    for (int lane = 0; lane < count; ++lane) {
-        const float gain = row_gain[row + lane];
-        float* const out = image.data() + (row + lane) * beams.size();
-        for (std::size_t j = 0; j < beams.size(); ++j)
-            out[j] = std::fma(gain, beams[j][lane], add ? out[j] : 0.0F);
+/// The image by beams of either kind.
+template <class Beams>
+CalibratedCounts form_image_of(const Beams& beams, const CalibratedModel& model,
+                               const Samples& samples, const Scene& scene,
+                               const SonarInScene& sonar, const CalibratedDraws& draws,
+                               const CalibratedTerms& terms, std::span<float> image) {
+    const bool speckled = terms.speckle && model.speckle != SpeckleMode::none;
+    const bool of_scene = speckled && model.speckle == SpeckleMode::scene;
+    const std::vector<Backscatter> materials = scattering_of(scene);
+    CalibratedCounts counts;
+    EchoGrid grid(model.equation.rows, columns_of(beams));
+    PointEchoes echoes;
+    const auto find = [&](const PieceBlock& pieces) {
+        counts.echoes += pieces.count;
+        counts.out_of_range += find_echoes(pieces, materials, model.equation, echoes);
+        counts.out_of_range += find_columns(beams, pieces, echoes);
+        if (speckled) add_clutter(pieces, model.clutter, sonar, draws.scene, echoes);
+    };
+    if (terms.echoes && of_scene) {
+        Scatterers block;
+        Amplitudes amplitudes;
+        find_scatterers(samples.items, model.cells, sonar, block, [&](const Scatterers& found) {
+            find(found.pieces);
+            draw_amplitudes(found, echoes, model.cells, sonar, draws.scene, amplitudes);
+            add_amplitudes(beams, found.pieces, echoes, amplitudes, grid);
+        });
+    } else if (terms.echoes) {
+        PieceBlock block;
+        cut_into_pieces(samples.items, model.limits, block, [&](const PieceBlock& pieces) {
+            find(pieces);
+            add_powers(beams, pieces, echoes, grid);
+        });
     }
+
+    // Independent places are fewer, but no less strong, than the points whose powers they hold.
+    const float gain = model.amplitude_taps.fill * fill_of(beams);
+    if (speckled && !of_scene) draw_places(grid, gain, draws.ping);
+    counts.lit_places = grid.smear(speckled ? model.amplitude_taps : model.power_taps);
+    receive(beams, grid, !speckled, terms.noise, draws.noise, model.row_gain, image);
+    return counts;
 }
 
-void form_beams(const Beamformer& former, const EchoGrid* grid, const ElementNoise& noise,
-                PhiloxKey key, std::span<const float> row_gain, std::span<float> image, bool add) {
-    Beamformer::Scratch scratch(former);
-    std::vector<Lanes> beams(former.beams());
-    for (int row = 0; row < std::ssize(row_gain); row += lanes_at_once) {
-        former.form(grid, row, noise, key, scratch, beams.data());
-        write_rows(beams, row, row_gain, image, add);
+/// How small the pieces have to be, for beams of either kind, to be points to them.
+PointLimits point_limits(const BeamConfig& beam, const View& view,
+                         const std::variant<DirectedBeams, FanBeams>& beams) {
+    PointLimits limits{.depth_m = most_depth_by_bin * static_cast<float>(view.bin_m())};
+    const double width = radians(beam.width_deg);
+    if (const auto* const fan = std::get_if<FanBeams>(&beams)) {
+        limits.sine = most_sine_by_step * static_cast<float>(fan->amplitudes.grid().step);
+        limits.elevation_sine =
+            static_cast<float>(most_by_width * radians(beam.elevation_width_deg));
+    } else if (beam.aperture == Aperture::sides) {
+        limits.sine = static_cast<float>(most_by_width * radians(beam.across_width_deg));
+        limits.elevation_sine = static_cast<float>(most_by_width * width);
+    } else {
+        limits.sine = static_cast<float>(most_by_width * width);
+        limits.elevation_sine = limits.sine;
     }
+    return limits;
 }
 
 }  // namespace
 
 CalibratedModel calibrated_model(const InstrumentConfig& instrument, const WaterConfig& water,
                                  const View& view, const std::vector<double>& beam_sines) {
-    const LineArray array = receiving_array(instrument.beam);
     const double bin_m = view.bin_m();
     const double resolution_m =
         instrument.pulse.resolution_m > 0.0 ? instrument.pulse.resolution_m : bin_m;
     const double resolution_bins = resolution_m / bin_m;
     const double side_lobe_db = instrument.pulse.side_lobe_db;
-    CalibratedModel model{
-        .equation = {},
-        .limits = {},
-        .cells = {},
-        .clutter = gamma_clutter(instrument.speckle.clutter_shape, instrument.speckle.clutter_m),
-        .amplitude_taps = range_taps(resolution_bins, side_lobe_db, false),
-        .power_taps = range_taps(resolution_bins, side_lobe_db, true),
-        .amplitude_beams = Beamformer(array, beam_sines, false),
-        .power_beams = Beamformer(array, beam_sines, true),
-        .noise = {},
-        .row_gain = {},
-        .speckle = instrument.speckle.mode};
+    const BeamConfig& beam = instrument.beam;
+    const ReceiverConfig& receiver = instrument.receiver;
+    CalibratedModel model;
+    model.clutter = gamma_clutter(instrument.speckle.clutter_shape, instrument.speckle.clutter_m);
+    model.amplitude_taps = range_taps(resolution_bins, side_lobe_db, false);
+    model.power_taps = range_taps(resolution_bins, side_lobe_db, true);
+    model.speckle = instrument.speckle.mode;
     model.sound_speed_m_s = water.sound_speed_m_s;
     model.wavelength_m = water.sound_speed_m_s / instrument.frequency_hz;
     model.absorption_db_per_m =
         absorption_db_per_m(instrument.frequency_hz,
                             {water.temperature_c, water.salinity_psu, water.depth_m, water.ph});
 
-    const double width = radians(instrument.beam.elevation_width_deg);
-    model.equation = {
-        .range_min_m = static_cast<float>(view.range_min_m),
-        .bin_m = static_cast<float>(bin_m),
-        .rows = view.range_bins,
-        .grid = model.amplitude_beams.grid(),
-        .loss_per_m = static_cast<float>(0.2 * ln_10 * model.absorption_db_per_m),
-        .elevation = elevation_pattern(width, instrument.beam.elevation_side_lobe_db)};
-    model.limits = {.depth_m = most_depth_by_bin * static_cast<float>(bin_m),
-                    .sine = most_sine_by_step * static_cast<float>(model.equation.grid.step),
-                    .elevation_sine = static_cast<float>(most_elevation_by_width * width)};
-    model.cells =
-        scatterer_cells(instrument.speckle.per_cell, std::max(resolution_m, 0.5 * bin_m),
-                        radians(instrument.beam.width_deg), view.range_min_m, model.wavelength_m);
-    const ReceiverConfig& receiver = instrument.receiver;
-    const double noise = power_of_db(receiver.noise_db - instrument.source_level_db);
-    model.noise.element_sigma =
-        static_cast<float>(std::sqrt(noise)) * model.amplitude_beams.element_sigma_of_unit();
-    if (receiver.common_mode_db > no_common_mode_db) {
-        model.noise.common_mode_sigma = static_cast<float>(
-            std::sqrt(0.5 * power_of_db(receiver.common_mode_db - instrument.source_level_db)));
+    const auto relative = [&](double db) { return power_of_db(db - instrument.source_level_db); };
+    const double noise = relative(receiver.noise_db);
+    const double common_mode =
+        receiver.common_mode_db > no_common_mode_db ? relative(receiver.common_mode_db) : 0.0;
+    if (beam.aperture == Aperture::line) {
+        model.beams = fan_beams(beam, beam_sines, noise, common_mode);
+    } else {
+        model.beams = directed_beams(beam, view, model.wavelength_m, noise + common_mode);
     }
+    model.limits = point_limits(beam, view, model.beams);
+    model.equation = {.range_min_m = static_cast<float>(view.range_min_m),
+                      .bin_m = static_cast<float>(bin_m),
+                      .rows = view.range_bins,
+                      .loss_per_m = static_cast<float>(0.2 * ln_10 * model.absorption_db_per_m),
+                      .elevation = elevation_pattern(radians(beam.elevation_width_deg),
+                                                     beam.elevation_side_lobe_db)};
+    model.cells = scatterer_cells(instrument.speckle.per_cell, std::max(resolution_m, 0.5 * bin_m),
+                                  radians(beam.width_deg), view.range_min_m, model.wavelength_m);
     for (int i = 0; i < view.range_bins; ++i) {
         const double range = view.range_min_m + (i + 0.5) * bin_m;
         const double tvg_db =
@@ -155,50 +176,13 @@ CalibratedCounts form_calibrated(const CalibratedModel& model, const Samples& sa
                                  const Scene& scene, const Pose& T_world_sensor,
                                  const CalibratedDraws& draws, const CalibratedTerms& terms,
                                  std::span<float> image) {
-    const bool speckled = terms.speckle && model.speckle != SpeckleMode::none;
-    const bool of_scene = speckled && model.speckle == SpeckleMode::scene;
-    const std::vector<Backscatter> materials = scattering_of(scene);
     const SonarInScene sonar{T_world_sensor.rotation.toRotationMatrix().cast<float>(),
                              T_world_sensor.translation - scene.origin};
-    CalibratedCounts counts;
-    EchoGrid grid(model.equation.rows, model.equation.grid.columns);
-    PointEchoes echoes;
-    const auto find = [&](const PieceBlock& pieces) {
-        counts.echoes += pieces.count;
-        counts.out_of_range += find_echoes(pieces, materials, model.equation, echoes);
-        if (speckled) add_clutter(pieces, model.clutter, sonar, draws.scene, echoes);
-    };
-    if (terms.echoes && of_scene) {
-        Scatterers block;
-        Amplitudes amplitudes;
-        find_scatterers(samples.items, model.cells, sonar, block, [&](const Scatterers& found) {
-            find(found.pieces);
-            draw_amplitudes(found, echoes, model.cells, sonar, draws.scene, amplitudes);
-            add_amplitudes(echoes, amplitudes.re, amplitudes.im, grid);
-        });
-    } else if (terms.echoes) {
-        PieceBlock block;
-        cut_into_pieces(samples.items, model.limits, block, [&](const PieceBlock& pieces) {
-            find(pieces);
-            add_powers(echoes, grid);
-        });
-    }
-
-    // Independent places are fewer, but no less strong, than the points whose powers they hold.
-    const float gain = model.amplitude_taps.fill * model.amplitude_beams.fill();
-    if (speckled && !of_scene) draw_places(grid, gain, draws.ping);
-    counts.lit_places = grid.smear(speckled ? model.amplitude_taps : model.power_taps);
-    const ElementNoise noise = terms.noise ? model.noise : ElementNoise{};
-    if (speckled) {
-        form_beams(model.amplitude_beams, &grid, noise, draws.noise, model.row_gain, image, false);
-    } else {
-        form_beams(model.power_beams, &grid, {}, {}, model.row_gain, image, false);
-        if (terms.noise) {
-            form_beams(model.amplitude_beams, nullptr, noise, draws.noise, model.row_gain, image,
-                       true);
-        }
-    }
-    return counts;
+    return std::visit(
+        [&](const auto& beams) {
+            return form_image_of(beams, model, samples, scene, sonar, draws, terms, image);
+        },
+        model.beams);
 }
 
 }  // namespace sonarsim

@@ -2,9 +2,11 @@
 
 #include <cstdint>
 #include <span>
+#include <variant>
 #include <vector>
 
-#include "calibrated/beamformer.h"
+#include "calibrated/directed_beams.h"
+#include "calibrated/fan_beams.h"
 #include "calibrated/scatterers.h"
 #include "calibrated/sonar_equation.h"
 #include "core/pose.h"
@@ -22,8 +24,7 @@ struct CalibratedModel {
     ScattererCells cells;
     Clutter clutter;
     RangeTaps amplitude_taps, power_taps;
-    Beamformer amplitude_beams, power_beams;
-    ElementNoise noise;
+    std::variant<DirectedBeams, FanBeams> beams;
     std::vector<float>
         row_gain;  ///< factor from the power of an echo to the value of the image, by bin
     SpeckleMode speckle = SpeckleMode::scene;
@@ -33,8 +34,7 @@ struct CalibratedModel {
 };
 
 /// Sets up the instrument of a sonar with this view; `beam_sines` are the sines of the azimuths
-/// that its beams look at. Its point spread is that of the far field at every range: the
-/// instrument is taken to focus.
+/// that the beams of a fan look at.
 CalibratedModel calibrated_model(const InstrumentConfig& instrument, const WaterConfig& water,
                                  const View& view, const std::vector<double>& beam_sines);
 

@@ -54,10 +54,6 @@ void find_scatterers(std::span<const Sample> samples, const ScattererCells& cell
                      const std::function<void(const Scatterers&)>& use);
 
 /// The complex amplitudes of a block's echoes.
-struct Amplitudes {
-    PieceBlock::Array<float> re, im;
-};
-
 void draw_amplitudes(const Scatterers& block, const PointEchoes& echoes,
                      const ScattererCells& cells, const SonarInScene& sonar, PhiloxKey key,
                      Amplitudes& out);

@@ -21,7 +21,7 @@ struct ElevationPattern {
 /// transmitter is directed in elevation; 0: the same all over.
 ElevationPattern elevation_pattern(double width_rad, double side_lobe_db);
 
-/// What a piece of surface sends back, and where it goes on the grid:
+/// What a piece of surface sends back, and the range bin it goes to:
 ///
 ///     EL = SL + S(grazing angle) + 10 log A + D(elevation) - 40 log r - 2 alpha r    dB
 ///
@@ -30,7 +30,6 @@ struct SonarEquation {
     float range_min_m = 0.0F;
     float bin_m = 0.0F;
     int rows = 0;
-    SineGrid grid;
     float loss_per_m = 0.0F;  ///< power goes with e^-(loss r) by absorption there and back
     ElevationPattern elevation;
 };
@@ -41,18 +40,17 @@ struct PointEchoes {
     PieceBlock::Array<float> range_m;
     PieceBlock::Array<float> power;
     PieceBlock::Array<float> row;     ///< in bins from the middle of the first one, -1 to rows
-    PieceBlock::Array<float> column;  ///< of the grid
+    PieceBlock::Array<float> column;  ///< of the grid, where one is formed into beams
 };
 
-/// Fills `echoes`. What lies outside the range or the grid has power 0; returns how many do.
+/// Complex numbers, one for each piece of a block.
+struct Amplitudes {
+    PieceBlock::Array<float> re, im;
+};
+
+/// Fills all of `echoes` but their columns. What lies outside the range has power 0; returns how
+/// many do.
 std::uint64_t find_echoes(const PieceBlock& pieces, std::span<const Backscatter> materials,
                           const SonarEquation& equation, PointEchoes& echoes);
-
-/// Adds powers to the real parts of the grid, shared between the four places around each echo.
-void add_powers(const PointEchoes& echoes, EchoGrid& grid);
-
-/// Adds complex amplitudes likewise: `re`, `im` by echo.
-void add_amplitudes(const PointEchoes& echoes, const PieceBlock::Array<float>& re,
-                    const PieceBlock::Array<float>& im, EchoGrid& grid);
 
 }  // namespace sonarsim

@@ -10,6 +10,13 @@ namespace sonarsim {
 /// docs/calibrated.md.
 enum class EchoModel { of_paper, of_instrument };
 
+/// What sound is sent and heard with. No key: it follows from the kind of sonar.
+enum class Aperture {
+    line,   ///< an array across, whose beams are formed
+    sides,  ///< two arrays along track, each looking to its side
+    piston  ///< a disc
+};
+
 /// How the beams of a fan are spread.
 enum class BeamSpread { angle, sine };
 
@@ -22,13 +29,16 @@ enum class SpeckleMode {
 enum class Companding { gamma, log, linear };
 
 struct BeamConfig {
-    double width_deg = 1.0;       ///< between the half-power points of the receiving array
-    double side_lobe_db = -13.3;  ///< its highest side lobe; sets the taper
+    Aperture aperture = Aperture::line;
+    double width_deg = 1.0;       ///< between half-power points, one way
+    double side_lobe_db = -13.3;  ///< the highest one of an array; sets the taper
     /// Errors of phase at the ends of the aperture: quadratic, cubic, quartic.
     std::array<double, 3> aberration_rad{};
     BeamSpread spread = BeamSpread::angle;
     double elevation_width_deg = 0.0;  ///< half-power, there and back; 0: the same all over
     double elevation_side_lobe_db = -13.3;
+    double across_width_deg = 50.0;  ///< of a side: half-power, one way, across the track
+    double tilt_deg = 20.0;          ///< of a side: its axis below the sensor's y axis
 
     bool operator==(const BeamConfig&) const = default;
 };

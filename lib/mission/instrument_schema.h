@@ -26,10 +26,20 @@ inline constexpr Limits side_lobes_db{-42.0, -13.0};
 
 template <class Visitor>
 void describe(Visitor& v, BeamConfig& c) {
-    v.number("width_deg", c.width_deg, between(0.05, 60),
-             "width of a beam between its half-power points, of the receiving line array");
+    v.number(
+        "width_deg", c.width_deg, between(0.05, 60),
+        "width between half-power points, one way: of a beam of the receiving line array, of a "
+        "side-scan along track, of an echosounder's cone");
+    if (c.aperture == Aperture::piston) return;
     v.number("side_lobe_db", c.side_lobe_db, side_lobes_db,
              "highest side lobe of that array, by its taper; -13.3 is without one");
+    if (c.aperture == Aperture::sides) {
+        v.number("across_width_deg", c.across_width_deg, between(5, 120),
+                 "width of a side across the track, between half-power points, one way");
+        v.number("tilt_deg", c.tilt_deg, between(-90, 90),
+                 "angle by which the axis of a side points below the horizontal");
+        return;
+    }
     v.numbers("aberration_rad", c.aberration_rad, between(-100, 100),
               "error of phase at the ends of the array: its quadratic, cubic and quartic part");
     v.choice("spread", c.spread, beam_spreads, "what is even from beam to beam");

@@ -247,6 +247,21 @@ class SchemaBuilder {
         return json;
     }
 
+    /// Adds to `all` the keys that it lacks, and likewise in the sections that both have: the beam
+    /// of a side-scan has other keys than that of an imaging sonar.
+    static void add_missing_keys(const SchemaJson& own, SchemaJson& all) {
+        for (const auto& [key, value] : own.items()) {
+            const bool section = value.contains("properties");
+            if (!all.contains(key)) {
+                all[key] = value;
+                // Other kinds have other defaults.
+                if (!section) all[key].erase("default");
+            } else if (section) {
+                add_missing_keys(value["properties"], all[key]["properties"]);
+            }
+        }
+    }
+
     /// A sonar's keys depend on its kind and model, which its preset may give: with a preset all
     /// keys of all kinds may stand.
     SchemaJson sonar_json() const {
@@ -257,23 +272,15 @@ class SchemaBuilder {
             kinds.push_back(kind.name);
             for (const EchoModel model : {EchoModel::of_paper, EchoModel::of_instrument}) {
                 const bool calibrated = model == EchoModel::of_instrument;
-                if (calibrated && !kind.instrument) continue;
                 SchemaJson own = sonar_of(kind, model);
-                for (const auto& [key, value] : own["properties"].items()) {
-                    if (all_keys.contains(key)) continue;
-                    all_keys[key] = value;
-                    // Other kinds have other defaults.
-                    if (!value.contains("properties")) all_keys[key].erase("default");
-                }
+                add_missing_keys(own["properties"], all_keys);
                 SchemaJson if_this{{"properties", {{"kind", {{"const", kind.name}}}}},
                                    {"required", {"kind"}},
                                    {"not", {{"required", {"preset"}}}}};
-                if (kind.instrument) {
-                    if_this["properties"]["model"] =
-                        calibrated ? SchemaJson{{"const", "calibrated"}}
-                                   : SchemaJson{{"not", {{"const", "calibrated"}}}};
-                    if (calibrated) if_this["required"].push_back("model");
-                }
+                if_this["properties"]["model"] =
+                    calibrated ? SchemaJson{{"const", "calibrated"}}
+                               : SchemaJson{{"not", {{"const", "calibrated"}}}};
+                if (calibrated) if_this["required"].push_back("model");
                 rules.push_back({{"if", std::move(if_this)}, {"then", std::move(own)}});
             }
         }

@@ -179,7 +179,6 @@ class KeyCollector {
         for (const SonarKeys& kind : sonars_) {
             kind_ = kind.name;
             for (const EchoModel model : {EchoModel::of_paper, EchoModel::of_instrument}) {
-                if (model == EchoModel::of_instrument && !kind.instrument) continue;
                 SonarConfig sonar = kind.defaults;
                 sonar.model = model;
                 enter(path_below(key) + ".NAME", sonar);

@@ -165,11 +165,19 @@ void describe(Visitor& v, SonarConfig& c) {
              "how an echo is worked out: as in the paper, or as the instrument measures it");
     if (c.model == EchoModel::of_instrument) {
         v.section("instrument", c.instrument, "the instrument of the calibrated model");
-        v.require(keys.instrument, {"model"},
-                  "this kind of sonar has only the paper's model so far: write model: paper");
-        v.require(c.azimuth_deg < 180.0, {"azimuth_deg", "model"},
+        const BeamConfig& beam = c.instrument.beam;
+        v.require(beam.aperture != Aperture::line || c.azimuth_deg < 180.0,
+                  {"azimuth_deg", "model"},
                   "the line array of the calibrated model looks forward: azimuth_deg must be below "
                   "180");
+        v.require(beam.aperture != Aperture::sides || c.elevation_deg >= beam.width_deg,
+                  {"elevation_deg", "instrument"},
+                  "a calibrated side-scan sonar looks at what elevation_deg lets it: it must be at "
+                  "least instrument.beam.width_deg, and a few times that to have the side lobes");
+        v.require(beam.aperture != Aperture::piston || c.opening_deg >= beam.width_deg,
+                  {"opening_deg", "instrument"},
+                  "a calibrated echosounder looks at what opening_deg lets it: it must be at least "
+                  "instrument.beam.width_deg, and three times that to have the main lobe");
         v.require(c.multipath.method == MultipathMethod::none, {"multipath", "model"},
                   "the calibrated model has no multipath so far: write multipath.method: none");
     } else {

@@ -21,7 +21,6 @@ struct SonarKeys {
     bool azimuth_bins = false;  ///< azimuth_bins
     bool range_noise = true;    ///< noise.range_lambda_m may be above 0
     bool head = false;          ///< sector_deg and step_deg
-    bool instrument = false;    ///< model may be calibrated
 };
 
 /// All kinds, in the order in which messages name them.

@@ -20,6 +20,8 @@ KindOfSonar echosounder_kind() {
     defaults.kind = SonarKind::echosounder;
     defaults.range_min_m = 0.5;
     defaults.range_bins = 200;
+    defaults.instrument.beam.aperture = Aperture::piston;
+    defaults.instrument.beam.width_deg = 10.0;
     return {.keys = {.kind = SonarKind::echosounder,
                      .name = "echosounder",
                      .defaults = defaults,

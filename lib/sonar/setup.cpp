@@ -114,15 +114,15 @@ void add_azimuth(Sonar& sonar) {
 void add_instrument(Sonar& sonar, const WaterConfig& water) {
     const InstrumentConfig& instrument = sonar.config.instrument;
     const View& view = sonar.settings.view;
-    const double half = 0.5 * view.azimuth_rad;
     std::vector<double> sines;
-    for (int j = 0; j < view.beams; ++j) {
-        const double share = (2.0 * j + 1.0) / view.beams - 1.0;
+    if (instrument.beam.aperture == Aperture::line) {
+        const double half = 0.5 * view.azimuth_rad;
         const bool even_sines = instrument.beam.spread == BeamSpread::sine;
-        sines.push_back(even_sines ? share * sincos(half).sin : sincos(share * half).sin);
-    }
-    if (instrument.beam.spread == BeamSpread::sine) {
-        for (int j = 0; j <= view.beams; ++j)
+        for (int j = 0; j < view.beams; ++j) {
+            const double share = (2.0 * j + 1.0) / view.beams - 1.0;
+            sines.push_back(even_sines ? share * sincos(half).sin : sincos(share * half).sin);
+        }
+        for (int j = 0; even_sines && j <= view.beams; ++j)
             sonar.azimuth_edges_rad[j] = arcsin((2.0 * j / view.beams - 1.0) * sincos(half).sin);
     }
     sonar.settings.calibrated =

@@ -40,7 +40,7 @@ Sonar common_sonar(const SonarConfig& config, const AccuracyConfig& accuracy,
 /// wants it, and the azimuth edges.
 void add_azimuth(Sonar& sonar);
 
-/// The instrument of the calibrated model, for a fan.
+/// The instrument of the calibrated model.
 void add_instrument(Sonar& sonar, const WaterConfig& water);
 
 /// The mount of the sonars that look down: x along the vehicle's -z, z along its x, so that

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "calibrated/near_field.h"
+#include "calibrated/sonar_equation.h"
+#include "core/random.h"
+#include "mission/instrument.h"
+#include "visibility/view.h"
+
+namespace sonarsim {
+
+/// A function of a sine, by a table.
+struct SineTable {
+    float from = 0.0F;      ///< the sine of the first entry
+    float per_unit = 0.0F;  ///< entries per unit of sine
+    std::vector<float> values;
+
+    float at(float sine) const;
+};
+
+/// Transducers that both send and hear, and form no beams: the two sides of a side-scan sonar or
+/// the disc of an echosounder. A side hears all of the surface, by its pattern.
+struct DirectedBeams {
+    struct Axis {
+        float x, y;  ///< unit, sensor frame
+    };
+    std::vector<Axis> sides;  ///< starboard and port; empty: a disc about the boresight
+    UnfocusedBeam along;      ///< of a side, along the sensor's z axis, there and back
+    SineTable pattern;  ///< amplitude there and back: of a side across, of a disc off its axis
+    float noise_sigma = 0.0F;  ///< of either part
+
+    int beams() const { return sides.empty() ? 1 : static_cast<int>(sides.size()); }
+};
+
+/// `noise` is the power of the noise in a beam.
+DirectedBeams directed_beams(const BeamConfig& beam, const View& view, double wavelength_m,
+                             double noise);
+
+inline int columns_of(const DirectedBeams& beams) {
+    return beams.beams();
+}
+/// A beam has a column of the grid to itself.
+inline float fill_of(const DirectedBeams& /*beams*/) {
+    return 1.0F;
+}
+inline std::uint64_t find_columns(const DirectedBeams& /*beams*/, const PieceBlock& /*pieces*/,
+                                  PointEchoes& /*echoes*/) {
+    return 0;
+}
+
+/// Adds the powers of echoes to the real parts of the grid, shared between two bins.
+void add_powers(const DirectedBeams& beams, const PieceBlock& pieces, const PointEchoes& echoes,
+                EchoGrid& grid);
+/// Adds complex amplitudes likewise.
+void add_amplitudes(const DirectedBeams& beams, const PieceBlock& pieces, const PointEchoes& echoes,
+                    const Amplitudes& amplitudes, EchoGrid& grid);
+
+/// Fills the image [bins, beams] with the power in the grid, of `powers` or of amplitudes, and the
+/// noise. Noise belongs to the bin, the beam and the key.
+void receive(const DirectedBeams& beams, const EchoGrid& grid, bool powers, bool noisy,
+             PhiloxKey key, std::span<const float> row_gain, std::span<float> image);
+
+}  // namespace sonarsim

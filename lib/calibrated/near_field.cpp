@@ -1,0 +1,99 @@
+#include "calibrated/near_field.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/elementary.h"
+#include "core/units.h"
+
+namespace sonarsim {
+
+namespace {
+
+// From one entry to the next the phase at the ends of the array, of which the square of the pattern
+// has twice as much, changes by this.
+constexpr double phase_by_entry = 0.3;
+
+/// The phase at the ends of the array at curvature 1, rad.
+double end_phase(const LineArray& array, double wavelength_m) {
+    return 0.25 * pi * array.wavelengths * array.wavelengths * wavelength_m;
+}
+
+/// So many steps along the array that the phase turns by less than a quarter of a radian in each.
+int steps_for(double bend, double turn) {
+    return 32 + static_cast<int>(4.0 * (std::fabs(bend) + std::fabs(turn)));
+}
+
+/// Adds `factor` times as many values as `sums` has.
+void add_times(const float* values, float factor, std::vector<float>& sums) {
+    for (std::size_t i = 0; i < sums.size(); ++i)
+        sums[i] = std::fma(factor, values[i], sums[i]);
+}
+
+}  // namespace
+
+std::complex<double> unfocused_pattern(const LineArray& array, double u, double wavelength_m,
+                                       double curvature_per_m) {
+    const double bend = 4.0 * end_phase(array, wavelength_m) * curvature_per_m;
+    const double turn = 2.0 * pi * array.wavelengths * u;
+    const int steps = steps_for(bend, turn);
+    std::complex<double> sum = 0.0;
+    for (int k = 0; k < steps; ++k) {
+        const double x = (k + 0.5) / steps - 0.5;
+        const SinCos phase = sincos(x * (turn - bend * x));
+        sum += array.weight(x) * std::complex<double>(phase.cos, -phase.sin);
+    }
+    return sum / static_cast<double>(steps);
+}
+
+UnfocusedBeam unfocused_beam(const LineArray& array, double wavelength_m, double range_min_m,
+                             double greatest_sine) {
+    const double nearest = std::max(range_min_m, array.wavelengths * wavelength_m);
+    const double turn = 2.0 * pi * array.wavelengths * greatest_sine;
+    const double bend = 4.0 * end_phase(array, wavelength_m) / nearest;
+    UnfocusedBeam out;
+    out.greatest_sine = static_cast<float>(greatest_sine);
+    out.most_curvature = static_cast<float>(1.0 / nearest);
+    const auto entries = [](double phase) { return 2 + static_cast<int>(phase / phase_by_entry); };
+    const int half = (entries(turn) + 1) / 2;
+    out.sines = 2 * half + 1;
+    out.curvatures = 1 + entries(0.25 * bend);
+    out.sines_per_unit = static_cast<float>((out.sines - 1) / (2.0 * greatest_sine));
+    out.curvatures_per_unit = static_cast<float>((out.curvatures - 1) * nearest);
+
+    // As unfocused_pattern(). Of an array that is the same on both sides the sines of the phase
+    // cancel, and the cosines of x times the turn are the same for every curvature.
+    const int steps = steps_for(bend, turn) / 2;
+    const int count = half + 1;
+    std::vector<double> x(steps);
+    std::vector<float> cosines;
+    for (int k = 0; k < steps; ++k) {
+        x[k] = 0.5 * (k + 0.5) / steps;
+        for (int i = 0; i < count; ++i)
+            cosines.push_back(static_cast<float>(sincos(x[k] * turn * i / half).cos));
+    }
+    std::vector<float> re(count), im(count);
+    out.values.resize(static_cast<std::size_t>(out.sines) * out.curvatures);
+    for (int j = 0; j < out.curvatures; ++j) {
+        std::ranges::fill(re, 0.0F);
+        std::ranges::fill(im, 0.0F);
+        for (int k = 0; k < steps; ++k) {
+            const SinCos phase = sincos(bend * j / (out.curvatures - 1) * x[k] * x[k]);
+            const double weight = array.weight(x[k]).real() / steps;
+            add_times(cosines.data() + static_cast<std::ptrdiff_t>(k) * count,
+                      static_cast<float>(weight * phase.cos), re);
+            add_times(cosines.data() + static_cast<std::ptrdiff_t>(k) * count,
+                      static_cast<float>(weight * phase.sin), im);
+        }
+        std::complex<float>* const middle =
+            out.values.data() + static_cast<std::ptrdiff_t>(j) * out.sines + half;
+        for (int i = 0; i < count; ++i) {
+            const std::complex<float> one_way(re[i], im[i]);
+            middle[i] = one_way * one_way;
+            middle[-i] = middle[i];
+        }
+    }
+    return out;
+}
+
+}  // namespace sonarsim

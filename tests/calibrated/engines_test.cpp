@@ -1,0 +1,52 @@
+#include <doctest/doctest.h>
+
+#include "sonar/kinds.h"
+#include "support/scenes.h"
+#include "support/sonars.h"
+#include "validation/image_error.h"
+#include "visibility/make_engine.h"
+
+using namespace sonarsim;
+using namespace sonarsim::test;
+
+namespace {
+
+/// A plane bottom 5 m below the vehicle, with a box and a ball on it.
+Scene bottom_with_objects() {
+    Scene scene = empty_scene();
+    const std::uint32_t rock = add_material(scene, 0.4F);
+    add_floor(scene, 14.0F, -5.0F, rock, 4);
+    add_box(scene, {-0.6F, 1.5F, -5.0F}, {0.8F, 2.6F, -4.1F}, rock);
+    add_sphere(scene, {0.3F, -3.0F, -4.6F}, 0.4F, rock, 48);
+    return scene;
+}
+
+/// The expected image, without speckle and noise, by an engine.
+std::vector<float> expected_image(const SonarConfig& config, const Scene& scene, EngineType type) {
+    const Sonar sonar = make_sonar(config, {0.02});
+    const auto engine = make_engine(scene, {.type = type, .octree = {}});
+    const Pose here;
+    return render_ping(sonar, scene, *engine, here, {.seed = 1, .ping = 0}, direct_echoes_alone)
+        .intensity;
+}
+
+}  // namespace
+
+TEST_SUITE("calibrated") {
+    TEST_CASE("side-scan and echosounder: rays and slices agree within twice the error goal") {
+        const Scene scene = bottom_with_objects();
+        for (const SonarKind kind : {SonarKind::sidescan, SonarKind::echosounder}) {
+            SonarConfig config = kind_of(kind).keys.defaults;
+            config.name = "down";
+            config.model = EchoModel::of_instrument;
+            config.range_max_m = 12.0;
+            config.range_bins = 230;
+            config.elevation_deg = 6.0;
+            config.instrument.frequency_hz = 4e5;
+            const std::vector<float> rays = expected_image(config, scene, EngineType::rays);
+            const std::vector<float> slices = expected_image(config, scene, EngineType::slices);
+            MESSAGE("relative L1 ", image_error(rays, slices).relative_l1);
+            CHECK(image_error(rays, slices).relative_l1 < 0.04);
+        }
+    }
+}
