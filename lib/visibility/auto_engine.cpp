@@ -77,7 +77,7 @@ std::unique_ptr<VisibilityEngine> make_auto_engine(const Scene& scene, const Sli
     if (!scene.bodies.empty() || !scene.copies.empty()) return make_rays_engine(scene);
     auto slices = make_slices_engine(scene, options);
     const bool few = scene.triangles.size() < few_triangles;
-    if (few && std::ranges::none_of(probes, &Probe::multipath)) return slices;
+    if (few && std::ranges::none_of(probes, &Probe::needs_rays)) return slices;
     auto rays = make_rays_engine(scene);
     std::vector<View> tried;
     std::vector<RaysView> better;
@@ -85,7 +85,7 @@ std::unique_ptr<VisibilityEngine> make_auto_engine(const Scene& scene, const Sli
         if (std::ranges::find(tried, probe.view) != tried.end()) continue;
         tried.push_back(probe.view);
         if (std::ranges::any_of(probes, [&](const Probe& other) {
-                return other.view == probe.view && other.multipath;
+                return other.view == probe.view && other.needs_rays;
             })) {
             better.push_back({probe.view, std::numeric_limits<double>::quiet_NaN()});
             continue;

@@ -14,7 +14,7 @@ namespace sonarsim {
 struct Probe {
     View view;
     Pose T_world_sensor;
-    bool multipath = false;  ///< its samples are where sound goes on from
+    bool needs_rays = false;  ///< whatever the error of its images is by slices
 };
 
 /// What rays may be taken for: the probes of one view, seen with both engines.
@@ -32,9 +32,8 @@ RaysTrial try_rays(const Scene& scene, const View& view, std::span<const Probe> 
 /// triangle in view costs the slices something.
 bool rays_are_better(const RaysTrial& trial, const View& view);
 
-/// Slices, or rays for those views among the `probes` for which these are better, and for those
-/// with multipath: a sample of the slices may be as long as a beam is high, and sound goes on from
-/// the middle of each. Nothing is timed: the same scene and probes give the same choice everywhere.
+/// Slices, or rays for those views among the `probes` for which these are better or that need them.
+/// Nothing is timed: the same scene and probes give the same choice everywhere.
 /// Scenes of few triangles get slices without a look, those with bodies or copies rays, which alone
 /// see them. The estimated error of a ping by rays is the bound found on the probes. `scene` must
 /// outlive it. Throws std::runtime_error when Embree cannot build its tree.

@@ -65,12 +65,18 @@ std::string refusal_of(const EngineSettings& settings, const View& view) {
            "; use engine: rays";
 }
 
-std::string doubt_about(const EngineSettings& settings, const View& view, bool multipath) {
+std::string doubt_about(const EngineSettings& settings, const View& view, bool multipath,
+                        bool energies_add) {
     // A box under a water surface: 669 echoes by way of both with rays, none with slices.
     if (settings.type == EngineType::slices && multipath) {
         return "engine: slices finds little multipath: sound goes on from the middle of each piece "
                "of surface, and a piece of the slices may be as long as a beam is high; use "
                "engine: auto or engine: rays";
+    }
+    if (settings.type == EngineType::slices && energies_add && view.shape == ViewShape::cone) {
+        return "engine: slices puts up to a seventh too much or too little energy near the "
+               "boresight "
+               "of a cone; use engine: auto or engine: rays";
     }
     if (settings.type != EngineType::octree || settings.octree.literal) return "";
     const double error = estimated_octree_error(view, settings.octree.leaf_m);

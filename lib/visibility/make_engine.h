@@ -33,8 +33,10 @@ std::string refusal_of(const EngineSettings& settings, const Scene& scene);
 /// can.
 std::string refusal_of(const EngineSettings& settings, const View& view);
 
-/// Why the images of this view, with `multipath` or without, will probably be off by more than its
-/// error goal, in a sentence that names the mission's keys; empty when they should meet it.
-std::string doubt_about(const EngineSettings& settings, const View& view, bool multipath = false);
+/// Why the images of this view, with `multipath` or without, and with the mean of echoes over a bin
+/// or their sum (`energies_add`), will probably be off by more than its error goal, in a sentence
+/// that names the mission's keys; empty when they should meet it.
+std::string doubt_about(const EngineSettings& settings, const View& view, bool multipath = false,
+                        bool energies_add = false);
 
 }  // namespace sonarsim

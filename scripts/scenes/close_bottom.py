@@ -10,7 +10,7 @@ PARTICLES = 20
 
 
 def material_at(x, y):
-    """A patch of gravel on mud, a stripe of sand behind it, and rock farther on."""
+    """A patch of gravel on mud, silt and a stripe of sand behind it, and rock farther on."""
     azimuth = math.degrees(math.atan2(y, max(x, 1e-6)))
     distance = math.hypot(x, y)
     if distance > 1.55:
@@ -18,7 +18,9 @@ def material_at(x, y):
     if 1.36 < distance < 1.42:
         return "sand"
     bend = (azimuth / 30) ** 2
-    return "gravel" if 0.45 + 0.305 * bend < distance < 1.03 - 0.06 * bend else "mud"
+    if 0.45 + 0.305 * bend < distance < 1.03 - 0.06 * bend:
+        return "gravel"
+    return "mud" if distance < 0.7 else "silt"
 
 
 def build():
@@ -50,5 +52,5 @@ def build():
         centre = (distance * math.cos(azimuth) * math.cos(depression),
                   distance * math.sin(azimuth) * math.cos(depression),
                   -distance * math.sin(depression))
-        add_sphere(particles, centre, (0.0003, 0.0003, 0.0003), 1)
+        add_sphere(particles, centre, (0.0002, 0.0002, 0.0002), 1)
     return [bottom, particles]
