@@ -36,7 +36,7 @@ void for_each_triangle(const Assembly& assembly, std::uint32_t pose, const Wante
         for (const auto& [a, b, c] : body.triangles)
             visit({moved(a), moved(b), moved(c)});
     }
-    constexpr std::size_t most_of_copies = 3'000'000;  // about half a second
+    constexpr std::size_t most_of_copies = 3'000'000;  // so that preview stays quick
     const std::vector<Eigen::AlignedBox3d> boxes = boxes_of_copies(scene);
     std::size_t count = 0;
     for (std::size_t k = 0; k < boxes.size(); ++k) {
