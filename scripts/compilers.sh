@@ -24,4 +24,5 @@ exec ./scripts/same_bytes.py \
     --mission configs/tank_imaging.yaml,trajectory.rate_hz=0.5 \
     --mission configs/tank_multipath.yaml,trajectory.rate_hz=0.5 \
     --mission configs/tank_scanning.yaml \
+    --mission configs/tank_calibrated.yaml,trajectory.rate_hz=0.2 \
     "${programs[@]}"

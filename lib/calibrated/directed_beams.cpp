@@ -117,7 +117,10 @@ void add_amplitudes(const DirectedBeams& beams, const PieceBlock& pieces, const 
             const float b = amplitudes.im[k];
             const float re = weights.re[k];
             const float im = weights.im[k];
-            add_between_bins(grid.column(beam), echoes.row[k], a * re - b * im, a * im + b * re);
+            // Spelled out: GCC contracts the two products that stand side by side even where that
+            // is switched off, and other compilers do not.
+            add_between_bins(grid.column(beam), echoes.row[k], std::fma(a, re, -(b * im)),
+                             std::fma(a, im, b * re));
         }
     }
 }

@@ -133,8 +133,9 @@ Trajectory lawnmower(const Lawnmower& survey) {
     const double first_line = across.lo + 0.5 * (width - (lines - 1.0) * spacing);
 
     const auto in_world = [&](double along, double to_port) {
-        return Eigen::Vector3d(heading.cos * along - heading.sin * to_port,
-                               heading.sin * along + heading.cos * to_port, survey.z_m);
+        // Spelled out: GCC contracts such a pair of products even where that is switched off.
+        return Eigen::Vector3d(std::fma(heading.cos, along, -(heading.sin * to_port)),
+                               std::fma(heading.sin, along, heading.cos * to_port), survey.z_m);
     };
     const auto turned = [&](double angle) { return rotation_from_rpy(0.0, 0.0, yaw + angle); };
     std::vector<Waypoint> waypoints;
