@@ -28,8 +28,8 @@ struct Target {
 Target target_of(const PointEchoes& echoes, int k, EchoGrid& grid) {
     const float row = std::floor(echoes.row[k]);
     const float column = std::floor(echoes.column[k]);
-    return {grid.column(static_cast<int>(column)) + 2 * static_cast<int>(row), echoes.row[k] - row,
-            echoes.column[k] - column};
+    return {grid.column(static_cast<int>(column)) + std::ptrdiff_t{2} * static_cast<int>(row),
+            echoes.row[k] - row, echoes.column[k] - column};
 }
 
 /// Adds (a, b) to four places, a and b being the two floats of one.

@@ -42,7 +42,7 @@ void draw_places(EchoGrid& grid, float gain, PhiloxKey key) {
             const int count = std::min(lanes_at_once, grid.rows() - row);
             float any = 0.0F;
             for (int lane = 0; lane < count; ++lane)
-                any += values[2 * (row + lane)];
+                any += values[std::ptrdiff_t{2} * (row + lane)];
             if (any == 0.0F) continue;
             for (int lane = 0; lane < lanes_at_once; ++lane) {
                 a[lane] = static_cast<std::uint32_t>(row + lane);

@@ -51,6 +51,7 @@ std::vector<Extent> extents_of(const Scene& scene) {
     for (std::size_t k = 0; k < copies.size(); ++k)
         boxes[scene.copies[k].instance].extend(copies[k]);
     std::vector<Extent> extents;
+    extents.reserve(boxes.size());
     for (const Eigen::AlignedBox3d& box : boxes)
         extents.push_back(box.isEmpty() ? Extent{} : sphere_around(box, -1));
     for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
