@@ -20,12 +20,14 @@ ALLOWED = {
     "visibility": {"core", "scene"},
     "calibrated": {"core", "mission", "scene", "visibility"},
     "ping": {"core", "mission", "scene", "visibility", "calibrated"},
-    "product": {"core", "mission", "calibrated", "ping"},
-    "sonar": {"core", "mission", "scene", "visibility", "calibrated", "ping", "product"},
-    "assembly": {"core", "mission", "scene", "trajectory", "visibility", "calibrated", "ping", "product",
-                 "sonar"},
-    "survey": {"core", "mission", "scene", "trajectory", "visibility", "calibrated", "ping", "product",
-               "sonar", "assembly"},
+    "labels": {"core", "mission", "scene", "visibility", "calibrated", "ping"},
+    "product": {"core", "mission", "calibrated", "ping", "labels"},
+    "sonar": {"core", "mission", "scene", "visibility", "calibrated", "ping", "labels", "product"},
+    "assembly": {"core", "mission", "scene", "trajectory", "visibility", "calibrated", "ping", "labels",
+                 "product", "sonar"},
+    "survey": {"core", "mission", "scene", "trajectory", "visibility", "calibrated", "ping", "labels",
+               "product", "sonar", "assembly"},
+    "format": {"core", "product"},
 }
 for upper in ("dataset", "validation", "benchmark", "preview", "gallery"):
     ALLOWED[upper] = set(ALLOWED)
@@ -35,7 +37,7 @@ for upper in ("dataset", "validation", "benchmark", "preview", "gallery"):
 PARTS = {
     "dataset": [["*"], ["writers/"], ["writers"],
                 ["layout"], ["journal", "metadata"], ["description", "checksums", "ping_file_reader"], ["listed_files"],
-                ["folder", "resume", "coco"], ["coco_records", "coco_scans", "encode_ping", "ping_files"], ["ping_cost", "shared_files"], ["completion"],
+                ["folder", "resume", "coco/"], ["encode_ping", "ping_files"], ["ping_cost", "shared_files"], ["completion"],
                 ["collection", "job", "merge", "verify"], ["variants"], ["status", "variants_check"]],
     "scene": [["*"], ["gltf/", "placing/"]],
     "validation": [["*"], ["hard/"]],
@@ -45,7 +47,7 @@ PARTS = {
 OWNERS = {
     "yaml-cpp/": "mission",
     "tiny_gltf.h": "scene",
-    "zlib.h": "dataset",
+    "zlib.h": "format",
     "embree3/": "visibility",
     "embree4/": "visibility",
     "CLI/": "apps",

@@ -16,7 +16,7 @@
 #include "commands.h"
 #include "core/build_info.h"
 #include "core/error.h"
-#include "dataset/png.h"
+#include "format/png.h"
 #include "logging.h"
 #include "usage.h"
 

@@ -7,7 +7,7 @@
 
 #include "commands.h"
 #include "core/error.h"
-#include "dataset/image_file.h"
+#include "format/image_file.h"
 #include "logging.h"
 #include "mission_options.h"
 

@@ -7,7 +7,7 @@
 #include "core/error.h"
 #include "core/in_parallel.h"
 #include "core/sha256.h"
-#include "dataset/whole_file.h"
+#include "core/whole_file.h"
 
 namespace sonarsim {
 

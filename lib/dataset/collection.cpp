@@ -14,11 +14,11 @@
 #include "core/file.h"
 #include "core/ordered_pipeline.h"
 #include "core/sha256.h"
+#include "core/whole_file.h"
 #include "dataset/checksums.h"
 #include "dataset/description.h"
 #include "dataset/layout.h"
 #include "dataset/ping_metadata.h"
-#include "dataset/whole_file.h"
 
 namespace sonarsim {
 

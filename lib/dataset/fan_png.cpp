@@ -1,6 +1,6 @@
 #include "dataset/fan_png.h"
 
-#include "dataset/png.h"
+#include "format/png.h"
 
 namespace sonarsim {
 

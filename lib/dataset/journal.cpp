@@ -17,8 +17,8 @@
 #include "core/file.h"
 #include "core/hash.h"
 #include "core/text.h"
+#include "core/whole_file.h"
 #include "dataset/layout.h"
-#include "dataset/whole_file.h"
 
 namespace sonarsim {
 

@@ -1,6 +1,6 @@
 #include "dataset/label_description.h"
 
-#include "dataset/id_png.h"
+#include "format/id_png.h"
 
 namespace sonarsim {
 

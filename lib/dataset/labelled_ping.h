@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "assembly/assemble.h"
+#include "labels/labels.h"
 #include "mission/mission.h"
-#include "ping/labels.h"
 #include "ping/sonar.h"
 #include "product/fan_bins.h"
 #include "product/object_masks.h"

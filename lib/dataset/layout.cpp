@@ -6,7 +6,7 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "dataset/shared_products.h"
-#include "dataset/tar.h"
+#include "format/tar.h"
 
 namespace sonarsim {
 

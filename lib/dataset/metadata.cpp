@@ -4,7 +4,7 @@
 #include "core/build_info.h"
 #include "dataset/label_description.h"
 #include "dataset/ping_metadata.h"
-#include "dataset/png.h"
+#include "format/png.h"
 #include "mission/files.h"
 #include "mission/resolved.h"
 #include "sonar/kinds.h"

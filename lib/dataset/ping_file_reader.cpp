@@ -3,7 +3,7 @@
 #include <stdexcept>
 
 #include "core/file.h"
-#include "dataset/tar.h"
+#include "format/tar.h"
 
 namespace sonarsim {
 

@@ -7,7 +7,7 @@
 #include "core/file.h"
 #include "core/sha256.h"
 #include "dataset/journal.h"
-#include "dataset/tar.h"
+#include "format/tar.h"
 
 namespace sonarsim {
 

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "dataset/npy.h"
+#include "format/npy.h"
 
 namespace sonarsim {
 

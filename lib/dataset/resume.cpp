@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <variant>
 
-#include "dataset/tar.h"
+#include "format/tar.h"
 
 namespace sonarsim {
 

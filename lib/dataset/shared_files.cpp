@@ -3,9 +3,9 @@
 #include <string>
 
 #include "core/file.h"
-#include "dataset/coco.h"
-#include "dataset/coco_records.h"
-#include "dataset/coco_scans.h"
+#include "dataset/coco/pings.h"
+#include "dataset/coco/records.h"
+#include "dataset/coco/scans.h"
 #include "dataset/shared_products.h"
 #include "dataset/split.h"
 

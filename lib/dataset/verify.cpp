@@ -20,8 +20,8 @@
 #include "dataset/gallery_file.h"
 #include "dataset/layout.h"
 #include "dataset/metadata.h"
-#include "dataset/open_file.h"
-#include "dataset/tar.h"
+#include "format/open_file.h"
+#include "format/tar.h"
 
 namespace sonarsim {
 

@@ -9,8 +9,8 @@
 
 #include "assembly/assemble.h"
 #include "dataset/labelled_ping.h"
-#include "dataset/npy.h"
 #include "dataset/record_file.h"
+#include "format/npy.h"
 #include "mission/mission.h"
 #include "ping/pipeline.h"
 #include "sonar/kinds.h"

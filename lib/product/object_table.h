@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "ping/labels.h"
+#include "labels/labels.h"
 #include "ping/ping.h"
 #include "ping/sonar.h"
 

@@ -5,7 +5,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "dataset/job.h"
-#include "dataset/png.h"
+#include "format/png.h"
 #include "support/small_mission.h"
 #include "support/temporary_folder.h"
 

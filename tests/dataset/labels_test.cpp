@@ -8,7 +8,7 @@
 #include "core/file.h"
 #include "dataset/job.h"
 #include "dataset/labelled_ping.h"
-#include "dataset/npy.h"
+#include "format/npy.h"
 #include "product/sidescan_row.h"
 #include "sonar/kinds.h"
 #include "support/npy_data.h"

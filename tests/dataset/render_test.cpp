@@ -9,7 +9,7 @@
 #include "core/file.h"
 #include "dataset/job.h"
 #include "dataset/metadata.h"
-#include "dataset/npy.h"
+#include "format/npy.h"
 #include "product/fan.h"
 #include "sonar/kinds.h"
 #include "support/small_mission.h"

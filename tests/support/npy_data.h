@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/file.h"
-#include "dataset/npy.h"
+#include "format/npy.h"
 
 namespace sonarsim::test {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "dataset/folded_records.h"
-#include "dataset/image_file.h"
-#include "dataset/png.h"
 #include "dataset/writers/formats.h"
+#include "format/image_file.h"
+#include "format/png.h"
 #include "product/grey.h"
 
 namespace sonarsim {

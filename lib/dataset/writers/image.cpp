@@ -1,5 +1,5 @@
-#include "dataset/png.h"
 #include "dataset/writers/formats.h"
+#include "format/png.h"
 #include "product/grey.h"
 
 namespace sonarsim {

@@ -5,10 +5,10 @@
 #include <limits>
 #include <utility>
 
-#include "dataset/id_png.h"
 #include "dataset/writers/objects.h"
 #include "dataset/writers/semantic.h"
 #include "dataset/writers/yolo.h"
+#include "format/id_png.h"
 #include "product/sidescan_row.h"
 
 namespace sonarsim {

@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "dataset/coco_counts.h"
 #include "dataset/label_description.h"
 #include "dataset/ping_metadata.h"
+#include "format/coco_counts.h"
 #include "product/object_table.h"
 
 namespace sonarsim {

@@ -1,8 +1,8 @@
 #include <algorithm>
 
 #include "calibrated/companding.h"
-#include "dataset/png.h"
 #include "dataset/writers/formats.h"
+#include "format/png.h"
 
 namespace sonarsim {
 

@@ -1,9 +1,9 @@
 #include "product/scan.h"
 
+#include "core/whole_file.h"
 #include "dataset/fan_png.h"
-#include "dataset/npy.h"
-#include "dataset/whole_file.h"
 #include "dataset/writers/formats.h"
+#include "format/npy.h"
 
 namespace sonarsim {
 

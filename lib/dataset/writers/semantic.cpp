@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/error.h"
-#include "dataset/id_png.h"
+#include "format/id_png.h"
 
 namespace sonarsim {
 

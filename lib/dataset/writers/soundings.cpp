@@ -7,12 +7,12 @@
 #include <nlohmann/json.hpp>
 
 #include "core/file.h"
-#include "dataset/geotiff.h"
-#include "dataset/image_file.h"
+#include "core/whole_file.h"
 #include "dataset/ping_metadata.h"
-#include "dataset/png.h"
-#include "dataset/whole_file.h"
 #include "dataset/writers/formats.h"
+#include "format/geotiff.h"
+#include "format/image_file.h"
+#include "format/png.h"
 #include "product/bathymetry.h"
 
 namespace sonarsim {

@@ -1,7 +1,7 @@
 #include <array>
 
-#include "dataset/png.h"
 #include "dataset/writers/formats.h"
+#include "format/png.h"
 #include "product/fan.h"
 #include "product/panels.h"
 

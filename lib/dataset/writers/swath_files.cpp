@@ -9,10 +9,10 @@
 
 #include "core/file.h"
 #include "core/units.h"
-#include "dataset/geotiff.h"
+#include "core/whole_file.h"
 #include "dataset/ping_metadata.h"
-#include "dataset/whole_file.h"
-#include "dataset/xtf.h"
+#include "format/geotiff.h"
+#include "format/xtf.h"
 #include "product/grey.h"
 #include "product/mosaic.h"
 #include "product/sidescan_row.h"

@@ -1,10 +1,10 @@
 #include "product/waterfall.h"
 
 #include "dataset/folded_records.h"
-#include "dataset/image_file.h"
-#include "dataset/png.h"
 #include "dataset/writers/formats.h"
 #include "dataset/writers/swath_files.h"
+#include "format/image_file.h"
+#include "format/png.h"
 #include "product/grey.h"
 #include "product/sidescan_row.h"
 

@@ -1,0 +1,45 @@
+#include "core/whole_file.h"
+
+#include "core/file.h"
+
+namespace sonarsim {
+
+WholeFile::WholeFile(const std::filesystem::path& path)
+    : path_(path), part_(temporary_name(path)) {}
+
+WholeFile::~WholeFile() {
+    std::error_code ignored;
+    if (!kept_) std::filesystem::remove(part_, ignored);
+}
+
+void WholeFile::keep() {
+    std::filesystem::rename(part_, path_);
+    kept_ = true;
+}
+
+StreamedFile::StreamedFile(const std::filesystem::path& path)
+    : whole_(path), file_(std::fopen(whole_.part().c_str(), "wbe")) {
+    if (!file_) throw_errno("cannot write", whole_.part());
+}
+
+void StreamedFile::append(std::string_view bytes) {
+    constexpr std::size_t most_pending = std::size_t{1} << 16;
+    pending_ += bytes;
+    if (pending_.size() < most_pending) return;
+    put(pending_);
+    pending_.clear();
+}
+
+void StreamedFile::put(std::string_view bytes) {
+    if (std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size()) {
+        throw_errno("cannot write", whole_.part());
+    }
+}
+
+void StreamedFile::finish() {
+    put(pending_);
+    if (std::fclose(file_.release()) != 0) throw_errno("cannot write", whole_.part());
+    whole_.keep();
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,118 @@
+#include "format/geotiff.h"
+
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "core/whole_file.h"
+
+namespace sonarsim {
+
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "numbers are written as they lie");
+
+/// The types of a tag's values, by their numbers in TIFF 6.0.
+enum class TagType : std::uint16_t { ascii = 2, u16 = 3, u32 = 4, f64 = 12 };
+
+/// The bytes of a number or of an array of numbers.
+template <class T>
+std::string bytes_of(const T& value) {
+    return {reinterpret_cast<const char*>(&value), sizeof value};
+}
+
+/// The header of a TIFF file, tag by tag in ascending order. What does not fit into the 12 bytes of
+/// a tag follows after the last.
+class TiffHeader {
+  public:
+    explicit TiffHeader(std::uint16_t tags)
+        : values_at_(start.size() + 2 + 12 * std::size_t{tags} + no_more.size()),
+          tags_(std::string(start) + bytes_of(tags)) {}
+
+    void add(std::uint16_t tag, TagType type, std::uint32_t count, std::string bytes) {
+        tags_ += bytes_of(tag) + bytes_of(type) + bytes_of(count);
+        if (bytes.size() > 4) {
+            const auto at = static_cast<std::uint32_t>(values_at_ + values_.size());
+            values_ += bytes;
+            bytes = bytes_of(at);
+        }
+        bytes.resize(4, '\0');
+        tags_ += bytes;
+    }
+    void add(std::uint16_t tag, std::uint16_t value) { add(tag, TagType::u16, 1, bytes_of(value)); }
+    void add(std::uint16_t tag, std::uint32_t value) { add(tag, TagType::u32, 1, bytes_of(value)); }
+
+    std::string bytes() const { return tags_ + std::string(no_more) + values_; }
+
+  private:
+    /// Little-endian, and the list of tags begins at byte 8.
+    static constexpr std::string_view start{"II*\0\x08\0\0\0", 8};
+    /// The offset of a second list of tags.
+    static constexpr std::string_view no_more{"\0\0\0\0", 4};
+
+    std::size_t values_at_;
+    std::string tags_;
+    std::string values_;
+};
+
+/// The header of an image whose pixels begin at byte `pixels_at`.
+std::string header(std::uint32_t columns, std::uint32_t rows, const MapPlace& place,
+                   std::uint32_t pixels_at) {
+    constexpr std::uint16_t one = 1;
+    const double pixel_scale[] = {place.cell_m, place.cell_m, 0.0};
+    // Raster (0, 0), the outer corner of the first cell, lies at the world's (west, north).
+    const double tie_point[] = {0.0, 0.0, 0.0, place.west_m, place.north_m, 0.0};
+    TiffHeader out(13);
+    out.add(256, columns);                                   // ImageWidth
+    out.add(257, rows);                                      // ImageLength
+    out.add(258, std::uint16_t{32});                         // BitsPerSample
+    out.add(259, one);                                       // Compression: none
+    out.add(262, one);                                       // greater is brighter
+    out.add(273, pixels_at);                                 // StripOffsets
+    out.add(277, one);                                       // SamplesPerPixel
+    out.add(278, rows);                                      // RowsPerStrip: one strip
+    out.add(279, 4 * columns * rows);                        // StripByteCounts
+    out.add(339, std::uint16_t{3});                          // SampleFormat: floating point
+    out.add(33550, TagType::f64, 3, bytes_of(pixel_scale));  // ModelPixelScaleTag
+    out.add(33922, TagType::f64, 6, bytes_of(tie_point));    // ModelTiepointTag
+    out.add(42113, TagType::ascii, 4, bytes_of("nan"));      // GDAL_NODATA
+    return out.bytes();
+}
+
+}  // namespace
+
+void write_geotiff(const std::filesystem::path& path, std::span<const float> values, int columns,
+                   const MapPlace& place) {
+    const auto width = static_cast<std::uint32_t>(columns);
+    const auto height = static_cast<std::uint32_t>(values.size() / width);
+    const auto size = static_cast<std::uint32_t>(header(width, height, place, 0).size());
+    StreamedFile file(path);
+    file.append(header(width, height, place, size));
+    file.append({reinterpret_cast<const char*>(values.data()), values.size_bytes()});
+    file.finish();
+}
+
+GeotiffShape geotiff_shape(std::string_view start) {
+    // Width and height are the first two tags, each a number behind its 8 bytes of tag, type,
+    // count.
+    constexpr std::size_t width_at = 10 + 8;
+    constexpr std::size_t height_at = width_at + 12;
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+    if (start.size() > height_at + sizeof height) {
+        std::memcpy(&width, &start[width_at], sizeof width);
+        std::memcpy(&height, &start[height_at], sizeof height);
+    }
+    // All but the pixels and the numbers in the tags is the same in every such file.
+    const std::size_t size = header(width, height, {}, 0).size();
+    const std::string own = header(width, height, {}, static_cast<std::uint32_t>(size));
+    constexpr std::size_t tags = 10 + 13 * 12;
+    if (width == 0 || height == 0 || start.substr(0, tags) != own.substr(0, tags))
+        throw std::runtime_error("is no map of sonarsim");
+    return {height, width, size + std::uint64_t{4} * width * height};
+}
+
+}  // namespace sonarsim

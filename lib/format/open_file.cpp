@@ -1,0 +1,126 @@
+#include "format/open_file.h"
+
+#include <algorithm>
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+#include "format/geotiff.h"
+#include "format/npy.h"
+#include "format/png_reader.h"
+
+namespace sonarsim {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t longest_header = 4096;
+/// Of an image, what is decoded at a time.
+constexpr std::size_t strip_bytes = std::size_t{1} << 22;
+
+/// Of values of 16 bits.
+std::uint16_t largest_of(std::span<const std::byte> bytes) {
+    std::uint16_t largest = 0;
+    for (std::size_t k = 0; k + 2 <= bytes.size(); k += 2) {
+        std::uint16_t value = 0;
+        std::memcpy(&value, &bytes[k], 2);
+        largest = std::max(largest, value);
+    }
+    return largest;
+}
+
+/// Pictures may be longer than memory: they are decoded row by row and dropped.
+OpenedFile open_png(std::istream& file) {
+    std::uint16_t largest = 0;
+    bool has_ids = false;
+    const PngShape shape =
+        read_png(file, [&](const PngShape& of, std::span<const std::uint8_t> row) {
+            has_ids = of.bits == 16 && of.channels == 1;
+            for (std::size_t k = 0; has_ids && k < row.size(); k += 2)
+                largest = std::max(largest, static_cast<std::uint16_t>(row[k] << 8 | row[k + 1]));
+        });
+    return {{static_cast<std::size_t>(shape.height), static_cast<std::size_t>(shape.width)},
+            has_ids ? std::optional(largest) : std::nullopt};
+}
+
+/// `bytes`: how long the file is.
+OpenedFile open_geotiff(std::istream& file, std::uint64_t bytes) {
+    std::string start(longest_header, '\0');
+    file.read(start.data(), static_cast<std::streamsize>(start.size()));
+    start.resize(static_cast<std::size_t>(file.gcount()));
+    const GeotiffShape shape = geotiff_shape(start);
+    if (bytes != shape.file_bytes) {
+        throw std::runtime_error("is " + std::to_string(bytes) + " bytes long instead of " +
+                                 std::to_string(shape.file_bytes));
+    }
+    return {{shape.rows, shape.columns}};
+}
+
+/// `file` is at its begin and `bytes` long.
+OpenedFile open_npy(std::istream& file, std::uint64_t bytes) {
+    std::string start(longest_header, '\0');
+    file.read(start.data(), static_cast<std::streamsize>(start.size()));
+    start.resize(static_cast<std::size_t>(file.gcount()));
+    const NpyFormat format = npy_format(start);
+    std::uint64_t told = static_cast<std::uint64_t>(format.type.back() - '0');
+    for (const std::size_t length : format.shape)
+        told *= length;
+    const std::size_t header = npy_header(format).size();
+    told += header;
+    if (bytes != told) {
+        throw std::runtime_error("is " + std::to_string(bytes) + " bytes long instead of " +
+                                 std::to_string(told));
+    }
+    if (format.type != "<u2") return {format.shape};
+    file.clear();
+    file.seekg(static_cast<std::streamoff>(header));
+    std::uint16_t largest = 0;
+    std::vector<std::byte> strip(strip_bytes);
+    for (std::uint64_t left = bytes - header; left > 0;) {
+        const std::size_t count = std::min<std::uint64_t>(left, strip.size());
+        if (!file.read(reinterpret_cast<char*>(strip.data()), static_cast<std::streamsize>(count)))
+            throw std::runtime_error("cannot be read");
+        largest = std::max(largest, largest_of(std::span(strip).first(count)));
+        left -= count;
+    }
+    return {format.shape, largest};
+}
+
+void open_json(std::istream& file) {
+    if (!nlohmann::json::accept(file)) throw std::runtime_error("is no JSON");
+}
+
+}  // namespace
+
+OpenedFile open_file(const fs::path& path) {
+    const std::string extension = path.extension().string();
+    std::ifstream file(path, std::ios::binary);
+    if (extension == ".png") return open_png(file);
+    if (extension == ".tif") return open_geotiff(file, fs::file_size(path));
+    if (extension == ".npy") return open_npy(file, fs::file_size(path));
+    if (extension == ".json") open_json(file);  // COCO files may be longer than memory
+    return {};
+}
+
+OpenedFile open_bytes(const std::string& name, const std::string& bytes) {
+    const std::string extension = fs::path(name).extension().string();
+    std::istringstream file(bytes);
+    if (extension == ".png") return open_png(file);
+    if (extension == ".npy") return open_npy(file, bytes.size());
+    if (extension == ".json") open_json(file);
+    return {};
+}
+
+std::string shape_text(const std::vector<std::size_t>& shape) {
+    std::string text;
+    for (const std::size_t length : shape)
+        text += (text.empty() ? "" : " x ") + std::to_string(length);
+    return text;
+}
+
+}  // namespace sonarsim

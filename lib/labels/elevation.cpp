@@ -1,0 +1,74 @@
+#include "labels/elevation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "core/elementary.h"
+#include "ping/range_path.h"
+
+namespace sonarsim {
+
+namespace {
+
+/// The variance of sin(theta) in a footprint at one range.
+double spread_at_one_range(const Sample& sample, double range_m) {
+    const auto range = static_cast<float>(range_m);
+    const Eigen::Vector3f d = sample.position / range;
+    const float u = d.dot(sample.edge_u);
+    const float v = d.dot(sample.edge_v);
+    // Over the parallelogram, (s, t) in [-1, 1]^2, sin(theta) = z / r changes by
+    // (dz - (z / r) dr) / r along an edge. What goes with range is not spread at one range.
+    const double sine_u = (sample.edge_u.z() - d.z() * u) / range;
+    const double sine_v = (sample.edge_v.z() - d.z() * v) / range;
+    const double depth_2 = static_cast<double>(u) * u + static_cast<double>(v) * v;
+    const double with = sine_u * u + sine_v * v;
+    const double explained = depth_2 > 0.0 ? with * with / depth_2 : 0.0;
+    return std::max(sine_u * sine_u + sine_v * sine_v - explained, 0.0) / 3.0;
+}
+
+}  // namespace
+
+void ElevationFinder::add(const Sample& sample) {
+    const RangePath path = range_path(sample, Eigen::Vector3f::UnitZ());
+    const double echo = echo_of(sample, path.range_m, materials_[sample.material]);
+    if (!(echo > 0.0)) return;
+    const double besides = spread_at_one_range(sample, path.range_m);
+    const auto sine_at = [&](double r) { return std::clamp(rise_at(path, r) / r, -1.0, 1.0); };
+    for_each_bin(path, bins_, sine_at, [&](int i, double share, double from, double to) {
+        first_bin_ = std::min(first_bin_, i);
+        last_bin_ = std::max(last_bin_, i + 1);
+        const double part = echo * share;
+        const double sine = 0.5 * (from + to);
+        const double along = to - from;
+        Moments& m = moments_[i];
+        m.echo += part;
+        m.first += part * sine;
+        m.second += part * (sine * sine + along * along / 12.0 + besides);
+    });
+}
+
+void ElevationFinder::find(std::span<const Sample> samples, std::span<float> elevation_rad,
+                           std::span<float> spread_rad) {
+    moments_.resize(bins_.count);
+    first_bin_ = bins_.count;
+    last_bin_ = 0;
+    for (const Sample& sample : samples)
+        add(sample);
+    constexpr float none = std::numeric_limits<float>::quiet_NaN();
+    std::ranges::fill(elevation_rad, none);
+    std::ranges::fill(spread_rad, none);
+    for (int i = first_bin_; i < last_bin_; ++i) {
+        const Moments m = std::exchange(moments_[i], {});
+        if (!(m.echo > 0.0)) continue;
+        const double sine = std::clamp(m.first / m.echo, -1.0, 1.0);
+        const double cosine = std::sqrt((1.0 - sine) * (1.0 + sine));
+        elevation_rad[i] = arctan2_float(static_cast<float>(sine), static_cast<float>(cosine));
+        // d(theta) = d(sin theta) / cos(theta); where cos is 0, no more than a half circle.
+        const double spread = std::sqrt(std::max(m.second / m.echo - sine * sine, 0.0));
+        spread_rad[i] = static_cast<float>(spread / std::max({cosine, spread / pi, 1e-9}));
+    }
+}
+
+}  // namespace sonarsim
