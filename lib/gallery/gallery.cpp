@@ -73,10 +73,11 @@ Json track_json(const Trajectory& trajectory) {
 /// The outlines of the labelled objects in the plan.
 Json objects_json(const Json& description) {
     Json objects = Json::array();
-    for (const Json& one : description.value("labels", Json::object()).value("instances", Json())) {
-        const Json& box = one.value("box_world_m", Json());
+    const std::vector<std::string> texts = object_texts(description);
+    for (std::size_t k = 0; k < texts.size(); ++k) {
+        const Json& box = description["labels"]["instances"][k].at("box_world_m");
         if (box.is_null()) continue;
-        objects.push_back({{"name", one.at("name")},
+        objects.push_back({{"name", texts[k]},
                            {"min", {box.at("min").at(0), box.at("min").at(1)}},
                            {"max", {box.at("max").at(0), box.at("max").at(1)}}});
     }
@@ -93,8 +94,8 @@ Json mount_json(const Pose& T_vehicle_sensor) {
 }
 
 Json sensor_json(const fs::path& folder, const Json& description, const Json& sensor,
-                 const Sonar& sonar, BoxLabels& labels) {
-    Json views = views_of(folder, description, sensor, sonar, labels);
+                 const Sonar& sonar, const PictureBoxes& boxes, BoxLabels& labels) {
+    Json views = views_of(folder, description, sensor, sonar, boxes, labels);
     Json columns = measured_columns(folder, sensor);
     const auto pings = sensor.at("pings").get<std::size_t>();
     const auto every = static_cast<std::uint32_t>(sonar.config.every);
@@ -126,11 +127,12 @@ Json page_json(const fs::path& folder, const Json& description) {
                          "has other sensors than dataset.json; one of them was changed");
     }
     BoxLabels labels;
+    const PictureBoxes boxes = picture_boxes(folder, description, labels);
     Json shown = Json::array();
     for (std::size_t i = 0; i < mission.sensors.size(); ++i) {
         shown.push_back(sensor_json(folder, description, sensors[i],
                                     make_sonar(mission.sensors[i], mission.accuracy, mission.water),
-                                    labels));
+                                    boxes, labels));
     }
     return {{"mission", description.at("mission")},
             {"program", description.at("program_version")},

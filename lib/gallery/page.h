@@ -4,7 +4,7 @@
 
 namespace sonarsim {
 
-// The files page.* of this folder, as they were when the program was built.
+// The files in page/, all scripts as one, as they were when the program was built.
 
 std::string_view page_html();
 std::string_view page_css();

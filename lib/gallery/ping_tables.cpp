@@ -1,6 +1,5 @@
 #include "gallery/ping_tables.h"
 
-#include <algorithm>
 #include <charconv>
 #include <optional>
 #include <sstream>
@@ -63,10 +62,8 @@ PingBoxes boxes_of_objects(const fs::path& folder, const Json& sensor, BoxLabels
         const std::optional<std::string> text = text_of(folder, sensor, "objects", ping);
         const Json objects = text ? Json::parse(*text).at("objects") : Json::array();
         for (const Json& object : objects) {
-            const auto name = object.at("name").get<std::string>();
-            const auto kind = object.at("class").get<std::string>();
             const std::size_t label =
-                labels.index_of(name == kind ? name : name + " (" + kind + ")");
+                labels.index_of(object_text(object.at("name"), object.at("class")));
             const Json& bins = object.at("box_bins");
             image.push_back(box(label, bins.at("beam").at(0), bins.at("range").at(0),
                                 bins.at("beam").at(1), bins.at("range").at(1)));
@@ -107,13 +104,6 @@ Json boxes_of_yolo(const fs::path& folder, const Json& description, const Json& 
 }
 
 }  // namespace
-
-std::size_t BoxLabels::index_of(const std::string& text) {
-    const auto found = std::ranges::find(texts, text);
-    if (found != texts.end()) return static_cast<std::size_t>(found - texts.begin());
-    texts.push_back(text);
-    return texts.size() - 1;
-}
 
 Json measured_columns(const fs::path& folder, const Json& sensor) {
     Json columns = Json::object();

@@ -2,17 +2,10 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <string>
-#include <vector>
+
+#include "gallery/box_labels.h"
 
 namespace sonarsim {
-
-/// The texts that boxes bear, each once.
-struct BoxLabels {
-    std::vector<std::string> texts;
-
-    std::size_t index_of(const std::string& text);
-};
 
 /// What the metadata of a sensor's pings say was measured, each number in a column of one value per
 /// ping, to five digits; null where a ping lacks it or is not rendered. `sensor` is its block in
@@ -27,7 +20,8 @@ struct PingBoxes {
     nlohmann::ordered_json in_fan;
 };
 
-/// Those of the label `objects`, or of `yolo` where that is what there is.
+/// Those of the label `objects`, or of `yolo` where that is what there is: its lines tell classes
+/// alone, and so do the boxes.
 PingBoxes ping_boxes(const std::filesystem::path& folder, const nlohmann::ordered_json& description,
                      const nlohmann::ordered_json& sensor, BoxLabels& labels);
 

@@ -1,8 +1,9 @@
 #include "gallery/views.h"
 
+#include <string>
 #include <utility>
+#include <vector>
 
-#include "core/file.h"
 #include "dataset/folded_records.h"
 #include "product/echogram.h"
 #include "product/fan.h"
@@ -17,8 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-
-constexpr std::size_t largest_coco = std::size_t{1} << 30;
 
 /// A picture of every ping.
 struct PingPicture {
@@ -55,63 +54,57 @@ Along along_echogram(const SonarConfig& config, std::size_t pings, double column
             {columns_per_ping * frame.ping_width, static_cast<double>(frame.range_height)}};
 }
 
-/// Boxes that labels/coco_records.json has in a picture, where it is shown as `along` says.
-Json record_boxes(const fs::path& folder, const Json& description, const std::string& file,
-                  const Along& along, BoxLabels& labels) {
-    const fs::path coco = folder / "labels/coco_records.json";
-    if (!fs::is_regular_file(coco)) return nullptr;
-    const Json all = Json::parse(read_file(coco, largest_coco));
-    Json boxes = nullptr;
-    for (const Json& image : all.at("images")) {
-        if (image.at("file_name") != file) continue;
-        boxes = Json::array();
-        for (const Json& annotation : all.at("annotations")) {
-            if (annotation.at("image_id") != image.at("id")) continue;
-            const auto instance = annotation.at("instance_id").get<std::size_t>();
-            const Json& b = annotation.at("bbox");
-            boxes.push_back(
-                {labels.index_of(
-                     description.at("labels").at("instances").at(instance - 1).at("name")),
-                 along.origin[0] + b.at(0).get<double>() * along.step[0],
-                 along.origin[1] + b.at(1).get<double>() * along.step[1],
-                 b.at(2).get<double>() * along.step[0], b.at(3).get<double>() * along.step[1]});
-        }
+/// Boxes of a picture with a row, or column, of a pixel for each ping, in the one that is shown.
+Json boxes_along(const Json& boxes, const Along& along) {
+    Json moved = Json::array();
+    for (const Json& box : boxes) {
+        Json one = {box.at(0)};
+        for (const int axis : {0, 1})
+            one.push_back(along.origin[axis] + box.at(1 + axis).get<double>() * along.step[axis]);
+        for (const int axis : {0, 1})
+            one.push_back(box.at(3 + axis).get<double>() * along.step[axis]);
+        moved.push_back(std::move(one));
     }
-    return boxes;
+    return moved;
 }
 
-Json view_of_all(const fs::path& folder, const Json& description, const Sonar& sonar,
-                 std::size_t pings, const std::string& file, const std::string& name,
-                 BoxLabels& labels) {
+Json view_of_all(const Sonar& sonar, std::size_t pings, const fs::path& file,
+                 const PictureBoxes& boxes) {
     const double per_ping = static_cast<double>(picture_rows(pings)) / static_cast<double>(pings);
-    const bool waterfall = name == "waterfall_view.png";
+    const bool waterfall = file.filename() == "waterfall_view.png";
     const Along along = waterfall ? along_waterfall(sonar.config, per_ping)
                                   : along_echogram(sonar.config, pings, per_ping);
-    const std::string labelled =
-        sonar.config.name + (waterfall ? "/waterfall.png" : "/echogram.png");
     Json view = {{"title", waterfall ? "waterfall" : "echogram"},
-                 {"file", file},
+                 {"file", file.string()},
                  {"along", along.axis},
                  {"origin", along.origin},
                  {"step", along.step}};
-    Json boxes = record_boxes(folder, description, labelled, along, labels);
-    if (!boxes.is_null()) view["boxes"] = std::move(boxes);
+    const auto labelled =
+        boxes.find((file.parent_path() / (waterfall ? "waterfall.png" : "echogram.png")).string());
+    if (labelled != boxes.end()) view["boxes"] = boxes_along(labelled->second, along);
     return view;
 }
 
-Json view_of_scans(const Sonar& sonar, const std::string& file, const Json& scan) {
+/// One view for all sweeps; `files` are their pictures.
+Json view_of_scans(const Sonar& sonar, const std::vector<std::string>& files, const Json& scan,
+                   const PictureBoxes& boxes) {
     const FanFrame frame = fan_frame(whole_scan(sonar), 0);
-    return {{"title", "scan"},
-            {"file", file},
-            {"per", "sweep"},
-            {"pings", scan.at("pings_per_sweep")},
-            {"radius", sonar.config.range_max_m / frame.pixel_m / frame.width}};
+    Json view = {{"title", "scan"},
+                 {"file", (fs::path(files.front()).parent_path() / "scan_%04d.png").string()},
+                 {"per", "sweep"},
+                 {"pings", scan.at("pings_per_sweep")},
+                 {"radius", sonar.config.range_max_m / frame.pixel_m / frame.width}};
+    if (!boxes.contains(files.front())) return view;
+    view["boxes"] = Json::array();
+    for (const std::string& file : files)
+        view["boxes"].push_back(boxes.at(file));
+    return view;
 }
 
 }  // namespace
 
 Json views_of(const fs::path& folder, const Json& description, const Json& sensor,
-              const Sonar& sonar, BoxLabels& labels) {
+              const Sonar& sonar, const PictureBoxes& picture_boxes, BoxLabels& labels) {
     Json views = Json::array();
     const Json& files = sensor.at("files");
     const PingBoxes boxes = ping_boxes(folder, description, sensor, labels);
@@ -124,7 +117,7 @@ Json views_of(const fs::path& folder, const Json& description, const Json& senso
         views.push_back(std::move(view));
     }
     const auto pings = sensor.at("pings").get<std::size_t>();
-    bool scans = false;
+    std::vector<std::string> scans;
     for (const Json& product : sensor.value("products", Json::array())) {
         const auto file = product.get<std::string>();
         const fs::path path(file);
@@ -132,17 +125,14 @@ Json views_of(const fs::path& folder, const Json& description, const Json& senso
         if (path.extension() != ".png" || name == "waterfall.png" || name == "echogram.png")
             continue;
         if (name == "waterfall_view.png" || name == "echogram_view.png") {
-            views.push_back(view_of_all(folder, description, sonar, pings, file, name, labels));
+            views.push_back(view_of_all(sonar, pings, path, picture_boxes));
         } else if (sensor.contains("scan") && name.starts_with("scan_")) {
-            // One view for all sweeps.
-            if (!std::exchange(scans, true)) {
-                views.push_back(view_of_scans(
-                    sonar, (path.parent_path() / "scan_%04d.png").string(), sensor["scan"]));
-            }
+            scans.push_back(file);
         } else {
             views.push_back({{"title", path.stem().string()}, {"file", file}});
         }
     }
+    if (!scans.empty()) views.push_back(view_of_scans(sonar, scans, sensor["scan"], picture_boxes));
     return views;
 }
 

@@ -3,25 +3,26 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "gallery/picture_boxes.h"
 #include "gallery/ping_tables.h"
 #include "ping/sonar.h"
 
 namespace sonarsim {
 
-/// What a sensor has to show, as page.js takes it: a list of
+/// What a sensor has to show, as the scripts of the page take it: a list of
 ///
 ///     title, file    a path, with %06d for a number where there are several
 ///     per            "ping": a picture of each; "sweep": of each `pings`; absent: one of all
 ///     turned         row 0 is the nearest range and column 0 starboard: shown upside down, so that
 ///                    port is on the left and ahead is up as in a fan
-///     boxes          see PingBoxes; of a picture of all pings one list
+///     boxes          see PingBoxes; of a sweep a list of each, of a picture of all pings one list
 ///     along, origin, step     of a picture of all pings: the axis along which they lie, and where
 ///                    the first begins and how long one is, x and y, px
 ///     radius         of a scan: its greatest range as a share of the width
 nlohmann::ordered_json views_of(const std::filesystem::path& folder,
                                 const nlohmann::ordered_json& description,
                                 const nlohmann::ordered_json& sensor, const Sonar& sonar,
-                                BoxLabels& labels);
+                                const PictureBoxes& picture_boxes, BoxLabels& labels);
 
 /// A sentence about what a sensor has and the page cannot show; empty where it shows everything.
 std::string note_about(const nlohmann::ordered_json& sensor, const nlohmann::ordered_json& views);

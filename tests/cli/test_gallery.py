@@ -14,8 +14,10 @@ sensors:
   sss: {kind: sidescan, range_max_m: 6, range_bins: 48, every: 2}
   sounder: {kind: echosounder, range_max_m: 6, range_bins: 48}
   head: {kind: scanning, range_max_m: 6, range_bins: 48, step_deg: 120}
+classes: [{nodes: walls, class: wall}]
 output: {folder: out, fan_width_px: 64, image: true, labels: [coco]}
 """
+OBJECT = "walls (wall)"  # what the page calls the only one
 
 
 def dataset_in(page):
@@ -63,6 +65,25 @@ class Gallery(Sandbox):
             for annotation in told["annotations"]:
                 ping = int(names[annotation["image_id"]][-10:-4])
                 self.assertIn(annotation["bbox"], [box[1:] for box in boxes[ping]])
+        # A waterfall and an echogram are shown with axes and margins: boxes move with the pings.
+        records = json.loads((self.out / "labels/coco_records.json").read_text())
+        for sensor, image in zip(shown["sensors"][1:3], records["images"], strict=True):
+            view, = sensor["views"]
+            told = [a["bbox"] for a in records["annotations"] if a["image_id"] == image["id"]]
+            (left, top), (x_step, y_step) = view["origin"], view["step"]
+            self.assertEqual([[(x - left) / x_step, (y - top) / y_step, w / x_step, h / y_step]
+                              for _, x, y, w, h in view["boxes"]], told, sensor["name"])
+        # The boxes of a scanning sonar are those of each sweep.
+        scans = json.loads((self.out / "labels/coco_scans.json").read_text())
+        view, = shown["sensors"][3]["views"]
+        self.assertEqual(
+            [[box[1:] for box in boxes] for boxes in view["boxes"]],
+            [[a["bbox"] for a in scans["annotations"] if a["image_id"] == image["id"]]
+             for image in scans["images"]])
+        self.assertEqual(len(view["boxes"]), 2)  # six pings, three to a turn
+        # One object has one name, in pings, waterfalls, scans and the plan.
+        self.assertEqual(shown["labels"], [OBJECT])
+        self.assertEqual([one["name"] for one in shown["objects"]], [OBJECT])
         # A resume leaves the page alone, a new dataset takes it away.
         self.assert_renders()
         self.assertTrue((self.out / "index.html").exists())
@@ -99,7 +120,7 @@ class Gallery(Sandbox):
         with browser.Browser() as window:
             window.open(self.out / "index.html")
             self.assertEqual(window.wait_for(ready), 64)
-            self.assertRegex(window.run(seen), r"^1 box: walls")
+            self.assertEqual(window.run(seen), f"1 box: {OBJECT}")
             # Boxes are drawn: without them the picture looks different.
             boxed = window.screenshot("#picture")
             window.press("b")
@@ -127,6 +148,11 @@ class Gallery(Sandbox):
                 window.wait_for(ready)
                 self.assertEqual(window.run("return sensor().name"), name)
                 self.assertEqual(window.run(number), where)
+                self.assertEqual(window.run(seen), f"1 box: {OBJECT}")
+                boxed = window.screenshot("#picture")
+                window.press("b")
+                self.assertNotEqual(window.screenshot("#picture"), boxed)
+                window.press("b")
             # Zooming in and all of it again.
             wheel = ("document.getElementById('picture').dispatchEvent(new WheelEvent('wheel',"
                      "{deltaY: -800, clientX: 300, clientY: 300})); return picture.zoom")
