@@ -37,14 +37,20 @@ double power_correlation(const LineArray& array, double moved, double turned) {
     return std::norm(sum / power);
 }
 
-/// The band of a pulse has the taper of an array; so the pulses of bins `bins` apart overlap as
+/// A pulse's band, which has the taper of an array, so that the pulses of two ranges overlap as two
 /// beams do.
-double pulse_correlation(const Sonar& sonar, double apart_m) {
-    constexpr double unit = 1e-3;
-    const PulseConfig& pulse = sonar.config.instrument.pulse;
-    const LineArray band = line_array(unit, pulse.side_lobe_db);
-    return power_correlation(band, 0.0, apart_m / pulse.resolution_m * unit * band.wavelengths);
-}
+struct PulseBand {
+    static constexpr double unit = 1e-3;
+    LineArray band;
+    double resolution_m;
+
+    explicit PulseBand(const PulseConfig& pulse)
+        : band(line_array(unit, pulse.side_lobe_db)), resolution_m(pulse.resolution_m) {}
+
+    double power_correlation_at(double apart_m) const {
+        return power_correlation(band, 0.0, apart_m / resolution_m * unit * band.wavelengths);
+    }
+};
 
 /// 20 degrees of a preset's fan, its beams as far apart as they are, and bins of half its
 /// resolution about `range_m`.
@@ -144,6 +150,7 @@ TEST_SUITE("calibrated") {
         for (const Patch& patch : patches_of_presets()) {
             CAPTURE(patch.sonar.config.instrument.frequency_hz);
             const LineArray array = array_of(patch.sonar);
+            const PulseBand pulse(patch.sonar.config.instrument.pulse);
             const double width = radians(patch.sonar.config.instrument.beam.width_deg);
             const int outer = patch.beams() / 8;
             const int inner = patch.beams() - 2 * outer;
@@ -177,7 +184,7 @@ TEST_SUITE("calibrated") {
             }
             for (const int lag : {1, 2, 3}) {
                 const double left =
-                    pulse_correlation(patch.sonar, lag * patch.sonar.settings.view.bin_m());
+                    pulse.power_correlation_at(lag * patch.sonar.settings.view.bin_m());
                 const double found =
                     correlation_of(here, patch.normalised(image, outer, inner, 1, 1, 20 + lag));
                 MESSAGE("bins ", lag, " apart: ", found, ", by the pulse ", left);
@@ -194,6 +201,7 @@ TEST_SUITE("calibrated") {
         // by a yaw takes it as far aside; and its echo comes earlier than the pulse is long.
         const Patch patch("didson_1800khz", 5.0, 0.02, 66);
         const LineArray array = array_of(patch.sonar);
+        const PulseBand pulse(patch.sonar.config.instrument.pulse);
         const std::vector<float> first = quiet_image(patch.sonar, patch.surface, true);
         constexpr int outer = 10;
         const int inner = patch.beams() - 2 * outer;
@@ -218,8 +226,7 @@ TEST_SUITE("calibrated") {
                 const double angle = radians(motion.yaw_deg) +
                                      (motion.y_m * cosine - motion.x_m * sine) / patch.range_m;
                 left += power_correlation(array, moved, angle * cosine * array.wavelengths) *
-                        pulse_correlation(patch.sonar, motion.x_m * cosine + motion.y_m * sine) /
-                        inner;
+                        pulse.power_correlation_at(motion.x_m * cosine + motion.y_m * sine) / inner;
             }
             const std::vector<float> second =
                 quiet_image(patch.sonar, patch.seen_from(pose), true, pose);
