@@ -1,0 +1,89 @@
+#pragma once
+
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "calibrated/model.h"
+#include "core/units.h"
+#include "mission/parse.h"
+#include "sonar/kinds.h"
+#include "sonar/sonar.h"
+
+namespace sonarsim::test {
+
+/// An imaging sonar by a preset of configs/sensors, with these keys in place of its own.
+inline Sonar preset_sonar(const std::string& preset, const std::string& keys) {
+    const std::string text =
+        "scene: {file: a.glb, materials: a.csv}\n"
+        "trajectory: {file: a.tum}\n"
+        "sensors:\n"
+        "  fls:\n"
+        "    preset: sensors/" +
+        preset + ".yaml\n" + keys;
+    const Mission mission = parse_mission(
+        text, "m.yaml", std::filesystem::path(SONARSIM_SOURCE_DIR) / "configs", {}, sonar_keys());
+    return make_sonar(mission.sensors.front(), mission.accuracy, mission.water);
+}
+
+/// The receiving array of a preset.
+inline LineArray array_of(const Sonar& sonar) {
+    const BeamConfig& beam = sonar.config.instrument.beam;
+    LineArray array = line_array(radians(beam.width_deg), beam.side_lobe_db);
+    array.quadratic_rad = beam.aberration_rad[0];
+    array.cubic_rad = beam.aberration_rad[1];
+    array.quartic_rad = beam.aberration_rad[2];
+    return array;
+}
+
+inline Scene scene_of_rock() {
+    Scene scene;
+    scene.materials.push_back({.name = "rock", .reflection = 0.4F});
+    return scene;
+}
+
+/// A rectangle about `centre` in square patches, `half_u` and `half_v` of its half edges of length
+/// 1, as it is seen from a pose.
+inline Samples patches(const Eigen::Vector3d& centre, const Eigen::Vector3d& along_u,
+                       const Eigen::Vector3d& along_v, double half_u_m, double half_v_m,
+                       double patch_m, const Pose& T_world_sensor = {}) {
+    const Eigen::Quaterniond R_sensor_world = T_world_sensor.rotation.conjugate();
+    const Eigen::Vector3d normal = along_u.cross(along_v);
+    const Eigen::Vector3d seen = R_sensor_world * (centre - T_world_sensor.translation);
+    const auto turned = [&](const Eigen::Vector3d& v) -> Eigen::Vector3f {
+        return (R_sensor_world * v).cast<float>();
+    };
+    Samples out;
+    for (double u = -half_u_m; u < half_u_m; u += patch_m) {
+        for (double v = -half_v_m; v < half_v_m; v += patch_m) {
+            const Eigen::Vector3d place =
+                centre + (u + 0.5 * patch_m) * along_u + (v + 0.5 * patch_m) * along_v;
+            out.items.push_back(
+                {.position = turned(place - T_world_sensor.translation),
+                 .edge_u = turned(0.5 * patch_m * along_u),
+                 .edge_v = turned(0.5 * patch_m * along_v),
+                 .normal = turned(normal),
+                 .height_m = static_cast<float>(std::fabs(seen.dot(R_sensor_world * normal))),
+                 .area_m2 = static_cast<float>(patch_m * patch_m),
+                 .material = 0,
+                 .instance = 0});
+        }
+    }
+    return out;
+}
+
+/// The image [range bins, beams] of what is seen from a pose, without the receiver's noise.
+inline std::vector<float> quiet_image(const Sonar& sonar, const Samples& samples, bool speckle,
+                                      const Pose& pose = {}, std::uint32_t seed = 1) {
+    const View& view = sonar.settings.view;
+    std::vector<float> image(static_cast<std::size_t>(view.range_bins) * view.beams);
+    form_calibrated(*sonar.settings.calibrated, samples, scene_of_rock(), pose,
+                    {.scene = stream_key(seed, 0, 0, Stream::scatterers),
+                     .ping = stream_key(seed, 1, 0, Stream::speckle),
+                     .noise = {}},
+                    {.echoes = true, .speckle = speckle, .noise = false}, image);
+    return image;
+}
+
+}  // namespace sonarsim::test

@@ -1,0 +1,99 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <string>
+#include <vector>
+
+#include "calibrated/preset_fixtures.h"
+
+using namespace sonarsim;
+using namespace sonarsim::test;
+
+namespace {
+
+/// A plate of rock of a tenth of a millimetre that faces the sonar straight ahead.
+Samples point_at(double range_m) {
+    return patches({range_m, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}, 5e-5, 5e-5, 1e-4);
+}
+
+/// How wide the values about their greatest are at half of it, in steps.
+double half_power_width(const std::vector<double>& values) {
+    const auto peak = static_cast<std::size_t>(std::ranges::max_element(values) - values.begin());
+    const double half = 0.5 * values[peak];
+    std::size_t low = peak;
+    while (values[low] > half)
+        --low;
+    std::size_t high = peak;
+    while (values[high] > half)
+        ++high;
+    const double from =
+        static_cast<double>(low) + (half - values[low]) / (values[low + 1] - values[low]);
+    const double to =
+        static_cast<double>(high) - (half - values[high]) / (values[high - 1] - values[high]);
+    return to - from;
+}
+
+/// The half-power width of an aperture with errors of phase, as a sine: its pattern is the
+/// transform of its weight.
+double aperture_width(const LineArray& array) {
+    std::vector<double> pattern;
+    constexpr int steps = 200;
+    constexpr double step = 0.01;  // of lambda / L
+    for (int i = -300; i <= 300; ++i) {
+        std::complex<double> sum = 0.0;
+        for (int k = 0; k < steps; ++k) {
+            const double x = (k + 0.5) / steps - 0.5;
+            sum += array.weight(x) * std::polar(1.0, 2.0 * pi * x * i * step);
+        }
+        pattern.push_back(std::norm(sum));
+    }
+    return half_power_width(pattern) * step / array.wavelengths;
+}
+
+}  // namespace
+
+TEST_SUITE("calibrated") {
+    TEST_CASE("resolution cell of three presets: a point is as wide as beam and pulse are") {
+        struct Case {
+            std::string preset;
+            double range_m, resolution_m;
+        };
+        for (const Case& c :
+             {Case{"oculus_m1200d_2100khz", 1.2, 0.0025}, Case{"gemini_720is", 3.0, 0.008},
+              Case{"didson_1800khz", 5.0, 0.02}}) {
+            CAPTURE(c.preset);
+            // 120 beams over 6 degrees; 60 bins of a quarter of the resolution.
+            const Sonar sonar = preset_sonar(
+                c.preset,
+                "    azimuth_deg: 6\n    azimuth_bins: 121\n    range_bins: 61\n"
+                "    range_min_m: " +
+                    std::to_string(c.range_m - 7.625 * c.resolution_m) + "\n    range_max_m: " +
+                    std::to_string(c.range_m + 7.625 * c.resolution_m) + "\n");
+            const std::vector<float> image = quiet_image(sonar, point_at(c.range_m), false);
+            const std::size_t peak = std::ranges::max_element(image) - image.begin();
+            std::vector<double> across, along;
+            for (std::size_t j = 0; j < 121; ++j)
+                across.push_back(image[peak / 121 * 121 + j]);
+            for (std::size_t i = 0; i < 61; ++i)
+                along.push_back(image[i * 121 + peak % 121]);
+
+            // Without errors of phase this is the width that the preset asks for.
+            const LineArray array = array_of(sonar);
+            const double width = aperture_width(array);
+            if (array.quartic_rad == 0.0) {
+                CHECK(std::fabs(width / radians(sonar.config.instrument.beam.width_deg) - 1.0) <
+                      2e-3);
+            }
+            const double spacing = 2.0 * std::sin(radians(3.0)) / 121.0;
+            const double beams_m = half_power_width(across) * spacing;
+            const double pulse_m = half_power_width(along) * sonar.settings.view.bin_m();
+            MESSAGE(c.preset, ": across ", beams_m / width, " of the closed form, along range ",
+                    pulse_m / c.resolution_m);
+            CHECK(std::fabs(beams_m / width - 1.0) < 0.02);
+            // The linear spline that stands for the pulse is higher than it at its knots.
+            CHECK(std::fabs(pulse_m / c.resolution_m - 1.0) < 0.03);
+        }
+    }
+}
