@@ -117,7 +117,7 @@ inline double exponential(double x) {
     double series = 1.0;
     for (int n = 14; n >= 1; --n)
         series = 1.0 + series * y / n;
-    // In two factors, for 2^k itself may be no double where the result is one.
+    // In two factors: 2^k may overflow or underflow although the result does not.
     const auto power_of_two = [](std::int64_t exponent) {
         return std::bit_cast<double>((exponent + 1023) << 52);
     };

@@ -27,7 +27,7 @@ class InputError : public std::runtime_error {
 /// Gathers the faults of an input, so that its user is told all of them at once.
 class Problems {
   public:
-    /// Runs `check` and keeps what it says is wrong. Returns whether it says so by no InputError.
+    /// Runs `check` and keeps the InputError that it throws. Returns whether it threw none.
     template <class Check>
     bool attempt(Check&& check) {
         try {
@@ -40,7 +40,7 @@ class Problems {
     }
     void add(const InputError& error);
 
-    /// How many there are so far, those that are not kept included.
+    /// How many faults there were, including those beyond the most that are kept.
     std::size_t count() const { return count_; }
     /// One InputError with a line for each, in the order in which they were found. Does nothing
     /// where there is none.

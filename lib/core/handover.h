@@ -6,8 +6,9 @@
 #endif
 #endif
 
-// On a function that TBB calls and that reads what it was given before it can say that it was
-// handed over: the sanitizer does not look at the function itself, but at all that it calls.
+// For a function that TBB calls. It reads its arguments before it can call `received`, which the
+// thread sanitizer would report: the sanitizer skips the function itself, and still checks
+// everything that it calls.
 #ifdef SONARSIM_THREAD_SANITIZER
 #define SONARSIM_CALLED_BY_TBB __attribute__((no_sanitize("thread")))
 #else
@@ -21,8 +22,8 @@ extern "C" void __tsan_release(void* address);
 
 namespace sonarsim {
 
-// The thread sanitizer sees no order between threads that TBB hands work to: Debian's TBB is not
-// built for it. These tell it of one, and are nothing in other builds. The order itself is TBB's.
+// Debian's TBB is not built for the thread sanitizer, which therefore does not see that TBB orders
+// the threads it hands work to. These functions tell it; in other builds they do nothing.
 
 /// What this thread has written may be read by those that call `received` for the same address.
 inline void handed_over([[maybe_unused]] const void* address) {

@@ -47,8 +47,8 @@ inline void philox_pairs(std::uint32_t* x0, std::uint32_t* x1, std::size_t count
         return reinterpret_cast<__m256i*>(x + k);
     };
     for (std::size_t k = 0; k < count; k += 8) {
-        // Even and odd counters apart, each in the lower half of 64 bits. A product looks at no
-        // more, so the upper halves may hold anything.
+        // Even and odd counters go into separate registers, each in the lower half of 64 bits. The
+        // product reads only the lower halves, so the upper ones may hold anything.
         __m256i even0 = _mm256_loadu_si256(at(x0, k));
         __m256i odd0 = _mm256_srli_epi64(even0, 32);
         __m256i even1 = _mm256_xor_si256(_mm256_loadu_si256(at(x1, k)), second_key);
@@ -88,12 +88,12 @@ enum class Stream : std::uint32_t {
     range_noise = 1,
     pixel_noise = 2,
     multipath_range_noise = 3,
-    scatter = 4,    ///< of a rule, as the sensor, and an object, as the ping
-    variation = 5,  ///< of a key that varies, as the sensor, and a variant, as the ping
+    scatter = 4,    ///< stream_key() takes the scatter rule as `sensor`, the object as `ping`
+    variation = 5,  ///< the key that varies as `sensor`, the variant as `ping`
     scatterers = 6,
     speckle = 7,
     receiver_noise = 8,
-    ping_variation = 9,  ///< of a key that varies, as the sensor, and a pose, as the ping
+    ping_variation = 9,  ///< the key that varies as `sensor`, the pose as `ping`
 };
 
 /// The key of one stream of one ping of one sensor. The counter below it names what the draw

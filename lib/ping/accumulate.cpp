@@ -47,12 +47,12 @@ int find_boxes(const Echoes& echoes, std::size_t begin, std::size_t count, const
         outside += inside ? 0 : 1;
         const float from = inside ? low : 0.0F;
         const float to = inside ? high : 0.0F;
-        // Not by its empty box alone: an echo that is no number is outside, too.
+        // An echo whose range is NaN is outside as well; its weight must not reach a bin.
         const float density = inside ? weight[k] / (2.0F * half) : 0.0F;
         const float echo = inside ? density * intensity[k] : 0.0F;
         const float first = std::floor(from);
         const float last = std::min(std::floor(to), end - 1.0F);
-        // A box within one bin is all head.
+        // A box that lies within one bin has no tail.
         const float head = std::min(first + 1.0F, to) - from;
         const float tail = first < last ? to - last : 0.0F;
         const float next = last - first > 1.0F ? 1.0F : tail;
@@ -65,8 +65,8 @@ int find_boxes(const Echoes& echoes, std::size_t begin, std::size_t count, const
     return outside;
 }
 
-/// Adds the parts of box k that lie in its first two bins: four products and four sums at once.
-/// Compilers make two additions of it, or put the four together one by one.
+/// Adds the parts of box k that lie in its first two bins: four products and four sums at once, by
+/// intrinsics, since compilers turn the plain code into two additions or four single loads.
 void add_two(const Boxes& boxes, std::size_t k, BinSum& to) {
     const auto twice = [](const Pair& pair) {
         return _mm_castpd_ps(_mm_loaddup_pd(reinterpret_cast<const double*>(&pair)));

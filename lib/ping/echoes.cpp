@@ -111,7 +111,7 @@ void direct_echoes(std::span<const Sample> samples, std::span<const Material> ma
         cut_footprints(block, materials, bin_m, lattice, footprints);
         for (std::size_t k = 0; k < block.size(); ++k) {
             const int count = static_cast<int>(footprints.u[k] * footprints.v[k]);
-            // Whole vectors are written: the next sample overwrites the lanes after the last piece.
+            // write_pieces() writes whole vectors: the next sample overwrites the surplus lanes.
             if (end + count + lanes > echoes.size()) {
                 echoes.resize(2 * (end + count + lanes), named);
             }

@@ -15,7 +15,8 @@ constexpr std::size_t half_block = pixels_per_block / 2;
 
 using Lane = std::array<float, pixels_per_block>;
 
-// What a counter of Philox is for; its other word is the number of the draw.
+// The second word of a Philox counter says what the draw is for; the first is the number of the
+// draw.
 constexpr std::uint32_t additive = 0;
 constexpr std::uint32_t multiplicative = 1;
 
@@ -66,7 +67,7 @@ void draw_normal(std::uint32_t block, PhiloxKey key, Lane& out) {
 }
 
 bool any_signal(std::span<const float> pixels) {
-    // No early end: all of a block in vectors is faster than to stop at the first.
+    // Without an early return: the whole block in vectors is faster than stopping at the first.
     int lit = 0;
     for (const float pixel : pixels)
         lit |= pixel != 0.0F ? 1 : 0;
@@ -109,7 +110,7 @@ std::uint64_t add_pixel_noise(std::span<float> image, const PixelNoise& noise, P
         const auto pixels = image.subspan(begin, std::min(pixels_per_block, image.size() - begin));
         add_scales(noise, begin, pixels.size(), scale);
         draw_rayleigh(block, key, rayleigh);
-        // Where nothing came back there is nothing to multiply: the draws are left as they are.
+        // The normal draws multiply the signal; a block without signal does not need new ones.
         if (any_signal(pixels)) draw_normal(block, key, normal);
         negative += apply(pixels, noise, scale, normal, rayleigh);
     }
