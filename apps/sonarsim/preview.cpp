@@ -33,7 +33,10 @@ Mission load_one(const MissionOptions& options) {
 
 int preview(const PreviewArguments& arguments) {
     start_logging(arguments.log);
-    const Mission mission = load_one(arguments.mission);
+    Mission mission = load_one(arguments.mission);
+    // The brightness of a preview finds itself. To look for that of the dataset would take longer
+    // than all the rest.
+    mission.output.full_scale = 1.0;
     const Assembly assembly = assemble(mission);
     warn_about(assembly.scene);
     const std::size_t poses = assembly.trajectory.size();

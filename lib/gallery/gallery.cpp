@@ -101,7 +101,7 @@ Json sensor_json(const fs::path& folder, const Json& description, const Json& se
     const auto every = static_cast<std::uint32_t>(sonar.config.every);
     if (!sonar.head_angles_rad.empty() && !columns.contains("head_angle_rad")) {
         for (std::uint32_t ping = 0; ping < pings; ++ping)
-            columns["head_angle_rad"].push_back(head_angle_rad(sonar, ping * every));
+            columns["head_angle_rad"].push_back(short_number(head_angle_rad(sonar, ping * every)));
     }
     std::string note = note_about(sensor, views);
     return {{"name", sensor.at("name")},

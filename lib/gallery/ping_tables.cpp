@@ -26,15 +26,6 @@ std::optional<std::string> text_of(const fs::path& folder, const Json& sensor, c
     return read_file(file, largest_ping_file);
 }
 
-/// To five digits: it is to be looked at.
-Json short_number(double value) {
-    char text[32];
-    const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, 5);
-    double rounded = 0.0;
-    std::from_chars(text, end.ptr, rounded);
-    return rounded;
-}
-
 /// Every number in a tree, by the names on the way to it.
 template <class Visit>
 void for_each_number(const std::string& name, const Json& json, const Visit& visit) {
@@ -104,6 +95,14 @@ Json boxes_of_yolo(const fs::path& folder, const Json& description, const Json& 
 }
 
 }  // namespace
+
+Json short_number(double value) {
+    char text[32];
+    const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, 5);
+    double rounded = 0.0;
+    std::from_chars(text, end.ptr, rounded);
+    return rounded;
+}
 
 Json measured_columns(const fs::path& folder, const Json& sensor) {
     Json columns = Json::object();

@@ -7,6 +7,9 @@
 
 namespace sonarsim {
 
+/// To five digits: it is to be looked at.
+nlohmann::ordered_json short_number(double value);
+
 /// What the metadata of a sensor's pings say was measured, each number in a column of one value per
 /// ping, to five digits; null where a ping lacks it or is not rendered. `sensor` is its block in
 /// dataset.json.

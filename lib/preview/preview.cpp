@@ -9,11 +9,11 @@
 #include <string>
 
 #include "assembly/engine_at.h"
-#include "assembly/engine_probes.h"
 #include "core/units.h"
 #include "preview/drawing.h"
 #include "preview/scene_views.h"
 #include "preview/sonar_panel.h"
+#include "sonar/engine_settings.h"
 #include "sonar/kinds.h"
 #include "sonar/sonar.h"
 #include "visibility/make_engine.h"
@@ -83,6 +83,22 @@ std::string title_of(const Sonar& sonar, std::uint32_t pose, double white) {
            " bins   white = " + significant(white);
 }
 
+/// Where the mission leaves the engine open, rays: to try which one does less work takes longer
+/// than the few pings of a preview.
+EngineSettings settings_of_preview(const Mission& mission) {
+    EngineSettings settings = engine_settings(mission);
+    if (settings.type == EngineType::automatic) settings.type = EngineType::rays;
+    return settings;
+}
+
+/// Sampled no finer than the picture can show.
+Sonar coarse(Sonar sonar) {
+    constexpr double coarse_l1 = 0.1;
+    View& view = sonar.settings.view;
+    view.relative_l1 = std::max(view.relative_l1, coarse_l1);
+    return sonar;
+}
+
 /// Rows of as many tiles as look well.
 Picture arrange(const std::string& head, const std::vector<Tile>& tiles) {
     const int columns = tiles.size() > 6 ? 3 : 2;
@@ -107,14 +123,14 @@ Picture arrange(const std::string& head, const std::vector<Tile>& tiles) {
 Picture draw_preview(const Mission& mission, const Assembly& assembly, std::uint32_t pose) {
     const Trajectory& trajectory = assembly.trajectory;
     const std::unique_ptr<VisibilityEngine> engine =
-        make_engine(assembly.scene, engine_settings(mission, assembly));
+        make_engine(assembly.scene, settings_of_preview(mission));
     const auto at_pose = [&](std::uint32_t index) {
         return engine_at(*engine, assembly.motions, trajectory[index].t_s);
     };
     std::vector<Tile> tiles;
     Moment moment{assembly, pose, {}};
     for (std::size_t i = 0; i < assembly.sonars.size(); ++i) {
-        const Sonar& sonar = assembly.sonars[i];
+        const Sonar sonar = coarse(assembly.sonars[i]);
         const Rgb colour = sonar_colours[i % sonar_colours.size()];
         const auto render = [&](std::uint32_t index) {
             const std::optional<Sonar> drawn = drawn_sonar(mission, sonar, index);

@@ -49,6 +49,18 @@ const bounds = (() => {
   return box;
 })();
 
+// Names that would lie over one another are left out, all but the first.
+function name_writer(context) {
+  const written = [];
+  return (name, [x, y]) => {
+    const box = [x, y - 11, x + context.measureText(name).width, y];
+    const meets = other => box[0] < other[2] && other[0] < box[2] && box[1] < other[3] && other[1] < box[3];
+    if (written.some(meets)) return;
+    written.push(box);
+    context.fillText(name, x, y);
+  };
+}
+
 function draw_plan() {
   const context = plan.fit();
   const {width, height} = plan.canvas;
@@ -70,12 +82,13 @@ function draw_plan() {
   };
   context.font = '11px system-ui, sans-serif';
   context.lineWidth = 1;
+  const write = name_writer(context);
   for (const {name, min, max} of data.objects) {
     if (max[0] - min[0] > high_x - low_x && max[1] - min[1] > high_y - low_y) continue;  // the ground
     context.strokeStyle = context.fillStyle = '#7a7a50';
     line([[min[0], min[1]], [max[0], min[1]], [max[0], max[1]], [min[0], max[1]], [min[0], min[1]]]);
     context.stroke();
-    if (data.objects.length <= 20 || plan.zoom > 3) context.fillText(name, ...px(min[0], min[1]));
+    write(name, px(min[0], min[1]));
   }
   context.strokeStyle = '#9a9aa4';
   const stride = Math.max(1, Math.floor(track.x.length / 20000));
