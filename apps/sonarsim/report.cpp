@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <set>
 
 #include "benchmark/cold_start.h"
 #include "benchmark/multipath_rows.h"
@@ -65,6 +66,24 @@ int report_hard(const ReportArguments& arguments) {
     return all_hold ? exit_done : exit_failed;
 }
 
+/// What is measured: the engines that were asked for, of those that can see the mission's scene.
+std::vector<Setting> settings_of(const ReportArguments& arguments, const Mission& mission,
+                                 const Assembly& assembly) {
+    std::vector<Setting> settings = make_settings(mission, arguments.quick);
+    std::set<std::string> refusals;
+    std::erase_if(settings, [&](const Setting& setting) {
+        if (!arguments.engines.empty() &&
+            std::ranges::find(arguments.engines, setting.engine) == arguments.engines.end())
+            return true;
+        const std::string refusal = refusal_of(setting, assembly);
+        if (refusal.empty()) return false;
+        if (refusals.insert(refusal).second) spdlog::info("left out: {}", refusal);
+        return true;
+    });
+    if (settings.empty()) throw InputError({arguments.mission.file.string()}, *refusals.begin());
+    return settings;
+}
+
 int report(const ReportArguments& arguments) {
     if (arguments.hard) return report_hard(arguments);
     if (arguments.mission.file.empty()) throw CLI::RequiredError("mission");
@@ -83,10 +102,6 @@ int report(const ReportArguments& arguments) {
                          "the report measures scenes that stand still; leave the trajectories of "
                          "objects out");
     }
-    if (!assembly.scene.copies.empty()) {
-        throw InputError({arguments.mission.file.string()},
-                         "the report measures scenes of triangles; set scene.repeats: copied");
-    }
     const double assembled_s = seconds_now() - start;
     warn_about(assembly.scene);
 
@@ -98,11 +113,7 @@ int report(const ReportArguments& arguments) {
         options.reference_rays = std::min(options.reference_rays, std::uint64_t{50'000'000});
     }
     const auto progress = [](const std::string& what) { spdlog::info("{}", what); };
-    std::vector<Setting> settings = make_settings(mission, arguments.quick);
-    std::erase_if(settings, [&](const Setting& setting) {
-        return !arguments.engines.empty() &&
-               std::ranges::find(arguments.engines, setting.engine) == arguments.engines.end();
-    });
+    const std::vector<Setting> settings = settings_of(arguments, mission, assembly);
     progress("each setting in a process of its own");
     const std::vector<ColdStart> cold =
         measure_cold_starts(mission, assembly, settings, options, assembled_s);

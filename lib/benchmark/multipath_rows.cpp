@@ -1,6 +1,7 @@
 #include "benchmark/multipath_rows.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "assembly/engine_probes.h"
 #include "benchmark/timed_pings.h"
@@ -38,8 +39,9 @@ std::vector<TracedPing> trace_surfaces(const PingSet& pings, const Sonar& sonar,
                                        const VisibilityEngine& engine) {
     std::vector<TracedPing> traced(pings.poses.size());
     in_parallel(traced.size(), [&](std::size_t p) {
-        traced[p] = trace(sonar, pings.scene, engine, pings.poses[p], pings.indices[p],
-                          {.multipath = false});
+        const std::optional<Sonar> drawn = pings.drawn(sonar, p);
+        traced[p] = trace(drawn ? *drawn : sonar, pings.scene, engine, pings.poses[p],
+                          pings.indices[p], {.multipath = false});
     });
     return traced;
 }
@@ -51,9 +53,10 @@ std::vector<float> multipath_images(const PingSet& pings, const Sonar& sonar,
                                     std::vector<TracedPing>& traced) {
     std::vector<std::vector<float>> images(traced.size());
     in_parallel(images.size(), [&](std::size_t p) {
-        trace_multipath(sonar.settings, pings.scene, engine, traced[p]);
-        images[p] =
-            form_image(traced[p], sonar.settings, pings.scene, {}, multipath_alone).intensity;
+        const std::optional<Sonar> drawn = pings.drawn(sonar, p);
+        const PingSettings& settings = drawn ? drawn->settings : sonar.settings;
+        trace_multipath(settings, pings.scene, engine, traced[p]);
+        images[p] = form_image(traced[p], settings, pings.scene, {}, multipath_alone).intensity;
     });
     std::vector<float> all;
     for (const std::vector<float>& image : images)

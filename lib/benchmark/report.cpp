@@ -7,12 +7,14 @@
 #include <algorithm>
 #include <cstdlib>
 #include <memory>
+#include <optional>
 
 #include "benchmark/thread_clock.h"
 #include "benchmark/timed_pings.h"
 #include "benchmark/view_rays.h"
 #include "core/clock.h"
 #include "core/in_parallel.h"
+#include "scene/copies.h"
 #include "sonar/engine_settings.h"
 #include "validation/fit.h"
 #include "validation/image_error.h"
@@ -92,9 +94,11 @@ std::vector<Reference> cast_references(const Comparison& comparison, const Sonar
     const ReportOptions& options = comparison.options;
     std::vector<Reference> references(pings.poses.size());
     in_parallel(references.size(), [&](std::size_t p) {
-        references[p] = cast_reference(comparison.caster, pings.scene, sonar.settings.view,
-                                       sensor_pose(sonar, pings.poses[p], pings.indices[p]),
-                                       {options.reference_moved, 64.0, options.reference_rays});
+        const std::optional<Sonar> drawn = pings.drawn(sonar, p);
+        references[p] =
+            cast_reference(comparison.caster, pings.scene, sonar.settings.view,
+                           sensor_pose(drawn ? *drawn : sonar, pings.poses[p], pings.indices[p]),
+                           {options.reference_moved, 64.0, options.reference_rays});
     });
     return references;
 }
@@ -125,8 +129,9 @@ void measure_errors(const PingSet& pings, const Trial& trial,
     std::vector<double> samples(poses);
     std::vector<double> estimated_l1(poses);
     in_parallel(poses, [&](std::size_t p) {
-        const Ping ping =
-            render_ping(trial.sonar, pings.scene, *engine, pings.poses[p], {}, direct_echoes_alone);
+        const std::optional<Sonar> drawn = pings.drawn(trial.sonar, p);
+        const Ping ping = render_ping(drawn ? *drawn : trial.sonar, pings.scene, *engine,
+                                      pings.poses[p], pings.key(p), direct_echoes_alone);
         const ImageError error = image_error(ping.intensity, references[p].intensity);
         l1[p] = error.relative_l1;
         l2[p] = error.relative_l2;
@@ -240,7 +245,7 @@ Report make_report(const Mission& mission, const Assembly& assembly,
     tbb::task_arena arena(threads);
     Report report;
     report.mission = mission.name;
-    report.triangles = assembly.scene.triangles.size();
+    report.triangles = all_triangles(assembly.scene);
     report.threads = threads;
     report.goal = mission.accuracy.relative_l1;
     ::getloadavg(&report.load, 1);

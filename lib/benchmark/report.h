@@ -117,7 +117,7 @@ struct ReportOptions {
 
 struct Report {
     std::string mission;
-    std::size_t triangles = 0;
+    std::size_t triangles = 0;  ///< each as often as it is placed
     int poses = 0;
     int threads = 0;
     double goal = 0.0;  ///< accuracy.relative_l1 of the mission

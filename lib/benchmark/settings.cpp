@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/text.h"
+#include "sonar/engine_settings.h"
 
 namespace sonarsim {
 
@@ -91,6 +92,15 @@ std::vector<Setting> make_settings(const Mission& mission, bool quick) {
         *same = own;
     }
     return settings;
+}
+
+std::string refusal_of(const Setting& setting, const Assembly& assembly) {
+    const EngineSettings engine = engine_settings(setting.kind, setting.octree, setting.slices);
+    std::string refusal = refusal_of(engine, assembly.scene);
+    for (const Sonar& sonar : assembly.sonars) {
+        if (refusal.empty()) refusal = refusal_of(engine, sonar.settings.view);
+    }
+    return refusal;
 }
 
 }  // namespace sonarsim

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "assembly/assemble.h"
 #include "benchmark/spread.h"
 #include "mission/mission.h"
+#include "sonar/sonar.h"
 
 namespace sonarsim {
 
@@ -15,16 +17,21 @@ namespace sonarsim {
 
 /// The pings that every setting is measured on.
 struct PingSet {
+    const Mission& mission;
     const Scene& scene;
-    std::uint64_t seed;
     std::vector<Pose> poses;             ///< T_world_vehicle
     std::vector<std::uint32_t> indices;  ///< of the poses on the trajectory
 
+    /// The sonar as it is at pose `p`; nothing where `vary` draws nothing of it for pings.
+    std::optional<Sonar> drawn(const Sonar& sonar, std::size_t p) const {
+        return drawn_sonar(mission, sonar, indices[p]);
+    }
+    PingKey key(std::size_t p) const { return {mission.seed, indices[p]}; }
     /// The ping at pose `p`, whole.
     Ping render(const Sonar& sonar, const VisibilityEngine& engine, std::size_t p) const;
 };
 
-/// With `poses` of them spread along the trajectory. The assembly must outlive it.
+/// With `poses` of them spread along the trajectory. Mission and assembly must outlive it.
 PingSet make_ping_set(const Mission& mission, const Assembly& assembly, int poses);
 
 /// The times of one setting at one pose, over all visits.

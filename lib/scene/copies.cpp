@@ -25,4 +25,19 @@ std::size_t triangles_of_copies(const Scene& scene) {
     return count;
 }
 
+std::size_t all_triangles(const Scene& scene) {
+    return scene.triangles.size() + triangles_of_copies(scene);
+}
+
+std::array<Eigen::Vector3f, 3> placed_corners(const Scene& scene, const MeshCopy& copy,
+                                              std::size_t triangle) {
+    const SharedMesh& mesh = scene.shared_meshes[copy.mesh];
+    std::array<Eigen::Vector3f, 3> corners;
+    for (int k = 0; k < 3; ++k) {
+        const Eigen::Vector3d vertex = mesh.vertices[mesh.triangles[triangle][k]].cast<double>();
+        corners[k] = (copy.T_world_mesh * vertex - scene.origin).cast<float>();
+    }
+    return corners;
+}
+
 }  // namespace sonarsim

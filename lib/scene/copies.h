@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
+#include <cstddef>
 #include <vector>
 
 #include "scene/scene.h"
@@ -14,5 +16,12 @@ std::vector<Eigen::AlignedBox3d> boxes_of_copies(const Scene& scene);
 
 /// The triangles of all copies together.
 std::size_t triangles_of_copies(const Scene& scene);
+
+/// Those and the scene's own.
+std::size_t all_triangles(const Scene& scene);
+
+/// The corners of a triangle of a copy's mesh where the copy stands, scene-local.
+std::array<Eigen::Vector3f, 3> placed_corners(const Scene& scene, const MeshCopy& copy,
+                                              std::size_t triangle);
 
 }  // namespace sonarsim

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/random.h"
@@ -20,18 +21,49 @@ double solid_angle_density(ViewShape shape, const Eigen::Vector3f& d) {
     return std::sqrt(static_cast<double>(x) * x + static_cast<double>(d.y()) * d.y());
 }
 
+/// How many points to the square metre each facet has.
+class PointDensity {
+  public:
+    PointDensity(const ReferenceView& looking, std::span<const std::uint32_t> counts)
+        : shares_(looking.shares), counts_(counts), of_own_(looking.scene.triangles.size(), 0.0F) {
+        while (own_shares_ < shares_.size() && shares_[own_shares_].copy == SurfaceShare::no_copy) {
+            of_own_[shares_[own_shares_].facet] = per_m2(own_shares_);
+            ++own_shares_;
+        }
+    }
+
+    float of(std::uint32_t facet) const {
+        if (facet < of_own_.size()) return of_own_[facet];
+        // Copies may have more triangles than memory holds, and few of them are in view.
+        const auto of_copies = shares_.subspan(own_shares_);
+        const auto at = std::ranges::lower_bound(of_copies, facet, {}, &SurfaceShare::facet);
+        if (at == of_copies.end() || at->facet != facet) return 0.0F;
+        return per_m2(own_shares_ + static_cast<std::size_t>(at - of_copies.begin()));
+    }
+
+  private:
+    float per_m2(std::size_t share) const {
+        return static_cast<float>(counts_[share]) / shares_[share].area_m2;
+    }
+
+    std::span<const SurfaceShare> shares_;
+    std::span<const std::uint32_t> counts_;  ///< of points, by share
+    std::vector<float> of_own_;
+    std::size_t own_shares_ = 0;  ///< shares of the scene's own triangles, which come first
+};
+
 /// One cast under way.
 struct Cast {
     const ReferenceView& looking;
     const RayLayout& layout;
-    double cell_rad2 = 0.0;                 ///< of a ray: step across times step along
-    std::vector<float> points_per_m2 = {};  ///< [triangles]
+    const PointDensity& points;
+    double cell_rad2 = 0.0;  ///< of a ray: step across times step along
     SurfaceSums sums = {};
 
     /// Adds what a ray has met. `density` is solid_angle_density() of its direction.
-    void add(const Eigen::Vector3f& direction, double density, int beam, std::uint32_t triangle) {
+    void add(const Eigen::Vector3f& direction, double density, int beam, std::uint32_t index) {
         const View& view = looking.view;
-        const Facet facet = looking.caster.facet(triangle);
+        const Facet facet = looking.caster.facet(index);
         const Eigen::Vector3d normal = facet.normal.cast<double>();
         const double facing = normal.dot(direction.cast<double>());
         const double range =
@@ -40,7 +72,7 @@ struct Cast {
         if (!(bin >= 0.0 && bin < view.range_bins)) return;
         const double cosine = std::fabs(facing);
         const double rays_per_m2 = cosine / (range * range * density * cell_rad2);
-        const double area = 1.0 / (rays_per_m2 + points_per_m2[triangle]);
+        const double area = 1.0 / (rays_per_m2 + points.of(index));
         const std::size_t k = static_cast<std::size_t>(bin) * view.beams + beam;
         sums.area[k] += area;
         sums.echo[k] += area * cosine * looking.scene.materials[facet.material].reflection;
@@ -110,7 +142,7 @@ struct PointRays {
     std::vector<Eigen::Vector3f> directions = {};  ///< scene-local frame
     std::vector<double> densities = {};
     std::vector<int> beams = {};
-    std::vector<std::uint32_t> triangles = {};
+    std::vector<std::uint32_t> facets = {};
     std::vector<std::uint32_t> met = {};
 };
 
@@ -119,7 +151,7 @@ void cast_points(Cast& cast, PointRays& rays) {
     rays.met.resize(rays.directions.size());
     cast.looking.caster.cast(cast.looking.pose.position, rays.directions, cast.reach_m(), rays.met);
     for (std::size_t i = 0; i < rays.met.size(); ++i) {
-        if (rays.met[i] != rays.triangles[i]) continue;
+        if (rays.met[i] != rays.facets[i]) continue;
         cast.add(rays.directions[i], rays.densities[i], rays.beams[i], rays.met[i]);
     }
     cast.sums.rays += rays.met.size();
@@ -129,13 +161,13 @@ void cast_points(Cast& cast, PointRays& rays) {
 void collect_points(const Cast& cast, const SurfaceShare& share, std::uint32_t count,
                     PointRays& rays) {
     const ReferenceView& looking = cast.looking;
-    const auto& corners = looking.scene.triangles[share.triangle];
-    const Eigen::Vector3d a = looking.scene.vertices[corners[0]].cast<double>();
-    const Eigen::Vector3d ab = looking.scene.vertices[corners[1]].cast<double>() - a;
-    const Eigen::Vector3d ac = looking.scene.vertices[corners[2]].cast<double>() - a;
+    const std::array<Eigen::Vector3f, 3> corners = corners_of(looking.scene, share);
+    const Eigen::Vector3d a = corners[0].cast<double>();
+    const Eigen::Vector3d ab = corners[1].cast<double>() - a;
+    const Eigen::Vector3d ac = corners[2].cast<double>() - a;
     const Eigen::Vector3d from_sonar = a - looking.pose.position.cast<double>();
     for (std::uint32_t i = 0; i < count; ++i) {
-        const Eigen::Vector2d at = point_of_triangle(share.triangle, i, cast.layout.start);
+        const Eigen::Vector2d at = point_of_triangle(share.facet, i, cast.layout.start);
         const Eigen::Vector3d point = from_sonar + at.x() * ab + at.y() * ac;
         const Eigen::Vector3f direction = point.normalized().cast<float>();
         const Eigen::Vector3f in_sensor = looking.pose.rotation.transpose() * direction;
@@ -144,7 +176,7 @@ void collect_points(const Cast& cast, const SurfaceShare& share, std::uint32_t c
         rays.directions.push_back(direction);
         rays.densities.push_back(solid_angle_density(looking.view.shape, in_sensor));
         rays.beams.push_back(beam);
-        rays.triangles.push_back(share.triangle);
+        rays.facets.push_back(share.facet);
     }
 }
 
@@ -167,14 +199,10 @@ SurfaceSums cast_over_surface(const ReferenceView& looking, const RayLayout& lay
     const std::size_t rays = view_columns(looking.view, layout.per_beam).size() * layout.count;
     const std::vector<std::uint32_t> counts =
         counts_of(looking.shares, points_per_ray * static_cast<double>(rays));
-    Cast cast{looking, layout};
+    const PointDensity density(looking, counts);
+    Cast cast{looking, layout, density};
     cast.sums.area.assign(bins, 0.0);
     cast.sums.echo.assign(bins, 0.0);
-    cast.points_per_m2.assign(looking.scene.triangles.size(), 0.0F);
-    for (std::size_t s = 0; s < counts.size(); ++s) {
-        const SurfaceShare& share = looking.shares[s];
-        cast.points_per_m2[share.triangle] = static_cast<float>(counts[s]) / share.area_m2;
-    }
     cast_directions(cast);
     PointRays points;
     for (std::size_t s = 0; s < counts.size(); ++s) {

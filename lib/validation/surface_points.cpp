@@ -8,6 +8,7 @@
 #include "core/elementary.h"
 #include "core/random.h"
 #include "core/units.h"
+#include "scene/copies.h"
 
 namespace sonarsim {
 
@@ -42,40 +43,92 @@ double fraction(double x) {
     return x - std::floor(x);
 }
 
+/// A copy of a shared mesh that may be in view, and the number of its first facet.
+struct CopyInView {
+    std::uint32_t copy;
+    std::uint32_t first_facet;
+    std::uint32_t triangles;
+};
+
+std::vector<CopyInView> copies_in_view(const Scene& scene, const View& view,
+                                       const LocalPose& pose) {
+    std::vector<CopyInView> found;
+    const std::vector<Eigen::AlignedBox3d> boxes = boxes_of_copies(scene);
+    auto first = static_cast<std::uint32_t>(scene.triangles.size());
+    for (std::uint32_t k = 0; k < scene.copies.size(); ++k) {
+        const auto count =
+            static_cast<std::uint32_t>(scene.shared_meshes[scene.copies[k].mesh].triangles.size());
+        if (count > 0) {
+            const Eigen::Vector3d off =
+                boxes[k].center() - scene.origin - pose.position.cast<double>();
+            const Eigen::Vector3d centre = pose.rotation.cast<double>().transpose() * off;
+            if (may_be_in_view(view, centre, 0.5 * boxes[k].diagonal().norm()))
+                found.push_back({k, first, count});
+        }
+        first += count;
+    }
+    return found;
+}
+
+/// Adds the share of a triangle that may be in view.
+void add_share(const Scene& scene, const View& view, const LocalPose& pose, SurfaceShare share,
+               std::vector<SurfaceShare>& shares) {
+    std::array<Eigen::Vector3d, 3> corners;
+    std::ranges::transform(
+        corners_of(scene, share), corners.begin(),
+        [&](const Eigen::Vector3f& vertex) -> Eigen::Vector3d {
+            return (pose.rotation.transpose() * (vertex - pose.position)).cast<double>();
+        });
+    const Eigen::Vector3d centre = (corners[0] + corners[1] + corners[2]) / 3.0;
+    double radius = 0.0;
+    for (const Eigen::Vector3d& corner : corners)
+        radius = std::max(radius, (corner - centre).norm());
+    if (!may_be_in_view(view, centre, radius)) return;
+    const double area = 0.5 * (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm();
+    if (!(area > 0.0)) return;
+    const double nearest = std::max({view.range_min_m, centre.norm() - radius, view.bin_m()});
+    const double length = 2.0 * radius;
+    // A triangle that reaches beyond the view has no more bins than the view.
+    const double bins = std::min<double>(view.range_bins, length / view.bin_m());
+    const double beams = std::min<double>(view.beams, length / beam_width_m(view, nearest));
+    share.area_m2 = static_cast<float>(area);
+    share.share = static_cast<float>(1.0 + bins + beams);
+    shares.push_back(share);
+}
+
 }  // namespace
+
+std::array<Eigen::Vector3f, 3> corners_of(const Scene& scene, const SurfaceShare& share) {
+    if (share.copy != SurfaceShare::no_copy)
+        return placed_corners(scene, scene.copies[share.copy], share.triangle);
+    const auto& [a, b, c] = scene.triangles[share.triangle];
+    return {scene.vertices[a], scene.vertices[b], scene.vertices[c]};
+}
 
 std::vector<SurfaceShare> surface_shares(const Scene& scene, const View& view,
                                          const LocalPose& pose) {
+    constexpr std::size_t most_of_copies = 4'000'000;
     std::vector<SurfaceShare> shares;
-    for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
-        std::array<Eigen::Vector3d, 3> corners;
-        for (int k = 0; k < 3; ++k) {
-            const Eigen::Vector3f& vertex = scene.vertices[scene.triangles[t][k]];
-            corners[k] = (pose.rotation.transpose() * (vertex - pose.position)).cast<double>();
-        }
-        const Eigen::Vector3d centre = (corners[0] + corners[1] + corners[2]) / 3.0;
-        double radius = 0.0;
-        for (const Eigen::Vector3d& corner : corners)
-            radius = std::max(radius, (corner - centre).norm());
-        if (!may_be_in_view(view, centre, radius)) continue;
-        const double area = 0.5 * (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm();
-        if (!(area > 0.0)) continue;
-        const double nearest = std::max({view.range_min_m, centre.norm() - radius, view.bin_m()});
-        const double length = 2.0 * radius;
-        // A triangle that reaches beyond the view has no more bins than the view.
-        const double bins = std::min<double>(view.range_bins, length / view.bin_m());
-        const double beams = std::min<double>(view.beams, length / beam_width_m(view, nearest));
-        shares.push_back({t, static_cast<float>(area), static_cast<float>(1.0 + bins + beams)});
+    for (std::uint32_t t = 0; t < scene.triangles.size(); ++t)
+        add_share(scene, view, pose, {t, t, SurfaceShare::no_copy, 0.0F, 0.0F}, shares);
+    const std::vector<CopyInView> copies = copies_in_view(scene, view, pose);
+    std::size_t in_view = 0;
+    for (const CopyInView& copy : copies)
+        in_view += copy.triangles;
+    const auto step = static_cast<std::uint32_t>(1 + in_view / most_of_copies);
+    for (const CopyInView& copy : copies) {
+        for (std::uint32_t t = 0; t < copy.triangles; t += step)
+            add_share(scene, view, pose, {copy.first_facet + t, t, copy.copy, 0.0F, 0.0F}, shares);
     }
     return shares;
 }
 
-Eigen::Vector2d point_of_triangle(std::uint32_t triangle, std::uint32_t i, std::uint32_t start) {
+Eigen::Vector2d point_of_triangle(std::uint32_t facet, std::uint32_t i, std::uint32_t start) {
     // The additive recurrence of the plastic number, evenly spread in the square; the half of the
     // square beyond the diagonal is turned onto the other.
     constexpr double a = 0.7548776662466927;
     constexpr double b = 0.5698402909980532;
-    const PhiloxBlock shift = philox({triangle, start, 0, 0}, {0x706f696eU, 0x74730000U});
+    const PhiloxBlock shift = philox({facet, start, 0, 0}, {0x706f696eU, 0x74730000U});
     double u = fraction(unit_float(shift.x0) + a * i);
     double v = fraction(unit_float(shift.x1) + b * i);
     if (u + v > 1.0) {

@@ -11,6 +11,7 @@
 #include "benchmark/view_rays.h"
 #include "core/units.h"
 #include "support/sanitized.h"
+#include "support/scenes.h"
 #include "support/small_mission.h"
 
 using namespace sonarsim;
@@ -34,6 +35,19 @@ Report small_report() {
     options.threads = 2;
     options.reference_moved = 0.005;
     options.reference_rays = 20'000'000;
+    return make_report(mission, assembly, settings, {}, options, [](const std::string&) {});
+}
+
+/// The error of rays with a fine goal, and of the reference, on the first sonar of a mission.
+Report report_of_rays(const Mission& mission, const Assembly& assembly) {
+    const std::vector<Setting> settings{
+        {"rays", "relative_l1=0.01", EngineKind::rays, {}, 0.01, true}};
+    ReportOptions options;
+    options.poses = 3;
+    options.rounds = 1;
+    options.threads = 2;
+    options.reference_moved = 0.005;
+    options.reference_rays = 4'000'000;
     return make_report(mission, assembly, settings, {}, options, [](const std::string&) {});
 }
 
@@ -102,6 +116,74 @@ TEST_CASE("a report has a sane row per setting, as text, JSON and CSV" *
     CHECK(std::ranges::count(csv, ',') % 5 == 0);  // as many in every line
     CHECK(report_text(report).find("rays relative_l1=0.01") != std::string::npos);
     CHECK(report_markdown(report).find("| rays | relative_l1=0.01 |") != std::string::npos);
+}
+
+TEST_CASE("a report on shared copies is one on their triangles" * doctest::skip(test::sanitized)) {
+    Mission mission = small_mission("unused");
+    mission.sensors.resize(1);
+    Assembly copied = small_assembly(mission, 4);
+    Assembly shared = copied;
+    Scene& scene = shared.scene;
+    Scene crate = empty_scene();
+    add_sphere(crate, {0, 0, 0}, 0.3F, 0, 16);
+    scene.shared_meshes.push_back({crate.vertices, crate.triangles, crate.triangle_material});
+    for (const Eigen::Vector3d& at : {Eigen::Vector3d(-1, 0.5, 1.5), Eigen::Vector3d(0, -1, 1.4)}) {
+        Eigen::Affine3d T_world_mesh = Eigen::Affine3d::Identity();
+        T_world_mesh.translation() = at;
+        scene.copies.push_back({0, 0, T_world_mesh});
+        const Eigen::Vector3d middle = at - copied.scene.origin;
+        add_sphere(copied.scene, middle.cast<float>(), 0.3F, 0, 16);
+    }
+    const Report a = report_of_rays(mission, shared);
+    const Report b = report_of_rays(mission, copied);
+    CHECK(a.triangles == b.triangles);
+    CHECK(a.references[0].rays_per_bin.centre / b.references[0].rays_per_bin.centre ==
+          doctest::Approx(1.0).epsilon(1e-3));
+    REQUIRE(a.rows.size() == 1);
+    const ReportRow& of_copies = a.rows[0];
+    const ReportRow& of_triangles = b.rows[0];
+    CHECK(of_copies.relative_l1.max < 0.02);
+    CHECK(of_copies.relative_l1.max / of_triangles.relative_l1.max ==
+          doctest::Approx(1.0).epsilon(0.02));
+    CHECK(of_copies.relative_l2.centre / of_triangles.relative_l2.centre ==
+          doctest::Approx(1.0).epsilon(0.02));
+    CHECK(of_copies.samples_per_ping.centre / of_triangles.samples_per_ping.centre ==
+          doctest::Approx(1.0).epsilon(1e-3));
+    // Of all settings rays alone can see it.
+    for (const Setting& setting : make_settings(mission, false)) {
+        CAPTURE(setting.engine);
+        CHECK(refusal_of(setting, copied).empty());
+        CHECK(refusal_of(setting, shared).empty() == (setting.kind == EngineKind::rays));
+    }
+}
+
+TEST_CASE("a report pings as the mission does: with the draws of each ping, and a turning head" *
+          doctest::skip(test::sanitized)) {
+    Mission mission = small_mission("unused");
+    mission.sensors.resize(1);
+    const Assembly assembly = small_assembly(mission, 4);
+    const ReportRow still = report_of_rays(mission, assembly).rows[0];
+    SUBCASE("draws") {
+        VaryConfig rule;
+        rule.key = "sensors.front.mount.rpy_deg.2";
+        rule.per = VaryPer::ping;
+        rule.uniform = {20.0, 70.0};
+        mission.vary.push_back(rule);
+        const ReportRow row = report_of_rays(mission, assembly).rows[0];
+        // Where it looked another way than its reference does, nearly every bin would be wrong.
+        CHECK(row.relative_l1.max < 0.05);
+        CHECK(row.relative_l1.max != still.relative_l1.max);
+    }
+    SUBCASE("head") {
+        mission.sensors[0].kind = SonarKind::scanning;
+        mission.sensors[0].azimuth_bins = 1;
+        mission.sensors[0].azimuth_deg = 2.0;
+        mission.sensors[0].sector_deg = 180.0;
+        mission.sensors[0].step_deg = 30.0;
+        const Assembly turning = small_assembly(mission, 4);
+        REQUIRE(turning.sonars[0].head_angles_rad.size() > 3);
+        CHECK(report_of_rays(mission, turning).rows[0].relative_l1.max < 0.02);
+    }
 }
 
 TEST_CASE("auto is explained by the fastest setting that meets the goal") {

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include "scene/copies.h"
 #include "support/scenes.h"
 
 using namespace sonarsim;
@@ -53,6 +54,31 @@ TEST_CASE("tiles lie side by side around the original") {
         CHECK(std::fabs(v.x()) <= 6.0F);
         CHECK(std::fabs(v.y()) <= 6.0F);
     }
+}
+
+TEST_CASE("copies of a shared mesh grow along") {
+    Scene scene = empty_scene();
+    add_floor(scene, 2.0F, 0.0F, add_material(scene, 0.5F));
+    scene.bounds_min = {-2.0, -2.0, 0.0};
+    scene.bounds_max = {2.0, 2.0, 0.0};
+    scene.shared_meshes.push_back({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, {0}});
+    Eigen::Affine3d T_world_mesh = Eigen::Affine3d::Identity();
+    T_world_mesh.linear() = 0.5 * Eigen::Matrix3d::Identity();
+    T_world_mesh.translation() = Eigen::Vector3d(1.0, 0.5, 0.25);
+    scene.copies.push_back({0, 0, T_world_mesh});
+    CHECK(all_triangles(scene) == 3);
+    const Scene fine = subdivide(scene);
+    CHECK(all_triangles(fine) == 12);
+    CHECK(fine.shared_meshes[0].triangle_material.size() == 4);
+    const Scene wide = tile(scene, 3);
+    CHECK(all_triangles(wide) == 27);
+    REQUIRE(wide.copies.size() == 9);
+    Eigen::AlignedBox3d origins;
+    for (const MeshCopy& copy : wide.copies)
+        origins.extend(copy.T_world_mesh * Eigen::Vector3d::Zero());
+    // One tile of 4 m to each side.
+    CHECK(origins.min() == Eigen::Vector3d(-3.0, -3.5, 0.25));
+    CHECK(origins.max() == Eigen::Vector3d(5.0, 4.5, 0.25));
 }
 
 TEST_SUITE_END();

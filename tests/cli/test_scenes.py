@@ -364,6 +364,19 @@ class Shared(Composed):
         self.assert_renders("--overwrite")
         self.assertEqual(self.images(), copied)
 
+    def test_report_knows_copies(self):
+        chosen = "--set", "scene.repeats=shared", "--poses", "1", "--quick"
+        result = self.run_sonarsim("report", "mission.yaml", *chosen, "--json", "report.json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("left out: engine: octree sees no copies", result.stderr)
+        report = json.loads((self.folder / "report.json").read_text())
+        self.assertEqual(report["triangles"], 128 + 3 * 12)
+        self.assertEqual({row["engine"] for row in report["rows"]}, {"rays"})
+        self.assertLess(report["rows"][-1]["relative_l1"], 0.02)
+        self.assert_refused(self.run_sonarsim("report", "mission.yaml", *chosen, "--quiet",
+                                              "--engines", "slices"),
+                            "mission.yaml: engine: slices sees no copies of shared meshes")
+
     def test_other_engines_refuse(self):
         for engine in ("octree", "slices"):
             self.refused(f"engine: {engine} sees no copies of shared meshes",

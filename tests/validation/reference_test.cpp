@@ -129,6 +129,58 @@ TEST_CASE("rays and points of the surface together add up to its area") {
     }
 }
 
+TEST_CASE("a reference sees copies of a mesh as it sees their triangles") {
+    // A plate of the scene's own, and before it two copies of a sphere, one of them twice as large;
+    // a third stands behind the sonar.
+    Scene shared = empty_scene(Eigen::Vector3d(1e4, -2e4, 5.0));
+    const std::uint32_t stone = add_material(shared, 0.5F);
+    const std::uint32_t steel = add_material(shared, 0.9F);
+    add_quad(shared, {6, -3, -3}, {6, 3, -3}, {6, 3, 3}, {6, -3, 3}, stone, 4);
+    Scene shape = empty_scene();
+    add_sphere(shape, {0, 0, 0}, 0.4F, 0, 24);
+    shared.shared_meshes.push_back({shape.vertices, shape.triangles,
+                                    std::vector<std::uint32_t>(shape.triangles.size(), steel)});
+    const std::array<Eigen::Vector3d, 3> places{Eigen::Vector3d(3.5, -0.8, 0.1),
+                                                Eigen::Vector3d(-4.0, 0.0, 0.0),
+                                                Eigen::Vector3d(4.2, 1.0, -0.2)};
+    Scene copied = shared;
+    copied.shared_meshes.clear();
+    for (std::size_t k = 0; k < places.size(); ++k) {
+        const double scale = k == 2 ? 2.0 : 1.0;
+        Eigen::Affine3d T_world_mesh = Eigen::Affine3d::Identity();
+        T_world_mesh.translation() = shared.origin + places[k];
+        T_world_mesh.linear() = scale * rotation_from_rpy(0.3, 0.2, 0.1).toRotationMatrix();
+        shared.copies.push_back({0, 0, T_world_mesh});
+        const auto first = static_cast<std::uint32_t>(copied.vertices.size());
+        for (const Eigen::Vector3f& vertex : shape.vertices) {
+            copied.vertices.push_back(
+                (T_world_mesh * vertex.cast<double>() - shared.origin).cast<float>());
+        }
+        for (const auto& [a, b, c] : shape.triangles) {
+            copied.triangles.push_back({first + a, first + b, first + c});
+            copied.triangle_material.push_back(steel);
+            copied.triangle_instance.push_back(0);
+        }
+    }
+    const View view{radians(60.0), radians(40.0), 0.5, 8.0, 75, 32, 0.03};
+    const Pose pose{Eigen::Quaterniond::Identity(), shared.origin};
+    const ReferenceGoal goal{0.01, 64.0, 2'000'000};
+    const Reference a = cast_reference(Caster(shared), shared, view, pose, goal);
+    const Reference b = cast_reference(Caster(copied), copied, view, pose, goal);
+    // The same rays to the same points, of corners that differ by the rounding of a transform.
+    CHECK(a.rays_per_bin / b.rays_per_bin == doctest::Approx(1.0).epsilon(1e-3));
+    CHECK(image_error(a.intensity, b.intensity).relative_l1 < 1e-3);
+    CHECK(a.moved < 0.01);
+    // Points on the copies' triangles find them, not only rays over directions: half a sphere
+    // shows.
+    const LocalPose local = local_pose(pose, shared.origin);
+    const std::vector<SurfaceShare> shares = surface_shares(shared, view, local);
+    const auto of_copies = std::ranges::count_if(
+        shares, [](const SurfaceShare& share) { return share.copy != SurfaceShare::no_copy; });
+    CHECK(of_copies == 2 * static_cast<std::ptrdiff_t>(shape.triangles.size()));
+    CHECK(shares.size() == surface_shares(copied, view, local).size());
+}
+
 TEST_CASE("points fill a triangle evenly") {
     int corner = 0;
     constexpr int count = 4000;
