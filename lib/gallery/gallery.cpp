@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 #include "core/file.h"
-#include "core/rpy.h"
+#include "core/pose.h"
 #include "core/units.h"
 #include "dataset/collection.h"
 #include "dataset/description.h"

@@ -8,7 +8,7 @@
 #include "assembly/engine_at.h"
 #include "assembly/spread_pings.h"
 #include "calibrated/model.h"
-#include "core/rpy.h"
+#include "core/pose.h"
 #include "core/units.h"
 #include "scene/copies.h"
 #include "sonar/sonar.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <variant>
 
-#include "core/rpy.h"
+#include "core/pose.h"
 #include "core/units.h"
 
 namespace sonarsim {

@@ -1,5 +1,4 @@
 #include "core/pose.h"
-#include "core/rpy.h"
 
 #include <doctest/doctest.h>
 

@@ -8,7 +8,7 @@
 #include <span>
 
 #include "core/file.h"
-#include "core/rpy.h"
+#include "core/pose.h"
 #include "core/units.h"
 #include "dataset/geotiff.h"
 #include "dataset/ping_metadata.h"
