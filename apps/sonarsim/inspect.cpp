@@ -10,6 +10,7 @@
 #include "scene/gltf/load.h"
 #include "scene/materials.h"
 #include "scene/summary.h"
+#include "scene_doubts.h"
 
 namespace sonarsim {
 

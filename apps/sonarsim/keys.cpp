@@ -5,7 +5,7 @@
 
 #include "commands.h"
 #include "logging.h"
-#include "mission/reference.h"
+#include "mission/reference_markdown.h"
 #include "sonar/kinds.h"
 
 namespace sonarsim {

@@ -3,9 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
-#include <vector>
-
-#include "scene/scene.h"
 
 namespace sonarsim {
 
@@ -24,12 +21,6 @@ void start_logging(const LogOptions& options);
 /// A warning as it would be logged, as a line of its own: for a signal handler, which cannot log.
 /// As JSON it lacks the time, which is not known yet.
 std::string warning_line(const LogOptions& options, const std::string& message);
-
-/// What was left out of a scene, what is odd about its materials, and vertices that floats have
-/// rounded.
-std::vector<std::string> doubts_about(const Scene& scene);
-/// Warns of it. Returns how many warnings that took.
-std::size_t warn_about(const Scene& scene);
 
 /// JSON on one line, with the line feed. What is no UTF-8 (a file name may be any bytes) becomes
 /// U+FFFD.

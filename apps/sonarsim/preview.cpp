@@ -10,6 +10,7 @@
 #include "format/image_file.h"
 #include "logging.h"
 #include "mission_options.h"
+#include "scene_doubts.h"
 
 namespace sonarsim {
 

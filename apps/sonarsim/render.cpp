@@ -20,6 +20,7 @@
 #include "logging.h"
 #include "mission_options.h"
 #include "progress.h"
+#include "scene_doubts.h"
 #include "shard.h"
 #include "signals.h"
 #include "sonar/engine_settings.h"

@@ -20,6 +20,7 @@
 #include "core/file.h"
 #include "logging.h"
 #include "mission_options.h"
+#include "scene_doubts.h"
 #include "validation/hard/cases.h"
 #include "validation/hard/orders.h"
 

@@ -20,6 +20,7 @@
 #include "logging.h"
 #include "mission_options.h"
 #include "progress.h"
+#include "scene_doubts.h"
 #include "survey/find_warnings.h"
 #include "survey_report.h"
 #include "visibility/make_engine.h"

@@ -1,5 +1,7 @@
 #include "core/pose.h"
 
+#include <cmath>
+
 #include "core/elementary.h"
 
 namespace sonarsim {
@@ -16,6 +18,15 @@ Eigen::Quaterniond about(const Eigen::Vector3d& axis, double angle) {
 Eigen::Quaterniond rotation_from_rpy(double roll, double pitch, double yaw) {
     return about(Eigen::Vector3d::UnitZ(), yaw) * about(Eigen::Vector3d::UnitY(), pitch) *
            about(Eigen::Vector3d::UnitX(), roll);
+}
+
+Rpy rpy_from_rotation(const Eigen::Quaterniond& rotation) {
+    constexpr double upright = 1e-9;  // the cosine of pitch below which rounding makes up the roll
+    const Eigen::Matrix3d r = rotation.toRotationMatrix();
+    const double cosine = std::hypot(r(2, 1), r(2, 2));
+    const double pitch = arctan2(-r(2, 0), cosine);
+    if (cosine < upright) return {0.0, pitch, arctan2(-r(0, 1), r(1, 1))};
+    return {arctan2(r(2, 1), r(2, 2)), pitch, arctan2(r(1, 0), r(0, 0))};
 }
 
 }  // namespace sonarsim

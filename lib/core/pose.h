@@ -21,4 +21,15 @@ inline Pose operator*(const Pose& T_a_b, const Pose& T_b_c) {
 /// R = Rz(yaw) Ry(pitch) Rx(roll). Radians. With z up, positive pitch turns the bow down.
 Eigen::Quaterniond rotation_from_rpy(double roll, double pitch, double yaw);
 
+/// Radians: roll and yaw in [-pi, pi], pitch in [-pi / 2, pi / 2].
+struct Rpy {
+    double roll = 0.0;
+    double pitch = 0.0;
+    double yaw = 0.0;
+};
+
+/// The angles of rotation_from_rpy(). Where the bow points straight up or down only the sum or the
+/// difference of roll and yaw counts: roll is 0 then.
+Rpy rpy_from_rotation(const Eigen::Quaterniond& rotation);
+
 }  // namespace sonarsim

@@ -1,6 +1,5 @@
 #include "gallery/gallery.h"
 
-#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -8,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/file.h"
+#include "core/pose.h"
 #include "core/units.h"
 #include "dataset/collection.h"
 #include "dataset/description.h"
@@ -53,14 +53,14 @@ Json track_json(const Trajectory& trajectory) {
     columns.resize(7, Differences(1e-2));
     for (const TimedPose& pose : trajectory) {
         const Eigen::Vector3d& at = pose.T_world_vehicle.translation;
-        const Eigen::Matrix3d r = pose.T_world_vehicle.rotation.toRotationMatrix();
+        const Rpy attitude = rpy_from_rotation(pose.T_world_vehicle.rotation);
         const double values[] = {pose.t_s,
                                  at.x(),
                                  at.y(),
                                  at.z(),
-                                 degrees(std::atan2(r(2, 1), r(2, 2))),
-                                 degrees(std::asin(std::clamp(-r(2, 0), -1.0, 1.0))),
-                                 degrees(std::atan2(r(1, 0), r(0, 0)))};
+                                 degrees(attitude.roll),
+                                 degrees(attitude.pitch),
+                                 degrees(attitude.yaw)};
         for (std::size_t k = 0; k < columns.size(); ++k)
             columns[k].add(values[k]);
     }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <initializer_list>
@@ -14,63 +13,12 @@
 #include <variant>
 #include <vector>
 
+#include "mission/json_schema_types.h"
 #include "mission/schema.h"
 
 namespace sonarsim {
 
 namespace {
-
-using SchemaJson = nlohmann::ordered_json;
-
-/// A whole number as 5 and not as 5.0.
-SchemaJson number_json(double value) {
-    constexpr double exact = 9007199254740992.0;  // 2^53
-    if (value == std::floor(value) && std::abs(value) <= exact)
-        return static_cast<std::int64_t>(value);
-    return value;
-}
-
-SchemaJson within_limits(const char* type, const Limits& limits) {
-    SchemaJson json{{"type", type}};
-    json[limits.low_allowed ? "minimum" : "exclusiveMinimum"] = number_json(limits.low);
-    json["maximum"] = number_json(limits.high);
-    return json;
-}
-
-/// The reader takes any scalar for text, a number too.
-SchemaJson text_json() {
-    return {{"type", {"string", "number", "boolean"}},
-            {"minLength", 1},
-            {"pattern", "^[^\\u0000-\\u001f\\u007f]*$"}};
-}
-
-SchemaJson list_json(SchemaJson items, std::size_t fewest) {
-    SchemaJson json{{"type", "array"}, {"items", std::move(items)}};
-    if (fewest > 0) json["minItems"] = fewest;
-    return json;
-}
-
-SchemaJson numbers_json(std::size_t count, const Limits& limits) {
-    SchemaJson json = list_json(within_limits("number", limits), count);
-    json["maxItems"] = count;
-    return json;
-}
-
-template <class T, std::size_t N>
-SchemaJson names_of(const std::array<Choice<T>, N>& choices) {
-    SchemaJson names = SchemaJson::array();
-    for (const Choice<T>& one : choices)
-        names.push_back(one.name);
-    return names;
-}
-
-template <std::size_t N>
-SchemaJson list_of(const std::array<double, N>& values) {
-    SchemaJson list = SchemaJson::array();
-    for (const double value : values)
-        list.push_back(number_json(value));
-    return list;
-}
 
 /// The visitor that turns one section into an object of the schema.
 class SchemaBuilder {

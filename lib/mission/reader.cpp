@@ -1,7 +1,6 @@
 #include "mission/reader.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
 #include "core/text.h"
@@ -9,66 +8,6 @@
 namespace sonarsim {
 
 namespace {
-
-[[noreturn]] void refuse(const YamlNode& node, const std::string& what) {
-    throw InputError(node.place.location(), what);
-}
-
-/// What stands in the file, for "must be ..., not ...".
-std::string found(const YamlNode& node) {
-    switch (node.kind) {
-        case YamlNode::Kind::empty:
-            return "nothing";
-        case YamlNode::Kind::list:
-            return "a list";
-        case YamlNode::Kind::map:
-            return "a section of keys";
-        case YamlNode::Kind::scalar:
-            break;
-    }
-    return node.quoted ? "the quoted text " + in_quotes(node.text) : in_quotes(node.text);
-}
-
-[[noreturn]] void refuse_type(const YamlNode& node, const std::string& key,
-                              const std::string& wanted) {
-    refuse(node, "'" + key + "' must be " + wanted + ", not " + found(node));
-}
-
-void check_limits(const YamlNode& node, const char* key, double value, const Limits& limits) {
-    const bool too_low = limits.low_allowed ? value < limits.low : value <= limits.low;
-    if (!too_low && value <= limits.high) return;
-    std::string wanted = "at most " + number_text(limits.high);
-    if (too_low) wanted = (limits.low_allowed ? "at least " : "above ") + number_text(limits.low);
-    refuse_type(node, key, wanted);
-}
-
-bool is_plain(const YamlNode& node) {
-    return node.kind == YamlNode::Kind::scalar && !node.quoted;
-}
-
-double read_number(const YamlNode& node, const char* key, const Limits& limits) {
-    const std::optional<double> value = is_plain(node) ? parse_number(node.text) : std::nullopt;
-    if (!value || !std::isfinite(*value)) refuse_type(node, key, "a finite number");
-    check_limits(node, key, *value, limits);
-    return *value;
-}
-
-std::string read_text(const YamlNode& node, const char* key) {
-    if (node.kind != YamlNode::Kind::scalar) refuse_type(node, key, "text");
-    if (node.text.empty()) refuse(node, "'" + std::string(key) + "' must not be empty");
-    const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
-    if (std::ranges::any_of(node.text, is_control)) {
-        refuse(node, "'" + std::string(key) + "' must not hold control characters");
-    }
-    return node.text;
-}
-
-std::string listed(const std::vector<std::string>& names) {
-    std::string out;
-    for (const std::string& name : names)
-        out += (out.empty() ? "" : ", ") + name;
-    return out;
-}
 
 bool is_name(std::string_view text) {
     constexpr std::string_view allowed =
@@ -231,7 +170,7 @@ void MissionReader::range(const char* key, std::array<double, 2>& value, const L
             value.fill(read_number(*node, key, limits));
             return;
         }
-        read_list(*node, key, value.data(), 2, limits);
+        read_numbers(*node, key, value.data(), 2, limits);
         if (value[0] > value[1])
             refuse(*node,
                    "'" + std::string(key) + "': the first number must not be above the second");
@@ -263,44 +202,6 @@ void MissionReader::paths(const char* key, std::vector<std::filesystem::path>& v
 
 std::filesystem::path MissionReader::path_of(const YamlNode& node, const char* key) const {
     return std::filesystem::absolute(base_folder_ / read_text(node, key)).lexically_normal();
-}
-
-void MissionReader::read_list(const YamlNode& node, const char* key, double* values,
-                              std::size_t count, const Limits& limits) const {
-    const std::string wanted = "a list of " + std::to_string(count) + " numbers";
-    if (node.kind != YamlNode::Kind::list) refuse_type(node, key, wanted);
-    if (node.items.size() != count) {
-        refuse_type(node, key, wanted + " (it has " + std::to_string(node.items.size()) + ")");
-    }
-    for (std::size_t i = 0; i < count; ++i)
-        values[i] = read_number(node.items[i], key, limits);
-}
-
-std::vector<bool> MissionReader::read_subset(const YamlNode& node, const char* key,
-                                             const std::vector<std::string>& names) {
-    const bool all = is_plain(node) && node.text == "true";
-    std::vector<bool> chosen(names.size(), all);
-    if (all || (is_plain(node) && node.text == "false")) return chosen;
-    if (node.kind != YamlNode::Kind::list) {
-        refuse_type(node, key, "true, false or a list of: " + listed(names));
-    }
-    for (const YamlNode& item : node.items) {
-        const std::size_t index = index_of(item, key, names);
-        if (chosen[index]) refuse(item, in_quotes(item.text) + " stands twice in '" + key + "'");
-        chosen[index] = true;
-    }
-    return chosen;
-}
-
-std::size_t MissionReader::index_of(const YamlNode& node, const char* key,
-                                    const std::vector<std::string>& names) {
-    if (node.kind != YamlNode::Kind::scalar) refuse_type(node, key, "one of: " + listed(names));
-    const auto name = std::ranges::find(names, node.text);
-    if (name == names.end()) {
-        refuse(node, "unknown " + std::string(key) + " " + in_quotes(node.text) +
-                         did_you_mean(node.text, names) + "; known: " + listed(names));
-    }
-    return static_cast<std::size_t>(name - names.begin());
 }
 
 std::size_t MissionReader::index_of_present(const std::vector<std::string>& keys) const {

@@ -15,6 +15,7 @@
 #include "core/error.h"
 #include "mission/document.h"
 #include "mission/limits.h"
+#include "mission/node_values.h"
 #include "mission/sonar_keys.h"
 
 namespace sonarsim {
@@ -60,7 +61,7 @@ class MissionReader {
                  const char* /*meaning*/, Presence presence = Presence::optional) {
         attempt(key, [&] {
             if (const YamlNode* node = find(key, presence))
-                read_list(*node, key, values.data(), N, limits);
+                read_numbers(*node, key, values.data(), N, limits);
         });
     }
 
@@ -69,7 +70,7 @@ class MissionReader {
                           const Limits& limits, const char* /*meaning*/) {
         attempt(key, [&] {
             if (const YamlNode* node = find(key, Presence::optional))
-                read_list(*node, key, values.emplace().data(), N, limits);
+                read_numbers(*node, key, values.emplace().data(), N, limits);
         });
     }
 
@@ -97,7 +98,7 @@ class MissionReader {
         for (const Choice<T>& one : choices)
             names.emplace_back(one.name);
         attempt(key, [&] {
-            const std::vector<bool> chosen = read_subset(*node, key, names);
+            const std::vector<bool> chosen = chosen_of(*node, key, names);
             values.clear();
             for (std::size_t i = 0; i < N; ++i) {
                 if (chosen[i]) values.push_back(choices[i].value);
@@ -192,12 +193,6 @@ class MissionReader {
 
     const YamlNode* find(const char* key, Presence presence);
     std::filesystem::path path_of(const YamlNode& node, const char* key) const;
-    void read_list(const YamlNode& node, const char* key, double* values, std::size_t count,
-                   const Limits& limits) const;
-    static std::vector<bool> read_subset(const YamlNode& node, const char* key,
-                                         const std::vector<std::string>& names);
-    static std::size_t index_of(const YamlNode& node, const char* key,
-                                const std::vector<std::string>& names);
     std::size_t index_of_present(const std::vector<std::string>& keys) const;
     std::span<const YamlNode> list_items(const char* key, std::size_t fewest);
     const std::vector<YamlNode>& named_items(const char* key);

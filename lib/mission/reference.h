@@ -35,7 +35,4 @@ struct SectionReference {
 /// Every key that a mission may have, as mission/schema.h describes them.
 std::vector<SectionReference> mission_reference(SonarKeyTable sonars);
 
-/// A Markdown table per section: key, type and unit, default, range, meaning.
-std::string reference_markdown(const std::vector<SectionReference>& sections);
-
 }  // namespace sonarsim

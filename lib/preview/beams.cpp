@@ -2,7 +2,8 @@
 
 #include <algorithm>
 
-#include "core/elementary.h"
+#include "core/units.h"
+#include "visibility/angles.h"
 
 namespace sonarsim {
 
@@ -10,11 +11,8 @@ namespace {
 
 constexpr int edge_steps = 48;  // along each side, or around a cone
 
-Ray ray_at(double azimuth_rad, double elevation_rad) {
-    const SinCos a = sincos(azimuth_rad);
-    const SinCos e = sincos(elevation_rad);
-    return {Eigen::Vector3f::Zero(),
-            Eigen::Vector3d(e.cos * a.cos, e.cos * a.sin, e.sin).cast<float>().normalized()};
+Ray ray_along(const Eigen::Vector3d& direction) {
+    return {Eigen::Vector3f::Zero(), direction.cast<float>().normalized()};
 }
 
 std::vector<Ray> rays_around(const View& view) {
@@ -22,19 +20,14 @@ std::vector<Ray> rays_around(const View& view) {
     const double azimuth = 0.5 * view.azimuth_rad;
     const double elevation = 0.5 * view.elevation_rad;
     if (view.shape == ViewShape::cone) {
-        const SinCos off = sincos(azimuth);
-        for (int k = 0; k < edge_steps; ++k) {
-            const SinCos around = sincos(2.0 * pi * k / edge_steps);
-            rays.push_back({Eigen::Vector3f::Zero(),
-                            Eigen::Vector3d(off.cos, off.sin * around.cos, off.sin * around.sin)
-                                .cast<float>()});
-        }
+        for (int k = 0; k < edge_steps; ++k)
+            rays.push_back(ray_along(direction_off_boresight(azimuth, 2.0 * pi * k / edge_steps)));
         return rays;
     }
     for (int k = 0; k <= edge_steps; ++k)
-        rays.push_back(ray_at(azimuth * (2.0 * k / edge_steps - 1.0), elevation));
+        rays.push_back(ray_along(direction_of(azimuth * (2.0 * k / edge_steps - 1.0), elevation)));
     for (int k = edge_steps; k >= 0; --k)
-        rays.push_back(ray_at(azimuth * (2.0 * k / edge_steps - 1.0), -elevation));
+        rays.push_back(ray_along(direction_of(azimuth * (2.0 * k / edge_steps - 1.0), -elevation)));
     return rays;
 }
 

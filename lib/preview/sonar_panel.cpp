@@ -18,7 +18,6 @@ namespace {
 
 constexpr std::size_t series_pings = 120;  // of a waterfall or an echogram
 constexpr FanStyleConfig fan_style{FanColours::amber, true, true};
-constexpr Rgb mark_colour{120, 205, 235};
 constexpr int axis_px = 20;    // below a waterfall
 constexpr int number_px = 52;  // beside an echogram
 

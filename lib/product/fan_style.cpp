@@ -12,7 +12,6 @@ namespace sonarsim {
 
 namespace {
 
-constexpr Rgb mark_colour{120, 205, 235};
 constexpr float line_share = 0.45F;
 constexpr float halo_share = 0.6F;
 constexpr int least_px = 160;  // a smaller fan has no room for numbers

@@ -15,8 +15,9 @@ struct Rgb {
     bool operator==(const Rgb&) const = default;
 };
 
-inline constexpr Rgb ink{235, 235, 235};  ///< of axes and labels
-inline constexpr Rgb paper{16, 16, 20};   ///< behind them
+inline constexpr Rgb ink{235, 235, 235};          ///< of axes and labels
+inline constexpr Rgb paper{16, 16, 20};           ///< behind them
+inline constexpr Rgb mark_colour{120, 205, 235};  ///< of rings, bearings and marks in a picture
 
 /// The colour at `share` (0 to 1, clamped) of the way through equally spaced stops.
 Rgb blend(std::span<const Rgb> stops, float share);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/units.h"
+#include "visibility/angles.h"
 
 namespace sonarsim {
 
@@ -17,12 +18,6 @@ double part(double whole, int i, int n) {
     return whole * ((i + 0.5) / n - 0.5);
 }
 
-Eigen::Vector3f direction_of(double azimuth, double elevation) {
-    return Eigen::Vector3d(std::cos(elevation) * std::cos(azimuth),
-                           std::cos(elevation) * std::sin(azimuth), std::sin(elevation))
-        .cast<float>();
-}
-
 }  // namespace
 
 std::vector<Eigen::Vector3f> look_around(const View& view) {
@@ -30,18 +25,17 @@ std::vector<Eigen::Vector3f> look_around(const View& view) {
     // Equal parts of height are equal parts of the sphere; the golden angle spreads them about it.
     const double golden = pi * (3.0 - std::sqrt(5.0));
     for (int i = 0; i < all_around; ++i)
-        out.push_back(direction_of(golden * i, std::asin(part(2.0, i, all_around))));
+        out.push_back(direction_of(golden * i, std::asin(part(2.0, i, all_around))).cast<float>());
     for (int i = 0; i < across; ++i) {
         for (int k = 0; k < up_and_down; ++k) {
             if (view.shape == ViewShape::cone) {
                 const double off = 0.5 * view.azimuth_rad * (k + 0.5) / up_and_down;
                 const double turn = 2.0 * pi * i / across;
-                out.push_back(Eigen::Vector3d(std::cos(off), std::sin(off) * std::cos(turn),
-                                              std::sin(off) * std::sin(turn))
-                                  .cast<float>());
+                out.push_back(direction_off_boresight(off, turn).cast<float>());
             } else {
                 out.push_back(direction_of(part(view.azimuth_rad, i, across),
-                                           part(view.elevation_rad, k, up_and_down)));
+                                           part(view.elevation_rad, k, up_and_down))
+                                  .cast<float>());
             }
         }
     }

@@ -8,6 +8,7 @@
 #include "assembly/engine_at.h"
 #include "assembly/spread_pings.h"
 #include "calibrated/model.h"
+#include "core/pose.h"
 #include "core/units.h"
 #include "scene/copies.h"
 #include "sonar/sonar.h"
@@ -121,7 +122,8 @@ bool faces_up(const Scene& scene) {
     return up > 0.1 * either;
 }
 
-/// Whether the sonar is where no vehicle can be.
+/// Whether the sonar is where no vehicle can be. docs/mission.md says why these figures: "Why it
+/// warns from there on".
 void judge_place(const Scene& scene, bool open_upwards, std::span<const Eigen::AlignedBox3f> boxes,
                  const Pose& T_world_sensor, const Surroundings& around, SonarSurvey& out) {
     std::size_t above = 0;
@@ -146,11 +148,10 @@ void judge_place(const Scene& scene, bool open_upwards, std::span<const Eigen::A
     out.enclosed_by = scene.instances[instance];
 }
 
-/// Roll and pitch of rotation_from_rpy().
 void take_attitude(const Eigen::Quaterniond& rotation, SonarSurvey& out) {
-    const Eigen::Matrix3d r = rotation.toRotationMatrix();
-    out.roll_deg.take(degrees(std::atan2(r(2, 1), r(2, 2))));
-    out.pitch_deg.take(degrees(-std::asin(std::clamp(r(2, 0), -1.0, 1.0))));
+    const Rpy attitude = rpy_from_rotation(rotation);
+    out.roll_deg.take(degrees(attitude.roll));
+    out.pitch_deg.take(degrees(attitude.pitch));
 }
 
 void take_altitude(const VisibilityEngine& engine, const Pose& T_world_sensor, SonarSurvey& out) {

@@ -1,12 +1,12 @@
 #include "survey/trajectory_warnings.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <fstream>
 #include <string>
 #include <variant>
 
+#include "core/pose.h"
 #include "core/units.h"
 
 namespace sonarsim {
@@ -14,14 +14,6 @@ namespace sonarsim {
 namespace {
 
 constexpr double full_turn_rad = 2.0 * pi;
-
-/// The angles of rotation_from_rpy(), degrees.
-std::array<double, 3> rpy_deg(const Eigen::Quaterniond& rotation) {
-    const Eigen::Matrix3d r = rotation.toRotationMatrix();
-    return {degrees(std::atan2(r(2, 1), r(2, 2))),
-            degrees(-std::asin(std::clamp(r(2, 0), -1.0, 1.0))),
-            degrees(std::atan2(r(1, 0), r(0, 0)))};
-}
 
 double turn_deg(double from, double to) {
     return std::fabs(std::remainder(to - from, 360.0));
@@ -42,7 +34,7 @@ HeadingErrors heading_errors(const Trajectory& trajectory) {
                                      trajectory[i - 1].T_world_vehicle.translation;
         const double length = step.head<2>().norm();
         const double track = degrees(std::atan2(step.y(), step.x()));
-        const double yaw = rpy_deg(trajectory[i].T_world_vehicle.rotation)[2];
+        const double yaw = degrees(rpy_from_rotation(trajectory[i].T_world_vehicle.rotation).yaw);
         errors.as_degrees += length * turn_deg(track, yaw);
         errors.as_radians += length * turn_deg(track, degrees(yaw));
         way += length;
@@ -63,11 +55,13 @@ bool is_quarter_turn_rad(double value) {
 void judge_radians(const Trajectory& trajectory, std::vector<Warning>& out) {
     double largest = 0.0;
     for (const TimedPose& pose : trajectory) {
-        for (const double angle : rpy_deg(pose.T_world_vehicle.rotation))
-            largest = std::max(largest, std::fabs(angle));
+        const Rpy attitude = rpy_from_rotation(pose.T_world_vehicle.rotation);
+        for (const double angle : {attitude.roll, attitude.pitch, attitude.yaw})
+            largest = std::max(largest, std::fabs(degrees(angle)));
     }
     if (largest == 0.0 || largest > 1.001 * full_turn_rad) return;
     const HeadingErrors errors = heading_errors(trajectory);
+    // docs/mission.md says why these figures: "Why it warns from there on".
     if (errors.as_degrees > 30.0 && errors.as_radians < 15.0) {
         out.push_back(
             make_warning(Doubt::radians, "trajectory", largest,

@@ -9,6 +9,7 @@
 #include "core/units.h"
 #include "scene/copies.h"
 #include "sonar/sonar.h"
+#include "visibility/angles.h"
 #include "visibility/view.h"
 
 namespace sonarsim {
@@ -75,8 +76,7 @@ double angle_off_view(const View& view, const Eigen::Vector3d& point) {
     const double a = std::clamp(azimuth, -half, half);
     const double e = std::clamp(elevation, -half_elevation, half_elevation);
     if (a == azimuth && e == elevation) return 0.0;
-    const Eigen::Vector3d nearest(std::cos(e) * std::cos(a), std::cos(e) * std::sin(a),
-                                  std::sin(e));
+    const Eigen::Vector3d nearest = direction_of(a, e);
     return std::atan2(nearest.cross(point).norm(), nearest.dot(point));
 }
 

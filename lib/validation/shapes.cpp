@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "core/elementary.h"
+#include "core/units.h"
+#include "visibility/angles.h"
 
 namespace sonarsim::shapes {
 
@@ -18,9 +20,7 @@ void add_triangle(Scene& scene, const Eigen::Vector3f& a, const Eigen::Vector3f&
 }
 
 Eigen::Vector3f polar(float radius, double azimuth, double elevation) {
-    const SinCos a = sincos(azimuth);
-    const SinCos e = sincos(elevation);
-    return radius * Eigen::Vector3d(e.cos * a.cos, e.cos * a.sin, e.sin).cast<float>();
+    return radius * direction_of(azimuth, elevation).cast<float>();
 }
 
 }  // namespace

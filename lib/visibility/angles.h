@@ -22,6 +22,20 @@ inline SinCosFloat operator-(SinCosFloat a, SinCosFloat b) {
     return a + SinCosFloat{-b.sin, b.cos};
 }
 
+/// Unit vector in the sensor frame, radians.
+inline Eigen::Vector3d direction_of(double azimuth_rad, double elevation_rad) {
+    const SinCos a = sincos(azimuth_rad);
+    const SinCos e = sincos(elevation_rad);
+    return {e.cos * a.cos, e.cos * a.sin, e.sin};
+}
+
+/// The unit vector that is `off_rad` off the boresight, `around_rad` about it from y towards z.
+inline Eigen::Vector3d direction_off_boresight(double off_rad, double around_rad) {
+    const SinCos off = sincos(off_rad);
+    const SinCos around = sincos(around_rad);
+    return {off.cos, off.sin * around.cos, off.sin * around.sin};
+}
+
 // A view is swept by two angles: `across` numbers its columns, `along` runs through each of them.
 //   fan:   across is azimuth, along is elevation: a column lies within a beam;
 //   sides: across is elevation, along is azimuth, from nadir outward on either side;

@@ -46,6 +46,44 @@ TEST_SUITE("core") {
                    {-std::sin(b), std::cos(b) * std::sin(a), std::cos(b) * std::cos(a)});
     }
 
+    TEST_CASE("pose: the angles of a rotation are those that it is made of") {
+        // Pitch stays within a quarter turn, where the angles of a rotation are unique.
+        for (const double roll : {-3.1, -1.0, 0.0, 0.4, 3.0}) {
+            for (const double pitch : {-1.57, -0.7, 0.0, 1e-9, 1.2}) {
+                for (const double yaw : {-3.1, -0.2, 0.0, 1.6, 3.14}) {
+                    CAPTURE(roll);
+                    CAPTURE(pitch);
+                    CAPTURE(yaw);
+                    const Rpy told = rpy_from_rotation(rotation_from_rpy(roll, pitch, yaw));
+                    // At a pitch of -1.57 roll and yaw rest on a cosine of 8e-4.
+                    CHECK(std::abs(told.roll - roll) < 1e-12);
+                    CHECK(std::abs(told.pitch - pitch) < 1e-12);
+                    CHECK(std::abs(told.yaw - yaw) < 1e-12);
+                }
+            }
+        }
+        // A pitch beyond that is the same attitude as one within, turned by half a turn.
+        const Rpy over = rpy_from_rotation(rotation_from_rpy(0.0, 2.0, 0.0));
+        CHECK(std::abs(over.pitch - (pi - 2.0)) < 1e-12);
+        CHECK(std::abs(std::abs(over.roll) - pi) < 1e-12);
+        CHECK(std::abs(std::abs(over.yaw) - pi) < 1e-12);
+    }
+
+    TEST_CASE("pose: a bow straight up or down has no roll, and comes back as it was") {
+        for (const double pitch : {-0.5 * pi, 0.5 * pi}) {
+            for (const double yaw : {-2.0, 0.0, 1.0}) {
+                const Eigen::Quaterniond rotation = rotation_from_rpy(0.7, pitch, yaw);
+                const Rpy told = rpy_from_rotation(rotation);
+                CHECK(told.roll == 0.0);
+                CHECK(std::abs(told.pitch - pitch) < 1e-8);
+                const Eigen::Matrix3d difference =
+                    rotation_from_rpy(told.roll, told.pitch, told.yaw).toRotationMatrix() -
+                    rotation.toRotationMatrix();
+                CHECK(difference.norm() < 1e-8);
+            }
+        }
+    }
+
     TEST_CASE("pose: composition applies the right-hand transform first") {
         const Pose T_world_vehicle{rotation_from_rpy(0, 0, pi / 2), {10, 0, 0}};
         const Pose T_vehicle_sonar{rotation_from_rpy(0, pi / 2, 0), {1, 2, 3}};

@@ -1,4 +1,4 @@
-#include "mission/reference.h"
+#include "mission/reference_markdown.h"
 
 #include <algorithm>
 

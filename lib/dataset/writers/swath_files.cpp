@@ -8,6 +8,7 @@
 #include <span>
 
 #include "core/file.h"
+#include "core/pose.h"
 #include "core/units.h"
 #include "core/whole_file.h"
 #include "dataset/ping_metadata.h"
@@ -49,8 +50,7 @@ XtfPing xtf_ping(const WriterContext& context, const RecordedRow& row) {
     const SonarConfig& config = context.sonar().config;
     const Trajectory& trajectory = context.assembly.trajectory;
     const Pose& T_world_vehicle = trajectory[row.pose].T_world_vehicle;
-    const Eigen::Matrix3d axes = T_world_vehicle.rotation.toRotationMatrix();
-    const Eigen::Vector3d bow = axes.col(0);
+    const Rpy attitude = rpy_from_rotation(T_world_vehicle.rotation);
     const std::size_t next = row.pose + static_cast<std::size_t>(config.every);
     const Eigen::Vector3d& position = row.T_world_sensor.translation;
     return {.number = static_cast<std::uint32_t>(row.pose),
@@ -59,9 +59,9 @@ XtfPing xtf_ping(const WriterContext& context, const RecordedRow& row) {
             .y_m = position.y(),
             .depth_m = -position.z(),
             .altitude_m = row.swath ? row.swath->altitude_m : 0.0,
-            .heading_deg = std::fmod(degrees(std::atan2(bow.x(), bow.y())) + 360.0, 360.0),
-            .pitch_deg = degrees(std::asin(std::clamp(bow.z(), -1.0, 1.0))),
-            .roll_deg = degrees(std::atan2(axes(2, 1), axes(2, 2))),
+            .heading_deg = std::fmod(450.0 - degrees(attitude.yaw), 360.0),
+            .pitch_deg = -degrees(attitude.pitch),
+            .roll_deg = degrees(attitude.roll),
             .sound_speed_m_s = context.mission.water.sound_speed_m_s,
             .range_max_m = config.range_max_m,
             .seconds_per_ping =

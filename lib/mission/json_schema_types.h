@@ -1,0 +1,44 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <nlohmann/json.hpp>
+
+#include "mission/limits.h"
+
+namespace sonarsim {
+
+// The types of values, as JSON Schema has them.
+
+using SchemaJson = nlohmann::ordered_json;
+
+/// A whole number as 5 and not as 5.0.
+SchemaJson number_json(double value);
+
+/// `type`: "number" or "integer".
+SchemaJson within_limits(const char* type, const Limits& limits);
+
+/// The reader takes any scalar for text, a number too.
+SchemaJson text_json();
+
+SchemaJson list_json(SchemaJson items, std::size_t fewest);
+
+SchemaJson numbers_json(std::size_t count, const Limits& limits);
+
+template <class T, std::size_t N>
+SchemaJson names_of(const std::array<Choice<T>, N>& choices) {
+    SchemaJson names = SchemaJson::array();
+    for (const Choice<T>& one : choices)
+        names.push_back(one.name);
+    return names;
+}
+
+template <std::size_t N>
+SchemaJson list_of(const std::array<double, N>& values) {
+    SchemaJson list = SchemaJson::array();
+    for (const double value : values)
+        list.push_back(number_json(value));
+    return list;
+}
+
+}  // namespace sonarsim

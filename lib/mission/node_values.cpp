@@ -1,0 +1,112 @@
+#include "mission/node_values.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "core/error.h"
+#include "core/text.h"
+
+namespace sonarsim {
+
+namespace {
+
+/// What stands in the file, for "must be ..., not ...".
+std::string found(const YamlNode& node) {
+    switch (node.kind) {
+        case YamlNode::Kind::empty:
+            return "nothing";
+        case YamlNode::Kind::list:
+            return "a list";
+        case YamlNode::Kind::map:
+            return "a section of keys";
+        case YamlNode::Kind::scalar:
+            break;
+    }
+    return node.quoted ? "the quoted text " + in_quotes(node.text) : in_quotes(node.text);
+}
+
+}  // namespace
+
+void refuse(const YamlNode& node, const std::string& what) {
+    throw InputError(node.place.location(), what);
+}
+
+void refuse_type(const YamlNode& node, const std::string& key, const std::string& wanted) {
+    refuse(node, "'" + key + "' must be " + wanted + ", not " + found(node));
+}
+
+void check_limits(const YamlNode& node, const char* key, double value, const Limits& limits) {
+    const bool too_low = limits.low_allowed ? value < limits.low : value <= limits.low;
+    if (!too_low && value <= limits.high) return;
+    std::string wanted = "at most " + number_text(limits.high);
+    if (too_low) wanted = (limits.low_allowed ? "at least " : "above ") + number_text(limits.low);
+    refuse_type(node, key, wanted);
+}
+
+bool is_plain(const YamlNode& node) {
+    return node.kind == YamlNode::Kind::scalar && !node.quoted;
+}
+
+double read_number(const YamlNode& node, const char* key, const Limits& limits) {
+    const std::optional<double> value = is_plain(node) ? parse_number(node.text) : std::nullopt;
+    if (!value || !std::isfinite(*value)) refuse_type(node, key, "a finite number");
+    check_limits(node, key, *value, limits);
+    return *value;
+}
+
+std::string read_text(const YamlNode& node, const char* key) {
+    if (node.kind != YamlNode::Kind::scalar) refuse_type(node, key, "text");
+    if (node.text.empty()) refuse(node, "'" + std::string(key) + "' must not be empty");
+    const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
+    if (std::ranges::any_of(node.text, is_control)) {
+        refuse(node, "'" + std::string(key) + "' must not hold control characters");
+    }
+    return node.text;
+}
+
+std::string listed(const std::vector<std::string>& names) {
+    std::string out;
+    for (const std::string& name : names)
+        out += (out.empty() ? "" : ", ") + name;
+    return out;
+}
+
+std::size_t index_of(const YamlNode& node, const char* key, const std::vector<std::string>& names) {
+    if (node.kind != YamlNode::Kind::scalar) refuse_type(node, key, "one of: " + listed(names));
+    const auto name = std::ranges::find(names, node.text);
+    if (name == names.end()) {
+        refuse(node, "unknown " + std::string(key) + " " + in_quotes(node.text) +
+                         did_you_mean(node.text, names) + "; known: " + listed(names));
+    }
+    return static_cast<std::size_t>(name - names.begin());
+}
+
+void read_numbers(const YamlNode& node, const char* key, double* values, std::size_t count,
+                  const Limits& limits) {
+    const std::string wanted = "a list of " + std::to_string(count) + " numbers";
+    if (node.kind != YamlNode::Kind::list) refuse_type(node, key, wanted);
+    if (node.items.size() != count) {
+        refuse_type(node, key, wanted + " (it has " + std::to_string(node.items.size()) + ")");
+    }
+    for (std::size_t i = 0; i < count; ++i)
+        values[i] = read_number(node.items[i], key, limits);
+}
+
+std::vector<bool> chosen_of(const YamlNode& node, const char* key,
+                            const std::vector<std::string>& names) {
+    const bool all = is_plain(node) && node.text == "true";
+    std::vector<bool> chosen(names.size(), all);
+    if (all || (is_plain(node) && node.text == "false")) return chosen;
+    if (node.kind != YamlNode::Kind::list) {
+        refuse_type(node, key, "true, false or a list of: " + listed(names));
+    }
+    for (const YamlNode& item : node.items) {
+        const std::size_t index = index_of(item, key, names);
+        if (chosen[index]) refuse(item, in_quotes(item.text) + " stands twice in '" + key + "'");
+        chosen[index] = true;
+    }
+    return chosen;
+}
+
+}  // namespace sonarsim

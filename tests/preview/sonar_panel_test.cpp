@@ -1,0 +1,200 @@
+#include "preview/sonar_panel.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <set>
+
+#include "core/units.h"
+#include "product/fan.h"
+#include "product/sidescan_row.h"
+#include "sonar/kinds.h"
+#include "sonar/sonar.h"
+
+using namespace sonarsim;
+
+namespace {
+
+Sonar sonar_of(SonarKind kind, double range_max_m, int range_bins) {
+    SonarConfig config = default_sonar(kind);
+    config.name = "test";
+    config.range_min_m = 0.5;
+    config.range_max_m = range_max_m;
+    config.range_bins = range_bins;
+    return make_sonar(config, {});
+}
+
+Ping dark_ping(const Sonar& sonar) {
+    const View& view = sonar.settings.view;
+    Ping ping;
+    ping.range_bins = view.range_bins;
+    ping.beams = view.beams;
+    ping.intensity.assign(static_cast<std::size_t>(view.range_bins) * view.beams, 0.0F);
+    return ping;
+}
+
+Ping one_bin(const Sonar& sonar, int bin, int beam, float intensity) {
+    Ping ping = dark_ping(sonar);
+    ping.intensity[static_cast<std::size_t>(bin) * ping.beams + beam] = intensity;
+    return ping;
+}
+
+int brightness(const Rgb& colour) {
+    return colour.r + colour.g + colour.b;
+}
+
+/// 90 degrees to 10 m, beams of 1 degree and bins of 0.1 m.
+Sonar imaging() {
+    SonarConfig config = default_sonar(SonarKind::imaging);
+    config.name = "test";
+    config.azimuth_deg = 90.0;
+    config.azimuth_bins = 90;
+    config.range_min_m = 0.0;
+    config.range_max_m = 10.0;
+    config.range_bins = 100;
+    return make_sonar(config, {});
+}
+
+}  // namespace
+
+TEST_SUITE("preview") {
+    TEST_CASE("sonar panel: the ping at a pose is the last one at or before it") {
+        Sonar sonar = imaging();
+        sonar.config.every = 3;
+        CHECK(ping_at(sonar, 0) == 0);
+        CHECK(ping_at(sonar, 5) == 3);
+        CHECK(ping_at(sonar, 6) == 6);
+    }
+
+    TEST_CASE("sonar panel: a fan fits, and an echo to port lies to the left at its range") {
+        const Sonar sonar = imaging();
+        // Beam 74 has its middle 29.5 degrees to port, bin 62 at 6.25 m; rings are at 2, 4, ... m.
+        const auto render = [&](std::uint32_t) { return one_bin(sonar, 62, 74, 3.0F); };
+        const SonarPanel panel = draw_sonar(sonar, 7, 20, render, 600, 420);
+        Picture picture = panel.picture;
+        CHECK(picture.width <= 600);
+        CHECK(picture.height <= 420);
+        CHECK(std::max(picture.width / 600.0, picture.height / 420.0) > 0.99);
+        const FanFrame frame = fan_frame(sonar, picture.width);
+        const double azimuth = radians(29.5);
+        const int x =
+            static_cast<int>(0.5 * frame.width - 6.25 * std::sin(azimuth) / frame.pixel_m);
+        const int y = static_cast<int>((10.0 - 6.25 * std::cos(azimuth)) / frame.pixel_m);
+        // Amber is the redder the brighter, rings and bearings are blue. A bin is 4 pixels long.
+        int brightest_x = 0;
+        int brightest_y = 0;
+        for (int row = 0; row < picture.height; ++row) {
+            for (int column = 0; column < picture.width; ++column) {
+                if (picture.row(row)[column].r <= picture.row(brightest_y)[brightest_x].r) continue;
+                brightest_x = column;
+                brightest_y = row;
+            }
+        }
+        CHECK(std::abs(brightest_x - x) <= 3);
+        CHECK(std::abs(brightest_y - y) <= 3);
+    }
+
+    TEST_CASE("sonar panel: range rings of a fan are at their ranges") {
+        const Sonar sonar = imaging();
+        const auto render = [&](std::uint32_t) { return dark_ping(sonar); };
+        Picture picture = draw_sonar(sonar, 0, 1, render, 600, 420).picture;
+        const FanFrame frame = fan_frame(sonar, picture.width);
+        // Bearings are drawn every 10 degrees: none at 5. About five axis marks to 10 m are 2, 4,
+        // 6, 8 and 10.
+        const double azimuth = radians(5.0);
+        const auto at = [&](double range) {
+            return brightness(picture.row(static_cast<int>(
+                (10.0 - range * std::cos(azimuth)) /
+                frame.pixel_m))[static_cast<int>(0.5 * frame.width -
+                                                 range * std::sin(azimuth) / frame.pixel_m)]);
+        };
+        for (double range = 1.0; range < 9.0; range += 1.0) {
+            CAPTURE(range);
+            const bool is_ring = std::fmod(range, 2.0) == 0.0;
+            CHECK((at(range) > at(range + 0.5) + 60) == is_ring);
+        }
+    }
+
+    TEST_CASE("sonar panel: brightness finds itself, and the scale of the echoes changes nothing") {
+        const Sonar sonar = imaging();
+        const auto panel_of = [&](float scale) {
+            const auto render = [&](std::uint32_t) {
+                Ping ping = dark_ping(sonar);
+                for (std::size_t k = 0; k < ping.intensity.size(); ++k)
+                    ping.intensity[k] = scale * static_cast<float>(k % 100);
+                return ping;
+            };
+            return draw_sonar(sonar, 0, 1, render, 300, 210);
+        };
+        // A power of two, which rounds nothing.
+        const SonarPanel usual = panel_of(1.0F);
+        const SonarPanel faint = panel_of(0x1p-20F);
+        CHECK(faint.picture.pixels == usual.picture.pixels);
+        CHECK(faint.white == usual.white * 0x1p-20);
+        // One in a hundred of 1 to 99 exceeds 98, to 3 %.
+        CHECK(usual.white == doctest::Approx(98.0).epsilon(0.04));
+    }
+
+    TEST_CASE(
+        "sonar panel: a waterfall has port on the left, a row per ping and marks at this one") {
+        const Sonar sonar = sonar_of(SonarKind::sidescan, 20.0, 390);  // bins of 0.05 m
+        // Port (beam 1) sees something at 10 m, in the fourth of ten pings alone.
+        const auto render = [&](std::uint32_t pose) {
+            return pose == 3 ? one_bin(sonar, 190, 1, 1.0F) : dark_ping(sonar);
+        };
+        Picture picture = draw_sonar(sonar, 7, 10, render, 600, 420).picture;
+        REQUIRE(picture.width == 600);
+        // 400 rows for ten pings, 600 columns for 40 m: a column shows 0.067 m.
+        std::set<int> rows;
+        std::set<int> columns;
+        for (int y = 15; y < 400; ++y) {  // below the words
+            for (int x = 20; x < 580; ++x) {
+                if (brightness(picture.row(y)[x]) < 300) continue;
+                rows.insert(y);
+                columns.insert(x);
+            }
+        }
+        REQUIRE(!rows.empty());
+        CHECK(*rows.begin() == 120);
+        CHECK(*rows.rbegin() == 159);
+        CHECK(rows.size() == 40);
+        CHECK(columns.size() <= 2);
+        CHECK(std::abs(*columns.begin() - 150) <= 1);  // 10 of 20 m to port
+        // Ping 7 is in the middle of rows 280 to 319.
+        for (const int x : {3, 596}) {
+            CHECK(picture.row(300)[x] == mark_colour);
+            CHECK(picture.row(299)[x] != mark_colour);
+            CHECK(picture.row(301)[x] != mark_colour);
+        }
+    }
+
+    TEST_CASE(
+        "sonar panel: an echogram has range downwards, time to the right and marks at this ping") {
+        const Sonar sonar = sonar_of(SonarKind::echosounder, 10.5, 200);  // bins of 0.05 m
+        const auto render = [&](std::uint32_t pose) {
+            return one_bin(sonar, 50, 0, pose == 6 ? 1.0F : 0.0F);
+        };
+        Picture picture = draw_sonar(sonar, 2, 8, render, 600, 400).picture;
+        REQUIRE(picture.width == 600);
+        const Rgb dark = picture.row(50)[100];
+        std::set<int> rows;
+        std::set<int> columns;
+        for (int y = 20; y < 380; ++y) {
+            for (int x = 60; x < 600; ++x) {
+                if (picture.row(y)[x] == dark) continue;
+                rows.insert(y);
+                columns.insert(x);
+            }
+        }
+        // 400 rows for 200 bins: bin 50 is rows 100 and 101. Eight pings are 548 columns right of
+        // the numbers: the seventh is those from
+        // 52 + 411 to 52 + 479.5.
+        CHECK(rows == std::set<int>{100, 101});
+        CHECK(*columns.begin() == 52 + 411);
+        CHECK(columns.size() == 69);
+        // The third is in the middle of columns 189 to 257.
+        CHECK(picture.row(5)[52 + 171] == mark_colour);
+        CHECK(picture.row(394)[52 + 171] == mark_colour);
+        CHECK(picture.row(5)[52 + 172] != mark_colour);
+    }
+}
