@@ -1,5 +1,7 @@
 #include "assembly/assemble.h"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 
 #include "assembly/brightness.h"
@@ -11,6 +13,7 @@
 #include "core/text.h"
 #include "mission/files.h"
 #include "scene/gltf/load.h"
+#include "scene/gltf/model_of.h"
 #include "sonar/engine_settings.h"
 #include "trajectory/files.h"
 
@@ -28,22 +31,58 @@ std::vector<InputFile> inputs_of(const Mission& mission) {
     return inputs;
 }
 
+/// Why the surface of the water changes no picture, or not all of them; "": it may.
+std::string doubt_about_surface(const Mission& mission, const Assembly& assembly) {
+    const WaterSurfaceConfig& config = *mission.scene.water_surface;
+    std::size_t pings = 0;
+    std::size_t above = 0;
+    for (const Sonar& sonar : assembly.sonars) {
+        if (sonar.config.multipath.method == MultipathMethod::none) continue;
+        const auto every = static_cast<std::size_t>(sonar.config.every);
+        for (std::size_t i = 0; i < assembly.trajectory.size(); i += every) {
+            const Pose at = sensor_pose(sonar, assembly.trajectory[i].T_world_vehicle,
+                                        static_cast<std::uint32_t>(i));
+            ++pings;
+            above += at.translation.z() >= config.height_m;
+        }
+    }
+    const std::string name = "scene.water_surface ";
+    if (pings == 0) {
+        return name +
+               "has no effect, for no sensor has multipath: set sensors.NAME.multipath.method";
+    }
+    if (config.roughness == 1.0)
+        return name + "has no effect, for a roughness of 1 leaves nothing to mirror: lower it";
+    if (config.height_m <= assembly.scene.bounds_min.z()) {
+        return name + fmt::format("at {:.4g} m lies below all of the scene: raise height_m",
+                                  config.height_m);
+    }
+    if (above == 0) return "";
+    return name + fmt::format(
+                      "at {:.4g} m lies below the sonar in {} of {} pings, which hear "
+                      "nothing of it: raise height_m or lower the trajectory",
+                      config.height_m, above, pings);
+}
+
 /// Air above the water leaves nearly all of the sound in it; what the surface scatters is lost.
-void add_water_surface(const Mission& mission, Scene& scene) {
+void add_water_surface(const Mission& mission, Assembly& assembly) {
     if (!mission.scene.water_surface) return;
     constexpr double air_kg_m3 = 1.2;
     constexpr double air_m_s = 343.0;
     const WaterSurfaceConfig& config = *mission.scene.water_surface;
     const Water water{mission.water.density_kg_m3, mission.water.sound_speed_m_s};
     const double mirrored = power_reflection(air_kg_m3, air_m_s, water) * (1.0 - config.roughness);
-    scene.water_surface = {config.height_m, static_cast<float>(mirrored)};
-    const bool used = std::ranges::any_of(mission.sensors, [](const SonarConfig& sensor) {
-        return sensor.multipath.method != MultipathMethod::none;
-    });
-    if (used) return;
-    scene.doubts.push_back(
-        "scene.water_surface has no effect, for no sensor has multipath: "
-        "set sensors.NAME.multipath.method");
+    assembly.scene.water_surface = {config.height_m, static_cast<float>(mirrored)};
+    const std::string doubt = doubt_about_surface(mission, assembly);
+    if (!doubt.empty()) assembly.scene.doubts.push_back(doubt);
+}
+
+void doubt_empty_scatter(const Mission& mission, Scene& scene) {
+    for (const ScatterConfig& scatter : mission.scene.scatter) {
+        if (scatter.count[1] > 0.0) continue;
+        scene.doubts.push_back("scene.scatter: of '" + printable(scatter.name) +
+                               "' nothing is scattered, for its count is 0");
+    }
 }
 
 /// The sonar, which the engine of the mission can see with and its labels can be told of.
@@ -63,14 +102,17 @@ Sonar checked_sonar(const Mission& mission, const SonarConfig& sensor,
 /// InputError for the files of the scene that are no glTF.
 void read_scene_files(const Mission& mission, SceneFiles& models) {
     Problems problems;
-    const auto read = [&](const std::filesystem::path& file) {
-        if (!file.empty()) problems.attempt([&] { models.model(file); });
+    const auto read = [&](const std::filesystem::path& file, const Place& place) {
+        if (file.empty()) return;
+        problems.attempt([&] { model_of({.file = file, .place = place.location}, models); });
     };
-    read(mission.scene.file);
+    read(mission.scene.file, mission.scene.place);
     for (const ObjectConfig& object : mission.scene.objects)
-        read(object.file);
-    for (const ScatterConfig& scatter : mission.scene.scatter)
-        std::ranges::for_each(scatter.files, read);
+        read(object.file, object.place);
+    for (const ScatterConfig& scatter : mission.scene.scatter) {
+        for (const std::filesystem::path& file : scatter.files)
+            read(file, scatter.place);
+    }
     problems.raise();
 }
 
@@ -104,7 +146,13 @@ Assembly assemble(const Mission& mission, SceneFiles& models) {
         problems.attempt(
             [&] { assembly.sonars.push_back(checked_sonar(mission, sensor, settings)); });
     MaterialTable materials;
-    problems.attempt([&] { materials = read_materials(mission.scene.materials); });
+    problems.attempt([&] {
+        materials = read_materials(mission.scene.materials);
+        if (!mission.scene.material_default.empty()) {
+            require_material(materials, mission.scene.material_default,
+                             mission.scene.place.location);
+        }
+    });
     // What moves is checked against the trajectory, and every surface against the materials.
     if (problems.count() > 0) problems.attempt([&] { read_scene_files(mission, models); });
     problems.raise();
@@ -114,7 +162,8 @@ Assembly assemble(const Mission& mission, SceneFiles& models) {
                                 share_beyond(mission.scene.repeats, settings.type));
     assembly.motions = std::move(parts.motions);
     assembly.bottom = std::move(parts.bottom);
-    add_water_surface(mission, assembly.scene);
+    add_water_surface(mission, assembly);
+    doubt_empty_scatter(mission, assembly.scene);
     if (!mission.output.labels.empty() || !mission.classes.empty()) {
         std::vector<ClassRule> rules;
         for (const ClassConfig& rule : mission.classes)

@@ -9,6 +9,7 @@
 
 #include "assembly/poses.h"
 #include "core/error.h"
+#include "core/named_at.h"
 #include "core/text.h"
 #include "core/units.h"
 #include "scene/gltf/surface_of.h"
@@ -165,7 +166,12 @@ Eigen::Affine3d transform_of(const ObjectConfig& object, const Surface& shape, L
 
 /// A trajectory of waypoints or lines begins with the first ping; a file has its own times.
 Trajectory motion_of(const ObjectConfig& object, const Trajectory& vehicle) {
-    Trajectory motion = poses_of(*object.trajectory);
+    Trajectory motion;
+    try {
+        motion = poses_of(*object.trajectory);
+    } catch (const InputError& error) {
+        throw named_at(error, object.place.location);
+    }
     const double start_s = vehicle.front().t_s;
     const double end_s = vehicle.back().t_s;
     if (!std::holds_alternative<FileTrajectoryConfig>(*object.trajectory)) {
@@ -219,6 +225,12 @@ void scatter_files(const ScatterConfig& config, std::uint32_t index, std::uint64
         PlacedFile& file = files.emplace_back(kinds[object.shape]);
         file.name = config.name + "_" + std::to_string(++number);
         file.T_world_file = object.T_world_shape;
+        if (config.bury_m[1] > 0.0 &&
+            lies_below(bottom.get(), moved(shapes[object.shape], file.T_world_file))) {
+            throw InputError(config.place.location, "'" + printable(file.name) +
+                                                        "' lies wholly below the bottom; lower "
+                                                        "bury_m");
+        }
     }
 }
 
@@ -234,6 +246,12 @@ SceneParts place_scene(const Mission& mission, const Trajectory& vehicle, SceneF
     for (const ObjectConfig& object : scene.objects) {
         PlacedFile& file = parts.files.emplace_back(file_of(object));
         const Surface& shape = shapes.of(file, object.mesh);
+        if (shape.triangles.empty()) {
+            throw InputError(object.place.location,
+                             title_of(object) + ": there is no surface in " + object.file.string() +
+                                 (object.mesh.exclude.empty() ? "; name another file"
+                                                              : " but what `exclude` leaves out"));
+        }
         file.T_world_file = transform_of(object, shape, bottom);
         if (object.trajectory) {
             parts.motions.push_back(motion_of(object, vehicle));
@@ -241,11 +259,13 @@ SceneParts place_scene(const Mission& mission, const Trajectory& vehicle, SceneF
         }
         if (bottom.is(object)) continue;
         const Surface placed = moved(shape, file.T_world_file);
-        if (object.place_on == ObjectPlace::free && lies_below(bottom.get(), placed)) {
+        if (lies_below(bottom.get(), placed)) {
             throw InputError(object.place.location,
-                             title_of(object) +
-                                 " lies wholly below the bottom; raise it by position_m, or let it "
-                                 "rest there with place: on_bottom");
+                             title_of(object) + " lies wholly below the bottom; " +
+                                 (object.place_on == ObjectPlace::free
+                                      ? "raise it by position_m, or let it rest there with place: "
+                                        "on_bottom"
+                                      : "lower bury_m"));
         }
         if (!scene.scatter.empty()) taken.push_back(hull_of(placed.vertices));
     }
@@ -253,6 +273,8 @@ SceneParts place_scene(const Mission& mission, const Trajectory& vehicle, SceneF
         scatter_files(scene.scatter[i], static_cast<std::uint32_t>(i), mission.seed, models, bottom,
                       taken, parts.files);
     }
+    // A pattern of `bottom` that fits no node is told even where nothing rests on it.
+    if (!scene.bottom.empty()) bottom.get();
     const bool heights =
         std::ranges::find(mission.output.labels, Label::height) != mission.output.labels.end();
     if (heights && bottom.exists()) parts.bottom = bottom.share();

@@ -17,7 +17,7 @@ std::string found(const YamlNode& node) {
         case YamlNode::Kind::empty:
             return "nothing";
         case YamlNode::Kind::list:
-            return "a list";
+            return node.items.empty() ? "an empty list" : "a list";
         case YamlNode::Kind::map:
             return "a section of keys";
         case YamlNode::Kind::scalar:
@@ -87,7 +87,8 @@ void read_numbers(const YamlNode& node, const char* key, double* values, std::si
     const std::string wanted = "a list of " + std::to_string(count) + " numbers";
     if (node.kind != YamlNode::Kind::list) refuse_type(node, key, wanted);
     if (node.items.size() != count) {
-        refuse_type(node, key, wanted + " (it has " + std::to_string(node.items.size()) + ")");
+        refuse(node, "'" + std::string(key) + "' must be " + wanted + ", not of " +
+                         std::to_string(node.items.size()));
     }
     for (std::size_t i = 0; i < count; ++i)
         values[i] = read_number(node.items[i], key, limits);

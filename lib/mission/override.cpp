@@ -44,6 +44,11 @@ YamlNode& descend(YamlNode& node, const std::string& key, const YamlPlace& place
         throw InputError(place.location(), "there is no key " + in_quotes(key) +
                                                " below the single value " + in_quotes(node.text));
     }
+    if (node.implied && parse_unsigned(key)) {
+        throw InputError(place.location(), "there is no list " + in_quotes(node.key) +
+                                               " with an item " + in_quotes(key) +
+                                               "; write the whole list in the mission first");
+    }
     node.kind = YamlNode::Kind::map;
     if (YamlNode* found = node.find(key)) return *found;
     YamlNode& made = node.items.emplace_back();

@@ -1,6 +1,7 @@
 #include "mission/parse.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 #include <vector>
 
@@ -70,6 +71,42 @@ void check_draws_of_pings(const Mission& mission, const YamlNode& root,
     }
 }
 
+bool is_within(std::string_view key, std::string_view section) {
+    return key == section || (key.starts_with(section) && key[section.size()] == '.');
+}
+
+/// InputError for rules of `vary` whose draws would be lost.
+void check_rules(const Mission& mission) {
+    struct Reserved {
+        std::string_view key;
+        const char* why;
+    };
+    constexpr std::array reserved{
+        Reserved{"seed", "each variant has a seed of its own, which follows from the mission's"},
+        Reserved{"variants", "it says how many variants there are"},
+        Reserved{"vary", "it says what varies"},
+        Reserved{"output.folder", "each variant has a folder of its own in that of the mission"},
+        Reserved{"output.split", "it parts whole variants"}};
+    Problems problems;
+    for (auto rule = mission.vary.begin(); rule != mission.vary.end(); ++rule) {
+        const auto refuse = [&](const std::string& what) {
+            problems.add(
+                InputError(rule->place.location, "'" + printable(rule->key) + "' " + what));
+        };
+        for (const Reserved& one : reserved) {
+            if (is_within(rule->key, one.key)) refuse(std::string("cannot vary: ") + one.why);
+        }
+        const auto lost = std::find_if(mission.vary.begin(), rule, [&](const VaryConfig& earlier) {
+            return is_within(earlier.key, rule->key);
+        });
+        if (lost == rule) continue;
+        refuse(lost->key == rule->key ? "varies twice; leave out one of the two rules"
+                                      : "replaces what is drawn for '" + printable(lost->key) +
+                                            "' before it; write that rule after this one");
+    }
+    problems.raise();
+}
+
 }  // namespace
 
 Mission load_mission(const std::filesystem::path& file, std::span<const std::string> overrides,
@@ -107,6 +144,7 @@ Mission parse_mission(const YamlNode& root, const std::string& file_name,
         reader.finish();
     });
     problems.raise();
+    check_rules(mission);
     check_draws_of_pings(mission, root, file_name, base_folder, sonars);
     if (mission.water.sound_speed_m_s == 0.0)
         mission.water.sound_speed_m_s = sound_speed_m_s(mission.water);

@@ -34,10 +34,11 @@ void describe(Visitor& v, VaryConfig& c) {
                        "the least and the largest number that a normal draw may be");
     v.values("choice", c.choice, "values of any kind, each as likely as another");
     const auto rises = [](const auto& pair) { return !pair || (*pair)[0] <= (*pair)[1]; };
-    v.require(c.uniform.has_value() + c.log_uniform.has_value() + c.whole.has_value() +
-                      c.normal.has_value() + !c.choice.empty() ==
-                  1,
-              {}, "a key that varies needs one of: uniform, log_uniform, whole, normal, choice");
+    v.require(
+        c.uniform.has_value() + c.log_uniform.has_value() + c.whole.has_value() +
+                c.normal.has_value() + !c.choice.empty() ==
+            1,
+        {}, "a key that varies needs exactly one of: uniform, log_uniform, whole, normal, choice");
     v.require(rises(c.uniform) && rises(c.log_uniform) && rises(c.whole) && rises(c.within),
               {"uniform", "log_uniform", "whole", "within"},
               "the first number must not be above the second");

@@ -116,6 +116,16 @@ void resolve_materials(Scene& scene, const MaterialTable& table, const Water& wa
     }
 }
 
+void require_material(const MaterialTable& table, const std::string& name, const Location& place) {
+    std::vector<std::string> known;
+    for (const Material& material : table.materials)
+        known.push_back(material.name);
+    if (std::ranges::find(known, name) != known.end()) return;
+    throw InputError(place, "unknown material '" + printable(name) + "'" +
+                                did_you_mean(name, known) + "; " + table.file +
+                                " lists those that there are");
+}
+
 std::string materials_csv(const Scene& scene, const MaterialTable& known) {
     std::string csv = "material,density_kg_m3,sound_speed_m_s\n";
     for (const Material& material : scene.materials) {

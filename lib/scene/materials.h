@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/error.h"
 #include "scene/scene.h"
 
 namespace sonarsim {
@@ -24,6 +25,9 @@ struct MaterialTable {
 /// the limits of core/input_limits.h, and for a material that stands there twice.
 MaterialTable read_materials(const std::filesystem::path& path);
 MaterialTable parse_materials(std::string_view text, const std::string& file_name);
+
+/// InputError at `place`, where the mission names a material, when the table lacks it.
+void require_material(const MaterialTable& table, const std::string& name, const Location& place);
 
 /// Gives every material of the scene its density, sound speed and reflection in `water`.
 /// InputError that lists every name which the table lacks.

@@ -192,12 +192,16 @@ std::vector<Warning> unseen_objects(const Mission& mission, const Assembly& asse
     if (!never_in_view.names.empty()) {
         out.push_back(make_warning(Doubt::unseen_object, "scene",
                                    objects_text(never_in_view.names.size()) + " not in view",
-                                   never_in_view.text() + not_looked_for));
+                                   never_in_view.text() + not_looked_for,
+                                   "move what is named into the view of a sonar, or the trajectory "
+                                   "towards it"));
     }
     if (!hidden.names.empty()) {
         out.push_back(make_warning(Doubt::unseen_object, "scene",
                                    objects_text(hidden.names.size()) + " in view but not seen",
-                                   hidden.text() + not_looked_for));
+                                   hidden.text() + not_looked_for,
+                                   "what is named may lie behind, below or within something else, "
+                                   "or be smaller than a beam"));
     }
     return out;
 }

@@ -62,7 +62,7 @@ def cone_mine():
 
 
 def tyre():
-    part = Part("tyre", "rubber")
+    part = Part("tyre", "hard_rubber")
     add_torus(part, (0, 0, 0), 0.27, 0.11, 36, 14)
     return [part]
 

@@ -242,7 +242,7 @@ TEST_CASE("ranges of the trajectory forms") {
     CHECK(with("{waypoints: [{position_m: [0,0]}]}") ==
           "m.yaml:3:25: 'waypoints' must have at least 2 items, not 1");
     CHECK(with("{waypoints: [{position_m: [0,0]}, {}]}") ==
-          "m.yaml:3:39: 'position_m' must be a list of 3 numbers (it has 2), not a list");
+          "m.yaml:3:39: 'position_m' must be a list of 3 numbers, not of 2");
     const auto lawnmower = [&](const std::string& more) {
         return with("{lawnmower: {area_min_m: [0, 0], area_max_m: [9, 9]" + more + "}}");
     };

@@ -1,5 +1,7 @@
 #include "scene/gltf/load.h"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cstdint>
@@ -12,6 +14,7 @@
 #include "core/text.h"
 #include "scene/gltf/extent.h"
 #include "scene/gltf/mesh_builder.h"
+#include "scene/gltf/model_of.h"
 #include "scene/gltf/pieces.h"
 #include "scene/gltf/repeats.h"
 
@@ -49,11 +52,11 @@ std::vector<OpenFile> open_files(std::span<const PlacedFile> files, SceneFiles& 
     for (const PlacedFile& file : files) {
         OpenFile& next = open.emplace_back();
         next.placed = &file;
-        next.model = &models.model(file.file);
+        next.model = &model_of(file, models);
         next.meshes = place_meshes(*next.model, file, names);
-        if (next.meshes.empty() && !file.name.empty()) {
-            throw InputError(file.place, "nothing of " + file.file.string() + " is left for '" +
-                                             printable(file.name) + "'");
+        if (next.meshes.empty() && !file.exclude.empty()) {
+            throw InputError(file.place, "exclude leaves nothing of " + file.file.string() +
+                                             "; `sonarsim inspect` lists the names of its nodes");
         }
         for (const PlacedMesh& mesh : next.meshes) {
             const bool is_part = !file.name.empty() && !next.instance_of_mesh.empty();
@@ -76,9 +79,9 @@ void doubt_units(const OpenFile& file, const Eigen::AlignedBox3d& box,
     if (length_m < suspicious_length_m && length_m > suspicious_smallness_m) return;
     const std::string path = file.placed->file.string();
     if (!doubted.emplace(path, file.placed->unit_m).second) return;
-    scene.doubts.push_back(path + " is " + number_text(length_m) +
-                           " m long; if its lengths are not what they are read as, say what they "
-                           "are with `units`, as in units: mm");
+    scene.doubts.push_back(path + fmt::format(" is {:.4g} m long", length_m) +
+                           "; if its lengths are not what they are read as, say what they are with "
+                           "`units`, as in units: mm");
 }
 
 /// Where the files reach. Those of repeated ones are looked at once.
@@ -170,19 +173,10 @@ Scene compose(std::span<const PlacedFile> files, SceneFiles& models, const Mater
 
 /// Materials that the mission names, each where it does so.
 void require_materials(std::span<const PlacedFile> files, const MaterialTable& table) {
-    std::vector<std::string> known;
-    for (const Material& material : table.materials)
-        known.push_back(material.name);
-    const auto require = [&](const PlacedFile& file, const std::string& name) {
-        if (std::ranges::find(known, name) != known.end()) return;
-        throw InputError(file.place, "unknown material '" + printable(name) + "'" +
-                                         did_you_mean(name, known) + "; " + table.file +
-                                         " lists those that there are");
-    };
     for (const PlacedFile& file : files) {
-        if (!file.material.empty()) require(file, file.material);
+        if (!file.material.empty()) require_material(table, file.material, file.place);
         for (const auto& renamed : file.renamed_materials)
-            require(file, renamed.second);
+            require_material(table, renamed.second, file.place);
     }
 }
 

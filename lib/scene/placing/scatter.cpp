@@ -134,9 +134,13 @@ std::optional<Eigen::Affine3d> try_at(const Eigen::Vector2d& position, const Att
         ++refusals.no_bottom;
         return std::nullopt;
     }
-    // On a slope it may be tilted.
+    if (!rule.align) {
+        taken.add(shifted(attempt.outline, position));
+        return T_world_shape;
+    }
+    // On a slope it is tilted.
     Hull room = hull_of(moved(attempt.shape, *T_world_shape).vertices);
-    if (rule.align && !fits(room)) return std::nullopt;
+    if (!fits(room)) return std::nullopt;
     taken.add(std::move(room));
     return T_world_shape;
 }
