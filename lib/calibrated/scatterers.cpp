@@ -14,6 +14,9 @@ using Words = PieceBlock::Array<std::uint32_t>;
 // of the cell, which would otherwise show as speckle that is longer than the pulse.
 constexpr double most_of_resolution = 0.75;
 
+// Where sound meets a surface head-on, cells are this much larger than where it grazes it.
+constexpr int steep_levels = 3;
+
 /// 32 bits that look random by 64 (the finaliser of MurmurHash3, put to the words in turn).
 std::uint32_t mixed(std::uint32_t a, std::uint32_t b) {
     std::uint32_t h = a * 0x85EBCA6BU;
@@ -87,177 +90,6 @@ void find_phases(const Scatterers& block, int count, const Words& jitter, const 
     }
 }
 
-/// A sample seen along an axis of the world: a parallelogram in the plane of the other two.
-struct Projected {
-    const Sample& sample;
-    int axis, first, second;  ///< the axis, and the other two
-    Eigen::Vector3d centre;   ///< relative to Scene::origin, m
-    Eigen::Vector3f u, v;     ///< half edges, world frame
-    float determinant;
-    float area_by_projected;  ///< of the sample, by that of its projection
-};
-
-Projected project(const Sample& sample, const SonarInScene& sonar) {
-    const Eigen::Vector3f u = sonar.R_world_sensor * sample.edge_u;
-    const Eigen::Vector3f v = sonar.R_world_sensor * sample.edge_v;
-    const Eigen::Vector3f normal = u.cross(v);
-    int axis = 0;
-    normal.cwiseAbs().maxCoeff(&axis);
-    const Eigen::Vector3f place = sonar.R_world_sensor * sample.position;
-    return {sample,
-            axis,
-            (axis + 1) % 3,
-            (axis + 2) % 3,
-            sonar.sensor + place.cast<double>(),
-            u,
-            v,
-            normal[axis],
-            sample.area_m2 / (4.0F * std::fabs(normal[axis]))};
-}
-
-/// Cells that may have their point on a sample.
-struct Candidates {
-    static constexpr int most = 256;
-    int count = 0;
-    std::array<std::int32_t, most> i, j;
-    std::array<std::uint32_t, most> level;
-    std::array<float, most> edge;
-    std::array<float, most> s, t;  ///< where a cell's point lies on the sample, in half edges
-
-    void add(std::int32_t column, std::int32_t row, float edge_m, std::uint32_t name) {
-        i[count] = column;
-        j[count] = row;
-        edge[count] = edge_m;
-        level[count++] = name;
-    }
-
-    /// In plain loops over arrays, several cells at a time.
-    void find_points(const Projected& p) {
-        const double cx = p.centre[p.first];
-        const double cy = p.centre[p.second];
-        const float ux = p.u[p.first];
-        const float uy = p.u[p.second];
-        const float vx = p.v[p.first];
-        const float vy = p.v[p.second];
-        const std::uint32_t face = (p.axis + 1U) << 29;
-        for (int k = 0; k < count; ++k) {
-            const std::uint32_t h = mixed(word_of(i[k]) ^ level[k] << 27, word_of(j[k]) ^ face);
-            const auto part_x = static_cast<std::int32_t>(h & 0xFFFFU);
-            const auto part_y = static_cast<std::int32_t>(h >> 16);
-            const auto x = static_cast<float>((i[k] + part_x * 0x1p-16) * edge[k] - cx);
-            const auto y = static_cast<float>((j[k] + part_y * 0x1p-16) * edge[k] - cy);
-            s[k] = (x * vy - y * vx) / p.determinant;
-            t[k] = (y * ux - x * uy) / p.determinant;
-        }
-    }
-};
-
-/// Adds scatterers to a block.
-struct Collector {
-    Scatterers& block;
-    const std::function<void(const Scatterers&)>& use;
-    Candidates candidates{};
-
-    /// Those of the candidates whose points lie on the sample.
-    void take(const Projected& p) {
-        candidates.find_points(p);
-        for (int k = 0; k < candidates.count; ++k) {
-            const float s = candidates.s[k];
-            const float t = candidates.t[k];
-            if (s >= -1.0F && s < 1.0F && t >= -1.0F && t < 1.0F) add(p, k, s, t);
-        }
-        candidates.count = 0;
-    }
-
-    void add(const Projected& p, int candidate, float s, float t) {
-        const float edge = candidates.edge[candidate];
-        PieceBlock& pieces = block.pieces;
-        const int at = pieces.count++;
-        const Sample& sample = p.sample;
-        pieces.x[at] = sample.position.x() + s * sample.edge_u.x() + t * sample.edge_v.x();
-        pieces.y[at] = sample.position.y() + s * sample.edge_u.y() + t * sample.edge_v.y();
-        pieces.z[at] = sample.position.z() + s * sample.edge_u.z() + t * sample.edge_v.z();
-        pieces.area_m2[at] = edge * edge * p.area_by_projected;
-        pieces.height_m[at] = sample.height_m;
-        pieces.material[at] = sample.material;
-        block.edge_m[at] = edge;
-        block.cell[p.first][at] = candidates.i[candidate];
-        block.cell[p.second][at] = candidates.j[candidate];
-        const double along = p.centre[p.axis] + s * p.u[p.axis] + t * p.v[p.axis];
-        // Four cells high, the scatterer near the middle: samples of a curved surface are flat and
-        // put it a little higher or lower each time, which must not make it another one.
-        block.cell[p.axis][at] = 4 * static_cast<std::int32_t>(std::floor(0.25 * along / edge)) + 1;
-        if (pieces.count == PieceBlock::most) flush();
-    }
-
-    void flush() {
-        if (block.pieces.count > 0) use(block);
-        block.pieces.count = 0;
-    }
-};
-
-/// Where the points of a projected sample lie along its first axis, by where they lie along the
-/// second: around a line, no further from it than `spread`.
-struct Slant {
-    double slope, spread;
-
-    explicit Slant(const Projected& p) {
-        // Along the edge that goes further along the second axis: not 0 while there is any area.
-        const bool by_u = std::fabs(p.u[p.second]) >= std::fabs(p.v[p.second]);
-        const Eigen::Vector3f& edge = by_u ? p.u : p.v;
-        const Eigen::Vector3f& other = by_u ? p.v : p.u;
-        slope = static_cast<double>(edge[p.first]) / edge[p.second];
-        spread = std::fabs(other[p.first] - slope * other[p.second]);
-    }
-};
-
-/// The cells of a projected sample. Between the ranges at which one level or the next is right,
-/// part of the larger cells hold a scatterer each and the others are split; each does so at a range
-/// of its own, so that the scatterers do not change all at once while the sonar moves.
-void add_cells(const Projected& p, const ScattererCells& cells, Collector& collector) {
-    const float range = p.sample.position.norm();
-    const float root = cells.edge_per_root_range / cells.least_edge_m;
-    const float ratio = std::max(root * root * range, 1.0F);
-    const float wanted =
-        std::min((0.5F / 0.69314718F) * natural_log(ratio), static_cast<float>(cells.levels - 1));
-    const int level = static_cast<int>(std::floor(wanted));
-    const float whole_cells = wanted - std::floor(wanted);
-    const float fine = cells.edge_of(level);
-    const float coarse = 2.0F * fine;
-    const auto name = static_cast<std::uint32_t>(level);
-    const auto cells_along = [&](int axis) {
-        const double half = std::fabs(p.u[axis]) + std::fabs(p.v[axis]);
-        return std::array{static_cast<std::int32_t>(std::floor((p.centre[axis] - half) / coarse)),
-                          static_cast<std::int32_t>(std::floor((p.centre[axis] + half) / coarse))};
-    };
-    const auto columns = cells_along(p.first);
-    const auto rows = cells_along(p.second);
-    const Slant slant(p);
-    Candidates& candidates = collector.candidates;
-    const double beside = slant.spread + 1e-3 * coarse;  // the latter for rounding
-    for (std::int32_t j = rows[0]; j <= rows[1]; ++j) {
-        const double one = slant.slope * (j * static_cast<double>(coarse) - p.centre[p.second]);
-        const double other = one + slant.slope * coarse;
-        const double low = p.centre[p.first] + std::min(one, other) - beside;
-        const double high = p.centre[p.first] + std::max(one, other) + beside;
-        const double first = std::max(std::floor(low / coarse), static_cast<double>(columns[0]));
-        const double last = std::min(std::floor(high / coarse), static_cast<double>(columns[1]));
-        for (auto i = static_cast<std::int32_t>(first); i <= last; ++i) {
-            const std::uint32_t h = mixed(word_of(i) ^ 0x5bd1e995U, word_of(j) ^ name << 27);
-            if (candidates.count + 4 > Candidates::most) collector.take(p);
-            if (unit_float(h) < whole_cells) {
-                candidates.add(i, j, coarse, name + 1);
-                continue;
-            }
-            candidates.add(2 * i, 2 * j, fine, name);
-            candidates.add(2 * i + 1, 2 * j, fine, name);
-            candidates.add(2 * i, 2 * j + 1, fine, name);
-            candidates.add(2 * i + 1, 2 * j + 1, fine, name);
-        }
-    }
-    collector.take(p);
-}
-
 }  // namespace
 
 ScattererCells scatterer_cells(double per_cell, double resolution_m, double width_rad,
@@ -272,8 +104,11 @@ ScattererCells scatterer_cells(double per_cell, double resolution_m, double widt
         edge *= 0.5;
         ++out.levels;
     }
+    out.levels += steep_levels;
     out.least_edge_m = static_cast<float>(edge);
     out.edge_per_root_range = static_cast<float>(per_root_range);
+    out.greatest_depth_m = static_cast<float>(greatest);
+    out.width_rad = static_cast<float>(width_rad);
     out.turns_per_m = 2.0 / wavelength_m;
     return out;
 }
@@ -290,19 +125,6 @@ void add_clutter(const PieceBlock& pieces, const Clutter& clutter, const SonarIn
                                       word_of(cell_along(places.y[k], per_edge)) ^ key.k1);
         echoes.power[k] *= clutter.strength[h >> 22];
     }
-}
-
-void find_scatterers(std::span<const Sample> samples, const ScattererCells& cells,
-                     const SonarInScene& sonar, Scatterers& block,
-                     const std::function<void(const Scatterers&)>& use) {
-    Collector collector{block, use};
-    block.pieces.count = 0;
-    for (const Sample& sample : samples) {
-        const Projected projected = project(sample, sonar);
-        if (projected.determinant == 0.0F) continue;
-        add_cells(projected, cells, collector);
-    }
-    collector.flush();
 }
 
 void draw_amplitudes(const Scatterers& block, const PointEchoes& echoes,

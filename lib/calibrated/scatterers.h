@@ -15,20 +15,20 @@ namespace sonarsim {
 
 /// The scatterers of a scene as one sonar resolves them: one to each cell of a world-aligned
 /// lattice of cubes. A cell's scatterer has a place within the cell, a strength and a phase of its
-/// own, all by the cell's number. The edge of the cells grows with the root of the range, as the
-/// side of a resolution cell of the sonar does, up to a greatest edge; it doubles from one level to
-/// the next.
+/// own, all by the cell's number. Their edge doubles from one level to the next.
 struct ScattererCells {
     float least_edge_m = 0.0F;         ///< of level 0
-    float edge_per_root_range = 0.0F;  ///< m per sqrt(m): the edge wanted at a range
-    int levels = 1;                    ///< the last one has the greatest edge
-    double turns_per_m = 0.0;          ///< of phase, there and back: 2 / wavelength
+    float edge_per_root_range = 0.0F;  ///< m per sqrt(m): where sound grazes a surface
+    float greatest_depth_m = 0.0F;     ///< of a cell, in range
+    float width_rad = 0.0F;            ///< of a resolution cell, across
+    int levels = 1;
+    double turns_per_m = 0.0;  ///< of phase, there and back: 2 / wavelength
 
     float edge_of(int level) const { return least_edge_m * static_cast<float>(1 << level); }
 };
 
 /// Cells with `per_cell` scatterers to a resolution cell of `resolution_m` in range and `width_rad`
-/// across, but no larger than the resolution in range.
+/// across, but no longer in range than the resolution.
 ScattererCells scatterer_cells(double per_cell, double resolution_m, double width_rad,
                                double range_min_m, double wavelength_m);
 

@@ -10,18 +10,37 @@ namespace {
 
 constexpr int vector_lanes = 8;
 
+using Floats = PieceBlock::Array<float>;
+
+/// What the materials of pieces are like, in arrays of their own so that loops vectorise.
+struct MaterialsOfPieces {
+    Floats lambert, facet, inverse_slope2;
+
+    MaterialsOfPieces(const PieceBlock& pieces, std::span<const Backscatter> materials, int count) {
+        for (int k = 0; k < count; ++k) {
+            const Backscatter& material = materials[pieces.material[k]];
+            lambert[k] = material.lambert;
+            facet[k] = material.facet;
+            inverse_slope2[k] = material.inverse_slope2;
+        }
+    }
+};
+
 /// The pattern between its entries, at a sine within [-1, 1].
 void weigh_by_elevation(const ElevationPattern& pattern, const PieceBlock& pieces, int count,
                         PointEchoes& echoes) {
     if (pattern.power.empty()) return;
     const float* const table = pattern.power.data();
     constexpr float half = 0.5F * ElevationPattern::steps;
+    Floats at, whole;
     for (int k = 0; k < count; ++k) {
-        const float at = half + half * (pieces.z[k] / echoes.range_m[k]);
+        at[k] = half + half * (pieces.z[k] / echoes.range_m[k]);
         // In this order what is no number becomes 0.
-        const float whole = std::floor(std::min(2.0F * half, std::max(0.0F, at)));
-        const float* const entry = table + static_cast<int>(whole);
-        echoes.power[k] *= std::fma(at - whole, entry[1] - entry[0], entry[0]);
+        whole[k] = std::floor(std::min(2.0F * half, std::max(0.0F, at[k])));
+    }
+    for (int k = 0; k < count; ++k) {
+        const float* const entry = table + static_cast<int>(whole[k]);
+        echoes.power[k] *= std::fma(at[k] - whole[k], entry[1] - entry[0], entry[0]);
     }
 }
 
@@ -44,6 +63,7 @@ std::uint64_t find_echoes(const PieceBlock& pieces, std::span<const Backscatter>
     const int count = (pieces.count + vector_lanes - 1) / vector_lanes * vector_lanes;
     echoes.count = count;
     const float per_bin = 1.0F / equation.bin_m;
+    const MaterialsOfPieces of(pieces, materials, count);
     for (int k = 0; k < count; ++k) {
         const float x = pieces.x[k];
         const float y = pieces.y[k];
@@ -52,7 +72,7 @@ std::uint64_t find_echoes(const PieceBlock& pieces, std::span<const Backscatter>
         const float inverse = 1.0F / range;
         const float spreading = inverse * inverse;
         const float sine = std::min(pieces.height_m[k] * inverse, 1.0F);
-        const Backscatter& material = materials[pieces.material[k]];
+        const Backscatter material{of.lambert[k], of.facet[k], of.inverse_slope2[k]};
         echoes.range_m[k] = range;
         echoes.power[k] = material.at(sine) * pieces.area_m2[k] * spreading * spreading *
                           fading(equation.loss_per_m * range);

@@ -1,5 +1,9 @@
 #include "sonar/engine_settings.h"
 
+#include <algorithm>
+
+#include "sonar/kinds.h"
+
 namespace sonarsim {
 
 namespace {
@@ -29,7 +33,13 @@ EngineSettings engine_settings(EngineKind kind, const OctreeConfig& octree,
 }
 
 EngineSettings engine_settings(const Mission& mission) {
-    return engine_settings(mission.engine, mission.octree, mission.slices);
+    EngineSettings settings = engine_settings(mission.engine, mission.octree, mission.slices);
+    settings.slices.directed_cones =
+        std::ranges::any_of(mission.sensors, [](const SonarConfig& config) {
+            return config.model == EchoModel::of_instrument &&
+                   kind_of(config.kind).shape == ViewShape::cone;
+        });
+    return settings;
 }
 
 }  // namespace sonarsim

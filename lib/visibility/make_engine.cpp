@@ -16,6 +16,9 @@ namespace {
 /// 90 degrees.
 constexpr double widest_octree_deg = 160.0;
 
+/// Of the slices, where energies add.
+constexpr double least_error_in_cones = 0.02;
+
 }  // namespace
 
 std::unique_ptr<VisibilityEngine> make_engine(const Scene& scene, const EngineSettings& settings) {
@@ -73,10 +76,10 @@ std::string doubt_about(const EngineSettings& settings, const View& view, bool m
                "of surface, and a piece of the slices may be as long as a beam is high; use "
                "engine: auto or engine: rays";
     }
-    if (settings.type == EngineType::slices && energies_add && view.shape == ViewShape::cone) {
-        return "engine: slices puts up to a seventh too much or too little energy near the "
-               "boresight "
-               "of a cone; use engine: auto or engine: rays";
+    if (settings.type == EngineType::slices && energies_add && view.shape == ViewShape::cone &&
+        view.relative_l1 < least_error_in_cones) {
+        return "engine: slices is up to 2 % off where energies add in a cone, more than "
+               "accuracy.relative_l1; use engine: auto or engine: rays";
     }
     if (settings.type != EngineType::octree || settings.octree.literal) return "";
     const double error = estimated_octree_error(view, settings.octree.leaf_m);

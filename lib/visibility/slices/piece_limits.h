@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "visibility/view.h"
 
 namespace sonarsim {
@@ -10,8 +12,12 @@ struct PieceLimits {
     float excess_m;     ///< by which its parallelogram may reach over more range than it does
     float shortest_m;   ///< no piece is cut shorter
     float range_max_m;  ///< nothing beyond is needed
+    /// By how much wider a piece may be at one end than at the other, for its parallelogram is as
+    /// wide at both.
+    float widest_ratio = std::numeric_limits<float>::infinity();
 };
 
-PieceLimits piece_limits(const View& view);
+/// `directed_cone`: if it is a cone, where in it a piece lies matters, not only at what range.
+PieceLimits piece_limits(const View& view, bool directed_cone);
 
 }  // namespace sonarsim

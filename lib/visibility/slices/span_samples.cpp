@@ -15,6 +15,10 @@ constexpr float least_q_share = 1e-3F;
 // Across a piece, at most.
 constexpr float most_parts = 8.0F;
 
+// Towards the line in which all slices meet a piece is cut into narrower ones down to this share of
+// its width. What is left there has a four-hundredth of the area.
+constexpr float least_width_share = 0.05F;
+
 // A parallelogram is as wide at its far end as at its near end, which the surface is not. A piece
 // may reach from one range to this many times that range.
 constexpr float longest_ratio = 1.5F;
@@ -68,6 +72,7 @@ struct SpanSampler::Quad {
 SpanSampler::SpanSampler(const FrameScan& scan, const PieceLimits& limits, std::vector<Sample>& out)
     : scan_(scan),
       limits_(limits),
+      any_width_(!scan.frame().meridians || limits.widest_ratio == unbounded),
       out_(out),
       R_sensor_frame_(scan.frame().R_frame_sensor.transpose()) {}
 
@@ -143,7 +148,11 @@ void SpanSampler::add_span(const Slice& slice, const VisibleSpan& span, const Qu
 void SpanSampler::cut(const Quad& quad) {
     const Points corners = quad.corners(quad.low, quad.high, 0.0F, 1.0F);
     if (is_small(corners)) {
-        add_piece(quad, corners, 0.0F, 1.0F);
+        if (any_width_) {
+            add_piece(quad, corners, 0.0F, 1.0F);
+        } else {
+            add_narrow(quad, 0.0F, 1.0F);
+        }
         return;
     }
     const float u = 0.5F * (quad.low.u + quad.high.u);
@@ -168,7 +177,7 @@ void SpanSampler::cut(const Quad& quad) {
     };
     if (length <= limits_.shortest_m ||
         (sag(length, near2) && far2 <= longest_ratio * longest_ratio * near2 && far2 <= reach2)) {
-        add_piece(quad, 0.0F, 1.0F);
+        add_narrow(quad, 0.0F, 1.0F);
         return;
     }
     // Steps outward from the nearest point, then in order.
@@ -203,7 +212,7 @@ void SpanSampler::cut(const Quad& quad) {
     float last = share(cuts_.front());
     for (std::size_t i = 1; i < cuts_.size(); ++i) {
         const float next = share(cuts_[i]);
-        if (next > last) add_piece(quad, last, next);
+        if (next > last) add_narrow(quad, last, next);
         last = next;
     }
 }
@@ -216,6 +225,36 @@ bool SpanSampler::is_small(const Points& corners) const {
     const float length2 = (corners.middle(2, 3) - corners.middle(0, 1)).squaredNorm();
     return corners.range.maxCoeff() <= limits_.range_max_m &&
            length2 <= std::min(7.0F * limits_.sag_m * nearest, 0.01F * nearest * nearest);
+}
+
+/// Adds the part of a quadrilateral between two shares of the way along w, in pieces that are not
+/// much wider at one end than at the other.
+void SpanSampler::add_narrow(const Quad& quad, float from, float to) {
+    if (any_width_) {
+        add_piece(quad, from, to);
+        return;
+    }
+    // Between two meridians the width goes with X, and 1 / X with w.
+    const float u = 0.5F * (quad.low.u + quad.high.u);
+    const auto X_at = [&](float share) {
+        const float w = quad.middle_low() + share * (quad.middle_high() - quad.middle_low());
+        return quad.points({u, u, u, u}, {w, w, w, w}).X[0];
+    };
+    const float X_from = X_at(from);
+    const float X_to = X_at(to);
+    const bool narrows = X_to < X_from;
+    const float widest = std::max(X_from, X_to);
+    const float narrowest = std::max(std::min(X_from, X_to), least_width_share * widest);
+    const float per_share = (1.0F / X_to - 1.0F / X_from) / (to - from);
+    float last = narrows ? from : to;
+    if (widest == unbounded) return;
+    for (float X = widest / limits_.widest_ratio; X > narrowest; X /= limits_.widest_ratio) {
+        const float next = std::clamp(from + (1.0F / X - 1.0F / X_from) / per_share, from, to);
+        if (next != last) add_piece(quad, std::min(last, next), std::max(last, next));
+        last = next;
+    }
+    const float end = narrows ? to : from;
+    if (end != last) add_piece(quad, std::min(last, end), std::max(last, end));
 }
 
 /// Adds the part of a quadrilateral between two shares of the way along w. Where its range is not
@@ -254,7 +293,14 @@ void SpanSampler::add_sample(const Quad& quad, const Points& corners) {
     const float area = 0.5F * (c - a).cross(d - b).norm();
     if (!(area > 0.0F)) return;
     Sample& sample = out_.emplace_back();
-    sample.position = R_sensor_frame_ * (0.25F * (a + b + c + d));
+    Eigen::Vector3f middle = 0.25F * (a + b + c + d);
+    if (!any_width_) {
+        // More of a trapezoid lies towards its wide end.
+        const float one = (b - a).cross(c - a).norm();
+        const float other = (c - a).cross(d - a).norm();
+        middle = (one * (a + b + c) + other * (a + c + d)) / (3.0F * (one + other));
+    }
+    sample.position = R_sensor_frame_ * middle;
     sample.edge_u = R_sensor_frame_ * (0.25F * (b + c - a - d));
     sample.edge_v = R_sensor_frame_ * (0.25F * (c + d - a - b));
     sample.normal = R_sensor_frame_ * quad.seen->normal;

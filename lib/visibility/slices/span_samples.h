@@ -36,12 +36,14 @@ class SpanSampler {
     static QuadSide quad_side(const Slice& slice, const MovedEnds& side, std::size_t span);
     void cut(const Quad& quad);
     bool is_small(const Points& corners) const;
+    void add_narrow(const Quad& quad, float from, float to);
     void add_piece(const Quad& quad, float from, float to);
     void add_piece(const Quad& quad, const Points& corners, float from, float to);
     void add_sample(const Quad& quad, const Points& corners);
 
     const FrameScan& scan_;
     const PieceLimits limits_;
+    const bool any_width_;
     std::vector<Sample>& out_;
     const Eigen::Matrix3f R_sensor_frame_;
     std::vector<float> cuts_;
