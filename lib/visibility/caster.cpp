@@ -5,19 +5,17 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
-#include <stdexcept>
-#include <string>
 #include <utility>
 
-#include "visibility/embree.h"
+#include "visibility/embree_build.h"
+#include "visibility/embree_trace.h"
 
 namespace sonarsim {
 
 namespace {
 
-constexpr int packet = 8;
+static_assert(Caster::nothing == RTC_INVALID_GEOMETRY_ID);
 
 /// The normal from edges in double: in float, a needle's cross product is mostly cancellation.
 template <class Mesh>
@@ -28,127 +26,6 @@ Facet make_facet(const Mesh& mesh, std::size_t triangle, std::uint32_t instance)
     const Eigen::Vector3d c = mesh.vertices[corners[2]].template cast<double>();
     return {mesh.vertices[corners[0]], mesh.triangle_material[triangle],
             (b - a).cross(c - a).normalized().template cast<float>(), instance};
-}
-
-void check_embree(RTCDevice device, const char* doing) {
-    const RTCError error = rtcGetDeviceError(device);
-    if (error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
-    if (error != RTC_ERROR_NONE) {
-        throw std::runtime_error(std::string("Embree failed while ") + doing + ", error " +
-                                 std::to_string(static_cast<int>(error)));
-    }
-}
-
-template <class Mesh>
-EmbreeTree make_tree(RTCDevice device, const Mesh& scene) {
-    EmbreeTree tree(device);
-    if (!scene.triangles.empty()) {
-        RTCGeometry mesh = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-        void* vertices = rtcSetNewGeometryBuffer(mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                 sizeof(Eigen::Vector3f), scene.vertices.size());
-        void* indices = rtcSetNewGeometryBuffer(mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                                sizeof(scene.triangles[0]), scene.triangles.size());
-        if (vertices && indices) {
-            std::copy(scene.vertices.begin(), scene.vertices.end(),
-                      static_cast<Eigen::Vector3f*>(vertices));
-            std::copy(scene.triangles.begin(), scene.triangles.end(),
-                      static_cast<std::array<std::uint32_t, 3>*>(indices));
-            rtcCommitGeometry(mesh);
-            rtcAttachGeometryByID(tree.get(), mesh, 0);
-        }
-        rtcReleaseGeometry(mesh);
-        check_embree(device, "copying the scene");
-    }
-    rtcCommitScene(tree.get());
-    check_embree(device, "building its tree");
-    return tree;
-}
-
-/// Without what rounding has left of a zero. Embree sorts coherent rays into octants by the signs
-/// of their components, but takes one that is nearer to zero than 1e-18 for +1e-18 where it divides
-/// by it: all rays of the packet that share the octant of a ray with -1e-19 would meet nothing. A
-/// ray is turned by 1e-9 at most, a micrometre in a kilometre; what is left of a product of two
-/// numbers that pass stays above that limit.
-float without_rest(float component) {
-    constexpr float rest = 1e-9F;
-    return std::fabs(component) < rest ? 0.0F : component;
-}
-
-/// Puts a tree into another, as its `index`-th instance.
-void add_instance(RTCDevice device, const EmbreeTree& into, unsigned int index,
-                  const EmbreeTree& tree, Eigen::Matrix<float, 3, 4> transform) {
-    transform.leftCols<3>() = transform.leftCols<3>().unaryExpr(&without_rest).eval();
-    RTCGeometry instance = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
-    rtcSetGeometryInstancedScene(instance, tree.get());
-    rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, transform.data());
-    rtcCommitGeometry(instance);
-    rtcAttachGeometryByID(into.get(), instance, index);
-    rtcReleaseGeometry(instance);
-}
-
-/// A tree that rays are traced through. Where it has instances, the numbers of instance k's facets
-/// start at `first_facet[k]`.
-struct Layer {
-    RTCScene tree = nullptr;
-    std::span<const std::uint32_t> first_facet = {};
-};
-
-/// Takes the facets that a packet has met in a layer over, and lets it go on to the next one: what
-/// it meets there has to be nearer, for Embree has shortened its rays.
-void take_hits(RTCRayHit8& rays, int count, const Layer& layer, std::span<std::uint32_t> facets) {
-    for (int k = 0; k < count; ++k) {
-        const std::uint32_t met = rays.hit.primID[k];
-        if (met == Caster::nothing) continue;
-        facets[k] =
-            layer.first_facet.empty() ? met : met + layer.first_facet[rays.hit.instID[0][k]];
-    }
-    for (int k = 0; k < packet; ++k) {
-        rays.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
-        rays.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;
-        rays.hit.primID[k] = Caster::nothing;
-    }
-}
-
-/// Traces rays in packets; `origin_of(i)` gives the start of ray i.
-template <class OriginOf>
-void trace(std::span<const Layer> layers, OriginOf origin_of,
-           std::span<const Eigen::Vector3f> directions, float reach_m,
-           std::span<std::uint32_t> facets) {
-    alignas(64) RTCRayHit8 rays;
-    alignas(64) int valid[packet];
-    for (int k = 0; k < packet; ++k) {
-        rays.ray.tnear[k] = 0.0F;
-        rays.ray.time[k] = 0.0F;
-        rays.ray.mask[k] = 0xFFFFFFFFU;
-        rays.ray.id[k] = 0;
-        rays.ray.flags[k] = 0;
-    }
-    for (std::size_t first = 0; first < directions.size(); first += packet) {
-        const int count =
-            static_cast<int>(std::min<std::size_t>(packet, directions.size() - first));
-        for (int k = 0; k < packet; ++k) {
-            // A short packet repeats its last ray: whatever the idle lanes hold is then harmless.
-            const std::size_t i = first + std::min(k, count - 1);
-            const Eigen::Vector3f& origin = origin_of(i);
-            rays.ray.org_x[k] = origin.x();
-            rays.ray.org_y[k] = origin.y();
-            rays.ray.org_z[k] = origin.z();
-            rays.ray.dir_x[k] = without_rest(directions[i].x());
-            rays.ray.dir_y[k] = without_rest(directions[i].y());
-            rays.ray.dir_z[k] = without_rest(directions[i].z());
-            rays.ray.tfar[k] = reach_m;
-            rays.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
-            rays.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;
-            rays.hit.primID[k] = Caster::nothing;
-            valid[k] = k < count ? -1 : 0;
-        }
-        const auto own = facets.subspan(first, count);
-        std::ranges::fill(own, Caster::nothing);
-        for (const Layer& layer : layers) {
-            intersect_coherent_8(valid, layer.tree, rays);
-            take_hits(rays, count, layer, own);
-        }
-    }
 }
 
 }  // namespace
@@ -184,7 +61,7 @@ struct Caster::Trees {
         for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
             facets.push_back(make_facet(mesh, i, instance_of(i)));
         first_of_tree.push_back(static_cast<std::uint32_t>(facets.size()));
-        trees.push_back(make_tree(device, mesh));
+        trees.push_back(make_tree(device, mesh.vertices, mesh.triangles));
     }
 };
 
@@ -313,31 +190,28 @@ Facet Caster::placed_facet(std::uint32_t index) const {
     return facet;
 }
 
-template <class OriginOf>
-void Caster::cast_from(OriginOf origin_of, std::span<const Eigen::Vector3f> directions,
+void Caster::cast_from(const RayOrigins& origins, std::span<const Eigen::Vector3f> directions,
                        float reach_m, std::span<std::uint32_t> facets) const {
     if (moments_.empty()) {
-        const Layer own{trees_->trees[0].get()};
-        trace({&own, 1}, origin_of, directions, reach_m, facets);
+        const TracedLayer own{trees_->trees[0].get()};
+        trace_packets({&own, 1}, origins, directions, reach_m, facets);
         return;
     }
-    std::array<Layer, 2> layers;
+    std::array<TracedLayer, 2> layers;
     for (std::size_t k = 0; k < moments_.size(); ++k)
         layers[k] = {moments_[k]->tree.get(), moments_[k]->first_facet};
-    trace(std::span(layers).first(moments_.size()), origin_of, directions, reach_m, facets);
+    trace_packets(std::span(layers).first(moments_.size()), origins, directions, reach_m, facets);
 }
 
 void Caster::cast(const Eigen::Vector3f& origin, std::span<const Eigen::Vector3f> directions,
                   float reach_m, std::span<std::uint32_t> facets) const {
-    cast_from([&](std::size_t) -> const Eigen::Vector3f& { return origin; }, directions, reach_m,
-              facets);
+    cast_from({&origin, 0}, directions, reach_m, facets);
 }
 
 void Caster::cast(std::span<const Eigen::Vector3f> origins,
                   std::span<const Eigen::Vector3f> directions,
                   std::span<std::uint32_t> facets) const {
-    cast_from([&](std::size_t i) -> const Eigen::Vector3f& { return origins[i]; }, directions,
-              std::numeric_limits<float>::infinity(), facets);
+    cast_from({origins.data(), 1}, directions, std::numeric_limits<float>::infinity(), facets);
 }
 
 }  // namespace sonarsim

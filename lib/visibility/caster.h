@@ -11,6 +11,8 @@
 
 namespace sonarsim {
 
+struct RayOrigins;
+
 /// What is needed of a triangle once a ray has met it; 32 bytes, half a cache line.
 struct Facet {
     Eigen::Vector3f vertex;  ///< one of its corners, scene-local, m
@@ -62,9 +64,8 @@ class Caster {
     struct Moment;
     Caster(std::shared_ptr<const Trees> trees, std::vector<std::shared_ptr<const Moment>> moments);
     static std::shared_ptr<const Trees> make_trees(const Scene& scene);
-    template <class OriginOf>
-    void cast_from(OriginOf origin_of, std::span<const Eigen::Vector3f> directions, float reach_m,
-                   std::span<std::uint32_t> facets) const;
+    void cast_from(const RayOrigins& origins, std::span<const Eigen::Vector3f> directions,
+                   float reach_m, std::span<std::uint32_t> facets) const;
     Facet placed_facet(std::uint32_t index) const;
 
     std::shared_ptr<const Trees> trees_;

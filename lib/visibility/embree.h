@@ -7,6 +7,7 @@
 #include <embree4/rtcore.h>
 #endif
 
+#include <cmath>
 #include <utility>
 
 namespace sonarsim {
@@ -29,6 +30,16 @@ class EmbreeTree {
   private:
     RTCScene scene_;
 };
+
+/// Without what rounding has left of a zero. Embree sorts coherent rays into octants by the signs
+/// of their components, but takes one that is nearer to zero than 1e-18 for +1e-18 where it divides
+/// by it: all rays of the packet that share the octant of a ray with -1e-19 would meet nothing. A
+/// ray is turned by 1e-9 at most, a micrometre in a kilometre; what is left of a product of two
+/// numbers that pass stays above that limit.
+inline float without_rest(float component) {
+    constexpr float rest = 1e-9F;
+    return std::fabs(component) < rest ? 0.0F : component;
+}
 
 /// rtcIntersect8 for rays that lie close together; the arguments are Embree's.
 inline void intersect_coherent_8(const int* valid, RTCScene tree, RTCRayHit8& rays) {

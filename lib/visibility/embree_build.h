@@ -1,0 +1,24 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "visibility/embree.h"
+
+namespace sonarsim {
+
+/// std::bad_alloc or std::runtime_error with what was being done, when Embree has failed since it
+/// was last asked.
+void check_embree(RTCDevice device, const char* doing);
+
+/// The tree of a mesh.
+EmbreeTree make_tree(RTCDevice device, std::span<const Eigen::Vector3f> vertices,
+                     std::span<const std::array<std::uint32_t, 3>> triangles);
+
+/// Puts a tree into another, as its `index`-th instance.
+void add_instance(RTCDevice device, const EmbreeTree& into, unsigned int index,
+                  const EmbreeTree& tree, Eigen::Matrix<float, 3, 4> transform);
+
+}  // namespace sonarsim

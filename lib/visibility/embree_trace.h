@@ -1,0 +1,33 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "visibility/embree.h"
+
+namespace sonarsim {
+
+/// A tree that rays are traced through. Where it has instances, the numbers of instance k's facets
+/// start at `first_facet[k]`.
+struct TracedLayer {
+    RTCScene tree = nullptr;
+    std::span<const std::uint32_t> first_facet = {};
+};
+
+/// Where rays start: all from one point, or each from its own.
+struct RayOrigins {
+    const Eigen::Vector3f* first = nullptr;
+    std::size_t step = 0;  ///< 0: they share the first
+
+    const Eigen::Vector3f& of(std::size_t ray) const { return first[step * ray]; }
+};
+
+/// Traces rays in packets, each until the nearest thing in any layer: `facets[i]` is what ray i
+/// meets within `reach_m`, or RTC_INVALID_GEOMETRY_ID.
+void trace_packets(std::span<const TracedLayer> layers, const RayOrigins& origins,
+                   std::span<const Eigen::Vector3f> directions, float reach_m,
+                   std::span<std::uint32_t> facets);
+
+}  // namespace sonarsim
