@@ -92,9 +92,10 @@ Sonar checked_sonar(const Mission& mission, const SonarConfig& sensor,
     const std::string refusal = refusal_of(settings, sonar.settings.view);
     if (!refusal.empty()) throw InputError("sensor '" + sensor.name + "': " + refusal);
     if (has_even_sines(sonar) && !mission.output.labels.empty()) {
-        throw InputError("sensor '" + sensor.name +
-                         "': labels are of beams even in azimuth so far; leave out "
-                         "output.labels, or write instrument.beam.spread: angle");
+        throw InputError(mission.output.labels_place.location,
+                         "sensor '" + sensor.name +
+                             "': labels are of beams even in azimuth so far; leave out "
+                             "output.labels, or write instrument.beam.spread: angle");
     }
     return sonar;
 }

@@ -16,11 +16,12 @@ LabelPlan plan_labels(const Mission& mission, const Assembly& assembly, const So
     const bool has_images = kind_of(sonar.config.kind).has_images;
     const bool masks = asked(Label::coco) || asked(Label::yolo) || asked(Label::yolo_polygons);
     const bool objects = masks || asked(Label::objects);
+    const bool shares = asked(Label::share) || asked(Label::second) || asked(Label::multipath);
     const OutputConfig& output = mission.output;
     LabelPlan plan;
     plan.on = !output.labels.empty();
-    plan.request = {.objects = objects || asked(Label::instance) || asked(Label::share) ||
-                               asked(Label::second) || asked(Label::multipath),
+    plan.request = {.objects = objects || asked(Label::instance) || shares,
+                    .shares = shares,
                     .classes = asked(Label::class_name) || asked(Label::semantic),
                     .materials = asked(Label::material),
                     .elevation = asked(Label::elevation),

@@ -1,9 +1,9 @@
 #include "labels/elevation.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include "core/elementary.h"
 #include "ping/range_path.h"
@@ -42,16 +42,17 @@ void ElevationFinder::add(const Sample& sample) {
         const double part = echo * share;
         const double sine = 0.5 * (from + to);
         const double along = to - from;
-        Moments& m = moments_[i];
-        m.echo += part;
-        m.first += part * sine;
-        m.second += part * (sine * sine + along * along / 12.0 + besides);
+        moments_.echo[i] += part;
+        moments_.first[i] += part * sine;
+        moments_.second[i] += part * (sine * sine + along * along / 12.0 + besides);
     });
 }
 
 void ElevationFinder::find(std::span<const Sample> samples, std::span<float> elevation_rad,
                            std::span<float> spread_rad) {
-    moments_.resize(bins_.count);
+    const std::array sums{&moments_.echo, &moments_.first, &moments_.second};
+    for (std::vector<double>* const sum : sums)
+        sum->resize(bins_.count);
     first_bin_ = bins_.count;
     last_bin_ = 0;
     for (const Sample& sample : samples)
@@ -59,16 +60,26 @@ void ElevationFinder::find(std::span<const Sample> samples, std::span<float> ele
     constexpr float none = std::numeric_limits<float>::quiet_NaN();
     std::ranges::fill(elevation_rad, none);
     std::ranges::fill(spread_rad, none);
+    if (first_bin_ >= last_bin_) return;
+    const double* const __restrict echo = moments_.echo.data();
+    const double* const __restrict first = moments_.first.data();
+    const double* const __restrict second = moments_.second.data();
+    float* const __restrict elevation = elevation_rad.data();
+    float* const __restrict spread = spread_rad.data();
     for (int i = first_bin_; i < last_bin_; ++i) {
-        const Moments m = std::exchange(moments_[i], {});
-        if (!(m.echo > 0.0)) continue;
-        const double sine = std::clamp(m.first / m.echo, -1.0, 1.0);
+        const bool lit = echo[i] > 0.0;
+        const double total = lit ? echo[i] : 1.0;
+        const double sine = std::clamp(first[i] / total, -1.0, 1.0);
         const double cosine = std::sqrt((1.0 - sine) * (1.0 + sine));
-        elevation_rad[i] = arctan2_float(static_cast<float>(sine), static_cast<float>(cosine));
+        const float angle = arctan2_float(static_cast<float>(sine), static_cast<float>(cosine));
         // d(theta) = d(sin theta) / cos(theta); where cos is 0, no more than a half circle.
-        const double spread = std::sqrt(std::max(m.second / m.echo - sine * sine, 0.0));
-        spread_rad[i] = static_cast<float>(spread / std::max({cosine, spread / pi, 1e-9}));
+        const double deviation = std::sqrt(std::max(second[i] / total - sine * sine, 0.0));
+        const double least = std::max(std::max(cosine, deviation / pi), 1e-9);
+        elevation[i] = lit ? angle : none;
+        spread[i] = lit ? static_cast<float>(deviation / least) : none;
     }
+    for (std::vector<double>* const sum : sums)
+        std::fill(sum->begin() + first_bin_, sum->begin() + last_bin_, 0.0);
 }
 
 }  // namespace sonarsim

@@ -22,16 +22,17 @@ class ElevationFinder {
               std::span<float> spread_rad);
 
   private:
-    /// Moments of sin(theta) in a bin. Doubles, since a spread is a small difference of squares.
+    /// Moments of sin(theta) by bin. Doubles, since a spread is a small difference of squares;
+    /// arrays, so that loops vectorise.
     struct Moments {
-        double echo = 0.0, first = 0.0, second = 0.0;
+        std::vector<double> echo, first, second;
     };
 
     void add(const Sample& sample);
 
     std::span<const Material> materials_;
     RangeBins bins_;
-    std::vector<Moments> moments_;      ///< 0 between calls
+    Moments moments_;                   ///< 0 between calls
     int first_bin_ = 0, last_bin_ = 0;  ///< of the beam under way: [first, last) have an echo
 };
 

@@ -100,7 +100,8 @@ class BeamLabeller {
         const auto object_of = [&](std::uint32_t k) { return surfaces_[k].object; };
         if (request_.objects) {
             finder_.find(shares_, object_of, strongest_);
-            write_objects(at, out);
+            write_ids(at, out.object);
+            if (request_.shares) write_shares(at, out);
         }
         if (request_.classes) {
             finder_.find(
@@ -149,11 +150,10 @@ class BeamLabeller {
             out[at + i] = id_16(strongest_.key[i]);
     }
 
-    void write_objects(std::size_t at, PingLabels& out) const {
+    void write_shares(std::size_t at, PingLabels& out) const {
         for (int i = strongest_.first; i < strongest_.last; ++i) {
             const float total = shares_.total[i];
             const float whole = total > 0.0F ? total : 1.0F;
-            out.object[at + i] = id_16(strongest_.key[i]);
             out.share[at + i] = std::min(strongest_.echo[i] / whole, 1.0F);
             out.second[at + i] = id_16(strongest_.second_key[i]);
             out.second_share[at + i] = std::min(strongest_.second_echo[i] / whole, 1.0F);
@@ -182,8 +182,8 @@ PingLabels blank_labels(const View& view, const LabelRequest& request) {
     labels.range_bins = view.range_bins;
     labels.beams = view.beams;
     const std::size_t n = labels.size();
-    if (request.objects) {
-        labels.object.resize(n);
+    if (request.objects) labels.object.resize(n);
+    if (request.shares) {
         labels.share.resize(n);
         labels.second.resize(n);
         labels.second_share.resize(n);

@@ -11,7 +11,8 @@ namespace sonarsim {
 
 /// What is to be told of a ping's bins.
 struct LabelRequest {
-    bool objects = false;  ///< object, second, shares and multipath
+    bool objects = false;
+    bool shares = false;  ///< with the objects: share, second, second_share and multipath
     bool classes = false;
     bool materials = false;
     bool elevation = false;

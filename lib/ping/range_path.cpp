@@ -25,13 +25,6 @@ RangePath range_path(const Sample& sample, const Eigen::Vector3f& axis) {
             .slope = path.dot(axis)};
 }
 
-double rise_at(const RangePath& path, double r) {
-    const double more = (r - path.range_m) * (r + path.range_m);
-    const double root = std::sqrt(std::max(path.range_m * path.range_m + path.bend * more, 0.0));
-    const double t = std::clamp(more / (path.range_m + root), -path.depth_m, path.depth_m);
-    return path.rise_m + path.slope * t;
-}
-
 double echo_of(const Sample& sample, double range_m, const Material& material) {
     const double reflection = material.reflection;
     return sample.area_m2 * reflection * std::min(sample.height_m / range_m, 1.0);

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "ping/accumulate.h"
@@ -23,15 +24,22 @@ RangePath range_path(const Sample& sample, const Eigen::Vector3f& axis);
 
 /// How far the footprint has risen at range r. On its way p + t e, where d . e = 1, the range is
 /// r^2 = r_0^2 + 2 r_0 t + e^2 t^2: a flat piece may span many bins, and its rise is not linear.
-double rise_at(const RangePath& path, double r);
+inline double rise_at(const RangePath& path, double r) {
+    const double more = (r - path.range_m) * (r + path.range_m);
+    const double root = std::sqrt(std::max(path.range_m * path.range_m + path.bend * more, 0.0));
+    const double t = std::clamp(more / (path.range_m + root), -path.depth_m, path.depth_m);
+    return path.rise_m + path.slope * t;
+}
 
 /// Area times intensity of a sample, the numerator of Eq. 9.
 double echo_of(const Sample& sample, double range_m, const Material& material);
 
 /// Calls visit(bin, share, value_from, value_to) for the bins that the footprint covers, with the
 /// share of it in the bin and the values of value_at(r) at the ranges where it enters and leaves.
+/// Values are worked out for some bins at a time: then compilers make vectors of value_at().
 template <class ValueAt, class Visit>
 void for_each_bin(const RangePath& path, const RangeBins& bins, ValueAt value_at, Visit visit) {
+    constexpr int at_once = 16;
     const double per_bin = 1.0 / bins.bin_m;
     const double centre = (path.range_m - bins.min_m) * per_bin;
     // As in accumulate(): a footprint without depth still needs a width.
@@ -40,13 +48,19 @@ void for_each_bin(const RangePath& path, const RangeBins& bins, ValueAt value_at
     const double low = std::max(first, 0.0);
     const double high = std::min(last, static_cast<double>(bins.count));
     if (!(low < high)) return;
-    double value_from = value_at(bins.min_m + low * bins.bin_m);
-    for (auto i = static_cast<int>(low); i < bins.count && i < high; ++i) {
-        const double from = std::max(low, static_cast<double>(i));
-        const double to = std::min(high, i + 1.0);
-        const double value_to = value_at(bins.min_m + to * bins.bin_m);
-        visit(i, (to - from) / (last - first), value_from, value_to);
-        value_from = value_to;
+    const auto first_bin = static_cast<int>(low);
+    const int end_bin = std::min(static_cast<int>(std::ceil(high)), bins.count);
+    std::array<double, at_once + 1> values{value_at(bins.min_m + low * bins.bin_m)};
+    for (int from = first_bin; from < end_bin; from += at_once) {
+        const int count = std::min(at_once, end_bin - from);
+        for (int k = 0; k < count; ++k)
+            values[k + 1] = value_at(bins.min_m + std::min(high, from + k + 1.0) * bins.bin_m);
+        for (int k = 0; k < count; ++k) {
+            const double enters = std::max(low, static_cast<double>(from + k));
+            const double leaves = std::min(high, from + k + 1.0);
+            visit(from + k, (leaves - enters) / (last - first), values[k], values[k + 1]);
+        }
+        values[0] = values[count];
     }
 }
 

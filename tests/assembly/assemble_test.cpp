@@ -4,6 +4,9 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <vector>
 
 #include "core/error.h"
 #include "core/file.h"
@@ -59,13 +62,13 @@ struct MissionOnDisk {
                    "t_s,x_m,y_m,z_m,qx,qy,qz,qw\n0,0,0,0,0,0,0,1\n1,1,0,0,0,0,0,1\n");
     }
 
-    Mission load(const std::string& trajectory) const {
+    Mission load(const std::string& trajectory, std::span<const std::string> overrides = {}) const {
         return parse_mission(
             "scene: {file: wall.gltf, materials: materials.csv}\ntrajectory: " + trajectory +
                 "\nsensors:\n  fls: {kind: imaging, range_bins: 100, "
                 "azimuth_bins: 8, azimuth_deg: 20, elevation_deg: 10}\n"
                 "output: {folder: out}\n",
-            "mission.yaml", folder.path, {}, sonar_keys());
+            "mission.yaml", folder.path, overrides, sonar_keys());
     }
 };
 
@@ -103,6 +106,25 @@ TEST_SUITE("assembly") {
         // Two lines of 10 m and the way between them of 5 m: 25 s.
         CHECK(survey.size() == 26);
         CHECK(survey.front().T_world_vehicle.translation.z() == doctest::Approx(3.0));
+    }
+
+    TEST_CASE("assemble: beams even in sine have no labels, and say so") {
+        const MissionOnDisk disk;
+        const std::vector<std::string> settings{"sensors.fls.model=calibrated",
+                                                "sensors.fls.instrument.beam.spread=sine",
+                                                "output.labels=[instance]"};
+        const auto load = [&](std::size_t count) {
+            return disk.load("{file: poses.csv}", std::span(settings).first(count));
+        };
+        CHECK_NOTHROW(assemble(load(2)));
+        CHECK_THROWS_WITH_AS(assemble(load(3)),
+                             "--set output.labels=[instance]: sensor 'fls': labels are of beams "
+                             "even in azimuth so far; leave out output.labels, or write "
+                             "instrument.beam.spread: angle",
+                             InputError);
+        Mission even_angles = load(3);
+        even_angles.sensors[0].instrument.beam.spread = BeamSpread::angle;
+        CHECK_NOTHROW(assemble(even_angles));
     }
 
     TEST_CASE("assemble: the octree refuses a view that its cells cannot hold") {

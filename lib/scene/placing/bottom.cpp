@@ -8,7 +8,10 @@ namespace sonarsim {
 
 namespace {
 
-constexpr int most_cells = 1024;
+constexpr int most_cells = 1024;  // along x, and along y
+
+// More than one, since most triangles are often those of small things that cover few of the cells.
+constexpr double cells_per_triangle = 8.0;
 
 std::array<Eigen::Vector3d, 3> corners_of(const Surface& surface, std::uint32_t triangle) {
     const auto& c = surface.triangles[triangle];
@@ -39,7 +42,7 @@ Bottom::Bottom(Surface surface) : surface_(std::move(surface)) {
     for (const Eigen::Vector3d& vertex : surface_.vertices)
         area_.extend(vertex.head<2>());
     const auto count = static_cast<std::uint32_t>(surface_.triangles.size());
-    side_ = std::clamp(static_cast<int>(std::sqrt(0.5 * count)), 1, most_cells);
+    side_ = std::clamp(static_cast<int>(std::sqrt(cells_per_triangle * count)), 1, most_cells);
     // Counted first, then filled in.
     std::vector<std::uint32_t> size(static_cast<std::size_t>(side_) * side_ + 1, 0);
     const auto for_each_cell = [&](std::uint32_t triangle, const auto& visit) {

@@ -1,0 +1,152 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "core/units.h"
+#include "ping/labels.h"
+#include "support/labelled.h"
+#include "support/scenes.h"
+#include "support/sonars.h"
+#include "visibility/make_engine.h"
+
+using namespace sonarsim;
+using namespace sonarsim::test;
+
+TEST_SUITE_BEGIN("ping");
+
+TEST_CASE("labels: the elevation of a floor is that of its range") {
+    // At height H over a plane, level, straight ahead: sin(theta) = -H / r. Over a bin of width b
+    // theta spreads evenly over b d(theta)/dr, a standard deviation of that over sqrt(12).
+    Scene scene = empty_scene();
+    add_floor(scene, 100.0F, 0.0F, add_material(scene, 0.6F));
+    SonarConfig config = small_imaging();
+    config.elevation_deg = 40.0;
+    const Sonar sonar = noise_free(config, 0.01);
+    constexpr double H = 2.0;
+    for (const EngineType type : engine_types) {
+        CAPTURE(static_cast<int>(type));
+        const Labelled out = label(scene, sonar, {Eigen::Quaterniond::Identity(), {0, 0, H}}, type);
+        int bins = 0;
+        for (int i = bin_at(sonar, 6.5); i < bin_at(sonar, 9.5); ++i) {
+            const double r = 0.5 * (sonar.range_edges_m[i] + sonar.range_edges_m[i + 1]);
+            for (int j = 0; j < out.labels.beams; ++j) {
+                const float theta = out.labels.elevation_rad[out.at(i, j)];
+                const double truth = -std::asin(H / r);
+                const double slope = H / (r * std::sqrt(r * r - H * H));
+                const double spread = slope * sonar.settings.view.bin_m() / std::sqrt(12.0);
+                ++bins;
+                CHECK(std::fabs(theta - truth) < 0.5 * slope * sonar.settings.view.bin_m());
+                const double told = out.labels.elevation_spread_rad[out.at(i, j)];
+                CHECK(told > 0.0);
+                CHECK(told / spread < 2.0);
+            }
+        }
+        CHECK(bins > 1000);
+        CHECK(std::isnan(out.labels.elevation_rad[out.at(0, 0)]));
+    }
+}
+
+TEST_CASE("labels: heights above the bottom, of a box, of a ramp and of the bottom itself") {
+    // A sonar 2 m above a floor, 20 degrees down, sees 0 to 40 degrees of depression: the floor
+    // from 3.1 m on. Straight ahead stands a box half a metre high, from x = 4 to 5 m. The floor
+    // before it ends at a range of hypot(4, 2) = 4.47 m and is seen again from x = 5 * 2
+    // / 1.5, 6.96 m, on; its top lies at hypot(4, 1.5) = 4.27 to hypot(5, 1.5) = 5.22 m. A ramp
+    // from (8, 0) to (9, 0.5) lies at 8.25 to 9.12 m and hides the floor up to x = 9 * 2
+    // / 1.5, 12.17 m.
+    Scene scene = empty_scene();
+    const std::uint32_t m = add_material(scene, 0.5F);
+    add_floor(scene, 100.0F, 0.0F, m);
+    add_quad(scene, {4, -3, 0.5F}, {5, -3, 0.5F}, {5, 3, 0.5F}, {4, 3, 0.5F}, m);
+    add_quad(scene, {4, -3, 0}, {4, 3, 0}, {4, 3, 0.5F}, {4, -3, 0.5F}, m);
+    add_quad(scene, {8, -6, 0}, {9, -6, 0.5F}, {9, 6, 0.5F}, {8, 6, 0}, m);
+    // The bottom is the floor up to x = 14 m, as a slab: its underside, and a roof, do not count.
+    Surface slab;
+    for (const double z : {-1.0, 0.0, 5.0}) {
+        const auto first = static_cast<std::uint32_t>(slab.vertices.size());
+        for (const auto& [x, y] :
+             {std::pair{-1.0, -50.0}, {14.0, -50.0}, {14.0, 50.0}, {-1.0, 50.0}})
+            slab.vertices.emplace_back(x, y, z);
+        slab.triangles.push_back({first, first + 1, first + 2});
+        slab.triangles.push_back({first, first + 2, first + 3});
+    }
+    const Bottom bottom(slab);
+    SonarConfig config = small_imaging();
+    config.elevation_deg = 40.0;
+    config.range_max_m = 18.0;
+    config.range_bins = 512;
+    const Sonar sonar = noise_free(config, 0.01);
+    const Pose pose{rotation_from_rpy(0.0, radians(20.0), 0.0), {0, 0, 2}};
+    for (const EngineType type : engine_types) {
+        CAPTURE(static_cast<int>(type));
+        const auto engine = make_engine(scene, {.type = type, .octree = {}});
+        const TracedPing traced = trace(sonar, scene, *engine, pose, 0);
+        const SceneObjects objects = group_objects(scene, {});
+        const auto heights = [&](const Bottom* above) {
+            return label_ping(traced, sonar.settings, scene, objects, *engine,
+                              {.height = true, .bottom = above})
+                .height_m;
+        };
+        const std::vector<float> height = heights(&bottom);
+        int bins = 0;
+        for (int j = 0; j < sonar.settings.view.beams; ++j) {
+            // Beams near the middle, in which azimuth changes no range by more than half a bin.
+            if (std::fabs(sonar.azimuth_edges_rad[j]) > 0.04) continue;
+            const auto between = [&](double from, double to, const auto& check) {
+                for (int i = bin_at(sonar, from); i < bin_at(sonar, to); ++i, ++bins) {
+                    CAPTURE(sonar.range_edges_m[i]);
+                    check(height[static_cast<std::size_t>(j) * config.range_bins + i],
+                          0.5 * (sonar.range_edges_m[i] + sonar.range_edges_m[i + 1]));
+                }
+            };
+            between(3.3, 4.1, [](float h, double) { CHECK(h == 0.0F); });
+            between(4.6, 5.1, [](float h, double) { CHECK(std::fabs(h - 0.5F) < 1e-4F); });
+            between(5.4, 6.8, [](float h, double) { CHECK(std::isnan(h)); });  // a shadow
+            between(7.2, 8.1, [](float h, double) { CHECK(h == 0.0F); });
+            between(8.35, 9.0, [](float h, double r) {
+                // At x = 8 + s and z = s / 2: r^2 = (8 + s)^2 + (2 - s / 2)^2
+                //     = 68 + 14 s + 1.25 s^2.
+                const double s = (-14.0 + std::sqrt(196.0 - 5.0 * (68.0 - r * r))) / 2.5;
+                CHECK(std::fabs(h - 0.5 * s) < 0.02);
+            });
+            between(12.6, 13.8, [](float h, double) { CHECK(h == 0.0F); });
+            between(14.5, 17.0, [](float h, double) { CHECK(std::isnan(h)); });  // no bottom
+        }
+        CHECK(bins > 500);
+        CHECK(std::ranges::all_of(heights(nullptr), [](float h) { return std::isnan(h); }));
+    }
+}
+
+TEST_CASE("labels: a wall on the border of the bottom has heights") {
+    // A sonar 2 m above a floor that ends at a wall 6 m ahead, looking level: of the wall it sees
+    // the heights from 2 - 6 tan(10) = 0.94 m to 3.06 m, straight ahead first the middle of them.
+    Scene scene = empty_scene();
+    add_quad(scene, {6, -9, 0}, {6, 9, 0}, {6, 9, 5}, {6, -9, 5}, add_material(scene, 0.5F));
+    const Bottom bottom({{{-1, -9, 0}, {6, -9, 0}, {6, 9, 0}, {-1, 9, 0}}, {{0, 1, 2}, {0, 2, 3}}});
+    SonarConfig config = small_imaging();
+    config.elevation_deg = 20.0;
+    const Sonar sonar = noise_free(config, 0.01);
+    const Pose pose{Eigen::Quaterniond::Identity(), {0, 0, 2}};
+    for (const EngineType type : engine_types) {
+        CAPTURE(static_cast<int>(type));
+        const auto engine = make_engine(scene, {.type = type, .octree = {}});
+        const TracedPing traced = trace(sonar, scene, *engine, pose, 0);
+        const PingLabels labels =
+            label_ping(traced, sonar.settings, scene, group_objects(scene, {}), *engine,
+                       {.elevation = true, .height = true, .bottom = &bottom});
+        int lit = 0;
+        for (std::size_t k = 0; k < labels.size(); ++k) {
+            const bool seen = !std::isnan(labels.elevation_rad[k]);
+            REQUIRE(std::isnan(labels.height_m[k]) == !seen);
+            if (!seen) continue;
+            ++lit;
+            // What lies as far above the sonar as below it falls into one bin.
+            CHECK(std::fabs(labels.height_m[k] - 2.0F) < 0.2F);
+        }
+        CHECK(lit > 50);
+    }
+}
+
+TEST_SUITE_END();

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "ping/labels.h"
+#include "support/sonars.h"
+#include "visibility/make_engine.h"
+
+namespace sonarsim::test {
+
+inline constexpr std::array engine_types{EngineType::rays, EngineType::octree, EngineType::slices};
+inline constexpr LabelRequest everything{.objects = true,
+                                         .shares = true,
+                                         .classes = true,
+                                         .materials = true,
+                                         .elevation = true,
+                                         .shadow = true};
+
+/// A scene, its labels and the image without noise.
+struct Labelled {
+    SceneObjects objects;
+    PingLabels labels;
+    Ping clean;
+
+    std::size_t at(int i, int j) const {
+        return static_cast<std::size_t>(j) * labels.range_bins + i;
+    }
+};
+
+inline Labelled label(const Scene& scene, const Sonar& sonar, const Pose& pose, EngineType type) {
+    const auto engine = make_engine(scene, {.type = type, .octree = {}});
+    const TracedPing traced = trace(sonar, scene, *engine, pose, 0);
+    Labelled out;
+    out.objects = group_objects(scene, {});
+    out.labels = label_ping(traced, sonar.settings, scene, out.objects, *engine, everything);
+    out.clean = form_image(traced, sonar.settings, scene, {}, term_by_term[1]);
+    return out;
+}
+
+/// The range bin that a range lies in.
+inline int bin_at(const Sonar& sonar, double range_m) {
+    return static_cast<int>((range_m - sonar.settings.view.range_min_m) /
+                            sonar.settings.view.bin_m());
+}
+
+}  // namespace sonarsim::test
