@@ -8,6 +8,7 @@
 #include "ping/scatterers.h"
 #include "scene/scene.h"
 #include "visibility/engine.h"
+#include "visibility/range_extent.h"
 
 namespace sonarsim {
 
@@ -24,22 +25,6 @@ inline Pieces one_piece_per_cell(float u_m, float v_m, float cell_m, float most)
     const float v = std::max(2.0F * v_m / cell_m, 1.0F);
     const float shrink = 1.0F / std::sqrt(std::max(u * v / most, 1.0F));
     return {.u = std::max(u * shrink, 1.0F), .v = std::max(v * shrink, 1.0F)};
-}
-
-/// How far the range of a piece reaches before and after that of its centre.
-struct RangeExtent {
-    float before;
-    float after;
-};
-
-/// Along a half edge e of depth d the range is r + d s + c s^2, s in [-1, 1], with
-/// c = (e^2 - d^2) / (2 r): both ends lie farther than the depth says, and beside the foot of the
-/// perpendicular there is no near end.
-inline RangeExtent extent_of(float squared_edge, float depth_m, float range_m) {
-    const float bend = std::max(squared_edge - depth_m * depth_m, 0.0F) / (2.0F * range_m);
-    const float before_foot = 0.25F * depth_m * depth_m / bend;
-    return {.before = depth_m >= 2.0F * bend ? depth_m - bend : before_foot,
-            .after = depth_m + bend};
 }
 
 /// A block of samples, and how they are cut into pieces. Arrays, so that loops vectorise.

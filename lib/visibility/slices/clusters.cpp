@@ -7,6 +7,8 @@
 #include <tuple>
 #include <utility>
 
+#include "visibility/slices/merge_triangles.h"
+
 namespace sonarsim {
 
 namespace {
@@ -199,12 +201,13 @@ void add_cluster(const Scene& scene, const std::uint32_t* triangles, std::uint32
 
 }  // namespace
 
-ClusterMesh make_clusters(const Scene& scene) {
+ClusterMesh make_clusters(const Scene& whole) {
     ClusterMesh mesh;
+    const std::vector<std::uint32_t> vertex = welded(whole);
+    const Scene scene = with_flat_faces_merged(whole, vertex);
     const std::vector<std::uint32_t> order = along_morton_curve(scene);
     mesh.corners.reserve(order.size());
     mesh.facets.reserve(order.size());
-    const std::vector<std::uint32_t> vertex = welded(scene);
     Pieces pieces(scene, vertex);
     const std::vector<std::array<std::uint32_t, 3>> beyond = across_edges(scene, vertex);
     for (const std::uint32_t triangle : order)

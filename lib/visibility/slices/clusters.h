@@ -27,8 +27,8 @@ struct Cluster {
     std::uint32_t triangles;
 };
 
-/// A scene's triangles, sorted along a Morton curve through their centres and cut into clusters.
-/// Corners count from the cluster's first vertex.
+/// A scene's triangles, flat faces in as few as they need, sorted along a Morton curve through
+/// their centres and cut into clusters. Corners count from the cluster's first vertex.
 struct ClusterMesh {
     static constexpr std::uint32_t most_triangles = 64;
     static constexpr std::uint32_t nothing = 0xFFFFFFFFU;

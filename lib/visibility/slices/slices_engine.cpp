@@ -10,6 +10,7 @@
 #include "visibility/slices/clusters.h"
 #include "visibility/slices/frame_scan.h"
 #include "visibility/slices/scan.h"
+#include "visibility/slices/sliver_bins.h"
 #include "visibility/slices/span_samples.h"
 
 namespace sonarsim {
@@ -37,13 +38,6 @@ double error_of_shapes(double relative_l1) {
 
 double estimated_error(double relative_l1, double disagreement) {
     return error_of_shapes(relative_l1) + error_of_disagreement * std::sqrt(disagreement);
-}
-
-/// Error that slices do not disagree about; it hardly falls with the goal. The worst pose of the
-/// lifeboat is off by 2.2, 1.2 and 0.80 % at goals of 3, 1 and 0.3 % (reference settled to 0.3 %),
-/// where the estimate was 1.9, 0.77 and 0.45 %. At coarse goals the fit above has it already.
-double error_unseen(double relative_l1) {
-    return 0.003 * std::min(0.01 / relative_l1, 1.0);
 }
 
 /// What slices may disagree by for an error goal. Goals near the error of shapes are not met by
@@ -103,8 +97,8 @@ class SlicesEngine final : public VisibilityEngine {
         Disagreement sum;
         for (const SliceFrame& frame : slice_frames(view, per_beam))
             see_frame(view, pose, frame, most, samples, sum);
-        samples.estimated_l1 =
-            estimated_error(view.relative_l1, sum.share()) + error_unseen(view.relative_l1);
+        samples.estimated_l1 = estimated_error(view.relative_l1, sum.share()) +
+                               error_of_slivers(view, scene_->materials, samples);
         return samples;
     }
 

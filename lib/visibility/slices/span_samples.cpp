@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "visibility/slices/fit_range.h"
+
 namespace sonarsim {
 
 namespace {
@@ -303,6 +305,7 @@ void SpanSampler::add_sample(const Quad& quad, const Points& corners) {
     sample.position = R_sensor_frame_ * middle;
     sample.edge_u = R_sensor_frame_ * (0.25F * (b + c - a - d));
     sample.edge_v = R_sensor_frame_ * (0.25F * (c + d - a - b));
+    fit_range(corners.range, sample);
     sample.normal = R_sensor_frame_ * quad.seen->normal;
     sample.height_m = quad.seen->height_m;
     sample.area_m2 = area;

@@ -113,8 +113,9 @@ TEST_CASE("slices: samples are sorted by beam and do not leave it") {
             for (const float side : {-1.0F, 1.0F}) {
                 const Eigen::Vector3f p = sample.position + side * sample.edge_u;
                 const double beam = std::atan2(p.y(), p.x()) / width + 0.5 * view.beams - j;
-                CHECK(beam > -0.02);
-                CHECK(beam < 1.02);
+                // A parallelogram that is as deep as its surface may be wider by a little.
+                CHECK(beam > -0.05);
+                CHECK(beam < 1.05);
             }
         }
     }

@@ -1,0 +1,31 @@
+#include "visibility/slices/fit_range.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sonarsim {
+
+void fit_range(const Eigen::Array4f& range, Sample& sample) {
+    const float r = sample.position.norm();
+    const float u = sample.position.dot(sample.edge_u) / r;
+    const float v = sample.position.dot(sample.edge_v) / r;
+    const float depth_u = std::fabs(u);
+    const float depth_v = std::fabs(v);
+    const bool by_u = depth_u > depth_v;
+    const float deeper = by_u ? depth_u : depth_v;
+    const float bend = (sample.edge_u.squaredNorm() - depth_u * depth_u +
+                        sample.edge_v.squaredNorm() - depth_v * depth_v) /
+                       (2.0F * r);
+    // Beside the foot of the perpendicular the corners do not tell of the least range.
+    if (!(deeper > 4.0F * bend)) return;
+    const float nearest = range.minCoeff();
+    const float farthest = range.maxCoeff();
+    const float more = 0.5F * (farthest - nearest) - depth_u - depth_v;
+    const float shift = 0.5F * (farthest + nearest) - r - bend;
+    Eigen::Vector3f& edge = by_u ? sample.edge_u : sample.edge_v;
+    const float limit = 0.5F * deeper;
+    sample.position += std::clamp(shift, -limit, limit) / (by_u ? u : v) * edge;
+    edge *= 1.0F + std::clamp(more, -limit, limit) / deeper;
+}
+
+}  // namespace sonarsim

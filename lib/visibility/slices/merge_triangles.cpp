@@ -1,0 +1,245 @@
+#include "visibility/slices/merge_triangles.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace sonarsim {
+
+namespace {
+
+// A surface may move by this share of the greatest coordinate: halves of edges are rounded to 6e-8
+// of it, and a plane through small triangles is known that much worse beyond them.
+constexpr double most_moved = 2e-6;
+
+// A triangle may become a needle of this height, as a share of its longest edge, and no thinner.
+constexpr double thinnest_needle = 0.002;
+
+// Where fewer of the corners than this share can go, merging is not worth its time.
+constexpr double least_share = 0.05;
+
+struct Face {
+    std::array<std::uint32_t, 3> corners;  ///< welded
+    std::uint32_t triangle;                ///< of the scene
+    bool gone = false;
+    Eigen::Vector3d normal;  ///< of the triangle as it was; the plane n . p = height
+    double height;
+};
+
+struct Neighbour {
+    std::uint32_t vertex;
+    int faces = 0;
+    std::uint32_t first_face = 0;
+    bool is_border = false;  ///< the edge to it parts materials or instances, or has one side
+};
+
+class Merger {
+  public:
+    Merger(const Scene& scene, const std::vector<std::uint32_t>& welded)
+        : scene_(scene), welded_(welded), around_(scene.vertices.size()) {
+        float greatest = 0.0F;
+        for (const Eigen::Vector3f& p : scene.vertices)
+            greatest = std::max(greatest, p.cwiseAbs().maxCoeff());
+        most_m_ = most_moved * static_cast<double>(greatest);
+        faces_.reserve(scene.triangles.size());
+        for (std::uint32_t i = 0; i < scene.triangles.size(); ++i)
+            add_face(i);
+    }
+
+    /// Whether there is enough to merge.
+    bool is_worth_it() {
+        std::size_t flat = 0;
+        std::size_t used = 0;
+        for (std::uint32_t v = 0; v < around_.size(); ++v) {
+            if (around_[v].empty()) continue;
+            ++used;
+            flat += planes_around(v) <= 2 ? 1 : 0;
+        }
+        return static_cast<double>(flat) > least_share * static_cast<double>(used);
+    }
+
+    void run() {
+        for (bool changed = true; changed;) {
+            changed = false;
+            for (std::uint32_t v = 0; v < around_.size(); ++v)
+                changed |= !around_[v].empty() && take_out(v);
+        }
+    }
+
+    Scene result() const {
+        Scene out;
+        out.vertices = scene_.vertices;
+        for (const Face& face : faces_) {
+            if (face.gone) continue;
+            out.triangles.push_back(face.corners);
+            out.triangle_material.push_back(scene_.triangle_material[face.triangle]);
+            out.triangle_instance.push_back(scene_.triangle_instance[face.triangle]);
+        }
+        return out;
+    }
+
+  private:
+    Eigen::Vector3d place(std::uint32_t v) const { return scene_.vertices[v].cast<double>(); }
+
+    void add_face(std::uint32_t i) {
+        Face face{};
+        face.triangle = i;
+        for (int k = 0; k < 3; ++k)
+            face.corners[k] = welded_[scene_.triangles[i][k]];
+        const auto& [a, b, c] = face.corners;
+        const Eigen::Vector3d across = (place(b) - place(a)).cross(place(c) - place(a));
+        const double length = across.norm();
+        face.normal = length > 0.0 ? Eigen::Vector3d(across / length) : Eigen::Vector3d::Zero();
+        face.height = face.normal.dot(place(a));
+        for (const std::uint32_t corner : face.corners)
+            around_[corner].push_back(static_cast<std::uint32_t>(faces_.size()));
+        faces_.push_back(face);
+    }
+
+    bool on_plane(const Face& face, std::uint32_t v) const {
+        return std::fabs(face.normal.dot(place(v)) - face.height) <= most_m_;
+    }
+
+    /// How many planes meet at a vertex; 3 stands for more.
+    int planes_around(std::uint32_t v) const {
+        std::array<std::uint32_t, 2> planes{};
+        int count = 0;
+        for (const std::uint32_t f : around_[v]) {
+            const auto known = [&](std::uint32_t g) {
+                return std::ranges::all_of(faces_[g].corners, [&](std::uint32_t corner) {
+                    return on_plane(faces_[f], corner);
+                });
+            };
+            if (std::any_of(planes.begin(), planes.begin() + count, known)) continue;
+            if (count == 2) return 3;
+            planes[count++] = f;
+        }
+        return count;
+    }
+
+    /// Takes a vertex out by moving it onto a neighbour, where the surface stays as it is.
+    bool take_out(std::uint32_t v) {
+        if (!find_neighbours(v)) return false;
+        for (const Neighbour& to : neighbours_) {
+            if (!may_move(v, to)) continue;
+            move(v, to.vertex);
+            return true;
+        }
+        return false;
+    }
+
+    /// False where the surface around v is not a disc or half a disc.
+    bool find_neighbours(std::uint32_t v) {
+        neighbours_.clear();
+        for (const std::uint32_t f : around_[v]) {
+            for (const std::uint32_t corner : faces_[f].corners) {
+                if (corner == v) continue;
+                auto known = std::ranges::find(neighbours_, corner, &Neighbour::vertex);
+                if (known == neighbours_.end())
+                    known = neighbours_.insert(known, {corner, 0, f, false});
+                else if (!alike(known->first_face, f))
+                    known->is_border = true;
+                if (++known->faces > 2) return false;
+            }
+        }
+        int borders = 0;
+        for (Neighbour& neighbour : neighbours_) {
+            neighbour.is_border |= neighbour.faces == 1;
+            borders += neighbour.is_border ? 1 : 0;
+        }
+        return borders == 0 || borders == 2;
+    }
+
+    bool alike(std::uint32_t f, std::uint32_t g) const {
+        const std::uint32_t s = faces_[f].triangle;
+        const std::uint32_t t = faces_[g].triangle;
+        return scene_.triangle_material[s] == scene_.triangle_material[t] &&
+               scene_.triangle_instance[s] == scene_.triangle_instance[t];
+    }
+
+    bool may_move(std::uint32_t v, const Neighbour& to) const {
+        const Eigen::Vector3d end = place(to.vertex);
+        for (const Neighbour& other : neighbours_) {
+            if (!other.is_border || other.vertex == to.vertex) continue;
+            // A border stays one straight line.
+            if (!to.is_border) return false;
+            const Eigen::Vector3d along = (place(other.vertex) - end).normalized();
+            const Eigen::Vector3d aside = place(v) - end;
+            if (!(aside.cross(along).norm() <= most_m_)) return false;
+        }
+        int shared = 0;
+        for (const std::uint32_t f : around_[v]) {
+            const Face& face = faces_[f];
+            if (std::ranges::count(face.corners, to.vertex) > 0) {
+                ++shared;
+            } else if (!stays(face, v, to.vertex)) {
+                return false;
+            }
+        }
+        return shared == to.faces && common_neighbours(to.vertex) == shared;
+    }
+
+    /// Whether a face keeps its plane and its side when v moves.
+    bool stays(const Face& face, std::uint32_t v, std::uint32_t to) const {
+        if (!on_plane(face, to)) return false;
+        std::array<Eigen::Vector3d, 3> p;
+        for (int k = 0; k < 3; ++k)
+            p[k] = place(face.corners[k] == v ? to : face.corners[k]);
+        const Eigen::Vector3d ab = p[1] - p[0];
+        const Eigen::Vector3d ac = p[2] - p[0];
+        const double longest2 =
+            std::max({ab.squaredNorm(), ac.squaredNorm(), (p[2] - p[1]).squaredNorm()});
+        return ab.cross(ac).dot(face.normal) >= thinnest_needle * longest2;
+    }
+
+    /// Of v, which neighbours_ belong to, and another vertex.
+    int common_neighbours(std::uint32_t other) const {
+        std::vector<std::uint32_t> common;
+        for (const std::uint32_t f : around_[other]) {
+            for (const std::uint32_t corner : faces_[f].corners) {
+                const bool is_common =
+                    corner != other &&
+                    std::ranges::find(neighbours_, corner, &Neighbour::vertex) != neighbours_.end();
+                if (is_common && std::ranges::find(common, corner) == common.end())
+                    common.push_back(corner);
+            }
+        }
+        return static_cast<int>(common.size());
+    }
+
+    void move(std::uint32_t v, std::uint32_t to) {
+        const std::vector<std::uint32_t> moved = std::exchange(around_[v], {});
+        for (const std::uint32_t f : moved) {
+            Face& face = faces_[f];
+            if (std::ranges::count(face.corners, to) == 0) {
+                std::ranges::replace(face.corners, v, to);
+                around_[to].push_back(f);
+                continue;
+            }
+            face.gone = true;
+            for (const std::uint32_t corner : face.corners)
+                std::erase(around_[corner], f);
+        }
+    }
+
+    const Scene& scene_;
+    const std::vector<std::uint32_t>& welded_;
+    std::vector<Face> faces_;
+    std::vector<std::vector<std::uint32_t>> around_;  ///< faces, by vertex
+    std::vector<Neighbour> neighbours_;               ///< of the vertex that is looked at
+    double most_m_ = 0.0;
+};
+
+}  // namespace
+
+Scene with_flat_faces_merged(const Scene& scene, const std::vector<std::uint32_t>& welded) {
+    Merger merger(scene, welded);
+    if (merger.is_worth_it()) merger.run();
+    return merger.result();
+}
+
+}  // namespace sonarsim
