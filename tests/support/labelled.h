@@ -3,7 +3,7 @@
 #include <array>
 #include <cstddef>
 
-#include "ping/labels.h"
+#include "labels/labels.h"
 #include "support/sonars.h"
 #include "visibility/make_engine.h"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/units.h"
-#include "ping/labels.h"
+#include "labels/labels.h"
 #include "support/labelled.h"
 #include "support/scenes.h"
 #include "support/sonars.h"
