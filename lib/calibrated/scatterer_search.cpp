@@ -14,8 +14,8 @@ namespace {
 constexpr int search_lanes = 8;
 
 // Head-on a resolution cell has no end on the surface: its length is taken to be this many times
-// that of the pulse at the most.
-constexpr float longest_on_surface = 10.0F;
+// that of the pulse at the most. With more, objects of a few centimetres would hold few scatterers.
+constexpr float longest_on_surface = 2.0F;
 
 /// 32 bits that look random by 64 (the finaliser of MurmurHash3, put to the words in turn).
 __m256i mixed(__m256i a, __m256i b) {

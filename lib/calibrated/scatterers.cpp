@@ -15,7 +15,7 @@ using Words = PieceBlock::Array<std::uint32_t>;
 constexpr double most_of_resolution = 0.75;
 
 // Where sound meets a surface head-on, cells are this much larger than where it grazes it.
-constexpr int steep_levels = 3;
+constexpr int steep_levels = 1;
 
 /// 32 bits that look random by 64 (the finaliser of MurmurHash3, put to the words in turn).
 std::uint32_t mixed(std::uint32_t a, std::uint32_t b) {
