@@ -114,8 +114,8 @@ void judge_error(const AccuracyConfig& accuracy, const Sonar& sonar, const Senso
     if (summary.missed_goals == 0) return;
     out.push_back(
         fmt::format("sensor '{}': {} of {} pings miss accuracy.relative_l1 of {:.4g}, the worst by "
-                    "an estimated {:.2g}: the scene has more detail between neighbouring beams "
-                    "than the engine can follow",
+                    "an estimated {:.2g}: there is more detail between neighbouring beams than the "
+                    "engine can follow, or surface that only just reaches into a bin",
                     sonar.config.name, summary.missed_goals, summary.pings, accuracy.relative_l1,
                     summary.worst_l1));
 }

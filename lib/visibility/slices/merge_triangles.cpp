@@ -20,7 +20,7 @@ constexpr double most_moved = 2e-6;
 constexpr double thinnest_needle = 0.002;
 
 // Where fewer of the corners than this share can go, merging is not worth its time.
-constexpr double least_share = 0.05;
+constexpr double least_gone = 0.05;
 
 struct Face {
     std::array<std::uint32_t, 3> corners;  ///< welded
@@ -59,7 +59,7 @@ class Merger {
             ++used;
             flat += planes_around(v) <= 2 ? 1 : 0;
         }
-        return static_cast<double>(flat) > least_share * static_cast<double>(used);
+        return static_cast<double>(flat) > least_gone * static_cast<double>(used);
     }
 
     void run() {
