@@ -250,10 +250,12 @@ void SpanSampler::add_narrow(const Quad& quad, float from, float to) {
     const float per_share = (1.0F / X_to - 1.0F / X_from) / (to - from);
     float last = narrows ? from : to;
     if (widest == unbounded) return;
-    for (float X = widest / limits_.widest_ratio; X > narrowest; X /= limits_.widest_ratio) {
+    float X = widest / limits_.widest_ratio;
+    while (X > narrowest) {
         const float next = std::clamp(from + (1.0F / X - 1.0F / X_from) / per_share, from, to);
         if (next != last) add_piece(quad, std::min(last, next), std::max(last, next));
         last = next;
+        X /= limits_.widest_ratio;
     }
     const float end = narrows ? to : from;
     if (end != last) add_piece(quad, std::min(last, end), std::max(last, end));
