@@ -128,7 +128,7 @@ std::optional<Eigen::Affine3d> try_at(const Eigen::Vector2d& position, const Att
     };
     // First as it stands before it is lowered, which takes longer.
     if (!fits(shifted(attempt.outline, position))) return std::nullopt;
-    const auto T_world_shape =
+    std::optional<Eigen::Affine3d> T_world_shape =
         put_on_bottom(attempt.bottom, attempt.shape, position, attempt.stance);
     if (!T_world_shape) {
         ++refusals.no_bottom;
