@@ -206,7 +206,9 @@ int open_noted(Open open, const char* path, int flags, mode_t mode) {
 
 struct AtEnd {
     ~AtEnd() {
-        if (!setting("POWER_CUT_LOG").empty())
+        // A process that the program starts, such as a sanitizer's symbolizer, loads the library,
+        // too, and ends later: it has no calls to tell of.
+        if (!setting("POWER_CUT_LOG").empty() && disk().calls > 0)
             put_bytes(setting("POWER_CUT_LOG"), std::to_string(disk().calls));
     }
 } at_end;
