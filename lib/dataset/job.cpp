@@ -215,10 +215,9 @@ RenderSummary run_job(const Mission& mission, const Assembly& assembly,
         return summary;
     }
 
-    if (state != FolderState::fresh) {
-        begin_dataset(layout, common);
-        remove_leftovers(layout, plan.todo, options.shards == 1);
-    }
+    if (state != FolderState::fresh) begin_dataset(layout, common);
+    // In a fresh folder as well: a run that was cut off before it had dataset.json leaves its part.
+    remove_leftovers(layout, plan.todo, options.shards == 1);
     Journal journal(layout.folder, journal_part(options.shard + 1, options.shards),
                     options.checkpoint_s);
     std::vector<LabelPlan> labels;

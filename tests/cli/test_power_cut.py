@@ -77,6 +77,13 @@ class PowerCut(Sandbox):
         self.assert_renders()
         self.assertEqual(digest(self.out), whole)
 
+    def test_cut_before_there_is_a_dataset(self):
+        whole = self.whole()
+        self.out.mkdir()
+        (self.out / ".dataset.json.0123456789abcdef.part").write_text("{")
+        self.assert_renders()
+        self.assertEqual(digest(self.out), whole)
+
     def test_a_disk_that_forgets_would_be_noticed(self):
         """The library does take away what is not durable: files written by a program that never
         asks for it are gone."""
