@@ -10,6 +10,7 @@
 #include "calibrated/decibel.h"
 #include "core/elementary.h"
 #include "core/units.h"
+#include "support/statistics.h"
 
 using namespace sonarsim;
 
@@ -122,19 +123,6 @@ std::vector<double> normalised(const std::vector<float>& image, const std::vecto
     return out;
 }
 
-double correlation(const std::vector<double>& a, const std::vector<double>& b) {
-    const auto n = static_cast<double>(a.size());
-    const double ma = std::accumulate(a.begin(), a.end(), 0.0) / n;
-    const double mb = std::accumulate(b.begin(), b.end(), 0.0) / n;
-    double ab = 0.0, aa = 0.0, bb = 0.0;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        ab += (a[i] - ma) * (b[i] - mb);
-        aa += (a[i] - ma) * (a[i] - ma);
-        bb += (b[i] - mb) * (b[i] - mb);
-    }
-    return ab / std::sqrt(aa * bb);
-}
-
 }  // namespace
 
 TEST_SUITE("calibrated") {
@@ -227,16 +215,16 @@ TEST_SUITE("calibrated") {
 
         // Nor does it matter how the surface is cut.
         const std::vector<float> otherwise = image_of(model, floor_below(here, 0.0172), here, 0);
-        CHECK(correlation(normalised(first, expected, 1, 1),
-                          normalised(otherwise, expected, 1, 1)) > 0.98);
+        CHECK(test::correlation(normalised(first, expected, 1, 1),
+                                normalised(otherwise, expected, 1, 1)) > 0.98);
 
         // By a beam to port: what was in beam j is in beam j - 1.
         const Pose turned{rotation_from_rpy(0.0, 0.0, fan_rad / beams_of_fan),
                           Eigen::Vector3d::Zero()};
         const std::vector<float> second = image_of(model, floor_below(turned), turned, 1);
         const std::vector<double> a = normalised(first, expected, 1, 1);
-        CHECK(correlation(a, normalised(second, expected, 1, 1, -1)) > 0.88);
-        CHECK(correlation(a, normalised(second, expected, 1, 1, 3)) < 0.1);
+        CHECK(test::correlation(a, normalised(second, expected, 1, 1, -1)) > 0.88);
+        CHECK(test::correlation(a, normalised(second, expected, 1, 1, 3)) < 0.1);
 
         // Sideways by d, transmitter and receiver alike, sound comes to the array as if it had
         // moved by 2 d. Of a uniform aperture L the part 1 - 2 d / L is left, and powers are
@@ -244,7 +232,7 @@ TEST_SUITE("calibrated") {
         const double aperture_m = 0.8859 * model.wavelength_m / radians(1.0);
         const auto moved = [&](double share) {
             const Pose pose{here.rotation, Eigen::Vector3d(0.0, share * aperture_m, 0.0)};
-            return correlation(
+            return test::correlation(
                 a, normalised(image_of(model, floor_below(pose), pose), expected, 1, 1));
         };
         for (const double share : {0.05, 0.15, 0.3}) {
@@ -254,7 +242,7 @@ TEST_SUITE("calibrated") {
 
         config.speckle.mode = SpeckleMode::ping;
         const CalibratedModel drawn = model_of(config);
-        CHECK(std::fabs(correlation(
+        CHECK(std::fabs(test::correlation(
                   normalised(image_of(drawn, samples, here, 0), expected, 1, 1),
                   normalised(image_of(drawn, samples, here, 1), expected, 1, 1))) < 0.06);
     }

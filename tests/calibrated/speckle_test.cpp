@@ -9,6 +9,7 @@
 
 #include "calibrated/preset_fixtures.h"
 #include "core/elementary.h"
+#include "support/statistics.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;
@@ -106,19 +107,6 @@ struct Patch {
     }
 };
 
-double correlation_of(const std::vector<double>& a, const std::vector<double>& b) {
-    const auto n = static_cast<double>(a.size());
-    const double ma = std::accumulate(a.begin(), a.end(), 0.0) / n;
-    const double mb = std::accumulate(b.begin(), b.end(), 0.0) / n;
-    double ab = 0.0, aa = 0.0, bb = 0.0;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        ab += (a[i] - ma) * (b[i] - mb);
-        aa += (a[i] - ma) * (a[i] - ma);
-        bb += (b[i] - mb) * (b[i] - mb);
-    }
-    return ab / std::sqrt(aa * bb);
-}
-
 /// The greatest difference between what shares of the powers lie below a value and what an
 /// exponential distribution of mean 1 has there.
 double distance_from_exponential(std::vector<double> powers) {
@@ -177,8 +165,7 @@ TEST_SUITE("calibrated") {
             for (const int lag : {1, 2, 3}) {
                 const double left =
                     power_correlation(array, 0.0, lag * spacing * array.wavelengths);
-                const double found =
-                    correlation_of(here, patch.normalised(image, outer + lag, inner));
+                const double found = correlation(here, patch.normalised(image, outer + lag, inner));
                 MESSAGE("beams ", lag, " apart: ", found, ", by the aperture ", left);
                 CHECK(std::fabs(found - left) < tolerance);
             }
@@ -186,7 +173,7 @@ TEST_SUITE("calibrated") {
                 const double left =
                     pulse.power_correlation_at(lag * patch.sonar.settings.view.bin_m());
                 const double found =
-                    correlation_of(here, patch.normalised(image, outer, inner, 1, 1, 20 + lag));
+                    correlation(here, patch.normalised(image, outer, inner, 1, 1, 20 + lag));
                 MESSAGE("bins ", lag, " apart: ", found, ", by the pulse ", left);
                 CHECK(std::fabs(found - left) < tolerance);
             }
@@ -230,7 +217,7 @@ TEST_SUITE("calibrated") {
             }
             const std::vector<float> second =
                 quiet_image(patch.sonar, patch.seen_from(pose), true, pose);
-            const double found = correlation_of(here, patch.normalised(second, outer, inner));
+            const double found = correlation(here, patch.normalised(second, outer, inner));
             MESSAGE(motion.name, ": ", found, ", by the instrument ", left);
             CHECK(std::fabs(found - left) < 0.05);
         }

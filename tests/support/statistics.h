@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numeric>
 #include <vector>
 
 namespace sonarsim::test {
@@ -71,6 +72,20 @@ inline double standard_error(const std::vector<double>& x) {
         square += (v - m) * (v - m);
     const auto n = static_cast<double>(x.size());
     return std::sqrt(square / (n - 1.0) / n);
+}
+
+/// Pearson's correlation of two lists of one length.
+inline double correlation(const std::vector<double>& a, const std::vector<double>& b) {
+    const auto n = static_cast<double>(a.size());
+    const double ma = std::accumulate(a.begin(), a.end(), 0.0) / n;
+    const double mb = std::accumulate(b.begin(), b.end(), 0.0) / n;
+    double ab = 0.0, aa = 0.0, bb = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        ab += (a[i] - ma) * (b[i] - mb);
+        aa += (a[i] - ma) * (a[i] - ma);
+        bb += (b[i] - mb) * (b[i] - mb);
+    }
+    return ab / std::sqrt(aa * bb);
 }
 
 }  // namespace sonarsim::test

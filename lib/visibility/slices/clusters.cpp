@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -204,7 +205,8 @@ void add_cluster(const Scene& scene, const std::uint32_t* triangles, std::uint32
 ClusterMesh make_clusters(const Scene& whole) {
     ClusterMesh mesh;
     const std::vector<std::uint32_t> vertex = welded(whole);
-    const Scene scene = with_flat_faces_merged(whole, vertex);
+    const std::optional<Scene> merged = with_flat_faces_merged(whole, vertex);
+    const Scene& scene = merged ? *merged : whole;
     const std::vector<std::uint32_t> order = along_morton_curve(scene);
     mesh.corners.reserve(order.size());
     mesh.facets.reserve(order.size());

@@ -16,7 +16,9 @@ void fit_range(const Eigen::Array4f& range, Sample& sample) {
     const float bend = (sample.edge_u.squaredNorm() - depth_u * depth_u +
                         sample.edge_v.squaredNorm() - depth_v * depth_v) /
                        (2.0F * r);
-    // Beside the foot of the perpendicular the corners do not tell of the least range.
+    // Beside the foot of the perpendicular the corners do not tell of the least range. Along t in
+    // [-1, 1] of an edge e the range is r + (u t + (e^2 - u^2) t^2 / 2 r): it has no least value
+    // within where |u| > (e^2 - u^2) / r, twice the bend. Twice as much leaves room for both edges.
     if (!(deeper > 4.0F * bend)) return;
     const float nearest = range.minCoeff();
     const float farthest = range.maxCoeff();

