@@ -17,13 +17,15 @@ struct Probe {
     bool needs_rays = false;  ///< whatever the error of its images is by slices
 };
 
-/// What rays may be taken for: the probes of one view, seen with both engines.
+/// Rays for a view, as the probes of this view showed them beside slices.
 struct RaysTrial {
+    double goal = 0.0;  ///< error goal to sample for with rays; above the view's where that will do
     double error = 0.0;  ///< bound of the rays' relative L1: to the slices' images, plus their own
     double samples_share = 0.0;  ///< the rays' samples as a share of the slices'
 };
 
-/// The worst of the probes that have this view.
+/// The most lenient goal at which the rays meet the view's, and the worst of the probes at it. Where
+/// they miss it even at their own, the first probe that shows so.
 RaysTrial try_rays(const Scene& scene, const View& view, std::span<const Probe> probes,
                    const VisibilityEngine& rays, const VisibilityEngine& slices);
 

@@ -46,17 +46,23 @@ BeamSums sum_beam(const Scene& scene, const View& view, const Samples& samples, 
 
 }  // namespace
 
-double image_change(const Scene& scene, const View& view, const Samples& coarse,
-                    const Samples& fine) {
+std::vector<double> mean_echoes(const Scene& scene, const View& view, const Samples& samples) {
+    std::vector<double> image;
+    image.reserve(static_cast<std::size_t>(view.beams) * view.range_bins);
+    for (int beam = 0; beam < view.beams; ++beam) {
+        const BeamSums sums = sum_beam(scene, view, samples, beam);
+        for (int bin = 0; bin < view.range_bins; ++bin)
+            image.push_back(sums.mean(bin));
+    }
+    return image;
+}
+
+double image_change(std::span<const double> coarse, std::span<const double> fine) {
     double change = 0.0;
     double whole = 0.0;
-    for (int beam = 0; beam < view.beams; ++beam) {
-        const BeamSums a = sum_beam(scene, view, coarse, beam);
-        const BeamSums b = sum_beam(scene, view, fine, beam);
-        for (int bin = 0; bin < view.range_bins; ++bin) {
-            change += std::fabs(a.mean(bin) - b.mean(bin));
-            whole += b.mean(bin);
-        }
+    for (std::size_t i = 0; i < fine.size(); ++i) {
+        change += std::fabs(coarse[i] - fine[i]);
+        whole += fine[i];
     }
     if (whole > 0.0) return change / whole;
     return change > 0.0 ? 1.0 : 0.0;

@@ -1,13 +1,18 @@
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include "scene/scene.h"
 #include "visibility/engine.h"
 
 namespace sonarsim {
 
-/// By how much the image of `coarse` differs from that of `fine`: sum |A - B| / sum B over the bins
-/// of a view, B of `fine`. Images as in Eq. 9 of the model, each sample a box in range.
-double image_change(const Scene& scene, const View& view, const Samples& coarse,
-                    const Samples& fine);
+/// The image of a view's samples, [beams, range_bins], as in Eq. 9 of the model: the mean over each
+/// bin, every sample a box in range.
+std::vector<double> mean_echoes(const Scene& scene, const View& view, const Samples& samples);
+
+/// By how much one image differs from another of the same shape: sum |A - B| / sum B, B of `fine`.
+double image_change(std::span<const double> coarse, std::span<const double> fine);
 
 }  // namespace sonarsim

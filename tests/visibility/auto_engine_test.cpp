@@ -74,8 +74,12 @@ TEST_CASE("of a finely cut floor auto makes rays, with the error that its probes
     const RaysTrial trial = try_rays(scene, view, probes, *rays, *slices);
     REQUIRE(rays_are_better(trial, view));
     const Samples seen = chosen->visible_surface(view, above_floor(-15.0));
-    CHECK(same(seen, rays->visible_surface(view, above_floor(-15.0))));
+    View lenient = view;
+    lenient.relative_l1 = trial.goal;
+    CHECK(same(seen, rays->visible_surface(lenient, above_floor(-15.0))));
     CHECK(seen.estimated_l1 == trial.error);
+    // Over so smooth a floor the rays are better than they are asked to be.
+    CHECK(trial.goal > view.relative_l1);
 
     SUBCASE("and slices of a view that was not tried") {
         View other = view;

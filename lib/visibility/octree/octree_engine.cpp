@@ -38,7 +38,8 @@ class LazyOctreeEngine final : public OctreeEngine {
             const Samples coarse =
                 leaf_samples(tree_, caster_, *scene_, view, volume, leaf_size.twice());
             goal_check_.add(view, T_world_sensor,
-                            error_per_change * image_change(*scene_, view, coarse, samples));
+                            error_per_change * image_change(mean_echoes(*scene_, view, coarse),
+                                                            mean_echoes(*scene_, view, samples)));
         }
         return samples;
     }
