@@ -1,9 +1,5 @@
 #include "sonar/engine_settings.h"
 
-#include <algorithm>
-
-#include "sonar/kinds.h"
-
 namespace sonarsim {
 
 namespace {
@@ -33,13 +29,7 @@ EngineSettings engine_settings(EngineKind kind, const OctreeConfig& octree,
 }
 
 EngineSettings engine_settings(const Mission& mission) {
-    EngineSettings settings = engine_settings(mission.engine, mission.octree, mission.slices);
-    settings.slices.directed_cones =
-        std::ranges::any_of(mission.sensors, [](const SonarConfig& config) {
-            return config.model == EchoModel::of_instrument &&
-                   kind_of(config.kind).shape == ViewShape::cone;
-        });
-    return settings;
+    return engine_settings(mission.engine, mission.octree, mission.slices);
 }
 
 }  // namespace sonarsim

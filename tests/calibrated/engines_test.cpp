@@ -24,8 +24,9 @@ Scene bottom_with_objects() {
 /// The expected image, without speckle and noise, by an engine.
 std::vector<float> expected_image(const SonarConfig& config, const Scene& scene, EngineType type) {
     const Sonar sonar = make_sonar(config, {0.02});
-    const auto engine =
-        make_engine(scene, {.type = type, .octree = {}, .slices = {.directed_cones = true}});
+    EngineSettings settings;
+    settings.type = type;
+    const auto engine = make_engine(scene, settings);
     const Pose here;
     return render_ping(sonar, scene, *engine, here, {.seed = 1, .ping = 0}, direct_echoes_alone)
         .intensity;

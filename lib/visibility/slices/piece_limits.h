@@ -17,7 +17,6 @@ struct PieceLimits {
     float widest_ratio = std::numeric_limits<float>::infinity();
 };
 
-/// `directed_cone`: if it is a cone, where in it a piece lies matters, not only at what range.
-PieceLimits piece_limits(const View& view, bool directed_cone);
+PieceLimits piece_limits(const View& view);
 
 }  // namespace sonarsim

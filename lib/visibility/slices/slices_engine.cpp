@@ -110,7 +110,7 @@ class SlicesEngine final : public VisibilityEngine {
   private:
     void see_frame(const View& view, const LocalPose& pose, const SliceFrame& frame, double most,
                    Samples& samples, Disagreement& sum) const {
-        const PieceLimits limits = piece_limits(view, options_.directed_cones);
+        const PieceLimits limits = piece_limits(view);
         FrameScan scan(mesh_, *scene_, frame, pose, limits.range_max_m);
         AgreeingSlices agreeing(view, scene_->materials, scan);
         SpanSampler sampler(scan, limits, samples.items);

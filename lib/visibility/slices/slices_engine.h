@@ -9,9 +9,6 @@ namespace sonarsim {
 
 struct SlicesOptions {
     int per_beam = 0;  ///< slices to a beam; 0: what the view's error goal calls for
-    /// Whether it matters where in a cone a piece of surface lies, not only at what range. Then
-    /// there are some four times as many samples.
-    bool directed_cones = false;
 };
 
 /// The slices engine: half-planes through the sensor, exact along each. `scene` must outlive it.
