@@ -80,8 +80,9 @@ Sample piece(const Context& context, const CastRay& ray, const ColumnSides& side
     const SinCosFloat middle = sincos_small(0.5F * (segment.from.along + segment.to.along));
     const float about = 0.5F * (segment.from.above_m + segment.to.below_m);
     const float most = segment.may_end_beside ? context.sampling.tolerance_m : about;
-    const auto at_side = [&](SinCosFloat across) -> Eigen::Vector3f {
-        const Eigen::Vector3f beside = direction(context.shape, across, middle);
+    const Eigen::Vector3f low = direction(context.shape, sides.low, middle);
+    const Eigen::Vector3f high = direction(context.shape, sides.high, middle);
+    const auto onto_surface = [&](const Eigen::Vector3f& beside) -> Eigen::Vector3f {
         return beside * range_on_plane(ray, beside, about, most);
     };
     // A point whose range was limited lies off the plane, and multipath would start from there.
@@ -92,11 +93,17 @@ Sample piece(const Context& context, const CastRay& ray, const ColumnSides& side
     const Eigen::Vector3f to = onto_plane(segment.to.direction * segment.to.below_m);
     Sample sample;
     sample.position = 0.5F * (from + to);
-    sample.edge_u = 0.5F * (at_side(sides.high) - at_side(sides.low));
+    sample.edge_u = 0.5F * (onto_surface(high) - onto_surface(low));
     sample.edge_v = 0.5F * (to - from);
     sample.normal = ray.normal;
     sample.height_m = ray.height_m;
-    sample.area_m2 = 4.0F * sample.edge_u.cross(sample.edge_v).norm();
+    // Surface of cosine h / r at range r in a solid angle has the area that follows, though a
+    // parallelogram whose ranges were limited, or whose width is that at its middle angle, is
+    // smaller. No energy is lost then.
+    const float solid_angle =
+        (high - low).cross(segment.to.direction - segment.from.direction).norm();
+    const float range = sample.position.norm();
+    sample.area_m2 = solid_angle * range * range * range / ray.height_m;
     sample.material = ray.material;
     sample.instance = ray.instance;
     return sample;

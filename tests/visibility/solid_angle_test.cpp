@@ -1,0 +1,86 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <string>
+
+#include "core/units.h"
+#include "support/scenes.h"
+#include "visibility/make_engine.h"
+
+using namespace sonarsim;
+
+namespace {
+
+/// A closed room with things in it that are narrower than a beam.
+Scene room_with_poles() {
+    Scene scene = test::empty_scene();
+    const std::uint32_t material = test::add_material(scene, 0.5F);
+    test::add_box(scene, {-6.0F, -5.0F, -2.0F}, {6.0F, 5.0F, 2.0F}, material);
+    for (int i = 0; i < 12; ++i) {
+        const auto place = static_cast<float>(i);
+        test::add_pole(scene, {2.0F + 0.2F * place, -2.2F + 0.4F * place, -2.0F}, 0.01F, 3.0F,
+                       material, 8);
+    }
+    test::add_sphere(scene, {2.5F, 0.3F, -1.0F}, 0.4F, material, 32);
+    return scene;
+}
+
+View view_of(ViewShape shape) {
+    View view{.azimuth_rad = radians(70.0),
+              .elevation_rad = radians(30.0),
+              .range_min_m = 0.0,
+              .range_max_m = 20.0,
+              .range_bins = 256,
+              .beams = 64,
+              .relative_l1 = 0.03,
+              .shape = shape};
+    if (shape == ViewShape::sides) {
+        view.elevation_rad = radians(2.0);
+        view.azimuth_rad = radians(160.0);
+        view.beams = 2;
+    } else if (shape == ViewShape::cone) {
+        view.elevation_rad = view.azimuth_rad;
+        view.beams = 1;
+    }
+    return view;
+}
+
+/// Between two elevations, over an azimuth: sin elevation by azimuth. A cone: 2 pi (1 - cos).
+double solid_angle(const View& view) {
+    if (view.shape == ViewShape::cone) return 2.0 * pi * (1.0 - std::cos(0.5 * view.azimuth_rad));
+    return 2.0 * view.azimuth_rad * std::sin(0.5 * view.elevation_rad);
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("visibility");
+
+// Where energies add, an engine must neither lose nor invent surface: dOmega = cosine dA / r^2,
+// with cosine = h / r, adds up to the solid angle of a view that a room fills. The octree does not
+// see all of a pole that is thinner than its leaves.
+TEST_CASE("what fills a view fills its solid angle, thin things included") {
+    const Scene scene = room_with_poles();
+    const Pose T_world_sensor{rotation_from_rpy(0.0, radians(15.0), 0.05), {0.1, 0.05, 0.2}};
+    for (const ViewShape shape : {ViewShape::fan, ViewShape::sides, ViewShape::cone}) {
+        for (const EngineType type : {EngineType::rays, EngineType::slices, EngineType::octree}) {
+            EngineSettings settings;
+            settings.type = type;
+            const View view = view_of(shape);
+            const Samples samples =
+                make_engine(scene, settings)->visible_surface(view, T_world_sensor);
+            double seen = 0.0;
+            for (const Sample& sample : samples.items) {
+                const double range = static_cast<double>(sample.position.norm());
+                seen += static_cast<double>(sample.area_m2) * static_cast<double>(sample.height_m) /
+                        (range * range * range);
+            }
+            CAPTURE(static_cast<int>(shape));
+            CAPTURE(static_cast<int>(type));
+            CAPTURE(seen / solid_angle(view));
+            CHECK(std::fabs(seen / solid_angle(view) - 1.0) <
+                  (type == EngineType::octree ? 0.04 : 0.005));
+        }
+    }
+}
+
+TEST_SUITE_END();
