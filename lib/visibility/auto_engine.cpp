@@ -124,18 +124,21 @@ std::unique_ptr<VisibilityEngine> make_auto_engine(const Scene& scene, const Sli
     if (!scene.bodies.empty() || !scene.copies.empty()) return make_rays_engine(scene);
     auto slices = make_slices_engine(scene, options);
     const bool few = scene.triangles.size() < few_triangles;
-    if (few && std::ranges::none_of(probes, &Probe::needs_rays)) return slices;
+    if (few && std::ranges::all_of(probes, [](const Probe& p) { return p.rays_goal == 0.0; }))
+        return slices;
     auto rays = make_rays_engine(scene);
     std::vector<View> tried;
     std::vector<RaysView> better;
     for (const Probe& probe : probes) {
         if (std::ranges::find(tried, probe.view) != tried.end()) continue;
         tried.push_back(probe.view);
-        if (std::ranges::any_of(probes, [&](const Probe& other) {
-                return other.view == probe.view && other.needs_rays;
-            })) {
-            better.push_back(
-                {probe.view, probe.view.relative_l1, std::numeric_limits<double>::quiet_NaN()});
+        double goal = 0.0;
+        for (const Probe& other : probes) {
+            if (other.view != probe.view || other.rays_goal == 0.0) continue;
+            goal = goal == 0.0 ? other.rays_goal : std::min(goal, other.rays_goal);
+        }
+        if (goal > 0.0) {
+            better.push_back({probe.view, goal, std::numeric_limits<double>::quiet_NaN()});
             continue;
         }
         if (few) continue;

@@ -14,7 +14,7 @@ namespace sonarsim {
 struct Probe {
     View view;
     Pose T_world_sensor;
-    bool needs_rays = false;  ///< whatever the error of its images is by slices
+    double rays_goal = 0.0;  ///< above 0: take rays, at this goal, whatever the error by slices
 };
 
 /// Rays for a view, as the probes of this view showed them beside slices.
@@ -24,8 +24,8 @@ struct RaysTrial {
     double samples_share = 0.0;  ///< the rays' samples as a share of the slices'
 };
 
-/// The most lenient goal at which the rays meet the view's, and the worst of the probes at it. Where
-/// they miss it even at their own, the first probe that shows so.
+/// The most lenient goal at which the rays meet the view's, and the worst of the probes at it.
+/// Where they miss it even at their own, the first probe that shows so.
 RaysTrial try_rays(const Scene& scene, const View& view, std::span<const Probe> probes,
                    const VisibilityEngine& rays, const VisibilityEngine& slices);
 

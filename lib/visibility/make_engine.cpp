@@ -17,7 +17,7 @@ namespace {
 constexpr double widest_octree_deg = 160.0;
 
 /// Of the slices, where energies add.
-constexpr double least_error_in_cones = 0.02;
+constexpr double least_error_in_cones = 0.01;
 
 }  // namespace
 
@@ -76,9 +76,13 @@ std::string doubt_about(const EngineSettings& settings, const View& view, bool m
                "of surface, and a piece of the slices may be as long as a beam is high; use "
                "engine: auto or engine: rays";
     }
+    if (settings.type == EngineType::slices && energies_add && view.shape == ViewShape::sides) {
+        return "engine: slices is up to 18 % off where energies add in the narrow beam of a "
+               "side-scan; use engine: auto or engine: rays";
+    }
     if (settings.type == EngineType::slices && energies_add && view.shape == ViewShape::cone &&
         view.relative_l1 < least_error_in_cones) {
-        return "engine: slices is up to 2 % off where energies add in a cone, more than "
+        return "engine: slices is up to 1 % off where energies add in a cone, more than "
                "accuracy.relative_l1; use engine: auto or engine: rays";
     }
     if (settings.type != EngineType::octree || settings.octree.literal) return "";

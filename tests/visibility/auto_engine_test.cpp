@@ -107,7 +107,7 @@ TEST_CASE("of few triangles, and without a view to try, auto makes slices") {
     CHECK(same(make_auto_engine(scene, {}, {})->visible_surface(view, pose), by_slices));
 
     SUBCASE("but rays where sound goes on from what is seen") {
-        const std::vector<Probe> bouncing{{view, pose, true}};
+        const std::vector<Probe> bouncing{{view, pose, view.relative_l1}};
         CHECK(same(make_auto_engine(scene, {}, bouncing)->visible_surface(view, pose),
                    make_rays_engine(scene)->visible_surface(view, pose)));
     }
