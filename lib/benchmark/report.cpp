@@ -16,6 +16,7 @@
 #include "core/in_parallel.h"
 #include "scene/copies.h"
 #include "sonar/engine_settings.h"
+#include "validation/energy_reference.h"
 #include "validation/fit.h"
 #include "validation/image_error.h"
 #include "validation/reference.h"
@@ -95,10 +96,14 @@ std::vector<Reference> cast_references(const Comparison& comparison, const Sonar
     std::vector<Reference> references(pings.poses.size());
     in_parallel(references.size(), [&](std::size_t p) {
         const std::optional<Sonar> drawn = pings.drawn(sonar, p);
-        references[p] =
-            cast_reference(comparison.caster, pings.scene, sonar.settings.view,
-                           sensor_pose(drawn ? *drawn : sonar, pings.poses[p], pings.indices[p]),
-                           {options.reference_moved, 64.0, options.reference_rays});
+        const PingSettings& settings = sonar.settings;
+        const Pose T_world_sensor =
+            sensor_pose(drawn ? *drawn : sonar, pings.poses[p], pings.indices[p]);
+        const ReferenceGoal goal{options.reference_moved, 64.0, options.reference_rays};
+        references[p] = settings.calibrated ? cast_energy_reference(comparison.caster, pings.scene,
+                                                                    settings, T_world_sensor, goal)
+                                            : cast_reference(comparison.caster, pings.scene,
+                                                             settings.view, T_world_sensor, goal);
     });
     return references;
 }

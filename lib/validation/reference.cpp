@@ -1,6 +1,7 @@
 #include "validation/reference.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "validation/image_error.h"
@@ -9,6 +10,30 @@
 namespace sonarsim {
 
 namespace {
+
+/// Sums over the visible surface in every bin, [range_bins, beams].
+struct SurfaceSums {
+    std::vector<double> area;  ///< m^2
+    std::vector<double> echo;  ///< m^2, times what the surface echoes
+    std::uint64_t rays = 0;    ///< all that were cast
+    std::uint64_t hits = 0;    ///< those that met surface in range
+};
+
+SurfaceSums sums_over_surface(const ReferenceView& looking, const RayLayout& layout) {
+    const View& view = looking.view;
+    const std::size_t bins = static_cast<std::size_t>(view.range_bins) * view.beams;
+    SurfaceSums sums{std::vector<double>(bins), std::vector<double>(bins)};
+    sums.rays = cast_over_surface(looking, layout, [&](const SurfacePoint& point) {
+        const double bin = std::floor((point.range_m - view.range_min_m) / view.bin_m());
+        if (!(bin >= 0.0 && bin < view.range_bins)) return;
+        const std::size_t k = static_cast<std::size_t>(bin) * view.beams + point.beam;
+        sums.area[k] += point.area_m2;
+        sums.echo[k] +=
+            point.area_m2 * point.cosine * looking.scene.materials[point.facet.material].reflection;
+        ++sums.hits;
+    });
+    return sums;
+}
 
 std::vector<float> image_of(const SurfaceSums& sums) {
     std::vector<float> image(sums.area.size(), 0.0F);
@@ -29,44 +54,48 @@ SurfaceSums together(SurfaceSums a, const SurfaceSums& b) {
     return a;
 }
 
-double hits_per_bin(const SurfaceSums& sums) {
-    const auto lit = std::ranges::count_if(sums.area, [](double area) { return area > 0.0; });
-    return lit ? static_cast<double>(sums.hits) / static_cast<double>(lit) : 0.0;
-}
-
 }  // namespace
 
-Reference cast_reference(const Caster& caster, const Scene& scene, const View& view,
-                         const Pose& T_world_sensor, const ReferenceGoal& goal) {
+Reference settled(const View& view, const ReferenceGoal& goal,
+                  const std::function<Look(int per_beam, int count)>& look) {
     const std::size_t bins = static_cast<std::size_t>(view.range_bins) * view.beams;
-    const LocalPose pose = local_pose(T_world_sensor, scene.origin);
-    const std::vector<SurfaceShare> shares = surface_shares(scene, view, pose);
-    const ReferenceView looking{caster, scene, view, pose, shares};
     Reference reference{view.range_bins, view.beams, std::vector<float>(bins, 0.0F)};
     int per_beam = view.shape == ViewShape::fan ? 1 : 16;
     int count = 256;  // per column
     double last_moved = 1.0;
     for (bool wider = false;; wider = !wider) {
-        const SurfaceSums lattice = cast_over_surface(looking, {per_beam, count, 0});
-        const SurfaceSums scattered = cast_over_surface(looking, {per_beam, count, 1});
-        const SurfaceSums both = together(lattice, scattered);
-        std::vector<float> image = image_of(both);
-        reference.apart = std::max(image_error(image_of(lattice), image).relative_l1,
-                                   image_error(image_of(scattered), image).relative_l1);
+        Look now = look(per_beam, count);
+        reference.apart = std::max(image_error(now.lattice, now.both).relative_l1,
+                                   image_error(now.scattered, now.both).relative_l1);
         // Along and across are doubled in turn; the image has settled when neither moves it.
-        const double moved = image_error(reference.intensity, image).relative_l1;
+        const double moved = image_error(reference.intensity, now.both).relative_l1;
         reference.moved = std::max({moved, std::exchange(last_moved, moved), reference.apart});
-        reference.rays_per_bin = hits_per_bin(both);
-        reference.intensity = std::move(image);
+        const auto lit = std::ranges::count_if(now.both, [](float x) { return x > 0.0F; });
+        reference.rays_per_bin =
+            lit > 0 ? static_cast<double>(now.hits) / static_cast<double>(lit) : 0.0;
+        reference.intensity = std::move(now.both);
         const bool met = reference.moved < goal.moved &&
-                         (both.hits == 0 || reference.rays_per_bin >= goal.rays_per_bin);
-        if (met || 2 * both.rays > goal.rays_max) return reference;
+                         (now.hits == 0 || reference.rays_per_bin >= goal.rays_per_bin);
+        if (met || 2 * now.rays > goal.rays_max) return reference;
         if (wider) {
             per_beam *= 2;
         } else {
             count *= 2;
         }
     }
+}
+
+Reference cast_reference(const Caster& caster, const Scene& scene, const View& view,
+                         const Pose& T_world_sensor, const ReferenceGoal& goal) {
+    const LocalPose pose = local_pose(T_world_sensor, scene.origin);
+    const std::vector<SurfaceShare> shares = surface_shares(scene, view, pose);
+    const ReferenceView looking{caster, scene, view, pose, shares};
+    return settled(view, goal, [&](int per_beam, int count) -> Look {
+        const SurfaceSums lattice = sums_over_surface(looking, {per_beam, count, 0});
+        const SurfaceSums scattered = sums_over_surface(looking, {per_beam, count, 1});
+        const SurfaceSums both = together(lattice, scattered);
+        return {image_of(lattice), image_of(scattered), image_of(both), both.rays, both.hits};
+    });
 }
 
 }  // namespace sonarsim

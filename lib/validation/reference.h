@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "core/pose.h"
@@ -28,6 +29,20 @@ struct ReferenceGoal {
     double rays_per_bin = 64.0;  ///< and each occupied bin has had this many rays on average
     std::uint64_t rays_max = 400'000'000;  ///< give up here; `moved` then says how far it got
 };
+
+/// What a cast of so many rays, from either start and from both, shows: images [range_bins, beams].
+struct Look {
+    std::vector<float> lattice;
+    std::vector<float> scattered;
+    std::vector<float> both;
+    std::uint64_t rays = 0;  ///< all that were cast
+    std::uint64_t hits = 0;  ///< those that met surface
+};
+
+/// Looks again with twice the rays, along and across in turn, until the image of both starts has
+/// settled: `per_beam` columns of `count` rays, as in RayLayout.
+Reference settled(const View& view, const ReferenceGoal& goal,
+                  const std::function<Look(int per_beam, int count)>& look);
 
 /// Looks at the scene from two unlike starts, rays on a lattice and rays strewn at random, each
 /// with points of the surface of its own, and doubles the rays until the goal is met. The

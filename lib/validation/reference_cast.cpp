@@ -57,26 +57,20 @@ struct Cast {
     const ReferenceView& looking;
     const RayLayout& layout;
     const PointDensity& points;
-    double cell_rad2 = 0.0;  ///< of a ray: step across times step along
-    SurfaceSums sums = {};
+    double cell_rad2;  ///< of a ray: step across times step along
+    const PointSink& found;
+    std::uint64_t rays = 0;
 
-    /// Adds what a ray has met. `density` is solid_angle_density() of its direction.
+    /// Hands on what a ray has met. `density` is solid_angle_density() of its direction.
     void add(const Eigen::Vector3f& direction, double density, int beam, std::uint32_t index) {
-        const View& view = looking.view;
         const Facet facet = looking.caster.facet(index);
         const Eigen::Vector3d normal = facet.normal.cast<double>();
         const double facing = normal.dot(direction.cast<double>());
         const double range =
             normal.dot((facet.vertex - looking.pose.position).cast<double>()) / facing;
-        const double bin = std::floor((range - view.range_min_m) / view.bin_m());
-        if (!(bin >= 0.0 && bin < view.range_bins)) return;
         const double cosine = std::fabs(facing);
         const double rays_per_m2 = cosine / (range * range * density * cell_rad2);
-        const double area = 1.0 / (rays_per_m2 + points.of(index));
-        const std::size_t k = static_cast<std::size_t>(bin) * view.beams + beam;
-        sums.area[k] += area;
-        sums.echo[k] += area * cosine * looking.scene.materials[facet.material].reflection;
-        ++sums.hits;
+        found({direction, range, cosine, 1.0 / (rays_per_m2 + points.of(index)), beam, facet});
     }
 
     float reach_m() const { return static_cast<float>(looking.view.range_max_m) * 1.01F; }
@@ -133,7 +127,7 @@ void cast_directions(Cast& cast) {
             const double density = solid_angle_density(looking.view.shape, in_sensor[i]);
             cast.add(directions[i], density, column.beam, met[i]);
         }
-        cast.sums.rays += met.size();
+        cast.rays += met.size();
     }
 }
 
@@ -154,7 +148,7 @@ void cast_points(Cast& cast, PointRays& rays) {
         if (rays.met[i] != rays.facets[i]) continue;
         cast.add(rays.directions[i], rays.densities[i], rays.beams[i], rays.met[i]);
     }
-    cast.sums.rays += rays.met.size();
+    cast.rays += rays.met.size();
     rays = {};
 }
 
@@ -193,16 +187,14 @@ std::vector<std::uint32_t> counts_of(std::span<const SurfaceShare> shares, doubl
 
 }  // namespace
 
-SurfaceSums cast_over_surface(const ReferenceView& looking, const RayLayout& layout) {
+std::uint64_t cast_over_surface(const ReferenceView& looking, const RayLayout& layout,
+                                const PointSink& found) {
     constexpr std::size_t together = 4096;
-    const std::size_t bins = static_cast<std::size_t>(looking.view.range_bins) * looking.view.beams;
     const std::size_t rays = view_columns(looking.view, layout.per_beam).size() * layout.count;
     const std::vector<std::uint32_t> counts =
         counts_of(looking.shares, points_per_ray * static_cast<double>(rays));
     const PointDensity density(looking, counts);
-    Cast cast{looking, layout, density};
-    cast.sums.area.assign(bins, 0.0);
-    cast.sums.echo.assign(bins, 0.0);
+    Cast cast{looking, layout, density, 0.0, found};
     cast_directions(cast);
     PointRays points;
     for (std::size_t s = 0; s < counts.size(); ++s) {
@@ -210,7 +202,7 @@ SurfaceSums cast_over_surface(const ReferenceView& looking, const RayLayout& lay
         if (points.directions.size() >= together) cast_points(cast, points);
     }
     cast_points(cast, points);
-    return std::move(cast.sums);
+    return cast.rays;
 }
 
 }  // namespace sonarsim

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -28,13 +29,17 @@ struct RayLayout {
     std::uint32_t start;  ///< 0: a lattice; above: each ray anywhere in its cell of that lattice
 };
 
-/// Sums over the visible surface in every bin, [range_bins, beams].
-struct SurfaceSums {
-    std::vector<double> area;  ///< m^2
-    std::vector<double> echo;  ///< m^2, times what the surface echoes
-    std::uint64_t rays = 0;    ///< all that were cast
-    std::uint64_t hits = 0;    ///< those that met surface in range
+/// A point of the visible surface.
+struct SurfacePoint {
+    Eigen::Vector3f direction;  ///< to it, scene-local frame
+    double range_m;
+    double cosine;   ///< of the angle of incidence
+    double area_m2;  ///< of the surface that it stands for
+    int beam;
+    Facet facet;
 };
+
+using PointSink = std::function<void(const SurfacePoint&)>;
 
 /// Casts rays in two ways, about twice as many over the directions of the view as to points of the
 /// surface, and weighs each ray by both. Rays over directions see what is wide, and see through
@@ -45,7 +50,9 @@ struct SurfaceSums {
 ///     n / area                 of n points on the triangle's area;
 ///
 /// so every ray stands for 1 / d of surface (the balance heuristic of Veach and Guibas, SIGGRAPH
-/// 1995), and the sums are right on average however the shares are chosen.
-SurfaceSums cast_over_surface(const ReferenceView& looking, const RayLayout& layout);
+/// 1995), and sums over the points are right on average however the shares are chosen. Returns how
+/// many rays were cast; `found` is given those that met surface within 1 % of the greatest range.
+std::uint64_t cast_over_surface(const ReferenceView& looking, const RayLayout& layout,
+                                const PointSink& found);
 
 }  // namespace sonarsim

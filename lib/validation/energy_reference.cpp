@@ -1,0 +1,98 @@
+#include "validation/energy_reference.h"
+
+#include <Eigen/Geometry>
+
+#include "validation/reference_cast.h"
+#include "visibility/local_pose.h"
+
+namespace sonarsim {
+
+namespace {
+
+/// Images of points, some at a time: of expected powers, the image of all is the sum.
+class EnergyImage {
+  public:
+    EnergyImage(const Scene& scene, const PingSettings& settings, const Pose& T_world_sensor)
+        : scene_(scene),
+          settings_(settings),
+          R_sensor_local_(local_pose(T_world_sensor, scene.origin).rotation.transpose()),
+          sum_(static_cast<std::size_t>(settings.view.range_bins) * settings.view.beams) {
+        traced_.T_world_sensor = T_world_sensor;
+    }
+
+    void add(const SurfacePoint& point) {
+        Sample& sample = traced_.samples.items.emplace_back();
+        const auto range = static_cast<float>(point.range_m);
+        sample.position = range * (R_sensor_local_ * point.direction);
+        sample.edge_u.setZero();
+        sample.edge_v.setZero();
+        const float side = point.facet.normal.dot(point.direction) > 0.0F ? -1.0F : 1.0F;
+        sample.normal = side * (R_sensor_local_ * point.facet.normal);
+        sample.height_m = static_cast<float>(point.range_m * point.cosine);
+        sample.area_m2 = static_cast<float>(point.area_m2);
+        sample.material = point.facet.material;
+        sample.instance = point.facet.instance;
+        ++hits_;
+        if (traced_.samples.items.size() == at_once) form();
+    }
+
+    std::vector<double> take() {
+        form();
+        return std::move(sum_);
+    }
+
+    std::uint64_t hits() const { return hits_; }
+
+  private:
+    static constexpr std::size_t at_once = 1U << 20U;
+
+    void form() {
+        const auto count = static_cast<std::uint32_t>(traced_.samples.items.size());
+        if (count == 0) return;
+        // The calibrated model finds the beams of a sample by itself.
+        traced_.samples.beam_begin.assign(static_cast<std::size_t>(settings_.view.beams) + 1,
+                                          count);
+        traced_.samples.beam_begin.front() = 0;
+        const Ping ping = form_image(traced_, settings_, scene_, {}, direct_echoes_alone);
+        for (std::size_t k = 0; k < sum_.size(); ++k)
+            sum_[k] += static_cast<double>(ping.intensity[k]);
+        traced_.samples.items.clear();
+    }
+
+    const Scene& scene_;
+    const PingSettings& settings_;
+    Eigen::Matrix3f R_sensor_local_;
+    TracedPing traced_;
+    std::vector<double> sum_;
+    std::uint64_t hits_ = 0;
+};
+
+}  // namespace
+
+Reference cast_energy_reference(const Caster& caster, const Scene& scene,
+                                const PingSettings& settings, const Pose& T_world_sensor,
+                                const ReferenceGoal& goal) {
+    const View& view = settings.view;
+    const LocalPose pose = local_pose(T_world_sensor, scene.origin);
+    const std::vector<SurfaceShare> shares = surface_shares(scene, view, pose);
+    const ReferenceView looking{caster, scene, view, pose, shares};
+    return settled(view, goal, [&](int per_beam, int count) {
+        Look look;
+        std::vector<double> mean;
+        for (const std::uint32_t start : {0U, 1U}) {
+            EnergyImage image(scene, settings, T_world_sensor);
+            look.rays += cast_over_surface(looking, {per_beam, count, start},
+                                           [&](const SurfacePoint& point) { image.add(point); });
+            const std::vector<double> sum = image.take();
+            look.hits += image.hits();
+            (start == 0 ? look.lattice : look.scattered).assign(sum.begin(), sum.end());
+            mean.resize(sum.size());
+            for (std::size_t k = 0; k < sum.size(); ++k)
+                mean[k] += 0.5 * sum[k];
+        }
+        look.both.assign(mean.begin(), mean.end());
+        return look;
+    });
+}
+
+}  // namespace sonarsim

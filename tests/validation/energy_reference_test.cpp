@@ -1,0 +1,62 @@
+#include "validation/energy_reference.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "core/units.h"
+#include "sonar/kinds.h"
+#include "sonar/sonar.h"
+#include "support/scenes.h"
+#include "validation/image_error.h"
+#include "visibility/make_engine.h"
+
+using namespace sonarsim;
+using namespace sonarsim::test;
+
+namespace {
+
+Sonar calibrated_sonar(SonarKind kind) {
+    SonarConfig config = kind_of(kind).keys.defaults;
+    config.name = "sonar";
+    config.model = EchoModel::of_instrument;
+    config.range_min_m = 0.5;
+    config.range_max_m = 12.0;
+    config.range_bins = 96;
+    config.azimuth_bins = 32;
+    config.instrument.frequency_hz = 4e5;
+    return make_sonar(config, {0.01});
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("validation");
+
+// Of a floor that is seen whole, the rays know every piece to rounding: what they show and what
+// many single points show is the same integral.
+TEST_CASE("where energies add the reference is what the engines come to") {
+    Scene scene = empty_scene();
+    const std::uint32_t rock = add_material(scene, 0.4F);
+    add_floor(scene, 30.0F, -4.0F, rock, 4);
+    add_sphere(scene, {5.0F, 0.5F, -3.5F}, 0.5F, rock, 48);
+    const Caster caster(scene);
+    for (const SonarKind kind : {SonarKind::imaging, SonarKind::sidescan, SonarKind::echosounder}) {
+        const Sonar sonar = calibrated_sonar(kind);
+        const Pose T_world_vehicle{
+            rotation_from_rpy(0.0, kind == SonarKind::imaging ? radians(35.0) : 0.0, 0.0), {}};
+        const Reference reference =
+            cast_energy_reference(caster, scene, sonar.settings,
+                                  sensor_pose(sonar, T_world_vehicle, 0), {0.01, 16.0, 30'000'000});
+        EngineSettings engine;
+        engine.type = EngineType::rays;
+        const Ping ping = render_ping(sonar, scene, *make_engine(scene, engine), T_world_vehicle,
+                                      {}, direct_echoes_alone);
+        const ImageError error = image_error(ping.intensity, reference.intensity);
+        CAPTURE(name_of(kind));
+        CAPTURE(reference.moved);
+        CHECK(error.relative_l1 < 0.02 + reference.moved);
+        CHECK(reference.apart < 0.03);
+    }
+}
+
+TEST_SUITE_END();
