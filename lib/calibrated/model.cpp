@@ -6,6 +6,7 @@
 
 #include "calibrated/decibel.h"
 #include "calibrated/normals.h"
+#include "calibrated/scatterer_search.h"
 #include "calibrated/water.h"
 #include "core/units.h"
 
