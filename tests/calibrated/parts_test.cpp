@@ -47,7 +47,7 @@ TEST_SUITE("calibrated") {
     }
 
     TEST_CASE("fourier: the definition, and there and back") {
-        for (const int size : {2, 8, 32, 64}) {
+        for (const int size : {2, 3, 5, 8, 12, 20, 24, 32, 40, 64}) {
             const Fourier fourier(size);
             std::vector<ComplexLanes> data(size), scratch(size);
             for (int n = 0; n < size; ++n) {
