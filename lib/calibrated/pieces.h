@@ -11,7 +11,7 @@ namespace sonarsim {
 
 /// A block of pieces of surface, each small enough to be a point. Arrays, so that loops vectorise.
 struct PieceBlock {
-    static constexpr int most = 512;
+    static constexpr int most = 256;
     static constexpr int spare = 8;  ///< whole vectors are written
     template <class T>
     using Array = std::array<T, most + spare>;
