@@ -47,8 +47,9 @@ class Search {
 
     void look_at_whole(int k);
     void look_at_split(int k);
+    int room(int k);
     template <int size>
-    void keep(int k, __m256i column, __m256i row, __m256i place, unsigned asked);
+    int keep(int k, __m256i column, __m256i row, __m256i place, unsigned asked, int to);
     void fill();
     void fill(const Run& run);
 
@@ -79,23 +80,39 @@ void Search::add(std::span<const Sample> samples, const ScattererCells& cells,
     fill();
 }
 
+/// Makes sure that the block has room for scatterers of sample k, and tells for how many.
+int Search::room(int k) {
+    if (block_.pieces.count > PieceBlock::most - search_lanes) {
+        runs_[runs_count_++] = {k, block_.pieces.count};
+        fill();
+        flush();
+    }
+    return PieceBlock::most - block_.pieces.count;
+}
+
 void Search::look_at_whole(int k) {
     const CellFootprints& p = footprints_;
     const __m256i base_i = _mm256_set1_epi32(p.base_first[k] / 2);
     const __m256i base_j = _mm256_set1_epi32(p.base_second[k] / 2);
     const __m256i one = _mm256_set1_epi32(1);
     const int end = whole_.begin[k + 1];
-    for (int at = whole_.begin[k]; at < end; at += search_lanes) {
-        const __m256i column = load_numbers(whole_.column.data() + at);
-        const __m256i row = load_numbers(whole_.row.data() + at);
-        const __m256i i = _mm256_add_epi32(base_i, column);
-        const __m256i j = _mm256_add_epi32(base_j, row);
-        const __m256i larger =
-            cell_bits(_mm256_srai_epi32(i, 1), _mm256_srai_epi32(j, 1), p.level[k] + 2, p.axis[k]);
-        const __m256i part = _mm256_add_epi32(_mm256_and_si256(i, one),
-                                              _mm256_slli_epi32(_mm256_and_si256(j, one), 1));
-        keep<2>(k, column, row, place_in_cell(larger, part),
-                0xFFU >> std::max(0, at + search_lanes - end));
+    for (int at = whole_.begin[k]; at < end;) {
+        const int stop = std::min(end, at + room(k));
+        int count = block_.pieces.count;
+        for (; at < stop; at += search_lanes) {
+            const __m256i column = load_numbers(whole_.column.data() + at);
+            const __m256i row = load_numbers(whole_.row.data() + at);
+            const __m256i i = _mm256_add_epi32(base_i, column);
+            const __m256i j = _mm256_add_epi32(base_j, row);
+            const __m256i larger = cell_bits(_mm256_srai_epi32(i, 1), _mm256_srai_epi32(j, 1),
+                                             p.level[k] + 2, p.axis[k]);
+            const __m256i part = _mm256_add_epi32(_mm256_and_si256(i, one),
+                                                  _mm256_slli_epi32(_mm256_and_si256(j, one), 1));
+            count += keep<2>(k, column, row, place_in_cell(larger, part),
+                             0xFFU >> std::max(0, at + search_lanes - stop), count);
+        }
+        at = stop;
+        block_.pieces.count = count;
     }
 }
 
@@ -106,26 +123,33 @@ void Search::look_at_split(int k) {
     const __m256i right = _mm256_setr_epi32(0, 1, 0, 1, 0, 1, 0, 1);
     const __m256i up = _mm256_setr_epi32(0, 0, 1, 1, 0, 0, 1, 1);
     const int end = split_.begin[k + 1];
-    for (int at = split_.begin[k]; at < end; at += 2) {
-        const auto load = [&](const std::vector<std::int32_t>& from) {
-            const auto* const two = reinterpret_cast<const __m128i*>(from.data() + at);
-            return _mm256_permutevar8x32_epi32(_mm256_castsi128_si256(_mm_loadl_epi64(two)),
-                                               two_cells);
-        };
-        const __m256i column = load(split_.column);
-        const __m256i row = load(split_.row);
-        keep<1>(k, _mm256_add_epi32(_mm256_add_epi32(column, column), right),
-                _mm256_add_epi32(_mm256_add_epi32(row, row), up),
-                place_in_cell(load(split_.bits), part), at + 1 < end ? 0xFFU : 0x0FU);
+    for (int at = split_.begin[k]; at < end;) {
+        const int stop = std::min(end, at + room(k) / 4);
+        int count = block_.pieces.count;
+        for (; at < stop; at += 2) {
+            const auto load = [&](const std::vector<std::int32_t>& from) {
+                const auto* const two = reinterpret_cast<const __m128i*>(from.data() + at);
+                return _mm256_permutevar8x32_epi32(_mm256_castsi128_si256(_mm_loadl_epi64(two)),
+                                                   two_cells);
+            };
+            const __m256i column = load(split_.column);
+            const __m256i row = load(split_.row);
+            count += keep<1>(k, _mm256_add_epi32(_mm256_add_epi32(column, column), right),
+                             _mm256_add_epi32(_mm256_add_epi32(row, row), up),
+                             place_in_cell(load(split_.bits), part), at + 1 < stop ? 0xFFU : 0x0FU,
+                             count);
+        }
+        at = stop;
+        block_.pieces.count = count;
     }
 }
 
-/// Keeps those of 8 cells whose points lie on the sample. Cells are `size` smaller cells large and
-/// numbered from the base.
+/// Keeps those of 8 cells whose points lie on the sample, from place `to` of the block on, and
+/// tells how many. Cells are `size` smaller cells large and numbered from the base.
 template <int size>
-void Search::keep(int k, __m256i column, __m256i row, __m256i place, unsigned asked) {
+int Search::keep(int k, __m256i column, __m256i row, __m256i place, unsigned asked, int to) {
     const CellFootprints& p = footprints_;
-    const auto off_centre = [&](__m256i number, __m256i bits, float centre) {
+    const auto off_centre = [](__m256i number, __m256i bits, float centre) {
         const __m256 share = _mm256_fmadd_ps(_mm256_cvtepi32_ps(bits), _mm256_set1_ps(0x1p-16F),
                                              _mm256_cvtepi32_ps(number));
         return _mm256_fmsub_ps(_mm256_set1_ps(size), share, _mm256_set1_ps(centre));
@@ -143,18 +167,12 @@ void Search::keep(int k, __m256i column, __m256i row, __m256i place, unsigned as
         _mm256_and_ps(_mm256_cmp_ps(s, least, _CMP_GE_OQ), _mm256_cmp_ps(s, most, _CMP_LT_OQ)),
         _mm256_and_ps(_mm256_cmp_ps(t, least, _CMP_GE_OQ), _mm256_cmp_ps(t, most, _CMP_LT_OQ)));
     const ToFront front(asked & static_cast<unsigned>(_mm256_movemask_ps(inside)));
-    if (block_.pieces.count > PieceBlock::most - search_lanes) {
-        runs_[runs_count_++] = {k, block_.pieces.count};
-        fill();
-        flush();
-    }
-    const int at = block_.pieces.count;
-    _mm256_storeu_ps(s_.data() + at, front(s));
-    _mm256_storeu_ps(t_.data() + at, front(t));
-    store_numbers(column_.data() + at, front(column));
-    store_numbers(row_.data() + at, front(row));
-    _mm256_storeu_ps(size_.data() + at, _mm256_set1_ps(size));
-    block_.pieces.count += front.count;
+    _mm256_storeu_ps(s_.data() + to, front(s));
+    _mm256_storeu_ps(t_.data() + to, front(t));
+    store_numbers(column_.data() + to, front(column));
+    store_numbers(row_.data() + to, front(row));
+    _mm256_storeu_ps(size_.data() + to, _mm256_set1_ps(size));
+    return front.count;
 }
 
 void Search::fill() {

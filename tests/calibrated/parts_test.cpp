@@ -72,6 +72,15 @@ TEST_SUITE("calibrated") {
         }
     }
 
+    TEST_CASE("fourier: sizes are a power of two, or three or five times one") {
+        CHECK(transform_size(1) == 2);
+        CHECK(transform_size(6) == 6);
+        CHECK(transform_size(9) == 10);
+        CHECK(transform_size(257) == 320);
+        CHECK(transform_size(321) == 384);
+        CHECK(transform_size(385) == 512);
+    }
+
     TEST_CASE("beams: a point is the pattern, of amplitudes and of powers") {
         const LineArray array = line_array(radians(1.0), -25.0);
         std::vector<double> sines;
