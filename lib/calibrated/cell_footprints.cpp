@@ -11,7 +11,7 @@ namespace {
 
 // Head-on a resolution cell has no end on the surface: its length is taken to be this many times
 // that of the pulse at the most. With more, objects of a few centimetres would hold few scatterers.
-constexpr float longest_on_surface = 2.0F;
+constexpr float longest_on_surface = 4.0F;
 
 template <class T>
 using Batch = CellFootprints::Array<T>;
