@@ -32,11 +32,11 @@ void list_cells_of(const CellFootprints& p, int k, CellList& whole, CellList& sp
             const __m256i bits =
                 cell_bits(_mm256_add_epi32(base_i, column), _mm256_add_epi32(base_j, row),
                           p.level[k] + 1, p.axis[k]);
+            // Not the bits themselves: they say where in the cell its point is.
+            const __m256i other_bits = _mm256_mullo_epi32(bits, all_lanes(0x9E3779B1U));
             const unsigned is_whole =
-                mask_of(_mm256_cmpgt_epi32(first_split, _mm256_srli_epi32(bits, 8)));
-            whole.make_room();
+                mask_of(_mm256_cmpgt_epi32(first_split, _mm256_srli_epi32(other_bits, 8)));
             whole.add(ToFront(meant & is_whole), column, row, bits);
-            split.make_room();
             split.add(ToFront(meant & ~is_whole), column, row, bits);
             inner = _mm256_add_epi32(inner, _mm256_set1_epi32(1));
         }

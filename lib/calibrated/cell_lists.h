@@ -20,10 +20,6 @@ struct CellList {
     std::array<int, CellFootprints::most + 1> begin{};  ///< by sample
 
     CellList() { grow(); }
-    /// Makes room for a vector of further cells.
-    void make_room() {
-        if (static_cast<std::size_t>(count + search_lanes) > bits.size()) grow();
-    }
     void grow() {
         const std::size_t size = std::max<std::size_t>(2 * bits.size(), 1024);
         column.resize(size);
@@ -31,6 +27,7 @@ struct CellList {
         bits.resize(size);
     }
     void add(const ToFront& front, __m256i columns, __m256i rows, __m256i random) {
+        if (static_cast<std::size_t>(count + search_lanes) > bits.size()) grow();
         store_numbers(column.data() + count, front(columns));
         store_numbers(row.data() + count, front(rows));
         store_numbers(bits.data() + count, front(random));

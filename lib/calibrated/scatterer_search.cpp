@@ -13,15 +13,6 @@ namespace sonarsim {
 
 namespace {
 
-/// Where in its cell a scatterer is seen, 16 bits along each axis: by the bits of the cell that is
-/// twice as large, and by which of its four parts it is. Large or small, whole or a part, a cell
-/// has its scatterer in the same place.
-__m256i place_in_cell(__m256i larger, __m256i part) {
-    const __m256i keys =
-        _mm256_setr_epi32(0x3C6EF372, 0x1B873593, 0x7F4A7C15, 0x5851F42D, 0, 0, 0, 0);
-    return mixed(_mm256_xor_si256(larger, _mm256_permutevar8x32_epi32(keys, part)));
-}
-
 /// Finds the cells whose points lie on samples and makes scatterers of them, a batch of samples at
 /// a time: what a step decides is known long before the next one branches by it.
 class Search {
@@ -49,7 +40,7 @@ class Search {
     void look_at_split(int k);
     int room(int k);
     template <int size>
-    int keep(int k, __m256i column, __m256i row, __m256i place, unsigned asked, int to);
+    int keep(int k, __m256i column, __m256i row, __m256i bits, unsigned asked, int to);
     void fill();
     void fill(const Run& run);
 
@@ -91,24 +82,13 @@ int Search::room(int k) {
 }
 
 void Search::look_at_whole(int k) {
-    const CellFootprints& p = footprints_;
-    const __m256i base_i = _mm256_set1_epi32(p.base_first[k] / 2);
-    const __m256i base_j = _mm256_set1_epi32(p.base_second[k] / 2);
-    const __m256i one = _mm256_set1_epi32(1);
     const int end = whole_.begin[k + 1];
     for (int at = whole_.begin[k]; at < end;) {
         const int stop = std::min(end, at + room(k));
         int count = block_.pieces.count;
         for (; at < stop; at += search_lanes) {
-            const __m256i column = load_numbers(whole_.column.data() + at);
-            const __m256i row = load_numbers(whole_.row.data() + at);
-            const __m256i i = _mm256_add_epi32(base_i, column);
-            const __m256i j = _mm256_add_epi32(base_j, row);
-            const __m256i larger = cell_bits(_mm256_srai_epi32(i, 1), _mm256_srai_epi32(j, 1),
-                                             p.level[k] + 2, p.axis[k]);
-            const __m256i part = _mm256_add_epi32(_mm256_and_si256(i, one),
-                                                  _mm256_slli_epi32(_mm256_and_si256(j, one), 1));
-            count += keep<2>(k, column, row, place_in_cell(larger, part),
+            const auto load = [&](const auto& from) { return load_numbers(from.data() + at); };
+            count += keep<2>(k, load(whole_.column), load(whole_.row), load(whole_.bits),
                              0xFFU >> std::max(0, at + search_lanes - stop), count);
         }
         at = stop;
@@ -118,8 +98,10 @@ void Search::look_at_whole(int k) {
 
 /// Two cells at a time, four parts each.
 void Search::look_at_split(int k) {
+    const CellFootprints& p = footprints_;
+    const __m256i base_i = _mm256_set1_epi32(p.base_first[k]);
+    const __m256i base_j = _mm256_set1_epi32(p.base_second[k]);
     const __m256i two_cells = _mm256_setr_epi32(0, 0, 0, 0, 1, 1, 1, 1);
-    const __m256i part = _mm256_setr_epi32(0, 1, 2, 3, 0, 1, 2, 3);
     const __m256i right = _mm256_setr_epi32(0, 1, 0, 1, 0, 1, 0, 1);
     const __m256i up = _mm256_setr_epi32(0, 0, 1, 1, 0, 0, 1, 1);
     const int end = split_.begin[k + 1];
@@ -127,17 +109,17 @@ void Search::look_at_split(int k) {
         const int stop = std::min(end, at + room(k) / 4);
         int count = block_.pieces.count;
         for (; at < stop; at += 2) {
-            const auto load = [&](const std::vector<std::int32_t>& from) {
+            const auto twice = [&](const std::vector<std::int32_t>& from) {
                 const auto* const two = reinterpret_cast<const __m128i*>(from.data() + at);
-                return _mm256_permutevar8x32_epi32(_mm256_castsi128_si256(_mm_loadl_epi64(two)),
-                                                   two_cells);
+                const __m256i cells = _mm256_permutevar8x32_epi32(
+                    _mm256_castsi128_si256(_mm_loadl_epi64(two)), two_cells);
+                return _mm256_add_epi32(cells, cells);
             };
-            const __m256i column = load(split_.column);
-            const __m256i row = load(split_.row);
-            count += keep<1>(k, _mm256_add_epi32(_mm256_add_epi32(column, column), right),
-                             _mm256_add_epi32(_mm256_add_epi32(row, row), up),
-                             place_in_cell(load(split_.bits), part), at + 1 < stop ? 0xFFU : 0x0FU,
-                             count);
+            const __m256i column = _mm256_add_epi32(twice(split_.column), right);
+            const __m256i row = _mm256_add_epi32(twice(split_.row), up);
+            const __m256i bits = cell_bits(_mm256_add_epi32(base_i, column),
+                                           _mm256_add_epi32(base_j, row), p.level[k], p.axis[k]);
+            count += keep<1>(k, column, row, bits, at + 1 < stop ? 0xFFU : 0x0FU, count);
         }
         at = stop;
         block_.pieces.count = count;
@@ -147,15 +129,15 @@ void Search::look_at_split(int k) {
 /// Keeps those of 8 cells whose points lie on the sample, from place `to` of the block on, and
 /// tells how many. Cells are `size` smaller cells large and numbered from the base.
 template <int size>
-int Search::keep(int k, __m256i column, __m256i row, __m256i place, unsigned asked, int to) {
+int Search::keep(int k, __m256i column, __m256i row, __m256i bits, unsigned asked, int to) {
     const CellFootprints& p = footprints_;
-    const auto off_centre = [](__m256i number, __m256i bits, float centre) {
-        const __m256 share = _mm256_fmadd_ps(_mm256_cvtepi32_ps(bits), _mm256_set1_ps(0x1p-16F),
+    const auto off_centre = [](__m256i number, __m256i within, float centre) {
+        const __m256 share = _mm256_fmadd_ps(_mm256_cvtepi32_ps(within), _mm256_set1_ps(0x1p-16F),
                                              _mm256_cvtepi32_ps(number));
         return _mm256_fmsub_ps(_mm256_set1_ps(size), share, _mm256_set1_ps(centre));
     };
-    const __m256 x = off_centre(column, _mm256_and_si256(place, all_lanes(0xFFFFU)), p.first[k]);
-    const __m256 y = off_centre(row, _mm256_srli_epi32(place, 16), p.second[k]);
+    const __m256 x = off_centre(column, _mm256_and_si256(bits, all_lanes(0xFFFFU)), p.first[k]);
+    const __m256 y = off_centre(row, _mm256_srli_epi32(bits, 16), p.second[k]);
     const auto share = [&](float by_x, float by_y) {
         return _mm256_fmadd_ps(x, _mm256_set1_ps(by_x), _mm256_mul_ps(y, _mm256_set1_ps(by_y)));
     };
