@@ -37,12 +37,14 @@ inline __m256i mixed(__m256i h) {
     return _mm256_xor_si256(h, _mm256_srli_epi32(h, 16));
 }
 
-/// Random bits of a level's cells, seen along an axis, by their numbers.
-inline __m256i cell_bits(__m256i i, __m256i j, std::int32_t level, std::int32_t axis) {
+/// Random bits of a level's cells, seen along an axis, by their numbers and a key.
+inline __m256i cell_bits(__m256i i, __m256i j, std::int32_t level, std::int32_t axis,
+                         std::uint32_t key) {
     const auto plane = static_cast<std::uint32_t>(4 * level + axis + 1) * 0x9E3779B1U;
     const __m256i by_i = _mm256_mullo_epi32(i, all_lanes(0x85EBCA6BU));
     const __m256i by_j = _mm256_mullo_epi32(j, all_lanes(0xC2B2AE35U));
-    return mixed(_mm256_add_epi32(_mm256_add_epi32(by_i, by_j), all_lanes(plane)));
+    const __m256i cell = _mm256_add_epi32(_mm256_add_epi32(by_i, by_j), all_lanes(plane));
+    return mixed(_mm256_xor_si256(cell, all_lanes(key)));
 }
 
 /// By 8 bits, the numbers of those that are set, in order, and then 0.

@@ -5,7 +5,8 @@ namespace sonarsim {
 namespace {
 
 /// Those of one sample, eight rows at a time.
-void list_cells_of(const CellFootprints& p, int k, CellList& whole, CellList& split) {
+void list_cells_of(const CellFootprints& p, int k, std::uint32_t key, CellList& whole,
+                   CellList& split) {
     const auto one = [](float value) { return _mm256_set1_ps(value); };
     const __m256i base_i = _mm256_set1_epi32(p.base_first[k] / 2);
     const __m256i base_j = _mm256_set1_epi32(p.base_second[k] / 2);
@@ -31,7 +32,7 @@ void list_cells_of(const CellFootprints& p, int k, CellList& whole, CellList& sp
             const __m256i row = along_first ? inner : number;
             const __m256i bits =
                 cell_bits(_mm256_add_epi32(base_i, column), _mm256_add_epi32(base_j, row),
-                          p.level[k] + 1, p.axis[k]);
+                          p.level[k] + 1, p.axis[k], key);
             // Not the bits themselves: they say where in the cell its point is.
             const __m256i other_bits = _mm256_mullo_epi32(bits, all_lanes(0x9E3779B1U));
             const unsigned is_whole =
@@ -45,13 +46,14 @@ void list_cells_of(const CellFootprints& p, int k, CellList& whole, CellList& sp
 
 }  // namespace
 
-void list_cells(const CellFootprints& footprints, CellList& whole, CellList& split) {
+void list_cells(const CellFootprints& footprints, std::uint32_t key, CellList& whole,
+                CellList& split) {
     whole.count = 0;
     split.count = 0;
     for (int k = 0; k < footprints.count; ++k) {
         whole.begin[k] = whole.count;
         split.begin[k] = split.count;
-        list_cells_of(footprints, k, whole, split);
+        list_cells_of(footprints, k, key, whole, split);
     }
     whole.begin[footprints.count] = whole.count;
     split.begin[footprints.count] = split.count;

@@ -27,7 +27,8 @@ struct CellList {
         bits.resize(size);
     }
     void add(const ToFront& front, __m256i columns, __m256i rows, __m256i random) {
-        if (static_cast<std::size_t>(count + search_lanes) > bits.size()) grow();
+        // Whole vectors are written, and read from any cell on.
+        if (static_cast<std::size_t>(count + 2 * search_lanes) > bits.size()) grow();
         store_numbers(column.data() + count, front(columns));
         store_numbers(row.data() + count, front(rows));
         store_numbers(bits.data() + count, front(random));
@@ -37,6 +38,7 @@ struct CellList {
 
 /// Lists the larger cells that a batch of samples may lie on: those that hold a scatterer as a
 /// whole, and those that are split and hold four.
-void list_cells(const CellFootprints& footprints, CellList& whole, CellList& split);
+void list_cells(const CellFootprints& footprints, std::uint32_t key, CellList& whole,
+                CellList& split);
 
 }  // namespace sonarsim

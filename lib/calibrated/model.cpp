@@ -85,11 +85,12 @@ CalibratedCounts form_image_of(const Beams& beams, const CalibratedModel& model,
     if (terms.echoes && of_scene) {
         Scatterers block;
         Amplitudes amplitudes;
-        find_scatterers(samples.items, model.cells, sonar, block, [&](const Scatterers& found) {
-            find(found.pieces);
-            draw_amplitudes(found, echoes, model.cells, sonar, draws.scene, amplitudes);
-            add_amplitudes(beams, found.pieces, echoes, amplitudes, grid);
-        });
+        find_scatterers(
+            samples.items, model.cells, sonar, draws.scene, block, [&](const Scatterers& found) {
+                find(found.pieces);
+                draw_amplitudes(found, echoes, model.cells, sonar, draws.scene, amplitudes);
+                add_amplitudes(beams, found.pieces, echoes, amplitudes, grid);
+            });
     } else if (terms.echoes) {
         PieceBlock block;
         PointLimits limits = model.limits;

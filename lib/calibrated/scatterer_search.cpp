@@ -13,12 +13,13 @@ namespace sonarsim {
 
 namespace {
 
-/// Finds the cells whose points lie on samples and makes scatterers of them, a batch of samples at
-/// a time: what a step decides is known long before the next one branches by it.
+/// Finds the cells whose points lie on samples and makes scatterers of them. A batch of samples
+/// goes through each step together: how often a loop has to run is known well before it begins, and
+/// the processor does not wait for it.
 class Search {
   public:
-    Search(Scatterers& block, const std::function<void(const Scatterers&)>& use)
-        : block_(block), use_(use) {
+    Search(PhiloxKey key, Scatterers& block, const std::function<void(const Scatterers&)>& use)
+        : key_(key.k0), block_(block), use_(use) {
         block_.pieces.count = 0;
     }
 
@@ -44,6 +45,7 @@ class Search {
     void fill();
     void fill(const Run& run);
 
+    std::uint32_t key_;
     Scatterers& block_;
     const std::function<void(const Scatterers&)>& use_;
     std::span<const Sample> samples_;
@@ -62,7 +64,7 @@ void Search::add(std::span<const Sample> samples, const ScattererCells& cells,
                  const SonarInScene& sonar) {
     samples_ = samples;
     find_footprints(samples, cells, sonar, footprints_);
-    list_cells(footprints_, whole_, split_);
+    list_cells(footprints_, key_, whole_, split_);
     for (int k = 0; k < footprints_.count; ++k) {
         look_at_whole(k);
         look_at_split(k);
@@ -117,8 +119,9 @@ void Search::look_at_split(int k) {
             };
             const __m256i column = _mm256_add_epi32(twice(split_.column), right);
             const __m256i row = _mm256_add_epi32(twice(split_.row), up);
-            const __m256i bits = cell_bits(_mm256_add_epi32(base_i, column),
-                                           _mm256_add_epi32(base_j, row), p.level[k], p.axis[k]);
+            const __m256i bits =
+                cell_bits(_mm256_add_epi32(base_i, column), _mm256_add_epi32(base_j, row),
+                          p.level[k], p.axis[k], key_);
             count += keep<1>(k, column, row, bits, at + 1 < stop ? 0xFFU : 0x0FU, count);
         }
         at = stop;
@@ -215,10 +218,10 @@ void Search::fill(const Run& run) {
 }  // namespace
 
 void find_scatterers(std::span<const Sample> samples, const ScattererCells& cells,
-                     const SonarInScene& sonar, Scatterers& block,
+                     const SonarInScene& sonar, PhiloxKey key, Scatterers& block,
                      const std::function<void(const Scatterers&)>& use) {
     constexpr std::size_t batch = CellFootprints::most;
-    Search search(block, use);
+    Search search(key, block, use);
     for (std::size_t first = 0; first < samples.size(); first += batch)
         search.add(samples.subspan(first, std::min(batch, samples.size() - first)), cells, sonar);
     search.flush();
