@@ -1,5 +1,7 @@
 #include "calibrated/beamformer.h"
 
+#include <immintrin.h>
+
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -74,10 +76,33 @@ double window(double x) {
 
 /// The complex numbers of 8 bins of a column, apart.
 void load_bins(const float* bins, ComplexLanes& out) {
-    for (int lane = 0; lane < lanes_at_once; ++lane) {
-        out.re[lane] = bins[2 * lane];
-        out.im[lane] = bins[2 * lane + 1];
+    const __m256 low = _mm256_loadu_ps(bins);
+    const __m256 high = _mm256_loadu_ps(bins + lanes_at_once);
+    const __m256 first = _mm256_permute2f128_ps(low, high, 0x20);
+    const __m256 second = _mm256_permute2f128_ps(low, high, 0x31);
+    _mm256_store_ps(out.re.data(), _mm256_shuffle_ps(first, second, _MM_SHUFFLE(2, 0, 2, 0)));
+    _mm256_store_ps(out.im.data(), _mm256_shuffle_ps(first, second, _MM_SHUFFLE(3, 1, 3, 1)));
+}
+
+/// The sum of columns, each times its tap.
+ComplexLanes interpolated(const ComplexLanes* columns, const float* taps, int count) {
+    ComplexLanes sum{};
+    for (int t = 0; t < count; ++t) {
+        const ComplexLanes z = columns[t];
+        const float tap = taps[t];
+        for (int lane = 0; lane < lanes_at_once; ++lane) {
+            sum.re[lane] = std::fma(tap, z.re[lane], sum.re[lane]);
+            sum.im[lane] = std::fma(tap, z.im[lane], sum.im[lane]);
+        }
     }
+    return sum;
+}
+
+Lanes not_negative(const Lanes& values) {
+    Lanes out;
+    for (int lane = 0; lane < lanes_at_once; ++lane)
+        out[lane] = std::max(values[lane], 0.0F);
+    return out;
 }
 
 }  // namespace
@@ -188,12 +213,13 @@ void Beamformer::add_noise(const ElementNoise& noise, int row, PhiloxKey key,
         const std::vector<std::uint32_t>& words = e < pairs ? scratch.a : scratch.b;
         complex_normals(words.data() + static_cast<std::ptrdiff_t>(e % pairs) * lanes_at_once, re,
                         im);
-        ComplexLanes& z = scratch.data[weights_[e].index];
+        ComplexLanes z = scratch.data[weights_[e].index];
         const float sigma = noise.element_sigma * weights_[e].hearing;
         for (int lane = 0; lane < lanes_at_once; ++lane) {
             z.re[lane] = std::fma(sigma, re[lane], z.re[lane]);
             z.im[lane] = std::fma(sigma, im[lane], z.im[lane]);
         }
+        scratch.data[weights_[e].index] = z;
     }
     if (noise.common_mode_sigma == 0.0F) return;
     std::array<std::uint32_t, lanes_at_once> a, b;
@@ -204,13 +230,14 @@ void Beamformer::add_noise(const ElementNoise& noise, int row, PhiloxKey key,
     philox_pairs(a.data(), b.data(), lanes_at_once, key);
     complex_normals(a.data(), re, im);
     for (const Weight& w : weights_) {
-        ComplexLanes& z = scratch.data[w.index];
+        ComplexLanes z = scratch.data[w.index];
+        const float ahead_re = noise.common_mode_sigma * w.hearing * w.ahead_re;
+        const float ahead_im = noise.common_mode_sigma * w.hearing * w.ahead_im;
         for (int lane = 0; lane < lanes_at_once; ++lane) {
-            const float x = noise.common_mode_sigma * w.hearing * re[lane];
-            const float y = noise.common_mode_sigma * w.hearing * im[lane];
-            z.re[lane] += x * w.ahead_re - y * w.ahead_im;
-            z.im[lane] += x * w.ahead_im + y * w.ahead_re;
+            z.re[lane] += re[lane] * ahead_re - im[lane] * ahead_im;
+            z.im[lane] += re[lane] * ahead_im + im[lane] * ahead_re;
         }
+        scratch.data[w.index] = z;
     }
 }
 
@@ -232,30 +259,26 @@ void Beamformer::form(const EchoGrid* grid, int row, const ElementNoise& noise, 
     const auto reach = static_cast<int>(weights_.size() / 2);
     std::fill(data + reach + 1, data + size - reach, ComplexLanes{});
     for (const Weight& w : weights_) {
-        ComplexLanes& z = data[w.index];
+        const ComplexLanes z = data[w.index];
+        const float re = w.re;
+        const float im = w.im;
+        ComplexLanes weighted;
         for (int lane = 0; lane < lanes_at_once; ++lane) {
-            const float x = z.re[lane];
-            const float y = z.im[lane];
-            z.re[lane] = x * w.re - y * w.im;
-            z.im[lane] = x * w.im + y * w.re;
+            weighted.re[lane] = z.re[lane] * re - z.im[lane] * im;
+            weighted.im[lane] = z.re[lane] * im + z.im[lane] * re;
         }
+        data[w.index] = weighted;
     }
     fourier_.backward(data, scratch.spare.data());
 
     for (int j = 0; j < beams(); ++j) {
         const ComplexLanes* const from = data + first_tap_[j];
         const float* const tap = tap_.data() + static_cast<std::ptrdiff_t>(j) * taps_;
-        ComplexLanes z{};
-        for (int t = 0; t < taps_; ++t) {
-            for (int lane = 0; lane < lanes_at_once; ++lane) {
-                z.re[lane] = std::fma(tap[t], from[t].re[lane], z.re[lane]);
-                z.im[lane] = std::fma(tap[t], from[t].im[lane], z.im[lane]);
-            }
-        }
-        for (int lane = 0; lane < lanes_at_once; ++lane) {
-            out[j][lane] = powers_ ? std::max(z.re[lane], 0.0F)
-                                   : std::fma(z.re[lane], z.re[lane], z.im[lane] * z.im[lane]);
-        }
+        ComplexLanes z = taps_ == 1 ? from[0] : interpolated(from, tap, taps_);
+        Lanes power;
+        for (int lane = 0; lane < lanes_at_once; ++lane)
+            power[lane] = std::fma(z.re[lane], z.re[lane], z.im[lane] * z.im[lane]);
+        out[j] = powers_ ? not_negative(z.re) : power;
     }
 }
 

@@ -1,5 +1,7 @@
 #include "calibrated/echo_grid.h"
 
+#include <immintrin.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -27,23 +29,31 @@ EchoGrid::EchoGrid(int rows, int columns)
 std::size_t EchoGrid::smear(const RangeTaps& taps) {
     const std::size_t length = 2 * static_cast<std::size_t>(rows_);
     const std::size_t beside = 2 * static_cast<std::size_t>(taps.reach);
-    std::vector<float> padded(length + 2 * beside);
+    // Whole lines are written, as far as a column has room.
+    const std::size_t lines = (length + floats_per_line - 1) / floats_per_line;
+    std::vector<float> padded(lines * floats_per_line + 2 * beside);
     float* const middle = padded.data() + beside;
     std::size_t lit = 0;
     for (int c = 0; c < columns_; ++c) {
-        float* const __restrict values = column(c);
+        float* const values = column(c);
         std::copy_n(values, length, middle);
         int echoes = 0;
         for (std::size_t i = 0; i < length; i += 2)
             echoes += values[i] != 0.0F || values[i + 1] != 0.0F ? 1 : 0;
         lit += echoes;
         if (echoes == 0) continue;
-        std::fill_n(values, length, 0.0F);
-        for (std::size_t t = 0; t < taps.taps.size(); ++t) {
-            const float tap = taps.taps[t];
-            const float* const __restrict shifted = padded.data() + 2 * t;
-            for (std::size_t i = 0; i < length; ++i)
-                values[i] = std::fma(tap, shifted[i], values[i]);
+        for (std::size_t i = 0; i < lines * floats_per_line; i += floats_per_line) {
+            __m256 one = _mm256_setzero_ps();
+            __m256 other = _mm256_setzero_ps();
+            const float* shifted = padded.data() + i;
+            for (const float tap : taps.taps) {
+                const __m256 factor = _mm256_set1_ps(tap);
+                one = _mm256_fmadd_ps(factor, _mm256_loadu_ps(shifted), one);
+                other = _mm256_fmadd_ps(factor, _mm256_loadu_ps(shifted + 8), other);
+                shifted += 2;
+            }
+            _mm256_storeu_ps(values + i, one);
+            _mm256_storeu_ps(values + i + 8, other);
         }
     }
     return lit;

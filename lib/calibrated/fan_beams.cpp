@@ -19,29 +19,51 @@ LineArray receiving_array(const BeamConfig& beam) {
     return array;
 }
 
-/// Where an echo goes: its place, and its shares in the next bin and the next column.
-struct Target {
-    float* place;
-    float next_row, next_column;
-};
-
-Target target_of(const PointEchoes& echoes, int k, EchoGrid& grid) {
-    const float row = std::floor(echoes.row[k]);
-    const float column = std::floor(echoes.column[k]);
-    return {grid.column(static_cast<int>(column)) + std::ptrdiff_t{2} * static_cast<int>(row),
-            echoes.row[k] - row, echoes.column[k] - column};
+/// Adds the first two floats of `values`. One place at a time: neighbouring echoes meet in places,
+/// and a processor waits where it reads half of what it has just written.
+void add_two(float* to, __m128 values) {
+    auto* const place = reinterpret_cast<__m128i*>(to);
+    const __m128 before = _mm_castsi128_ps(_mm_loadl_epi64(place));
+    _mm_storel_epi64(place, _mm_castps_si128(_mm_add_ps(before, values)));
 }
 
-/// Adds (a, b) to four places, a and b being the two floats of one.
-void add_shared(const Target& target, __m128 value, std::size_t stride) {
-    const __m128 rows = _mm_setr_ps(1.0F - target.next_row, 1.0F - target.next_row, target.next_row,
-                                    target.next_row);
-    const __m128 next = _mm_set1_ps(target.next_column);
-    const __m128 whole = _mm_mul_ps(value, rows);
-    const __m128 there = _mm_mul_ps(whole, next);
-    float* const here = target.place;
-    _mm_storeu_ps(here, _mm_add_ps(_mm_loadu_ps(here), _mm_sub_ps(whole, there)));
-    _mm_storeu_ps(here + stride, _mm_add_ps(_mm_loadu_ps(here + stride), there));
+/// Where the echoes of a block go: their places in the grid, and their shares in the next bin and
+/// the next column.
+struct Targets {
+    PieceBlock::Array<std::int32_t> place;
+    PieceBlock::Array<float> next_row, next_column;
+
+    Targets(const PointEchoes& echoes, const EchoGrid& grid) {
+        const auto stride = static_cast<std::int32_t>(grid.stride());
+        for (int k = 0; k < echoes.count; ++k) {
+            const float row = std::floor(echoes.row[k]);
+            const float column = std::floor(echoes.column[k]);
+            place[k] =
+                static_cast<std::int32_t>(column) * stride + 2 * static_cast<std::int32_t>(row);
+            next_row[k] = echoes.row[k] - row;
+            next_column[k] = echoes.column[k] - column;
+        }
+    }
+
+    /// Adds (a, b, a, b) to the four places about echo k, a and b being the two floats of one.
+    void add_shared(int k, __m128 value, float* first, std::size_t stride) const {
+        const __m128 rows =
+            _mm_fmadd_ps(_mm_set1_ps(next_row[k]), _mm_setr_ps(-1.0F, -1.0F, 1.0F, 1.0F),
+                         _mm_setr_ps(1.0F, 1.0F, 0.0F, 0.0F));
+        const __m128 whole = _mm_mul_ps(value, rows);
+        const __m128 there = _mm_mul_ps(whole, _mm_set1_ps(next_column[k]));
+        const __m128 stays = _mm_sub_ps(whole, there);
+        float* const here = first + place[k];
+        add_two(here, stays);
+        add_two(here + 2, _mm_movehl_ps(stays, stays));
+        add_two(here + stride, there);
+        add_two(here + stride + 2, _mm_movehl_ps(there, there));
+    }
+};
+
+/// (a, b, a, b)
+__m128 alternating(float a, float b) {
+    return _mm_blend_ps(_mm_set1_ps(a), _mm_set1_ps(b), 0b1010);
 }
 
 /// Writes 8 bins of all beams into rows of the image, each times its gain.
@@ -99,19 +121,20 @@ std::uint64_t find_columns(const FanBeams& beams, const PieceBlock& pieces, Poin
 
 void add_powers(const FanBeams& /*beams*/, const PieceBlock& /*pieces*/, const PointEchoes& echoes,
                 EchoGrid& grid) {
-    for (int k = 0; k < echoes.count; ++k) {
-        const __m128 value = _mm_setr_ps(echoes.power[k], 0.0F, echoes.power[k], 0.0F);
-        add_shared(target_of(echoes, k, grid), value, grid.stride());
-    }
+    const Targets targets(echoes, grid);
+    float* const first = grid.column(0);
+    const std::size_t stride = grid.stride();
+    for (int k = 0; k < echoes.count; ++k)
+        targets.add_shared(k, alternating(echoes.power[k], 0.0F), first, stride);
 }
 
 void add_amplitudes(const FanBeams& /*beams*/, const PieceBlock& /*pieces*/,
                     const PointEchoes& echoes, const Amplitudes& amplitudes, EchoGrid& grid) {
-    const auto& [re, im] = amplitudes;
-    for (int k = 0; k < echoes.count; ++k) {
-        const __m128 value = _mm_setr_ps(re[k], im[k], re[k], im[k]);
-        add_shared(target_of(echoes, k, grid), value, grid.stride());
-    }
+    const Targets targets(echoes, grid);
+    float* const first = grid.column(0);
+    const std::size_t stride = grid.stride();
+    for (int k = 0; k < echoes.count; ++k)
+        targets.add_shared(k, alternating(amplitudes.re[k], amplitudes.im[k]), first, stride);
 }
 
 void receive(const FanBeams& beams, const EchoGrid& grid, bool powers, bool noisy, PhiloxKey key,

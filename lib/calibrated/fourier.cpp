@@ -3,6 +3,7 @@
 #include <immintrin.h>
 
 #include <algorithm>
+#include <array>
 
 #include "core/elementary.h"
 #include "core/units.h"
@@ -49,6 +50,56 @@ Value quarter_turned(const Value& a) {
     return {a.im, _mm256_sub_ps(zero, a.re)};
 }
 
+Value operator*(float a, const Value& b) {
+    const __m256 factor = _mm256_set1_ps(a);
+    return {_mm256_mul_ps(factor, b.re), _mm256_mul_ps(factor, b.im)};
+}
+
+/// a + b c
+Value plus(const Value& a, float b, const Value& c) {
+    const __m256 factor = _mm256_set1_ps(b);
+    return {_mm256_fmadd_ps(factor, c.re, a.re), _mm256_fmadd_ps(factor, c.im, a.im)};
+}
+
+/// The transform of 3 or 5 numbers that lie `step` apart.
+template <bool inverse>
+std::array<Value, 3> of_three(const ComplexLanes* in, std::ptrdiff_t step) {
+    constexpr float sine = 0.866025404F;  // of a third of a turn
+    const Value a = load(in[0]);
+    const Value b = load(in[step]);
+    const Value c = load(in[2 * step]);
+    const Value sum = b + c;
+    const Value even = plus(a, -0.5F, sum);
+    const Value odd = quarter_turned<inverse>(sine * (b - c));
+    return {a + sum, even + odd, even - odd};
+}
+
+template <bool inverse>
+std::array<Value, 5> of_five(const ComplexLanes* in, std::ptrdiff_t step) {
+    // Cosines and sines of one and of two fifths of a turn.
+    constexpr float c1 = 0.309016994F, c2 = -0.809016994F;
+    constexpr float s1 = 0.951056516F, s2 = 0.587785252F;
+    const Value a = load(in[0]);
+    const Value b = load(in[step]);
+    const Value c = load(in[2 * step]);
+    const Value d = load(in[3 * step]);
+    const Value e = load(in[4 * step]);
+    const Value be = b + e;
+    const Value cd = c + d;
+    const Value even1 = plus(plus(a, c1, be), c2, cd);
+    const Value even2 = plus(plus(a, c2, be), c1, cd);
+    const Value odd1 = quarter_turned<inverse>(plus(s1 * (b - e), s2, c - d));
+    const Value odd2 = quarter_turned<inverse>(plus(s2 * (b - e), -s1, c - d));
+    return {a + be + cd, even1 + odd1, even2 + odd2, even2 - odd2, even1 - odd1};
+}
+
+/// What is left of a size without its factors of 2.
+int odd_part(int size) {
+    while (size % 2 == 0)
+        size /= 2;
+    return size;
+}
+
 }  // namespace
 
 Fourier::Fourier(int size) : size_(size) {
@@ -58,14 +109,45 @@ Fourier::Fourier(int size) : size_(size) {
     }
 }
 
-/// Stockham's: steps of radix 4, and one of radix 2 where the size asks for it. Each step reads one
-/// array in order and writes the other in order; nothing is sorted.
+/// The first step, of radix 3 or 5.
+template <bool inverse, int radix>
+void Fourier::odd_step(const ComplexLanes* from, ComplexLanes* to) const {
+    const int part = size_ / radix;
+    for (int p = 0; p < part; ++p) {
+        ComplexLanes* const out = to + static_cast<std::ptrdiff_t>(radix) * p;
+        const auto values = [&] {
+            if constexpr (radix == 3) {
+                return of_three<inverse>(from + p, part);
+            } else {
+                return of_five<inverse>(from + p, part);
+            }
+        }();
+        store(out[0], values[0]);
+        for (int r = 1; r < radix; ++r) {
+            const Root w = roots_[static_cast<std::size_t>(r) * p];
+            store(out[r], turned<inverse>(values[r], w.re, w.im));
+        }
+    }
+}
+
+/// Stockham's: a step of radix 3 or 5 and one of radix 2 where the size asks for them, the others
+/// of radix 4. Each reads one array in order and writes the other in order; nothing is sorted.
 template <bool inverse>
 void Fourier::transform(ComplexLanes* data, ComplexLanes* scratch) const {
     ComplexLanes* from = data;
     ComplexLanes* to = scratch;
     int length = size_;
     int stride = 1;
+    if (const int odd = odd_part(size_); odd > 1) {
+        if (odd == 3) {
+            odd_step<inverse, 3>(from, to);
+        } else {
+            odd_step<inverse, 5>(from, to);
+        }
+        std::swap(from, to);
+        length /= odd;
+        stride = odd;
+    }
     while (length >= 4) {
         const int quarter = length / 4;
         for (int p = 0; p < quarter; ++p) {
@@ -118,6 +200,9 @@ int transform_size(int count) {
     int size = 2;
     while (size < count)
         size *= 2;
+    // Of a power of two five eighths or three quarters may do.
+    if (size >= 16 && size / 8 * 5 >= count) return size / 8 * 5;
+    if (size >= 8 && size / 4 * 3 >= count) return size / 4 * 3;
     return size;
 }
 

@@ -15,10 +15,11 @@ struct alignas(32) ComplexLanes {
     Lanes re, im;
 };
 
-/// Discrete Fourier transforms of a power of two, X[k] = sum x[n] e^(-2 pi i k n / N).
+/// Discrete Fourier transforms, X[k] = sum x[n] e^(-2 pi i k n / N), where N is a power of two or
+/// 3 or 5 times one.
 class Fourier {
   public:
-    /// `size`: a power of two from 2 on.
+    /// `size`: such an N from 2 on.
     explicit Fourier(int size);
 
     int size() const { return size_; }
@@ -32,6 +33,8 @@ class Fourier {
     struct Root {
         float re, im;
     };
+    template <bool inverse, int radix>
+    void odd_step(const ComplexLanes* from, ComplexLanes* to) const;
     template <bool inverse>
     void transform(ComplexLanes* data, ComplexLanes* scratch) const;
 
@@ -39,7 +42,7 @@ class Fourier {
     std::vector<Root> roots_;  ///< e^(-2 pi i k / N)
 };
 
-/// The smallest power of two that is at least `count`, and 2.
+/// The smallest size of a transform that is at least `count`, and 2.
 int transform_size(int count);
 
 }  // namespace sonarsim

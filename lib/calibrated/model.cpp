@@ -6,6 +6,7 @@
 
 #include "calibrated/decibel.h"
 #include "calibrated/normals.h"
+#include "calibrated/scatterer_search.h"
 #include "calibrated/water.h"
 #include "core/units.h"
 
@@ -13,9 +14,12 @@ namespace sonarsim {
 
 namespace {
 
-// Pieces that a grid of bins and columns cannot tell from points.
+// Pieces that a grid of bins and columns cannot tell from points. On the tank the expected image is
+// within 0.7 % of that of much smaller ones. Where amplitudes are drawn anew, pieces of a whole
+// bin, with 1.8 %, are small enough.
 constexpr float most_depth_by_bin = 0.5F;
-constexpr float most_sine_by_step = 0.5F;
+constexpr float most_drawn_depth_by_bin = 1.0F;
+constexpr float most_sine_by_step = 1.0F;
 // Of a half-power width: the pattern bends within it.
 constexpr double most_by_width = 0.1;
 
@@ -81,14 +85,17 @@ CalibratedCounts form_image_of(const Beams& beams, const CalibratedModel& model,
     if (terms.echoes && of_scene) {
         Scatterers block;
         Amplitudes amplitudes;
-        find_scatterers(samples.items, model.cells, sonar, block, [&](const Scatterers& found) {
-            find(found.pieces);
-            draw_amplitudes(found, echoes, model.cells, sonar, draws.scene, amplitudes);
-            add_amplitudes(beams, found.pieces, echoes, amplitudes, grid);
-        });
+        find_scatterers(
+            samples.items, model.cells, sonar, draws.scene, block, [&](const Scatterers& found) {
+                find(found.pieces);
+                draw_amplitudes(found, echoes, model.cells, sonar, draws.scene, amplitudes);
+                add_amplitudes(beams, found.pieces, echoes, amplitudes, grid);
+            });
     } else if (terms.echoes) {
         PieceBlock block;
-        cut_into_pieces(samples.items, model.limits, block, [&](const PieceBlock& pieces) {
+        PointLimits limits = model.limits;
+        if (speckled) limits.depth_m *= most_drawn_depth_by_bin / most_depth_by_bin;
+        cut_into_pieces(samples.items, limits, block, [&](const PieceBlock& pieces) {
             find(pieces);
             add_powers(beams, pieces, echoes, grid);
         });

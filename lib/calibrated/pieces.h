@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -11,7 +12,7 @@ namespace sonarsim {
 
 /// A block of pieces of surface, each small enough to be a point. Arrays, so that loops vectorise.
 struct PieceBlock {
-    static constexpr int most = 512;
+    static constexpr int most = 256;
     static constexpr int spare = 8;  ///< whole vectors are written
     template <class T>
     using Array = std::array<T, most + spare>;
@@ -72,15 +73,18 @@ void cut_into_pieces(std::span<const Sample> samples, const PointLimits& limits,
                     pieces.count = 0;
                 }
                 const int at = pieces.count;
-                for (int lane = 0; lane < PieceBlock::spare; ++lane) {
-                    const float t = static_cast<float>(first + lane) + 0.5F;
-                    pieces.x[at + lane] = std::fma(t, step_v.x(), row.x());
-                    pieces.y[at + lane] = std::fma(t, step_v.y(), row.y());
-                    pieces.z[at + lane] = std::fma(t, step_v.z(), row.z());
-                    pieces.area_m2[at + lane] = area;
-                    pieces.height_m[at + lane] = sample.height_m;
-                    pieces.material[at + lane] = sample.material;
-                }
+                const auto along_row = [&](PieceBlock::Array<float>& to, float start, float step) {
+                    for (int lane = 0; lane < PieceBlock::spare; ++lane) {
+                        const float t = static_cast<float>(first + lane) + 0.5F;
+                        to[at + lane] = std::fma(t, step, start);
+                    }
+                };
+                along_row(pieces.x, row.x(), step_v.x());
+                along_row(pieces.y, row.y(), step_v.y());
+                along_row(pieces.z, row.z(), step_v.z());
+                std::fill_n(pieces.area_m2.data() + at, PieceBlock::spare, area);
+                std::fill_n(pieces.height_m.data() + at, PieceBlock::spare, sample.height_m);
+                std::fill_n(pieces.material.data() + at, PieceBlock::spare, sample.material);
                 pieces.count += std::min(columns - first, PieceBlock::spare);
             }
         }

@@ -3,8 +3,6 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
-#include <functional>
-#include <span>
 
 #include "calibrated/clutter.h"
 #include "calibrated/sonar_equation.h"
@@ -44,14 +42,6 @@ struct Scatterers {
     PieceBlock::Array<float> edge_m{};
     std::array<PieceBlock::Array<std::int32_t>, 3> cell{};  ///< along x, y and z of the world
 };
-
-/// Finds the scatterers that lie on samples and hands them to `use`, a block at a time. Seen along
-/// the axis of the world that a sample faces most, every cell has one point, by its number;
-/// whichever sample covers it there holds the scatterer. However a surface is cut into samples, it
-/// holds the same ones.
-void find_scatterers(std::span<const Sample> samples, const ScattererCells& cells,
-                     const SonarInScene& sonar, Scatterers& block,
-                     const std::function<void(const Scatterers&)>& use);
 
 /// The complex amplitudes of a block's echoes.
 void draw_amplitudes(const Scatterers& block, const PointEchoes& echoes,

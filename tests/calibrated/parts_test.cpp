@@ -47,7 +47,7 @@ TEST_SUITE("calibrated") {
     }
 
     TEST_CASE("fourier: the definition, and there and back") {
-        for (const int size : {2, 8, 32, 64}) {
+        for (const int size : {2, 3, 5, 8, 12, 20, 24, 32, 40, 64}) {
             const Fourier fourier(size);
             std::vector<ComplexLanes> data(size), scratch(size);
             for (int n = 0; n < size; ++n) {
@@ -70,6 +70,15 @@ TEST_SUITE("calibrated") {
             for (int n = 0; n < size; ++n)
                 CHECK(std::fabs(data[n].re[5] / static_cast<float>(size) - before[n].re[5]) < 1e-5);
         }
+    }
+
+    TEST_CASE("fourier: sizes are a power of two, or three or five times one") {
+        CHECK(transform_size(1) == 2);
+        CHECK(transform_size(6) == 6);
+        CHECK(transform_size(9) == 10);
+        CHECK(transform_size(257) == 320);
+        CHECK(transform_size(321) == 384);
+        CHECK(transform_size(385) == 512);
     }
 
     TEST_CASE("beams: a point is the pattern, of amplitudes and of powers") {

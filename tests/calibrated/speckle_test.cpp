@@ -189,10 +189,16 @@ TEST_SUITE("calibrated") {
         const Patch patch("didson_1800khz", 5.0, 0.02, 66);
         const LineArray array = array_of(patch.sonar);
         const PulseBand pulse(patch.sonar.config.instrument.pulse);
-        const std::vector<float> first = quiet_image(patch.sonar, patch.surface, true);
         constexpr int outer = 10;
         const int inner = patch.beams() - 2 * outer;
-        const std::vector<double> here = patch.normalised(first, outer, inner);
+        // Of one seed a correlation is off by 0.02 or so: the mean of four is held to the closed
+        // form.
+        constexpr std::uint32_t seeds = 4;
+        std::vector<std::vector<double>> here;
+        for (std::uint32_t seed = 1; seed <= seeds; ++seed) {
+            here.push_back(patch.normalised(quiet_image(patch.sonar, patch.surface, true, {}, seed),
+                                            outer, inner));
+        }
         struct Motion {
             std::string name;
             double x_m, y_m, yaw_deg;
@@ -215,9 +221,13 @@ TEST_SUITE("calibrated") {
                 left += power_correlation(array, moved, angle * cosine * array.wavelengths) *
                         pulse.power_correlation_at(motion.x_m * cosine + motion.y_m * sine) / inner;
             }
-            const std::vector<float> second =
-                quiet_image(patch.sonar, patch.seen_from(pose), true, pose);
-            const double found = correlation(here, patch.normalised(second, outer, inner));
+            const Samples moved = patch.seen_from(pose);
+            double found = 0.0;
+            for (std::uint32_t seed = 1; seed <= seeds; ++seed) {
+                const std::vector<float> second = quiet_image(patch.sonar, moved, true, pose, seed);
+                found +=
+                    correlation(here[seed - 1], patch.normalised(second, outer, inner)) / seeds;
+            }
             MESSAGE(motion.name, ": ", found, ", by the instrument ", left);
             CHECK(std::fabs(found - left) < 0.05);
         }
