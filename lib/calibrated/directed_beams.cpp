@@ -125,6 +125,24 @@ void add_amplitudes(const DirectedBeams& beams, const PieceBlock& pieces, const 
     }
 }
 
+void add_returned_powers(const DirectedBeams& beams, const WayEnds& out, const WayEnds& back,
+                         EchoGrid& grid) {
+    Amplitudes sent, heard;
+    const auto power_of = [](const Amplitudes& of, int k) {
+        return std::fma(of.re[k], of.re[k], of.im[k] * of.im[k]);
+    };
+    for (int beam = 0; beam < beams.beams(); ++beam) {
+        find_weights(beams, beam, out.places, out.echoes, sent);
+        find_weights(beams, beam, back.places, back.echoes, heard);
+        for (int k = 0; k < back.places.count; ++k) {
+            // Weights are there and back, the square of one way.
+            const float weight = std::sqrt(power_of(sent, k) * power_of(heard, k));
+            add_between_bins(grid.column(beam), back.echoes.row[k], back.echoes.power[k] * weight,
+                             0.0F);
+        }
+    }
+}
+
 void receive(const DirectedBeams& beams, const EchoGrid& grid, bool powers, bool noisy,
              PhiloxKey key, std::span<const float> row_gain, std::span<float> image) {
     const int count = beams.beams();

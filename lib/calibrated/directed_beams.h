@@ -59,6 +59,11 @@ void add_powers(const DirectedBeams& beams, const PieceBlock& pieces, const Poin
 void add_amplitudes(const DirectedBeams& beams, const PieceBlock& pieces, const PointEchoes& echoes,
                     const Amplitudes& amplitudes, EchoGrid& grid);
 
+/// Adds the powers of echoes that come back from other places than they were sent to: each beam
+/// hears what it has sent itself. The powers and bins are those of `back`.
+void add_returned_powers(const DirectedBeams& beams, const WayEnds& out, const WayEnds& back,
+                         EchoGrid& grid);
+
 /// Fills the image [bins, beams] with the power in the grid, of `powers` or of amplitudes, and the
 /// noise. Noise belongs to the bin, the beam and the key.
 void receive(const DirectedBeams& beams, const EchoGrid& grid, bool powers, bool noisy,

@@ -26,24 +26,6 @@ struct MaterialsOfPieces {
     }
 };
 
-/// The pattern between its entries, at a sine within [-1, 1].
-void weigh_by_elevation(const ElevationPattern& pattern, const PieceBlock& pieces, int count,
-                        PointEchoes& echoes) {
-    if (pattern.power.empty()) return;
-    const float* const table = pattern.power.data();
-    constexpr float half = 0.5F * ElevationPattern::steps;
-    Floats at, whole;
-    for (int k = 0; k < count; ++k) {
-        at[k] = half + half * (pieces.z[k] / echoes.range_m[k]);
-        // In this order what is no number becomes 0.
-        whole[k] = std::floor(std::min(2.0F * half, std::max(0.0F, at[k])));
-    }
-    for (int k = 0; k < count; ++k) {
-        const float* const entry = table + static_cast<int>(whole[k]);
-        echoes.power[k] *= std::fma(at[k] - whole[k], entry[1] - entry[0], entry[0]);
-    }
-}
-
 }  // namespace
 
 ElevationPattern elevation_pattern(double width_rad, double side_lobe_db) {
@@ -56,6 +38,24 @@ ElevationPattern elevation_pattern(double width_rad, double side_lobe_db) {
         out.power.push_back(static_cast<float>(pattern * pattern));
     }
     return out;
+}
+
+void weigh_by_elevation(const ElevationPattern& pattern, const PieceBlock& pieces, int count,
+                        PointEchoes& echoes) {
+    if (pattern.power.empty()) return;
+    const float* const table = pattern.power.data();
+    constexpr float half = 0.5F * ElevationPattern::steps;
+    // Between the entries, at a sine within [-1, 1].
+    Floats at, whole;
+    for (int k = 0; k < count; ++k) {
+        at[k] = half + half * (pieces.z[k] / echoes.range_m[k]);
+        // In this order what is no number becomes 0.
+        whole[k] = std::floor(std::min(2.0F * half, std::max(0.0F, at[k])));
+    }
+    for (int k = 0; k < count; ++k) {
+        const float* const entry = table + static_cast<int>(whole[k]);
+        echoes.power[k] *= std::fma(at[k] - whole[k], entry[1] - entry[0], entry[0]);
+    }
 }
 
 std::uint64_t find_echoes(const PieceBlock& pieces, std::span<const Backscatter> materials,

@@ -178,8 +178,6 @@ void describe(Visitor& v, SonarConfig& c) {
                   {"opening_deg", "instrument"},
                   "a calibrated echosounder looks at what opening_deg lets it: it must be at least "
                   "instrument.beam.width_deg, and three times that to have the main lobe");
-        v.require(c.multipath.method == MultipathMethod::none, {"multipath", "model"},
-                  "the calibrated model has no multipath so far: write multipath.method: none");
     } else {
         v.section("noise", c.noise, "the random terms of the paper's model");
         v.section("streaks", c.streaks, "azimuth streaks of the paper's model");
