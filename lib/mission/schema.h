@@ -265,8 +265,8 @@ void describe(Visitor& v, OutputConfig& c) {
     v.flag("image", c.image,
            "write every ping of these sonars as a 16-bit PNG; it holds no more than `polar` does");
     v.flag("raw", c.raw,
-           "with the calibrated model, write every ping of imaging and profiling sonars as the "
-           "instrument delivers it, a PNG; other kinds have none");
+           "with the calibrated model, write every ping as the instrument delivers it: of imaging "
+           "and profiling sonars a PNG, of others a record of raw.npy");
     v.flag("fan", c.fan, "write every ping of these sonars as the 8-bit fan that an operator sees");
     v.flag("meta", c.meta, "write a JSON file per ping");
     v.flag("stages", c.stages,
