@@ -32,7 +32,9 @@ void find_weights(const DirectedBeams& beams, int beam, const PieceBlock& pieces
         const float z = pieces.z[k];
         const float inverse = 1.0F / echoes.range_m[k];
         if (beams.sides.empty()) {
-            out.re[k] = beams.pattern.at(std::sqrt(std::fma(y, y, z * z)) * inverse);
+            const bool disc = beams.aperture == Aperture::piston;
+            const float off = disc ? std::sqrt(std::fma(y, y, z * z)) : y;
+            out.re[k] = beams.pattern.at(off * inverse);
             out.im[k] = 0.0F;
             continue;
         }
@@ -70,11 +72,21 @@ float SineTable::at(float sine) const {
 DirectedBeams directed_beams(const BeamConfig& beam, const View& view, double wavelength_m,
                              double noise) {
     DirectedBeams out;
+    out.aperture = beam.aperture;
     out.noise_sigma = static_cast<float>(std::sqrt(0.5 * noise));
     if (beam.aperture == Aperture::piston) {
         const double scale = piston_scale(radians(beam.width_deg));
         out.pattern = sine_table(0.0, sincos(0.5 * view.elevation_rad).sin, [&](double sine) {
             const double one_way = piston_pattern(scale * sine);
+            return one_way * one_way;
+        });
+        return out;
+    }
+    if (beam.aperture == Aperture::head) {
+        const LineArray across = line_array(radians(beam.width_deg), beam.side_lobe_db);
+        const double end = sincos(0.5 * view.azimuth_rad).sin;
+        out.pattern = sine_table(-end, end, [&](double sine) {
+            const double one_way = line_pattern(across, sine);
             return one_way * one_way;
         });
         return out;

@@ -22,15 +22,18 @@ struct SineTable {
     float at(float sine) const;
 };
 
-/// Transducers that both send and hear, and form no beams: the two sides of a side-scan sonar or
-/// the disc of an echosounder. A side hears all of the surface, by its pattern.
+/// Transducers that both send and hear, and form no beams: the two sides of a side-scan sonar, the
+/// disc of an echosounder, the head of a scanning sonar. A side hears all of the surface, by its
+/// pattern.
 struct DirectedBeams {
     struct Axis {
         float x, y;  ///< unit, sensor frame
     };
-    std::vector<Axis> sides;  ///< starboard and port; empty: a disc about the boresight
+    Aperture aperture = Aperture::piston;
+    std::vector<Axis> sides;  ///< starboard and port; empty: one beam, along the boresight
     UnfocusedBeam along;      ///< of a side, along the sensor's z axis, there and back
-    SineTable pattern;  ///< amplitude there and back: of a side across, of a disc off its axis
+    /// Amplitude there and back: of a side across, of a disc off its axis, of a head in azimuth.
+    SineTable pattern;
     float noise_sigma = 0.0F;  ///< of either part
 
     int beams() const { return sides.empty() ? 1 : static_cast<int>(sides.size()); }

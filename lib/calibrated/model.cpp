@@ -139,6 +139,10 @@ PointLimits point_limits(const BeamConfig& beam, const View& view,
         limits.sine = most_sine_by_step * static_cast<float>(fan->amplitudes.grid().step);
         limits.elevation_sine =
             static_cast<float>(most_by_width * radians(beam.elevation_width_deg));
+    } else if (beam.aperture == Aperture::head) {
+        limits.sine = static_cast<float>(most_by_width * width);
+        limits.elevation_sine =
+            static_cast<float>(most_by_width * radians(beam.elevation_width_deg));
     } else if (beam.aperture == Aperture::sides) {
         limits.sine = static_cast<float>(most_by_width * radians(beam.across_width_deg));
         limits.elevation_sine = static_cast<float>(most_by_width * width);

@@ -166,10 +166,16 @@ void describe(Visitor& v, SonarConfig& c) {
     if (c.model == EchoModel::of_instrument) {
         v.section("instrument", c.instrument, "the instrument of the calibrated model");
         const BeamConfig& beam = c.instrument.beam;
-        v.require(beam.aperture != Aperture::line || c.azimuth_deg < 180.0,
-                  {"azimuth_deg", "model"},
+        const bool forward = beam.aperture == Aperture::line || beam.aperture == Aperture::head;
+        v.require(!forward || c.azimuth_deg < 180.0, {"azimuth_deg", "model"},
                   "the line array of the calibrated model looks forward: azimuth_deg must be below "
                   "180");
+        v.require(
+            beam.aperture != Aperture::head || c.azimuth_deg >= beam.width_deg,
+            {"azimuth_deg", "instrument"},
+            "a calibrated scanning sonar looks at what azimuth_deg lets it: it must be at "
+            "least instrument.beam.width_deg, two and a half times that to have the main lobe "
+            "and four times to have the first side lobes");
         v.require(beam.aperture != Aperture::sides || c.elevation_deg >= beam.width_deg,
                   {"elevation_deg", "instrument"},
                   "a calibrated side-scan sonar looks at what elevation_deg lets it: it must be at "
