@@ -21,6 +21,14 @@ struct Backscatter {
     /// Kirchhoff integral over a surface of Gaussian slopes (e.g. Jackson and Richardson,
     /// "High-Frequency Seafloor Acoustics", Springer 2007, chapter 13).
     float at(float sine) const;
+
+    /// sigma of sound that comes and goes at grazing angles of these sines, and whose facets face
+    /// halfway between the two directions, v . n of which is `half`:
+    ///
+    ///     mu sin_in sin_out + R / (8 pi s^2 half^4) exp(-(1 - half^2) / (2 s^2 half^2))
+    ///
+    /// Both ways along one direction it is at(sine).
+    float between(float sine_in, float sine_out, float half) const;
 };
 
 /// The material with `lambert_db` = 10 log mu, power reflection R at normal incidence and facets of
@@ -39,6 +47,12 @@ inline float fading(float x) {
     const auto exponent = static_cast<std::int32_t>(whole);
     const float value = series * std::bit_cast<float>((127 - exponent) << 23);
     return x < longest ? value : 0.0F;
+}
+
+inline float Backscatter::between(float sine_in, float sine_out, float half) const {
+    const float near = std::max(1e-6F, half * half);
+    return lambert * sine_in * sine_out +
+           facet / (near * near) * fading(inverse_slope2 * (1.0F - near) / near);
 }
 
 inline float Backscatter::at(float sine) const {

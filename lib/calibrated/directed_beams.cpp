@@ -32,7 +32,9 @@ void find_weights(const DirectedBeams& beams, int beam, const PieceBlock& pieces
         const float z = pieces.z[k];
         const float inverse = 1.0F / echoes.range_m[k];
         if (beams.sides.empty()) {
-            out.re[k] = beams.pattern.at(std::sqrt(std::fma(y, y, z * z)) * inverse);
+            const bool disc = beams.aperture == Aperture::piston;
+            const float off = disc ? std::sqrt(std::fma(y, y, z * z)) : y;
+            out.re[k] = beams.pattern.at(off * inverse);
             out.im[k] = 0.0F;
             continue;
         }
@@ -70,11 +72,21 @@ float SineTable::at(float sine) const {
 DirectedBeams directed_beams(const BeamConfig& beam, const View& view, double wavelength_m,
                              double noise) {
     DirectedBeams out;
+    out.aperture = beam.aperture;
     out.noise_sigma = static_cast<float>(std::sqrt(0.5 * noise));
     if (beam.aperture == Aperture::piston) {
         const double scale = piston_scale(radians(beam.width_deg));
         out.pattern = sine_table(0.0, sincos(0.5 * view.elevation_rad).sin, [&](double sine) {
             const double one_way = piston_pattern(scale * sine);
+            return one_way * one_way;
+        });
+        return out;
+    }
+    if (beam.aperture == Aperture::head) {
+        const LineArray across = line_array(radians(beam.width_deg), beam.side_lobe_db);
+        const double end = sincos(0.5 * view.azimuth_rad).sin;
+        out.pattern = sine_table(-end, end, [&](double sine) {
+            const double one_way = line_pattern(across, sine);
             return one_way * one_way;
         });
         return out;
@@ -121,6 +133,24 @@ void add_amplitudes(const DirectedBeams& beams, const PieceBlock& pieces, const 
             // is switched off, and other compilers do not.
             add_between_bins(grid.column(beam), echoes.row[k], std::fma(a, re, -(b * im)),
                              std::fma(a, im, b * re));
+        }
+    }
+}
+
+void add_returned_powers(const DirectedBeams& beams, const WayEnds& out, const WayEnds& back,
+                         EchoGrid& grid) {
+    Amplitudes sent, heard;
+    const auto power_of = [](const Amplitudes& of, int k) {
+        return std::fma(of.re[k], of.re[k], of.im[k] * of.im[k]);
+    };
+    for (int beam = 0; beam < beams.beams(); ++beam) {
+        find_weights(beams, beam, out.places, out.echoes, sent);
+        find_weights(beams, beam, back.places, back.echoes, heard);
+        for (int k = 0; k < back.places.count; ++k) {
+            // Weights are there and back, the square of one way.
+            const float weight = std::sqrt(power_of(sent, k) * power_of(heard, k));
+            add_between_bins(grid.column(beam), back.echoes.row[k], back.echoes.power[k] * weight,
+                             0.0F);
         }
     }
 }

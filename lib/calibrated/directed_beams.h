@@ -22,15 +22,18 @@ struct SineTable {
     float at(float sine) const;
 };
 
-/// Transducers that both send and hear, and form no beams: the two sides of a side-scan sonar or
-/// the disc of an echosounder. A side hears all of the surface, by its pattern.
+/// Transducers that both send and hear, and form no beams: the two sides of a side-scan sonar, the
+/// disc of an echosounder, the head of a scanning sonar. A side hears all of the surface, by its
+/// pattern.
 struct DirectedBeams {
     struct Axis {
         float x, y;  ///< unit, sensor frame
     };
-    std::vector<Axis> sides;  ///< starboard and port; empty: a disc about the boresight
+    Aperture aperture = Aperture::piston;
+    std::vector<Axis> sides;  ///< starboard and port; empty: one beam, along the boresight
     UnfocusedBeam along;      ///< of a side, along the sensor's z axis, there and back
-    SineTable pattern;  ///< amplitude there and back: of a side across, of a disc off its axis
+    /// Amplitude there and back: of a side across, of a disc off its axis, of a head in azimuth.
+    SineTable pattern;
     float noise_sigma = 0.0F;  ///< of either part
 
     int beams() const { return sides.empty() ? 1 : static_cast<int>(sides.size()); }
@@ -58,6 +61,11 @@ void add_powers(const DirectedBeams& beams, const PieceBlock& pieces, const Poin
 /// Adds complex amplitudes likewise.
 void add_amplitudes(const DirectedBeams& beams, const PieceBlock& pieces, const PointEchoes& echoes,
                     const Amplitudes& amplitudes, EchoGrid& grid);
+
+/// Adds the powers of echoes that come back from other places than they were sent to: each beam
+/// hears what it has sent itself. The powers and bins are those of `back`.
+void add_returned_powers(const DirectedBeams& beams, const WayEnds& out, const WayEnds& back,
+                         EchoGrid& grid);
 
 /// Fills the image [bins, beams] with the power in the grid, of `powers` or of amplitudes, and the
 /// noise. Noise belongs to the bin, the beam and the key.

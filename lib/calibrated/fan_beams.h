@@ -40,6 +40,13 @@ void add_powers(const FanBeams& beams, const PieceBlock& pieces, const PointEcho
 void add_amplitudes(const FanBeams& beams, const PieceBlock& pieces, const PointEchoes& echoes,
                     const Amplitudes& amplitudes, EchoGrid& grid);
 
+/// Adds the powers of echoes that come back from other places than they were sent to. The columns
+/// and powers are those of `back`.
+inline void add_returned_powers(const FanBeams& beams, const WayEnds& /*out*/, const WayEnds& back,
+                                EchoGrid& grid) {
+    add_powers(beams, back.places, back.echoes, grid);
+}
+
 /// Fills the image [bins, beams] with the powers of the beams. The grid holds powers or amplitudes;
 /// the noise of the elements belongs to the bin, the element and the key.
 void receive(const FanBeams& beams, const EchoGrid& grid, bool powers, bool noisy, PhiloxKey key,

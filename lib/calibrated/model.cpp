@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "calibrated/decibel.h"
+#include "calibrated/mirrored_echoes.h"
 #include "calibrated/normals.h"
 #include "calibrated/scatterer_search.h"
 #include "calibrated/water.h"
@@ -64,10 +65,19 @@ void draw_places(EchoGrid& grid, float gain, PhiloxKey key) {
     }
 }
 
+void add_grid(const EchoGrid& more, EchoGrid& grid) {
+    for (int c = 0; c < grid.columns(); ++c) {
+        const float* const __restrict from = more.column(c);
+        float* const __restrict to = grid.column(c);
+        for (int i = 0; i < 2 * grid.rows(); ++i)
+            to[i] += from[i];
+    }
+}
+
 /// The image by beams of either kind.
 template <class Beams>
 CalibratedCounts form_image_of(const Beams& beams, const CalibratedModel& model,
-                               const Samples& samples, const Scene& scene,
+                               const SeenSurface& seen, const Scene& scene,
                                const SonarInScene& sonar, const CalibratedDraws& draws,
                                const CalibratedTerms& terms, std::span<float> image) {
     const bool speckled = terms.speckle && model.speckle != SpeckleMode::none;
@@ -85,17 +95,18 @@ CalibratedCounts form_image_of(const Beams& beams, const CalibratedModel& model,
     if (terms.echoes && of_scene) {
         Scatterers block;
         Amplitudes amplitudes;
-        find_scatterers(
-            samples.items, model.cells, sonar, draws.scene, block, [&](const Scatterers& found) {
-                find(found.pieces);
-                draw_amplitudes(found, echoes, model.cells, sonar, draws.scene, amplitudes);
-                add_amplitudes(beams, found.pieces, echoes, amplitudes, grid);
-            });
+        find_scatterers(seen.samples.items, model.cells, sonar, draws.scene, block,
+                        [&](const Scatterers& found) {
+                            find(found.pieces);
+                            draw_amplitudes(found, echoes, model.cells, sonar, draws.scene,
+                                            amplitudes);
+                            add_amplitudes(beams, found.pieces, echoes, amplitudes, grid);
+                        });
     } else if (terms.echoes) {
         PieceBlock block;
         PointLimits limits = model.limits;
         if (speckled) limits.depth_m *= most_drawn_depth_by_bin / most_depth_by_bin;
-        cut_into_pieces(samples.items, limits, block, [&](const PieceBlock& pieces) {
+        cut_into_pieces(seen.samples.items, limits, block, [&](const PieceBlock& pieces) {
             find(pieces);
             add_powers(beams, pieces, echoes, grid);
         });
@@ -103,6 +114,23 @@ CalibratedCounts form_image_of(const Beams& beams, const CalibratedModel& model,
 
     // Independent places are fewer, but no less strong, than the points whose powers they hold.
     const float gain = model.amplitude_taps.fill * fill_of(beams);
+    if (terms.mirrored && !seen.mirrored.empty()) {
+        const auto add_to = [&](EchoGrid& powers) {
+            counts.echoes += 2 * seen.mirrored.size();
+            counts.out_of_range += add_mirrored_powers(beams, seen.mirrored, materials,
+                                                       model.equation, model.limits, powers);
+        };
+        if (of_scene) {
+            // By way of a mirror the phase follows its shape to a fraction of a wavelength, which
+            // no mesh has: these amplitudes are drawn for the ping.
+            EchoGrid mirrored(grid.rows(), grid.columns());
+            add_to(mirrored);
+            draw_places(mirrored, gain, draws.ping);
+            add_grid(mirrored, grid);
+        } else {
+            add_to(grid);
+        }
+    }
     if (speckled && !of_scene) draw_places(grid, gain, draws.ping);
     counts.lit_places = grid.smear(speckled ? model.amplitude_taps : model.power_taps);
     receive(beams, grid, !speckled, terms.noise, draws.noise, model.row_gain, image);
@@ -116,6 +144,10 @@ PointLimits point_limits(const BeamConfig& beam, const View& view,
     const double width = radians(beam.width_deg);
     if (const auto* const fan = std::get_if<FanBeams>(&beams)) {
         limits.sine = most_sine_by_step * static_cast<float>(fan->amplitudes.grid().step);
+        limits.elevation_sine =
+            static_cast<float>(most_by_width * radians(beam.elevation_width_deg));
+    } else if (beam.aperture == Aperture::head) {
+        limits.sine = static_cast<float>(most_by_width * width);
         limits.elevation_sine =
             static_cast<float>(most_by_width * radians(beam.elevation_width_deg));
     } else if (beam.aperture == Aperture::sides) {
@@ -179,7 +211,7 @@ CalibratedModel calibrated_model(const InstrumentConfig& instrument, const Water
     return model;
 }
 
-CalibratedCounts form_calibrated(const CalibratedModel& model, const Samples& samples,
+CalibratedCounts form_calibrated(const CalibratedModel& model, const SeenSurface& seen,
                                  const Scene& scene, const Pose& T_world_sensor,
                                  const CalibratedDraws& draws, const CalibratedTerms& terms,
                                  std::span<float> image) {
@@ -187,7 +219,7 @@ CalibratedCounts form_calibrated(const CalibratedModel& model, const Samples& sa
                              T_world_sensor.translation - scene.origin};
     return std::visit(
         [&](const auto& beams) {
-            return form_image_of(beams, model, samples, scene, sonar, draws, terms, image);
+            return form_image_of(beams, model, seen, scene, sonar, draws, terms, image);
         },
         model.beams);
 }

@@ -7,6 +7,7 @@
 
 #include "calibrated/directed_beams.h"
 #include "calibrated/fan_beams.h"
+#include "calibrated/mirrored_pieces.h"
 #include "calibrated/scatterers.h"
 #include "calibrated/sonar_equation.h"
 #include "core/pose.h"
@@ -40,7 +41,8 @@ CalibratedModel calibrated_model(const InstrumentConfig& instrument, const Water
 
 /// Which of the model's terms are in an image.
 struct CalibratedTerms {
-    bool echoes = true;
+    bool echoes = true;    ///< of the surface that is seen directly
+    bool mirrored = true;  ///< of what is seen by way of another surface
     bool speckle = true;
     bool noise = true;
 };
@@ -58,9 +60,15 @@ struct CalibratedCounts {
     std::uint64_t lit_places = 0;  ///< of the grid, before the point spread
 };
 
+/// What a sonar has seen: surface, and what of it shows by way of another surface.
+struct SeenSurface {
+    const Samples& samples;
+    std::span<const MirroredPiece> mirrored = {};
+};
+
 /// The power of every bin, [range bins, beams], by full scale: 1 is the highest that the receiver
 /// does not clip. A pure function of its arguments.
-CalibratedCounts form_calibrated(const CalibratedModel& model, const Samples& samples,
+CalibratedCounts form_calibrated(const CalibratedModel& model, const SeenSurface& seen,
                                  const Scene& scene, const Pose& T_world_sensor,
                                  const CalibratedDraws& draws, const CalibratedTerms& terms,
                                  std::span<float> image);

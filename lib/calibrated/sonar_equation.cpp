@@ -92,11 +92,25 @@ __m128 two_entries(const float* table, int at) {
     return _mm_castsi128_ps(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(table + at)));
 }
 
-/// The pattern between its entries, at a sine within [-1, 1].
+}  // namespace
+
+ElevationPattern elevation_pattern(double width_rad, double side_lobe_db) {
+    ElevationPattern out;
+    if (width_rad <= 0.0) return out;
+    const LineArray array = line_array(width_rad, side_lobe_db);
+    for (int k = 0; k <= ElevationPattern::steps + 1; ++k) {
+        const double sine = 2.0 * k / ElevationPattern::steps - 1.0;
+        const double pattern = line_pattern(array, sine);
+        out.power.push_back(static_cast<float>(pattern * pattern));
+    }
+    return out;
+}
+
 void weigh_by_elevation(const ElevationPattern& pattern, const PieceBlock& pieces, int count,
                         PointEchoes& echoes) {
     if (pattern.power.empty()) return;
     const float* const table = pattern.power.data();
+    // Between the entries, at a sine within [-1, 1].
     const __m256 half = _mm256_set1_ps(0.5F * ElevationPattern::steps);
     const __m256 most = _mm256_set1_ps(1.0F * ElevationPattern::steps);
     alignas(32) std::array<std::int32_t, vector_lanes> entry;
@@ -121,20 +135,6 @@ void weigh_by_elevation(const ElevationPattern& pattern, const PieceBlock& piece
         float* const to = echoes.power.data() + k;
         _mm256_storeu_ps(to, _mm256_mul_ps(_mm256_loadu_ps(to), power));
     }
-}
-
-}  // namespace
-
-ElevationPattern elevation_pattern(double width_rad, double side_lobe_db) {
-    ElevationPattern out;
-    if (width_rad <= 0.0) return out;
-    const LineArray array = line_array(width_rad, side_lobe_db);
-    for (int k = 0; k <= ElevationPattern::steps + 1; ++k) {
-        const double sine = 2.0 * k / ElevationPattern::steps - 1.0;
-        const double pattern = line_pattern(array, sine);
-        out.power.push_back(static_cast<float>(pattern * pattern));
-    }
-    return out;
 }
 
 std::uint64_t find_echoes(const PieceBlock& pieces, std::span<const Backscatter> materials,

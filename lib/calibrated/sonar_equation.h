@@ -43,10 +43,20 @@ struct PointEchoes {
     PieceBlock::Array<float> column;  ///< of the grid, where one is formed into beams
 };
 
+/// One end of the ways that sound takes by way of a mirror: it is sent there or comes from there.
+struct WayEnds {
+    const PieceBlock& places;
+    const PointEchoes& echoes;
+};
+
 /// Complex numbers, one for each piece of a block.
 struct Amplitudes {
     PieceBlock::Array<float> re, im;
 };
+
+/// Multiplies the powers of the first `count` pieces by the pattern towards them, at `range_m`.
+void weigh_by_elevation(const ElevationPattern& pattern, const PieceBlock& pieces, int count,
+                        PointEchoes& echoes);
 
 /// Fills all of `echoes` but their columns. What lies outside the range has power 0; returns how
 /// many do.

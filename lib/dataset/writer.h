@@ -60,7 +60,8 @@ struct PingRecord {  // NOLINT(bugprone-exception-escape): moving JSON throws no
     std::string file;
     NpyFormat format;
     nlohmann::ordered_json axes;  ///< what the indices count, for dataset.json
-    std::string label = {};       ///< that the records hold; "": echoes
+    /// What the records hold: a label, "raw", or "" for the echoes.
+    std::string label = {};
 };
 
 /// A file that is made of the records of all pings.

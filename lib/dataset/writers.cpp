@@ -13,16 +13,17 @@ using MakeWriter = std::unique_ptr<Writer> (*)(const WriterContext&);
 
 /// Every format that a dataset may hold.
 constexpr MakeWriter formats[] = {
-    make_polar_writer,      //
-    make_image_writer,      //
-    make_raw_writer,        //
-    make_fan_writer,        //
-    make_stages_writer,     //
-    make_waterfall_writer,  //
-    make_echogram_writer,   //
-    make_soundings_writer,  //
-    make_scan_writer,       //
-    make_meta_writer,       //
+    make_polar_writer,        //
+    make_image_writer,        //
+    make_raw_writer,          //
+    make_fan_writer,          //
+    make_stages_writer,       //
+    make_waterfall_writer,    //
+    make_echogram_writer,     //
+    make_soundings_writer,    //
+    make_scan_writer,         //
+    make_raw_records_writer,  //
+    make_meta_writer,         //
 };
 
 }  // namespace

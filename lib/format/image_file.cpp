@@ -48,11 +48,19 @@ ImageFile::ImageFile(const std::filesystem::path& path, int width, int height, P
     stream_->avail_out = static_cast<uInt>(packed_.size());
     const bool colour = kind == PixelKind::rgb8;
     file_.append(png_signature);
-    file_.append(chunk("IHDR", png_header(width, height, colour ? 8 : 16, colour ? 2 : 0)));
+    const int bits = kind == PixelKind::grey16 ? 16 : 8;
+    file_.append(chunk("IHDR", png_header(width, height, bits, colour ? 2 : 0)));
 }
 
 void ImageFile::check_width(std::size_t pixels) const {
     if (pixels != width_) throw std::logic_error("a row does not suit the width of its image");
+}
+
+void ImageFile::row(std::span<const std::uint8_t> pixels) {
+    check_width(pixels.size());
+    row_.assign(1, as_it_is);
+    row_.insert(row_.end(), pixels.begin(), pixels.end());
+    pack(false);
 }
 
 void ImageFile::row(std::span<const std::uint16_t> pixels) {

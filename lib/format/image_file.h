@@ -15,6 +15,7 @@ struct z_stream_s;  // zlib's
 namespace sonarsim {
 
 enum class PixelKind {
+    grey8,
     grey16,
     rgb8,
 };
@@ -27,6 +28,7 @@ class ImageFile {
     ImageFile(const std::filesystem::path& path, int width, int height, PixelKind kind);
 
     // The next row; its type is that of the image.
+    void row(std::span<const std::uint8_t> pixels);
     void row(std::span<const std::uint16_t> pixels);
     void row(std::span<const Rgb> pixels);
     /// After the last row.

@@ -53,7 +53,7 @@ std::string npy_header(const NpyFormat& format) {
 NpyFormat npy_format(std::string_view start) {
     const std::string text(start.substr(0, start.find('\n')));
     NpyFormat format;
-    for (const char* type : {"<u2", "<f4", "<f8"}) {
+    for (const char* type : {"|u1", "<u2", "<f4", "<f8"}) {
         if (text.find(std::string("'") + type) != std::string::npos) format.type = type;
     }
     format.fortran_order = text.find("'fortran_order': True") != std::string::npos;

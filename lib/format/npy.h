@@ -18,7 +18,7 @@ struct Matrix {
 
 /// What the data of a NumPy file are.
 struct NpyFormat {
-    std::string type;                ///< "<u2", "<f4" or "<f8": its last digit is its bytes
+    std::string type;                ///< "|u1", "<u2", "<f4", "<f8": its last digit is its bytes
     std::vector<std::size_t> shape;  ///< two dimensions or more
     bool fortran_order = false;      ///< the first index runs fastest
 };

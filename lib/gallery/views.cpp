@@ -122,8 +122,9 @@ Json views_of(const fs::path& folder, const Json& description, const Json& senso
         const auto file = product.get<std::string>();
         const fs::path path(file);
         const std::string name = path.filename().string();
-        if (path.extension() != ".png" || name == "waterfall.png" || name == "echogram.png")
-            continue;
+        const bool for_programs = name == "waterfall.png" || name == "echogram.png" ||
+                                  name == "raw.png" || name.starts_with("raw_");
+        if (path.extension() != ".png" || for_programs) continue;
         if (name == "waterfall_view.png" || name == "echogram_view.png") {
             views.push_back(view_of_all(sonar, pings, path, picture_boxes));
         } else if (sensor.contains("scan") && name.starts_with("scan_")) {

@@ -12,9 +12,10 @@ enum class EchoModel { of_paper, of_instrument };
 
 /// What sound is sent and heard with. No key: it follows from the kind of sonar.
 enum class Aperture {
-    line,   ///< an array across, whose beams are formed
-    sides,  ///< two arrays along track, each looking to its side
-    piston  ///< a disc
+    line,    ///< an array across, whose beams are formed
+    sides,   ///< two arrays along track, each looking to its side
+    piston,  ///< a disc
+    head     ///< an array across that sends and hears straight ahead, and is turned
 };
 
 /// How the beams of a fan are spread.

@@ -29,7 +29,7 @@ void describe(Visitor& v, BeamConfig& c) {
     v.number(
         "width_deg", c.width_deg, between(0.05, 60),
         "width between half-power points, one way: of a beam of the receiving line array, of a "
-        "side-scan along track, of an echosounder's cone");
+        "scanning sonar's beam across, of a side-scan along track, of an echosounder's cone");
     if (c.aperture == Aperture::piston) return;
     v.number("side_lobe_db", c.side_lobe_db, side_lobes_db,
              "highest side lobe of that array, by its taper; -13.3 is without one");
@@ -40,9 +40,11 @@ void describe(Visitor& v, BeamConfig& c) {
                  "angle by which the axis of a side points below the horizontal");
         return;
     }
-    v.numbers("aberration_rad", c.aberration_rad, between(-100, 100),
-              "error of phase at the ends of the array: its quadratic, cubic and quartic part");
-    v.choice("spread", c.spread, beam_spreads, "what is even from beam to beam");
+    if (c.aperture == Aperture::line) {
+        v.numbers("aberration_rad", c.aberration_rad, between(-100, 100),
+                  "error of phase at the ends of the array: its quadratic, cubic and quartic part");
+        v.choice("spread", c.spread, beam_spreads, "what is even from beam to beam");
+    }
     v.number("elevation_width_deg", c.elevation_width_deg, between(0, 120),
              "half-power width in elevation, there and back; 0 means the same all over "
              "elevation_deg");

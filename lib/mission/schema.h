@@ -166,10 +166,16 @@ void describe(Visitor& v, SonarConfig& c) {
     if (c.model == EchoModel::of_instrument) {
         v.section("instrument", c.instrument, "the instrument of the calibrated model");
         const BeamConfig& beam = c.instrument.beam;
-        v.require(beam.aperture != Aperture::line || c.azimuth_deg < 180.0,
-                  {"azimuth_deg", "model"},
+        const bool forward = beam.aperture == Aperture::line || beam.aperture == Aperture::head;
+        v.require(!forward || c.azimuth_deg < 180.0, {"azimuth_deg", "model"},
                   "the line array of the calibrated model looks forward: azimuth_deg must be below "
                   "180");
+        v.require(
+            beam.aperture != Aperture::head || c.azimuth_deg >= beam.width_deg,
+            {"azimuth_deg", "instrument"},
+            "a calibrated scanning sonar looks at what azimuth_deg lets it: it must be at "
+            "least instrument.beam.width_deg, two and a half times that to have the main lobe "
+            "and four times to have the first side lobes");
         v.require(beam.aperture != Aperture::sides || c.elevation_deg >= beam.width_deg,
                   {"elevation_deg", "instrument"},
                   "a calibrated side-scan sonar looks at what elevation_deg lets it: it must be at "
@@ -178,8 +184,6 @@ void describe(Visitor& v, SonarConfig& c) {
                   {"opening_deg", "instrument"},
                   "a calibrated echosounder looks at what opening_deg lets it: it must be at least "
                   "instrument.beam.width_deg, and three times that to have the main lobe");
-        v.require(c.multipath.method == MultipathMethod::none, {"multipath", "model"},
-                  "the calibrated model has no multipath so far: write multipath.method: none");
     } else {
         v.section("noise", c.noise, "the random terms of the paper's model");
         v.section("streaks", c.streaks, "azimuth streaks of the paper's model");
@@ -267,8 +271,8 @@ void describe(Visitor& v, OutputConfig& c) {
     v.flag("image", c.image,
            "write every ping of these sonars as a 16-bit PNG; it holds no more than `polar` does");
     v.flag("raw", c.raw,
-           "with the calibrated model, write every ping of imaging and profiling sonars as the "
-           "instrument delivers it, a PNG; other kinds have none");
+           "with the calibrated model, write every ping as the instrument delivers it: of imaging "
+           "and profiling sonars a PNG, of others a record of raw.npy");
     v.flag("fan", c.fan, "write every ping of these sonars as the 8-bit fan that an operator sees");
     v.flag("meta", c.meta, "write a JSON file per ping");
     v.flag("stages", c.stages,

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
+#include "ping/mirrored_piece.h"
 #include "ping/second_legs.h"
 
 namespace sonarsim {
@@ -86,10 +88,16 @@ Outcome reflect(const SecondLegs& context, const Sample& sample, const Plane& pl
     return &MultipathCounts::bounces;
 }
 
+/// What comes back, and what the second surface mirrors away from the sonar: of that only sample
+/// and second surface are known.
+struct Followed {
+    std::vector<Bounce> bounces, turned_away;
+};
+
 /// Reflects one sample off the plane, and keeps what comes back. Returns whether the sample has to
 /// be traced by itself.
 bool follow(const SecondLegs& context, std::uint32_t sample, std::uint32_t second,
-            const Plane& plane, std::vector<Bounce>& bounces, MultipathCounts& counts) {
+            const Plane& plane, Followed& followed, MultipathCounts& counts) {
     const Sample& source = context.samples.items[sample];
     Bounce b{};
     b.sample = sample;
@@ -99,14 +107,16 @@ bool follow(const SecondLegs& context, std::uint32_t sample, std::uint32_t secon
     ++(counts.*outcome);
     if (outcome == &MultipathCounts::bounces) {
         b.intensity *= context.materials[source.material].reflection;
-        bounces.push_back(b);
+        followed.bounces.push_back(b);
+    } else if (outcome == &MultipathCounts::turned_away) {
+        followed.turned_away.push_back(b);
     }
     return false;
 }
 
 /// Traces the samples and reflects each off what its own ray hit.
 void follow_traced(const SecondLegs& context, std::span<const std::uint32_t> sources,
-                   std::vector<SecondHit>& second_hits, std::vector<Bounce>& bounces,
+                   std::vector<SecondHit>& second_hits, Followed& followed,
                    MultipathCounts& counts) {
     const std::size_t first = second_hits.size();
     trace_second_legs(context, sources, second_hits, counts);
@@ -114,7 +124,7 @@ void follow_traced(const SecondLegs& context, std::span<const std::uint32_t> sou
     for (std::size_t k = 0; k < sources.size(); ++k) {
         const SecondHit& own = second_hits[first + k];
         follow(context, sources[k], static_cast<std::uint32_t>(first + k),
-               {&own, own.point, unbounded}, bounces, counts);
+               {&own, own.point, unbounded}, followed, counts);
     }
 }
 
@@ -153,9 +163,19 @@ void drop_hidden(const SecondLegs& context, const std::vector<SecondHit>& second
     });
 }
 
+/// Appends what the calibrated model makes of these ways.
+void append_mirrored(const SecondLegs& context, const std::vector<SecondHit>& second_hits,
+                     const std::vector<Bounce>& ways, std::vector<MirroredPiece>& mirrored) {
+    for (const Bounce& way : ways) {
+        const SecondHit& second = second_hits[way.second];
+        if (second.material == no_material) continue;
+        mirrored.push_back(mirrored_piece(context, context.samples.items[way.sample], second));
+    }
+}
+
 /// Follows the sound of all samples to what `context` says of second surfaces.
 std::vector<Bounce> follow_all(const SecondLegs& context, const Clusters& clusters,
-                               MultipathCounts& counts) {
+                               MultipathCounts& counts, std::vector<MirroredPiece>* mirrored) {
     // The first and the last member of every cluster are traced.
     std::vector<std::uint32_t> sources;
     for (std::size_t c = 0; c < clusters.size(); ++c) {
@@ -164,8 +184,8 @@ std::vector<Bounce> follow_all(const SecondLegs& context, const Clusters& cluste
         if (members.size() > 1) sources.push_back(members.back());
     }
     std::vector<SecondHit> second_hits;
-    std::vector<Bounce> bounces;
-    follow_traced(context, sources, second_hits, bounces, counts);
+    Followed followed;
+    follow_traced(context, sources, second_hits, followed, counts);
 
     // Where both hit one plane the members between them are reflected off it; the others are
     // traced.
@@ -183,12 +203,19 @@ std::vector<Bounce> follow_all(const SecondLegs& context, const Clusters& cluste
                           .middle = 0.5F * (a.point + b.point),
                           .radius_m = (a.point - b.point).norm() + context.bin_m};
         for (const std::uint32_t i : members.subspan(1, members.size() - 2)) {
-            if (!flat || follow(context, i, first, plane, bounces, counts)) sources.push_back(i);
+            if (!flat || follow(context, i, first, plane, followed, counts)) sources.push_back(i);
         }
     }
-    follow_traced(context, sources, second_hits, bounces, counts);
-    drop_hidden(context, second_hits, bounces, counts);
-    return bounces;
+    follow_traced(context, sources, second_hits, followed, counts);
+    drop_hidden(context, second_hits, followed.bounces, counts);
+    if (mirrored) {
+        MultipathCounts counted;
+        drop_hidden(context, second_hits, followed.turned_away, counted);
+        counts.rays += counted.rays;
+        append_mirrored(context, second_hits, followed.bounces, *mirrored);
+        append_mirrored(context, second_hits, followed.turned_away, *mirrored);
+    }
+    return std::move(followed.bounces);
 }
 
 }  // namespace
@@ -197,7 +224,8 @@ std::vector<Bounce> find_bounces(const Multipath& multipath, const View& view,
                                  const Samples& samples, std::span<const Material> materials,
                                  const VisibilityEngine& engine, const Pose& T_world_sensor,
                                  MultipathCounts& counts,
-                                 const std::optional<WaterSurface>& surface) {
+                                 const std::optional<WaterSurface>& surface,
+                                 std::vector<MirroredPiece>* mirrored) {
     const std::optional<WaterMirror> mirror = mirror_of(surface, T_world_sensor);
     SecondLegs context{.view = view,
                        .samples = samples,
@@ -211,12 +239,12 @@ std::vector<Bounce> find_bounces(const Multipath& multipath, const View& view,
     counts.samples = clusters.members.size();
     counts.clusters = clusters.size();
 
-    std::vector<Bounce> bounces = follow_all(context, clusters, counts);
+    std::vector<Bounce> bounces = follow_all(context, clusters, counts, mirrored);
     if (mirror) {
         // What becomes of a sample is counted once, on its way without the mirror.
         MultipathCounts mirrored_counts;
         context.at_surface = AtSurface::mirrors;
-        const std::vector<Bounce> more = follow_all(context, clusters, mirrored_counts);
+        const std::vector<Bounce> more = follow_all(context, clusters, mirrored_counts, mirrored);
         bounces.insert(bounces.end(), more.begin(), more.end());
         counts.rays += mirrored_counts.rays;
     }

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "calibrated/mirrored_pieces.h"
 #include "core/pose.h"
 #include "ping/clusters.h"
 #include "ping/ping.h"
@@ -38,10 +39,15 @@ struct Bounce {
 /// counted by what became of them. For a sonar below the water's surface, that is a second surface,
 /// too; and the sound that it mirrors is followed to the next one, as if that lay in the mirror:
 /// with a flat bottom that is the second bottom echo.
+///
+/// For the calibrated model `mirrored` takes what is seen by way of the samples. A second surface
+/// that scatters sends sound back all round, so that what is turned away (q . v_p <= 0), of which
+/// there is no Bounce, is there as well; of the water's surface there is nothing.
 std::vector<Bounce> find_bounces(const Multipath& multipath, const View& view,
                                  const Samples& samples, std::span<const Material> materials,
                                  const VisibilityEngine& engine, const Pose& T_world_sensor,
                                  MultipathCounts& counts,
-                                 const std::optional<WaterSurface>& surface = std::nullopt);
+                                 const std::optional<WaterSurface>& surface = std::nullopt,
+                                 std::vector<MirroredPiece>* mirrored = nullptr);
 
 }  // namespace sonarsim

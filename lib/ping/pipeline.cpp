@@ -61,11 +61,14 @@ Ping form_calibrated_image(const TracedPing& traced, const PingSettings& setting
     };
     ping.intensity.resize(static_cast<std::size_t>(ping.range_bins) * ping.beams);
     const CalibratedCounts counts = form_calibrated(
-        *settings.calibrated, traced.samples, scene, traced.T_world_sensor,
+        *settings.calibrated, {traced.samples, traced.mirrored}, scene, traced.T_world_sensor,
         {.scene = stream_key(key.seed, 0, 0, Stream::scatterers),
          .ping = draws(key.ping, Stream::speckle),
          .noise = draws(key.ping, Stream::receiver_noise)},
-        {.echoes = terms.direct, .speckle = terms.range_noise, .noise = terms.pixel_noise},
+        {.echoes = terms.direct,
+         .mirrored = terms.multipath,
+         .speckle = terms.range_noise,
+         .noise = terms.pixel_noise},
         ping.intensity);
     ping.counts.echoes = counts.echoes;
     ping.counts.out_of_range = counts.out_of_range;
@@ -99,10 +102,12 @@ void trace_multipath(const PingSettings& settings, const Scene& scene,
     Stopwatch watch;
     traced.counts.multipath = {};
     traced.bounces.clear();
+    traced.mirrored.clear();
     if (settings.multipath.on) {
         traced.bounces =
             find_bounces(settings.multipath, settings.view, traced.samples, scene.materials, engine,
-                         traced.T_world_sensor, traced.counts.multipath, scene.water_surface);
+                         traced.T_world_sensor, traced.counts.multipath, scene.water_surface,
+                         settings.calibrated ? &traced.mirrored : nullptr);
     }
     traced.seconds.multipath = watch.lap();
 }

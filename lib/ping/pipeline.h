@@ -25,8 +25,8 @@ struct PingSettings {
     RangeNoise range_noise;
     PixelNoise pixel_noise;
     Streaks streaks;
-    /// The second model, docs/calibrated.md: then the stages above but the view are not used. Null:
-    /// the paper's.
+    /// The second model, docs/calibrated.md: then of the stages above view and multipath alone are
+    /// used. Null: the paper's.
     std::shared_ptr<const CalibratedModel> calibrated;
     std::uint32_t stream = 0;  ///< names the sonar in every random draw
 };
@@ -41,8 +41,9 @@ struct PingKey {
 /// from it.
 struct TracedPing {
     Pose T_world_sensor;
-    Samples samples;              ///< the visible surface
-    std::vector<Bounce> bounces;  ///< multipath by way of it
+    Samples samples;                      ///< the visible surface
+    std::vector<Bounce> bounces;          ///< multipath by way of it
+    std::vector<MirroredPiece> mirrored;  ///< the same as the calibrated model takes it
     PingCounts counts;
     PingSeconds seconds;
 };

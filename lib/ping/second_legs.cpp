@@ -51,6 +51,8 @@ void look_into_mirror(const SecondLegs& context, std::span<const Ray> rays,
             .normal = mirror.turn(behind[k].normal),
             .rounding_m = behind[k].rounding_m,
             .reflection = mirror.reflection * context.materials[behind[k].material].reflection,
+            .material = behind[k].material,
+            .mirrored = mirror.reflection,
             .exists = true};
     }
 }
@@ -91,6 +93,7 @@ void trace_second_legs(const SecondLegs& context, std::span<const std::uint32_t>
                       .normal = hits[k].normal,
                       .rounding_m = hits[k].rounding_m,
                       .reflection = context.materials[hits[k].material].reflection,
+                      .material = hits[k].material,
                       .exists = true};
         }
         second_hits.push_back(second);

@@ -13,12 +13,18 @@
 
 namespace sonarsim {
 
+inline constexpr std::uint32_t no_material = 0xFFFFFFFFU;
+
 /// What a traced ray hit: the second surface h.
 struct SecondHit {
     Eigen::Vector3f point;    ///< p_h, sensor frame, m
     Eigen::Vector3f normal;   ///< n_h
     float rounding_m = 0.0F;  ///< as in Intersection
     float reflection = 0.0F;  ///< R_h
+    /// What it is of, an index into Scene::materials, and R of the water's surface where the sound
+    /// was mirrored by it on the way, else 1. The surface itself is of no material.
+    std::uint32_t material = no_material;
+    float mirrored = 1.0F;
     bool exists = false;
 };
 

@@ -19,6 +19,19 @@ int scan_steps(const SonarConfig& config) {
     return std::max(1, static_cast<int>(std::floor(config.sector_deg / config.step_deg + 0.5)));
 }
 
+std::size_t scan_sweeps(const SonarConfig& config, std::size_t pings) {
+    const auto steps = static_cast<std::size_t>(scan_steps(config));
+    return (pings + steps - 1) / steps;
+}
+
+std::string scan_file_name(const std::string& stem, std::size_t sweep,
+                           const std::string& extension) {
+    constexpr std::size_t digits = 4;
+    const std::string number = std::to_string(sweep);
+    const std::string zeros(digits - std::min(digits, number.size()), '0');
+    return stem + "_" + zeros + number + extension;
+}
+
 int scan_step(const SonarConfig& config, std::size_t ping) {
     const auto steps = static_cast<std::size_t>(scan_steps(config));
     const bool back = !goes_round(config) && (ping / steps) % 2 == 1;

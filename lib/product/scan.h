@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "ping/sonar.h"
@@ -13,6 +14,13 @@ namespace sonarsim {
 
 /// Steps, and so pings, of one sweep: the sector divided by the step, rounded.
 int scan_steps(const SonarConfig& config);
+
+/// Sweeps that this many pings make, the unfinished one at the end included.
+std::size_t scan_sweeps(const SonarConfig& config, std::size_t pings);
+
+/// STEM_NNNN.EXTENSION, the name of a file that belongs to a sweep; `extension` has its dot.
+std::string scan_file_name(const std::string& stem, std::size_t sweep,
+                           const std::string& extension);
 
 /// The angles of the head, radians, positive to port, from the first ping until they repeat. A full
 /// turn goes round and round from behind over starboard; a sector is swept to and fro.

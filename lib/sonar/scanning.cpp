@@ -32,6 +32,7 @@ KindOfSonar scanning_kind() {
     defaults.range_min_m = 0.75;
     defaults.range_max_m = 20.0;
     defaults.range_bins = 500;
+    defaults.instrument.beam.aperture = Aperture::head;
     return {.keys = {.kind = SonarKind::scanning,
                      .name = "scanning",
                      .defaults = defaults,

@@ -44,7 +44,7 @@ std::vector<float> image_of(const CalibratedModel& model, const std::vector<Samp
     Scene scene;
     scene.materials.push_back({.name = "rock", .reflection = 0.4F});
     std::vector<float> image(sounder_bins);
-    form_calibrated(model, samples, scene, {}, {}, {}, image);
+    form_calibrated(model, {samples}, scene, {}, {}, {}, image);
     return image;
 }
 

@@ -96,7 +96,7 @@ std::vector<float> image_of(const CalibratedModel& model, const Samples& samples
                             const Pose& pose = {}, std::uint32_t ping = 0,
                             const CalibratedTerms& terms = {}) {
     std::vector<float> image(static_cast<std::size_t>(bins) * beams_of_fan);
-    form_calibrated(model, samples, scene_of_one_material(), pose,
+    form_calibrated(model, {samples}, scene_of_one_material(), pose,
                     {.scene = {1, 2},
                      .ping = stream_key(1, 2, ping, Stream::speckle),
                      .noise = stream_key(1, 2, ping, Stream::receiver_noise)},

@@ -12,6 +12,7 @@ namespace sonarsim {
 std::unique_ptr<Writer> make_polar_writer(const WriterContext& context);
 std::unique_ptr<Writer> make_image_writer(const WriterContext& context);
 std::unique_ptr<Writer> make_raw_writer(const WriterContext& context);
+std::unique_ptr<Writer> make_raw_records_writer(const WriterContext& context);
 std::unique_ptr<Writer> make_fan_writer(const WriterContext& context);
 std::unique_ptr<Writer> make_stages_writer(const WriterContext& context);
 std::unique_ptr<Writer> make_waterfall_writer(const WriterContext& context);

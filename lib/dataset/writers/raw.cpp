@@ -1,7 +1,6 @@
-#include <algorithm>
-
 #include "calibrated/companding.h"
 #include "dataset/writers/formats.h"
+#include "dataset/writers/raw_values.h"
 #include "format/png.h"
 
 namespace sonarsim {
@@ -17,19 +16,16 @@ class RawWriter final : public Writer {
           receiver_(context.sonar().config.instrument.receiver) {}
 
     WriterOutputs outputs() const override {
-        const int bytes = receiver_.bits > 8 ? 2 : 1;
-        return {
-            PingFile{"raw", ".png"}, png_bytes_at_most(view_.beams, view_.range_bins, bytes), {}};
+        return {PingFile{"raw", ".png"},
+                png_bytes_at_most(view_.beams, view_.range_bins, raw_bytes(receiver_)),
+                {}};
     }
 
     std::string encode(const FinishedPing& finished) const override {
         const Ping& ping = finished.ping;
         const std::vector<std::uint16_t> values = companded(ping.intensity, receiver_);
-        if (receiver_.bits > 8) return png_bytes(values, ping.beams, ping.range_bins);
-        std::vector<std::uint8_t> bytes(values.size());
-        std::ranges::transform(values, bytes.begin(),
-                               [](std::uint16_t v) { return static_cast<std::uint8_t>(v); });
-        return png_bytes(bytes, ping.beams, ping.range_bins);
+        if (raw_bytes(receiver_) == 2) return png_bytes(values, ping.beams, ping.range_bins);
+        return png_bytes(as_bytes(values), ping.beams, ping.range_bins);
     }
 
   private:

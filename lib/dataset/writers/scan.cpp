@@ -26,7 +26,7 @@ class ScanWriter final : public Writer {
         const auto bins = static_cast<std::size_t>(sonar_.config.range_bins);
         WriterOutputs outputs = record_outputs("scan.npy", {"<f4", {pings_, bins}},
                                                {"ping", "range"}, 4.0 * static_cast<double>(bins));
-        for (std::size_t sweep = 0; sweep < sweeps(); ++sweep) {
+        for (std::size_t sweep = 0; sweep < scan_sweeps(sonar_.config, pings_); ++sweep) {
             outputs.products.push_back(
                 {name(sweep, ".npy"), 128.0 + 4.0 * static_cast<double>(bins * steps_)});
             outputs.products.push_back({name(sweep, ".png"), fan_png_bytes_at_most(png_)});
@@ -57,12 +57,8 @@ class ScanWriter final : public Writer {
     }
 
   private:
-    std::size_t sweeps() const { return (pings_ + steps_ - 1) / steps_; }
-
     static std::string name(std::size_t sweep, const char* extension) {
-        const std::string number = std::to_string(sweep);
-        return "scan_" + std::string(4 - std::min<std::size_t>(4, number.size()), '0') + number +
-               extension;
+        return scan_file_name("scan", sweep, extension);
     }
 
     void write_display(const Ping& image, std::size_t sweep,

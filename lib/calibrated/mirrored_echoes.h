@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "calibrated/directed_beams.h"
+#include "calibrated/fan_beams.h"
+#include "calibrated/mirrored_pieces.h"
+#include "calibrated/sonar_equation.h"
+
+namespace sonarsim {
+
+/// Adds the powers of what comes back by way of a mirror to the real parts of the grid. With the
+/// piece at the range r and its image at the range s,
+///
+///     EL = SL + S + 10 log R + 10 log A + D - 20 log r - 20 log s - alpha (r + s)    dB,
+///
+/// in the range bin of (r + s) / 2: the mirror is taken for flat, so that sound spreads as if it
+/// came from the image. S is that of sound which comes and goes along two directions
+/// (Backscatter::between). Sound comes by either way round, with the same power: out to the image
+/// and back from the piece, and the reverse. D is the sonar's pattern towards where it sends,
+/// times the one towards where it hears.
+///
+/// Returns how many of these echoes lie outside the range or the beams.
+template <class Beams>
+std::uint64_t add_mirrored_powers(const Beams& beams, std::span<const MirroredPiece> pieces,
+                                  std::span<const Backscatter> materials,
+                                  const SonarEquation& equation, const PointLimits& limits,
+                                  EchoGrid& grid);
+
+extern template std::uint64_t add_mirrored_powers(const DirectedBeams&,
+                                                  std::span<const MirroredPiece>,
+                                                  std::span<const Backscatter>,
+                                                  const SonarEquation&, const PointLimits&,
+                                                  EchoGrid&);
+extern template std::uint64_t add_mirrored_powers(const FanBeams&, std::span<const MirroredPiece>,
+                                                  std::span<const Backscatter>,
+                                                  const SonarEquation&, const PointLimits&,
+                                                  EchoGrid&);
+
+}  // namespace sonarsim

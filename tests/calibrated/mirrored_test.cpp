@@ -1,0 +1,325 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "calibrated/decibel.h"
+#include "calibrated/mirrored_echoes.h"
+#include "calibrated/model.h"
+#include "calibrated/piston.h"
+#include "core/units.h"
+#include "sonar/setup.h"
+#include "support/bounces.h"
+#include "support/scenes.h"
+#include "support/sonars.h"
+#include "visibility/rays/rays_engine.h"
+
+using namespace sonarsim;
+using namespace sonarsim::test;
+
+namespace {
+
+constexpr Terms mean_of_all{.range_noise = false, .pixel_noise = false};
+
+/// A calibrated sonar without noise, gain and speckle.
+SonarConfig calibrated(SonarConfig config) {
+    config.model = EchoModel::of_instrument;
+    config.multipath.method = MultipathMethod::exact;
+    config.instrument.frequency_hz = 3e5;
+    config.instrument.receiver.noise_db = -300.0;
+    config.instrument.receiver.tvg_log = 0.0;
+    config.instrument.receiver.tvg_absorption = false;
+    config.instrument.speckle.mode = SpeckleMode::none;
+    return config;
+}
+
+SonarConfig echosounder() {
+    SonarConfig config = calibrated({});
+    config.name = "sounder";
+    config.kind = SonarKind::echosounder;
+    config.opening_deg = 50.0;
+    config.range_min_m = 0.5;
+    config.range_max_m = 20.0;
+    config.range_bins = 400;
+    config.instrument.beam.aperture = Aperture::piston;
+    config.instrument.beam.width_deg = 10.0;
+    return config;
+}
+
+SonarConfig sidescan() {
+    SonarConfig config = calibrated({});
+    config.name = "side";
+    config.kind = SonarKind::sidescan;
+    config.azimuth_deg = 170.0;
+    config.elevation_deg = 4.0;
+    config.range_min_m = 0.5;
+    config.range_max_m = 10.0;
+    config.range_bins = 200;
+    config.instrument.beam.aperture = Aperture::sides;
+    return config;
+}
+
+double sum_of(std::span<const float> image) {
+    return std::accumulate(image.begin(), image.end(), 0.0);
+}
+
+double loss_per_m(const Sonar& sonar) {
+    return 0.2 * std::log(10.0) * sonar.settings.calibrated->absorption_db_per_m;
+}
+
+/// All that comes back without the mirrors, and by way of them.
+struct Energies {
+    double direct, mirrored;
+};
+
+Energies energies_of(const Sonar& sonar, const Scene& scene, const Pose& T_world_vehicle) {
+    const auto engine = make_rays_engine(scene);
+    const TracedPing traced = trace(sonar, scene, *engine, T_world_vehicle, 0);
+    const auto sum = [&](const Terms& terms) {
+        return sum_of(form_image(traced, sonar.settings, scene, {}, terms).intensity);
+    };
+    return {sum(direct_echoes_alone), sum(multipath_alone)};
+}
+
+}  // namespace
+
+TEST_SUITE("calibrated") {
+    TEST_CASE("bottom: along one direction the two are one, and facets send on what they meet") {
+        const double slope = std::tan(radians(4.0));
+        const Backscatter rock = backscatter(-27.0, 0.4, slope);
+        for (const float sine : {0.1F, 0.6F, 0.99F})
+            CHECK(std::fabs(rock.between(sine, sine, sine) / rock.at(sine) - 1.0F) < 1e-5F);
+
+        // Facets of Gaussian slopes zeta with normals h meet, by area of the mean plane, the part
+        // (v . h) / (n . h) of the sound, whose mean is v . n, for that of zeta is 0. With R they
+        // send on R v . n in all.
+        const Backscatter facets = backscatter(-300.0, 0.4, slope);
+        const double in = radians(60.0);  // of grazing
+        double sent = 0.0;
+        constexpr int steps = 400;
+        for (int i = 0; i < steps; ++i) {
+            const double elevation = (i + 0.5) * 0.5 * pi / steps;
+            for (int j = 0; j < 4 * steps; ++j) {
+                const double azimuth = (j + 0.5) * 2.0 * pi / (4 * steps);
+                // v = (cos in, 0, sin in), and where the sound goes to.
+                const Eigen::Vector3d sum(std::cos(in) + std::cos(elevation) * std::cos(azimuth),
+                                          std::cos(elevation) * std::sin(azimuth),
+                                          std::sin(in) + std::sin(elevation));
+                const float half = static_cast<float>(sum.z() / sum.norm());
+                sent += facets.between(static_cast<float>(std::sin(in)),
+                                       static_cast<float>(std::sin(elevation)), half) *
+                        std::cos(elevation) * (0.5 * pi / steps) * (2.0 * pi / (4 * steps));
+            }
+        }
+        CHECK(std::fabs(sent / (0.4 * std::sin(in)) - 1.0) < 0.01);
+    }
+
+    TEST_CASE("mirrored: a mirror that shows a piece where it is doubles its echo") {
+        // Once out by the mirror and back without, once the other way round.
+        SonarConfig imaging = calibrated(small_imaging());
+        imaging.instrument.beam.elevation_width_deg = 8.0;
+        const Eigen::Vector3f ahead(3.0F, 0.3F, 0.2F);
+        const Eigen::Vector3f beside(2.0F, 2.5F, 0.01F);
+        const Eigen::Vector3f below(8.0F, 0.3F, -0.2F);
+        for (const auto& [config, place] :
+             {std::pair{imaging, ahead}, std::pair{sidescan(), beside},
+              std::pair{echosounder(), below}}) {
+            const Sonar sonar = make_sonar(config, {0.03});
+            Scene scene;
+            scene.materials.push_back({.name = "rock", .reflection = 0.4F});
+            const float range = place.norm();
+            Samples samples;
+            samples.items = {{.position = place,
+                              .edge_u = {0.0F, 0.005F, 0.0F},
+                              .edge_v = {0.0F, 0.0F, 0.005F},
+                              .normal = -place / range,
+                              .height_m = 0.8F * range,
+                              .area_m2 = 1e-4F,
+                              .material = 0,
+                              .instance = 0}};
+            const MirroredPiece::Place both{place, samples.items[0].edge_u,
+                                            samples.items[0].edge_v};
+            const MirroredPiece mirrored{.point = both,
+                                         .image = both,
+                                         .area_m2 = 1e-4F,
+                                         .sine_of_point = 0.8F,
+                                         .sine_of_image = 0.8F,
+                                         .sine_between = 0.8F,
+                                         .reflection = 1.0F,
+                                         .material = 0};
+            const auto image_of = [&](const CalibratedTerms& terms) {
+                std::vector<float> image(static_cast<std::size_t>(sonar.settings.view.range_bins) *
+                                         sonar.settings.view.beams);
+                form_calibrated(*sonar.settings.calibrated, {samples, {&mirrored, 1}}, scene, {},
+                                {}, terms, image);
+                return image;
+            };
+            const auto one = image_of({.mirrored = false, .speckle = false, .noise = false});
+            const auto two = image_of({.echoes = false, .speckle = false, .noise = false});
+            REQUIRE(sum_of(one) > 0.0);
+            const float most = *std::ranges::max_element(one);
+            float worst = 0.0F;
+            for (std::size_t i = 0; i < one.size(); ++i)
+                worst = std::max(worst, std::fabs(two[i] - 2.0F * one[i]));
+            CHECK(worst <= 1e-4F * most);
+        }
+    }
+
+    TEST_CASE("mirrored: a plate over a floor that is a mirror has the level of its image") {
+        // The sonar is 1 m above a smooth floor that sends back nothing. A plate stands 4 m ahead;
+        // its image is as far below the floor, as the plate is above: z becomes -2 - z. With the
+        // plate at r and its image at s, both seen from the sonar, sound comes back by either way
+        // round with R mu (v_r . n) (v_s . n) dA / (r^2 s^2) e^(-loss (r + s) / 2), direct sound
+        // with mu (v_r . n)^2 dA / r^4 e^(-loss r). A ceiling mirrors the sound on and away from
+        // the sonar, and scatters it back all the same.
+        constexpr double reflection = 0.36;
+        SonarConfig config = calibrated(small_imaging());
+        config.elevation_deg = 110.0;
+        const Sonar sonar = make_sonar(config, {0.005});
+        const double loss = loss_per_m(sonar);
+        for (const bool ceiling : {false, true}) {
+            Scene scene = empty_scene();
+            const std::uint32_t smooth = add_material(scene, static_cast<float>(reflection));
+            const std::uint32_t rough = add_material(scene, 0.0F);
+            scene.materials[smooth].lambert_db = -300.0;
+            for (Material& material : scene.materials)
+                material.slope_rms_deg = 0.0;
+            add_floor(scene, 8.0F, -1.0F, smooth);
+            if (ceiling) {
+                add_quad(scene, {3, -0.5, 1}, {4, -0.5, 1}, {4, 0.5, 1}, {3, 0.5, 1}, rough);
+            } else {
+                add_quad(scene, {4, -0.5, -0.5}, {4, 0.5, -0.5}, {4, 0.5, 0.5}, {4, -0.5, 0.5},
+                         rough);
+            }
+            double direct = 0.0;
+            double mirrored = 0.0;
+            constexpr int steps = 100;
+            for (int i = 0; i < steps; ++i) {
+                for (int j = 0; j < steps; ++j) {
+                    const double y = (i + 0.5) / steps - 0.5;
+                    const double t = (j + 0.5) / steps - 0.5;
+                    const double x = ceiling ? 3.5 + t : 4.0;
+                    const double z = ceiling ? 1.0 : t;
+                    const double below = -2.0 - z;
+                    const double r = std::sqrt(x * x + y * y + z * z);
+                    const double s = std::sqrt(x * x + y * y + below * below);
+                    const double sine_r = (ceiling ? z : x) / r;
+                    const double sine_s = (ceiling ? -below : x) / s;
+                    direct += sine_r * sine_r / (r * r * r * r) * std::exp(-loss * r);
+                    mirrored += 2.0 * reflection * sine_r * sine_s / (r * r * s * s) *
+                                std::exp(-0.5 * loss * (r + s));
+                }
+            }
+            const Energies found = energies_of(sonar, scene, {});
+            const double level = db_of_power(found.mirrored / found.direct);
+            MESSAGE("dB below the direct echo: ", level, ", by hand ",
+                    db_of_power(mirrored / direct));
+            CHECK(std::fabs(level - db_of_power(mirrored / direct)) < 0.1);
+        }
+    }
+
+    TEST_CASE("mirrored: the level of the second bottom echo") {
+        // A sonar d below the water's surface and h above a flat bottom. In the world unfolded at
+        // the bottom and at the surface, sound that leaves at the angle a off nadir goes a straight
+        // way of the height H = 3 h + 2 d, meets the bottom the second time x = H tan a aside, and
+        // comes back straight, at the angle b with tan b = x / h. Facets lie halfway.
+        constexpr double h = 5.0;
+        constexpr double d = 2.0;
+        constexpr double H = 3.0 * h + 2.0 * d;
+        constexpr double of_bottom = 0.25;
+        constexpr double of_surface = 0.9;
+        Scene scene = empty_scene();
+        add_floor(scene, 50.0F, 0.0F, add_material(scene, of_bottom), 4);
+        scene.water_surface = {h + d, of_surface};
+        const Sonar sonar = make_sonar(echosounder(), {0.005});
+        const Backscatter bottom = backscatter(-27.0, of_bottom, std::tan(radians(10.0)));
+        const double loss = loss_per_m(sonar);
+        const double scale = piston_scale(radians(10.0));
+        const auto one_way = [&](double angle) {
+            return std::pow(piston_pattern(scale * std::sin(angle)), 2.0);
+        };
+        double direct = 0.0;
+        double second = 0.0;
+        constexpr double step = 0.001;
+        for (double x = 0.5 * step; x < h * std::tan(radians(25.0)); x += step) {
+            const double a = std::atan(x / H);
+            const double b = std::atan(x / h);
+            const double r = h / std::cos(b);
+            const double s = H / std::cos(a);
+            const double area = 2.0 * pi * x * step;
+            direct += bottom.at(static_cast<float>(std::cos(b))) * area * one_way(b) * one_way(b) /
+                      std::pow(r, 4.0) * std::exp(-loss * r);
+            second +=
+                2.0 * of_bottom * of_surface *
+                bottom.between(static_cast<float>(std::cos(a)), static_cast<float>(std::cos(b)),
+                               static_cast<float>(std::cos(0.5 * (a + b)))) *
+                area * one_way(a) * one_way(b) / (r * r * s * s) * std::exp(-0.5 * loss * (r + s));
+        }
+        const Energies found =
+            energies_of(sonar, scene, {Eigen::Quaterniond::Identity(), {0.0, 0.0, h}});
+        const double level = db_of_power(found.mirrored / found.direct);
+        MESSAGE("dB below the first bottom echo: ", level, ", by hand ",
+                db_of_power(second / direct));
+        CHECK(std::fabs(level - db_of_power(second / direct)) < 0.1);
+    }
+
+    TEST_CASE("mirrored: multipath darkens no bin, and has its mean whatever the speckle") {
+        const Scene scene = tank();
+        const auto engine = make_rays_engine(scene);
+        SonarConfig config = calibrated(small_imaging());
+        config.elevation_deg = 40.0;
+        config.multipath.method = MultipathMethod::cluster;
+        // Four bins: the spline that stands for a pulse of one swings below 0.
+        config.instrument.pulse.resolution_m = 0.15;
+        for (const Pose& pose : tank_poses()) {
+            config.instrument.speckle.mode = SpeckleMode::none;
+            const Sonar sonar = make_sonar(config, {0.03});
+            const TracedPing traced = trace(sonar, scene, *engine, pose, 0);
+            REQUIRE(traced.mirrored.size() >= traced.bounces.size());
+            const auto image_of = [&](const Sonar& of, const Terms& terms, std::uint32_t ping) {
+                return form_image(traced, of.settings, scene, {1, ping}, terms).intensity;
+            };
+            const auto without = image_of(sonar, direct_echoes_alone, 0);
+            const auto alone = image_of(sonar, multipath_alone, 0);
+            const auto with = image_of(sonar, mean_of_all, 0);
+            // What smears powers swings a little below 0 beside a glint, as it does with direct
+            // echoes: by some thousandths of what is added there.
+            const View& view = sonar.settings.view;
+            double most_lost = 0.0;
+            for (int row = 0; row < view.range_bins; ++row) {
+                for (int j = 0; j < view.beams; ++j) {
+                    const auto at = [&](int k) {
+                        return static_cast<std::size_t>(k) * view.beams + j;
+                    };
+                    float added = 0.0F;
+                    for (int k = std::max(0, row - 12); k < std::min(view.range_bins, row + 13);
+                         ++k)
+                        added = std::max(added, alone[at(k)]);
+                    if (added == 0.0F) continue;
+                    const float lost = without[at(row)] - with[at(row)];
+                    most_lost = std::max<double>(most_lost, lost / added);
+                }
+            }
+            MESSAGE("most lost: ", most_lost,
+                    ", multipath by direct: ", sum_of(alone) / sum_of(without));
+            CHECK(most_lost < 5e-3);
+            CHECK(std::fabs(sum_of(with) / (sum_of(without) + sum_of(alone)) - 1.0) < 1e-3);
+            CHECK(sum_of(alone) > 0.02 * sum_of(without));
+
+            for (const SpeckleMode mode : {SpeckleMode::scene, SpeckleMode::ping}) {
+                config.instrument.speckle.mode = mode;
+                const Sonar speckled = make_sonar(config, {0.03});
+                Terms terms = multipath_alone;
+                terms.range_noise = true;  // speckle
+                double mean = 0.0;
+                constexpr int pings = 12;
+                for (std::uint32_t ping = 0; ping < pings; ++ping)
+                    mean += sum_of(image_of(speckled, terms, ping)) / pings;
+                MESSAGE("speckle by its mean: ", mean / sum_of(alone));
+                CHECK(std::fabs(mean / sum_of(alone) - 1.0) < 0.1);
+                CHECK(image_of(speckled, terms, 3) == image_of(speckled, terms, 3));
+            }
+        }
+    }
+}

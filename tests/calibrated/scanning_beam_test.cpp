@@ -1,0 +1,109 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include "calibrated/decibel.h"
+#include "calibrated/preset_fixtures.h"
+#include "product/scan.h"
+#include "sonar/setup.h"
+#include "support/scenes.h"
+#include "visibility/slices/slices_engine.h"
+
+using namespace sonarsim;
+using namespace sonarsim::test;
+
+namespace {
+
+/// The sonar of a preset with short pings and steps of half a degree over 24 degrees.
+Sonar scanning(const std::string& preset) {
+    return preset_sonar(preset,
+                        "    range_min_m: 1\n"
+                        "    range_max_m: 8\n"
+                        "    range_bins: 140\n"
+                        "    sector_deg: 24\n"
+                        "    step_deg: 0.5\n"
+                        "    instrument: {speckle: {mode: none}, receiver: {tvg_log: 0}}\n");
+}
+
+double energy_db(const std::vector<float>& image) {
+    return db_of_power(std::accumulate(image.begin(), image.end(), 0.0));
+}
+
+/// What the head's pattern takes of a point's level off its axis, there and back: one way it is the
+/// array's.
+double loss_db(const Sonar& sonar, double off_rad) {
+    return 4.0 * 10.0 * std::log10(std::fabs(line_pattern(array_of(sonar), std::sin(off_rad))));
+}
+
+}  // namespace
+
+TEST_SUITE("calibrated") {
+    TEST_CASE("scanning: a point is smeared over the steps as the beam is, there and back") {
+        for (const char* const preset : {"micron", "ping360"}) {
+            const Sonar sonar = scanning(preset);
+            const double width = radians(sonar.config.instrument.beam.width_deg);
+            const double half_view = 0.5 * sonar.settings.view.azimuth_rad;
+            const auto level = [&](double off) {
+                const Pose pose{rotation_from_rpy(0.0, 0.0, off), Eigen::Vector3d::Zero()};
+                const Samples point =
+                    patches({5.0, 0.0, 0.0}, {0, -1, 0}, {0, 0, 1}, 0.002, 0.002, 0.002, pose);
+                return energy_db(quiet_image(sonar, point, false, pose));
+            };
+            const double ahead = level(0.0);
+            // At half of the width a quarter of the power is left.
+            CHECK(std::fabs(level(0.5 * width) - ahead + 6.02) < 0.05);
+            CHECK(std::fabs(level(-0.5 * width) - ahead + 6.02) < 0.05);
+            int lobes = 0;
+            for (const double angle : scan_angles_rad(sonar.config)) {
+                if (std::fabs(angle) >= half_view) continue;
+                const double expected = loss_db(sonar, angle);
+                if (expected < -60.0) continue;  // in a null
+                CHECK(std::fabs(level(angle) - ahead - expected) < 0.2);
+                // The first side lobes are 20 dB down one way.
+                lobes += std::fabs(angle) > 1.2 * width && expected > -41.0 ? 1 : 0;
+            }
+            CHECK(lobes >= 4);
+        }
+    }
+
+    TEST_CASE("scanning: the scan of a strip is as wide as the beam") {
+        // A strip stands 5 m away, 20 cm wide; its level is the mean over its width.
+        constexpr double half_m = 0.1;
+        const Sonar sonar = scanning("micron");
+        Scene scene = empty_scene();
+        constexpr auto half = static_cast<float>(half_m);
+        add_quad(scene, {5, -half, -0.5}, {5, half, -0.5}, {5, half, 0.5}, {5, -half, 0.5},
+                 add_material(scene, 0.4F));
+        const auto strip_db = [&](double angle) {
+            constexpr int parts = 100;
+            double mean = 0.0;
+            for (int k = 0; k < parts; ++k) {
+                const double y = half_m * ((2.0 * k + 1.0) / parts - 1.0);
+                mean += power_of_db(loss_db(sonar, std::atan2(y, 5.0) - angle)) / parts;
+            }
+            return db_of_power(mean);
+        };
+        const auto engine = make_slices_engine(scene, {});
+        const std::vector<double> angles = scan_angles_rad(sonar.config);
+        const auto steps = static_cast<std::uint32_t>(scan_steps(sonar.config));
+        std::vector<double> levels;
+        for (std::uint32_t ping = 0; ping < steps; ++ping) {
+            const TracedPing traced = trace(sonar, scene, *engine, {}, ping);
+            const Terms terms{.range_noise = false, .pixel_noise = false};
+            levels.push_back(
+                energy_db(form_image(traced, sonar.settings, scene, {1, ping}, terms).intensity));
+        }
+        const double ahead = levels[steps / 2] - strip_db(angles[steps / 2]);
+        int within = 0;
+        for (std::uint32_t ping = 0; ping < steps; ++ping) {
+            const double expected = strip_db(angles[ping]);
+            if (std::fabs(angles[ping]) >= 0.5 * sonar.settings.view.azimuth_rad - 0.02) continue;
+            if (expected < -25.0) continue;
+            ++within;
+            CHECK(std::fabs(levels[ping] - ahead - expected) < 0.5);
+        }
+        CHECK(within >= 10);
+    }
+}
