@@ -135,12 +135,8 @@ void measure_errors(const PingSet& pings, const Trial& trial,
     std::vector<double> estimated_l1(poses);
     in_parallel(poses, [&](std::size_t p) {
         const std::optional<Sonar> drawn = pings.drawn(trial.sonar, p);
-        Sonar sonar = drawn ? *drawn : trial.sonar;
-        // The reference is the paper's mean over a bin. Of a sonar of the calibrated model, too, it
-        // is what was seen that is judged, by that mean.
-        sonar.settings.calibrated = nullptr;
-        const Ping ping = render_ping(sonar, pings.scene, *engine, pings.poses[p], pings.key(p),
-                                      direct_echoes_alone);
+        const Ping ping = render_ping(drawn ? *drawn : trial.sonar, pings.scene, *engine,
+                                      pings.poses[p], pings.key(p), direct_echoes_alone);
         const ImageError error = image_error(ping.intensity, references[p].intensity);
         l1[p] = error.relative_l1;
         l2[p] = error.relative_l2;

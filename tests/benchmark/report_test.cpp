@@ -185,11 +185,11 @@ TEST_CASE("a report pings as the mission does: with the draws of each ping, and 
         CHECK(report_of_rays(mission, turning).rows[0].relative_l1.max < 0.02);
     }
     SUBCASE("the calibrated model") {
-        // Judged by the paper's mean of what it sees: its levels are powers and have no such mean.
+        // Judged where energies add: by the paper's mean its levels would be far off.
         mission.sensors[0].model = EchoModel::of_instrument;
         mission.sensors[0].instrument.frequency_hz = 9e5;
         const ReportRow row = report_of_rays(mission, small_assembly(mission, 4)).rows[0];
-        CHECK(row.relative_l1.max == still.relative_l1.max);
+        CHECK(row.relative_l1.max < 0.1);
     }
 }
 
