@@ -26,8 +26,8 @@ struct Sample {
     std::uint32_t instance;  ///< index into Scene::instances
 };
 
-/// What a ping sees, sorted by beam. No footprint reaches into another beam by more than a
-/// twentieth of a beam.
+/// What a ping sees, sorted by beam. No footprint reaches into another beam by more than a tenth of
+/// a beam.
 struct Samples {
     std::vector<Sample> items;
     std::vector<std::uint32_t> beam_begin;  ///< beams + 1 offsets into `items`

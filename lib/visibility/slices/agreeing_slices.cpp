@@ -39,7 +39,7 @@ AgreeingSlices::AgreeingSlices(const View& view, std::span<const Material> mater
     move_ends(first.slice, first.spans, scan_.frame().beam_u.front(), first.low);
 }
 
-bool AgreeingSlices::see_next(double most) {
+bool AgreeingSlices::see_next(const DisagreementLimit& most) {
     const SliceFrame& frame = scan_.frame();
     const std::uint32_t gaps = frame.gaps();
     if (next_gap_ == gaps) return false;
@@ -104,8 +104,9 @@ void AgreeingSlices::split(std::size_t i, float u) {
     estimate(between_.back());
 }
 
-void AgreeingSlices::refine(double most) {
+void AgreeingSlices::refine(const DisagreementLimit& most) {
     times_ += 1.0;
+    const double lent = most.lent * std::max(most.share * sum_.signal - sum_.apart, 0.0);
     while (true) {
         Disagreement beam;
         std::size_t worst = between_.size();
@@ -118,7 +119,7 @@ void AgreeingSlices::refine(double most) {
         }
         // A dim beam may have a larger share of its signal in error than a bright one.
         const double mean = 0.5 * (beam.signal + (sum_.signal + beam.signal) / times_);
-        if (beam.apart <= most * mean || worst == between_.size()) {
+        if (beam.apart <= most.share * mean + lent || worst == between_.size()) {
             sum_.apart += beam.apart;
             sum_.signal += beam.signal;
             return;
@@ -154,7 +155,10 @@ bool AgreeingSlices::alike(const SeenSlice& a, const SeenSlice& b) const {
     if (a.spans.size() != b.spans.size()) return false;
     const float most = same_place * (a.slice.w_high - a.slice.w_low);
     for (std::size_t i = 0; i < a.spans.size(); ++i) {
-        if (!scan_.one_plane(a.spans[i], b.spans[i])) return false;
+        const VisibleSpan& x = a.spans[i];
+        const VisibleSpan& y = b.spans[i];
+        const float farthest = std::min(x.reach.range_m.to, y.reach.range_m.to);
+        if (!scan_.one_plane(x.seen, y.seen, farthest)) return false;
         for (const std::size_t end : {2 * i, 2 * i + 1}) {
             if (!(std::fabs(a.high.ends[end].w - b.low.ends[end].w) <= most)) return false;
         }

@@ -18,6 +18,12 @@ struct Disagreement {
     double share() const { return signal > 0.0 ? apart / signal : 0.0; }
 };
 
+/// How far slices may disagree.
+struct DisagreementLimit {
+    double share;  ///< of the signal
+    double lent;   ///< share of what the beams before left of it that a beam may use up as well
+};
+
 /// Sees the slices of a frame, a beam's worth at a time, and adds slices between them until they
 /// agree about what lies between.
 class AgreeingSlices {
@@ -25,9 +31,8 @@ class AgreeingSlices {
     /// All arguments must outlive it.
     AgreeingSlices(const View& view, std::span<const Material> materials, FrameScan& scan);
 
-    /// Sees the next gaps of the frame. Their slices may disagree by `most`, a share of the signal.
-    /// False when there are none left.
-    bool see_next(double most);
+    /// Sees the next gaps of the frame. False when there are none left.
+    bool see_next(const DisagreementLimit& most);
 
     /// Of the slices seen so far, those that are new and whose strips are known at both sides, from
     /// low u to high.
@@ -55,7 +60,7 @@ class AgreeingSlices {
     void see_gap(std::uint32_t gap);
     void split_where_wanted(std::uint32_t gap);
     void split(std::size_t i, float u);
-    void refine(double most);
+    void refine(const DisagreementLimit& most);
     void estimate(Between& between);
     bool alike(const SeenSlice& a, const SeenSlice& b) const;
     float width(const Between& between) const;

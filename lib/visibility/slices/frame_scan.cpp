@@ -65,8 +65,8 @@ void FrameScan::see(const Slice& slice, std::span<const Segment> segments, SeenS
     merge_coplanar_spans(mesh_, scene_, out.spans);
 }
 
-bool FrameScan::one_plane(const VisibleSpan& a, const VisibleSpan& b) const {
-    return a.seen == b.seen || sonarsim::one_plane(mesh_, scene_, a, b);
+bool FrameScan::one_plane(std::uint32_t a, std::uint32_t b, float range_m) const {
+    return sonarsim::one_plane(mesh_, scene_, a, b, range_m);
 }
 
 std::span<const WantedSlice> FrameScan::wanted_in(std::uint32_t gap) const {

@@ -47,8 +47,9 @@ class FrameScan {
     /// The slices that are wanted within a gap, from low u to high.
     std::span<const WantedSlice> wanted_in(std::uint32_t gap) const;
 
-    /// Whether two spans lie on one plane, of one material and instance.
-    bool one_plane(const VisibleSpan& a, const VisibleSpan& b) const;
+    /// Whether two facets of the scene, at `range_m`, lie on one plane, of one material and
+    /// instance.
+    bool one_plane(std::uint32_t a, std::uint32_t b, float range_m) const;
 
     const SliceFrame& frame() const { return frame_; }
     const ClusterMesh& mesh() const { return mesh_; }

@@ -21,15 +21,13 @@ bool touch(const VisibleSpan& a, const VisibleSpan& b) {
 
 }  // namespace
 
-bool one_plane(const ClusterMesh& mesh, const SliceScene& scene, const VisibleSpan& a,
-               const VisibleSpan& b) {
-    const SeenFacet& f = scene.facets[a.seen];
-    const SeenFacet& g = scene.facets[b.seen];
+bool one_plane(const ClusterMesh& mesh, const SliceScene& scene, std::uint32_t a, std::uint32_t b,
+               float range_m) {
+    if (a == b) return true;
+    const SeenFacet& f = scene.facets[a];
+    const SeenFacet& g = scene.facets[b];
     if ((f.normal - g.normal).squaredNorm() > most_tilt * most_tilt) return false;
-    if (std::fabs(f.height_m - g.height_m) >
-        most_tilt * std::min(a.reach.range_m.to, b.reach.range_m.to)) {
-        return false;
-    }
+    if (std::fabs(f.height_m - g.height_m) > most_tilt * range_m) return false;
     const SliceFacet& s = mesh.facets[f.facet];
     const SliceFacet& t = mesh.facets[g.facet];
     return s.material == t.material && s.instance == t.instance;
@@ -42,7 +40,8 @@ void merge_coplanar_spans(const ClusterMesh& mesh, const SliceScene& scene,
     for (std::size_t i = 1; i < spans.size(); ++i) {
         VisibleSpan& a = spans[last];
         const VisibleSpan& b = spans[i];
-        if (!touch(a, b) || !one_plane(mesh, scene, a, b)) {
+        const float farthest = std::min(a.reach.range_m.to, b.reach.range_m.to);
+        if (!touch(a, b) || !one_plane(mesh, scene, a.seen, b.seen, farthest)) {
             spans[++last] = b;
             continue;
         }

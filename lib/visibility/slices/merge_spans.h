@@ -7,9 +7,9 @@
 
 namespace sonarsim {
 
-/// Whether two spans lie on one plane, of one material and instance.
-bool one_plane(const ClusterMesh& mesh, const SliceScene& scene, const VisibleSpan& a,
-               const VisibleSpan& b);
+/// Whether two facets of the scene, at `range_m`, lie on one plane, of one material and instance.
+bool one_plane(const ClusterMesh& mesh, const SliceScene& scene, std::uint32_t a, std::uint32_t b,
+               float range_m);
 
 /// Makes one of neighbouring spans that lie on one plane, of one material and instance: a flat wall
 /// is one span, whatever it is cut into.

@@ -100,6 +100,31 @@ TEST_CASE("slices: a wall seen face on has its area, whole or in many triangles"
     }
 }
 
+TEST_CASE("slices: at a coarse goal the pieces of neighbouring slices become one") {
+    // Between slices on the borders of a beam every piece of a wall is two halves. Goals of 2 % and
+    // a little less ask for pieces of the same size.
+    View view = fan_view();
+    view.beams = 128;  // wider ones are more than one gap
+    const Pose pose{rotation_from_rpy(0.0, radians(20.0), radians(10.0)), {0.0, 0.0, 0.0}};
+    view.relative_l1 = 0.02;
+    const Samples coarse = seen(wall(5.0F), view, pose, 1);
+    view.relative_l1 = 0.0199;
+    const Samples fine = seen(wall(5.0F), view, pose, 1);
+    CHECK(static_cast<double>(coarse.items.size()) < 0.6 * static_cast<double>(fine.items.size()));
+    const auto area_of_beam = [](const Samples& samples, int j) {
+        double area = 0.0;
+        for (const Sample& sample : samples.beam(j))
+            area += sample.area_m2;
+        return area;
+    };
+    for (int j = 0; j < view.beams; ++j) {
+        CAPTURE(j);
+        REQUIRE(area_of_beam(fine, j) > 0.0);
+        CHECK(area_of_beam(coarse, j) / area_of_beam(fine, j) ==
+              doctest::Approx(1.0).epsilon(1e-4));
+    }
+}
+
 TEST_CASE("slices: samples are sorted by beam and do not leave it") {
     const View view = fan_view();
     const Samples samples = seen(test::tank(), view, pitched(15.0, {-2.4, 0.4, 1.5}));

@@ -1,18 +1,14 @@
-#include "visibility/slices/span_samples.h"
+#include "visibility/slices/quad_samples.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "visibility/slices/fit_range.h"
 
 namespace sonarsim {
 
 namespace {
-
-// A plane beside the slice: where its q would fall below this share, it has run away to infinity.
-constexpr float least_q_share = 1e-3F;
 
 // Across a piece, at most.
 constexpr float most_parts = 8.0F;
@@ -27,128 +23,19 @@ constexpr float longest_ratio = 1.5F;
 
 }  // namespace
 
-/// Four points of a plane in the frame.
-struct SpanSampler::Points {
-    Eigen::Array4f X, U, W;
-    Eigen::Array4f range;
-
-    Eigen::Vector3f at(int k) const { return {X[k], U[k], W[k]}; }
-    Eigen::Vector3f middle(int i, int k) const { return 0.5F * (at(i) + at(k)); }
-};
-
-/// A visible span's surroundings in the picture plane: between two verticals and two borders.
-struct SpanSampler::Quad {
-    bool widens;
-    QuadSide low, high;
-    float u, w;  ///< of a point on the slice
-    float q, q_u, q_w, q_least, nearest_m, farthest_m;
-    const SeenFacet* seen;
-
-    float middle_low() const { return 0.5F * (low.low + high.low); }
-    float middle_high() const { return 0.5F * (low.high + high.high); }
-
-    /// Corners of the part between two shares of the way along w: at `from` on the low side and on
-    /// the high side, at `to` on the high side and on the low side.
-    Points corners(const QuadSide& low_side, const QuadSide& high_side, float from,
-                   float to) const {
-        const float low_width = low_side.high - low_side.low;
-        const float high_width = high_side.high - high_side.low;
-        return points({low_side.u, high_side.u, high_side.u, low_side.u},
-                      {low_side.low + from * low_width, high_side.low + from * high_width,
-                       high_side.low + to * high_width, low_side.low + to * low_width});
-    }
-
-    Points points(Eigen::Array4f at_u, const Eigen::Array4f& at_w) const {
-        if (widens) at_u *= (1.0F + at_w * at_w).sqrt();
-        const Eigen::Array4f secant = (1.0F + at_u * at_u + at_w * at_w).sqrt();
-        const Eigen::Array4f at_q = (q + q_u * (at_u - u) + q_w * (at_w - w)).max(q_least);
-        Points p;
-        p.range = (secant / at_q).max(nearest_m).min(farthest_m);
-        p.X = p.range / secant;
-        p.U = at_u * p.X;
-        p.W = at_w * p.X;
-        return p;
-    }
-};
-
-SpanSampler::SpanSampler(const FrameScan& scan, const PieceLimits& limits, std::vector<Sample>& out)
+QuadSampler::QuadSampler(const FrameScan& scan, std::span<const Material> materials,
+                         const PieceLimits& limits, SliverBins& slivers, std::vector<Sample>& out)
     : scan_(scan),
+      materials_(materials),
+      slivers_(slivers),
       limits_(limits),
       any_width_(!scan.frame().meridians || limits.widest_ratio == unbounded),
       out_(out),
       R_sensor_frame_(scan.frame().R_frame_sensor.transpose()) {}
 
-void SpanSampler::add(const SeenSlice& seen, const MovedEnds& low, const MovedEnds& high) {
-    const Slice& slice = seen.slice;
-    for (std::size_t i = 0; i < seen.spans.size(); ++i)
-        add_span(slice, seen.spans[i], quad_side(slice, low, i), quad_side(slice, high, i));
-}
-
-/// The border of a span's quadrilateral on one side: at the side itself, or on the way to it where
-/// the ends meet each other, or one of them the end that both follow.
-SpanSampler::QuadSide SpanSampler::quad_side(const Slice& slice, const MovedEnds& side,
-                                             std::size_t span) {
-    const MovedEnd& low = side.ends[2 * span];
-    const MovedEnd& high = side.ends[2 * span + 1];
-    if (low.w < high.w || low.by != high.by) return {side.u, low.w, high.w};
-    const MovedEnd& leader = side.ends[low.by];
-    const bool from_below = low.by <= 2 * span;
-    const float before =
-        from_below ? high.at_slice - leader.at_slice : leader.at_slice - low.at_slice;
-    const float after = from_below ? leader.w - high.alone : low.alone - leader.w;
-    const float share = after > 0.0F ? before / (before + after) : 1.0F;
-    const float w = leader.at_slice + share * (leader.w - leader.at_slice);
-    return {slice.u + share * (side.u - slice.u), w, w};
-}
-
-void SpanSampler::add_span(const Slice& slice, const VisibleSpan& span, const QuadSide& low,
-                           const QuadSide& high) {
-    const SeenFacet& seen = scan_.scene().facets[span.seen];
-    Quad quad;
-    quad.seen = &seen;
-    quad.widens = !scan_.frame().meridians;
-    quad.u = slice.u;
-    quad.w = span.q_low < span.q_high ? span.w_low : span.w_high;
-    quad.q = std::min(span.q_low, span.q_high);
-    quad.q_u = -seen.normal.y() / seen.height_m;
-    quad.q_w = -seen.normal.z() / seen.height_m;
-    // Beside the slice a plane may run away from the sensor, but its triangle does not.
-    quad.q_least = least_q_share * quad.q;
-    quad.nearest_m = span.reach.range_m.from;
-    quad.farthest_m = span.reach.range_m.to;
-    const QuadSide on_slice{slice.u, span.w_low, span.w_high};
-    quad.low = low;
-    quad.high = high;
-    const auto keep = [&](QuadSide& side) {
-        const float u = std::clamp(side.u, span.reach.u.from, span.reach.u.to);
-        if (u == side.u) return;
-        const float share = (u - slice.u) / (side.u - slice.u);
-        side.low = span.w_low + share * (side.low - span.w_low);
-        side.high = span.w_high + share * (side.high - span.w_high);
-        side.u = u;
-    };
-    keep(quad.low);
-    keep(quad.high);
-    // Ends that bend at the slice make two quadrilaterals.
-    const float share = (slice.u - quad.low.u) / (quad.high.u - quad.low.u);
-    const auto bend = [&](float begin, float at, float end) {
-        return std::fabs(begin + share * (end - begin) - at);
-    };
-    const float most = 0.02F * (span.w_high - span.w_low);
-    if (quad.low.u < slice.u && slice.u < quad.high.u &&
-        (bend(quad.low.low, span.w_low, quad.high.low) > most ||
-         bend(quad.low.high, span.w_high, quad.high.high) > most)) {
-        const QuadSide end = std::exchange(quad.high, on_slice);
-        cut(quad);
-        quad.low = on_slice;
-        quad.high = end;
-    }
-    cut(quad);
-}
-
 /// Cuts a quadrilateral along w into pieces that are nearly parallelograms.
-void SpanSampler::cut(const Quad& quad) {
-    const Points corners = quad.corners(quad.low, quad.high, 0.0F, 1.0F);
+void QuadSampler::add(const Quad& quad) {
+    const QuadPoints corners = quad.corners(quad.low, quad.high, 0.0F, 1.0F);
     if (is_small(corners)) {
         if (any_width_) {
             add_piece(quad, corners, 0.0F, 1.0F);
@@ -160,7 +47,7 @@ void SpanSampler::cut(const Quad& quad) {
     const float u = 0.5F * (quad.low.u + quad.high.u);
     const float w_low = quad.middle_low();
     const float w_high = quad.middle_high();
-    const Points ends = quad.points({u, u, u, u}, {w_low, w_high, w_low, w_high});
+    const QuadPoints ends = quad.points({u, u, u, u}, {w_low, w_high, w_low, w_high});
     const Eigen::Vector3f from = ends.at(0);
     const Eigen::Vector3f to = ends.at(1);
     // Along the line from one to the other the range is sqrt(h^2 + s^2).
@@ -219,10 +106,10 @@ void SpanSampler::cut(const Quad& quad) {
     }
 }
 
-/// Whether the sag along w is that of cut() or less, found with less work: the foot of the
+/// Whether the sag along w is that of add() or less, found with less work: the foot of the
 /// perpendicular is no farther away than the nearest point, h <= r, and that is at least 0.9 of the
 /// nearest corner.
-bool SpanSampler::is_small(const Points& corners) const {
+bool QuadSampler::is_small(const QuadPoints& corners) const {
     const float nearest = corners.range.minCoeff();
     const float length2 = (corners.middle(2, 3) - corners.middle(0, 1)).squaredNorm();
     return corners.range.maxCoeff() <= limits_.range_max_m &&
@@ -231,7 +118,7 @@ bool SpanSampler::is_small(const Points& corners) const {
 
 /// Adds the part of a quadrilateral between two shares of the way along w, in pieces that are not
 /// much wider at one end than at the other.
-void SpanSampler::add_narrow(const Quad& quad, float from, float to) {
+void QuadSampler::add_narrow(const Quad& quad, float from, float to) {
     if (any_width_) {
         add_piece(quad, from, to);
         return;
@@ -263,11 +150,11 @@ void SpanSampler::add_narrow(const Quad& quad, float from, float to) {
 
 /// Adds the part of a quadrilateral between two shares of the way along w. Where its range is not
 /// that of a parallelogram, it is cut across.
-void SpanSampler::add_piece(const Quad& quad, float from, float to) {
+void QuadSampler::add_piece(const Quad& quad, float from, float to) {
     add_piece(quad, quad.corners(quad.low, quad.high, from, to), from, to);
 }
 
-void SpanSampler::add_piece(const Quad& quad, const Points& corners, float from, float to) {
+void QuadSampler::add_piece(const Quad& quad, const QuadPoints& corners, float from, float to) {
     const Eigen::Array4f& r = corners.range;
     const float across = 0.5F * std::fabs(r[1] + r[2] - r[0] - r[3]);
     const float along = 0.5F * std::fabs(r[2] + r[3] - r[0] - r[1]);
@@ -288,8 +175,9 @@ void SpanSampler::add_piece(const Quad& quad, const Points& corners, float from,
     }
 }
 
-void SpanSampler::add_sample(const Quad& quad, const Points& corners) {
-    const SliceFacet& facet = scan_.mesh().facets[quad.seen->facet];
+void QuadSampler::add_sample(const Quad& quad, const QuadPoints& corners) {
+    const SeenFacet& seen = scan_.scene().facets[quad.seen];
+    const SliceFacet& facet = scan_.mesh().facets[seen.facet];
     const Eigen::Vector3f a = corners.at(0);
     const Eigen::Vector3f b = corners.at(1);
     const Eigen::Vector3f c = corners.at(2);
@@ -307,9 +195,10 @@ void SpanSampler::add_sample(const Quad& quad, const Points& corners) {
     sample.position = R_sensor_frame_ * middle;
     sample.edge_u = R_sensor_frame_ * (0.25F * (b + c - a - d));
     sample.edge_v = R_sensor_frame_ * (0.25F * (c + d - a - b));
-    fit_range(corners.range, sample);
-    sample.normal = R_sensor_frame_ * quad.seen->normal;
-    sample.height_m = quad.seen->height_m;
+    const Extent range_m = fit_range(corners.range, sample);
+    slivers_.add(range_m, area, seen.height_m, materials_[facet.material].reflection);
+    sample.normal = R_sensor_frame_ * seen.normal;
+    sample.height_m = seen.height_m;
     sample.area_m2 = area;
     sample.material = facet.material;
     sample.instance = facet.instance;

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+
+#include "visibility/slices/scan.h"
+
+namespace sonarsim {
+
+/// A side of a quadrilateral of the picture plane: between two points of a vertical.
+struct QuadSide {
+    float u;
+    float low, high;  ///< w
+};
+
+/// Four points of a plane in the frame.
+struct QuadPoints {
+    Eigen::Array4f X, U, W;
+    Eigen::Array4f range;
+
+    Eigen::Vector3f at(int k) const { return {X[k], U[k], W[k]}; }
+    Eigen::Vector3f middle(int i, int k) const { return 0.5F * (at(i) + at(k)); }
+};
+
+/// A visible part of a plane of the scene: between two verticals of the picture plane and two
+/// lines.
+struct Quad {
+    std::uint32_t seen;  ///< index of its SeenFacet
+    bool widens;         ///< its u is that of w = 0 and grows with sqrt(1 + w^2)
+    QuadSide low, high;
+    float u, w;         ///< of a point of the plane
+    float q, q_u, q_w;  ///< 1 / X there, and its slopes
+    float q_least;
+    Extent range_m;  ///< within which the surface lies
+
+    float middle_low() const { return 0.5F * (low.low + high.low); }
+    float middle_high() const { return 0.5F * (low.high + high.high); }
+
+    /// Corners of the part between two sides and two shares of the way along w: at `from` on the
+    /// low side and on the high side, at `to` on the high side and on the low side.
+    QuadPoints corners(const QuadSide& low_side, const QuadSide& high_side, float from,
+                       float to) const {
+        const float low_width = low_side.high - low_side.low;
+        const float high_width = high_side.high - high_side.low;
+        return points({low_side.u, high_side.u, high_side.u, low_side.u},
+                      {low_side.low + from * low_width, high_side.low + from * high_width,
+                       high_side.low + to * high_width, low_side.low + to * low_width});
+    }
+
+    QuadPoints points(Eigen::Array4f at_u, const Eigen::Array4f& at_w) const {
+        if (widens) at_u *= (1.0F + at_w * at_w).sqrt();
+        const Eigen::Array4f secant = (1.0F + at_u * at_u + at_w * at_w).sqrt();
+        const Eigen::Array4f at_q = (q + q_u * (at_u - u) + q_w * (at_w - w)).max(q_least);
+        QuadPoints p;
+        p.range = (secant / at_q).max(range_m.from).min(range_m.to);
+        p.X = p.range / secant;
+        p.U = at_u * p.X;
+        p.W = at_w * p.X;
+        return p;
+    }
+};
+
+}  // namespace sonarsim

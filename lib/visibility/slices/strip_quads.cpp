@@ -1,0 +1,149 @@
+#include "visibility/slices/strip_quads.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace sonarsim {
+
+namespace {
+
+// A plane beside the slice: where its q would fall below this share, it has run away to infinity.
+constexpr float least_q_share = 1e-3F;
+
+// By what share of its height a quadrilateral's end may lie beside the straight line.
+constexpr float most_bend = 0.02F;
+
+/// The border of a span's quadrilateral on one side: at the side itself, or on the way to it where
+/// the ends meet each other, or one of them the end that both follow.
+QuadSide quad_side(const Slice& slice, const MovedEnds& side, std::size_t span) {
+    const MovedEnd& low = side.ends[2 * span];
+    const MovedEnd& high = side.ends[2 * span + 1];
+    if (low.w < high.w || low.by != high.by) return {side.u, low.w, high.w};
+    const MovedEnd& leader = side.ends[low.by];
+    const bool from_below = low.by <= 2 * span;
+    const float before =
+        from_below ? high.at_slice - leader.at_slice : leader.at_slice - low.at_slice;
+    const float after = from_below ? leader.w - high.alone : low.alone - leader.w;
+    const float share = after > 0.0F ? before / (before + after) : 1.0F;
+    const float w = leader.at_slice + share * (leader.w - leader.at_slice);
+    return {slice.u + share * (side.u - slice.u), w, w};
+}
+
+/// Whether the straight lines from one side to another pass by both ends of the one between them.
+bool straight(const QuadSide& low, const QuadSide& between, const QuadSide& high) {
+    const float share = (between.u - low.u) / (high.u - low.u);
+    const auto bend = [&](float begin, float at, float end) {
+        return std::fabs(begin + share * (end - begin) - at);
+    };
+    const float most = most_bend * (between.high - between.low);
+    return bend(low.low, between.low, high.low) <= most &&
+           bend(low.high, between.high, high.high) <= most;
+}
+
+/// Of the gaps of a frame, in u at u = 0; a little more, for they are not all alike.
+float gap_width(const SliceFrame& frame) {
+    const std::size_t middle = frame.slices.size() / 2;
+    const float low = frame.slices[middle - 1].u;
+    const float high = frame.slices[middle].u;
+    return 1.01F * (high - low) / (1.0F + low * high);
+}
+
+}  // namespace
+
+StripQuads::StripQuads(const FrameScan& scan, const PieceLimits& limits, QuadSampler& out)
+    : scan_(scan),
+      most_wedge_m_(limits.most_wedge_m),
+      out_(out),
+      widest_(gap_width(scan.frame())) {}
+
+void StripQuads::add(const SeenSlice& seen, const MovedEnds& low, const MovedEnds& high) {
+    const Slice& slice = seen.slice;
+    fresh_.clear();
+    for (std::size_t i = 0; i < seen.spans.size(); ++i)
+        add_span(slice, seen.spans[i], quad_side(slice, low, i), quad_side(slice, high, i));
+    join(low.u);
+    std::swap(open_, fresh_);
+    std::erase_if(open_, [&](const Quad& quad) {
+        if (quad.high.u == high.u) return false;
+        out_.add(quad);
+        return true;
+    });
+}
+
+void StripQuads::end_beam() {
+    for (const Quad& quad : open_)
+        out_.add(quad);
+    open_.clear();
+}
+
+void StripQuads::add_span(const Slice& slice, const VisibleSpan& span, const QuadSide& low,
+                          const QuadSide& high) {
+    const SeenFacet& seen = scan_.scene().facets[span.seen];
+    Quad quad;
+    quad.seen = span.seen;
+    quad.widens = !scan_.frame().meridians;
+    quad.u = slice.u;
+    quad.w = span.q_low < span.q_high ? span.w_low : span.w_high;
+    quad.q = std::min(span.q_low, span.q_high);
+    quad.q_u = -seen.normal.y() / seen.height_m;
+    quad.q_w = -seen.normal.z() / seen.height_m;
+    // Beside the slice a plane may run away from the sensor, but its triangle does not.
+    quad.q_least = least_q_share * quad.q;
+    quad.range_m = span.reach.range_m;
+    const QuadSide on_slice{slice.u, span.w_low, span.w_high};
+    const auto kept = [&](const QuadSide& side) -> QuadSide {
+        const float u = std::clamp(side.u, span.reach.u.from, span.reach.u.to);
+        if (u == side.u) return side;
+        const float share = (u - slice.u) / (side.u - slice.u);
+        return {u, span.w_low + share * (side.low - span.w_low),
+                span.w_high + share * (side.high - span.w_high)};
+    };
+    quad.low = kept(low);
+    quad.high = kept(high);
+    // Ends that bend at the slice make two quadrilaterals.
+    if (quad.low.u < slice.u && slice.u < quad.high.u && !straight(quad.low, on_slice, quad.high)) {
+        const QuadSide end = std::exchange(quad.high, on_slice);
+        fresh_.push_back(quad);
+        quad.low = on_slice;
+        quad.high = end;
+    }
+    fresh_.push_back(quad);
+}
+
+/// Lets the open quadrilaterals go on into the fresh ones at u, and hands over the others.
+void StripQuads::join(float u) {
+    auto open = open_.begin();
+    for (Quad& quad : fresh_) {
+        if (quad.low.u != u) continue;
+        for (; open != open_.end() && open->high.low < quad.low.high; ++open) {
+            if (go_on(*open, quad)) {
+                quad.range_m = {std::min(quad.range_m.from, open->range_m.from),
+                                std::max(quad.range_m.to, open->range_m.to)};
+                quad.low = open->low;
+                ++open;
+                break;
+            }
+            out_.add(*open);
+        }
+    }
+    for (; open != open_.end(); ++open)
+        out_.add(*open);
+}
+
+/// Whether `quad` is the rest of an open one, and both make one piece.
+bool StripQuads::go_on(const Quad& open, const Quad& quad) const {
+    const float most = most_bend * (quad.low.high - quad.low.low);
+    if (!(std::fabs(open.high.low - quad.low.low) < most &&
+          std::fabs(open.high.high - quad.low.high) < most &&
+          quad.high.u - open.low.u <= widest_ * (1.0F + quad.low.u * quad.low.u) &&
+          straight(open.low, quad.low, quad.high) &&
+          scan_.one_plane(open.seen, quad.seen, quad.range_m.to))) {
+        return false;
+    }
+    const Eigen::Array4f r = quad.corners(open.low, quad.high, 0.0F, 1.0F).range;
+    const float wedge = std::fabs(r[3] - r[0]) - std::fabs(r[2] - r[1]);
+    return std::fabs(wedge) < most_wedge_m_;
+}
+
+}  // namespace sonarsim
