@@ -22,6 +22,7 @@ import tempfile
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 OUTPUTS = ("polar", "image", "fan", "meta")
 TANK = [str(ROOT / "configs/tank_imaging.yaml"), "--set", "trajectory.rate_hz=40"]
+LAP = [*TANK[:-1], "trajectory.rate_hz=10"]  # there are many labels
 SMALL = """\
 seed: 1
 scene: {{file: {root}/scenes/tank.glb, materials: {root}/scenes/materials.csv}}
@@ -108,7 +109,10 @@ def per_label(program, out, rounds):
     for _ in range(rounds):
         for name, arguments in cases.items():
             for place, other in beside.items():
-                told, seconds, _, _, _ = run(program, out, [*TANK, "-j1", *arguments, *other])
+                # These are of pictures, which are not there.
+                if "metadata" in place and ("`fan`" in name or "`coco`" in name):
+                    continue
+                told, seconds, _, _, _ = run(program, out, [*LAP, "-j1", *arguments, *other])
                 ms = 1e3 * seconds / told["pings"]
                 least[name, place] = min(least.get((name, place), ms), ms)
     print("| labels | " + " | ".join(
@@ -116,7 +120,8 @@ def per_label(program, out, rounds):
     print("|---|" + "---|" * len(beside))
     for name in LABELS:
         print(f"| {name} | " + " | ".join(
-            f"{least[name, place] / least['no labels', place]:.2f}" for place in beside) + " |")
+            f"{least[name, place] / least['no labels', place]:.2f}" if (name, place) in least else ""
+            for place in beside) + " |")
 
 
 def many(program, out, pings):

@@ -1,9 +1,10 @@
+#include "dataset/writers/labels.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
-#include "dataset/writers/labels.h"
 #include "dataset/writers/objects.h"
 #include "dataset/writers/semantic.h"
 #include "dataset/writers/yolo.h"
