@@ -1,12 +1,14 @@
 #!/usr/bin/env python3
-"""What writing costs: tables in Markdown, for docs/performance.md.
+"""What writing costs: tables in Markdown, for docs/performance.md and docs/mission.md.
 
     ./scripts/writing_costs.py [--sonarsim PROGRAM] [--out FOLDER]              per output, the tank
+    ./scripts/writing_costs.py --labels [...]                                   per label, likewise
     ./scripts/writing_costs.py --pings 100000 [...]                             many small pings
 
 The first renders the tank with one output at a time, on one thread, and compares processor time with
 a run that writes nothing; rounds take turns and the least of each counts, which other work on the
-machine disturbs least. The second renders that many pings of 32 x 16 bins, loose and packed, and a
+machine disturbs least. The second does so with labels: without any file, beside the metadata alone and
+beside the default files, each over the same without labels. The third renders that many pings of 32 x 16 bins, loose and packed, and a
 tenth of them: memory that grows with the number of pings would show.
 """
 import argparse
@@ -20,6 +22,7 @@ import tempfile
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 OUTPUTS = ("polar", "image", "fan", "meta")
 TANK = [str(ROOT / "configs/tank_imaging.yaml"), "--set", "trajectory.rate_hz=40"]
+LAP = [*TANK[:-1], "trajectory.rate_hz=10"]  # there are many labels
 SMALL = """\
 seed: 1
 scene: {{file: {root}/scenes/tank.glb, materials: {root}/scenes/materials.csv}}
@@ -71,6 +74,56 @@ def per_output(program, out, rounds):
         print(f"| {name} | {ms:.2f} | {ms / base:.2f} | {size / 1e3:.0f} |")
 
 
+LABELS = {
+    "`instance`": "instance",
+    "`instance`, `fan`": "instance,fan",
+    "`semantic`": "semantic",
+    "`yolo`": "yolo",
+    "`objects`": "objects",
+    "`yolo_polygons`": "yolo_polygons",
+    "`coco`": "coco",
+    "`clean`": "clean",
+    "`instance`, `share`, `second`, `class`, `material`": "instance,share,second,class,material",
+    "`height`, with `scene.bottom: [floor]`": "height",
+    "`height`, all of the tank as the bottom": "height",
+    "`shadow`": "shadow",
+    "`elevation`": "elevation",
+    "`instance`, `class`, `share`, `shadow`, `clean`, `coco`":
+        "instance,class,share,shadow,clean,coco",
+    "all": None,
+}
+
+
+def per_label(program, out, rounds):
+    beside = {
+        "without files": ["--no-files"],
+        "beside the metadata alone": ["--set", "output.polar=false", "--set", "output.fan=false"],
+        "beside the default files": [],
+    }
+    cases = {"no labels": []}
+    for name, labels in LABELS.items():
+        cases[name] = ["--set", f"output.labels={f'[{labels}]' if labels else 'true'}"]
+        if "scene.bottom" in name:
+            cases[name] += ["--set", "scene.bottom=[floor]"]
+    least = {}
+    for _ in range(rounds):
+        for name, arguments in cases.items():
+            for place, other in beside.items():
+                # These are of pictures, which are not there.
+                if "metadata" in place and ("`fan`" in name or "`coco`" in name):
+                    continue
+                told, seconds, _, _, _ = run(program, out, [*LAP, "-j1", *arguments, *other])
+                ms = 1e3 * seconds / told["pings"]
+                least[name, place] = min(least.get((name, place), ms), ms)
+    print("| labels | " + " | ".join(
+        f"{place} ({least['no labels', place]:.2f} ms)" for place in beside) + " |")
+    print("|---|" + "---|" * len(beside))
+    for name in LABELS:
+        print(f"| {name} | " + " | ".join(
+            f"{least[name, place] / least['no labels', place]:.2f}" if (name, place) in least else ""
+            for place in beside) + " |")
+
+
 def many(program, out, pings):
     print("| form | pings | files | pings/s | files/s | MB/s | share of encode and write | peak MiB |")
     print("|---|---|---|---|---|---|---|---|")
@@ -95,10 +148,13 @@ def main():
     parser.add_argument("--sonarsim", default=str(ROOT / "build/sonarsim"))
     parser.add_argument("--out", type=pathlib.Path, default=ROOT / "out/writing_costs")
     parser.add_argument("--rounds", type=int, default=3)
+    parser.add_argument("--labels", action="store_true")
     parser.add_argument("--pings", type=int)
     options = parser.parse_args()
     if options.pings:
         many(options.sonarsim, options.out, options.pings)
+    elif options.labels:
+        per_label(options.sonarsim, options.out, options.rounds)
     else:
         per_output(options.sonarsim, options.out, options.rounds)
 

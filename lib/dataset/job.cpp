@@ -101,18 +101,17 @@ struct Destination {
     const Layout& layout;
     const std::vector<Writers>& writers;
     PingFiles& files;
-    const std::vector<LabelPlan>& labels;  ///< by sensor
     Journal& journal;
 };
 
 /// Hands a ping to the writers of its sensor and what they make of it to the disk.
 void write_ping(const Assembly& assembly, const VisibilityEngine& engine, const Destination& to,
-                const Sonar& sonar, const TracedPing& traced, const Ping& ping,
-                PingReport& report) {
+                const LabelPlan& labels, const Sonar& sonar, const TracedPing& traced,
+                const Ping& ping, PingReport& report) {
     const PingId& id = report.id;
     Stopwatch watch;
-    WrittenPing written = encode_ping(assembly, engine, to.writers[id.sensor], to.labels[id.sensor],
-                                      id, sonar, traced, ping);
+    WrittenPing written =
+        encode_ping(assembly, engine, to.writers[id.sensor], labels, id, sonar, traced, ping);
     report.clipped_pixels = written.clipped_pixels;
     report.encode_seconds = watch.lap();
     to.files.write(id, written.parts);
@@ -123,10 +122,10 @@ void write_ping(const Assembly& assembly, const VisibilityEngine& engine, const 
 }
 
 /// Renders `todo`, several pings at a time; at most twice as many as threads are in memory. Without
-/// a destination nothing is written.
-void render(const Mission& mission, const Assembly& assembly, const std::vector<PingId>& todo,
-            const Destination* to, int threads, const JobCallback& progress,
-            const std::atomic<bool>& stop, RenderSummary& summary) {
+/// a destination nothing is written, but what `labels`, by sensor, ask for is found.
+void render(const Mission& mission, const Assembly& assembly, const std::vector<LabelPlan>& labels,
+            const std::vector<PingId>& todo, const Destination* to, int threads,
+            const JobCallback& progress, const std::atomic<bool>& stop, RenderSummary& summary) {
     if (todo.empty()) return;
     const std::unique_ptr<VisibilityEngine> engine =
         make_engine(assembly.scene, engine_settings(mission, assembly));
@@ -153,7 +152,15 @@ void render(const Mission& mission, const Assembly& assembly, const std::vector<
                               .brightest = brightest_pixel(ping, sonar.config.name, id.pose),
                               .estimated_l1 = ping.estimated_l1,
                               .goal_l1 = sonar.settings.view.relative_l1};
-            if (to) write_ping(assembly, *now, *to, sonar, traced, ping, report);
+            const LabelPlan& plan = labels[id.sensor];
+            if (to) {
+                write_ping(assembly, *now, *to, plan, sonar, traced, ping, report);
+            } else if (plan.on) {
+                Stopwatch labelling;
+                label_ping(traced, sonar.settings, assembly.scene, assembly.objects, *now,
+                           plan.request);
+                report.encode_seconds = labelling.lap();
+            }
             return report;
         },
         [&](const PingReport& report) {
@@ -183,9 +190,12 @@ RenderSummary run_job(const Mission& mission, const Assembly& assembly,
     const std::vector<PingId> all = list_pings(mission, assembly.trajectory.size());
     RenderSummary summary;
     summary.sensors.resize(assembly.sonars.size());
+    std::vector<LabelPlan> labels;
+    for (const Sonar& sonar : assembly.sonars)
+        labels.push_back(plan_labels(mission, assembly, sonar));
     const auto render_all = [&](const std::vector<PingId>& todo, const Destination* to) {
         arena.execute(
-            [&] { render(mission, assembly, todo, to, threads, progress, stop, summary); });
+            [&] { render(mission, assembly, labels, todo, to, threads, progress, stop, summary); });
     };
     if (!options.files) {
         const auto shard = [&](std::size_t i) { return static_cast<int>(i % options.shards); };
@@ -220,12 +230,9 @@ RenderSummary run_job(const Mission& mission, const Assembly& assembly,
     remove_leftovers(layout, plan.todo, options.shards == 1);
     Journal journal(layout.folder, journal_part(options.shard + 1, options.shards),
                     options.checkpoint_s);
-    std::vector<LabelPlan> labels;
-    for (const Sonar& sonar : assembly.sonars)
-        labels.push_back(plan_labels(mission, assembly, sonar));
     {
         PingFiles files(layout, records, *there);
-        const Destination to{layout, writers, files, labels, journal};
+        const Destination to{layout, writers, files, journal};
         render_all(plan.todo, &to);
     }
     journal.finish();

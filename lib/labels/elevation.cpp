@@ -36,15 +36,20 @@ void ElevationFinder::add(const Sample& sample) {
     if (!(echo > 0.0)) return;
     const double besides = spread_at_one_range(sample, path.range_m);
     const auto sine_at = [&](double r) { return std::clamp(rise_at(path, r) / r, -1.0, 1.0); };
-    for_each_bin(path, bins_, sine_at, [&](int i, double share, double from, double to) {
-        first_bin_ = std::min(first_bin_, i);
-        last_bin_ = std::max(last_bin_, i + 1);
-        const double part = echo * share;
-        const double sine = 0.5 * (from + to);
-        const double along = to - from;
-        moments_.echo[i] += part;
-        moments_.first[i] += part * sine;
-        moments_.second[i] += part * (sine * sine + along * along / 12.0 + besides);
+    for_each_covered(path, bins_, sine_at, [&](const CoveredBins& covered) {
+        first_bin_ = std::min(first_bin_, covered.first);
+        last_bin_ = std::max(last_bin_, covered.first + covered.count);
+        double* const __restrict sum = moments_.echo.data() + covered.first;
+        double* const __restrict first = moments_.first.data() + covered.first;
+        double* const __restrict second = moments_.second.data() + covered.first;
+        for (int k = 0; k < covered.count; ++k) {
+            const double part = echo * covered.share[k];
+            const double sine = 0.5 * (covered.values[k] + covered.values[k + 1]);
+            const double along = covered.values[k + 1] - covered.values[k];
+            sum[k] += part;
+            first[k] += part * sine;
+            second[k] += part * (sine * sine + along * along / 12.0 + besides);
+        }
     });
 }
 
@@ -66,7 +71,7 @@ void ElevationFinder::find(std::span<const Sample> samples, std::span<float> ele
     const double* const __restrict second = moments_.second.data();
     float* const __restrict elevation = elevation_rad.data();
     float* const __restrict spread = spread_rad.data();
-    for (int i = first_bin_; i < last_bin_; ++i) {
+    const auto find_bin = [=](int i) {
         const bool lit = echo[i] > 0.0;
         const double total = lit ? echo[i] : 1.0;
         const double sine = std::clamp(first[i] / total, -1.0, 1.0);
@@ -77,6 +82,14 @@ void ElevationFinder::find(std::span<const Sample> samples, std::span<float> ele
         const double least = std::max(std::max(cosine, deviation / pi), 1e-9);
         elevation[i] = lit ? angle : none;
         spread[i] = lit ? static_cast<float>(deviation / least) : none;
+    };
+    // Between what is lit there is a lot of water.
+    constexpr int block = 16;
+    for (int from = first_bin_; from < last_bin_; from += block) {
+        const int end = std::min(from + block, last_bin_);
+        if (std::all_of(echo + from, echo + end, [](double e) { return e == 0.0; })) continue;
+        for (int i = from; i < end; ++i)
+            find_bin(i);
     }
     for (std::vector<double>* const sum : sums)
         std::fill(sum->begin() + first_bin_, sum->begin() + last_bin_, 0.0);

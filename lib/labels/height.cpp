@@ -36,11 +36,15 @@ void HeightFinder::add(const Sample& sample, const Eigen::Vector3f& up) {
     const auto height_at = [&](double r) {
         return is_bottom ? 0.0 : std::max(height + rise_at(path, r) - path.rise_m, 0.0);
     };
-    for_each_bin(path, bins_, height_at, [&](int i, double share, double from, double to) {
-        first_bin_ = std::min(first_bin_, i);
-        last_bin_ = std::max(last_bin_, i + 1);
-        sums_[i].echo += echo * share;
-        sums_[i].height += echo * share * 0.5 * (from + to);
+    for_each_covered(path, bins_, height_at, [&](const CoveredBins& covered) {
+        first_bin_ = std::min(first_bin_, covered.first);
+        last_bin_ = std::max(last_bin_, covered.first + covered.count);
+        for (int k = 0; k < covered.count; ++k) {
+            Sums& sums = sums_[covered.first + k];
+            sums.echo += echo * covered.share[k];
+            sums.height +=
+                echo * covered.share[k] * 0.5 * (covered.values[k] + covered.values[k + 1]);
+        }
     });
 }
 

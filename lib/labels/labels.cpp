@@ -87,7 +87,7 @@ class BeamLabeller {
           bins_(range_bins(view)),
           bounced_(bounced_surfaces(traced, view, objects)) {}
 
-    /// The shares of beam j, into `out`. They stay in shares() until the next call.
+    /// The shares of beam j, into `out`.
     void label(int j, PingLabels& out) {
         shares_.clear(bins_.count);
         surfaces_.clear();
@@ -99,24 +99,42 @@ class BeamLabeller {
         const std::size_t at = static_cast<std::size_t>(j) * bins_.count;
         const auto object_of = [&](std::uint32_t k) { return surfaces_[k].object; };
         if (request_.objects) {
-            finder_.find(shares_, object_of, strongest_);
+            finder_.find(shares_, request_.shares ? Ranks::first_and_second : Ranks::first,
+                         object_of, strongest_);
             write_ids(at, out.object);
             if (request_.shares) write_shares(at, out);
         }
         if (request_.classes) {
             finder_.find(
-                shares_, [&](std::uint32_t k) { return objects_.class_of(object_of(k)); },
-                strongest_);
+                shares_, Ranks::first,
+                [&](std::uint32_t k) { return objects_.class_of(object_of(k)); }, strongest_);
             write_ids(at, out.class_id);
         }
         if (request_.materials) {
             finder_.find(
-                shares_, [&](std::uint32_t k) { return surfaces_[k].material; }, strongest_);
+                shares_, Ranks::first, [&](std::uint32_t k) { return surfaces_[k].material; },
+                strongest_);
             write_ids(at, out.material);
         }
     }
 
-    const BeamShares& shares() const { return shares_; }
+    /// 1 for the bins of beam j that show surface, 0 for others. `labelled`: label() was called for
+    /// this beam; else what it would find is not needed, and this costs half as much.
+    std::span<const std::uint8_t> lit(int j, bool labelled) {
+        lit_.assign(bins_.count + 1, 0);
+        if (labelled) {
+            for (int i = shares_.first; i < shares_.last; ++i)
+                lit_[i] = shares_.weight[i] > 0.0F ? 1 : 0;
+            return lit_;
+        }
+        direct_echoes(traced_.samples.beam(j), scene_.materials, bins_.bin_m, ScattererLattice{},
+                      echoes_);
+        mark_lit(echoes_, 0, echoes_.size(), bins_, lit_);
+        for (const BouncedSurface& b : bounced_)
+            mark_lit(b.echoes.echoes, b.echoes.beam_begin[j], b.echoes.beam_begin[j + 1], bins_,
+                     lit_);
+        return lit_;
+    }
 
   private:
     void add(const Surface& surface, const Echoes& echoes, std::size_t begin, std::size_t end) {
@@ -175,6 +193,7 @@ class BeamLabeller {
     Echoes echoes_;
     StrongestFinder finder_;
     Strongest strongest_;
+    std::vector<std::uint8_t> lit_;
 };
 
 PingLabels blank_labels(const View& view, const LabelRequest& request) {
@@ -210,7 +229,7 @@ PingLabels label_ping(const TracedPing& traced, const PingSettings& settings, co
     BeamLabeller labeller(traced, view, scene, objects, request);
     ShadowFinder shadows(traced, view, objects, engine, request.shadow);
     if (request.shadow) labels.visible_share = shadows.visible_shares();
-    const bool shares = request.objects || request.classes || request.materials || request.shadow;
+    const bool shares = request.objects || request.classes || request.materials;
     ElevationFinder elevations(scene.materials, range_bins(view));
     HeightFinder heights(scene.materials, range_bins(view), request.bottom, traced.T_world_sensor);
     for (int j = 0; j < view.beams; ++j) {
@@ -219,7 +238,7 @@ PingLabels label_ping(const TracedPing& traced, const PingSettings& settings, co
                                           view.range_bins);
         };
         if (shares) labeller.label(j, labels);
-        if (request.shadow) shadows.find(j, labeller.shares().weight, own(labels.shadow));
+        if (request.shadow) shadows.find(j, labeller.lit(j, shares), own(labels.shadow));
         if (request.elevation) {
             elevations.find(traced.samples.beam(j), own(labels.elevation_rad),
                             own(labels.elevation_spread_rad));

@@ -21,9 +21,12 @@ constexpr float longest_half = 0.1F;
 
 /// A sight line on its way.
 struct SightLine {
+    Eigen::Vector3f direction;
+    float before_m;  ///< range of its sample
+    float range_m;   ///< how far it has come
+    float solid_angle;
     std::uint32_t sample;
     std::uint32_t beam;
-    float range_m;         ///< how far it has come
     std::uint32_t passed;  ///< the last node of its way
 };
 
@@ -39,19 +42,21 @@ bool has_met(const std::vector<WayNode>& nodes, std::uint32_t node, std::uint32_
     return nodes[node].object == object;
 }
 
-/// That a sample stands for, sr.
-float solid_angle_of(const Sample& sample) {
-    const float range = sample.position.norm();
-    return sample.area_m2 * sample.height_m / (range * range * range);
-}
-
 std::vector<SightLine> sight_lines(const Samples& samples, int beams) {
     std::vector<SightLine> lines;
     lines.reserve(samples.items.size());
     for (int j = 0; j < beams; ++j) {
         for (std::uint32_t k = samples.beam_begin[j]; k < samples.beam_begin[j + 1]; ++k) {
-            const float range = samples.items[k].position.norm();
-            lines.push_back({k, static_cast<std::uint32_t>(j), range, k});
+            const Sample& sample = samples.items[k];
+            const float range = sample.position.norm();
+            lines.push_back(
+                {.direction = sample.position / range,
+                 .before_m = range,
+                 .range_m = range,
+                 .solid_angle = sample.area_m2 * sample.height_m / (range * range * range),
+                 .sample = k,
+                 .beam = static_cast<std::uint32_t>(j),
+                 .passed = k});
         }
     }
     return lines;
@@ -64,19 +69,17 @@ float range_along(const Eigen::Vector3f& edge, const Eigen::Vector3f& direction,
     return std::fabs(range_m * normal.dot(turn) / normal.dot(direction));
 }
 
-}  // namespace
-
-void ShadowFinder::add(const Sample& sample, std::uint32_t beam, std::uint32_t object,
-                       float range_m, const Eigen::Vector3f& normal) {
-    const float before = sample.position.norm();
-    const Eigen::Vector3f direction = sample.position / before;
-    const float half = range_along(sample.edge_u, direction, before, normal, range_m) +
-                       range_along(sample.edge_v, direction, before, normal, range_m);
+/// Half the extent in range of what a sight line meets, a piece of the plane with this normal.
+float half_extent(const SightLine& line, const Sample& sample, float range_m,
+                  const Eigen::Vector3f& normal) {
+    const float half = range_along(sample.edge_u, line.direction, line.before_m, normal, range_m) +
+                       range_along(sample.edge_v, line.direction, line.before_m, normal, range_m);
     const float most = longest_half * range_m;
     // Of a plane seen edge-on the quotient may be no number.
-    const float half_m = half < most ? half : most;
-    hidden_.push_back({beam, object, range_m, half_m, solid_angle_of(sample)});
+    return half < most ? half : most;
 }
+
+}  // namespace
 
 ShadowFinder::ShadowFinder(const TracedPing& traced, const View& view, const SceneObjects& objects,
                            const VisibilityEngine& engine, bool on)
@@ -85,11 +88,11 @@ ShadowFinder::ShadowFinder(const TracedPing& traced, const View& view, const Sce
     const Samples& samples = traced.samples;
     std::vector<SightLine> lines = sight_lines(samples, view.beams);
     std::vector<WayNode> nodes;
-    nodes.reserve(samples.items.size());
+    nodes.reserve(lines.size());
     solid_angles_.resize(objects.objects.size());
-    for (std::uint32_t k = 0; k < samples.items.size(); ++k) {
-        nodes.push_back({objects.object_of(samples.items[k].instance), k});
-        solid_angles_[nodes[k].object].visible += solid_angle_of(samples.items[k]);
+    for (const SightLine& line : lines) {
+        nodes.push_back({objects.object_of(samples.items[line.sample].instance), line.sample});
+        solid_angles_[nodes.back().object].visible += line.solid_angle;
     }
     std::vector<Ray> rays;
     std::vector<Intersection> met;
@@ -97,38 +100,43 @@ ShadowFinder::ShadowFinder(const TracedPing& traced, const View& view, const Sce
     for (int layer = 0; layer < most_surfaces_behind && !lines.empty(); ++layer) {
         rays.clear();
         for (const SightLine& line : lines) {
-            const Eigen::Vector3f& at = samples.items[line.sample].position;
-            const Eigen::Vector3f direction = at / at.norm();
-            rays.push_back({direction * (line.range_m * (1.0F + step_behind)), direction});
+            rays.push_back(
+                {line.direction * (line.range_m * (1.0F + step_behind)), line.direction});
         }
         met.resize(rays.size());
         engine.intersect(traced.T_world_sensor, rays, met);
-        std::vector<SightLine> next;
+        std::size_t going_on = 0;
         for (std::size_t k = 0; k < lines.size(); ++k) {
-            const float range = lines[k].range_m * (1.0F + step_behind) + met[k].distance_m;
-            if (!(range < range_max)) continue;
-            const Sample& sample = samples.items[lines[k].sample];
-            add(sample, lines[k].beam, objects.object_of(sample.instance), range, met[k].normal);
+            SightLine line = lines[k];
+            line.range_m = line.range_m * (1.0F + step_behind) + met[k].distance_m;
+            if (!(line.range_m < range_max)) continue;
+            const float half_m =
+                half_extent(line, samples.items[line.sample], line.range_m, met[k].normal);
+            hidden_.push_back(
+                {line.beam, nodes[line.sample].object, line.range_m, half_m, line.solid_angle});
             const std::uint32_t object = objects.object_of(met[k].instance);
-            std::uint32_t node = lines[k].passed;
-            if (!has_met(nodes, node, object)) {
-                solid_angles_[object].hidden += solid_angle_of(sample);
-                nodes.push_back({object, node});
-                node = static_cast<std::uint32_t>(nodes.size() - 1);
+            if (!has_met(nodes, line.passed, object)) {
+                solid_angles_[object].hidden += line.solid_angle;
+                nodes.push_back({object, line.passed});
+                line.passed = static_cast<std::uint32_t>(nodes.size() - 1);
             }
-            next.push_back({lines[k].sample, lines[k].beam, range, node});
+            lines[going_on++] = line;
         }
-        lines = std::move(next);
+        lines.resize(going_on);
     }
-    std::ranges::stable_sort(hidden_, [](const Hidden& a, const Hidden& b) {
-        return a.beam != b.beam ? a.beam < b.beam : a.object < b.object;
-    });
-    std::uint32_t k = 0;
-    for (int j = 0; j <= view.beams; ++j) {
-        while (k < hidden_.size() && hidden_[k].beam < static_cast<std::uint32_t>(j))
-            ++k;
-        beam_begin_.push_back(k);
-    }
+    sort_into_beams(view.beams);
+}
+
+void ShadowFinder::sort_into_beams(int beams) {
+    beam_begin_.assign(beams + 1, 0);
+    for (const Hidden& hidden : hidden_)
+        ++beam_begin_[hidden.beam + 1];
+    for (int j = 0; j < beams; ++j)
+        beam_begin_[j + 1] += beam_begin_[j];
+    std::vector<std::uint32_t> next = beam_begin_;
+    places_.resize(hidden_.size());
+    for (std::uint32_t k = 0; k < hidden_.size(); ++k)
+        places_[next[hidden_[k].beam]++] = {hidden_[k].object, k};
 }
 
 std::vector<float> ShadowFinder::visible_shares() const {
@@ -139,27 +147,30 @@ std::vector<float> ShadowFinder::visible_shares() const {
     return shares;
 }
 
-void ShadowFinder::find(int j, std::span<const float> visible, std::span<std::uint16_t> shadow) {
+void ShadowFinder::find(int j, std::span<const std::uint8_t> lit, std::span<std::uint16_t> shadow) {
     std::ranges::fill(shadow, 0);
-    const std::uint32_t end = beam_begin_[j + 1];
-    if (beam_begin_[j] == end) return;
+    const auto own =
+        std::span(places_).subspan(beam_begin_[j], beam_begin_[j + 1] - beam_begin_[j]);
+    if (own.empty()) return;
+    std::ranges::sort(own);
     shares_.clear(bins_.count);
-    for (std::uint32_t a = beam_begin_[j], b = a; a < end; a = b) {
-        while (b < end && hidden_[b].object == hidden_[a].object)
+    for (std::size_t a = 0, b = 0; a < own.size(); a = b) {
+        while (b < own.size() && own[b].object == own[a].object)
             ++b;
         echoes_.resize(b - a, false);
-        for (std::uint32_t k = a; k < b; ++k) {
-            echoes_.range_m[k - a] = hidden_[k].range_m;
-            echoes_.half_m[k - a] = hidden_[k].half_m;
-            echoes_.weight[k - a] = hidden_[k].solid_angle;
+        for (std::size_t k = a; k < b; ++k) {
+            const Hidden& hidden = hidden_[own[k].at];
+            echoes_.range_m[k - a] = hidden.range_m;
+            echoes_.half_m[k - a] = hidden.half_m;
+            echoes_.weight[k - a] = hidden.solid_angle;
             echoes_.intensity[k - a] = 1.0F;
         }
-        shares_.add(hidden_[a].object, echoes_, 0, echoes_.size(), bins_);
+        shares_.add(own[a].object, echoes_, 0, echoes_.size(), bins_);
     }
     finder_.find(
-        shares_, [](std::uint32_t object) { return object; }, strongest_);
+        shares_, Ranks::first, [](std::uint32_t object) { return object; }, strongest_);
     for (int i = strongest_.first; i < strongest_.last; ++i) {
-        if (visible[i] > 0.0F) continue;
+        if (lit[i] != 0) continue;
         shadow[i] = static_cast<std::uint16_t>(strongest_.key[i]);
     }
 }

@@ -21,8 +21,8 @@ class ShadowFinder {
                  const VisibilityEngine& engine, bool on);
 
     /// Fills `shadow` [range bins] of beam j with 1 + the index of the object that hides, or 0.
-    /// `visible` is the area that each bin shows.
-    void find(int j, std::span<const float> visible, std::span<std::uint16_t> shadow);
+    /// `lit` is not 0 for the bins that show surface.
+    void find(int j, std::span<const std::uint8_t> lit, std::span<std::uint16_t> shadow);
 
     /// Of each object, the part of its solid angle within the range that nothing hides; NaN for an
     /// object that no sight line meets. An object does not hide itself.
@@ -40,13 +40,21 @@ class ShadowFinder {
         float range_m, half_m, solid_angle;
     };
 
-    void add(const Sample& sample, std::uint32_t beam, std::uint32_t object, float distance_m,
-             const Eigen::Vector3f& normal);
+    /// Where the hidden surface of an object stands in `hidden_`.
+    struct Place {
+        std::uint32_t object, at;
+
+        auto operator<=>(const Place&) const =
+            default;  // NOLINT(modernize-use-nullptr): no pointer
+    };
+
+    void sort_into_beams(int beams);
 
     RangeBins bins_;
     std::vector<SolidAngles> solid_angles_;  ///< by object
-    std::vector<Hidden> hidden_;             ///< sorted by beam and object
-    std::vector<std::uint32_t> beam_begin_;  ///< beams + 1 offsets into `hidden_`
+    std::vector<Hidden> hidden_;             ///< of the sight lines, layer by layer
+    std::vector<std::uint32_t> beam_begin_;  ///< beams + 1 offsets into `places_`
+    std::vector<Place> places_;              ///< of hidden surface, sorted by beam
     BeamShares shares_;
     StrongestFinder finder_;
     Strongest strongest_;

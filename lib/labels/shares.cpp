@@ -45,6 +45,16 @@ void take_larger(const float* __restrict echo, int count, std::uint32_t id,
     }
 }
 
+/// The same where the largest alone is wanted.
+void take_largest(const float* __restrict echo, int count, std::uint32_t id,
+                  std::uint32_t* __restrict best, float* __restrict best_echo) {
+    for (int i = 0; i < count; ++i) {
+        const bool first = echo[i] > best_echo[i];
+        best_echo[i] = first ? echo[i] : best_echo[i];
+        best[i] = first ? id : best[i];
+    }
+}
+
 }  // namespace
 
 void BeamShares::clear(int bins) {
@@ -67,12 +77,16 @@ void BeamShares::add(std::uint32_t key, const Echoes& echoes, std::size_t begin,
     if (reach.first >= reach.last) return;
     accumulate(echoes, begin, end, bins, sums_);
     const std::size_t offset = echo.size();
-    echo.resize(offset + reach.last - reach.first);
-    for (int i = reach.first; i < reach.last; ++i) {
-        const float e = sums_.echo(i);
-        echo[offset + i - reach.first] = e;
-        total[i] += e;
-        weight[i] += sums_.weight(i);
+    const int count = reach.last - reach.first;
+    echo.resize(offset + count);
+    const BinSum* const __restrict begins = sums_.begins.data() + reach.first;
+    float* const __restrict own = echo.data() + offset;
+    float* const __restrict all = total.data() + reach.first;
+    float* const __restrict area = weight.data() + reach.first;
+    for (int i = 0; i < count; ++i) {
+        own[i] = begins[i + 1].echo + begins[i].next_echo;
+        all[i] += own[i];
+        area[i] += begins[i + 1].weight + begins[i].next_weight;
     }
     // Echoes out of range add 0 to the first bin and need no clearing.
     std::fill(sums_.begins.begin() + reach.first, sums_.begins.begin() + reach.last + 1, BinSum{});
@@ -95,7 +109,7 @@ void Strongest::clear(int bins) {
     blank(second_echo);
 }
 
-void StrongestFinder::find_ordered(const BeamShares& shares, Strongest& out) {
+void StrongestFinder::find_ordered(const BeamShares& shares, Ranks ranks, Strongest& out) {
     out.clear(static_cast<int>(shares.total.size()));
     out.first = shares.first;
     out.last = shares.last;
@@ -118,9 +132,14 @@ void StrongestFinder::find_ordered(const BeamShares& shares, Strongest& out) {
             }
             echo = sum_.data();
         }
-        take_larger(echo, last - first, order_[a].key + 1, out.key.data() + first,
-                    out.echo.data() + first, out.second_key.data() + first,
-                    out.second_echo.data() + first);
+        if (ranks == Ranks::first) {
+            take_largest(echo, last - first, order_[a].key + 1, out.key.data() + first,
+                         out.echo.data() + first);
+        } else {
+            take_larger(echo, last - first, order_[a].key + 1, out.key.data() + first,
+                        out.echo.data() + first, out.second_key.data() + first,
+                        out.second_echo.data() + first);
+        }
     }
 }
 

@@ -33,14 +33,18 @@ struct BeamShares {
 
 /// The largest and the second largest share of each bin of a beam.
 struct Strongest {
-    std::vector<std::uint32_t> key;         ///< 1 + key of the source; 0: the bin has no echo
-    std::vector<float> echo;                ///< of that key
-    std::vector<std::uint32_t> second_key;  ///< likewise; 0: there is no other key
+    std::vector<std::uint32_t> key;  ///< 1 + key of the source; 0: the bin has no echo
+    std::vector<float> echo;         ///< of that key
+    std::vector<std::uint32_t>
+        second_key;  ///< likewise; 0: there is no other key, or none was asked
     std::vector<float> second_echo;
     int first = 0, last = 0;  ///< outside [first, last) all is 0
 
     void clear(int bins);
 };
+
+/// How many of the largest shares are looked for.
+enum class Ranks { first, first_and_second };
 
 /// Finds in every bin the keys that give the most. `key_of` turns the key of a source into what is
 /// asked for, such as the class of an object; what shares a key is added up first. Of equal shares
@@ -48,11 +52,11 @@ struct Strongest {
 class StrongestFinder {
   public:
     template <class KeyOf>
-    void find(const BeamShares& shares, KeyOf key_of, Strongest& out) {
+    void find(const BeamShares& shares, Ranks ranks, KeyOf key_of, Strongest& out) {
         order_.clear();
         for (std::uint32_t k = 0; k < shares.sources.size(); ++k)
             order_.push_back({key_of(shares.sources[k].key), k});
-        find_ordered(shares, out);
+        find_ordered(shares, ranks, out);
     }
 
   private:
@@ -61,7 +65,7 @@ class StrongestFinder {
         auto operator<=>(const Entry&) const = default;  // NOLINT(modernize-use-nullptr)
     };
 
-    void find_ordered(const BeamShares& shares, Strongest& out);
+    void find_ordered(const BeamShares& shares, Ranks ranks, Strongest& out);
 
     std::vector<Entry> order_;
     std::vector<float> sum_;  ///< of the sources with one key

@@ -25,9 +25,11 @@ struct Boxes {
 };
 
 /// The boxes of the echoes [begin, begin + count). Those wholly outside the range add 0 to the
-/// first bin; returns how many they are. No branches, so that the loop becomes vectors.
-int find_boxes(const Echoes& echoes, std::size_t begin, std::size_t count, const RangeBins& bins,
-               Boxes& boxes) {
+/// first bin; returns how many they are. No branches, so that the loop becomes vectors; inlined, so
+/// that compilers see that `boxes` is not among the echoes.
+[[gnu::always_inline]] inline int find_boxes(const Echoes& echoes, std::size_t begin,
+                                             std::size_t count, const RangeBins& bins,
+                                             Boxes& boxes) {
     const float per_bin = 1.0F / bins.bin_m;
     const float range_min_m = bins.min_m;
     const auto end = static_cast<float>(bins.count);
@@ -113,6 +115,26 @@ std::uint64_t accumulate(const Echoes& echoes, std::size_t begin, std::size_t en
         }
     }
     return outside;
+}
+
+void mark_lit(const Echoes& echoes, std::size_t begin, std::size_t end, const RangeBins& bins,
+              std::span<std::uint8_t> lit) {
+    Boxes boxes;
+    for (std::size_t from = begin; from < end; from += boxes_per_block) {
+        const std::size_t count = std::min(boxes_per_block, end - from);
+        find_boxes(echoes, from, count, bins, boxes);
+        for (std::size_t k = 0; k < count; ++k) {
+            if (!(boxes.density[k].first > 0.0F)) continue;
+            const int first = boxes.first[k];
+            const int last = boxes.last[k];
+            lit[first] = 1;
+            // Again the first one where the box ends in it: a branch would often be mispredicted.
+            lit[first + (boxes.share[k].second > 0.0F ? 1 : 0)] = 1;
+            for (int i = first + 2; i < last; ++i)
+                lit[i] = 1;
+            if (last - first > 1 && boxes.last_share[k] > 0.0F) lit[last] = 1;
+        }
+    }
 }
 
 std::uint64_t mean_of_bins(const BinSums& sums, std::span<float> intensity) {

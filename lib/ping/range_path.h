@@ -34,12 +34,21 @@ inline double rise_at(const RangePath& path, double r) {
 /// Area times intensity of a sample, the numerator of Eq. 9.
 double echo_of(const Sample& sample, double range_m, const Material& material);
 
-/// Calls visit(bin, share, value_from, value_to) for the bins that the footprint covers, with the
-/// share of it in the bin and the values of value_at(r) at the ranges where it enters and leaves.
-/// Values are worked out for some bins at a time: then compilers make vectors of value_at().
+/// Successive bins that a footprint covers.
+struct CoveredBins {
+    static constexpr int at_once = 16;
+
+    int first, count;
+    std::array<double, at_once> share;       ///< of the footprint, by bin
+    std::array<double, at_once + 1> values;  ///< where it enters the first bin and leaves each
+};
+
+/// Calls visit(covered) for the bins that the footprint covers, in order, with the values of
+/// value_at(r) at their borders or its ends. They are worked out for some bins at a time: then
+/// compilers make vectors of value_at().
 template <class ValueAt, class Visit>
-void for_each_bin(const RangePath& path, const RangeBins& bins, ValueAt value_at, Visit visit) {
-    constexpr int at_once = 16;
+void for_each_covered(const RangePath& path, const RangeBins& bins, ValueAt value_at, Visit visit) {
+    constexpr int at_once = CoveredBins::at_once;
     const double per_bin = 1.0 / bins.bin_m;
     const double centre = (path.range_m - bins.min_m) * per_bin;
     // As in accumulate(): a footprint without depth still needs a width.
@@ -50,17 +59,21 @@ void for_each_bin(const RangePath& path, const RangeBins& bins, ValueAt value_at
     if (!(low < high)) return;
     const auto first_bin = static_cast<int>(low);
     const int end_bin = std::min(static_cast<int>(std::ceil(high)), bins.count);
-    std::array<double, at_once + 1> values{value_at(bins.min_m + low * bins.bin_m)};
+    CoveredBins covered;
+    covered.values[0] = value_at(bins.min_m + low * bins.bin_m);
     for (int from = first_bin; from < end_bin; from += at_once) {
-        const int count = std::min(at_once, end_bin - from);
-        for (int k = 0; k < count; ++k)
-            values[k + 1] = value_at(bins.min_m + std::min(high, from + k + 1.0) * bins.bin_m);
-        for (int k = 0; k < count; ++k) {
+        covered.first = from;
+        covered.count = std::min(at_once, end_bin - from);
+        // Whole vectors: what is worked out beyond the last bin is not looked at.
+        const int whole = (covered.count + 3) & ~3;
+        for (int k = 0; k < whole; ++k) {
             const double enters = std::max(low, static_cast<double>(from + k));
             const double leaves = std::min(high, from + k + 1.0);
-            visit(from + k, (leaves - enters) / (last - first), values[k], values[k + 1]);
+            covered.values[k + 1] = value_at(bins.min_m + leaves * bins.bin_m);
+            covered.share[k] = (leaves - enters) / (last - first);
         }
-        values[0] = values[count];
+        visit(covered);
+        covered.values[0] = covered.values[covered.count];
     }
 }
 

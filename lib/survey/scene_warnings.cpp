@@ -7,6 +7,7 @@
 
 #include "core/text.h"
 #include "scene/copies.h"
+#include "survey/doubled_triangles.h"
 
 namespace sonarsim {
 
@@ -111,6 +112,17 @@ void judge_axes(const Scene& scene, std::vector<Warning>& out) {
     out.push_back(make_warning(Doubt::scene_on_edge, "scene", share[1], share[2]));
 }
 
+/// Two bodies that touch may share a few triangles; a part that was written twice shares all.
+void judge_doubles(const Scene& scene, std::vector<Warning>& out) {
+    constexpr std::size_t share = 100;
+    const DoubledTriangles doubled = find_doubled(scene);
+    if (doubled.count * share <= scene.triangles.size()) return;
+    out.push_back(make_warning(Doubt::doubled_triangles, "scene",
+                               printable(scene.instances[doubled.one]),
+                               printable(scene.instances[doubled.other]), doubled.between_them,
+                               doubled.count, scene.triangles.size()));
+}
+
 void judge_water(const WaterConfig& water, std::vector<Warning>& out) {
     if (water.density_kg_m3 < 950.0 || water.density_kg_m3 > 1200.0)
         out.push_back(make_warning(Doubt::water_density, "water", water.density_kg_m3));
@@ -148,6 +160,7 @@ std::vector<Warning> scene_warnings(const Mission& mission, const Assembly& asse
     if (!assembly.scene.triangles.empty() || !assembly.scene.copies.empty()) {
         judge_extent(mission, assembly, sonars, out);
         judge_axes(assembly.scene, out);
+        judge_doubles(assembly.scene, out);
     }
     judge_water(mission.water, out);
     judge_materials(mission.water, assembly.scene, out);

@@ -87,6 +87,11 @@ constexpr std::array rows{
          "upright in {2}",
          "write quaternions as qx qy qz qw"}},
     Row{Doubt::engine, {"{0}", ""}},
+    Row{Doubt::doubled_triangles,
+        {"node '{0}' and node '{1}' share {2} triangles; {3} of its {4} stand in two nodes: which "
+         "of "
+         "the two is seen there, and labelled, cannot be told",
+         "take them out of one of the two"}},
 };
 
 }  // namespace

@@ -33,6 +33,7 @@ enum class Doubt {
     radians = 22,
     quaternion_order = 23,
     engine = 24,
+    doubled_triangles = 25,
 };
 
 /// A doubt with its figures.

@@ -121,12 +121,34 @@ Caster::Caster(std::shared_ptr<const Trees> trees,
       moments_(std::move(moments)),
       facets_(trees_->facets.data()),
       still_(trees_->size(0)) {
-    if (!moments_.empty() || trees_->copies.empty()) return;
-    auto still = std::make_shared<Moment>(*trees_, 0);
-    still->add_own(*trees_);
-    still->add_copies(*trees_);
-    still->finish(*trees_);
-    moments_.push_back(std::move(still));
+    if (moments_.empty() && !trees_->copies.empty()) {
+        auto still = std::make_shared<Moment>(*trees_, 0);
+        still->add_own(*trees_);
+        still->add_copies(*trees_);
+        still->finish(*trees_);
+        moments_.push_back(std::move(still));
+    }
+    find_box();
+}
+
+void Caster::find_box() {
+    constexpr float infinite = std::numeric_limits<float>::infinity();
+    low_ = infinite;
+    high_ = -infinite;
+    const auto include = [&](const EmbreeTree& tree) {
+        RTCBounds box;
+        rtcGetSceneBounds(tree.get(), &box);
+        low_ = low_.min(Eigen::Array3f(box.lower_x, box.lower_y, box.lower_z));
+        high_ = high_.max(Eigen::Array3f(box.upper_x, box.upper_y, box.upper_z));
+    };
+    if (moments_.empty()) include(trees_->trees[0]);
+    for (const auto& moment : moments_)
+        include(moment->tree);
+    if ((low_ > high_).any()) return;
+    // Wider by what a ray may miss a surface by and still meet it, for rounding.
+    const float rounding = 0x1p-20F * low_.abs().max(high_.abs()).maxCoeff();
+    low_ -= rounding;
+    high_ += rounding;
 }
 
 Caster::Caster(const Scene& scene) : Caster(make_trees(scene), {}) {}

@@ -49,6 +49,14 @@ class Caster {
     void cast(std::span<const Eigen::Vector3f> origins, std::span<const Eigen::Vector3f> directions,
               std::span<std::uint32_t> facets) const;
 
+    /// Whether a ray may meet anything: not when it is outside of the box around all there is and
+    /// leads away from it.
+    bool may_meet(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction) const {
+        const auto beyond = origin.array() > high_ && direction.array() >= 0.0F;
+        const auto below = origin.array() < low_ && direction.array() <= 0.0F;
+        return !(beyond || below).any();
+    }
+
     /// Where it is now, in the scene-local frame. Copies of a mesh have numbers of their own.
     Facet facet(std::uint32_t index) const {
         return index < still_ ? facets_[index] : placed_facet(index);
@@ -67,6 +75,7 @@ class Caster {
     void cast_from(const RayOrigins& origins, std::span<const Eigen::Vector3f> directions,
                    float reach_m, std::span<std::uint32_t> facets) const;
     Facet placed_facet(std::uint32_t index) const;
+    void find_box();
 
     std::shared_ptr<const Trees> trees_;
     /// Where things are. Empty: the scene's own triangles are all there is; two: what stands still
@@ -74,6 +83,7 @@ class Caster {
     std::vector<std::shared_ptr<const Moment>> moments_;
     const Facet* facets_ = nullptr;  ///< of the scene's own triangles, then of each other tree
     std::uint32_t still_ = 0;        ///< how many are the scene's own
+    Eigen::Array3f low_, high_;      ///< of the box around all there is, scene-local, m
 };
 
 }  // namespace sonarsim

@@ -27,25 +27,34 @@ void intersect_rays(const Caster& caster, const Eigen::Vector3d& scene_origin,
                     const Pose& T_world_sensor, std::span<const Ray> rays,
                     std::span<Intersection> intersections) {
     const LocalPose pose = local_pose(T_world_sensor, scene_origin);
-    std::vector<Eigen::Vector3f> origins(rays.size());
-    std::vector<Eigen::Vector3f> directions(rays.size());
-    std::vector<std::uint32_t> facets(rays.size());
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        origins[i] = pose.rotation * rays[i].origin + pose.position;
-        directions[i] = pose.rotation * rays[i].direction;
+    const Intersection none{std::numeric_limits<float>::infinity(), 0.0F, Eigen::Vector3f::Zero(),
+                            0, 0};
+    // Those that can meet something, which behind the walls and the floor of a scene are few.
+    std::vector<std::uint32_t> aimed;
+    std::vector<Eigen::Vector3f> origins;
+    std::vector<Eigen::Vector3f> directions;
+    aimed.reserve(rays.size());
+    origins.reserve(rays.size());
+    directions.reserve(rays.size());
+    for (std::uint32_t i = 0; i < rays.size(); ++i) {
+        const Eigen::Vector3f origin = pose.rotation * rays[i].origin + pose.position;
+        const Eigen::Vector3f direction = pose.rotation * rays[i].direction;
+        intersections[i] = none;
+        if (!caster.may_meet(origin, direction)) continue;
+        aimed.push_back(i);
+        origins.push_back(origin);
+        directions.push_back(direction);
     }
+    std::vector<std::uint32_t> facets(aimed.size());
     caster.cast(origins, directions, facets);
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        if (facets[i] == Caster::nothing) {
-            intersections[i] = {std::numeric_limits<float>::infinity(), 0.0F,
-                                Eigen::Vector3f::Zero(), 0, 0};
-            continue;
-        }
-        const Facet facet = caster.facet(facets[i]);
-        const float along = facet.normal.dot(directions[i]);
-        const Eigen::Vector3f to_vertex = facet.vertex - origins[i];
+    for (std::size_t k = 0; k < aimed.size(); ++k) {
+        if (facets[k] == Caster::nothing) continue;
+        const std::uint32_t i = aimed[k];
+        const Facet facet = caster.facet(facets[k]);
+        const float along = facet.normal.dot(directions[k]);
+        const Eigen::Vector3f to_vertex = facet.vertex - origins[k];
         const float distance = facet.normal.dot(to_vertex) / along;
-        const float rounding = plane_rounding(to_vertex, rays[i].origin, origins[i], distance);
+        const float rounding = plane_rounding(to_vertex, rays[i].origin, origins[k], distance);
         const Eigen::Vector3f normal =
             pose.rotation.transpose() * (along > 0.0F ? -facet.normal : facet.normal);
         intersections[i] = {distance, rounding, normal, facet.material, facet.instance};

@@ -68,6 +68,13 @@ def box(half):
     return mesh(corners, [f for a, b, c, d in quads for f in ((a, b, c), (a, c, d))], "Steel")
 
 
+def bottom_twice():
+    scene = json.loads(bottom())
+    scene["nodes"].append(scene["nodes"][0] | {"name": "sand again"})
+    scene["scenes"][0]["nodes"].append(len(scene["nodes"]) - 1)
+    return json.dumps(scene)
+
+
 def path(z=5.0, unit=1.0, offset=(0.0, 0.0), turn=1.0):
     """From west to east over the bottom and then north, ten poses."""
     rows = []
@@ -163,6 +170,8 @@ MISTAKES = {
                                     "1 object is not in view"),
     "angles in radians": ({"files": {"path.csv": path(turn=math.pi / 180)}}, "W22", "in degrees"),
     "quaternions as w x y z": ({"files": {"path.csv": path_wxyz()}}, "W23", "qx qy qz qw"),
+    "a bottom that is there twice": ({"files": {"bottom.gltf": bottom_twice()}}, "W25",
+                                     "node 'sand' and node 'sand again' share 32 triangles"),
 }
 
 

@@ -163,6 +163,30 @@ TEST_CASE("labels: lit bins are those of the clean image, multipath bins those o
     CHECK(ghosts > 0);
 }
 
+TEST_CASE("labels: shadows are the same whether or not objects are asked for") {
+    // Alone they take another way to the bins that are lit, by multipath as well.
+    const Scene scene = tank();
+    SonarConfig config = small_imaging();
+    config.multipath.method = MultipathMethod::cluster;
+    const Sonar sonar = noise_free(config);
+    const auto engine = make_engine(scene, {});
+    const SceneObjects objects = group_objects(scene, {});
+    std::ptrdiff_t shadows = 0;
+    for (const Pose& pose : tank_poses()) {
+        const TracedPing traced = trace(sonar, scene, *engine, pose, 0);
+        const auto of = [&](const LabelRequest& request) {
+            return label_ping(traced, sonar.settings, scene, objects, *engine, request);
+        };
+        const PingLabels all = of(everything);
+        const PingLabels alone = of({.shadow = true});
+        CHECK(alone.shadow == all.shadow);
+        CHECK(alone.visible_share.size() == objects.objects.size());
+        CHECK(alone.object.empty());
+        shadows += std::ranges::count_if(all.shadow, [](std::uint16_t id) { return id > 0; });
+    }
+    CHECK(shadows > 0);
+}
+
 TEST_CASE("labels: in the tank the objects are those that rays without number find") {
     const Scene scene = tank();
     SonarConfig config = small_imaging();

@@ -75,16 +75,16 @@ Ids shares(const PingLabels& labels) {
     return rounded;
 }
 
-/// Labels that are floats, [range bins, beams].
-using FloatsOf = Floats (*)(const WriterContext& context, const FinishedPing& finished);
+/// Labels that are floats, [beams, range bins].
+using FloatsOf = const Floats& (*)(const PingLabels& labels);
 
 template <Floats PingLabels::*member>
-Floats floats(const WriterContext&, const FinishedPing& finished) {
-    return rows_of_range(finished.labels->bins.*member, finished.labels->bins);
+const Floats& floats(const PingLabels& labels) {
+    return labels.*member;
 }
 
-template <Terms terms>
-Floats image(const WriterContext& context, const FinishedPing& finished) {
+/// The image of some terms of the echo, [range bins, beams].
+Floats image(const WriterContext& context, const FinishedPing& finished, const Terms& terms) {
     return form_image(finished.traced, finished.sonar.settings, context.assembly.scene,
                       {context.mission.seed, finished.id.pose}, terms)
         .intensity;
@@ -96,17 +96,22 @@ constexpr float nothing = std::numeric_limits<float>::quiet_NaN();
 struct LabelFile {
     Label label;
     const char* name;
-    IdsOf ids;        ///< null: floats
-    FloatsOf floats;  ///< null: ids
-    float blank;      ///< where a side-scan sonar does not listen
+    IdsOf ids;  ///< these three: what it holds; the others are null
+    FloatsOf floats;
+    const Terms* image;
+    float blank;  ///< where a side-scan sonar does not listen
 };
 
 constexpr LabelFile id_file(Label label, const char* name, IdsOf values) {
-    return {label, name, values, nullptr, 0.0F};
+    return {label, name, values, nullptr, nullptr, 0.0F};
 }
 
-constexpr LabelFile float_file(Label label, const char* name, FloatsOf values, float blank) {
-    return {label, name, nullptr, values, blank};
+constexpr LabelFile float_file(Label label, const char* name, FloatsOf values) {
+    return {label, name, nullptr, values, nullptr, nothing};
+}
+
+constexpr LabelFile image_file(Label label, const char* name, const Terms& terms) {
+    return {label, name, nullptr, nullptr, &terms, 0.0F};
 }
 
 constexpr LabelFile label_files[] = {
@@ -116,15 +121,14 @@ constexpr LabelFile label_files[] = {
     id_file(Label::second, "second_share", shares<&PingLabels::second_share>),
     id_file(Label::class_name, "class", ids<&PingLabels::class_id>),
     id_file(Label::material, "material", ids<&PingLabels::material>),
-    float_file(Label::elevation, "elevation", floats<&PingLabels::elevation_rad>, nothing),
-    float_file(Label::elevation, "elevation_spread", floats<&PingLabels::elevation_spread_rad>,
-               nothing),
-    float_file(Label::height, "height", floats<&PingLabels::height_m>, nothing),
+    float_file(Label::elevation, "elevation", floats<&PingLabels::elevation_rad>),
+    float_file(Label::elevation, "elevation_spread", floats<&PingLabels::elevation_spread_rad>),
+    float_file(Label::height, "height", floats<&PingLabels::height_m>),
     id_file(Label::shadow, "shadow", ids<&PingLabels::shadow>),
     id_file(Label::multipath, "multipath", shares<&PingLabels::multipath>),
-    float_file(Label::clean, "clean", image<term_by_term[1]>, 0.0F),
-    float_file(Label::direct_only, "direct_only", image<direct_echoes_alone>, 0.0F),
-    float_file(Label::multipath_only, "multipath_only", image<multipath_alone>, 0.0F),
+    image_file(Label::clean, "clean", term_by_term[1]),
+    image_file(Label::direct_only, "direct_only", direct_echoes_alone),
+    image_file(Label::multipath_only, "multipath_only", multipath_alone),
 };
 
 /// A ping of a label in the shape of its sonar's records.
@@ -141,7 +145,7 @@ class LabelImageWriter final : public Writer {
         : context_(context), view_(context.sonar().settings.view), file_(file) {}
 
     WriterOutputs outputs() const override {
-        if (file_.floats) {
+        if (!file_.ids) {
             return {PingFile{file_.name, ".npy"}, 128.0 + 4.0 * view_.range_bins * view_.beams, {}};
         }
         return {PingFile{file_.name, ".png"},
@@ -150,9 +154,13 @@ class LabelImageWriter final : public Writer {
     }
 
     std::string encode(const FinishedPing& finished) const override {
-        if (file_.floats)
-            return npy_bytes(file_.floats(context_, finished), view_.range_bins, view_.beams);
         const PingLabels& labels = finished.labels->bins;
+        if (file_.image) {
+            return npy_bytes(image(context_, finished, *file_.image), view_.range_bins,
+                             view_.beams);
+        }
+        if (file_.floats)
+            return npy_bytes_of_columns(file_.floats(labels), view_.range_bins, view_.beams);
         return id_png_bytes(rows_of_range(file_.ids(labels), labels), view_.beams,
                             view_.range_bins);
     }
@@ -194,14 +202,14 @@ class LabelRecordWriter final : public Writer {
 
     WriterOutputs outputs() const override {
         const SonarConfig& config = context_.sonar().config;
-        const char* const type = file_.floats ? "<f4" : "<u2";
+        const char* const type = file_.ids ? "<u2" : "<f4";
         const auto bins = static_cast<std::size_t>(view_.range_bins);
         const bool rows = context_.kind().record == RecordKind::waterfall;
         const auto columns = rows ? static_cast<std::size_t>(waterfall_columns(config)) : bins;
         const bool upright = context_.kind().record == RecordKind::echogram;
         NpyFormat format{type, {context_.pings, columns}};
         if (upright) format = {type, {columns, context_.pings}, true};
-        const double bytes = (file_.floats ? 4.0 : 2.0) * static_cast<double>(columns);
+        const double bytes = (file_.ids ? 2.0 : 4.0) * static_cast<double>(columns);
         nlohmann::ordered_json axes = {"ping", rows ? "column, as in waterfall.npy" : "range"};
         if (upright) axes = {"range", "ping"};
         WriterOutputs outputs = record_outputs(std::string(file_.name) + ".npy", std::move(format),
@@ -211,9 +219,12 @@ class LabelRecordWriter final : public Writer {
     }
 
     std::string encode(const FinishedPing& finished) const override {
-        if (file_.floats)
-            return label_record(context_, file_.floats(context_, finished), file_.blank);
         const PingLabels& labels = finished.labels->bins;
+        if (file_.image)
+            return label_record(context_, image(context_, finished, *file_.image), file_.blank);
+        if (file_.floats) {
+            return label_record(context_, rows_of_range(file_.floats(labels), labels), file_.blank);
+        }
         return label_record<std::uint16_t>(context_, rows_of_range(file_.ids(labels), labels), 0);
     }
 

@@ -1,7 +1,12 @@
 #include "scene/placing/bottom.h"
 
+#include <immintrin.h>
+
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
+#include <numeric>
 #include <utility>
 
 namespace sonarsim {
@@ -16,17 +21,6 @@ constexpr double cells_per_triangle = 8.0;
 std::array<Eigen::Vector3d, 3> corners_of(const Surface& surface, std::uint32_t triangle) {
     const auto& c = surface.triangles[triangle];
     return {surface.vertices[c[0]], surface.vertices[c[1]], surface.vertices[c[2]]};
-}
-
-/// Whether a point lies within the box around a triangle, seen from above: told from the corners at
-/// less cost than a height.
-bool is_near(const Surface& surface, std::uint32_t triangle, const Eigen::Vector2d& point) {
-    const auto& c = surface.triangles[triangle];
-    const Eigen::Vector2d a = surface.vertices[c[0]].head<2>();
-    const Eigen::Vector2d b = surface.vertices[c[1]].head<2>();
-    const Eigen::Vector2d d = surface.vertices[c[2]].head<2>();
-    return (a.cwiseMin(b).cwiseMin(d).array() <= point.array()).all() &&
-           (a.cwiseMax(b).cwiseMax(d).array() >= point.array()).all();
 }
 
 Eigen::AlignedBox2d area_of(const Surface& surface, std::uint32_t triangle) {
@@ -60,8 +54,29 @@ Bottom::Bottom(Surface surface) : surface_(std::move(surface)) {
         size[cell] += size[cell - 1];
     begin_ = size;
     triangles_.resize(size.back());
-    for (std::uint32_t t = 0; t < count; ++t)
+    make_boxes();
+    std::vector<std::uint32_t> downwards(count);
+    std::iota(downwards.begin(), downwards.end(), 0U);
+    std::ranges::stable_sort(downwards, std::greater{},
+                             [&](std::uint32_t t) { return boxes_[t].max[2]; });
+    for (const std::uint32_t t : downwards)
         for_each_cell(t, [&](std::size_t cell) { triangles_[size[cell]++] = t; });
+}
+
+void Bottom::make_boxes() {
+    if (surface_.triangles.empty()) return;
+    const Eigen::AlignedBox3d all = box_of(surface_);
+    corner_ = all.min();
+    const auto rounding = static_cast<float>(0x1p-20 * all.sizes().maxCoeff());
+    boxes_.reserve(surface_.triangles.size());
+    for (const auto& triangle : surface_.triangles) {
+        Eigen::AlignedBox3d box;
+        for (const std::uint32_t vertex : triangle)
+            box.extend(surface_.vertices[vertex]);
+        const Eigen::Array3f min = (box.min() - corner_).cast<float>().array() - rounding;
+        const Eigen::Array3f max = (box.max() - corner_).cast<float>().array() + rounding;
+        boxes_.push_back({{min.x(), min.y(), min.z(), 0.0F}, {max.x(), max.y(), max.z(), 0.0F}});
+    }
 }
 
 Eigen::Array2i Bottom::cell_of(const Eigen::Vector2d& point) const {
@@ -85,12 +100,26 @@ std::optional<Bottom::Heights> Bottom::heights(const Eigen::Vector2d& point) con
 
 std::optional<double> Bottom::highest_below(const Eigen::Vector3d& point, double tolerance) const {
     const Eigen::Vector2d at = point.head<2>();
+    const double most = point.z() + tolerance;
     std::optional<double> found;
-    for_each_near({at, at}, [&](std::uint32_t triangle) {
-        if (!is_near(surface_, triangle, at)) return;
-        const auto z = height_above(corners_of(surface_, triangle), at);
-        if (z && *z <= point.z() + tolerance && (!found || *z > *found)) found = z;
-    });
+    const Eigen::Array3f from = (Eigen::Vector3d(at.x(), at.y(), most) - corner_).cast<float>();
+    const __m128 high = _mm_setr_ps(from.x(), from.y(), from.z(), 0.0F);
+    const __m128 low =
+        _mm_setr_ps(from.x(), from.y(), -std::numeric_limits<float>::infinity(), 0.0F);
+    const Eigen::Array2i place = cell_of(at);
+    const auto cell = static_cast<std::size_t>(place.y()) * side_ + place.x();
+    float found_z = -std::numeric_limits<float>::infinity();
+    for (std::uint32_t k = begin_[cell]; k < begin_[cell + 1]; ++k) {
+        const Box& box = boxes_[triangles_[k]];
+        if (box.max[2] < found_z) break;
+        const __m128 above = _mm_cmple_ps(_mm_load_ps(box.min.data()), high);
+        const __m128 below = _mm_cmple_ps(low, _mm_load_ps(box.max.data()));
+        if (_mm_movemask_ps(_mm_and_ps(above, below)) != 0xF) continue;
+        const auto z = height_above(corners_of(surface_, triangles_[k]), at);
+        if (!z || *z > most || (found && *z <= *found)) continue;
+        found = z;
+        found_z = static_cast<float>(*z - corner_.z());
+    }
     return found;
 }
 

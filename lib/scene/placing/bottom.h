@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -44,13 +45,22 @@ class Bottom {
     }
 
   private:
+    /// Around a triangle, counted from `corner_` and wider by more than the rounding of floats:
+    /// most triangles of a cell are passed over at the cost of one of these.
+    struct alignas(16) Box {
+        std::array<float, 4> min, max;  ///< x, y, z; the last is 0
+    };
+
     Eigen::Array2i cell_of(const Eigen::Vector2d& point) const;
+    void make_boxes();
 
     Surface surface_;
     Eigen::AlignedBox2d area_;
     int side_ = 1;  ///< cells along x and along y
     std::vector<std::uint32_t> begin_;
-    std::vector<std::uint32_t> triangles_;
+    std::vector<std::uint32_t> triangles_;  ///< in a cell from the highest down
+    Eigen::Vector3d corner_ = Eigen::Vector3d::Zero();
+    std::vector<Box> boxes_;  ///< by triangle
 };
 
 /// The height of a triangle's plane above a point that lies within the triangle, seen from above,
