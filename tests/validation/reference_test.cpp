@@ -117,12 +117,12 @@ TEST_CASE("rays and points of the surface together add up to its area") {
     CHECK(shares.size() == scene.triangles.size());
     for (const std::uint32_t start : {0U, 1U}) {
         CAPTURE(start);
-        const SurfaceSums sums =
-            cast_over_surface({caster, scene, view, pose, shares}, {64, 256, start});
         double near = 0.0;
         double far = 0.0;
-        for (std::size_t k = 0; k < sums.area.size(); ++k)
-            (k / view.beams < 9 ? near : far) += sums.area[k];
+        cast_over_surface({caster, scene, view, pose, shares}, {64, 256, start},
+                          [&](const SurfacePoint& point) {
+                              (point.range_m < 5.0 ? near : far) += point.area_m2;
+                          });
         CHECK(near / (0.4 * 0.5) == doctest::Approx(1.0).epsilon(5e-3));
         // The near plate hides 1.5 times its size.
         CHECK(far / (1.2 * 1.2 - 0.6 * 0.75) == doctest::Approx(1.0).epsilon(5e-3));
