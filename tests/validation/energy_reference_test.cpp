@@ -43,7 +43,8 @@ TEST_CASE("where energies add the reference is what the engines come to") {
     for (const SonarKind kind : {SonarKind::imaging, SonarKind::sidescan, SonarKind::echosounder}) {
         const Sonar sonar = calibrated_sonar(kind);
         const Pose T_world_vehicle{
-            rotation_from_rpy(0.0, kind == SonarKind::imaging ? radians(35.0) : 0.0, 0.0), {}};
+            rotation_from_rpy(0.0, kind == SonarKind::imaging ? radians(35.0) : 0.0, 0.0),
+            Eigen::Vector3d::Zero()};
         const Reference reference =
             cast_energy_reference(caster, scene, sonar.settings,
                                   sensor_pose(sonar, T_world_vehicle, 0), {0.01, 16.0, 30'000'000});

@@ -34,7 +34,7 @@ Sampling sampling_for(const View& view) {
             // azimuth: a beam wider than the usual half degree takes more than one column.
             sampling.columns = static_cast<int>(
                 std::clamp(std::ceil(view.azimuth_rad / view.beams / widest_column), 1.0, 64.0));
-            sampling.rays = rays(0.7 * density * view.elevation_rad * view.beams *
+            sampling.rays = rays(0.75 * density * view.elevation_rad * view.beams *
                                      sampling.columns / view.azimuth_rad,
                                  8.0);
             // The nearest and the farthest surface of a beam often lie on the edges of the view,
