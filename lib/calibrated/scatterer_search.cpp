@@ -13,6 +13,16 @@ namespace sonarsim {
 
 namespace {
 
+/// Where in a cell its point is along the first and the second axis, in edges, by random bits.
+__m256 within_first(__m256i bits) {
+    return _mm256_mul_ps(_mm256_cvtepi32_ps(_mm256_and_si256(bits, all_lanes(0xFFFFU))),
+                         _mm256_set1_ps(0x1p-16F));
+}
+
+__m256 within_second(__m256i bits) {
+    return _mm256_mul_ps(_mm256_cvtepi32_ps(_mm256_srli_epi32(bits, 16)), _mm256_set1_ps(0x1p-16F));
+}
+
 /// Finds the cells whose points lie on samples and makes scatterers of them. A batch of samples
 /// goes through each step together: how often a loop has to run is known well before it begins, and
 /// the processor does not wait for it.
@@ -51,10 +61,11 @@ class Search {
     std::span<const Sample> samples_;
     CellFootprints footprints_;
     CellList whole_, split_;  ///< larger cells
-    // Of the scatterers of the block: where they lie on their sample, in half edges; and the size
-    // and the numbers of their cells, from the base of the sample's footprint.
+    // Of the scatterers of the block: where they lie on their sample, in half edges; the size and
+    // the numbers of their cells, from the base of the sample's footprint; and where in these they
+    // are, as bits.
     PieceBlock::Array<float> s_{}, t_{}, size_{};
-    PieceBlock::Array<std::int32_t> column_{}, row_{};
+    PieceBlock::Array<std::int32_t> column_{}, row_{}, within_{};
     std::array<Run, CellFootprints::most> runs_{};  ///< that are to be filled
     int runs_count_ = 0;
     int filled_ = 0;  ///< so many scatterers of the block are complete
@@ -134,13 +145,12 @@ void Search::look_at_split(int k) {
 template <int size>
 int Search::keep(int k, __m256i column, __m256i row, __m256i bits, unsigned asked, int to) {
     const CellFootprints& p = footprints_;
-    const auto off_centre = [](__m256i number, __m256i within, float centre) {
-        const __m256 share = _mm256_fmadd_ps(_mm256_cvtepi32_ps(within), _mm256_set1_ps(0x1p-16F),
-                                             _mm256_cvtepi32_ps(number));
+    const auto off_centre = [](__m256i number, __m256 within, float centre) {
+        const __m256 share = _mm256_add_ps(_mm256_cvtepi32_ps(number), within);
         return _mm256_fmsub_ps(_mm256_set1_ps(size), share, _mm256_set1_ps(centre));
     };
-    const __m256 x = off_centre(column, _mm256_and_si256(bits, all_lanes(0xFFFFU)), p.first[k]);
-    const __m256 y = off_centre(row, _mm256_srli_epi32(bits, 16), p.second[k]);
+    const __m256 x = off_centre(column, within_first(bits), p.first[k]);
+    const __m256 y = off_centre(row, within_second(bits), p.second[k]);
     const auto share = [&](float by_x, float by_y) {
         return _mm256_fmadd_ps(x, _mm256_set1_ps(by_x), _mm256_mul_ps(y, _mm256_set1_ps(by_y)));
     };
@@ -156,6 +166,7 @@ int Search::keep(int k, __m256i column, __m256i row, __m256i bits, unsigned aske
     _mm256_storeu_ps(t_.data() + to, front(t));
     store_numbers(column_.data() + to, front(column));
     store_numbers(row_.data() + to, front(row));
+    store_numbers(within_.data() + to, front(bits));
     _mm256_storeu_ps(size_.data() + to, _mm256_set1_ps(size));
     return front.count;
 }
@@ -211,6 +222,12 @@ void Search::fill(const Run& run) {
             _mm256_mul_ps(height, _mm256_sub_ps(one(0.375F), _mm256_mul_ps(size, one(0.125F)))));
         const __m256i bottom = _mm256_slli_epi32(_mm256_cvttps_epi32(fours), 2);
         name(axis, p.base_axis[of], _mm256_add_epi32(bottom, _mm256_set1_epi32(1)));
+        // The phase is that of the very place at which the scatterer is in its beam: were it one
+        // elsewhere in the cell, speckle would decorrelate faster than the aperture has it.
+        const __m256i within = load_numbers(within_.data() + k);
+        write(block_.within[(axis + 1) % 3].data(), within_first(within));
+        write(block_.within[(axis + 2) % 3].data(), within_second(within));
+        write(block_.within[axis].data(), one(0.5F));
     }
     filled_ = run.end;
 }

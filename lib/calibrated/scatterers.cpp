@@ -68,23 +68,19 @@ void name_cells(const Scatterers& block, int count, Words& low, Words& high) {
     }
 }
 
-/// The phase, in turns, of the sound that comes back from each cell's scatterer. The way is taken
-/// in double: at 40 m and 2 MHz the last bit of a float is 0.07 rad.
-void find_phases(const Scatterers& block, int count, const Words& jitter, const SonarInScene& sonar,
-                 double turns_per_m, Floats& turns) {
-    constexpr std::uint32_t bits_10 = 0x3FF;
-    constexpr double step = 0x1p-10;
-    const double sx = sonar.sensor.x();
-    const double sy = sonar.sensor.y();
-    const double sz = sonar.sensor.z();
+/// The phase, in turns, of the way to each scatterer and back. It is taken in double: at 40 m and
+/// 2 MHz the last bit of a float is 0.07 rad.
+void find_phases(const Scatterers& block, int count, const SonarInScene& sonar, double turns_per_m,
+                 Floats& turns) {
     for (int k = 0; k < count; ++k) {
-        const auto part = [&](std::uint32_t bits) {
-            return (static_cast<double>(static_cast<std::int32_t>(bits & bits_10)) + 0.5) * step;
+        const double edge = block.edge_m[k];
+        const auto way_along = [&](int axis) {
+            const double place = block.cell[axis][k] + static_cast<double>(block.within[axis][k]);
+            return place * edge - sonar.sensor[axis];
         };
-        const double e = block.edge_m[k];
-        const double x = (block.cell[0][k] + part(jitter[k])) * e - sx;
-        const double y = (block.cell[1][k] + part(jitter[k] >> 10)) * e - sy;
-        const double z = (block.cell[2][k] + part(jitter[k] >> 20)) * e - sz;
+        const double x = way_along(0);
+        const double y = way_along(1);
+        const double z = way_along(2);
         const double way = turns_per_m * std::sqrt(std::fma(x, x, std::fma(y, y, z * z)));
         turns[k] = static_cast<float>(way - std::floor(way));
     }
@@ -131,18 +127,15 @@ void draw_amplitudes(const Scatterers& block, const PointEchoes& echoes,
                      const ScattererCells& cells, const SonarInScene& sonar, PhiloxKey key,
                      Amplitudes& out) {
     Floats turns;
-    Words draw, jitter;
+    Words for_strength, for_phase;
     const int count = echoes.count;
-    name_cells(block, count, draw, jitter);
-    philox_pairs(draw.data(), jitter.data(), count, key);
-    find_phases(block, count, jitter, sonar, cells.turns_per_m, turns);
+    name_cells(block, count, for_strength, for_phase);
+    philox_pairs(for_strength.data(), for_phase.data(), count, key);
+    find_phases(block, count, sonar, cells.turns_per_m, turns);
     for (int k = 0; k < count; ++k) {
-        // Of the first word 20 bits make the strength, which is exponential, and 12 the phase.
-        const auto upper = static_cast<float>(static_cast<std::int32_t>(draw[k] >> 12));
-        const auto lower = static_cast<float>(static_cast<std::int32_t>(draw[k] & 0xFFFU));
-        const float strength = -natural_log((upper + 0.5F) * 0x1p-20F);
+        const float strength = -natural_log(unit_float(for_strength[k]));
         const float amplitude = std::sqrt(echoes.power[k] * strength);
-        const SinCosFloat phase = sincos_turns(std::fma(lower, 0x1p-12F, turns[k]));
+        const SinCosFloat phase = sincos_turns(unit_float(for_phase[k]) + turns[k]);
         out.re[k] = amplitude * phase.cos;
         out.im[k] = amplitude * phase.sin;
     }

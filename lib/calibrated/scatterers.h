@@ -36,11 +36,13 @@ struct SonarInScene {
     Eigen::Vector3d sensor = Eigen::Vector3d::Zero();  ///< relative to Scene::origin, m
 };
 
-/// A block of scatterers: pieces of surface of the size of their cells, and the cells' numbers.
+/// A block of scatterers: pieces of surface of the size of their cells, the cells' numbers, and the
+/// scatterers' places within them, in edges; along x, y and z of the world.
 struct Scatterers {
     PieceBlock pieces;
     PieceBlock::Array<float> edge_m{};
-    std::array<PieceBlock::Array<std::int32_t>, 3> cell{};  ///< along x, y and z of the world
+    std::array<PieceBlock::Array<std::int32_t>, 3> cell{};
+    std::array<PieceBlock::Array<float>, 3> within{};
 };
 
 /// The complex amplitudes of a block's echoes.

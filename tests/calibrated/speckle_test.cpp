@@ -229,7 +229,7 @@ TEST_SUITE("calibrated") {
                     correlation(here[seed - 1], patch.normalised(second, outer, inner)) / seeds;
             }
             MESSAGE(motion.name, ": ", found, ", by the instrument ", left);
-            CHECK(std::fabs(found - left) < 0.05);
+            CHECK(std::fabs(found - left) < 0.02);
         }
     }
 
