@@ -33,8 +33,8 @@ double energy_db(const std::vector<float>& image) {
 
 /// What the head's pattern takes of a point's level off its axis, there and back: one way it is the
 /// array's.
-double loss_db(const Sonar& sonar, double off_rad) {
-    return 4.0 * 10.0 * std::log10(std::fabs(line_pattern(array_of(sonar), std::sin(off_rad))));
+double loss_db(const LineArray& head, double off_rad) {
+    return 4.0 * 10.0 * std::log10(std::fabs(line_pattern(head, std::sin(off_rad))));
 }
 
 }  // namespace
@@ -43,6 +43,7 @@ TEST_SUITE("calibrated") {
     TEST_CASE("scanning: a point is smeared over the steps as the beam is, there and back") {
         for (const char* const preset : {"micron", "ping360"}) {
             const Sonar sonar = scanning(preset);
+            const LineArray head = array_of(sonar);
             const double width = radians(sonar.config.instrument.beam.width_deg);
             const double half_view = 0.5 * sonar.settings.view.azimuth_rad;
             const auto level = [&](double off) {
@@ -58,7 +59,7 @@ TEST_SUITE("calibrated") {
             int lobes = 0;
             for (const double angle : scan_angles_rad(sonar.config)) {
                 if (std::fabs(angle) >= half_view) continue;
-                const double expected = loss_db(sonar, angle);
+                const double expected = loss_db(head, angle);
                 if (expected < -60.0) continue;  // in a null
                 CHECK(std::fabs(level(angle) - ahead - expected) < 0.2);
                 // The first side lobes are 20 dB down one way.
@@ -72,6 +73,7 @@ TEST_SUITE("calibrated") {
         // A strip stands 5 m away, 20 cm wide; its level is the mean over its width.
         constexpr double half_m = 0.1;
         const Sonar sonar = scanning("micron");
+        const LineArray head = array_of(sonar);
         Scene scene = empty_scene();
         constexpr auto half = static_cast<float>(half_m);
         add_quad(scene, {5, -half, -0.5}, {5, half, -0.5}, {5, half, 0.5}, {5, -half, 0.5},
@@ -81,7 +83,7 @@ TEST_SUITE("calibrated") {
             double mean = 0.0;
             for (int k = 0; k < parts; ++k) {
                 const double y = half_m * ((2.0 * k + 1.0) / parts - 1.0);
-                mean += power_of_db(loss_db(sonar, std::atan2(y, 5.0) - angle)) / parts;
+                mean += power_of_db(loss_db(head, std::atan2(y, 5.0) - angle)) / parts;
             }
             return db_of_power(mean);
         };
