@@ -31,7 +31,8 @@ def main(build, compiler):
             "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON")
         # The project itself asks for no standard and no instruction set.
         command = (own / "compile_commands.json").read_text()
-        for option in ("-std=gnu++20", "-march=x86-64-v3", "-DEIGEN_MPL2_ONLY"):
+        for option in ("-std=gnu++20", "-march=x86-64-v3", "-DEIGEN_MPL2_ONLY",
+                       "-DEIGEN_FAST_MATH=0"):
             assert option in command, f"{option} is missing in {command}"
         assert "-Wall" not in command, command
         run("cmake", "--build", own)
