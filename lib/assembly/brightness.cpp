@@ -5,12 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <optional>
 
 #include "assembly/engine_at.h"
 #include "assembly/spread_pings.h"
 #include "sonar/setup.h"
-#include "sonar/sonar.h"
+#include "sonar/sonar_at_pose.h"
 #include "visibility/make_engine.h"
 
 namespace sonarsim {
@@ -64,13 +63,12 @@ double find_full_scale(const Mission& mission, const Scene& scene, const Traject
     std::vector<float> lit;
     for (const std::uint32_t pose : spread_pings(trajectory.size(), sonar.config.every, probes)) {
         const TimedPose& at = trajectory[pose];
-        const std::optional<Sonar> drawn = drawn_sonar(mission, sonar, pose);
-        const Sonar& then = drawn ? *drawn : sonar;
+        const SonarAtPose then(mission, sonar, pose);
         const TracedPing traced =
-            trace(then, scene, *engine_at(engine, motions, at.t_s), at.T_world_vehicle, pose);
+            trace(*then, scene, *engine_at(engine, motions, at.t_s), at.T_world_vehicle, pose);
         const PingKey key{mission.seed, pose};
-        append_lit(form_image(traced, then.settings, scene, key, direct_echoes_alone),
-                   form_image(traced, then.settings, scene, key), lit);
+        append_lit(form_image(traced, then->settings, scene, key, direct_echoes_alone),
+                   form_image(traced, then->settings, scene, key), lit);
     }
     if (lit.empty()) return nothing_seen;
     const double white = std::min<double>(quantile(lit, share_below_white),

@@ -9,7 +9,6 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
-#include <optional>
 #include <stdexcept>
 #include <system_error>
 #include <type_traits>
@@ -39,10 +38,8 @@ ColdStart run_cold(const Mission& mission, const Assembly& assembly, const Setti
     bool first = true;
     for (const std::size_t pose : spread_poses(assembly.trajectory.size(), poses)) {
         const double before = seconds_now();
-        const std::optional<Sonar> drawn =
-            drawn_sonar(mission, sonar, static_cast<std::uint32_t>(pose));
-        render_ping(drawn ? *drawn : sonar, assembly.scene, *engine,
-                    assembly.trajectory[pose].T_world_vehicle,
+        const SonarAtPose then(mission, sonar, static_cast<std::uint32_t>(pose));
+        render_ping(*then, assembly.scene, *engine, assembly.trajectory[pose].T_world_vehicle,
                     {mission.seed, static_cast<std::uint32_t>(pose)});
         const double after = seconds_now();
         if (first) {

@@ -1,7 +1,6 @@
 #include "benchmark/multipath_rows.h"
 
 #include <algorithm>
-#include <optional>
 
 #include "assembly/engine_probes.h"
 #include "benchmark/timed_pings.h"
@@ -39,8 +38,7 @@ std::vector<TracedPing> trace_surfaces(const PingSet& pings, const Sonar& sonar,
                                        const VisibilityEngine& engine) {
     std::vector<TracedPing> traced(pings.poses.size());
     in_parallel(traced.size(), [&](std::size_t p) {
-        const std::optional<Sonar> drawn = pings.drawn(sonar, p);
-        traced[p] = trace(drawn ? *drawn : sonar, pings.scene, engine, pings.poses[p],
+        traced[p] = trace(*pings.at_pose(sonar, p), pings.scene, engine, pings.poses[p],
                           pings.indices[p], {.multipath = false});
     });
     return traced;
@@ -53,8 +51,8 @@ std::vector<float> multipath_images(const PingSet& pings, const Sonar& sonar,
                                     std::vector<TracedPing>& traced) {
     std::vector<std::vector<float>> images(traced.size());
     in_parallel(images.size(), [&](std::size_t p) {
-        const std::optional<Sonar> drawn = pings.drawn(sonar, p);
-        const PingSettings& settings = drawn ? drawn->settings : sonar.settings;
+        const SonarAtPose then = pings.at_pose(sonar, p);
+        const PingSettings& settings = then->settings;
         trace_multipath(settings, pings.scene, engine, traced[p]);
         images[p] = form_image(traced[p], settings, pings.scene, {}, multipath_alone).intensity;
     });

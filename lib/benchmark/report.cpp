@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <memory>
-#include <optional>
 
 #include "benchmark/thread_clock.h"
 #include "benchmark/timed_pings.h"
@@ -95,10 +94,9 @@ std::vector<Reference> cast_references(const Comparison& comparison, const Sonar
     const ReportOptions& options = comparison.options;
     std::vector<Reference> references(pings.poses.size());
     in_parallel(references.size(), [&](std::size_t p) {
-        const std::optional<Sonar> drawn = pings.drawn(sonar, p);
         const PingSettings& settings = sonar.settings;
         const Pose T_world_sensor =
-            sensor_pose(drawn ? *drawn : sonar, pings.poses[p], pings.indices[p]);
+            sensor_pose(*pings.at_pose(sonar, p), pings.poses[p], pings.indices[p]);
         const ReferenceGoal goal{options.reference_moved, 64.0, options.reference_rays};
         references[p] = settings.calibrated ? cast_energy_reference(comparison.caster, pings.scene,
                                                                     settings, T_world_sensor, goal)
@@ -134,8 +132,7 @@ void measure_errors(const PingSet& pings, const Trial& trial,
     std::vector<double> samples(poses);
     std::vector<double> estimated_l1(poses);
     in_parallel(poses, [&](std::size_t p) {
-        const std::optional<Sonar> drawn = pings.drawn(trial.sonar, p);
-        const Ping ping = render_ping(drawn ? *drawn : trial.sonar, pings.scene, *engine,
+        const Ping ping = render_ping(*pings.at_pose(trial.sonar, p), pings.scene, *engine,
                                       pings.poses[p], pings.key(p), direct_echoes_alone);
         const ImageError error = image_error(ping.intensity, references[p].intensity);
         l1[p] = error.relative_l1;

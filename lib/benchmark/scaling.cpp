@@ -4,7 +4,6 @@
 #include <array>
 #include <map>
 #include <memory>
-#include <optional>
 #include <utility>
 
 #include "benchmark/timed_pings.h"
@@ -27,9 +26,9 @@ double time_pings(const Mission& mission, const Assembly& assembly, const Scene&
         for (const std::size_t pose : poses) {
             const double start = seconds_now();
             const auto index = static_cast<std::uint32_t>(pose);
-            const std::optional<Sonar> drawn = drawn_sonar(mission, sonar, index);
-            render_ping(drawn ? *drawn : sonar, scene, engine,
-                        assembly.trajectory[pose].T_world_vehicle, {mission.seed, index});
+            const SonarAtPose then(mission, sonar, index);
+            render_ping(*then, scene, engine, assembly.trajectory[pose].T_world_vehicle,
+                        {mission.seed, index});
             if (round > 0) ms.push_back(1e3 * (seconds_now() - start));
         }
     }

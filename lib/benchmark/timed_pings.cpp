@@ -6,8 +6,7 @@
 namespace sonarsim {
 
 Ping PingSet::render(const Sonar& sonar, const VisibilityEngine& engine, std::size_t p) const {
-    const std::optional<Sonar> then = drawn(sonar, p);
-    return render_ping(then ? *then : sonar, scene, engine, poses[p], key(p));
+    return render_ping(*at_pose(sonar, p), scene, engine, poses[p], key(p));
 }
 
 PingSet make_ping_set(const Mission& mission, const Assembly& assembly, int poses) {
@@ -23,16 +22,15 @@ TracedPing visit_pose(const PingSet& pings, const Sonar& sonar, const Visibility
                       std::size_t p, PoseTimes& times) {
     constexpr double slow_ms = 100.0;
     constexpr int repeats = 3;
-    const std::optional<Sonar> drawn = pings.drawn(sonar, p);
-    const Sonar& then = drawn ? *drawn : sonar;
+    const SonarAtPose then = pings.at_pose(sonar, p);
     TracedPing traced;
     PingSeconds stages;
     double thread_ms = 0.0;
     const auto timed_ms = [&] {
         const double thread_start = thread_seconds_now();
         Stopwatch watch;
-        traced = trace(then, pings.scene, engine, pings.poses[p], pings.indices[p]);
-        const Ping ping = form_image(traced, then.settings, pings.scene, pings.key(p));
+        traced = trace(*then, pings.scene, engine, pings.poses[p], pings.indices[p]);
+        const Ping ping = form_image(traced, then->settings, pings.scene, pings.key(p));
         stages = ping.seconds;
         thread_ms = 1e3 * (thread_seconds_now() - thread_start);
         return 1e3 * watch.lap();

@@ -1,14 +1,13 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
 #include "assembly/assemble.h"
 #include "benchmark/spread.h"
 #include "mission/mission.h"
-#include "sonar/sonar.h"
+#include "sonar/sonar_at_pose.h"
 
 namespace sonarsim {
 
@@ -22,9 +21,9 @@ struct PingSet {
     std::vector<Pose> poses;             ///< T_world_vehicle
     std::vector<std::uint32_t> indices;  ///< of the poses on the trajectory
 
-    /// The sonar as it is at pose `p`; nothing where `vary` draws nothing of it for pings.
-    std::optional<Sonar> drawn(const Sonar& sonar, std::size_t p) const {
-        return drawn_sonar(mission, sonar, indices[p]);
+    /// The sonar as it is at pose `p`.
+    SonarAtPose at_pose(const Sonar& sonar, std::size_t p) const {
+        return {mission, sonar, indices[p]};
     }
     PingKey key(std::size_t p) const { return {mission.seed, indices[p]}; }
     /// The ping at pose `p`, whole.

@@ -24,7 +24,7 @@
 #include "dataset/metadata.h"
 #include "dataset/ping_files.h"
 #include "dataset/resume.h"
-#include "sonar/sonar.h"
+#include "sonar/sonar_at_pose.h"
 #include "trajectory/files.h"
 
 namespace sonarsim {
@@ -134,9 +134,8 @@ void render(const Mission& mission, const Assembly& assembly, const std::vector<
         todo.size(), 2 * static_cast<std::size_t>(threads), stop,
         [&](std::size_t i) {
             const PingId& id = todo[i];
-            const std::optional<Sonar> drawn =
-                drawn_sonar(mission, assembly.sonars[id.sensor], id.pose);
-            const Sonar& sonar = drawn ? *drawn : assembly.sonars[id.sensor];
+            const SonarAtPose at_pose(mission, assembly.sonars[id.sensor], id.pose);
+            const Sonar& sonar = *at_pose;
             const TimedPose& pose = assembly.trajectory[id.pose];
             const std::shared_ptr<const VisibilityEngine> now =
                 engine_at(*engine, assembly.motions, pose.t_s);

@@ -1,14 +1,13 @@
 #include "dataset/ping_cost.h"
 
 #include <memory>
-#include <optional>
 
 #include "assembly/engine_at.h"
 #include "assembly/engine_probes.h"
 #include "assembly/spread_pings.h"
 #include "core/clock.h"
 #include "dataset/encode_ping.h"
-#include "sonar/sonar.h"
+#include "sonar/sonar_at_pose.h"
 
 namespace sonarsim {
 
@@ -37,13 +36,12 @@ std::vector<PingCost> measure_pings(const Mission& mission, const Assembly& asse
             Stopwatch watch;
             const std::shared_ptr<const VisibilityEngine> now =
                 engine_at(*engine, assembly.motions, at.t_s);
-            const std::optional<Sonar> drawn = drawn_sonar(mission, sonar, pose);
-            const Sonar& then = drawn ? *drawn : sonar;
-            const TracedPing traced = trace(then, assembly.scene, *now, at.T_world_vehicle, pose);
+            const SonarAtPose then(mission, sonar, pose);
+            const TracedPing traced = trace(*then, assembly.scene, *now, at.T_world_vehicle, pose);
             const Ping ping =
-                form_image(traced, then.settings, assembly.scene, {mission.seed, pose});
+                form_image(traced, then->settings, assembly.scene, {mission.seed, pose});
             const WrittenPing written =
-                encode_ping(assembly, *now, writers[i], plan, {pose, i}, then, traced, ping);
+                encode_ping(assembly, *now, writers[i], plan, {pose, i}, *then, traced, ping);
             if (k == 0) continue;
             costs[i].seconds += watch.lap() / counted;
             for (const std::string& part : written.parts)

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "ping/mirrored_piece.h"
+#include "ping/mirrored_footprint.h"
 #include "ping/second_legs.h"
 
 namespace sonarsim {
@@ -169,7 +169,7 @@ void append_mirrored(const SecondLegs& context, const std::vector<SecondHit>& se
     for (const Bounce& way : ways) {
         const SecondHit& second = second_hits[way.second];
         if (second.material == no_material) continue;
-        mirrored.push_back(mirrored_piece(context, context.samples.items[way.sample], second));
+        mirrored.push_back(mirrored_footprint(context, context.samples.items[way.sample], second));
     }
 }
 

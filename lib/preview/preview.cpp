@@ -5,7 +5,6 @@
 #include <charconv>
 #include <cmath>
 #include <memory>
-#include <optional>
 #include <string>
 
 #include "assembly/engine_at.h"
@@ -15,7 +14,7 @@
 #include "preview/sonar_panel.h"
 #include "sonar/engine_settings.h"
 #include "sonar/kinds.h"
-#include "sonar/sonar.h"
+#include "sonar/sonar_at_pose.h"
 #include "visibility/make_engine.h"
 
 namespace sonarsim {
@@ -133,8 +132,8 @@ Picture draw_preview(const Mission& mission, const Assembly& assembly, std::uint
         const Sonar sonar = coarse(assembly.sonars[i]);
         const Rgb colour = sonar_colours[i % sonar_colours.size()];
         const auto render = [&](std::uint32_t index) {
-            const std::optional<Sonar> drawn = drawn_sonar(mission, sonar, index);
-            return render_ping(drawn ? *drawn : sonar, assembly.scene, *at_pose(index),
+            const SonarAtPose then(mission, sonar, index);
+            return render_ping(*then, assembly.scene, *at_pose(index),
                                trajectory[index].T_world_vehicle, {mission.seed, index});
         };
         SonarPanel panel =

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <memory>
-#include <optional>
 #include <span>
 
 #include "assembly/engine_at.h"
@@ -11,7 +10,7 @@
 #include "core/pose.h"
 #include "core/units.h"
 #include "scene/copies.h"
-#include "sonar/sonar.h"
+#include "sonar/sonar_at_pose.h"
 #include "survey/directions.h"
 #include "visibility/view.h"
 
@@ -239,14 +238,13 @@ SonarSurvey survey_sonar(const Mission& mission, const Assembly& assembly, Sonar
          spread_pings(assembly.trajectory.size(), sonar.config.every,
                       std::clamp<std::size_t>(most_bins / bins, 3, most))) {
         const TimedPose& at = assembly.trajectory[pose];
-        const std::optional<Sonar> drawn = drawn_sonar(mission, sonar, pose);
-        const Sonar& then = drawn ? *drawn : sonar;
-        const Pose T_world_sensor = sensor_pose(then, at.T_world_vehicle, pose);
+        const SonarAtPose then(mission, sonar, pose);
+        const Pose T_world_sensor = sensor_pose(*then, at.T_world_vehicle, pose);
         const std::shared_ptr<const VisibilityEngine> now =
             engine_at(rays, assembly.motions, at.t_s);
-        const TracedPing traced = trace(then, assembly.scene, *now, at.T_world_vehicle, pose);
+        const TracedPing traced = trace(*then, assembly.scene, *now, at.T_world_vehicle, pose);
         const PingKey key{mission.seed, pose};
-        const Ping ping = form_image(traced, then.settings, assembly.scene, key);
+        const Ping ping = form_image(traced, then->settings, assembly.scene, key);
         const Surroundings around = look(view, *now, T_world_sensor);
         ++out.pings;
         take_attitude(at.T_world_vehicle.rotation, out);
@@ -258,7 +256,7 @@ SonarSurvey survey_sonar(const Mission& mission, const Assembly& assembly, Sonar
             explain(view, around, distance_to(assembly.scene, T_world_sensor.translation), out.why);
         }
         add_bins(sonar, full_scale,
-                 form_image(traced, then.settings, assembly.scene, key,
+                 form_image(traced, then->settings, assembly.scene, key,
                             {.pixel_noise = false, .streaks = false}),
                  ping, sums, out);
     }

@@ -11,8 +11,10 @@
 #include "calibrated/near_field.h"
 #include "calibrated/piston.h"
 #include "core/units.h"
+#include "support/calibrated.h"
 
 using namespace sonarsim;
+using namespace sonarsim::test;
 
 namespace {
 
@@ -20,15 +22,11 @@ constexpr int sounder_bins = 190;
 
 /// An echosounder with bins of 5 cm from 0.5 to 10 m; no noise, no absorption made up for.
 CalibratedModel sounder(double width_deg, double resolution_m = 0.05) {
-    InstrumentConfig config;
+    InstrumentConfig config = bare({});
     config.frequency_hz = 2e5;
     config.beam.aperture = Aperture::piston;
     config.beam.width_deg = width_deg;
     config.pulse.resolution_m = resolution_m;
-    config.receiver.tvg_log = 0.0;
-    config.receiver.tvg_absorption = false;
-    config.receiver.noise_db = -300.0;
-    config.speckle.mode = SpeckleMode::none;
     const View view{.azimuth_rad = 1.2,
                     .elevation_rad = 1.2,
                     .range_min_m = 0.5,
@@ -41,10 +39,8 @@ CalibratedModel sounder(double width_deg, double resolution_m = 0.05) {
 std::vector<float> image_of(const CalibratedModel& model, const std::vector<Sample>& surface) {
     Samples samples;
     samples.items = surface;
-    Scene scene;
-    scene.materials.push_back({.name = "rock", .reflection = 0.4F});
     std::vector<float> image(sounder_bins);
-    form_calibrated(model, {samples}, scene, {}, {}, {}, image);
+    form_calibrated(model, {samples}, scene_of_rock(), {}, {}, {}, image);
     return image;
 }
 

@@ -1,8 +1,7 @@
 #include <doctest/doctest.h>
 
-#include "sonar/kinds.h"
+#include "support/calibrated.h"
 #include "support/scenes.h"
-#include "support/sonars.h"
 #include "validation/image_error.h"
 #include "visibility/make_engine.h"
 
@@ -37,13 +36,10 @@ std::vector<float> expected_image(const SonarConfig& config, const Scene& scene,
 TEST_SUITE("calibrated") {
     TEST_CASE("side-scan: rays and slices agree within twice the error goal") {
         const Scene scene = bottom_with_objects();
-        SonarConfig config = kind_of(SonarKind::sidescan).keys.defaults;
-        config.name = "down";
-        config.model = EchoModel::of_instrument;
+        SonarConfig config = calibrated(default_sonar(SonarKind::sidescan), 4e5);
         config.range_max_m = 12.0;
         config.range_bins = 230;
         config.elevation_deg = 6.0;
-        config.instrument.frequency_hz = 4e5;
         const std::vector<float> rays = expected_image(config, scene, EngineType::rays);
         const std::vector<float> slices = expected_image(config, scene, EngineType::slices);
         CHECK(image_error(rays, slices).relative_l1 < 0.04);
@@ -55,13 +51,10 @@ TEST_SUITE("calibrated") {
         Scene flat = empty_scene();
         add_floor(flat, 14.0F, -5.0F, add_material(flat, 0.4F), 4);
         for (const Scene& scene : {flat, bottom_with_objects()}) {
-            SonarConfig config = kind_of(SonarKind::echosounder).keys.defaults;
-            config.name = "down";
-            config.model = EchoModel::of_instrument;
+            SonarConfig config = calibrated(default_sonar(SonarKind::echosounder), 2e5);
             config.opening_deg = 24.0;
             config.range_max_m = 10.0;
             config.range_bins = 190;
-            config.instrument.frequency_hz = 2e5;
             config.instrument.beam.width_deg = 7.0;
             const std::vector<float> rays = expected_image(config, scene, EngineType::rays);
             const std::vector<float> slices = expected_image(config, scene, EngineType::slices);

@@ -10,9 +10,11 @@
 #include "calibrated/decibel.h"
 #include "core/elementary.h"
 #include "core/units.h"
+#include "support/calibrated.h"
 #include "support/statistics.h"
 
 using namespace sonarsim;
+using namespace sonarsim::test;
 
 namespace {
 
@@ -30,12 +32,10 @@ View view_of_fan() {
 }
 
 InstrumentConfig instrument() {
-    InstrumentConfig out;
+    InstrumentConfig out = bare({});
     out.frequency_hz = 9e5;
     out.beam.width_deg = 1.0;
-    out.receiver.tvg_log = 0.0;
-    out.receiver.tvg_absorption = false;
-    out.receiver.noise_db = -300.0;
+    out.speckle.mode = SpeckleMode::scene;
     return out;
 }
 
@@ -44,12 +44,6 @@ CalibratedModel model_of(const InstrumentConfig& config) {
     for (int j = 0; j < beams_of_fan; ++j)
         sines.push_back(std::sin(((j + 0.5) / beams_of_fan - 0.5) * fan_rad));
     return calibrated_model(config, {}, view_of_fan(), sines);
-}
-
-Scene scene_of_one_material() {
-    Scene scene;
-    scene.materials.push_back({.name = "rock", .reflection = 0.4F});
-    return scene;
 }
 
 /// A small plate that faces the sonar straight ahead.
@@ -96,7 +90,7 @@ std::vector<float> image_of(const CalibratedModel& model, const Samples& samples
                             const Pose& pose = {}, std::uint32_t ping = 0,
                             const CalibratedTerms& terms = {}) {
     std::vector<float> image(static_cast<std::size_t>(bins) * beams_of_fan);
-    form_calibrated(model, {samples}, scene_of_one_material(), pose,
+    form_calibrated(model, {samples}, scene_of_rock(), pose,
                     {.scene = {1, 2},
                      .ping = stream_key(1, 2, ping, Stream::speckle),
                      .noise = stream_key(1, 2, ping, Stream::receiver_noise)},

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "calibrated/beamformer.h"
-#include "calibrated/bottom.h"
 #include "calibrated/companding.h"
 #include "calibrated/decibel.h"
 #include "calibrated/scatterers.h"
@@ -14,33 +13,6 @@
 using namespace sonarsim;
 
 TEST_SUITE("calibrated") {
-    TEST_CASE("bottom: Lambert's rule away from normal incidence, facets near it") {
-        const Backscatter sand = backscatter(-27.0, 0.1, std::tan(radians(10.0)));
-        // At 30 degrees of grazing, tan^2 of incidence 3: the facets are gone.
-        CHECK(std::fabs(sand.at(0.5F) / (std::pow(10.0, -2.7) * 0.25) - 1.0) < 1e-4);
-        const double s2 = std::tan(radians(10.0)) * std::tan(radians(10.0));
-        CHECK(std::fabs(sand.at(1.0F) / (std::pow(10.0, -2.7) + 0.1 / (8.0 * pi * s2)) - 1.0) <
-              1e-5);
-    }
-
-    TEST_CASE("bottom: facets send back what they reflect") {
-        // Facets of slopes p(sx, sy) dsx dsy reflect R of what meets them into 4 cos(theta) times
-        // the solid angle of their normals; backscattered from all directions that is, for small
-        // slopes, the integral over directions of sigma = R / 4.
-        const Backscatter smooth = backscatter(-200.0, 0.36, std::tan(radians(3.0)));
-        double sum = 0.0;
-        constexpr double step = 1e-4;
-        for (double theta = 0.5 * step; theta < 0.5; theta += step)
-            sum +=
-                smooth.at(static_cast<float>(std::cos(theta))) * 2.0 * pi * std::sin(theta) * step;
-        CHECK(std::fabs(sum / (0.36 / 4.0) - 1.0) < 0.03);
-    }
-
-    TEST_CASE("bottom: fading is e^-x") {
-        for (float x = 0.0F; x < 40.0F; x += 0.037F)
-            CHECK(std::fabs(fading(x) / std::exp(-static_cast<double>(x)) - 1.0) < 1e-5);
-    }
-
     TEST_CASE("decibels, there and back") {
         CHECK(std::fabs(power_of_db(3.0) / std::pow(10.0, 0.3) - 1.0) < 1e-13);
         CHECK(std::fabs(db_of_power(power_of_db(-87.5)) + 87.5) < 1e-11);

@@ -10,6 +10,7 @@
 #include "mission/parse.h"
 #include "sonar/kinds.h"
 #include "sonar/sonar.h"
+#include "support/calibrated.h"
 
 namespace sonarsim::test {
 
@@ -35,12 +36,6 @@ inline LineArray array_of(const Sonar& sonar) {
     array.cubic_rad = beam.aberration_rad[1];
     array.quartic_rad = beam.aberration_rad[2];
     return array;
-}
-
-inline Scene scene_of_rock() {
-    Scene scene;
-    scene.materials.push_back({.name = "rock", .reflection = 0.4F});
-    return scene;
 }
 
 /// A rectangle about `centre` in square patches, `half_u` and `half_v` of its half edges of length

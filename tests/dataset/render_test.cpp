@@ -7,8 +7,8 @@
 
 #include "assembly/engine_probes.h"
 #include "core/file.h"
-#include "dataset/job.h"
 #include "dataset/metadata.h"
+#include "dataset/small_job.h"
 #include "format/npy.h"
 #include "product/fan.h"
 #include "sonar/kinds.h"
@@ -22,13 +22,6 @@ namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
 namespace {
-
-constexpr int poses = 7;  // front pings at all of them, left at 0, 3 and 6: ten pings
-constexpr int pings = 10;
-
-RenderSummary run(const Mission& mission, const RenderOptions& options = {}) {
-    return run_job(mission, small_assembly(mission, poses), options, {}, std::atomic<bool>(false));
-}
 
 std::vector<std::uint16_t> read_pixels(const fs::path& path) {
     const auto in = OIIO::ImageInput::open(path.string());

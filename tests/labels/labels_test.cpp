@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numeric>
 
 #include "support/bounces.h"
@@ -53,6 +54,27 @@ std::vector<double> echoes_by_rays(const Scene& scene, const SceneObjects& objec
     }
     return echoes;
 }
+
+/// The tank, and a sonar with multipath and without noise that looks at it.
+struct TankWithGhosts {
+    Scene scene = tank();
+    Sonar sonar;
+    std::unique_ptr<VisibilityEngine> engine = make_engine(scene, {});
+    SceneObjects objects = group_objects(scene, {});
+
+    TankWithGhosts() {
+        SonarConfig config = small_imaging();
+        config.multipath.method = MultipathMethod::cluster;
+        sonar = noise_free(config);
+    }
+    TracedPing see(const Pose& pose) const { return trace(sonar, scene, *engine, pose, 0); }
+    Ping image(const TracedPing& traced, const Terms& terms) const {
+        return form_image(traced, sonar.settings, scene, {}, terms);
+    }
+    PingLabels label(const TracedPing& traced, const LabelRequest& request) const {
+        return label_ping(traced, sonar.settings, scene, objects, *engine, request);
+    }
+};
 
 }  // namespace
 
@@ -133,19 +155,13 @@ TEST_CASE("labels: two things in one bin share its echo by area and reflection")
 }
 
 TEST_CASE("labels: lit bins are those of the clean image, multipath bins those of its ghosts") {
-    const Scene scene = tank();
-    SonarConfig config = small_imaging();
-    config.multipath.method = MultipathMethod::cluster;
-    const Sonar sonar = noise_free(config);
-    const auto engine = make_engine(scene, {});
-    const SceneObjects objects = group_objects(scene, {});
+    const TankWithGhosts the_tank;
     std::uint64_t ghosts = 0;
     for (const Pose& pose : tank_poses()) {
-        const TracedPing traced = trace(sonar, scene, *engine, pose, 0);
-        const PingLabels labels =
-            label_ping(traced, sonar.settings, scene, objects, *engine, everything);
-        const Ping clean = form_image(traced, sonar.settings, scene, {}, term_by_term[1]);
-        const Ping direct = form_image(traced, sonar.settings, scene, {}, direct_echoes_alone);
+        const TracedPing traced = the_tank.see(pose);
+        const PingLabels labels = the_tank.label(traced, everything);
+        const Ping clean = the_tank.image(traced, term_by_term[1]);
+        const Ping direct = the_tank.image(traced, direct_echoes_alone);
         for (int j = 0; j < clean.beams; ++j) {
             for (int i = 0; i < clean.range_bins; ++i) {
                 const std::size_t k = static_cast<std::size_t>(j) * clean.range_bins + i;
@@ -165,22 +181,14 @@ TEST_CASE("labels: lit bins are those of the clean image, multipath bins those o
 
 TEST_CASE("labels: shadows are the same whether or not objects are asked for") {
     // Alone they take another way to the bins that are lit, by multipath as well.
-    const Scene scene = tank();
-    SonarConfig config = small_imaging();
-    config.multipath.method = MultipathMethod::cluster;
-    const Sonar sonar = noise_free(config);
-    const auto engine = make_engine(scene, {});
-    const SceneObjects objects = group_objects(scene, {});
+    const TankWithGhosts the_tank;
     std::ptrdiff_t shadows = 0;
     for (const Pose& pose : tank_poses()) {
-        const TracedPing traced = trace(sonar, scene, *engine, pose, 0);
-        const auto of = [&](const LabelRequest& request) {
-            return label_ping(traced, sonar.settings, scene, objects, *engine, request);
-        };
-        const PingLabels all = of(everything);
-        const PingLabels alone = of({.shadow = true});
+        const TracedPing traced = the_tank.see(pose);
+        const PingLabels all = the_tank.label(traced, everything);
+        const PingLabels alone = the_tank.label(traced, {.shadow = true});
         CHECK(alone.shadow == all.shadow);
-        CHECK(alone.visible_share.size() == objects.objects.size());
+        CHECK(alone.visible_share.size() == the_tank.objects.objects.size());
         CHECK(alone.object.empty());
         shadows += std::ranges::count_if(all.shadow, [](std::uint16_t id) { return id > 0; });
     }

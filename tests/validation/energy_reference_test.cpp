@@ -5,8 +5,7 @@
 #include <cmath>
 
 #include "core/units.h"
-#include "sonar/kinds.h"
-#include "sonar/sonar.h"
+#include "support/calibrated.h"
 #include "support/scenes.h"
 #include "validation/image_error.h"
 #include "visibility/make_engine.h"
@@ -16,15 +15,12 @@ using namespace sonarsim::test;
 
 namespace {
 
-Sonar calibrated_sonar(SonarKind kind) {
-    SonarConfig config = kind_of(kind).keys.defaults;
-    config.name = "sonar";
-    config.model = EchoModel::of_instrument;
+Sonar coarse_sonar(SonarKind kind) {
+    SonarConfig config = calibrated(default_sonar(kind), 4e5);
     config.range_min_m = 0.5;
     config.range_max_m = 12.0;
     config.range_bins = 96;
     config.azimuth_bins = 32;
-    config.instrument.frequency_hz = 4e5;
     return make_sonar(config, {0.01});
 }
 
@@ -41,7 +37,7 @@ TEST_CASE("where energies add the reference is what the engines come to") {
     add_sphere(scene, {5.0F, 0.5F, -3.5F}, 0.5F, rock, 48);
     const Caster caster(scene);
     for (const SonarKind kind : {SonarKind::imaging, SonarKind::sidescan, SonarKind::echosounder}) {
-        const Sonar sonar = calibrated_sonar(kind);
+        const Sonar sonar = coarse_sonar(kind);
         const Pose T_world_vehicle{
             rotation_from_rpy(0.0, kind == SonarKind::imaging ? radians(35.0) : 0.0, 0.0),
             Eigen::Vector3d::Zero()};

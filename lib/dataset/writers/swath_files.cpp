@@ -17,7 +17,7 @@
 #include "product/grey.h"
 #include "product/mosaic.h"
 #include "product/sidescan_row.h"
-#include "sonar/sonar.h"
+#include "sonar/sonar_at_pose.h"
 
 namespace sonarsim {
 
@@ -37,10 +37,9 @@ void for_each_row(const WriterContext& context, const RecordFile& rows,
     for (std::size_t k = 0; k < rows.records(); ++k) {
         rows.read(k, std::as_writable_bytes(std::span(values)));
         const std::size_t pose = k * static_cast<std::size_t>(sonar.config.every);
-        const std::optional<Sonar> drawn =
-            drawn_sonar(context.mission, sonar, static_cast<std::uint32_t>(pose));
+        const SonarAtPose then(context.mission, sonar, static_cast<std::uint32_t>(pose));
         const Pose T_world_sensor =
-            sensor_pose(drawn ? *drawn : sonar, context.assembly.trajectory[pose].T_world_vehicle,
+            sensor_pose(*then, context.assembly.trajectory[pose].T_world_vehicle,
                         static_cast<std::uint32_t>(pose));
         visit({pose, T_world_sensor, values, swath_of(sonar, T_world_sensor, values)});
     }

@@ -16,6 +16,7 @@ namespace {
 constexpr int most_cells = 1024;  // along x, and along y
 
 // More than one, since most triangles are often those of small things that cover few of the cells.
+// To place 3,000 rings on a plane takes 12 % less time with 8 than with 1, and no less with 32.
 constexpr double cells_per_triangle = 8.0;
 
 std::array<Eigen::Vector3d, 3> corners_of(const Surface& surface, std::uint32_t triangle) {

@@ -1,11 +1,11 @@
-#include "ping/mirrored_piece.h"
+#include "ping/mirrored_footprint.h"
 
 #include <cmath>
 
 namespace sonarsim {
 
-MirroredPiece mirrored_piece(const SecondLegs& context, const Sample& sample,
-                             const SecondHit& second) {
+MirroredPiece mirrored_footprint(const SecondLegs& context, const Sample& sample,
+                                 const SecondHit& second) {
     // As in find_bounces: from the mirror image of the sonar through p_i sound goes straight on.
     const Eigen::Vector3f from = 2.0F * sample.normal.dot(sample.position) * sample.normal;
     const Eigen::Vector3f through = sample.position - from;

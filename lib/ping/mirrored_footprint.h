@@ -10,7 +10,7 @@ namespace sonarsim {
 /// calibrated model takes it. With t the length of the way to p in units of |p_i| it is seen in the
 /// mirror at t p_i, and it has the area A_i (v_i . n_i) t^2 / |r_i . n_h|: all the sound that meets
 /// the sample goes on to it, whatever lies between. `second` is of a material.
-MirroredPiece mirrored_piece(const SecondLegs& context, const Sample& sample,
-                             const SecondHit& second);
+MirroredPiece mirrored_footprint(const SecondLegs& context, const Sample& sample,
+                                 const SecondHit& second);
 
 }  // namespace sonarsim

@@ -1,0 +1,48 @@
+#include "scene/placing/bottom.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <optional>
+
+#include "scene/waves.h"
+
+using namespace sonarsim;
+using namespace sonarsim::test;
+
+TEST_SUITE("scene") {
+    TEST_CASE("bottom: the next surface below a point is that of all triangles one by one") {
+        // Three layers of waves over each other, at UTM coordinates, and points above, between and
+        // below them and beside them all.
+        Surface layers;
+        const Surface one = Waves::surface();
+        const Eigen::Vector3d place(5e5, 6e6, -40.0);
+        for (int k = 0; k < 3; ++k) {
+            const auto first = static_cast<std::uint32_t>(layers.vertices.size());
+            for (const Eigen::Vector3d& vertex : one.vertices)
+                layers.vertices.push_back(vertex + place + Eigen::Vector3d(0.3 * k, 0.1, 1.5 * k));
+            for (const auto& [a, b, c] : one.triangles)
+                layers.triangles.push_back({first + a, first + b, first + c});
+        }
+        const Bottom bottom(layers);
+        const Eigen::AlignedBox3d around = box_of(layers);
+        int found = 0;
+        for (int n = 0; n < 500; ++n) {
+            const Eigen::Array3d share(std::fmod(0.6180 * n, 1.0), std::fmod(0.7549 * n, 1.0),
+                                       std::fmod(0.5698 * n, 1.0));
+            const Eigen::Vector3d point =
+                around.min() + ((1.2 * share - 0.1) * around.sizes().array()).matrix();
+            const double tolerance = n % 2 == 0 ? 0.0 : 0.2;
+            std::optional<double> highest;
+            for (const auto& [a, b, c] : layers.triangles) {
+                const auto z = height_above(
+                    {layers.vertices[a], layers.vertices[b], layers.vertices[c]}, point.head<2>());
+                if (z && *z <= point.z() + tolerance && (!highest || *z > *highest)) highest = z;
+            }
+            CHECK(bottom.highest_below(point, tolerance) == highest);
+            found += highest.has_value();
+        }
+        CHECK(found > 100);
+        CHECK(found < 450);
+    }
+}

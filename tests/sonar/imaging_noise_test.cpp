@@ -1,0 +1,121 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/units.h"
+#include "sonar/sonar.h"
+#include "support/scenes.h"
+#include "support/sonars.h"
+#include "support/statistics.h"
+#include "visibility/rays/rays_engine.h"
+
+using namespace sonarsim;
+using namespace sonarsim::test;
+
+TEST_SUITE_BEGIN("sonar");
+
+TEST_CASE("noise is a function of seed, sensor and ping; without it the seed does not matter") {
+    const Scene scene = tank();
+    const Pose pose{rotation_from_rpy(0.0, radians(12.0), 0.0), {-3.0, 0.0, 1.5}};
+    const auto engine = make_rays_engine(scene);
+    const auto look = [&](const Sonar& sonar, const PingKey& key) {
+        return render_ping(sonar, scene, *engine, pose, key).intensity;
+    };
+    const Sonar clean = noise_free(small_imaging());
+    CHECK(look(clean, {1, 5}) == look(clean, {2, 6}));
+
+    SonarConfig config = small_imaging();
+    config.noise = {0.05, 0.02, 0.1, 0.2, true, 0.0};
+    const Sonar noisy = make_sonar(config, {});
+    const std::vector<float> image = look(noisy, {0, 5});
+    CHECK(image == look(noisy, {0, 5}));
+    CHECK(image != look(noisy, {1, 5}));
+    CHECK(image != look(noisy, {0, 6}));
+    config.name = "another";
+    CHECK(image != look(make_sonar(config, {}), {0, 5}));
+}
+
+TEST_CASE("the mean over 1,000 seeds agrees with theory") {
+    // A wall within one scatterer cell, so that a ping has one w: the echo moves as a whole and
+    // every bin that it then covers holds I exp(-w / lambda). The wall's ranges span
+    // [D, D + 0.2 mm], far less than a bin, so bin [a, b) is lit when D + w falls into it:
+    // E[I'] = int_a^b I e^(-w/lambda) e^(-w/lambda) / lambda dw
+    //       = I / 2 (e^(-2 (a-D)/lambda) - e^(-2 (b-D)/lambda)), with a, b >= D.
+    // Pixel noise adds s sigma sqrt(pi / 2) and halves the rest (m = 0.5); clipping at 0 does not
+    // occur, since sigma_m is a tenth of m.
+    constexpr double R = 0.8;
+    constexpr double D = 2.01;
+    constexpr double lambda = 0.1;
+    constexpr double sigma_a = 0.02;
+    Scene scene = empty_scene();
+    const std::uint32_t m = add_material(scene, R);
+    add_quad(scene, {D, -1, -1}, {D, 1, -1}, {D, 1, 1}, {D, -1, 1}, m);
+    SonarConfig config = small_imaging();
+    config.azimuth_deg = config.elevation_deg = 1.0;
+    config.range_min_m = 1.9;
+    config.range_max_m = 2.5;
+    config.range_bins = 12;
+    config.azimuth_bins = 1;
+    config.noise = {lambda, 1000.0, sigma_a, 0.05, true, 0.0};
+    const Sonar sonar = make_sonar(config, {});
+    const auto engine = make_rays_engine(scene);
+    std::vector<std::vector<double>> bins(12);
+    for (std::uint64_t seed = 0; seed < 1000; ++seed) {
+        const Ping ping = render_ping(sonar, scene, *engine, Pose{}, {seed, 0});
+        for (int i = 0; i < 12; ++i)
+            bins[i].push_back(ping.at(i, 0));
+    }
+    for (int i = 0; i < 12; ++i) {
+        const double a = std::max(sonar.range_edges_m[i] - D, 0.0);
+        const double b = std::max(sonar.range_edges_m[i + 1] - D, 0.0);
+        const double echo = 0.5 * R * (std::exp(-2.0 * a / lambda) - std::exp(-2.0 * b / lambda));
+        const double r =
+            0.5 * (sonar.range_edges_m[i] + sonar.range_edges_m[i + 1]) / config.range_max_m;
+        // The lobe factor is 1.5 in the only beam, at azimuth 0.
+        const double additive = r * r * 1.5 * sigma_a * std::sqrt(std::acos(-1.0) / 2.0);
+        // 12 bins at 4 standard errors: a false alarm once in 1,300.
+        CHECK(std::fabs(mean(bins[i]) - (0.5 * echo + additive)) < 4.0 * standard_error(bins[i]));
+    }
+}
+
+TEST_CASE("the narrowest lobe that a mission can ask for leaves finite scales") {
+    SonarConfig config;
+    for (const double sigma_deg : {0.5, 0.1, 1e-3, 1e-12, 1e-300, 5e-324}) {
+        config.noise.lobe_sigma_deg = sigma_deg;
+        config.azimuth_bins = 512;
+        for (const float scale : make_sonar(config, {}).settings.pixel_noise.lobe_scale) {
+            CHECK(scale >= 1.0F);
+            CHECK(scale < 1.5F);
+        }
+        config.azimuth_bins = 1;  // along the boresight, where the lobe has its peak
+        CHECK(make_sonar(config, {}).settings.pixel_noise.lobe_scale[0] == 1.5F);
+    }
+}
+
+TEST_CASE("range noise drops what it pushes beyond the range") {
+    // A wall just inside range_max and a noise of many bins: without the drop the last bin would
+    // be lit in almost every ping.
+    Scene scene = empty_scene();
+    const std::uint32_t m = add_material(scene, 1.0F);
+    add_quad(scene, {2.45F, -1, -1}, {2.45F, 1, -1}, {2.45F, 1, 1}, {2.45F, -1, 1}, m);
+    SonarConfig config = small_imaging();
+    config.azimuth_deg = config.elevation_deg = 1.0;
+    config.range_max_m = 2.5;
+    config.range_bins = 100;
+    config.azimuth_bins = 1;
+    config.noise.range_lambda_m = 1.0;
+    config.noise.scatterer_m = 1000.0;
+    const Sonar sonar = make_sonar(config, {});
+    const auto engine = make_rays_engine(scene);
+    int lit = 0;
+    for (std::uint64_t seed = 0; seed < 1000; ++seed) {
+        const Ping ping = render_ping(sonar, scene, *engine, Pose{}, {seed, 0});
+        lit += ping.at(99, 0) > 0.0F;
+        if (ping.counts.out_of_range > 0) CHECK(ping.at(99, 0) == 0.0F);
+    }
+    // P(w within the last bin's 0.02 m) is about 0.02.
+    CHECK(lit < 50);
+}
+
+TEST_SUITE_END();

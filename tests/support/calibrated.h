@@ -1,0 +1,31 @@
+#pragma once
+
+#include "sonar/kinds.h"
+#include "sonar/sonar.h"
+
+namespace sonarsim::test {
+
+/// An instrument whose image is the mean of what comes back to it: no noise, no gain by range, no
+/// speckle.
+inline InstrumentConfig bare(InstrumentConfig instrument) {
+    instrument.receiver.noise_db = -300.0;
+    instrument.receiver.tvg_log = 0.0;
+    instrument.receiver.tvg_absorption = false;
+    instrument.speckle.mode = SpeckleMode::none;
+    return instrument;
+}
+
+inline SonarConfig calibrated(SonarConfig config, double frequency_hz) {
+    config.model = EchoModel::of_instrument;
+    config.instrument.frequency_hz = frequency_hz;
+    return config;
+}
+
+/// Without surface, for samples that are of its only material.
+inline Scene scene_of_rock() {
+    Scene scene;
+    scene.materials.push_back({.name = "rock", .reflection = 0.4F});
+    return scene;
+}
+
+}  // namespace sonarsim::test
