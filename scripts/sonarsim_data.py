@@ -27,7 +27,7 @@ import zlib
 
 import numpy as np
 
-FORMAT_VERSION = 4
+FORMAT_VERSION = 3
 TAR_BLOCK = 512
 # Of packs, how many lists of members are kept.
 OPEN_PACKS = 8
@@ -94,7 +94,7 @@ class Sensor:
         self._packs = description.get("packs")
         self._members = collections.OrderedDict()
         self._files = (self._packs["members"] if self._packs else description["files"])
-        self._records = dict(description.get("other_records", {}))
+        self._records = dict(description.get("label_records", {}))
         if "records" in description:
             record = description["records"]
             self._records[pathlib.PurePath(record["file"]).stem] = record

@@ -51,9 +51,9 @@ bool visit_sensor(const Json& sensor, const std::function<bool(const DescribedFi
         if (!visit({sensor["records"].at("file").get<std::string>(), &sensor, "records"}))
             return false;
     }
-    const Json others = sensor.value("other_records", Json::object());
-    for (const auto& [name, record] : others.items()) {
-        if (!visit({record.at("file").get<std::string>(), &sensor, "other_records/" + name}))
+    const Json labels = sensor.value("label_records", Json::object());
+    for (const auto& [label, record] : labels.items()) {
+        if (!visit({record.at("file").get<std::string>(), &sensor, "label_records/" + label}))
             return false;
     }
     const Json products = sensor.value("products", Json::array());

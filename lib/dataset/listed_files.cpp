@@ -73,8 +73,8 @@ void list_sensor(const fs::path& folder, const Json& sensor, Files& files) {
     }
     const Json records = sensor.value("records", Json::object());
     if (records.contains("file")) files.insert(records["file"].get<std::string>());
-    for (const Json& record : sensor.value("other_records", Json::object()))
-        files.insert(record.at("file").get<std::string>());
+    for (const Json& label : sensor.value("label_records", Json::object()))
+        files.insert(label.at("file").get<std::string>());
     for (const Json& product : sensor.value("products", Json::array()))
         files.insert(product.get<std::string>());
 }

@@ -99,7 +99,7 @@ Json describe_sensor(const Sonar& sonar, double full_scale, const Layout& layout
         }
         if (const auto* record = std::get_if<PingRecord>(&part)) {
             Json& place =
-                record->label.empty() ? json["records"] : json["other_records"][record->label];
+                record->label.empty() ? json["records"] : json["label_records"][record->label];
             place = {{"file", config.name + "/" + record->file}, {"axes", record->axes}};
         }
     }

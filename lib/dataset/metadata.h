@@ -11,7 +11,7 @@
 namespace sonarsim {
 
 inline constexpr const char* dataset_format = "sonarsim dataset";
-inline constexpr int dataset_format_version = 4;
+inline constexpr int dataset_format_version = 3;
 
 /// dataset.json with `complete` set to false. Lengths in metres, angles in radians, edges from the
 /// lowest bin to the highest: bin i lies between edges i and i + 1. `writers` by sensor.

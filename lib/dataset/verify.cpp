@@ -65,7 +65,7 @@ Shape told_shape(const DescribedFile& file) {
 /// How many ids dataset.json tells for the values of a file; nothing where they are no ids.
 std::optional<std::size_t> told_ids(const DescribedFile& file, const Json& description) {
     std::string_view kind = file.kind;
-    for (const std::string_view prefix : {"other_records/", "fan_"}) {
+    for (const std::string_view prefix : {"label_records/", "fan_"}) {
         if (kind.starts_with(prefix)) kind.remove_prefix(prefix.size());
     }
     const char* list = nullptr;

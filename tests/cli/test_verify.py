@@ -146,8 +146,8 @@ class Verify(Sandbox):
         self.assert_refused(self.run_sonarsim("verify", "none"), "none", "no dataset.json")
         self.write("other/dataset.json", "{}")
         self.assert_refused(self.run_sonarsim("verify", "other"), "dataset.json", "not sonarsim's")
-        self.edit("out/dataset.json", '"format_version": 4', '"format_version": 3')
-        self.assert_refused(self.verify(), "format_version 3")
+        self.edit("out/dataset.json", '"format_version": 3', '"format_version": 2')
+        self.assert_refused(self.verify(), "format_version 2")
 
     def test_sums_that_are_none(self):
         good = (self.out / "SHA256SUMS").read_text()

@@ -117,7 +117,7 @@ TEST_SUITE("dataset") {
         const auto json = nlohmann::json::parse(read_file(out / "dataset.json", 1 << 20));
         CHECK(json["labels"]["instances"].size() == assembly.objects.objects.size());
         CHECK(json["sensors"][2]["records"]["file"] == "sss/waterfall.npy");
-        CHECK(json["sensors"][2]["other_records"]["instance"]["file"] == "sss/instance.npy");
+        CHECK(json["sensors"][2]["label_records"]["instance"]["file"] == "sss/instance.npy");
         const auto seen =
             nlohmann::json::parse(read_file(out / "front/objects/000000.json", 1 << 20));
         std::uint64_t area = 0;

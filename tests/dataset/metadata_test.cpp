@@ -24,7 +24,7 @@ TEST_SUITE("dataset") {
         const Json json = Json::parse(json_text(
             describe_dataset(mission, assembly, make_layout(mission, writers, 7), writers)));
         CHECK(json.at("format") == "sonarsim dataset");
-        CHECK(json.at("format_version") == 4);
+        CHECK(json.at("format_version") == 3);
         CHECK(json.at("program_version") == SONARSIM_VERSION);
         CHECK(json.at("complete") == false);
         CHECK(json.at("mission") == "small");
