@@ -1,0 +1,77 @@
+#include "visibility/slices/agreeing_slices.h"
+
+#include <doctest/doctest.h>
+
+#include "support/scenes.h"
+#include "visibility/slices/clusters.h"
+#include "visibility/slices/fixtures.h"
+#include "visibility/slices/scan.h"
+
+using namespace sonarsim;
+using test::fan_view;
+
+namespace {
+
+/// How many slices a fan needed, and what was left.
+struct Walk {
+    std::size_t slices = 0;
+    Disagreement sum;
+};
+
+Walk walk(const Scene& scene, const DisagreementLimit& most) {
+    const View view = fan_view();
+    const ClusterMesh mesh = make_clusters(scene);
+    const LocalPose pose{Eigen::Matrix3f::Identity(), Eigen::Vector3f::Zero()};
+    Walk out;
+    for (const SliceFrame& frame : slice_frames(view, 1)) {
+        FrameScan scan(mesh, scene, frame, pose, static_cast<float>(view.range_max_m));
+        AgreeingSlices agreeing(view, scene.materials, scan);
+        while (agreeing.see_next(most))
+            out.slices += agreeing.slices().size();
+        out.sum.apart += agreeing.sum().apart;
+        out.sum.signal += agreeing.sum().signal;
+    }
+    return out;
+}
+
+/// A wall, where slices agree, and leaning rods before half of it, where they do not.
+Scene wall_and_rods() {
+    Scene scene = test::empty_scene();
+    const std::uint32_t rock = test::add_material(scene, 0.5F);
+    test::add_quad(scene, {9, -8, -4}, {9, 8, -4}, {9, 8, 4}, {9, -8, 4}, rock);
+    for (int k = 0; k < 12; ++k) {
+        const float x = 5.0F + 0.3F * static_cast<float>(k * 5 % 7);
+        const float y = 0.4F + 0.25F * static_cast<float>(k);
+        test::add_quad(scene, {x, y, -2}, {x, y + 0.05F, -2}, {x + 0.8F, y + 0.65F, 2},
+                       {x + 0.8F, y + 0.6F, 2}, rock);
+    }
+    return scene;
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("slices");
+
+// Without lending every beam keeps to the limit by itself, and most stay far below it.
+TEST_CASE("slices: beams lend what they leave of the limit, and all together keep to it") {
+    const Scene scene = wall_and_rods();
+    for (const double share : {0.01, 0.03}) {
+        CAPTURE(share);
+        const Walk alone = walk(scene, {.share = share, .lent = 0.0});
+        const Walk lent = walk(scene, {.share = share, .lent = 0.25});
+        CHECK(lent.slices < alone.slices);
+        CHECK(lent.sum.apart > alone.sum.apart);
+        CHECK(alone.sum.share() < 0.25 * share);
+        CHECK(lent.sum.share() <= share);
+    }
+    // Of a wall alone all slices agree, and there are no more than the walk begins with.
+    Scene wall = test::empty_scene();
+    test::add_quad(wall, {9, -8, -4}, {9, 8, -4}, {9, 8, 4}, {9, -8, 4},
+                   test::add_material(wall, 0.5F));
+    std::size_t least = 0;
+    for (const SliceFrame& frame : slice_frames(fan_view(), 1))
+        least += frame.slices.size();
+    CHECK(walk(wall, {.share = 0.01, .lent = 0.25}).slices == least);
+}
+
+TEST_SUITE_END();
