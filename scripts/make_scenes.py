@@ -56,6 +56,8 @@ def main() -> int:
         files = {name: builders[name]}
         if name == "minefield":
             files.update(minefield.OBJECTS)
+        if name == "close_bottom":
+            files.update(close_bottom.OBJECTS)
         for file, build in files.items():
             parts = build()
             size = write_glb(folder / f"{file}.glb", parts)

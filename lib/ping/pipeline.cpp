@@ -27,6 +27,27 @@ Ping blank_ping(const TracedPing& traced, const View& view, const Terms& terms) 
     return ping;
 }
 
+/// Finds what the view sees and what lies in `beams_beside` beams to either side of it.
+void find_surface(const PingSettings& settings, const VisibilityEngine& engine,
+                  TracedPing& traced) {
+    const int beside = settings.beams_beside;
+    View view = settings.view;
+    view.beams += 2 * beside;
+    view.azimuth_rad *= static_cast<double>(view.beams) / settings.view.beams;
+    traced.samples = engine.visible_surface(view, traced.T_world_sensor);
+    if (beside == 0) return;
+    std::vector<Sample>& items = traced.samples.items;
+    std::vector<std::uint32_t>& begins = traced.samples.beam_begin;
+    const std::uint32_t first = begins[beside];
+    const std::uint32_t last = begins[beside + settings.view.beams];
+    traced.beside.assign(items.begin(), items.begin() + first);
+    traced.beside.insert(traced.beside.end(), items.begin() + last, items.end());
+    items = std::vector<Sample>(items.begin() + first, items.begin() + last);
+    begins = std::vector<std::uint32_t>(begins.begin() + beside, begins.end() - beside);
+    for (std::uint32_t& begin : begins)
+        begin -= first;
+}
+
 /// Adds the echoes of the visible surface to the bins of a beam. Holds what all beams share.
 struct DirectEchoes {
     const Scene& scene;
@@ -60,16 +81,17 @@ Ping form_calibrated_image(const TracedPing& traced, const PingSettings& setting
         return stream_key(key.seed, settings.stream, number, s);
     };
     ping.intensity.resize(static_cast<std::size_t>(ping.range_bins) * ping.beams);
-    const CalibratedCounts counts = form_calibrated(
-        *settings.calibrated, {traced.samples, traced.mirrored}, scene, traced.T_world_sensor,
-        {.scene = stream_key(key.seed, 0, 0, Stream::scatterers),
-         .ping = draws(key.ping, Stream::speckle),
-         .noise = draws(key.ping, Stream::receiver_noise)},
-        {.echoes = terms.direct,
-         .mirrored = terms.multipath,
-         .speckle = terms.range_noise,
-         .noise = terms.pixel_noise},
-        ping.intensity);
+    const CalibratedCounts counts =
+        form_calibrated(*settings.calibrated, {traced.samples, traced.mirrored, traced.beside},
+                        scene, traced.T_world_sensor,
+                        {.scene = stream_key(key.seed, 0, 0, Stream::scatterers),
+                         .ping = draws(key.ping, Stream::speckle),
+                         .noise = draws(key.ping, Stream::receiver_noise)},
+                        {.echoes = terms.direct,
+                         .mirrored = terms.multipath,
+                         .speckle = terms.range_noise,
+                         .noise = terms.pixel_noise},
+                        ping.intensity);
     ping.counts.echoes = counts.echoes;
     ping.counts.out_of_range = counts.out_of_range;
     ping.counts.occupied_bins = counts.lit_places;
@@ -87,8 +109,8 @@ TracedPing trace_ping(const PingSettings& settings, const Scene& scene,
     Stopwatch watch;
 
     // 1. The visible surface.
-    traced.samples = engine.visible_surface(settings.view, T_world_sensor);
-    traced.counts.samples = traced.samples.items.size();
+    find_surface(settings, engine, traced);
+    traced.counts.samples = traced.samples.items.size() + traced.beside.size();
     traced.counts.dropped_samples = traced.samples.dropped;
     traced.seconds.trace = watch.lap();
 
