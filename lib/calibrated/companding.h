@@ -9,8 +9,7 @@
 namespace sonarsim {
 
 /// The numbers that the instrument delivers: powers by full scale, clipped at 1, turned into whole
-/// numbers of `bits` bits with the greatest M, rounded or cut off, where A is the root of the
-/// power:
+/// numbers of `bits` bits with the greatest M, where A is the root of the power:
 ///
 ///     gamma     M A^gamma
 ///     log       M (1 + 20 log10(A) / dynamic_range_db), 0 below

@@ -72,7 +72,6 @@ struct ReceiverConfig {
     double gamma = 0.5;            ///< value = (amplitude / full scale)^gamma
     double dynamic_range_db = 60;  ///< of `log`
     int bits = 8;
-    bool truncate = false;  ///< values are cut off instead of rounded
 
     bool operator==(const ReceiverConfig&) const = default;
 };

@@ -93,7 +93,6 @@ void describe(Visitor& v, ReceiverConfig& c) {
     v.number("dynamic_range_db", c.dynamic_range_db, between(10, 200),
              "decibels between 0 and the largest value with `log`");
     v.integer("bits", c.bits, between(4, 16), "bits of raw/; more than 8 make 16-bit files");
-    v.flag("truncate", c.truncate, "values of raw/ are cut off to whole numbers, not rounded");
 }
 
 template <class Visitor>

@@ -1,9 +1,12 @@
 #include "ping/pipeline.h"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 
 #include "calibrated/model.h"
 #include "core/clock.h"
+#include "core/elementary.h"
 #include "ping/accumulate.h"
 #include "ping/echoes.h"
 #include "ping/multipath_echoes.h"
@@ -27,7 +30,8 @@ Ping blank_ping(const TracedPing& traced, const View& view, const Terms& terms) 
     return ping;
 }
 
-/// Finds what the view sees and what lies in `beams_beside` beams to either side of it.
+/// Finds what the view sees and, in `beams_beside` beams to either side of it, what the cones of
+/// its beams reach.
 void find_surface(const PingSettings& settings, const VisibilityEngine& engine,
                   TracedPing& traced) {
     const int beside = settings.beams_beside;
@@ -38,14 +42,19 @@ void find_surface(const PingSettings& settings, const VisibilityEngine& engine,
     if (beside == 0) return;
     std::vector<Sample>& items = traced.samples.items;
     std::vector<std::uint32_t>& begins = traced.samples.beam_begin;
-    const std::uint32_t first = begins[beside];
-    const std::uint32_t last = begins[beside + settings.view.beams];
-    traced.beside.assign(items.begin(), items.begin() + first);
-    traced.beside.insert(traced.beside.end(), items.begin() + last, items.end());
-    items = std::vector<Sample>(items.begin() + first, items.begin() + last);
+    const auto first = items.begin() + begins[beside];
+    const auto last = items.begin() + begins[beside + settings.view.beams];
+    const auto widest = static_cast<float>(sincos(0.5 * settings.view.azimuth_rad).sin);
+    const auto is_heard = [&](const Sample& sample) {
+        return std::fabs(sample.position.y()) <= widest * sample.position.norm();
+    };
+    std::copy_if(items.begin(), first, std::back_inserter(traced.beside), is_heard);
+    std::copy_if(last, items.end(), std::back_inserter(traced.beside), is_heard);
+    const std::uint32_t skipped = begins[beside];
+    items = std::vector<Sample>(first, last);
     begins = std::vector<std::uint32_t>(begins.begin() + beside, begins.end() - beside);
     for (std::uint32_t& begin : begins)
-        begin -= first;
+        begin -= skipped;
 }
 
 /// Adds the echoes of the visible surface to the bins of a beam. Holds what all beams share.

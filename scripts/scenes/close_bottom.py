@@ -1,4 +1,4 @@
-"""A rough bottom half a metre below a high-frequency sonar, with some particles in the water."""
+"""A rough bottom half a metre below a high-frequency sonar, snow of the sea, and the water's surface."""
 import math
 
 from .glb import Part
@@ -6,38 +6,38 @@ from .noise import Draws, Relief
 from .shapes import add_quad, add_sphere
 
 CELL_M = 0.005
-FLOCS = 10
+FLOCS = 28
 FLOC_M = 0.0008
 
 
 def step_at(y):
-    """Where the bottom steps up, aslant, behind the gravel: it makes the second arc."""
+    """Where the bottom steps up, aslant, behind the pebbles: it makes the second arc."""
     return 1.42 - 0.35 * y
 
 
 def material_at(x, y, ragged, draw):
-    """A patch of gravel with a bare spot in it, mud before it, sand behind it and stones on the
-    step."""
+    """A patch of pebbles on silt with a bare spot in it, mud before it, sand behind it, and rock
+    beyond the step. Single stones make the bottom's echo spiky."""
     azimuth = math.degrees(math.atan2(y, max(x, 1e-6)))
     distance = math.hypot(x, y)
     bend = (azimuth / 30) ** 2
-    if distance < 0.45 + 0.33 * bend:
+    if distance < 0.4 + 0.4 * bend:
         return "mud"
     if ((distance - 0.96) / 0.14) ** 2 + ((azimuth - 4) / 7) ** 2 < 1 + 15 * ragged(x, y):
         return "silt"
     stone = draw(0, 1)
-    if distance < 1.05 - 0.12 * bend + ragged(x, y):
+    if distance < 1.07 - 0.08 * bend + ragged(x, y):
         return "limestone" if stone < 0.34 else "silt"
     if x > step_at(y) + 0.04:
         return "rock" if stone < 0.6 else "limestone"
-    return "sand" if bend < 0.35 + 6 * ragged(x, y) else "silt"
+    return "sand" if bend < 0.25 + 6 * ragged(x, y) else "silt"
 
 
 def build():
     """The sonar is at the origin and looks along x, 35 degrees down. The bottom reaches from under it
     to 2.4 m ahead."""
     swell = Relief(0.5, 0.03, 2, 7)
-    stones = Relief(0.05, 0.006, 2, 20)
+    stones = Relief(0.05, 0.0055, 2, 20)
     draw = Draws(40)
     ragged = Relief(0.05, 0.04, 2, 31)
 

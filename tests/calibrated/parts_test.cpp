@@ -160,10 +160,6 @@ TEST_SUITE("calibrated") {
         const std::vector<float> powers{0.0F, 0.0625F, 1.0F, 7.0F};
         ReceiverConfig receiver;
         CHECK(companded(powers, receiver) == std::vector<std::uint16_t>{0, 128, 255, 255});
-        // 127.5 of 255.
-        receiver.truncate = true;
-        CHECK(companded(powers, receiver) == std::vector<std::uint16_t>{0, 127, 255, 255});
-        receiver.truncate = false;
         receiver.companding = Companding::linear;
         CHECK(companded(powers, receiver) == std::vector<std::uint16_t>{0, 64, 255, 255});
         receiver.companding = Companding::log;
