@@ -4,7 +4,8 @@
 tank      a concrete tank, 8 x 6 x 3 m, with a few objects (the default; scenes/tank.glb)
 seafloor  200 x 200 m of sand and silt with a hundred boulders, a million triangles
 wreck     a broken hull with ribs on a rippled bottom, 60 x 60 m
-close_bottom  a rough bottom half a metre below a sonar, with some particles
+close_bottom  a rough bottom half a metre below a sonar; besides it close_bottom_surface and
+          close_bottom_flocs, which move
 lifeboat  a hull with rails, ropes and gear, of one material, for comparisons of the engines
 minefield a rippled sandy bottom with rocks, 40 x 40 m, and besides it the objects that a mission
           may place on it: cylinder_mine, cone_mine, tyre, drum, block, rock
@@ -56,6 +57,8 @@ def main() -> int:
         files = {name: builders[name]}
         if name == "minefield":
             files.update(minefield.OBJECTS)
+        if name == "close_bottom":
+            files.update(close_bottom.OBJECTS)
         for file, build in files.items():
             parts = build()
             size = write_glb(folder / f"{file}.glb", parts)

@@ -83,6 +83,7 @@ CalibratedCounts form_image_of(const Beams& beams, const CalibratedModel& model,
     const bool speckled = terms.speckle && model.speckle != SpeckleMode::none;
     const bool of_scene = speckled && model.speckle == SpeckleMode::scene;
     const std::vector<Backscatter> materials = scattering_of(scene);
+    const std::array<std::span<const Sample>, 2> surfaces{seen.samples.items, seen.beside};
     CalibratedCounts counts;
     EchoGrid grid(model.equation.rows, columns_of(beams));
     PointEchoes echoes;
@@ -95,21 +96,24 @@ CalibratedCounts form_image_of(const Beams& beams, const CalibratedModel& model,
     if (terms.echoes && of_scene) {
         Scatterers block;
         Amplitudes amplitudes;
-        find_scatterers(seen.samples.items, model.cells, sonar, draws.scene, block,
-                        [&](const Scatterers& found) {
-                            find(found.pieces);
-                            draw_amplitudes(found, echoes, model.cells, sonar, draws.scene,
-                                            amplitudes);
-                            add_amplitudes(beams, found.pieces, echoes, amplitudes, grid);
-                        });
+        for (const std::span<const Sample> surface : surfaces) {
+            find_scatterers(
+                surface, model.cells, sonar, draws.scene, block, [&](const Scatterers& found) {
+                    find(found.pieces);
+                    draw_amplitudes(found, echoes, model.cells, sonar, draws.scene, amplitudes);
+                    add_amplitudes(beams, found.pieces, echoes, amplitudes, grid);
+                });
+        }
     } else if (terms.echoes) {
         PieceBlock block;
         PointLimits limits = model.limits;
         if (speckled) limits.depth_m *= most_drawn_depth_by_bin / most_depth_by_bin;
-        cut_into_pieces(seen.samples.items, limits, block, [&](const PieceBlock& pieces) {
-            find(pieces);
-            add_powers(beams, pieces, echoes, grid);
-        });
+        for (const std::span<const Sample> surface : surfaces) {
+            cut_into_pieces(surface, limits, block, [&](const PieceBlock& pieces) {
+                find(pieces);
+                add_powers(beams, pieces, echoes, grid);
+            });
+        }
     }
 
     // Independent places are fewer, but no less strong, than the points whose powers they hold.
@@ -201,7 +205,7 @@ CalibratedModel calibrated_model(const InstrumentConfig& instrument, const Water
     model.cells = scatterer_cells(instrument.speckle.per_cell, std::max(resolution_m, 0.5 * bin_m),
                                   radians(beam.width_deg), view.range_min_m, model.wavelength_m);
     for (int i = 0; i < view.range_bins; ++i) {
-        const double range = view.range_min_m + (i + 0.5) * bin_m;
+        const double range = std::max(view.range_min_m + (i + 0.5) * bin_m, receiver.tvg_from_m);
         const double tvg_db =
             receiver.tvg_log / 10.0 * db_of_power(range) +
             (receiver.tvg_absorption ? 2.0 * model.absorption_db_per_m * range : 0.0);

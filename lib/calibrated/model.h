@@ -60,10 +60,12 @@ struct CalibratedCounts {
     std::uint64_t lit_places = 0;  ///< of the grid, before the point spread
 };
 
-/// What a sonar has seen: surface, and what of it shows by way of another surface.
+/// What a sonar has seen: surface, in its view and beside it, and what shows by way of another
+/// surface.
 struct SeenSurface {
     const Samples& samples;
     std::span<const MirroredPiece> mirrored = {};
+    std::span<const Sample> beside = {};
 };
 
 /// The power of every bin, [range bins, beams], by full scale: 1 is the highest that the receiver

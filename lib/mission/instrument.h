@@ -36,6 +36,7 @@ struct BeamConfig {
     /// Errors of phase at the ends of the aperture: quadratic, cubic, quartic.
     std::array<double, 3> aberration_rad{};
     BeamSpread spread = BeamSpread::angle;
+    double view_azimuth_deg = 0.0;     ///< full angle that a line array hears; 0: azimuth_deg
     double elevation_width_deg = 0.0;  ///< half-power, there and back; 0: the same all over
     double elevation_side_lobe_db = -13.3;
     double across_width_deg = 50.0;  ///< of a side: half-power, one way, across the track
@@ -65,6 +66,7 @@ struct ReceiverConfig {
     double common_mode_db = -300.0;  ///< power of the noise that all elements share
     double tvg_log = 40.0;           ///< k of k log10 r
     bool tvg_absorption = true;      ///< 2 alpha r
+    double tvg_from_m = 0.0;         ///< nearer than this the gain is that of this range
     double full_scale_db = 0.0;      ///< the highest echo level after TVG that is not clipped
     Companding companding = Companding::gamma;
     double gamma = 0.5;            ///< value = (amplitude / full scale)^gamma

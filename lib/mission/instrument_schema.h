@@ -44,6 +44,9 @@ void describe(Visitor& v, BeamConfig& c) {
         v.numbers("aberration_rad", c.aberration_rad, between(-100, 100),
                   "error of phase at the ends of the array: its quadratic, cubic and quartic part");
         v.choice("spread", c.spread, beam_spreads, "what is even from beam to beam");
+        v.number("view_azimuth_deg", c.view_azimuth_deg, between(0, 180),
+                 "full angle in azimuth of what is heard; 0 means azimuth_deg. A beam is a cone: "
+                 "far above and below the sonar it hears surface at greater azimuths");
     }
     v.number("elevation_width_deg", c.elevation_width_deg, between(0, 120),
              "half-power width in elevation, there and back; 0 means the same all over "
@@ -80,6 +83,8 @@ void describe(Visitor& v, ReceiverConfig& c) {
              "noise that all elements share, in the beam straight ahead; -300 is none");
     v.number("tvg_log", c.tvg_log, between(0, 60), "k of the gain k log10 r");
     v.flag("tvg_absorption", c.tvg_absorption, "the gain makes up for absorption");
+    v.number("tvg_from_m", c.tvg_from_m, at_least(0),
+             "range at which the gain begins to grow; nearer than this it is the same");
     v.number("full_scale_db", c.full_scale_db, any_level_db,
              "echo level, after the gain, that is the largest value of raw/");
     v.choice("companding", c.companding, compandings,

@@ -170,6 +170,9 @@ void describe(Visitor& v, SonarConfig& c) {
         v.require(!forward || c.azimuth_deg < 180.0, {"azimuth_deg", "model"},
                   "the line array of the calibrated model looks forward: azimuth_deg must be below "
                   "180");
+        v.require(beam.view_azimuth_deg == 0.0 || beam.view_azimuth_deg >= c.azimuth_deg,
+                  {"azimuth_deg", "instrument"},
+                  "instrument.beam.view_azimuth_deg must be 0 or at least azimuth_deg");
         v.require(
             beam.aperture != Aperture::head || c.azimuth_deg >= beam.width_deg,
             {"azimuth_deg", "instrument"},

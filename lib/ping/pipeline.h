@@ -21,6 +21,10 @@ struct CalibratedModel;
 /// What the pipeline needs to know of a sonar, stage by stage.
 struct PingSettings {
     View view;
+    /// Of a calibrated fan: beams of azimuth to either side of the view in which surface is looked
+    /// for as well. A line array's beam is a cone, which reaches there far off the horizontal
+    /// plane.
+    int beams_beside = 0;
     Multipath multipath;
     RangeNoise range_noise;
     PixelNoise pixel_noise;
@@ -42,6 +46,7 @@ struct PingKey {
 struct TracedPing {
     Pose T_world_sensor;
     Samples samples;                      ///< the visible surface
+    std::vector<Sample> beside;           ///< and that in the beams beside the view
     std::vector<Bounce> bounces;          ///< multipath by way of it
     std::vector<MirroredPiece> mirrored;  ///< the same as the calibrated model takes it
     PingCounts counts;

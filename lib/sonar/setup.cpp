@@ -1,5 +1,6 @@
 #include "sonar/setup.h"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -124,6 +125,10 @@ void add_instrument(Sonar& sonar, const WaterConfig& water) {
         }
         for (int j = 0; even_sines && j <= view.beams; ++j)
             sonar.azimuth_edges_rad[j] = arcsin((2.0 * j / view.beams - 1.0) * sincos(half).sin);
+        const double beside =
+            0.5 * (radians(instrument.beam.view_azimuth_deg) / (2.0 * half) - 1.0);
+        sonar.settings.beams_beside =
+            static_cast<int>(std::max(0.0, std::floor(beside * view.beams + 1e-6)));
     }
     sonar.settings.calibrated =
         std::make_shared<const CalibratedModel>(calibrated_model(instrument, water, view, sines));

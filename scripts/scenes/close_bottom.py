@@ -1,56 +1,83 @@
-"""A rough bottom half a metre below a high-frequency sonar, with some particles in the water."""
+"""A rough bottom half a metre below a high-frequency sonar, snow of the sea, and the water's surface."""
 import math
 
 from .glb import Part
 from .noise import Draws, Relief
-from .shapes import add_sphere
+from .shapes import add_quad, add_sphere
 
-CELL_M = 0.008
-PARTICLES = 20
+CELL_M = 0.005
+FLOCS = 28
+FLOC_M = 0.0008
 
 
-def material_at(x, y):
-    """A patch of gravel on mud, silt and a stripe of sand behind it, and rock farther on."""
+def step_at(y):
+    """Where the bottom steps up, aslant, behind the pebbles: it makes the second arc."""
+    return 1.42 - 0.35 * y
+
+
+def material_at(x, y, ragged, draw):
+    """A patch of pebbles on silt with a bare spot in it, mud before it, sand behind it, and rock
+    beyond the step. Single stones make the bottom's echo spiky."""
     azimuth = math.degrees(math.atan2(y, max(x, 1e-6)))
     distance = math.hypot(x, y)
-    if distance > 1.55:
-        return "rock"
-    if 1.36 < distance < 1.42:
-        return "sand"
     bend = (azimuth / 30) ** 2
-    if 0.45 + 0.305 * bend < distance < 1.03 - 0.06 * bend:
-        return "gravel"
-    return "mud" if distance < 0.7 else "silt"
+    if distance < 0.4 + 0.4 * bend:
+        return "mud"
+    if ((distance - 0.96) / 0.14) ** 2 + ((azimuth - 4) / 7) ** 2 < 1 + 15 * ragged(x, y):
+        return "silt"
+    stone = draw(0, 1)
+    if distance < 1.07 - 0.08 * bend + ragged(x, y):
+        return "limestone" if stone < 0.34 else "silt"
+    if x > step_at(y) + 0.04:
+        return "rock" if stone < 0.6 else "limestone"
+    return "sand" if bend < 0.25 + 6 * ragged(x, y) else "silt"
 
 
 def build():
     """The sonar is at the origin and looks along x, 35 degrees down. The bottom reaches from under it
     to 2.4 m ahead."""
     swell = Relief(0.5, 0.03, 2, 7)
-    stones = Relief(0.05, 0.006, 2, 20)
+    stones = Relief(0.05, 0.0055, 2, 20)
+    draw = Draws(40)
+    ragged = Relief(0.05, 0.04, 2, 31)
 
     def height(x, y):
-        # A step up behind 1.3 m makes the second arc.
-        rise = 0.05 / (1 + math.exp(-(x - 1.36) / 0.03))
-        return -0.53 + 0.06 * y * y + swell(x, y) + stones(x, y) + rise
+        rise = 0.025 / (1 + math.exp(-(x - step_at(y)) / 0.03))
+        below = 0.035 * math.exp(-(x / 0.35) ** 2)
+        return -0.53 + 0.06 * y * y - below + swell(x, y) + stones(x, y) + rise
 
     bottom = Part("bottom", "mud")
-    columns, rows = range(-20, 301), range(-170, 171)
+    columns, rows = range(-32, 481), range(-230, 231)
     numbers = {(i, j): bottom.add_vertex(CELL_M * i, CELL_M * j, height(CELL_M * i, CELL_M * j))
                for j in rows for i in columns}
     for j in rows[:-1]:
         for i in columns[:-1]:
             bottom.add_quad(numbers[i, j], numbers[i + 1, j], numbers[i + 1, j + 1],
-                            numbers[i, j + 1], material_at(CELL_M * i, CELL_M * j))
+                            numbers[i, j + 1], material_at(CELL_M * i, CELL_M * j, ragged, draw))
 
+    return [bottom]
+
+
+def flocs():
+    """Marine snow in the main lobe between the sonar and the bottom."""
     draw = Draws(300)
-    particles = Part("particles", "sand")
-    for _ in range(PARTICLES):
-        distance = draw(0.15, 0.45)
-        azimuth = math.radians(draw(-24, 24))
+    part = Part("flocs", "floc")
+    for _ in range(FLOCS):
+        distance = draw(0.1, 0.48)
+        azimuth = math.radians(draw(-28, 28))
         depression = math.radians(35 + draw(-5, 5))
         centre = (distance * math.cos(azimuth) * math.cos(depression),
                   distance * math.sin(azimuth) * math.cos(depression),
                   -distance * math.sin(depression))
-        add_sphere(particles, centre, (0.0002, 0.0002, 0.0002), 1)
-    return [bottom, particles]
+        add_sphere(part, centre, (FLOC_M, FLOC_M, FLOC_M), 1)
+    return [part]
+
+
+def surface():
+    """The surface of the water, at height 0."""
+    part = Part("surface", "water_surface")
+    add_quad(part, (-3, -3, 0), (3, -3, 0), (3, 3, 0), (-3, 3, 0))
+    return [part]
+
+
+OBJECTS = {"close_bottom_flocs": flocs, "close_bottom_surface": surface}

@@ -156,6 +156,14 @@ TEST_SUITE("calibrated") {
         const CalibratedModel gained = model_of(config);
         CHECK(std::fabs(at(image_of(gained, near), 20, 32) / at(image_of(gained, far), 180, 32) -
                         1.0) < 1e-3);
+        // Nearer than 4 m it is that of 4 m.
+        config.receiver.tvg_from_m = 4.0;
+        const CalibratedModel late = model_of(config);
+        CHECK(late.row_gain[20] == late.row_gain[0]);
+        CHECK(late.row_gain[180] == gained.row_gain[180]);
+        CHECK(std::fabs(db_of_power(late.row_gain[180] / late.row_gain[20]) -
+                        4.0 * db_of_power(4.805 / 4.0) -
+                        2.0 * late.absorption_db_per_m * (4.805 - 4.0)) < 1e-3);
     }
 
     TEST_CASE("calibrated: energies add") {

@@ -1,0 +1,63 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "core/units.h"
+#include "sonar/kinds.h"
+#include "support/scenes.h"
+#include "validation/image_error.h"
+#include "visibility/angles.h"
+#include "visibility/make_engine.h"
+
+using namespace sonarsim;
+using namespace sonarsim::test;
+
+namespace {
+
+/// A line array that hears all elevations alike in beams of 60 degrees of azimuth.
+Sonar line_array_sonar(double view_azimuth_deg) {
+    SonarConfig config = kind_of(SonarKind::imaging).keys.defaults;
+    config.name = "fls";
+    config.model = EchoModel::of_instrument;
+    config.azimuth_deg = 60.0;
+    config.elevation_deg = 178.0;
+    config.range_min_m = 1.0;
+    config.range_max_m = 3.0;
+    config.range_bins = 100;
+    config.azimuth_bins = 64;
+    config.instrument.beam.view_azimuth_deg = view_azimuth_deg;
+    return make_sonar(config, {0.02});
+}
+
+/// The expected image of a ball 2 m off in this direction.
+std::vector<float> image_of_ball(const Sonar& sonar, double azimuth_rad, double elevation_rad) {
+    Scene scene = empty_scene();
+    const Eigen::Vector3d centre = 2.0 * direction_of(azimuth_rad, elevation_rad);
+    add_sphere(scene, centre.cast<float>(), 0.1F, add_material(scene, 0.4F), 64);
+    EngineSettings settings;
+    settings.type = EngineType::rays;
+    const auto engine = make_engine(scene, settings);
+    const Pose here;
+    return render_ping(sonar, scene, *engine, here, {.seed = 1, .ping = 0}, direct_echoes_alone)
+        .intensity;
+}
+
+}  // namespace
+
+TEST_SUITE("calibrated") {
+    TEST_CASE("beams are cones: a ball high up and far aside sounds as one at the same y / r") {
+        // y / r = sin(azimuth) cos(elevation) is 0.3214 in both places.
+        const double azimuth = radians(70.0);
+        const double elevation = radians(70.0);
+        const double same = arcsin(sincos(azimuth).sin * sincos(elevation).cos);
+        const Sonar narrow = line_array_sonar(0.0);
+        const Sonar wide = line_array_sonar(180.0);
+        CHECK(narrow.settings.beams_beside == 0);
+        CHECK(wide.settings.beams_beside == 64);
+        const std::vector<float> ahead = image_of_ball(narrow, same, 0.0);
+        CHECK(std::ranges::max(ahead) > 0.0F);
+        CHECK(std::ranges::max(image_of_ball(narrow, azimuth, elevation)) == 0.0F);
+        CHECK(image_error(image_of_ball(wide, azimuth, elevation), ahead).relative_l1 < 0.04);
+        CHECK(image_error(image_of_ball(wide, same, 0.0), ahead).relative_l1 < 0.04);
+    }
+}
