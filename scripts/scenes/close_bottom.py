@@ -1,4 +1,4 @@
-"""A rough bottom half a metre below a high-frequency sonar, snow of the sea, and the water's surface."""
+"""A rough bottom half a metre below a high-frequency sonar, marine snow, and the water's surface."""
 import math
 
 from .glb import Part
