@@ -54,7 +54,6 @@ def build():
         for i in columns[:-1]:
             bottom.add_quad(numbers[i, j], numbers[i + 1, j], numbers[i + 1, j + 1],
                             numbers[i, j + 1], material_at(CELL_M * i, CELL_M * j, ragged, draw))
-
     return [bottom]
 
 

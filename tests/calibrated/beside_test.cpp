@@ -4,6 +4,7 @@
 
 #include "core/units.h"
 #include "sonar/kinds.h"
+#include "sonar/sonar.h"
 #include "support/scenes.h"
 #include "validation/image_error.h"
 #include "visibility/angles.h"
@@ -26,14 +27,14 @@ Sonar line_array_sonar(double view_azimuth_deg) {
     config.range_bins = 100;
     config.azimuth_bins = 64;
     config.instrument.beam.view_azimuth_deg = view_azimuth_deg;
-    return make_sonar(config, {0.02});
+    return make_sonar(config, {0.005});
 }
 
 /// The expected image of a ball 2 m off in this direction.
 std::vector<float> image_of_ball(const Sonar& sonar, double azimuth_rad, double elevation_rad) {
     Scene scene = empty_scene();
     const Eigen::Vector3d centre = 2.0 * direction_of(azimuth_rad, elevation_rad);
-    add_sphere(scene, centre.cast<float>(), 0.1F, add_material(scene, 0.4F), 64);
+    add_sphere(scene, centre.cast<float>(), 0.1F, add_material(scene, 0.4F));
     EngineSettings settings;
     settings.type = EngineType::rays;
     const auto engine = make_engine(scene, settings);
@@ -57,7 +58,7 @@ TEST_SUITE("calibrated") {
         const std::vector<float> ahead = image_of_ball(narrow, same, 0.0);
         CHECK(std::ranges::max(ahead) > 0.0F);
         CHECK(std::ranges::max(image_of_ball(narrow, azimuth, elevation)) == 0.0F);
-        CHECK(image_error(image_of_ball(wide, azimuth, elevation), ahead).relative_l1 < 0.04);
-        CHECK(image_error(image_of_ball(wide, same, 0.0), ahead).relative_l1 < 0.04);
+        CHECK(image_error(image_of_ball(wide, azimuth, elevation), ahead).relative_l1 < 0.03);
+        CHECK(image_error(image_of_ball(wide, same, 0.0), ahead).relative_l1 < 0.03);
     }
 }

@@ -70,6 +70,14 @@ TEST_CASE("each model has its own keys") {
               .starts_with("m.yaml:7:5: unknown key 'noise'"));
 }
 
+TEST_CASE("a fan hears no less than its azimuth") {
+    const std::string model = smallest_mission + "    model: calibrated\n    azimuth_deg: 60\n";
+    CHECK(parse(model + "    instrument: {beam: {view_azimuth_deg: 60}}\n").sensors.size() == 1);
+    CHECK(refusal(model + "    instrument: {beam: {view_azimuth_deg: 59}}\n")
+              .find("instrument.beam.view_azimuth_deg must be 0 or at least azimuth_deg") !=
+          std::string::npos);
+}
+
 TEST_CASE("the speed of sound follows from the water where it is left to it") {
     const Mission mission = parse(
         smallest_mission + "water: {sound_speed_m_s: auto, temperature_c: 25, depth_m: 1000}\n");
