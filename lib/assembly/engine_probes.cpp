@@ -1,6 +1,7 @@
 #include "assembly/engine_probes.h"
 
 #include "assembly/spread_pings.h"
+#include "ping/heard_surface.h"
 #include "ping/sonar.h"
 #include "sonar/engine_settings.h"
 
@@ -37,7 +38,7 @@ EngineSettings engine_settings(const Mission& mission, const Assembly& assembly)
         for (const std::uint32_t pose :
              spread_pings(assembly.trajectory.size(), sonar.config.every, most_probes)) {
             settings.probes.push_back(
-                {sonar.settings.view,
+                {heard_view(sonar.settings.view, sonar.settings.beams_beside),
                  sensor_pose(sonar, assembly.trajectory[pose].T_world_vehicle, pose),
                  rays_goal(sonar)});
         }

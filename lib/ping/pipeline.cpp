@@ -1,14 +1,13 @@
 #include "ping/pipeline.h"
 
 #include <algorithm>
-#include <cmath>
-#include <iterator>
+#include <utility>
 
 #include "calibrated/model.h"
 #include "core/clock.h"
-#include "core/elementary.h"
 #include "ping/accumulate.h"
 #include "ping/echoes.h"
+#include "ping/heard_surface.h"
 #include "ping/multipath_echoes.h"
 
 namespace sonarsim {
@@ -28,33 +27,6 @@ Ping blank_ping(const TracedPing& traced, const View& view, const Terms& terms) 
     ping.seconds = traced.seconds;
     if (!terms.multipath) ping.counts.multipath = {};
     return ping;
-}
-
-/// Finds what the view sees and, in `beams_beside` beams to either side of it, what the cones of
-/// its beams reach.
-void find_surface(const PingSettings& settings, const VisibilityEngine& engine,
-                  TracedPing& traced) {
-    const int beside = settings.beams_beside;
-    View view = settings.view;
-    view.beams += 2 * beside;
-    view.azimuth_rad *= static_cast<double>(view.beams) / settings.view.beams;
-    traced.samples = engine.visible_surface(view, traced.T_world_sensor);
-    if (beside == 0) return;
-    std::vector<Sample>& items = traced.samples.items;
-    std::vector<std::uint32_t>& begins = traced.samples.beam_begin;
-    const auto first = items.begin() + begins[beside];
-    const auto last = items.begin() + begins[beside + settings.view.beams];
-    const auto widest = static_cast<float>(sincos(0.5 * settings.view.azimuth_rad).sin);
-    const auto is_heard = [&](const Sample& sample) {
-        return std::fabs(sample.position.y()) <= widest * sample.position.norm();
-    };
-    std::copy_if(items.begin(), first, std::back_inserter(traced.beside), is_heard);
-    std::copy_if(last, items.end(), std::back_inserter(traced.beside), is_heard);
-    const std::uint32_t skipped = begins[beside];
-    items = std::vector<Sample>(first, last);
-    begins = std::vector<std::uint32_t>(begins.begin() + beside, begins.end() - beside);
-    for (std::uint32_t& begin : begins)
-        begin -= skipped;
 }
 
 /// Adds the echoes of the visible surface to the bins of a beam. Holds what all beams share.
@@ -118,7 +90,10 @@ TracedPing trace_ping(const PingSettings& settings, const Scene& scene,
     Stopwatch watch;
 
     // 1. The visible surface.
-    find_surface(settings, engine, traced);
+    HeardSurface heard =
+        heard_surface(settings.view, settings.beams_beside, engine, T_world_sensor);
+    traced.samples = std::move(heard.samples);
+    traced.beside = std::move(heard.beside);
     traced.counts.samples = traced.samples.items.size() + traced.beside.size();
     traced.counts.dropped_samples = traced.samples.dropped;
     traced.seconds.trace = watch.lap();

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 
+#include "ping/heard_surface.h"
 #include "validation/reference_cast.h"
 #include "visibility/local_pose.h"
 
@@ -21,9 +22,11 @@ class EnergyImage {
     }
 
     void add(const SurfacePoint& point) {
-        Sample& sample = traced_.samples.items.emplace_back();
         const auto range = static_cast<float>(point.range_m);
-        sample.position = range * (R_sensor_local_ * point.direction);
+        const Eigen::Vector3f position = range * (R_sensor_local_ * point.direction);
+        if (settings_.beams_beside > 0 && !is_reached(settings_.view, position)) return;
+        Sample& sample = traced_.samples.items.emplace_back();
+        sample.position = position;
         sample.edge_u.setZero();
         sample.edge_v.setZero();
         const float side = point.facet.normal.dot(point.direction) > 0.0F ? -1.0F : 1.0F;
@@ -72,11 +75,11 @@ class EnergyImage {
 Reference cast_energy_reference(const Caster& caster, const Scene& scene,
                                 const PingSettings& settings, const Pose& T_world_sensor,
                                 const ReferenceGoal& goal) {
-    const View& view = settings.view;
+    const View view = heard_view(settings.view, settings.beams_beside);
     const LocalPose pose = local_pose(T_world_sensor, scene.origin);
     const std::vector<SurfaceShare> shares = surface_shares(scene, view, pose);
     const ReferenceView looking{caster, scene, view, pose, shares};
-    return settled(view, goal, [&](int per_beam, int count) {
+    return settled(settings.view, goal, [&](int per_beam, int count) {
         Look look;
         std::vector<double> mean;
         for (const std::uint32_t start : {0U, 1U}) {

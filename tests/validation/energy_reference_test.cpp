@@ -36,8 +36,13 @@ TEST_CASE("where energies add the reference is what the engines come to") {
     add_floor(scene, 30.0F, -4.0F, rock, 4);
     add_sphere(scene, {5.0F, 0.5F, -3.5F}, 0.5F, rock, 48);
     const Caster caster(scene);
-    for (const SonarKind kind : {SonarKind::imaging, SonarKind::sidescan, SonarKind::echosounder}) {
-        const Sonar sonar = coarse_sonar(kind);
+    Sonar hears_more = coarse_sonar(SonarKind::imaging);
+    hears_more.settings.view.elevation_rad = radians(120.0);
+    hears_more.settings.beams_beside = hears_more.settings.view.beams / 2;
+    for (const Sonar& sonar :
+         {coarse_sonar(SonarKind::imaging), hears_more, coarse_sonar(SonarKind::sidescan),
+          coarse_sonar(SonarKind::echosounder)}) {
+        const SonarKind kind = sonar.config.kind;
         const Pose T_world_vehicle{
             rotation_from_rpy(0.0, kind == SonarKind::imaging ? radians(35.0) : 0.0, 0.0),
             Eigen::Vector3d::Zero()};
@@ -50,6 +55,7 @@ TEST_CASE("where energies add the reference is what the engines come to") {
                                       {}, direct_echoes_alone);
         const ImageError error = image_error(ping.intensity, reference.intensity);
         CAPTURE(name_of(kind));
+        CAPTURE(sonar.settings.beams_beside);
         CAPTURE(reference.moved);
         CHECK(error.relative_l1 < 0.02 + reference.moved);
         CHECK(reference.apart < 0.03);
