@@ -35,7 +35,7 @@ fi
 
 SONARSIM_BUILD=no ./scripts/setup.sh clang-tidy
 # Configured, never built: it says how each file is compiled.
-cmake --preset release -B build-tidy >/dev/null
+SONARSIM_JOINED=OFF cmake --preset release -B build-tidy >/dev/null
 # The warnings are GCC's; clang does not know all of their names.
 xargs -P "$(nproc)" -n 1 clang-tidy -p build-tidy --quiet --warnings-as-errors='*' \
     --extra-arg=-Wno-unknown-warning-option 2> >(grep -v ' warnings\( treated as errors\)\? generated' >&2) <<<"$sources" ||

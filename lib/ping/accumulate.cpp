@@ -88,7 +88,7 @@ void add_rest(const Boxes& boxes, std::size_t k, BinSum* first) {
     }
 }
 
-constexpr int lanes = 4;
+constexpr int tile = 4;
 
 /// Writes the first 4 values of 4 lists, `from_step` apart, as columns of 4 rows, `to_step` apart.
 void write_transposed(const float* from, std::size_t from_step, float* to, std::size_t to_step) {
@@ -166,11 +166,11 @@ std::uint64_t mean_of_bins(const BinSums& sums, std::span<float> intensity) {
 void write_beams(std::span<const float> by_beam, int beams, int first, int columns,
                  std::span<float> image) {
     const std::size_t rows = image.size() / columns;
-    const std::size_t whole_rows = rows / lanes * lanes;
-    const int whole_beams = beams / lanes * lanes;
+    const std::size_t whole_rows = rows / tile * tile;
+    const int whole_beams = beams / tile * tile;
     float* const to = image.data() + first;
-    for (std::size_t i = 0; i < whole_rows; i += lanes) {
-        for (int j = 0; j < whole_beams; j += lanes)
+    for (std::size_t i = 0; i < whole_rows; i += tile) {
+        for (int j = 0; j < whole_beams; j += tile)
             write_transposed(by_beam.data() + j * rows + i, rows, to + i * columns + j, columns);
     }
     for (std::size_t i = 0; i < rows; ++i) {
