@@ -9,6 +9,7 @@
 
 #include "support/bounces.h"
 #include "support/labelled.h"
+#include "support/sanitized.h"
 #include "support/scenes.h"
 #include "support/sonars.h"
 #include "visibility/make_engine.h"
@@ -195,7 +196,8 @@ TEST_CASE("labels: shadows are the same whether or not objects are asked for") {
     CHECK(shadows > 0);
 }
 
-TEST_CASE("labels: in the tank the objects are those that rays without number find") {
+TEST_CASE("labels: in the tank the objects are those that rays without number find" *
+          doctest::skip(test::sanitized)) {
     const Scene scene = tank();
     SonarConfig config = small_imaging();
     config.range_bins = 512;

@@ -6,6 +6,7 @@
 
 #include "core/units.h"
 #include "support/calibrated.h"
+#include "support/sanitized.h"
 #include "support/scenes.h"
 #include "validation/image_error.h"
 #include "visibility/make_engine.h"
@@ -30,7 +31,8 @@ TEST_SUITE_BEGIN("validation");
 
 // Of a floor that is seen whole, the rays know every piece to rounding: what they show and what
 // many single points show is the same integral.
-TEST_CASE("where energies add the reference is what the engines come to") {
+TEST_CASE("where energies add the reference is what the engines come to" *
+          doctest::skip(test::sanitized)) {
     Scene scene = empty_scene();
     const std::uint32_t rock = add_material(scene, 0.4F);
     add_floor(scene, 30.0F, -4.0F, rock, 4);

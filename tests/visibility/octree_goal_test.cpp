@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sonar/sonar.h"
+#include "support/sanitized.h"
 #include "support/scenes.h"
 #include "support/sonars.h"
 #include "validation/image_error.h"
@@ -48,7 +49,8 @@ Pose pose_at(double x) {
 
 }  // namespace
 
-TEST_CASE("octree goal: images are within it, and smaller goals make smaller errors") {
+TEST_CASE("octree goal: images are within it, and smaller goals make smaller errors" *
+          doctest::skip(test::sanitized)) {
     for (const Subject& subject : subjects()) {
         CAPTURE(subject.name);
         const Caster caster(subject.scene);
@@ -68,7 +70,8 @@ TEST_CASE("octree goal: images are within it, and smaller goals make smaller err
     }
 }
 
-TEST_CASE("octree goal: leaves that are too large are told of, with a figure that is about right") {
+TEST_CASE("octree goal: leaves that are too large are told of, with a figure that is about right" *
+          doctest::skip(test::sanitized)) {
     for (const Subject& subject : subjects()) {
         CAPTURE(subject.name);
         const Sonar sonar = sonar_for(0.01);

@@ -3,6 +3,7 @@
 #include "core/units.h"
 #include "mission/mission.h"
 #include "sonar/sonar.h"
+#include "support/sanitized.h"
 #include "support/scenes.h"
 #include "support/sonars.h"
 #include "validation/image_error.h"
@@ -103,8 +104,8 @@ TEST_CASE("octree image: a sphere alone in the water") {
     CHECK(trial.octree_error(0.02) < 0.10);
 }
 
-TEST_CASE(
-    "octree image: the error falls with the leaf, and is a fraction of the literal octree's") {
+TEST_CASE("octree image: the error falls with the leaf, and is a fraction of the literal octree's" *
+          doctest::skip(test::sanitized)) {
     const Scene scene = test::tank();
     const Trial trial(scene, {rotation_from_rpy(0.0, radians(15.0), radians(-4.0)),
                               Eigen::Vector3d(-2.4, 0.4, 1.5)});

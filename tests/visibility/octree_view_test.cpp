@@ -6,6 +6,7 @@
 #include "core/units.h"
 #include "ping/accumulate.h"
 #include "sonar/sonar.h"
+#include "support/sanitized.h"
 #include "support/scenes.h"
 #include "support/sonars.h"
 #include "validation/image_error.h"
@@ -49,7 +50,7 @@ double octree_error(const Scene& scene, const View& view, const Pose& pose) {
 
 }  // namespace
 
-TEST_CASE("octree view: few wide beams, few long bins") {
+TEST_CASE("octree view: few wide beams, few long bins" * doctest::skip(test::sanitized)) {
     const Scene floor = test::rough_floor();
     const Scene tank = test::tank();
     const Pose above{rotation_from_rpy(0.1, 0.4, 0.7), {0.3, 0.2, 2.5}};
