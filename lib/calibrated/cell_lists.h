@@ -28,7 +28,7 @@ struct CellList {
     }
     void add(const ToFront& front, __m256i columns, __m256i rows, __m256i random) {
         // Whole vectors are written, and read from any cell on.
-        if (static_cast<std::size_t>(count + 2 * search_lanes) > bits.size()) grow();
+        if (count + 2 * search_lanes > std::ssize(bits)) grow();
         store_numbers(column.data() + count, front(columns));
         store_numbers(row.data() + count, front(rows));
         store_numbers(bits.data() + count, front(random));
