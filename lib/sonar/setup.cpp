@@ -125,6 +125,7 @@ void add_instrument(Sonar& sonar, const WaterConfig& water) {
         }
         for (int j = 0; even_sines && j <= view.beams; ++j)
             sonar.azimuth_edges_rad[j] = arcsin((2.0 * j / view.beams - 1.0) * sincos(half).sin);
+        // Whole beams; rounding of degrees to radians must not cost one.
         const double beside =
             0.5 * (radians(instrument.beam.view_azimuth_deg) / (2.0 * half) - 1.0);
         sonar.settings.beams_beside =

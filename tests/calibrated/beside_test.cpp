@@ -3,12 +3,10 @@
 #include <algorithm>
 
 #include "core/units.h"
-#include "sonar/kinds.h"
-#include "sonar/sonar.h"
+#include "support/calibrated.h"
 #include "support/scenes.h"
 #include "validation/image_error.h"
 #include "visibility/angles.h"
-#include "visibility/make_engine.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;
@@ -17,9 +15,7 @@ namespace {
 
 /// A line array that hears all elevations alike in beams of 60 degrees of azimuth.
 Sonar line_array_sonar(double view_azimuth_deg) {
-    SonarConfig config = kind_of(SonarKind::imaging).keys.defaults;
-    config.name = "fls";
-    config.model = EchoModel::of_instrument;
+    SonarConfig config = calibrated(default_sonar(SonarKind::imaging), 1e6);
     config.azimuth_deg = 60.0;
     config.elevation_deg = 178.0;
     config.range_min_m = 1.0;
@@ -35,12 +31,7 @@ std::vector<float> image_of_ball(const Sonar& sonar, double azimuth_rad, double 
     Scene scene = empty_scene();
     const Eigen::Vector3d centre = 2.0 * direction_of(azimuth_rad, elevation_rad);
     add_sphere(scene, centre.cast<float>(), 0.1F, add_material(scene, 0.4F));
-    EngineSettings settings;
-    settings.type = EngineType::rays;
-    const auto engine = make_engine(scene, settings);
-    const Pose here;
-    return render_ping(sonar, scene, *engine, here, {.seed = 1, .ping = 0}, direct_echoes_alone)
-        .intensity;
+    return expected_image(sonar, scene, EngineType::rays);
 }
 
 }  // namespace

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <vector>
+
 #include "sonar/kinds.h"
 #include "sonar/sonar.h"
+#include "visibility/make_engine.h"
 
 namespace sonarsim::test {
 
@@ -19,6 +22,16 @@ inline SonarConfig calibrated(SonarConfig config, double frequency_hz) {
     config.model = EchoModel::of_instrument;
     config.instrument.frequency_hz = frequency_hz;
     return config;
+}
+
+/// The expected image from the origin, without speckle and noise, by an engine.
+inline std::vector<float> expected_image(const Sonar& sonar, const Scene& scene, EngineType type) {
+    EngineSettings settings;
+    settings.type = type;
+    const auto engine = make_engine(scene, settings);
+    const Pose here;
+    return render_ping(sonar, scene, *engine, here, {.seed = 1, .ping = 0}, direct_echoes_alone)
+        .intensity;
 }
 
 /// Without surface, for samples that are of its only material.
