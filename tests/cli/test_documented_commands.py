@@ -9,7 +9,7 @@ import tempfile
 import unittest
 
 import clean_clone
-from sandbox import MATERIALS, MISSION, SONARSIM, box_gltf, path_csv, python_with
+from sandbox import IN_MEMORY, MATERIALS, MISSION, SONARSIM, box_gltf, path_csv, python_with
 
 PAGES = ("README.md", *(f"docs/{path.name}" for path in sorted((clean_clone.ROOT / "docs").glob("*.md"))))
 
@@ -171,7 +171,7 @@ def run(command, folder):
 class DocumentedCommands(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        temporary = tempfile.TemporaryDirectory(prefix="sonarsim-")
+        temporary = tempfile.TemporaryDirectory(prefix="sonarsim-", dir=IN_MEMORY)
         cls.addClassCleanup(temporary.cleanup)
         cls.folder = pathlib.Path(temporary.name)
         cls.clone = cls.folder / "clone"

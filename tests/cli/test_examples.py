@@ -9,6 +9,7 @@ import tempfile
 import unittest
 
 import clean_clone
+from sandbox import IN_MEMORY
 
 FROM_A_PACKAGE = "motorbike_imaging.yaml"
 
@@ -28,7 +29,7 @@ GROUPS = (
 class Examples(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls._temporary = tempfile.TemporaryDirectory(prefix="sonarsim-")
+        cls._temporary = tempfile.TemporaryDirectory(prefix="sonarsim-", dir=IN_MEMORY)
         cls.addClassCleanup(cls._temporary.cleanup)
         cls.clone = pathlib.Path(cls._temporary.name) / "clone"
         cls.clone.mkdir()
@@ -79,8 +80,8 @@ class Examples(unittest.TestCase):
         shutil.rmtree(made, ignore_errors=True)
         self.own_mission('file: "scenes/tank.glb"  # not scenes/generated/block.glb\n'
                          "  objects: [{name: a, file: 'scenes/generated/drum.glb', position_m: [1, 0, 1]}]")
-        result = clean_clone.render(self.clone, "--shard", "1/60", "own.yaml", "--set",
-                                    "scene.objects.0.file=scenes/generated/rock.glb")
+        result = clean_clone.render(self.clone, "--shard", "1/60", "--out", "out/own", "own.yaml",
+                                    "--set", "scene.objects.0.file=scenes/generated/rock.glb")
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual({path.name for path in made.iterdir()}, {"drum.glb", "rock.glb"})
 
