@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # ./scripts/render.sh [mission.yaml] [options of `sonarsim render`]: installs, builds and renders.
 # Scenes of scripts/make_scenes.py and foreign_mesh.sh that the mission names and that are missing
-# are made first. SONARSIM=PROGRAM renders with that program; then nothing is installed or built.
+# are made first. SONARSIM=PROGRAM renders with that program: nothing is built then.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 if [[ -z ${SONARSIM:-} ]]; then
