@@ -10,16 +10,66 @@ lifeboat  a hull with rails, ropes and gear, of one material, for comparisons of
 minefield a rippled sandy bottom with rocks, 40 x 40 m, and besides it the objects that a mission
           may place on it: cylinder_mine, cone_mine, tyre, drum, block, rock
 
+    ./scripts/make_scenes.py --for mission.yaml [options of sonarsim]
+
+makes the files that the mission or the options name and that are missing, and no others.
+
 The same command writes the same bytes on every machine.
 """
 import argparse
 import pathlib
+import subprocess
 import sys
 
 from scenes import close_bottom, lifeboat, minefield, seafloor, tank, wreck
 from scenes.glb import write_glb
+from scenes.named import files_named
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
+GENERATED = ROOT / "scenes" / "generated"
+FOREIGN = "motorbike"  # by foreign_mesh.sh, from a Debian package
+
+
+def builders(cells: int, area: float, quarterings: int) -> dict:
+    """Of every scene its files, by name without .glb, and what builds each."""
+    return {
+        "tank": {"tank": tank.build},
+        "seafloor": {"seafloor": lambda: seafloor.build(cells, area)},
+        "wreck": {"wreck": wreck.build},
+        "close_bottom": {"close_bottom": close_bottom.build, **close_bottom.OBJECTS},
+        "lifeboat": {"lifeboat": lambda: lifeboat.build(quarterings)},
+        "minefield": {"minefield": minefield.bottom, **minefield.OBJECTS},
+    }
+
+
+def write(path: pathlib.Path, build) -> None:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    parts = build()
+    size = write_glb(path, parts)
+    triangles = sum(part.triangles() for part in parts)
+    print(f"{path}: {len(parts)} objects, {triangles} triangles, {size} bytes", flush=True)
+
+
+def make_for(mission: pathlib.Path, options: list[str], scenes: dict) -> int:
+    """Makes what is missing of the files that a mission names; 2 where no script makes one."""
+    known = {GENERATED / f"{file}.glb": build for files in scenes.values()
+             for file, build in files.items()}
+    known[ROOT / "scenes" / "tank.glb"] = tank.build
+    missing = [path for path in files_named(mission, options)
+               if not path.exists() and (path in known or path.parent == GENERATED)]
+    foreign = GENERATED / f"{FOREIGN}.glb"
+    for path in missing:
+        if path not in known and path != foreign:
+            print(f"error: {mission} names {path}, which is not there, and no script makes it: "
+                  f"scripts/make_scenes.py makes {', '.join(sorted(one.name for one in known))}, "
+                  f"and scripts/foreign_mesh.sh {foreign.name}", file=sys.stderr)
+            return 2
+    for path in missing:
+        if path == foreign:
+            subprocess.run([ROOT / "scripts" / "foreign_mesh.sh"], check=True)
+        else:
+            write(path, known[path])
+    return 0
 
 
 def main() -> int:
@@ -34,36 +84,24 @@ def main() -> int:
                         help="the sea floor is M x M metres (default 200)")
     parser.add_argument("--quarterings", type=int, default=0, metavar="N",
                         help="every triangle of the lifeboat is cut into four, N times (default 0)")
+    parser.add_argument("--for", nargs=argparse.REMAINDER, dest="mission", default=[],
+                        metavar="MISSION", help="make what is missing for a mission")
     arguments = parser.parse_args()
     if not 1 <= arguments.cells <= 10000 or not 1.0 <= arguments.area <= 1e5:
         parser.error("--cells takes 1 to 10000, --area 1 to 100000 metres")
     if not 0 <= arguments.quarterings <= 4:
         parser.error("--quarterings takes 0 to 4")
 
-    builders = {
-        "tank": tank.build,
-        "seafloor": lambda: seafloor.build(arguments.cells, arguments.area),
-        "wreck": wreck.build,
-        "close_bottom": close_bottom.build,
-        "lifeboat": lambda: lifeboat.build(arguments.quarterings),
-        "minefield": minefield.bottom,
-    }
+    scenes = builders(arguments.cells, arguments.area, arguments.quarterings)
+    for name in arguments.names:
+        if name not in scenes:
+            parser.error(f"no scene '{name}'; there are {', '.join(scenes)}")
+    if arguments.mission:
+        return make_for(pathlib.Path(arguments.mission[0]), arguments.mission[1:], scenes)
     for name in arguments.names or ["tank"]:
-        if name not in builders:
-            parser.error(f"no scene '{name}'; there are {', '.join(builders)}")
-    for name in arguments.names or ["tank"]:
-        folder = arguments.out or ROOT / "scenes" / ("" if name == "tank" else "generated")
-        folder.mkdir(parents=True, exist_ok=True)
-        files = {name: builders[name]}
-        if name == "minefield":
-            files.update(minefield.OBJECTS)
-        if name == "close_bottom":
-            files.update(close_bottom.OBJECTS)
-        for file, build in files.items():
-            parts = build()
-            size = write_glb(folder / f"{file}.glb", parts)
-            triangles = sum(part.triangles() for part in parts)
-            print(f"{folder / file}.glb: {len(parts)} objects, {triangles} triangles, {size} bytes")
+        folder = arguments.out or (ROOT / "scenes" if name == "tank" else GENERATED)
+        for file, build in scenes[name].items():
+            write(folder / f"{file}.glb", build)
     return 0
 
 

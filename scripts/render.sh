@@ -1,19 +1,21 @@
 #!/usr/bin/env bash
 # ./scripts/render.sh [mission.yaml] [options of `sonarsim render`]: installs, builds and renders.
-# A scene of scripts/make_scenes.py that the mission names and that is missing is made first.
+# Scenes of scripts/make_scenes.py and foreign_mesh.sh that the mission names and that are missing
+# are made first. SONARSIM=PROGRAM renders with that program: nothing is built then.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
-"$root/scripts/setup.sh"
+if [[ -z ${SONARSIM:-} ]]; then
+    "$root/scripts/setup.sh"
+    SONARSIM=$root/build/sonarsim
+fi
 if (($# == 0)); then
     set -- "$root/configs/tank_imaging.yaml"
 fi
-if [[ -f $1 ]]; then
-    name=$(sed -n 's#^ *file: *\.\./scenes/generated/\([a-z]*\)\.glb.*#\1#p' "$1")
-    if [[ -n $name && ! -e $root/scenes/generated/$name.glb ]]; then
-        case $name in
-            motorbike) "$root/scripts/foreign_mesh.sh" ;;
-            *) "$root/scripts/make_scenes.py" "$name" ;;
-        esac
+# The first argument that is a file is the mission; the program says what is wrong with it.
+for argument in "$@"; do
+    if [[ -f $argument ]]; then
+        python3 -B "$root/scripts/make_scenes.py" --for "$argument" "$@" >&2
+        break
     fi
-fi
-exec "$root/build/sonarsim" render "$@"
+done
+exec "$SONARSIM" render "$@"

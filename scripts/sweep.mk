@@ -12,7 +12,8 @@
 #
 # What is done is not done again; what was interrupted resumes. -jN renders N points at a time, each
 # on one thread. A point that fails does not stop the others: OUT/failed/ holds what it said, and the
-# sweep ends with exit code 2 and the list of them. Values are separated by blanks and hold none.
+# sweep ends with exit code 2 and the list of them. Values are separated by blanks and hold none; signs
+# that make or the shell would take for its own are refused, as in $ ' " * ( ; and !.
 
 noise_keys := range_lambda_m scatterer_m add_sigma mult_sigma
 keys := $(noise_keys) seed engine
@@ -33,9 +34,17 @@ given := $(foreach v,$(.VARIABLES),$(if $(filter line,$(origin $(v))),$(v)))
 dotted := $(sort $(foreach v,$(given),$(if $(findstring .,$(v)),$(v))))
 unknown := $(filter-out $(known) $(dotted),$(given))
 $(if $(unknown),$(error unknown: $(unknown). Known: $(known), and keys with dots as in sensors.fls.range_max_m))
+
+# make runs the $(shell ...) of a value that it expands: before this check only $(value ...) reads one.
+signs := $$ ' " ` \ ! % * ? ~ \# ; & | < > ( )
+has_sign = $(strip $(foreach sign,$(signs),$(findstring $(sign),$(1)$(value $(1)))))
+$(foreach v,$(known) $(dotted),$(if $(filter file default undefined,$(origin $(v))),,$(if $(call has_sign,$(v)),\
+    $(error $(v): its name and its value must not hold $(call has_sign,$(v))))))
+
 $(if $(MISSION),,$(error give MISSION=mission.yaml))
+$(if $(filter 1,$(words $(MISSION))),,$(error MISSION must be one file without blanks in its name, not '$(MISSION)'))
 $(if $(wildcard $(MISSION)),,$(error $(MISSION): no such file))
-$(if $(filter 1,$(words $(OUT))),,$(error OUT must be one folder without spaces in its name))
+$(if $(filter 1,$(words $(OUT))),,$(error OUT must be one folder without blanks in its name))
 
 axes := $(filter $(given),$(keys)) $(dotted)
 $(if $(strip $(axes)),,$(error give at least one of $(keys), as in add_sigma="0 0.1", or a key with dots))

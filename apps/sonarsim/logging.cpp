@@ -84,7 +84,8 @@ void add_log_options(CLI::App& command, LogOptions& options) {
     command.add_option("--log-level", options.level, "trace, debug, info, warning or error")
         ->check(CLI::IsMember({"trace", "debug", "info", "warning", "error"}))
         ->capture_default_str();
-    command.add_flag("-q,--quiet", options.quiet, "Only warnings and errors");
+    command.add_flag("-q,--quiet", options.quiet,
+                     "Only warnings and errors; --json still prints its result");
     command.add_flag("--json", options.json,
                      "Log lines on stderr and the result on stdout as JSON");
 }

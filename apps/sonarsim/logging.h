@@ -10,6 +10,10 @@ struct LogOptions {
     std::string level = "info";
     bool quiet = false;  ///< warnings and errors only
     bool json = false;   ///< one JSON object per line
+
+    /// Whether the command prints its result. --quiet silences what people read; who asks for JSON
+    /// wants the result.
+    bool prints_result() const { return json || !quiet; }
 };
 
 /// Adds --log-level, --quiet and --json to a subcommand.

@@ -211,7 +211,7 @@ int render(RenderArguments arguments) {
         warned_before + warnings.size() + comment(summary, mission, arguments.render.files);
     for (const std::string& warning : warnings)
         spdlog::warn("{}", warning);
-    if (!arguments.log.quiet)
+    if (arguments.log.prints_result())
         arguments.log.json ? print_json(summary, mission, warnings) : print_table(summary);
     if (!summary.stopped) return arguments.strict && warned > 0 ? exit_warned : exit_done;
     spdlog::warn("stopped after {} pings; {}", summary.pings, goes_on_from_there);

@@ -245,14 +245,14 @@ int validate(const ValidateArguments& arguments) {
     const std::vector<Mission> variants = load_variants(arguments.mission, mission);
     if (!variants.empty()) {
         const VariantFindings all = check_variants(variants, arguments.overwrite);
-        if (!arguments.log.quiet) print_variants(mission, all, arguments.log.json);
+        if (arguments.log.prints_result()) print_variants(mission, all, arguments.log.json);
         return say(all.warnings, arguments.strict);
     }
     const Assembly assembly = assemble(mission);
     const std::vector<Writers> writers = make_writers(mission, assembly);
     Findings findings = find_out(mission, assembly, writers, arguments.overwrite);
     look_at(mission, assembly, writers, findings);
-    if (!arguments.log.quiet) {
+    if (arguments.log.prints_result()) {
         fmt::print("{}", arguments.log.json ? json_line(json_of(findings)) : text_of(findings));
     }
     return say(findings.warnings, arguments.strict);

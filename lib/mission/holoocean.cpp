@@ -107,13 +107,16 @@ ImportedMission import_holoocean(std::string_view text, const std::string& file,
             sonar_types(), [&](const SonarType& one) { return type->text == one.type; });
         if (known == sonar_types().end()) {
             warnings.push_back(type->place.location().text() + ": " + in_quotes(type->text) +
-                               " is left out: it is no sonar that sonarsim has");
+                               " is left out: it is no sonar that sonarsim has" +
+                               (type->text.find("onar") != std::string::npos
+                                    ? "; it has " + sonar_type_list()
+                                    : ""));
             continue;
         }
         sonars.emplace_back(&sensor, &*known);
         rate_hz = std::max(rate_hz, rate_of(sensor, ticks));
     }
-    if (sonars.empty()) refuse_at(*sensors, "none of the sensors is a sonar");
+    if (sonars.empty()) refuse_at(*sensors, "none of the sensors is a sonar: " + sonar_type_list());
 
     std::string blocks;
     Settings water;

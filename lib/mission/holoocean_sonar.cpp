@@ -34,6 +34,7 @@ struct Parameter {
 
 constexpr const char* by_goal = "sampling follows from accuracy.relative_l1";
 constexpr const char* no_cache = "there is no octree to prepare";
+constexpr const char* only_shows = "it only shows something in the game engine";
 
 // docs/holoocean.md has this table for readers.
 constexpr std::array parameters{
@@ -63,18 +64,37 @@ constexpr std::array parameters{
     Parameter{"OpeningAngleRes", Form::nothing, "", {}, by_goal},
     Parameter{"CentralAngleBins", Form::nothing, "", {}, by_goal},
     Parameter{"CentralAngleRes", Form::nothing, "", {}, by_goal},
+    // Rays and pixels of the sonars that HoloOcean 2.4 added.
+    Parameter{"AzimuthRayCount", Form::nothing, "", {}, by_goal},
+    Parameter{"AzimuthRayRes", Form::nothing, "", {}, by_goal},
+    Parameter{"ElevationRayCount", Form::nothing, "", {}, by_goal},
+    Parameter{"ElevationRayRes", Form::nothing, "", {}, by_goal},
+    Parameter{"OpeningAngleRays", Form::nothing, "", {}, by_goal},
+    Parameter{"CentralAngleRays", Form::nothing, "", {}, by_goal},
+    Parameter{"CentralAngleEuclidian", Form::nothing, "", {}, by_goal},
+    Parameter{"ResolutionX", Form::nothing, "", {}, by_goal},
+    Parameter{"IgnorePlants", Form::nothing, "", {}, "leave the plants out of the scene"},
+    Parameter{"UseTags", Form::nothing, "", {}, "output.labels writes labels"},
     Parameter{"ShadowEpsilon", Form::nothing, "", {}, "shadows are exact"},
     Parameter{"UseApprox", Form::nothing, "", {}, "angles are exact"},
     Parameter{"InitOctreeRange", Form::nothing, "", {}, no_cache},
-    Parameter{"ViewRegion", Form::nothing, "", {}, "it only shows something in the game engine"},
-    Parameter{"ViewOctree", Form::nothing, "", {}, "it only shows something in the game engine"},
-    Parameter{"ShowWarning", Form::nothing, "", {}, "it only shows something in the game engine"},
+    Parameter{"ViewRegion", Form::nothing, "", {}, only_shows},
+    Parameter{"ViewOctree", Form::nothing, "", {}, only_shows},
+    Parameter{"ViewRays", Form::nothing, "", {}, only_shows},
+    Parameter{"ViewPoints", Form::nothing, "", {}, only_shows},
+    Parameter{"ShowWarning", Form::nothing, "", {}, only_shows},
 };
 
 class SonarImporter {
   public:
     SonarImporter(const YamlNode& sensor, const SonarType& type, std::vector<std::string>& warnings)
         : type_(type), warnings_(warnings) {
+        if (*type.azimuth_deg != '\0') set_key(sonar.settings, "azimuth_deg", type.azimuth_deg);
+        if (*type.remark != '\0') {
+            sonar.remarks.push_back(std::string(type.type) + ": " + type.remark);
+            warnings_.push_back(sensor.place.location().text() + ": " + type.type + ": " +
+                                type.remark);
+        }
         const YamlNode* const configuration = sensor.find("configuration");
         if (configuration == nullptr) return;
         for (const YamlNode& value : map_at(*configuration, "configuration").items)
@@ -175,15 +195,36 @@ class SonarImporter {
 }  // namespace
 
 std::span<const SonarType> sonar_types() {
+    using Keys = std::vector<std::string_view>;
+    static const Keys no_cone{"opening_deg"};
+    static const Keys no_cone_no_beams{"opening_deg", "azimuth_bins", "noise.range_lambda_m"};
+    static const Keys only_cone{"azimuth_deg", "elevation_deg", "azimuth_bins"};
+    constexpr const char* one_side =
+        "it looks to one side, and this one to both sides of its axis: a pair of them is one "
+        "side-scan sonar of twice the azimuth without their yaw";
+    constexpr const char* semantic = "its labels: output.labels writes them";
     static const std::vector<SonarType> types{
-        {"ImagingSonar", "imaging", false, {"opening_deg"}},
-        {"ProfilingSonar", "profiling", true, {"opening_deg"}},
-        {"SidescanSonar",
-         "sidescan",
-         true,
-         {"opening_deg", "azimuth_bins", "noise.range_lambda_m"}},
-        {"SinglebeamSonar", "echosounder", true, {"azimuth_deg", "elevation_deg", "azimuth_bins"}}};
+        {"ImagingSonar", "imaging", false, no_cone},
+        {"RaycastImagingSonar", "imaging", false, no_cone},
+        {"GPUImagingSonar", "imaging", false, no_cone},
+        {"ProfilingSonar", "profiling", true, no_cone},
+        {"RaycastProfilingSonar", "profiling", true, no_cone},
+        {"GPUProfilingSonar", "profiling", true, no_cone},
+        {"SidescanSonar", "sidescan", true, no_cone_no_beams},
+        {"RaycastSidescanSonar", "sidescan", true, no_cone_no_beams, "", one_side},
+        {"GPUSidescanSonar", "sidescan", true, no_cone_no_beams, "85", one_side},
+        {"SinglebeamSonar", "echosounder", true, only_cone},
+        {"RaycastSinglebeamSonar", "echosounder", true, only_cone},
+        {"SemanticRaycastSinglebeamSonar", "echosounder", true, only_cone, "", semantic},
+        {"GPUSinglebeamSonar", "echosounder", true, only_cone}};
     return types;
+}
+
+std::string sonar_type_list() {
+    std::string list;
+    for (const SonarType& one : sonar_types())
+        list += (list.empty() ? "" : ", ") + std::string(one.type);
+    return list;
 }
 
 void set_key(Settings& settings, const std::string& key, const std::string& value) {

@@ -10,16 +10,21 @@
 
 namespace sonarsim {
 
-/// A kind of sonar of HoloOcean.
+/// A kind of sonar of HoloOcean. Since version 2.4 each is there three times: by octree, by ray
+/// casts and on the GPU.
 struct SonarType {
     const char* type;
     const char* kind;
     bool looks_down;                      ///< by sonarsim's default mount
     std::vector<std::string_view> lacks;  ///< keys that the kind does not have
+    const char* azimuth_deg = "";         ///< its default, where sonarsim's differs
+    const char* remark = "";              ///< how the imported sonar differs from it
 };
 
 /// All of them.
 std::span<const SonarType> sonar_types();
+/// Their names, separated by commas.
+std::string sonar_type_list();
 
 /// Keys of a mission and their values.
 using Settings = std::vector<std::pair<std::string, std::string>>;

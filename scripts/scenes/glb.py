@@ -1,6 +1,7 @@
 """Parts of a scene and the .glb file that holds them."""
 import array
 import json
+import os
 import struct
 import sys
 
@@ -70,7 +71,8 @@ class Buffer:
 
 
 def write_glb(path, parts):
-    """One node and one mesh per part, one primitive per material of it. Returns the size."""
+    """One node and one mesh per part, one primitive per material of it. The file is there once it is
+    whole. Returns the size."""
     names = sorted({material for part in parts for material in part.indices})
     buffer = Buffer()
     meshes = []
@@ -95,8 +97,10 @@ def write_glb(path, parts):
     text = json.dumps(document, separators=(",", ":")).encode()
     text += b" " * (-len(text) % 4)
     head = struct.pack("<4sII", b"glTF", 2, 12 + 8 + len(text) + 8 + buffer.size)
-    with open(path, "wb") as file:
+    part_file = f"{path}.{os.getpid()}.part"
+    with open(part_file, "wb") as file:
         file.write(head + struct.pack("<I4s", len(text), b"JSON") + text)
         file.write(struct.pack("<I4s", buffer.size, b"BIN\0"))
         file.writelines(buffer.chunks)
+    os.replace(part_file, path)
     return 12 + 8 + len(text) + 8 + buffer.size

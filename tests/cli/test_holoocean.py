@@ -1,10 +1,13 @@
 """`sonarsim import-holoocean`: the mission says what the scenario says, is valid, and what is wrong or has
 no counterpart is told with its place. Presets that come with the program are found from anywhere."""
 import json
+import pathlib
 import re
 import unittest
 
 from sandbox import Sandbox
+
+ROOT = pathlib.Path(__file__).parents[2]
 
 SCENARIO = """\
 {
@@ -44,9 +47,17 @@ WRONG = (
     ('"Hz": 10', '"Hz": 0', "'Hz' must be above 0"),
     ('"main_agent": "auv0"', '"main_agent": "auv7"', "3:17: no agent is called 'auv7'"),
     ('"agents"', '"agent"', "a scenario needs a list of 'agents'"),
-    ('Sonar"', '"', "none of the sensors is a sonar"),
+    ('Sonar"', '"', "none of the sensors is a sonar: ImagingSonar, RaycastImagingSonar, "),
     ('"ticks_per_sec": 20,', '"ticks_per_sec": 20', "scenario.json:4:"),
 )
+
+
+# The sonars of HoloOcean 2.4 and what each becomes.
+KINDS = {"imaging": ("ImagingSonar", "RaycastImagingSonar", "GPUImagingSonar"),
+         "profiling": ("ProfilingSonar", "RaycastProfilingSonar", "GPUProfilingSonar"),
+         "sidescan": ("SidescanSonar", "RaycastSidescanSonar", "GPUSidescanSonar"),
+         "echosounder": ("SinglebeamSonar", "RaycastSinglebeamSonar", "SemanticRaycastSinglebeamSonar",
+                         "GPUSinglebeamSonar")}
 
 
 class HoloOcean(Sandbox):
@@ -88,6 +99,44 @@ class HoloOcean(Sandbox):
         self.assertIn("imported.yaml: is there already", again.stderr)
         self.assertEqual((self.folder / "imported.yaml").read_text(), text)
 
+    def import_sensors(self, sensors):
+        """The sensors of an agent, through the importer."""
+        self.write("scenario.json", json.dumps({"agents": [{"agent_name": "auv0", "sensors": sensors}]}))
+        return self.run_import()
+
+    def test_every_sonar_of_2_4(self):
+        page = (ROOT / "docs/holoocean.md").read_text()
+        for kind, types in KINDS.items():
+            for sonar in types:
+                with self.subTest(sonar=sonar):
+                    result = self.import_sensors([{"sensor_type": sonar, "configuration": {
+                        "RangeMin": 0.5, "RangeMax": 6, "RangeBins": 64, "AddSigma": 0.1,
+                        "WaterDensity": 1000, "IgnorePlants": False}}])
+                    self.assertEqual(result.returncode, 0, result.stderr)
+                    self.assertIn(f"  {sonar}:\n    kind: {kind}\n", result.stdout)
+                    self.assertIn("    range_bins: 64\n", result.stdout)
+                    self.assertIn("'IgnorePlants' has no counterpart: leave the plants out of the scene",
+                                  result.stderr)
+                    one_sided = kind == "sidescan" and sonar != "SidescanSonar"
+                    self.assertEqual("looks to one side" in result.stderr, one_sided)
+                    self.assertEqual("azimuth_deg: 85" in result.stdout, sonar == "GPUSidescanSonar")
+                    self.assertIn(f"`{sonar}`", page)
+                    self.write("imported.yaml", result.stdout)
+                    result = self.run_sonarsim("validate", "imported.yaml")
+                    self.assertEqual(result.returncode, 0, result.stderr)
+
+    def test_a_sonar_that_is_not_known_is_told_with_the_list(self):
+        result = self.import_sensors([{"sensor_type": "QuantumSonar"}, {"sensor_type": "IMUSensor"},
+                                      {"sensor_type": "GPUImagingSonar"}])
+        self.assertEqual(result.returncode, 0, result.stderr)
+        told = [line for line in result.stderr.splitlines() if "QuantumSonar" in line]
+        self.assertEqual(len(told), 1)
+        for types in KINDS.values():
+            for sonar in types:
+                self.assertIn(sonar, told[0])
+        self.assertNotIn("RaycastImagingSonar", next(line for line in result.stderr.splitlines()
+                                                     if "IMUSensor" in line))
+
     def test_wrong_values_are_told_with_their_place(self):
         for right, wrong, message in WRONG:
             with self.subTest(wrong=wrong):
@@ -99,10 +148,8 @@ class HoloOcean(Sandbox):
                 self.assertRegex(result.stderr, r"error: scenario\.json:\d+:\d+: ")
 
     def test_every_parameter_is_in_the_page(self):
-        from pathlib import Path
-        root = Path(__file__).parents[2]
-        code = "".join(p.read_text() for p in (root / "lib/mission").glob("holoocean*.cpp"))
-        page = (root / "docs/holoocean.md").read_text()
+        code = "".join(p.read_text() for p in (ROOT / "lib/mission").glob("holoocean*.cpp"))
+        page = (ROOT / "docs/holoocean.md").read_text()
         names = re.findall(r'Parameter\{"(\w+)"', code)
         self.assertGreater(len(names), 25)
         for name in names:

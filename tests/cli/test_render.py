@@ -64,6 +64,13 @@ class Render(Sandbox):
         self.assertEqual(result.returncode, 2)
         self.assertEqual(json.loads(result.stderr.splitlines()[-1])["level"], "error")
 
+    def test_quiet_keeps_the_json_that_was_asked_for(self):
+        for command in ("validate", "render"):
+            with self.subTest(command=command):
+                result = self.run_sonarsim(command, "mission.yaml", "--json", "-q")
+                self.assertEqual((result.returncode, result.stderr), (0, ""))
+                self.assertEqual(json.loads(result.stdout)["pings"], 6)
+
     def test_a_mission_written_as_json(self):
         """JSON is YAML, and its writers quote every text."""
         mission = {

@@ -107,6 +107,29 @@ class Sweep(Sandbox):
                 self.assertEqual(result.returncode, 2)
                 self.assertIn(message, result.stderr)
 
+    def test_what_make_or_the_shell_would_run_is_refused(self):
+        """A value reaches neither: nothing runs, and the message names the variable and the sign."""
+        marker = self.folder / "ran"
+        for name, value in (("seed", f"$(shell touch {marker})1"), ("seed", f"1';touch {marker};'2"),
+                            ("seed", f"`touch {marker}`"), ("seed", '1"'), ("seed", "1\\"), ("seed", "1!2"),
+                            ("scene.file", "*.gltf"), ("scene.file", "a(b).gltf"), ("scene.file", "a#b"),
+                            ("a.b';id;'", "1"),
+                            ("OUT", f"$(shell touch {marker})grid"), ("SENSOR", f"x';touch {marker};'"),
+                            ("MISSION", f"$(shell touch {marker})mission.yaml")):
+            with self.subTest(name=name, value=value):
+                result = self.sweep("SENSOR=fls", f"{name}={value}", "engine=rays")
+                self.assertEqual(result.returncode, 2, result.stdout)
+                self.assertIn(f"{name}: its name and its value must not hold ", result.stderr)
+                self.assertFalse(marker.exists())
+                self.assertFalse((self.folder / "grid").exists())
+
+    def test_a_mission_with_a_blank_in_its_name(self):
+        self.write("my mission.yaml", (self.folder / "mission.yaml").read_text())
+        result = self.sweep("MISSION=my mission.yaml", "seed=1")
+        self.assertEqual(result.returncode, 2, result.stdout)
+        self.assertIn("MISSION must be one file without blanks in its name, not 'my mission.yaml'",
+                      result.stderr)
+
 
 if __name__ == "__main__":
     unittest.main()

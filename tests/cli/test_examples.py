@@ -1,0 +1,90 @@
+"""Every mission of configs/ is rendered by scripts/render.sh from a clone without generated scenes: a
+few pings of each. test_foreign_mesh.py renders the motorbike, which needs a Debian package."""
+import concurrent.futures
+import json
+import os
+import pathlib
+import shutil
+import tempfile
+import unittest
+
+import clean_clone
+from sandbox import IN_MEMORY
+
+FROM_A_PACKAGE = "motorbike_imaging.yaml"
+
+# Missions of one scene, one after the other: the first makes it. The slowest first.
+GROUPS = (
+    ("seafloor_imaging", "seafloor_calibrated", "seafloor_bathymetry", "survey"),
+    ("close_bottom",),
+    ("wreck_imaging", "wreck_calibrated", "wreck_echosounder_calibrated", "seafloor_sidescan",
+     "seafloor_sidescan_calibrated"),
+    ("minefield_variants",),
+    ("lifeboat_imaging",),
+    ("tank_imaging", "tank_calibrated", "tank_detection", "tank_echosounder", "tank_labels",
+     "tank_multipath", "tank_multipath_calibrated", "tank_scanning"),
+)
+
+
+class Examples(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls._temporary = tempfile.TemporaryDirectory(prefix="sonarsim-", dir=IN_MEMORY)
+        cls.addClassCleanup(cls._temporary.cleanup)
+        cls.clone = pathlib.Path(cls._temporary.name) / "clone"
+        cls.clone.mkdir()
+        if os.environ.get("SANITIZED") == "1":
+            raise unittest.SkipTest("the sanitizers see in other tests what these missions run")
+        if not clean_clone.clone_to(cls.clone):
+            raise unittest.SkipTest("this is no checkout of git")
+
+    def test_all_are_listed(self):
+        listed = {name + ".yaml" for group in GROUPS for name in group} | {FROM_A_PACKAGE}
+        self.assertEqual(listed, {path.name for path in (self.clone / "configs").glob("*.yaml")})
+
+    def render_group(self, group):
+        """What went wrong, by mission."""
+        faults = {}
+        for name in group:
+            result = clean_clone.render(self.clone, f"configs/{name}.yaml", "--shard", "1/60",
+                                        "--json")
+            pings = json.loads(result.stdout or "{}").get("pings", 0)
+            if result.returncode != 0 or pings == 0:
+                faults[name] = f"exit code {result.returncode}, {pings} pings\n{result.stderr}"
+        return faults
+
+    def test_each_renders(self):
+        self.assertFalse((self.clone / "scenes/generated").exists())
+        with concurrent.futures.ThreadPoolExecutor(2) as pool:
+            for faults in pool.map(self.render_group, GROUPS):
+                self.assertEqual(faults, {})
+
+    def own_mission(self, scene):
+        """The tank's mission with another scene, in the folder of the clone."""
+        text = (self.clone / "configs/tank_imaging.yaml").read_text()
+        self.assertIn("file: ../scenes/tank.glb", text)
+        (self.clone / "own.yaml").write_text(
+            text.replace("file: ../scenes/tank.glb", scene).replace("../", ""))
+
+    def test_a_file_that_no_script_makes(self):
+        self.own_mission("file: scenes/generated/reef.glb")
+        result = clean_clone.render(self.clone, "own.yaml")
+        self.assertEqual(result.returncode, 2)
+        self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
+        self.assertIn("scenes/generated/reef.glb, which is not there, and no script makes it: "
+                      "scripts/make_scenes.py makes block.glb, close_bottom.glb, ", result.stderr)
+
+    def test_only_what_is_named_is_made(self):
+        """In quotes, in a list, in an option; not in a comment."""
+        made = self.clone / "scenes/generated"
+        shutil.rmtree(made, ignore_errors=True)
+        self.own_mission('file: "scenes/tank.glb"  # not scenes/generated/block.glb\n'
+                         "  objects: [{name: a, file: 'scenes/generated/drum.glb', position_m: [1, 0, 1]}]")
+        result = clean_clone.render(self.clone, "--shard", "1/60", "--out", "out/own", "own.yaml",
+                                    "--set", "scene.objects.0.file=scenes/generated/rock.glb")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual({path.name for path in made.iterdir()}, {"drum.glb", "rock.glb"})
+
+
+if __name__ == "__main__":
+    unittest.main()
