@@ -17,6 +17,7 @@
 #include "dataset/image_warnings.h"
 #include "dataset/job.h"
 #include "dataset/layout.h"
+#include "dataset/split.h"
 #include "dataset/variants.h"
 #include "logging.h"
 #include "mission_options.h"

@@ -175,12 +175,15 @@ class EveryFile(Sandbox):
         super().setUp()
         self.write("path.csv", path_csv(2))
         self.draw = random.Random(7)
-        split = "split: {train: 0.5, test: 0.5, gap: 0}"
-        labels = MISSION.replace("fan_width_px: 32}", f"fan_width_px: 32, labels: true, {split}}}")
+        # The other two sonars write files of the same sorts.
+        kept = [line for line in MISSION.splitlines() if not line.startswith(("  mbes", "  sounder"))]
+        mission = "\n".join(kept).replace("fan_width_px: 32", "fan_width_px: 32, "
+                                          "split: {train: 0.5, test: 0.5, gap: 0}") + "\n"
+        labels = mission.replace("fan_width_px: 32", "fan_width_px: 32, labels: [instance, coco, yolo]")
         self.write("mission.yaml", labels)
         self.write("packed.yaml", labels.replace("{folder: out,", "{folder: out, pack: tar,"))
-        self.write("variants.yaml", MISSION.replace("fan_width_px: 32}", f"fan_width_px: 32, {split}}}") +
-                   "variants: 2\nvary: [{key: water.sound_speed_m_s, uniform: [1470, 1490]}]\n")
+        self.write("variants.yaml", mission + "variants: 2\n"
+                   "vary: [{key: water.sound_speed_m_s, uniform: [1470, 1490]}]\n")
 
     def done(self, *arguments):
         result = self.run_sonarsim(*arguments)
@@ -193,10 +196,9 @@ class EveryFile(Sandbox):
             data = path.read_bytes()
             place = self.draw.randrange(len(data))
             flipped = bytes([data[place] ^ self.draw.randrange(1, 256)])
+            end = self.draw.choice((place, len(data) - 1))
             for what, spoilt in (("flipped", data[:place] + flipped + data[place + 1:]),
-                                 ("cut", data[:self.draw.randrange(len(data))]),
-                                 ("last byte cut", data[:-1]),
-                                 ("removed", None)):
+                                 ("cut", data[:end]), ("removed", None)):
                 with self.subTest(file=path.relative_to(self.out), what=what, place=place):
                     path.unlink() if spoilt is None else path.write_bytes(spoilt)
                     result = self.run_sonarsim("verify", "out", "-j1")
@@ -208,16 +210,16 @@ class EveryFile(Sandbox):
 
     def test_plain(self):
         self.done("render", "mission.yaml")
-        self.assertGreater(self.check_every_file(), 40)
+        self.assertGreater(self.check_every_file(), 20)
 
     def test_packed(self):
         self.done("render", "packed.yaml")
-        self.assertGreater(self.check_every_file(), 20)
+        self.assertGreater(self.check_every_file(), 10)
 
     def test_variants(self):
         self.done("render", "variants.yaml")
         self.assertTrue((self.out / "split/test.txt").exists())
-        self.assertGreater(self.check_every_file(), 40)
+        self.assertGreater(self.check_every_file(), 30)
 
     def test_merged(self):
         for k in (1, 2):
