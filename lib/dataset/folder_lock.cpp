@@ -109,6 +109,17 @@ FolderLock lock_alone(const fs::path& folder) {
     return lock;
 }
 
+std::optional<FolderLock> lock_for_run(const fs::path& folder, int shards,
+                                       const std::atomic<bool>& stop) {
+    if (shards == 1) return lock_alone(folder);
+    const auto is_taken = [&] { return others_write(folder, shards); };
+    FolderLock lock(folder);
+    const bool entered = lock.take_alone_or_share([&] { return !stop && !is_taken(); });
+    if (!entered && stop) return std::nullopt;
+    if (!entered || is_taken()) refuse_second_run(folder);
+    return lock;
+}
+
 void refuse_second_run(const fs::path& folder) {
     throw InputError({folder.string()},
                      "another run is writing into this folder; wait until it has ended, or choose "

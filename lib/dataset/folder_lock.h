@@ -1,7 +1,10 @@
 #pragma once
 
+#include <atomic>
 #include <filesystem>
 #include <functional>
+#include <initializer_list>
+#include <optional>
 #include <string>
 
 namespace sonarsim {
@@ -49,6 +52,12 @@ class FolderLock {
 
 /// Locks a folder for one run alone. InputError when another run writes there.
 FolderLock lock_alone(const std::filesystem::path& folder);
+
+/// Locks the folder of a dataset for a run: alone, or with the other shards of its division. A shard
+/// waits while another one is alone there, to set the folder up or to complete the dataset; nothing
+/// is returned when `stop` becomes true meanwhile. InputError when another run writes there.
+std::optional<FolderLock> lock_for_run(const std::filesystem::path& folder, int shards,
+                                       const std::atomic<bool>& stop);
 
 /// InputError: another run writes into the folder.
 [[noreturn]] void refuse_second_run(const std::filesystem::path& folder);

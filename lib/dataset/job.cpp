@@ -178,31 +178,30 @@ void render(const Mission& mission, const Assembly& assembly, const std::vector<
     summary.warnings = engine->warnings();
 }
 
-/// Locks the folder for a run: alone, or with the other shards of the division. A shard waits while
-/// another one sets the folder up or completes the dataset; nothing is returned when `stop` becomes
-/// true meanwhile. InputError when another run writes there.
-std::optional<FolderLock> enter(const Layout& layout, const RenderOptions& options,
-                                const std::atomic<bool>& stop) {
-    if (options.shards == 1) return lock_alone(layout.folder);
-    const auto is_taken = [&] { return others_write(layout.folder, options.shards); };
-    FolderLock lock(layout.folder);
-    const bool entered = lock.take_alone_or_share([&] { return !stop && !is_taken(); });
-    if (!entered && stop) return std::nullopt;
-    if (!entered || is_taken()) refuse_second_run(layout.folder);
-    return lock;
-}
-
 /// Makes the folder ready for pings, and says what it held before. A shard then lets others in; as
 /// another run may come in between, the folder is looked at once more.
 FolderState set_up(const Layout& layout, const CommonFiles& common, const Mission& mission,
                    const RenderOptions& options, FolderLock& lock) {
     if (options.overwrite) remove_dataset(layout, mission);
-    FolderState state = inspect_folder(layout, common.description);
+    const FolderState state = inspect_folder(layout, common.description);
     if (state != FolderState::complete) begin_dataset(layout, common);
     if (options.shards == 1) return state;
     if (!lock.share([&] { return !others_write(layout.folder, options.shards); }))
         refuse_second_run(layout.folder);
     return inspect_folder(layout, common.description);
+}
+
+/// Completes a dataset that has all of its pings. Shards that come to their end at the same time do
+/// it one after the other; those that come later find it done. Returns false when `stop` becomes
+/// true while it waits.
+bool complete_once(const Layout& layout, const Mission& mission,
+                   const std::vector<Writers>& writers, RecordFiles& records,
+                   const CommonFiles& common, FolderLock& lock, const std::atomic<bool>& stop) {
+    if (!lock.take_alone([&] { return !stop; })) return false;
+    const FolderState state = inspect_folder(layout, common.description);
+    if (state != FolderState::complete || !has_all(layout, {}))
+        complete_dataset(layout, mission, writers, records, common);
+    return true;
 }
 
 }  // namespace
@@ -236,7 +235,7 @@ RenderSummary run_job(const Mission& mission, const Assembly& assembly,
     const CommonFiles common{describe_dataset(mission, assembly, layout, writers),
                              resolved_text(mission, assembly), write_tum(assembly.trajectory)};
     protect_inputs(layout, mission);
-    std::optional<FolderLock> lock = enter(layout, options, stop);
+    std::optional<FolderLock> lock = lock_for_run(layout.folder, options.shards, stop);
     if (!lock) {
         summary.stopped = true;
         return summary;
@@ -276,21 +275,11 @@ RenderSummary run_job(const Mission& mission, const Assembly& assembly,
     // The journal is held once at a time: of many pings it is long.
     there.emplace(layout, records);
     require_files(layout, plan.todo, *there);
-    summary.complete = std::ranges::all_of(all, *there);
+    const bool all_there = std::ranges::all_of(all, *there);
     there.reset();
-    if (!summary.complete) return summary;
-    if (options.shards > 1) {
-        // One shard at a time completes the dataset; those that come to their end meanwhile wait.
-        if (!lock->take_alone([&] { return !stop; })) {
-            summary.stopped = true;
-            summary.complete = false;
-            return summary;
-        }
-        if (inspect_folder(layout, common.description) == FolderState::complete &&
-            has_all(layout, plan.todo))
-            return summary;
-    }
-    complete_dataset(layout, mission, writers, records, common);
+    if (!all_there) return summary;
+    summary.complete = complete_once(layout, mission, writers, records, common, *lock, stop);
+    summary.stopped = !summary.complete;
     return summary;
 }
 

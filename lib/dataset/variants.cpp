@@ -62,31 +62,42 @@ void remove_files_beside(const fs::path& folder) {
     fs::remove(folder / split_folder_name, not_empty);
 }
 
+/// Writes a file that is not there as it should be: the disk of a complete dataset may be
+/// read-only.
+void keep_or_write(const fs::path& file, const std::string& text) {
+    if (fs::is_regular_file(file) && read_file(file, largest_index) == text) return;
+    fs::create_directories(file.parent_path());
+    write_file_durably(file, text);
+}
+
 /// Writes variants.json, the lists of its parts and the sums of both.
 void write_files_beside(const fs::path& folder, const Json& json) {
-    fs::create_directories(folder);
     std::string sums;
     const auto write = [&](const std::string& name, const std::string& text) {
-        fs::create_directories((folder / name).parent_path());
-        write_file_durably(folder / name, text);
+        keep_or_write(folder / name, text);
         sums += sha256(text) + "  " + name + '\n';
     };
     write(variants_name, json_text(json));
     for (const auto& [name, lines] : split_lists(json))
         write(name, lines);
-    write_file_durably(folder / checksums_name, sums);
+    keep_or_write(folder / checksums_name, sums);
 }
 
-/// Locks the folder of all variants for a run: alone, or with other shards, which wait while one
-/// of them makes the folder ready.
-FolderLock enter(const fs::path& folder, int shards) {
-    if (shards == 1) return lock_alone(folder);
+/// Locks the folder of all variants for a run and makes it ready: alone, or with other shards, which
+/// wait while one of them does.
+FolderLock enter(const fs::path& folder, const Json& json, std::span<const Mission> variants,
+                 const RenderOptions& options) {
     constexpr double longest_s = 10.0;
-    Stopwatch watch;
-    double waited_s = 0.0;
+    const bool alone = options.shards == 1;
+    const auto waits = [&, watch = Stopwatch(), waited_s = 0.0]() mutable {
+        return !alone && (waited_s += watch.lap()) < longest_s;
+    };
     FolderLock lock(folder);
-    if (!lock.take_alone_or_share([&] { return (waited_s += watch.lap()) < longest_s; }))
-        refuse_second_run(folder);
+    const bool entered = alone ? lock.take_alone(waits) : lock.take_alone_or_share(waits);
+    if (!entered) refuse_second_run(folder);
+    begin_variants(folder, json, variants, options.overwrite);
+    // Another run may come in between, and then the folder may hold other variants.
+    if (!alone && (!lock.share(waits) || read_variants(folder) != json)) refuse_second_run(folder);
     return lock;
 }
 
@@ -227,12 +238,8 @@ RenderSummary run_variants(const Mission& mission, std::span<const Mission> vari
         if (begin) begin(variants[i], assembly);
         if (options.files && !lock) {
             check(variants[i], assembly);  // before anything is written
-            lock.emplace(enter(folder, options.shards));
+            lock.emplace(enter(folder, json, variants, options));
             all.unlocked = !lock->works();
-            begin_variants(folder, json, variants, options.overwrite);
-            // Another run may have come in between, and then the folder may hold other variants.
-            const bool shares = options.shards == 1 || lock->share([] { return false; });
-            if (!shares || read_variants(folder) != json) refuse_second_run(folder);
         }
         const RenderSummary one = run_job(variants[i], assembly, one_by_one, nullptr, stop);
         add(all, one);
