@@ -9,6 +9,7 @@
 
 #include "commands.h"
 #include "dataset/collection.h"
+#include "dataset/folder_lock.h"
 #include "dataset/variants.h"
 #include "logging.h"
 #include "progress.h"
@@ -77,6 +78,7 @@ int merge(const MergeArguments& arguments) {
             {"pings", summary.pings}, {"skipped", summary.skipped}, {"complete", summary.complete}};
         fmt::print("{}", json_line(json));
     }
+    if (summary.unlocked) spdlog::warn("{}", no_locks_warning(out));
     if (!summary.complete) {
         spdlog::warn("stopped after {} pings; {}", summary.pings, goes_on);
         return exit_signal + signal_received();

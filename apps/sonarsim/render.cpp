@@ -13,9 +13,11 @@
 
 #include "commands.h"
 #include "core/error.h"
+#include "dataset/folder_lock.h"
 #include "dataset/image_warnings.h"
 #include "dataset/job.h"
 #include "dataset/layout.h"
+#include "dataset/split.h"
 #include "dataset/variants.h"
 #include "logging.h"
 #include "mission_options.h"
@@ -124,12 +126,13 @@ std::size_t comment(const RenderSummary& summary, const Mission& mission, bool f
         spdlog::info("{}: the pings of other shards are still missing", folder);
     }
     log_dropped(summary.counts);
+    if (summary.unlocked) spdlog::warn("{}", no_locks_warning(mission.output.folder));
     constexpr std::size_t most = 20;  // of many variants
     for (std::size_t i = 0; i < std::min(most, summary.warnings.size()); ++i)
         spdlog::warn("{}", summary.warnings[i]);
     if (summary.warnings.size() > most)
         spdlog::warn("and {} warnings more like these", summary.warnings.size() - most);
-    return summary.warnings.size();
+    return summary.warnings.size() + (summary.unlocked ? 1 : 0);
 }
 
 /// A dataset's own mission.resolved.yaml may be rendered again; overwriting would replace it.
@@ -173,11 +176,14 @@ Outcome render_all(const RenderArguments& arguments, const Mission& mission,
     const std::vector<Mission> variants = load_variants(arguments.mission, mission);
     if (!variants.empty()) {
         spdlog::info("{}: {} variants", mission.name, variants.size());
+        const std::string few = too_few_variants_warning(mission.output.split, variants.size());
+        if (!few.empty()) spdlog::warn("{}", few);
         ProgressLine line(progress, "variants");
         // What is said of the first scene holds for most; of the others the log would be full.
         bool first = true;
+        out.warned_before = few.empty() ? 0 : 1;
         const auto begin = [&](const Mission& variant, const Assembly& assembly) {
-            if (first) out.warned_before = warn_before(variant, assembly);
+            if (first) out.warned_before += warn_before(variant, assembly);
             first = false;
         };
         out.summary = run_variants(

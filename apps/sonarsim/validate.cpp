@@ -17,6 +17,7 @@
 #include "dataset/folder.h"
 #include "dataset/metadata.h"
 #include "dataset/ping_cost.h"
+#include "dataset/split.h"
 #include "logging.h"
 #include "mission_options.h"
 #include "progress.h"
@@ -246,7 +247,10 @@ int validate(const ValidateArguments& arguments) {
     if (!variants.empty()) {
         const VariantFindings all = check_variants(variants, arguments.overwrite);
         if (arguments.log.prints_result()) print_variants(mission, all, arguments.log.json);
-        return say(all.warnings, arguments.strict);
+        const std::string few = too_few_variants_warning(mission.output.split, variants.size());
+        if (!few.empty()) spdlog::warn("{}", few);
+        const int code = say(all.warnings, arguments.strict);
+        return arguments.strict && !few.empty() ? exit_warned : code;
     }
     const Assembly assembly = assemble(mission);
     const std::vector<Writers> writers = make_writers(mission, assembly);

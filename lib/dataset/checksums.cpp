@@ -96,7 +96,8 @@ std::map<std::string, std::string> parse_checksums(const std::string& text,
         const std::string name = line.substr(sum.size() + blanks.size());
         const bool sound = sum.size() == digits_of_sum &&
                            sum.find_first_not_of("0123456789abcdef") == std::string::npos &&
-                           (blanks == "  " || blanks == " *") && stays_below(name);
+                           // Each line ends; the last one of a file that was cut off does not.
+                           blanks == "  " && stays_below(name) && !lines.eof();
         if (!sound) {
             throw InputError({file, number},
                              "is not a SHA-256 sum, two blanks and the name of a file of the "

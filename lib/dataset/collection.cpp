@@ -17,6 +17,7 @@
 #include "core/whole_file.h"
 #include "dataset/checksums.h"
 #include "dataset/description.h"
+#include "dataset/folder_lock.h"
 #include "dataset/layout.h"
 #include "dataset/ping_metadata.h"
 
@@ -154,18 +155,18 @@ std::optional<Json> read_collection(const fs::path& folder) {
     throw InputError({(folder / collection_name).string()}, "is not sonarsim's, or damaged");
 }
 
-/// Makes the folder ready, or finds it so.
-void begin_collection(const fs::path& out, const Json& description) {
+/// Makes the folder ready, or finds it so, and locks it.
+FolderLock begin_collection(const fs::path& out, const Json& description) {
+    FolderLock lock = lock_alone(out);
     if (std::optional<Json> found = read_collection(out)) {
         (*found)["complete"] = false;
-        if (*found == description) return;
+        if (*found == description) return lock;
         throw InputError({out.string()},
                          "holds a collection of other datasets; choose another folder");
     }
-    if (fs::exists(out) && !fs::is_empty(out))
-        throw InputError({out.string()}, "is not empty; choose another folder");
-    fs::create_directories(out);
+    if (!fs::is_empty(out)) throw InputError({out.string()}, "is not empty; choose another folder");
     write_file_durably(out / collection_name, json_text(description));
+    return lock;
 }
 
 /// Returns false when the file was there already.
@@ -190,7 +191,7 @@ CollectionSummary collect_datasets(
     const std::atomic<bool>& stop) {
     const std::vector<Member> members = read_members(parts);
     Json description = describe(members);
-    begin_collection(out, description);
+    const FolderLock lock = begin_collection(out, description);
     struct Copy {
         const Member* member;
         const std::string* name;
@@ -205,6 +206,7 @@ CollectionSummary collect_datasets(
         }
     }
     CollectionSummary summary{.warnings = seeds_shared_by(members)};
+    if (!lock.works()) summary.warnings.push_back(no_locks_warning(out));
     if (threads <= 0) threads = tbb::info::default_concurrency();
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     tbb::task_arena arena(threads);

@@ -7,14 +7,14 @@
 #include <string>
 #include <vector>
 
-namespace sonarsim {
+#include "mission/dataset_names.h"
 
-inline constexpr const char* collection_name = "collection.json";
+namespace sonarsim {
 
 struct CollectionSummary {
     std::uint64_t files = 0;            ///< copied by this run
     std::uint64_t skipped = 0;          ///< there already
-    std::vector<std::string> warnings;  ///< of datasets that share a seed
+    std::vector<std::string> warnings;  ///< of datasets that share a seed, of a disk without locks
     bool complete = false;
 };
 
@@ -24,7 +24,7 @@ struct CollectionSummary {
 /// order of the datasets does not matter.
 ///
 /// InputError when a part is no complete dataset, when one is there twice, when a file is not what
-/// its SHA256SUMS says, and when `out` holds something else; std::system_error when the disk fails.
+/// its SHA256SUMS says, and when `out` holds something else or another run writes there; std::system_error when the disk fails.
 /// When `stop` becomes true, the copies under way are finished; the same call goes on later.
 CollectionSummary collect_datasets(
     const std::vector<std::filesystem::path>& parts, const std::filesystem::path& out, int threads,

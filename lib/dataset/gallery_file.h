@@ -3,12 +3,13 @@
 #include <filesystem>
 #include <string_view>
 
+#include "mission/dataset_names.h"
+
 namespace sonarsim {
 
 // The page that `sonarsim gallery` puts beside the files of a dataset. It is no part of the
 // dataset: dataset.json and SHA256SUMS do not list it, and whoever replaces the dataset removes it.
 
-inline constexpr const char* gallery_name = "index.html";
 /// Stands in every such page, and tells it from others.
 inline constexpr std::string_view gallery_mark =
     R"(<meta name="generator" content="sonarsim gallery">)";

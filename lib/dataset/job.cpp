@@ -20,6 +20,7 @@
 #include "dataset/encode_ping.h"
 #include "dataset/finite_image.h"
 #include "dataset/folder.h"
+#include "dataset/folder_lock.h"
 #include "dataset/journal.h"
 #include "dataset/metadata.h"
 #include "dataset/ping_files.h"
@@ -177,6 +178,32 @@ void render(const Mission& mission, const Assembly& assembly, const std::vector<
     summary.warnings = engine->warnings();
 }
 
+/// Makes the folder ready for pings, and says what it held before. A shard then lets others in; as
+/// another run may come in between, the folder is looked at once more.
+FolderState set_up(const Layout& layout, const CommonFiles& common, const Mission& mission,
+                   const RenderOptions& options, FolderLock& lock) {
+    if (options.overwrite) remove_dataset(layout, mission);
+    const FolderState state = inspect_folder(layout, common.description);
+    if (state != FolderState::complete) begin_dataset(layout, common);
+    if (options.shards == 1) return state;
+    if (!lock.share([&] { return !others_write(layout.folder, options.shards); }))
+        refuse_second_run(layout.folder);
+    return inspect_folder(layout, common.description);
+}
+
+/// Completes a dataset that has all of its pings. Shards that come to their end at the same time do
+/// it one after the other; those that come later find it done. Returns false when `stop` becomes
+/// true while it waits.
+bool complete_once(const Layout& layout, const Mission& mission,
+                   const std::vector<Writers>& writers, RecordFiles& records,
+                   const CommonFiles& common, FolderLock& lock, const std::atomic<bool>& stop) {
+    if (!lock.take_alone([&] { return !stop; })) return false;
+    const FolderState state = inspect_folder(layout, common.description);
+    if (state != FolderState::complete || !has_all(layout, {}))
+        complete_dataset(layout, mission, writers, records, common);
+    return true;
+}
+
 }  // namespace
 
 RenderSummary run_job(const Mission& mission, const Assembly& assembly,
@@ -208,27 +235,34 @@ RenderSummary run_job(const Mission& mission, const Assembly& assembly,
     const CommonFiles common{describe_dataset(mission, assembly, layout, writers),
                              resolved_text(mission, assembly), write_tum(assembly.trajectory)};
     protect_inputs(layout, mission);
-    if (options.overwrite) remove_dataset(layout, mission);
-    const FolderState state =
-        options.overwrite ? FolderState::fresh : inspect_folder(layout, common.description);
-    if (state == FolderState::fresh) begin_dataset(layout, common);
-    RecordFiles records = open_records(layout);
-    std::optional<FinishedPings> there(std::in_place, layout, records);
-    const auto shard = [&](std::size_t i) { return shard_of(layout, all[i], i, options.shards); };
-    const Plan plan = make_plan(all, options, shard, *there);
-    summary.skipped = plan.skipped;
-    summary.complete = state == FolderState::complete && plan.todo.empty() &&
-                       has_common_files(layout) && has_products(layout);
-    if (summary.complete) {
-        remove_journal_parts(layout);
+    std::optional<FolderLock> lock = lock_for_run(layout.folder, options.shards, stop);
+    if (!lock) {
+        summary.stopped = true;
         return summary;
     }
-
-    if (state != FolderState::fresh) begin_dataset(layout, common);
-    // In a fresh folder as well: a run that was cut off before it had dataset.json leaves its part.
-    remove_leftovers(layout, plan.todo, options.shards == 1);
+    summary.unlocked = !lock->works();
+    const FolderState state = set_up(layout, common, mission, options, *lock);
+    const auto shard = [&](std::size_t i) { return shard_of(layout, all[i], i, options.shards); };
+    if (state == FolderState::complete) {
+        const auto none = [](const PingId&) { return false; };
+        const std::vector<PingId> own = make_plan(all, options, shard, none).todo;
+        summary.complete = has_all(layout, own);
+        if (summary.complete) {
+            summary.skipped = own.size();
+            remove_journal_parts(layout);
+            return summary;
+        }
+        begin_dataset(layout, common);
+    }
     Journal journal(layout.folder, journal_part(options.shard + 1, options.shards),
                     options.checkpoint_s);
+    summary.unlocked = summary.unlocked || !journal.lock_works();
+    RecordFiles records = open_records(layout);
+    std::optional<FinishedPings> there(std::in_place, layout, records);
+    const Plan plan = make_plan(all, options, shard, *there);
+    summary.skipped = plan.skipped;
+    // In a fresh folder as well: a run that was cut off before it had dataset.json leaves its part.
+    remove_leftovers(layout, plan.todo, options.shards == 1);
     {
         PingFiles files(layout, records, *there);
         const Destination to{layout, writers, files, journal};
@@ -241,9 +275,11 @@ RenderSummary run_job(const Mission& mission, const Assembly& assembly,
     // The journal is held once at a time: of many pings it is long.
     there.emplace(layout, records);
     require_files(layout, plan.todo, *there);
-    summary.complete = std::ranges::all_of(all, *there);
+    const bool all_there = std::ranges::all_of(all, *there);
     there.reset();
-    if (summary.complete) complete_dataset(layout, mission, writers, records, common);
+    if (!all_there) return summary;
+    summary.complete = complete_once(layout, mission, writers, records, common, *lock, stop);
+    summary.stopped = !summary.complete;
     return summary;
 }
 

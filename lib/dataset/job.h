@@ -27,6 +27,7 @@ struct RenderSummary {
     std::uint64_t skipped = 0;  ///< not rendered: their files were there already
     bool complete = false;      ///< the folder now holds every ping of every shard
     bool stopped = false;       ///< ended early on request
+    bool unlocked = false;      ///< the disk has no locks that would keep a second run away
     double seconds = 0.0;       ///< wall clock from the first ping to the last
     PingSeconds stages;         ///< summed over the pings, and so over threads
     double encode_seconds = 0.0;
@@ -51,11 +52,12 @@ using JobCallback = std::function<void(const RenderSummary& so_far, std::uint64_
 /// rendered again, and the bytes come out the same. If nothing is missing, nothing is done. Shards
 /// may run at the same time, in one folder or in folders that are merged later (dataset/merge.h);
 /// whichever run finds that no ping is missing makes the products and marks the dataset as
-/// complete.
+/// complete. The folder is locked for the time of the run, and so is each shard's part of the
+/// journal (dataset/folder_lock.h).
 ///
 /// When `stop` becomes true, pings in flight are finished and the rest is left for a later run.
-/// InputError when the folder holds something else and `overwrite` is off, or when the dataset
-/// would replace a file that the mission reads; std::system_error when the disk does not take a
+/// InputError when the folder holds something else and `overwrite` is off, when another run writes
+/// there, or when the dataset would replace a file that the mission reads; std::system_error when the disk does not take a
 /// file; std::runtime_error when files vanish while the run is under way.
 RenderSummary run_job(const Mission& mission, const Assembly& assembly,
                       const RenderOptions& options, const JobCallback& progress,

@@ -1,7 +1,6 @@
 #include "dataset/journal.h"
 
 #include <fcntl.h>
-#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -18,6 +17,7 @@
 #include "core/hash.h"
 #include "core/text.h"
 #include "core/whole_file.h"
+#include "dataset/folder_lock.h"
 #include "dataset/layout.h"
 
 namespace sonarsim {
@@ -148,8 +148,10 @@ Journal::Journal(const fs::path& folder, const std::string& name, double checkpo
       fd_(::open(path_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW, 0666)),
       start_s_(seconds_since_1970()) {
     if (fd_ < 0) throw_errno("cannot write", path_);
-    // Only so that status can tell; where the file system has no locks, it cannot.
-    ::flock(fd_, LOCK_SH | LOCK_NB);
+    if (!lock_file(fd_, lock_works_)) {
+        ::close(fd_);
+        refuse_second_run(folder_);
+    }
     // What an interrupted run left may end in the middle of a line.
     if (::lseek(fd_, 0, SEEK_END) > 0) pending_ = "\n";
     thread_ = std::thread([this, checkpoint_seconds] { run(checkpoint_seconds); });

@@ -53,10 +53,12 @@ void write_journal(const std::filesystem::path& path, const JournalEntries& entr
 /// The part of the journal that one run writes. A background thread makes a checkpoint every few
 /// seconds: it makes durable what has been written so far and then adds the lines of the pings that
 /// were finished before. So a power cut costs the pings since the last checkpoint and nothing else.
-/// The part is locked as long as the run goes on (flock), so that others can tell.
+/// The part is locked as long as the run writes it: no other run can write it, and `status` can
+/// tell.
 class Journal {
   public:
-    /// Adds to OUT/journal.d/`name`. std::system_error when the disk does not allow it.
+    /// Adds to OUT/journal.d/`name`. InputError when another run writes it; std::system_error when
+    /// the disk does not allow it.
     Journal(const std::filesystem::path& folder, const std::string& name,
             double checkpoint_seconds);
     ~Journal();
@@ -68,6 +70,9 @@ class Journal {
     /// The last checkpoint. Throws what a checkpoint has failed with.
     void finish();
 
+    /// False where the file system has no locks.
+    bool lock_works() const { return lock_works_; }
+
   private:
     void run(double checkpoint_seconds);
     void checkpoint();
@@ -76,6 +81,7 @@ class Journal {
     std::filesystem::path folder_;
     std::filesystem::path path_;
     int fd_;
+    bool lock_works_ = true;
     std::mutex mutex_;
     std::condition_variable wake_;
     std::string pending_;  ///< lines of pings that are not durable yet

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "dataset/writers.h"
+#include "mission/dataset_names.h"
 
 // Where the files of a dataset lie:
 //
@@ -30,15 +31,8 @@
 
 namespace sonarsim {
 
-inline constexpr const char* description_name = "dataset.json";
-inline constexpr const char* mission_name = "mission.resolved.yaml";
-inline constexpr const char* trajectory_name = "trajectory.tum";
-inline constexpr const char* checksums_name = "SHA256SUMS";
-inline constexpr const char* journal_name = "journal.txt";
 /// In the folder of a sensor. No writer has this name.
 inline constexpr const char* pack_folder_name = "pack";
-/// With a dot, which the name of a sensor cannot have.
-inline constexpr const char* journal_folder_name = "journal.d";
 
 /// "3-of-8.txt": the part of the journal that a shard, counted from 1, writes.
 std::string journal_part(int shard, int shards);

@@ -18,6 +18,7 @@
 #include "dataset/completion.h"
 #include "dataset/description.h"
 #include "dataset/folder.h"
+#include "dataset/folder_lock.h"
 #include "dataset/ping_files.h"
 #include "dataset/resume.h"
 #include "mission/parse.h"
@@ -116,9 +117,10 @@ void adopt_packs(Layout& layout, const Json& description) {
 
 /// A folder that pings are taken from.
 struct Part {
-    Part(Layout of, const fs::path& folder) : layout(std::move(of)) {
+    /// `datasets` are open at the same time.
+    Part(Layout of, const fs::path& folder, std::size_t datasets) : layout(std::move(of)) {
         layout.folder = folder;
-        records = open_records(layout, RecordAccess::read);
+        records = open_records(layout, RecordAccess::read, datasets);
         finished = std::make_unique<FinishedPings>(layout, records);
     }
 
@@ -222,24 +224,26 @@ MergeSummary merge_datasets(const std::vector<fs::path>& folders, const fs::path
     adopt_packs(layout, common.description);
     std::vector<std::unique_ptr<Part>> parts;
     for (const fs::path& folder : folders)
-        parts.push_back(std::make_unique<Part>(layout, folder));
+        parts.push_back(std::make_unique<Part>(layout, folder, folders.size() + 1));
 
     protect_inputs(layout, context.mission);
     const std::vector<PingId> all = list_pings(context.mission, poses);
-    const FolderState state = inspect_folder(layout, common.description);
-    if (state == FolderState::fresh) {
-        // What is missing is told before anything is written.
+    // What is missing is told before anything is written.
+    if (inspect_folder(layout, common.description) == FolderState::fresh)
         plan_copies(all, parts, *parts[0]->finished);
-        begin_dataset(layout, common);
+    const FolderLock lock = lock_alone(layout.folder);
+    MergeSummary summary{.unlocked = !lock.works()};
+    if (inspect_folder(layout, common.description) == FolderState::complete &&
+        has_all(layout, all)) {
+        summary.skipped = all.size();
+        summary.complete = true;
+        return summary;
     }
-    RecordFiles records = open_records(layout);
+    begin_dataset(layout, common);
+    RecordFiles records = open_records(layout, RecordAccess::write, folders.size() + 1);
     const FinishedPings there(layout, records);
     const std::vector<Copy> copies = plan_copies(all, parts, there);
-    MergeSummary summary{.skipped = all.size() - copies.size()};
-    summary.complete = state == FolderState::complete && copies.empty() &&
-                       has_common_files(layout) && has_products(layout);
-    if (summary.complete) return summary;
-    if (state != FolderState::fresh) begin_dataset(layout, common);
+    summary.skipped = all.size() - copies.size();
 
     if (threads <= 0) threads = tbb::info::default_concurrency();
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);

@@ -12,6 +12,7 @@ struct MergeSummary {
     std::uint64_t pings = 0;    ///< copied by this run
     std::uint64_t skipped = 0;  ///< there already
     bool complete = false;
+    bool unlocked = false;  ///< the disk has no locks that would keep a second run away
 };
 
 /// Joins datasets of one mission whose pings were rendered into several folders (shards of several
@@ -22,7 +23,7 @@ struct MergeSummary {
 ///
 /// InputError when a part is no dataset or not of the same mission, inputs, version and build as
 /// the first, when a ping is in none of them, when a file is not what its journal says, and when
-/// `out` holds something else; std::system_error when the disk fails. When `stop` becomes true, the
+/// `out` holds something else or another run writes there; std::system_error when the disk fails. When `stop` becomes true, the
 /// copies under way are finished and the rest is left for a later run.
 MergeSummary merge_datasets(const std::vector<std::filesystem::path>& parts,
                             const std::filesystem::path& out, int threads,

@@ -19,7 +19,9 @@ PackFile::~PackFile() {
     if (fd_ >= 0) ::close(fd_);
 }
 
-void PackFile::write(std::uint64_t offset, std::string_view bytes) const {
+void PackFile::write(std::uint64_t offset, std::string_view bytes) {
+    if (fd_ < 0) fd_ = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC | O_NOFOLLOW);
+    if (fd_ < 0) throw_errno("cannot write", path_);
     while (!bytes.empty()) {
         const ssize_t put = ::pwrite(fd_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
         if (put < 0 && errno == EINTR) continue;
@@ -27,6 +29,10 @@ void PackFile::write(std::uint64_t offset, std::string_view bytes) const {
         offset += static_cast<std::uint64_t>(put);
         bytes.remove_prefix(static_cast<std::size_t>(put));
     }
+}
+
+void PackFile::pause() {
+    if (::close(std::exchange(fd_, -1)) != 0) throw_errno("cannot write", path_);
 }
 
 void PackFile::finish(std::uint64_t bytes) {

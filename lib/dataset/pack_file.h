@@ -17,8 +17,10 @@ class PackFile {
     PackFile(const PackFile&) = delete;
     PackFile& operator=(const PackFile&) = delete;
 
-    /// std::system_error when the disk does not take it.
-    void write(std::uint64_t offset, std::string_view bytes) const;
+    /// std::system_error when the disk does not take it, or when the file was removed since.
+    void write(std::uint64_t offset, std::string_view bytes);
+    /// Closes the file until the next write(). std::system_error when the disk did not take all.
+    void pause();
     /// Cuts off what an interrupted run left beyond `bytes`, and closes the file. std::system_error
     /// when the disk did not take all of it.
     void finish(std::uint64_t bytes);

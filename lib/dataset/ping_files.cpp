@@ -1,5 +1,6 @@
 #include "dataset/ping_files.h"
 
+#include <algorithm>
 #include <fstream>
 #include <span>
 
@@ -62,7 +63,11 @@ EncodedPing read_ping(const Layout& layout, const RecordFiles& records,
 }
 
 PingFiles::PingFiles(const Layout& layout, const RecordFiles& records, const FinishedPings& there)
-    : layout_(layout), records_(records), there_(there), filling_(layout.sensors.size()) {}
+    : layout_(layout), records_(records), there_(there), filling_(layout.sensors.size()) {
+    const auto packed =
+        std::ranges::count_if(layout.sensors, [](const auto& s) { return s.pings_per_pack > 0; });
+    keep_open_ = static_cast<std::size_t>(packed) <= most_files_kept_open;
+}
 
 void PingFiles::write(const PingId& ping, const EncodedPing& encoded) const {
     const SensorLayout& sensor = layout_.sensors[ping.sensor];
@@ -100,9 +105,12 @@ void PingFiles::pack(const PingId& ping, const EncodedPing& encoded) {
     if (last) members.append(tar_end_bytes, '\0');
     filling.file->write(filling.end, members);
     filling.end += members.size();
-    if (!last) return;
-    filling.file->finish(filling.end);
-    filling.file.reset();
+    if (last) {
+        filling.file->finish(filling.end);
+        filling.file.reset();
+    } else if (!keep_open_) {
+        filling.file->pause();
+    }
 }
 
 }  // namespace sonarsim

@@ -47,6 +47,7 @@ class PingFiles {
     const RecordFiles& records_;
     const FinishedPings& there_;
     std::vector<Filling> filling_;  ///< by sensor
+    bool keep_open_;                ///< packs between two pings
 };
 
 }  // namespace sonarsim

@@ -40,8 +40,8 @@ std::string hash_of_record(std::string_view bytes) {
 }
 
 RecordFile::RecordFile(const std::filesystem::path& path, const NpyFormat& format,
-                       std::size_t records, RecordAccess access)
-    : path_(path), records_(records), record_bytes_(format.type.back() - '0') {
+                       std::size_t records, RecordAccess access, KeepOpen keep)
+    : path_(path), records_(records), record_bytes_(format.type.back() - '0'), access_(access) {
     for (const std::size_t length : format.shape)
         record_bytes_ *= length;
     record_bytes_ /= std::max<std::size_t>(records, 1);
@@ -52,24 +52,37 @@ RecordFile::RecordFile(const std::filesystem::path& path, const NpyFormat& forma
     fd_ =
         ::open(path.c_str(), (writes ? O_RDWR | O_CREAT : O_RDONLY) | O_CLOEXEC | O_NOFOLLOW, 0666);
     if (fd_ < 0) throw_errno("cannot open", path);
+    try {
+        prepare(header);
+    } catch (...) {
+        ::close(fd_);
+        throw;
+    }
+    struct stat status {};
+    if (::fstat(fd_, &status) != 0) {
+        ::close(fd_);
+        throw_errno("cannot read", path);
+    }
+    device_ = status.st_dev;
+    inode_ = status.st_ino;
+    if (keep == KeepOpen::no) close();
+}
+
+/// Makes the open file one of this format and length.
+void RecordFile::prepare(const std::string& header) const {
     // No temporary name and no truncation: two shards that begin at once make the same file, and
     // neither can take away what the other has written into it.
     struct stat status {};
     std::string found(header.size(), '\0');
     const bool whole = ::fstat(fd_, &status) == 0 &&
-                       static_cast<std::uint64_t>(status.st_size) == offset(records) &&
+                       static_cast<std::uint64_t>(status.st_size) == offset(records_) &&
                        transfer_all(::pread, fd_, found.data(), found.size(), 0) && found == header;
-    if (!whole && !writes) {
-        ::close(fd_);
-        throw std::runtime_error(path.string() + " has not the format and length that it should");
-    }
-    const bool ready = whole || (transfer_all(::pwrite, fd_, header.data(), header.size(), 0) &&
-                                 ::ftruncate(fd_, static_cast<off_t>(offset(records))) == 0);
-    if (ready) return;
-    const int reason = errno;
-    ::close(fd_);
-    errno = reason;
-    throw_errno("cannot write", path);
+    if (whole) return;
+    if (access_ == RecordAccess::read)
+        throw std::runtime_error(path_.string() + " has not the format and length that it should");
+    const bool ready = transfer_all(::pwrite, fd_, header.data(), header.size(), 0) &&
+                       ::ftruncate(fd_, static_cast<off_t>(offset(records_))) == 0;
+    if (!ready) throw_errno("cannot write", path_);
 }
 
 RecordFile::~RecordFile() {
@@ -77,11 +90,8 @@ RecordFile::~RecordFile() {
 }
 
 void RecordFile::require_in_place() const {
-    struct stat opened {};
     struct stat named {};
-    if (::fstat(fd_, &opened) != 0) throw_errno("cannot read", path_);
-    if (::lstat(path_.c_str(), &named) == 0 && named.st_dev == opened.st_dev &&
-        named.st_ino == opened.st_ino)
+    if (::lstat(path_.c_str(), &named) == 0 && named.st_dev == device_ && named.st_ino == inode_)
         return;
     throw std::runtime_error(path_.string() +
                              " was removed or replaced during the run; the same command run again "
@@ -89,22 +99,40 @@ void RecordFile::require_in_place() const {
 }
 
 void RecordFile::close() {
-    if (::close(std::exchange(fd_, -1)) != 0) throw_errno("cannot write", path_);
+    if (fd_ >= 0 && ::close(std::exchange(fd_, -1)) != 0) throw_errno("cannot write", path_);
+}
+
+int RecordFile::reopen() const {
+    require_in_place();
+    const bool writes = access_ == RecordAccess::write;
+    const int fd = ::open(path_.c_str(), (writes ? O_RDWR : O_RDONLY) | O_CLOEXEC | O_NOFOLLOW);
+    if (fd < 0) throw_errno("cannot open", path_);
+    return fd;
+}
+
+template <class Use>
+void RecordFile::with_file(const char* what, const Use& use) const {
+    const int fd = fd_ >= 0 ? fd_ : reopen();
+    const bool done = use(fd);
+    const int reason = errno;
+    const bool closed = fd == fd_ || ::close(fd) == 0;
+    if (!done) errno = reason;
+    if (!done || !closed) throw_errno(what, path_);
 }
 
 void RecordFile::write(std::size_t record, std::span<const std::byte> bytes) const {
     if (record >= records_ || bytes.size() != record_bytes_) {
         throw std::logic_error("a record does not fit " + path_.string());
     }
-    if (!transfer_all(::pwrite, fd_, bytes.data(), bytes.size(), offset(record))) {
-        throw_errno("cannot write", path_);
-    }
+    with_file("cannot write", [&](int fd) {
+        return transfer_all(::pwrite, fd, bytes.data(), bytes.size(), offset(record));
+    });
 }
 
 void RecordFile::read(std::size_t record, std::span<std::byte> bytes) const {
-    if (!transfer_all(::pread, fd_, bytes.data(), bytes.size(), offset(record))) {
-        throw_errno("cannot read", path_);
-    }
+    with_file("cannot read", [&](int fd) {
+        return transfer_all(::pread, fd, bytes.data(), bytes.size(), offset(record));
+    });
 }
 
 std::string RecordFile::hash(std::size_t record) const {

@@ -26,6 +26,12 @@ enum class RecordAccess {
     read,   ///< opens a file that is there
 };
 
+/// Whether a file stays open between calls. A process may have few files open, often 1,024, and a
+/// mission thousands of sensors.
+enum class KeepOpen { yes, no };
+/// Of each sort of files (records, packs). Where there are more, none of them stays open.
+inline constexpr std::size_t most_files_kept_open = 64;
+
 /// A NumPy file of equal records, one per ping, that is filled while the mission runs, by any
 /// thread and any process in any order. From the beginning it has its full length, and records that
 /// are not written yet are zero; the file system gives those no room.
@@ -35,7 +41,7 @@ class RecordFile {
     /// does not allow it, or when the name belongs to a symbolic link; std::runtime_error when a
     /// file to be read is not of this format and length.
     RecordFile(const std::filesystem::path& path, const NpyFormat& format, std::size_t records,
-               RecordAccess access = RecordAccess::write);
+               RecordAccess access = RecordAccess::write, KeepOpen keep = KeepOpen::yes);
     ~RecordFile();
     RecordFile(const RecordFile&) = delete;
     RecordFile& operator=(const RecordFile&) = delete;
@@ -62,12 +68,20 @@ class RecordFile {
     std::uint64_t offset(std::size_t record) const {
         return header_bytes_ + record * record_bytes_;
     }
+    void prepare(const std::string& header) const;
+    /// Calls `use` with the open file; std::system_error "`what` PATH" when it returns false.
+    template <class Use>
+    void with_file(const char* what, const Use& use) const;
+    int reopen() const;
 
     std::filesystem::path path_;
     std::size_t records_;
     std::size_t record_bytes_;
     std::size_t header_bytes_;
-    int fd_;
+    RecordAccess access_;
+    std::uint64_t device_ = 0;  ///< with inode_: which file it was when it was first opened
+    std::uint64_t inode_ = 0;
+    int fd_ = -1;  ///< -1 where it is opened for each call
 };
 
 }  // namespace sonarsim

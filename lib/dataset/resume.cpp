@@ -1,9 +1,11 @@
 #include "dataset/resume.h"
 
+#include <algorithm>
 #include <optional>
 #include <stdexcept>
 #include <variant>
 
+#include "dataset/folder.h"
 #include "format/tar.h"
 
 namespace sonarsim {
@@ -33,7 +35,13 @@ void for_each_product(const Layout& layout, const Visit& visit) {
 
 }  // namespace
 
-RecordFiles open_records(const Layout& layout, RecordAccess access) {
+RecordFiles open_records(const Layout& layout, RecordAccess access, std::size_t datasets) {
+    std::size_t records = 0;
+    for (const SensorLayout& sensor : layout.sensors)
+        records += std::ranges::count_if(sensor.per_ping, [](const auto& part) {
+            return std::holds_alternative<PingRecord>(part);
+        });
+    const KeepOpen keep = records * datasets <= most_files_kept_open ? KeepOpen::yes : KeepOpen::no;
     RecordFiles files(layout.sensors.size());
     for (std::size_t i = 0; i < files.size(); ++i) {
         const SensorLayout& sensor = layout.sensors[i];
@@ -41,7 +49,8 @@ RecordFiles open_records(const Layout& layout, RecordAccess access) {
             const auto* record = std::get_if<PingRecord>(&part);
             files[i].push_back(
                 record ? std::make_unique<RecordFile>(layout.sensor_folder(i) / record->file,
-                                                      record->format, sensor.pings, access)
+                                                      record->format, sensor.pings, access,
+                                                      keep)
                        : nullptr);
         }
     }
@@ -152,6 +161,9 @@ ProductSizes require_products(const Layout& layout) {
     return sizes;
 }
 
+namespace {
+
+/// Whether every product is there with the size that the journal tells.
 bool has_products(const Layout& layout) {
     const ProductSizes expected = read_journal(layout.folder).products;
     bool all = true;
@@ -161,6 +173,18 @@ bool has_products(const Layout& layout) {
               size_of(layout.product_file(sensor, name)) == entry->second;
     });
     return all;
+}
+
+}  // namespace
+
+bool has_all(const Layout& layout, const std::vector<PingId>& pings) {
+    if (!has_common_files(layout) || !has_products(layout)) return false;
+    try {
+        const RecordFiles records = open_records(layout, RecordAccess::read);
+        return std::ranges::all_of(pings, FinishedPings(layout, records));
+    } catch (const std::runtime_error&) {
+        return false;  // a file of records is missing or damaged
+    }
 }
 
 }  // namespace sonarsim

@@ -12,8 +12,10 @@ namespace sonarsim {
 /// By sensor and by writer; null where a writer writes a file per ping.
 using RecordFiles = std::vector<std::vector<std::unique_ptr<RecordFile>>>;
 
-/// Opens the record files of a dataset, or makes them.
-RecordFiles open_records(const Layout& layout, RecordAccess access = RecordAccess::write);
+/// Opens the record files of a dataset, or makes them. Few of them stay open, however many there
+/// are: `datasets` are used at the same time.
+RecordFiles open_records(const Layout& layout, RecordAccess access = RecordAccess::write,
+                         std::size_t datasets = 1);
 
 /// Tells which pings need not be rendered: those that the journal lists, and whose files and
 /// records are what it says; in a pack, only as long as no ping before them is missing. References
@@ -52,7 +54,8 @@ void require_files(const Layout& layout, const std::vector<PingId>& written,
 /// The sizes of the products by sensor and file. std::runtime_error when one is not there.
 ProductSizes require_products(const Layout& layout);
 
-/// Whether every product is there with the size that the journal tells.
-bool has_products(const Layout& layout);
+/// Whether a dataset that says that it is complete has `pings` and all that is made of them. Opens
+/// nothing to write, so that the disk may be read-only.
+bool has_all(const Layout& layout, const std::vector<PingId>& pings);
 
 }  // namespace sonarsim

@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "dataset/labelled_ping.h"
+#include "mission/dataset_names.h"
 #include "sonar/kinds.h"
 
 namespace sonarsim {
@@ -37,9 +38,9 @@ std::string part_name(SplitPart part) {
 
 void add_coco(const Mission& mission, CocoPicture picture, std::vector<SharedProduct>& products) {
     if (!has_pictures(mission, picture)) return;
-    const char* const stems[] = {"labels/coco", "labels/coco_fan", "labels/coco_records",
-                                 "labels/coco_scans"};
-    const std::string stem = stems[static_cast<std::size_t>(picture)];
+    const char* const stems[] = {"/coco", "/coco_fan", "/coco_records", "/coco_scans"};
+    const std::string stem =
+        labels_folder_name + std::string(stems[static_cast<std::size_t>(picture)]);
     products.push_back({SharedProduct::Kind::coco, stem + ".json", picture, SplitPart::none});
     const bool of_pings = picture == CocoPicture::polar || picture == CocoPicture::fan;
     if (!of_pings) return;
@@ -60,7 +61,7 @@ std::vector<SharedProduct> shared_products(const Mission& mission) {
     std::vector<SharedProduct> products;
     for (const SplitPart part : parts_of(mission.output.split)) {
         products.push_back(
-            {SharedProduct::Kind::split, "split/" + part_name(part) + ".txt", {}, part});
+            {SharedProduct::Kind::split, split_file_of(part_name(part)), {}, part});
     }
     if (is_asked(mission, Label::coco)) {
         add_coco(mission, CocoPicture::polar, products);
@@ -69,7 +70,8 @@ std::vector<SharedProduct> shared_products(const Mission& mission) {
         add_coco(mission, CocoPicture::scan, products);
     }
     if (is_asked(mission, Label::yolo) || is_asked(mission, Label::yolo_polygons)) {
-        products.push_back({SharedProduct::Kind::class_names, "labels/classes.txt"});
+        products.push_back(
+            {SharedProduct::Kind::class_names, labels_folder_name + std::string("/classes.txt")});
     }
     return products;
 }

@@ -5,8 +5,13 @@
 #include <string>
 
 #include "core/error.h"
+#include "mission/dataset_names.h"
 
 namespace sonarsim {
+
+std::string split_file_of(std::string_view part) {
+    return std::string(split_folder_name) + '/' + std::string(part) + ".txt";
+}
 
 double share_of(const SplitConfig& config, SplitPart part) {
     if (part == SplitPart::train) return config.train;
@@ -71,9 +76,20 @@ std::vector<SplitPart> split_poses(const SplitConfig& config, std::size_t poses)
 }
 
 std::vector<SplitPart> split_variants(const SplitConfig& config, std::size_t variants) {
+    const std::vector<SplitPart> parts = parts_of(config);
+    if (variants < parts.size()) return std::vector(variants, parts.front());
     SplitConfig without_gap = config;
     without_gap.gap = 0;
     return split(without_gap, variants, "variants");
+}
+
+std::string too_few_variants_warning(const SplitConfig& config, std::size_t variants) {
+    const std::vector<SplitPart> parts = parts_of(config);
+    if (variants >= parts.size()) return {};
+    const std::string first(split_part_names[static_cast<std::size_t>(parts.front())]);
+    return config.place.location.text() + ": the mission has fewer variants (" +
+           std::to_string(variants) + ") than the split has parts (" +
+           std::to_string(parts.size()) + "): all of them are put into '" + first + "'";
 }
 
 }  // namespace sonarsim

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -16,6 +17,9 @@ enum class SplitPart : std::uint8_t { train, val, test, none };
 /// Names of the parts, by SplitPart; without `none`.
 inline constexpr std::array<std::string_view, 3> split_part_names{"train", "val", "test"};
 
+/// "split/train.txt", the list of a part, relative to the folder of the dataset or the variants.
+std::string split_file_of(std::string_view part);
+
 /// The share of a part.
 double share_of(const SplitConfig& config, SplitPart part);
 
@@ -27,7 +31,11 @@ std::vector<SplitPart> parts_of(const SplitConfig& config);
 /// have neighbours. InputError when a part would get no pose.
 std::vector<SplitPart> split_poses(const SplitConfig& config, std::size_t poses);
 
-/// The part of each variant, which has neighbours nowhere: as of poses, and without gaps.
+/// The part of each variant, which has neighbours nowhere: as of poses, and without gaps. Where
+/// there are fewer variants than parts, the first part gets all of them.
 std::vector<SplitPart> split_variants(const SplitConfig& config, std::size_t variants);
+
+/// What to warn of where there are fewer variants than parts; else empty.
+std::string too_few_variants_warning(const SplitConfig& config, std::size_t variants);
 
 }  // namespace sonarsim

@@ -1,11 +1,6 @@
 #include "dataset/status.h"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -14,6 +9,7 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "dataset/description.h"
+#include "dataset/folder_lock.h"
 #include "dataset/journal.h"
 #include "dataset/layout.h"
 #include "dataset/variants.h"
@@ -64,15 +60,6 @@ std::vector<PingId> pings_of(const Layout& layout) {
         }
     }
     return pings;
-}
-
-/// Whether a run holds the lock of its part of the journal.
-bool is_locked(const fs::path& part) {
-    const int fd = ::open(part.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
-    if (fd < 0) return false;
-    const bool locked = ::flock(fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
-    ::close(fd);
-    return locked;
 }
 
 /// The shards that a name of the form journal_part() stands for.

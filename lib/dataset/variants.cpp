@@ -5,9 +5,11 @@
 #include "core/clock.h"
 #include "core/error.h"
 #include "core/file.h"
+#include "core/sha256.h"
 #include "core/text.h"
 #include "dataset/description.h"
 #include "dataset/folder.h"
+#include "dataset/folder_lock.h"
 #include "dataset/image_warnings.h"
 #include "dataset/layout.h"
 #include "dataset/metadata.h"
@@ -44,34 +46,72 @@ bool holds_something(const fs::path& folder) {
 /// Removes what lies in the folder of a variant, which belongs to it alone.
 void remove_variant(const fs::path& folder, const Mission& mission) {
     if (!fs::is_directory(folder)) return;
+    const FolderLock lock = lock_alone(folder);
     Layout layout;
     layout.folder = folder;
     remove_dataset(layout, mission);
     if (fs::is_empty(folder)) fs::remove(folder);
 }
 
-/// Where the variants are parted: their folders in a file for each part, a line each.
-void write_split(const fs::path& folder, const Json& json) {
-    for (const std::string_view part : split_part_names) {
-        std::string lines;
-        for (const Json& variant : json.at("variants")) {
-            if (variant.value("split", "") == part)
-                lines += variant.at("folder").get<std::string>() + '\n';
-        }
-        const fs::path file = folder / "split" / (std::string(part) + ".txt");
-        if (lines.empty()) {
-            fs::remove(file);  // of the variants that were there before
-            continue;
-        }
-        fs::create_directories(file.parent_path());
-        write_file(file, lines);
-    }
+/// Removes what lies beside the variants, but not variants.json, by which the folder is known.
+void remove_files_beside(const fs::path& folder) {
+    fs::remove(folder / checksums_name);
+    for (const std::string_view part : split_part_names)
+        fs::remove(folder / split_file_of(part));
+    std::error_code not_empty;
+    fs::remove(folder / split_folder_name, not_empty);
+}
+
+/// Writes a file that is not there as it should be: the disk of a complete dataset may be
+/// read-only.
+void keep_or_write(const fs::path& file, const std::string& text) {
+    if (fs::is_regular_file(file) && read_file(file, largest_index) == text) return;
+    fs::create_directories(file.parent_path());
+    write_file_durably(file, text);
+}
+
+/// Writes variants.json, the lists of its parts and the sums of both.
+void write_files_beside(const fs::path& folder, const Json& json) {
+    std::string sums;
+    const auto write = [&](const std::string& name, const std::string& text) {
+        keep_or_write(folder / name, text);
+        sums += sha256(text) + "  " + name + '\n';
+    };
+    write(variants_name, json_text(json));
+    for (const auto& [name, lines] : split_lists(json))
+        write(name, lines);
+    keep_or_write(folder / checksums_name, sums);
+}
+
+/// Locks the folder of all variants for a run and makes it ready: alone, or with other shards, which
+/// wait while one of them does.
+FolderLock enter(const fs::path& folder, const Json& json, std::span<const Mission> variants,
+                 const RenderOptions& options) {
+    constexpr double longest_s = 10.0;
+    const bool alone = options.shards == 1;
+    const auto waits = [&, watch = Stopwatch(), waited_s = 0.0]() mutable {
+        return !alone && (waited_s += watch.lap()) < longest_s;
+    };
+    FolderLock lock(folder);
+    const bool entered = alone ? lock.take_alone(waits) : lock.take_alone_or_share(waits);
+    if (!entered) refuse_second_run(folder);
+    begin_variants(folder, json, variants, options.overwrite);
+    // Another run may come in between, and then the folder may hold other variants.
+    if (!alone && (!lock.share(waits) || read_variants(folder) != json)) refuse_second_run(folder);
+    return lock;
+}
+
+/// What can be refused of a mission that is about to be rendered.
+void check(const Mission& mission, const Assembly& assembly) {
+    const std::vector<Writers> writers = make_writers(mission, assembly);
+    protect_inputs(make_layout(mission, writers, assembly.trajectory.size()), mission);
 }
 
 void add(RenderSummary& all, const RenderSummary& one) {
     all.pings += one.pings;
     all.skipped += one.skipped;
     all.complete = all.complete && one.complete;
+    all.unlocked = all.unlocked || one.unlocked;
     all.seconds += one.seconds;
     all.stages += one.stages;
     all.encode_seconds += one.encode_seconds;
@@ -151,10 +191,19 @@ void begin_variants(const fs::path& folder, const Json& json, std::span<const Mi
     if (found && overwrite) {
         for (const fs::path& old : folders_of_variants(folder, *found))
             remove_variant(old, variants.front());
+        remove_files_beside(folder);
     }
-    fs::create_directories(folder);
-    write_file_durably(folder / variants_name, json_text(json));
-    write_split(folder, json);
+    write_files_beside(folder, json);
+}
+
+std::map<std::string, std::string> split_lists(const Json& json) {
+    std::map<std::string, std::string> lists;
+    for (const Json& variant : json.at("variants")) {
+        const std::string part = variant.value("split", "");
+        if (std::ranges::find(split_part_names, part) != split_part_names.end())
+            lists[split_file_of(part)] += variant.at("folder").get<std::string>() + '\n';
+    }
+    return lists;
 }
 
 RenderSummary run_variants(const Mission& mission, std::span<const Mission> variants,
@@ -164,10 +213,9 @@ RenderSummary run_variants(const Mission& mission, std::span<const Mission> vari
         throw InputError(
             "one shard must not overwrite what another writes: remove the folder instead");
     }
-    if (options.files) {
-        begin_variants(mission.output.folder, describe_variants(mission, variants), variants,
-                       options.overwrite);
-    }
+    const fs::path& folder = mission.output.folder;
+    const Json json = describe_variants(mission, variants);
+    std::optional<FolderLock> lock;
     RenderOptions one_by_one = options;
     one_by_one.shard = 0;
     one_by_one.shards = 1;
@@ -188,6 +236,11 @@ RenderSummary run_variants(const Mission& mission, std::span<const Mission> vari
         const std::string name = variant_folder(static_cast<int>(i)) + ": ";
         const Assembly assembly = assemble(variants[i], models);
         if (begin) begin(variants[i], assembly);
+        if (options.files && !lock) {
+            check(variants[i], assembly);  // before anything is written
+            lock.emplace(enter(folder, json, variants, options));
+            all.unlocked = !lock->works();
+        }
         const RenderSummary one = run_job(variants[i], assembly, one_by_one, nullptr, stop);
         add(all, one);
         all.stopped = one.stopped;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
@@ -10,17 +11,18 @@
 #include "dataset/job.h"
 #include "dataset/merge.h"
 #include "dataset/verify.h"
+#include "mission/dataset_names.h"
 
 // The variants of a mission lie below one folder:
 //
 //     OUT/variants.json         what was drawn for each of them
+//     OUT/split/train.txt       with output.split: which of them are for what; val.txt, test.txt
+//     OUT/SHA256SUMS            of the files above
 //     OUT/variant_0000/         a dataset like any other
 //
 // A shard renders whole variants: those whose index i has i % shards == shard.
 
 namespace sonarsim {
-
-inline constexpr const char* variants_name = "variants.json";
 
 /// What variants.json says of the variants of a mission, which may not be rendered yet. InputError
 /// where `folder` holds something else and `overwrite` is off.
@@ -33,7 +35,10 @@ std::optional<nlohmann::ordered_json> read_variants(const std::filesystem::path&
 std::vector<std::filesystem::path> folders_of_variants(const std::filesystem::path& folder,
                                                        const nlohmann::ordered_json& json);
 
-/// Makes `folder` ready for variants, or throws InputError when it holds something else; with
+/// The lists of the parts that a variants.json tells, by name: "split/train.txt".
+std::map<std::string, std::string> split_lists(const nlohmann::ordered_json& json);
+
+/// Makes `folder`, which is locked, ready for variants, or throws InputError when it holds something else; with
 /// `overwrite` removes those that another variants.json names.
 void begin_variants(const std::filesystem::path& folder, const nlohmann::ordered_json& json,
                     std::span<const Mission> variants, bool overwrite);
@@ -54,7 +59,7 @@ MergeSummary merge_variants(const std::vector<std::filesystem::path>& parts,
                             const std::filesystem::path& out, int threads,
                             const ProgressCallback& progress, const std::atomic<bool>& stop);
 
-/// Checks each variant as verify_dataset does, and that none is missing.
+/// Checks each variant as verify_dataset does, that none is missing, and the files beside them.
 DatasetCheck verify_variants(const std::filesystem::path& folder, int threads,
                              const ProgressCallback& progress, const std::atomic<bool>& stop);
 

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "core/text.h"
+#include "mission/dataset_names.h"
 
 namespace sonarsim {
 
@@ -249,6 +250,11 @@ const std::vector<YamlNode>& MissionReader::named_items(const char* key) {
             throw InputError(
                 item.key_place.location(),
                 "the name " + in_quotes(item.key) + " must be 1 to 64 letters, digits, '_' or '-'");
+        }
+        if (is_taken_by_dataset(item.key)) {
+            throw InputError(item.key_place.location(),
+                             "the name " + in_quotes(item.key) +
+                                 " is that of a file or folder of the dataset; take another");
         }
         names.push_back(item.key);
     }

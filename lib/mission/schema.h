@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "core/input_limits.h"
+#include "mission/dataset_names.h"
 #include "mission/instrument_schema.h"
 #include "mission/limits.h"
 #include "mission/mission.h"
@@ -61,7 +62,7 @@ inline constexpr std::array packs{Choice<Pack>{"none", Pack::none}, Choice<Pack>
 /// Fit for the name of a folder that holds nothing but one mission.
 inline bool is_folder_name(std::string_view name) {
     return !name.empty() && name != "." && name != ".." && name.size() <= 200 &&
-           name.find('/') == std::string_view::npos;
+           name.find('/') == std::string_view::npos && !is_taken_by_collection(name);
 }
 
 template <class Visitor>
@@ -320,7 +321,8 @@ template <class Visitor>
 void describe(Visitor& v, Mission& c) {
     v.text("name", c.name, "name of the dataset; that of the mission's file where left out");
     v.require(is_folder_name(c.name), {"name"},
-              "'name' names a folder: at most 200 bytes, without '/'");
+              "'name' names a folder: at most 200 bytes, without '/', not SHA256SUMS or "
+              "collection.json");
     v.integer("seed", c.seed, "every random draw follows from it; 0 is a seed like any other");
     v.section("water", c.water, "the water");
     v.section("scene", c.scene, "what the sonars look at", required);

@@ -8,10 +8,13 @@
 //                      fails, with EIO; "short": a write takes half of what it is given;
 //                      "interrupted": every third one is, by a signal; "stall": that call never
 //                      comes back; "kill": the program is killed (SIGKILL) before that call
+//                      "readonly": every call fails with EROFS; "nolock": none fails, but flock()
+//                      fails with ENOLCK
 
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <stdio_ext.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -69,6 +72,10 @@ bool fails(const char* call, const char* path) {
     const long number = ++calls;
     const long first = std::atol(std::string(setting("FAULTY_DISK_CALL")).c_str());
     log(call, path);
+    if (setting("FAULTY_DISK_MODE") == "readonly") {
+        errno = EROFS;
+        return true;
+    }
     while (number == first && setting("FAULTY_DISK_MODE") == "stall")
         pause();
     if (number == first && setting("FAULTY_DISK_MODE") == "kill") std::raise(SIGKILL);
@@ -217,6 +224,14 @@ int fdatasync(int fd) {
 int syncfs(int fd) noexcept {
     if (is_below_open(fd) && fails("syncfs", fd)) return -1;
     return NEXT(syncfs)(fd);
+}
+
+int flock(int fd, int operation) noexcept {
+    if (setting("FAULTY_DISK_MODE") == "nolock" && is_below_open(fd)) {
+        errno = ENOLCK;
+        return -1;
+    }
+    return NEXT(flock)(fd, operation);
 }
 
 int rename(const char* from, const char* to) noexcept {

@@ -2,6 +2,7 @@
 sonarsim to be checked."""
 import json
 import os
+import random
 import shutil
 import subprocess
 import unittest
@@ -164,6 +165,93 @@ class Verify(Sandbox):
         self.assertIn("more faults", result.stderr)
         self.edit("out/dataset.json", '"pings": 1000000000000000000', '"pings": "many"')
         self.assert_refused(self.verify(), "dataset.json", "damaged")
+
+
+class EveryFile(Sandbox):
+    """Of whatever the program writes, in every layout: a byte that was flipped, an end that was cut off
+    and a file that was removed are found."""
+
+    def setUp(self):
+        super().setUp()
+        self.write("path.csv", path_csv(2))
+        self.draw = random.Random(7)
+        # The other two sonars write files of the same sorts.
+        kept = [line for line in MISSION.splitlines() if not line.startswith(("  mbes", "  sounder"))]
+        mission = "\n".join(kept).replace("fan_width_px: 32", "fan_width_px: 32, "
+                                          "split: {train: 0.5, test: 0.5, gap: 0}") + "\n"
+        labels = mission.replace("fan_width_px: 32", "fan_width_px: 32, labels: [instance, coco, yolo]")
+        self.write("mission.yaml", labels)
+        self.write("packed.yaml", labels.replace("{folder: out,", "{folder: out, pack: tar,"))
+        self.write("variants.yaml", mission + "variants: 2\n"
+                   "vary: [{key: water.sound_speed_m_s, uniform: [1470, 1490]}]\n")
+
+    def done(self, *arguments):
+        result = self.run_sonarsim(*arguments)
+        self.assertEqual(result.returncode, 0, result.stderr)
+
+    def check_every_file(self):
+        self.done("verify", "out")
+        files = sorted(p for p in self.out.rglob("*") if p.is_file())
+        for path in files:
+            data = path.read_bytes()
+            place = self.draw.randrange(len(data))
+            flipped = bytes([data[place] ^ self.draw.randrange(1, 256)])
+            end = self.draw.choice((place, len(data) - 1))
+            for what, spoilt in (("flipped", data[:place] + flipped + data[place + 1:]),
+                                 ("cut", data[:end]), ("removed", None)):
+                with self.subTest(file=path.relative_to(self.out), what=what, place=place):
+                    path.unlink() if spoilt is None else path.write_bytes(spoilt)
+                    result = self.run_sonarsim("verify", "out", "-j1")
+                    path.write_bytes(data)
+                    self.assertIn(result.returncode, (1, 2), result.stderr)
+                    self.assertIn("error:", result.stderr)
+        self.done("verify", "out")
+        return len(files)
+
+    def test_plain(self):
+        self.done("render", "mission.yaml")
+        self.assertGreater(self.check_every_file(), 20)
+
+    def test_packed(self):
+        self.done("render", "packed.yaml")
+        self.assertGreater(self.check_every_file(), 10)
+
+    def test_variants(self):
+        self.done("render", "variants.yaml")
+        self.assertTrue((self.out / "split/test.txt").exists())
+        self.assertGreater(self.check_every_file(), 30)
+
+    def test_merged(self):
+        for k in (1, 2):
+            self.done("render", "packed.yaml", "--shard", f"{k}/2", "--out", f"part{k}")
+        self.done("merge", "part1", "part2", "out")
+        self.check_every_file()
+
+    def test_collected(self):
+        for name in ("packed", "other"):
+            self.done("render", "packed.yaml", "--set", f"name={name}", "--out", name)
+        self.done("merge", "--different", "packed", "other", "out")
+        self.check_every_file()
+
+    def test_strangers_beside_variants(self):
+        self.done("render", "variants.yaml")
+        self.write("out/notes.txt", "mine")
+        self.write("out/split/more.txt", "mine")
+        result = self.run_sonarsim("verify", "out", "--json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(json.loads(result.stdout)["strangers"], ["notes.txt", "split/more.txt"])
+
+    def test_the_cure_cures_variants(self):
+        self.done("render", "variants.yaml")
+        whole = digest(self.out)
+        for name in ("SHA256SUMS", "split/train.txt"):
+            for spoil in (lambda path: path.unlink(), lambda path: path.write_text("")):
+                spoil(self.out / name)
+                self.assertEqual(self.run_sonarsim("verify", "out").returncode, 1)
+                self.done("render", "variants.yaml")
+                self.assertEqual(digest(self.out), whole)
+        check = ["sha256sum", "--check", "--strict", "--quiet", "SHA256SUMS"]
+        self.assertEqual(subprocess.run(check, cwd=self.out, check=False).returncode, 0)
 
 
 class AnotherPlace(Sandbox):

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+// What lies in the folder of a dataset beside the folders of its sensors (dataset/layout.h). The
+// names stand here because no sensor may bear one of them.
+
+namespace sonarsim {
+
+inline constexpr const char* description_name = "dataset.json";
+inline constexpr const char* mission_name = "mission.resolved.yaml";
+inline constexpr const char* trajectory_name = "trajectory.tum";
+inline constexpr const char* checksums_name = "SHA256SUMS";
+inline constexpr const char* journal_name = "journal.txt";
+inline constexpr const char* journal_folder_name = "journal.d";
+inline constexpr const char* labels_folder_name = "labels";
+inline constexpr const char* split_folder_name = "split";
+inline constexpr const char* gallery_name = "index.html";
+/// In the folder above the datasets of variants.
+inline constexpr const char* variants_name = "variants.json";
+/// In the folder above datasets of different missions, each of which has its mission's name.
+inline constexpr const char* collection_name = "collection.json";
+
+/// Whether no sensor may bear the name: the dataset has a file or folder of this name.
+inline bool is_taken_by_dataset(std::string_view name) {
+    constexpr std::array<std::string_view, 9> taken{
+        description_name,    mission_name,       trajectory_name,   checksums_name, journal_name,
+        journal_folder_name, labels_folder_name, split_folder_name, gallery_name};
+    return std::ranges::find(taken, name) != taken.end();
+}
+
+/// Whether no mission may bear the name.
+inline bool is_taken_by_collection(std::string_view name) {
+    return name == collection_name || name == checksums_name;
+}
+
+}  // namespace sonarsim

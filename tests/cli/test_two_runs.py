@@ -1,0 +1,291 @@
+"""Two runs that write into one folder at the same time: one of them gets a clear sentence, or both
+fit together; what is there in the end is whole, and of one mission."""
+import itertools
+import os
+import random
+import resource
+import shutil
+import signal
+import subprocess
+import time
+import unittest
+
+from sandbox import SONARSIM, Sandbox, digest, path_csv
+
+FAULTY_DISK = os.environ["FAULTY_DISK"]
+POSES = 60
+VARY = """
+variants: 3
+vary:
+  - {key: sensors.fls.noise.add_sigma, uniform: [0.01, 0.2]}
+"""
+SECOND_RUN = "another run is writing into this folder"
+REFUSALS = (SECOND_RUN, "holds a dataset of another mission", "holds variants of another mission",
+            "holds files that are no sonarsim dataset", "holds files that are no variants",
+            "has no variants.json")
+
+
+class TwoRuns(Sandbox):
+    def setUp(self):
+        super().setUp()
+        self.write("path.csv", path_csv(POSES))
+        mission = (self.folder / "mission.yaml").read_text()
+        self.write("variants.yaml", mission + VARY)
+        self.draw = random.Random(25)
+
+    def start(self, *arguments):
+        return subprocess.Popen([SONARSIM, *map(str, arguments)], cwd=self.folder, text=True,
+                                stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+
+    def end(self, process):
+        _, stderr = process.communicate(timeout=120)
+        return process.returncode, stderr
+
+    def whole(self, *arguments):
+        """What the command makes where nobody disturbs it."""
+        out = self.folder / "alone"
+        result = self.run_sonarsim(*arguments, "--out", out)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        found = digest(out)
+        shutil.rmtree(out)
+        return found
+
+    def assert_whole(self, *wholes):
+        """The folder holds one of these datasets and nothing else."""
+        result = self.run_sonarsim("verify", "out")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertNotIn("is not the dataset's", result.stderr)
+        self.assertIn(digest(self.out), wholes)
+
+    def assert_refused_or_done(self, code, stderr):
+        self.assertIn(code, (0, 2), stderr)
+        if code == 0:
+            return
+        errors = [line for line in stderr.splitlines() if line.startswith("error:")]
+        self.assertEqual(len(errors), 1, stderr)
+        self.assertTrue(any(words in errors[0] for words in REFUSALS), stderr)
+
+    def pair(self, first, second, delay):
+        """The exit codes of two commands, the second of which starts `delay` seconds later."""
+        shutil.rmtree(self.out, ignore_errors=True)
+        one = self.start(*first)
+        time.sleep(delay)
+        other = self.start(*second)
+        codes = []
+        for process in (one, other):
+            code, stderr = self.end(process)
+            self.assert_refused_or_done(code, stderr)
+            codes.append(code)
+        self.assertIn(0, codes)
+        return tuple(codes)
+
+    def delays(self, count):
+        return [0.0, *(self.draw.uniform(0.0, 0.15) for _ in range(count - 1))]
+
+    def test_two_missions_have_one_winner(self):
+        for name in ("mission.yaml", "variants.yaml"):
+            render = ("render", name)
+            wholes = [self.whole(*render), self.whole(*render, "--seed", "9")]
+            for delay in self.delays(4):
+                with self.subTest(name=name, delay=delay):
+                    codes = self.pair(render, (*render, "--seed", "9"), delay)
+                    self.assertEqual(sorted(codes), [0, 2])
+                    self.assert_whole(wholes[codes.index(0)])
+
+    def test_one_mission_twice(self):
+        for name in ("mission.yaml", "variants.yaml"):
+            render = ("render", name)
+            whole = self.whole(*render)
+            for delay in self.delays(3):
+                with self.subTest(name=name, delay=delay):
+                    self.pair(render, render, delay)
+                    self.assert_whole(whole)
+
+    def test_overwriting_what_is_under_way(self):
+        for name in ("mission.yaml", "variants.yaml"):
+            render = ("render", name)
+            wholes = [self.whole(*render), self.whole(*render, "--seed", "9")]
+            for delay in (0.1, *self.delays(3)):
+                with self.subTest(name=name, delay=delay):
+                    codes = self.pair(render, (*render, "--seed", "9", "--overwrite"), delay)
+                    # The second may have come first, or have replaced a finished dataset.
+                    self.assert_whole(wholes[1 if codes[1] == 0 else 0])
+
+    def test_shards_share_a_folder(self):
+        for name in ("mission.yaml", "variants.yaml"):
+            render = ("render", name)
+            whole = self.whole(*render)
+            for delay in self.delays(3):
+                with self.subTest(name=name, delay=delay):
+                    codes = self.pair((*render, "--shard", "1/2"), (*render, "--shard", "2/2"), delay)
+                    self.assertEqual(codes, (0, 0))
+                    self.assert_whole(whole)
+
+    def test_shards_that_do_not_fit(self):
+        """The same shard twice, shards of two divisions, of two missions, and a whole run."""
+        render = ("render", "mission.yaml")
+        wholes = [self.whole(*render), self.whole(*render, "--seed", "9")]
+        for second in (("--shard", "1/2"), ("--shard", "2/3"), ("--shard", "2/2", "--seed", "9"), ()):
+            for delay in self.delays(2):
+                with self.subTest(second=second, delay=delay):
+                    codes = self.pair((*render, "--shard", "1/2"), (*render, *second), delay)
+                    other = codes[0] != 0 and "--seed" in second
+                    seed = ("--seed", "9") if other else ()
+                    self.assertEqual(self.run_sonarsim(*render, *seed).returncode, 0)
+                    self.assert_whole(wholes[other])
+
+    def test_eight_shards_at_once(self):
+        whole = self.whole("render", "mission.yaml")
+        shards = [self.start("render", "mission.yaml", "-j1", "--shard", f"{k}/8")
+                  for k in range(1, 9)]
+        for shard in shards:
+            code, stderr = self.end(shard)
+            self.assertEqual(code, 0, stderr)
+        self.assert_whole(whole)
+
+    def test_merges(self):
+        render = ("render", "mission.yaml")
+        whole = self.whole(*render)
+        for k in (1, 2):
+            self.assert_renders("--shard", f"{k}/2", "--out", f"part{k}")
+        merge = ("merge", "part1", "part2", "out")
+        for second, delay in itertools.product((merge, render), (0.0, 0.01)):
+            with self.subTest(second=second, delay=delay):
+                self.pair(merge, second, delay)
+                self.assert_whole(whole)
+
+
+class HeldFolder(TwoRuns):
+    """The first run is halted, so that the second comes while it is at work."""
+
+    def setUp(self):
+        super().setUp()
+        self.write("path.csv", path_csv(10 * POSES))
+
+    def halted(self, *arguments):
+        process = self.start("render", *arguments)
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
+        deadline = time.monotonic() + 30
+        while not list(self.out.rglob("fls/meta/*.json")):
+            self.assertIsNone(process.poll())
+            self.assertLess(time.monotonic(), deadline)
+            time.sleep(0.005)
+        process.send_signal(signal.SIGSTOP)
+        return process
+
+    def go_on(self, process):
+        process.send_signal(signal.SIGCONT)
+        code, stderr = self.end(process)
+        self.assertEqual(code, 0, stderr)
+        result = self.run_sonarsim("verify", "out")
+        self.assertEqual(result.returncode, 0, result.stderr)
+
+    def assert_second_is_refused(self, *arguments):
+        before = digest(self.out)
+        result = self.run_sonarsim(*arguments)
+        self.assert_refused(result, "out", SECOND_RUN)
+        self.assertEqual(digest(self.out), before)
+
+    def test_a_whole_run(self):
+        part = self.folder / "part"
+        self.assert_renders("--out", part)
+        first = self.halted("mission.yaml")
+        for more in ((), ("--seed", "9"), ("--seed", "9", "--overwrite"), ("--shard", "1/2")):
+            with self.subTest(more=more):
+                self.assert_second_is_refused("render", "mission.yaml", *more)
+        self.assert_second_is_refused("merge", part, "out")
+        self.go_on(first)
+
+    def test_a_shard(self):
+        first = self.halted("mission.yaml", "--shard", "1/2")
+        for more in ((), ("--overwrite",), ("--shard", "1/2"), ("--shard", "1/3")):
+            with self.subTest(more=more):
+                self.assert_second_is_refused("render", "mission.yaml", *more)
+        second = self.render("--shard", "2/2")
+        self.assertEqual(second.returncode, 0, second.stderr)
+        self.go_on(first)
+
+    def test_variants(self):
+        first = self.halted("variants.yaml")
+        for more in ((), ("--seed", "9", "--overwrite")):
+            with self.subTest(more=more):
+                self.assert_second_is_refused("render", "variants.yaml", *more)
+        self.assert_second_is_refused("render", "mission.yaml", "--out", "out/variant_0000")
+        self.go_on(first)
+
+    def test_a_killed_run_holds_nothing(self):
+        first = self.halted("mission.yaml")
+        first.kill()
+        first.wait()
+        self.assert_renders()
+
+
+# The pairs above belong to the first class alone.
+for name in [n for n in dir(TwoRuns) if n.startswith("test_")]:
+    setattr(HeldFolder, name, None)
+
+
+class Disks(Sandbox):
+    def on_disk(self, mode, *arguments):
+        environment = dict(os.environ, LD_PRELOAD=FAULTY_DISK, FAULTY_DISK_BELOW=str(self.out),
+                           FAULTY_DISK_LOG=str(self.folder / "calls"), FAULTY_DISK_MODE=mode)
+        return self.run_sonarsim(*arguments, env=environment)
+
+    def test_a_disk_without_locks(self):
+        self.write("variants.yaml", (self.folder / "mission.yaml").read_text() + VARY)
+        self.assert_renders("--out", "part")
+        for arguments in (("render", "mission.yaml"), ("render", "mission.yaml", "--shard", "1/1"),
+                          ("render", "variants.yaml"), ("merge", "part", "out"),
+                          ("merge", "--different", "part", "out")):
+            with self.subTest(arguments=arguments):
+                shutil.rmtree(self.out, ignore_errors=True)
+                result = self.on_disk("nolock", *arguments)
+                self.assertEqual(result.returncode, 0, result.stderr)
+                warnings = [line for line in result.stderr.splitlines() if "no locks" in line]
+                self.assertEqual(len(warnings), 1, result.stderr)
+                self.assertIn(str(self.out), warnings[0])
+                self.assertEqual(self.run_sonarsim("verify", "out").returncode, 0)
+
+    def test_a_complete_dataset_on_a_read_only_disk(self):
+        self.edit("mission.yaml", "    kind: imaging\n", "    kind: echosounder\n")
+        self.edit("mission.yaml", "    azimuth_deg: 60\n    elevation_deg: 12\n", "")
+        self.edit("mission.yaml", "    azimuth_bins: 32\n", "")
+        self.write("variants.yaml", (self.folder / "mission.yaml").read_text() + VARY)
+        for name in ("variants.yaml", "mission.yaml"):
+            shutil.rmtree(self.out, ignore_errors=True)
+            self.assertEqual(self.run_sonarsim("render", name).returncode, 0)
+            before = digest(self.out)
+            for more in ((), ("--shard", "1/2")):
+                result = self.on_disk("readonly", "render", name, *more)
+                self.assertEqual(result.returncode, 0, result.stderr)
+                self.assertIn("complete; ", result.stderr)
+            self.assertEqual(digest(self.out), before)
+        (self.out / "fls/echogram.npy").unlink()
+        result = self.on_disk("readonly", "render", "mission.yaml")
+        self.assertEqual(result.returncode, 1, result.stderr)
+        self.assertIn("Read-only file system", result.stderr)
+
+
+class ManySensors(Sandbox):
+    def test_files_that_are_open_at_the_same_time(self):
+        """2,000 sensors with a file of records and a pack each, and 256 files at most."""
+        sensors = "".join(
+            f"  s{k}: {{kind: echosounder, range_max_m: 6, range_bins: 4}}\n" for k in range(2000))
+        self.write("mission.yaml", "seed: 7\nscene: {file: box.gltf, materials: materials.csv}\n"
+                   "trajectory: {file: path.csv}\nsensors:\n" + sensors +
+                   "output: {folder: out, full_scale: 1, pack: tar, pack_size_mb: 1}\n")
+        self.write("path.csv", path_csv(2))
+
+        def few_files():
+            resource.setrlimit(resource.RLIMIT_NOFILE, (256, 256))
+
+        for arguments in (("render", "mission.yaml"), ("merge", "out", "merged")):
+            result = self.run_sonarsim(*arguments, preexec_fn=few_files)
+            self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(digest(self.out), digest(self.folder / "merged"))
+        self.assertEqual(self.run_sonarsim("verify", "out", preexec_fn=few_files).returncode, 0)
+
+
+if __name__ == "__main__":
+    unittest.main()
