@@ -17,6 +17,7 @@ struct QuadSide {
 struct QuadPoints {
     Eigen::Array4f X, U, W;
     Eigen::Array4f range;
+    Eigen::Array4f u, w;  ///< of the directions to them
 
     Eigen::Vector3f at(int k) const { return {X[k], U[k], W[k]}; }
     Eigen::Vector3f middle(int i, int k) const { return 0.5F * (at(i) + at(k)); }
@@ -56,6 +57,8 @@ struct Quad {
         p.X = p.range / secant;
         p.U = at_u * p.X;
         p.W = at_w * p.X;
+        p.u = at_u;
+        p.w = at_w;
         return p;
     }
 };

@@ -21,6 +21,22 @@ constexpr float least_width_share = 0.05F;
 // may reach from one range to this many times that range.
 constexpr float longest_ratio = 1.5F;
 
+// What floats leave of the area of a quadrilateral that is narrow in the picture.
+constexpr float area_rounding = 1.01F;
+
+/// The area of a quadrilateral on a plane at most, m^2. On a plane dA = X^3 du dw / h.
+/// QuadPoints lie within the range of their triangle. Where the quadrilateral reaches beyond its
+/// triangle, this moves corners off the plane. Of a surface seen nearly along its plane, between
+/// two nearly equal u, the four corners then span an area along the line of sight that does not
+/// exist: it was up to hundreds of times that of the whole triangle, and a bin's mean showed
+/// nothing else.
+float most_area(const QuadPoints& p, float height_m) {
+    const float picture =
+        std::fabs((p.u[2] - p.u[0]) * (p.w[3] - p.w[1]) - (p.u[3] - p.u[1]) * (p.w[2] - p.w[0]));
+    const float X = p.X.maxCoeff();
+    return 0.5F * picture * X * X * X / height_m;
+}
+
 }  // namespace
 
 QuadSampler::QuadSampler(const FrameScan& scan, std::span<const Material> materials,
@@ -182,7 +198,8 @@ void QuadSampler::add_sample(const Quad& quad, const QuadPoints& corners) {
     const Eigen::Vector3f b = corners.at(1);
     const Eigen::Vector3f c = corners.at(2);
     const Eigen::Vector3f d = corners.at(3);
-    const float area = 0.5F * (c - a).cross(d - b).norm();
+    const float area = std::min(0.5F * (c - a).cross(d - b).norm(),
+                                area_rounding * most_area(corners, seen.height_m));
     if (!(area > 0.0F)) return;
     Sample& sample = out_.emplace_back();
     Eigen::Vector3f middle = 0.25F * (a + b + c + d);
