@@ -151,13 +151,12 @@ std::string text_of(const Findings& f) {
     }
     text +=
         line("dataset", fmt::format("{} pings, at most {:.1f} MB", f.all_pings(), 1e-6 * f.bytes));
-    text += line("about",
-                 std::isnan(f.hours())
-                     ? fmt::format("{} images; a ping has no room in memory", f.images)
-                     : fmt::format("{} images, {} on {} threads, {:.3g} GB", f.images,
-                                   duration_text(3600.0 * f.hours()),
-                                   tbb::info::default_concurrency(),
-                                   1e-9 * f.cost(&PingCost::bytes)));
+    text += line("about", std::isnan(f.hours())
+                              ? fmt::format("{} images; a ping has no room in memory", f.images)
+                              : fmt::format("{} images, {} on {} threads, {:.3g} GB", f.images,
+                                            duration_text(3600.0 * f.hours()),
+                                            tbb::info::default_concurrency(),
+                                            1e-9 * f.cost(&PingCost::bytes)));
     return text + line("folder", fmt::format("{} ({})", f.folder.string(), f.state));
 }
 

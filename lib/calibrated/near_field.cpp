@@ -41,7 +41,8 @@ constexpr double most_products = 1e9;
 void fill_by_transforms(const LineArray& array, double bend, double turn, int half,
                         UnfocusedBeam& out) {
     const int steps = 2 * (steps_for(bend, turn) / 4);
-    const Fourier fourier(transform_size(static_cast<int>(std::ceil(2.0 * pi * half / turn * steps))));
+    const Fourier fourier(
+        transform_size(static_cast<int>(std::ceil(2.0 * pi * half / turn * steps))));
     const int size = fourier.size();
     const double turn_by_sine = 2.0 * pi * steps / size;
     const double sine_step = turn_by_sine / (2.0 * pi * array.wavelengths);
@@ -58,8 +59,7 @@ void fill_by_transforms(const LineArray& array, double bend, double turn, int ha
             const double weight = array.weight(x).real() / steps;
             ComplexLanes& value = data[k];
             for (int lane = 0; lane < lanes_at_once; ++lane) {
-                const SinCos phase =
-                    sincos(bend * (first + lane) / (out.curvatures - 1) * x * x);
+                const SinCos phase = sincos(bend * (first + lane) / (out.curvatures - 1) * x * x);
                 value.re[lane] = static_cast<float>(weight * phase.cos);
                 value.im[lane] = static_cast<float>(weight * phase.sin);
             }

@@ -158,9 +158,8 @@ std::uint64_t find_echoes(const PieceBlock& pieces, std::span<const Backscatter>
         const __m256 spreading = product(inverse, inverse);
         const __m256 sine = _mm256_min_ps(product(read(pieces.height_m), inverse), all(1.0F));
         const __m256 received = product(read(pieces.area_m2), product(spreading, spreading));
-        const __m256 loss =
-            fading(_mm256_fmsub_ps(all(equation.loss_per_m), range, all(equation.raised)),
-                   least_loss);
+        const __m256 loss = fading(
+            _mm256_fmsub_ps(all(equation.loss_per_m), range, all(equation.raised)), least_loss);
         write(echoes.range_m, range);
         const __m256 power =
             product(product(scattering.at(pieces.material.data() + k, sine), loss), received);

@@ -140,11 +140,10 @@ void add_instrument(Sonar& sonar, const WaterConfig& water) {
         }
         for (int j = 0; even_sines && j <= view.beams; ++j)
             sonar.azimuth_edges_rad[j] = arcsin((2.0 * j / view.beams - 1.0) * sincos(half).sin);
-        const double array_step =
-            arcsin(sine_grid(line_array(radians(instrument.beam.width_deg),
-                                        instrument.beam.side_lobe_db),
-                             {0.0})
-                       .step);
+        const double array_step = arcsin(
+            sine_grid(line_array(radians(instrument.beam.width_deg), instrument.beam.side_lobe_db),
+                      {0.0})
+                .step);
         sonar.settings.beside =
             beams_beside(view, radians(instrument.beam.view_azimuth_deg), array_step);
     }

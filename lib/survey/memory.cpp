@@ -16,9 +16,8 @@ constexpr double bytes_per_bin = 64.0;
 /// Of the calibrated model: the grid of echoes, of which multipath has its own.
 double grid_bytes(const Sonar& sonar) {
     if (!sonar.settings.calibrated) return 0.0;
-    const auto columns =
-        std::visit([](const auto& beams) { return columns_of(beams); },
-                   sonar.settings.calibrated->beams);
+    const auto columns = std::visit([](const auto& beams) { return columns_of(beams); },
+                                    sonar.settings.calibrated->beams);
     const double grids = sonar.settings.multipath.on ? 2.0 : 1.0;
     return grids * columns * sonar.settings.view.range_bins * sizeof(float) * 2.0;
 }

@@ -248,7 +248,8 @@ TEST_SUITE("calibrated") {
         // 0.1 degrees seen to 80 degrees off the axis: sums would take a minute.
         const LineArray array = line_array(radians(0.1), -20.0);
         const double wavelength = 1480.0 / 1e6;
-        const UnfocusedBeam beam = unfocused_beam(array, wavelength, 0.5, sincos(radians(80.0)).sin);
+        const UnfocusedBeam beam =
+            unfocused_beam(array, wavelength, 0.5, sincos(radians(80.0)).sin);
         for (const double range : {1.0, 3.0, 10.0, 200.0}) {
             double peak = 0.0;
             double worst = 0.0;

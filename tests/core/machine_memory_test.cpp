@@ -20,7 +20,8 @@ void write(const std::filesystem::path& file, const char* text) {
 }  // namespace
 
 TEST_SUITE("core") {
-    TEST_CASE("machine memory: the least of the machine's and of what groups of processes may have") {
+    TEST_CASE(
+        "machine memory: the least of the machine's and of what groups of processes may have") {
         const TemporaryFolder folder;
         const std::filesystem::path root = folder.path;
         // The limit of this process stands above all, and is none where tests run.
