@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
+#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <numeric>
@@ -13,6 +15,7 @@
 #include <variant>
 
 #include "commands.h"
+#include "core/machine_memory.h"
 #include "core/text.h"
 #include "dataset/folder.h"
 #include "dataset/metadata.h"
@@ -23,6 +26,7 @@
 #include "progress.h"
 #include "scene_doubts.h"
 #include "survey/find_warnings.h"
+#include "survey/memory.h"
 #include "survey_report.h"
 #include "visibility/make_engine.h"
 
@@ -148,10 +152,12 @@ std::string text_of(const Findings& f) {
     }
     text +=
         line("dataset", fmt::format("{} pings, at most {:.1f} MB", f.all_pings(), 1e-6 * f.bytes));
-    text += line("about",
-                 fmt::format("{} images, {} on {} threads, {:.3g} GB", f.images,
-                             duration_text(3600.0 * f.hours()), tbb::info::default_concurrency(),
-                             1e-9 * f.cost(&PingCost::bytes)));
+    text += line("about", std::isnan(f.hours())
+                              ? fmt::format("{} images; a ping has no room in memory", f.images)
+                              : fmt::format("{} images, {} on {} threads, {:.3g} GB", f.images,
+                                            duration_text(3600.0 * f.hours()),
+                                            tbb::info::default_concurrency(),
+                                            1e-9 * f.cost(&PingCost::bytes)));
     return text + line("folder", fmt::format("{} ({})", f.folder.string(), f.state));
 }
 
@@ -193,11 +199,19 @@ void look_at(const Mission& mission, const Assembly& assembly, const std::vector
              Findings& findings) {
     for (const std::string& doubt : doubts_about(assembly.scene))
         findings.warnings.push_back(make_warning(Doubt::reading, "scene", doubt));
+    const double available = std::max(0.0, machine_memory() - resident_memory());
+    for (Warning& warning :
+         memory_warnings(assembly.sonars, tbb::info::default_concurrency(), available))
+        findings.warnings.push_back(std::move(warning));
     const std::unique_ptr<VisibilityEngine> rays = make_engine(assembly.scene, {});
     findings.sonars = survey(mission, assembly, *rays);
     for (Warning& warning : find_warnings(mission, assembly, findings.sonars, *rays))
         findings.warnings.push_back(std::move(warning));
-    findings.costs = measure_pings(mission, assembly, writers);
+    // Where not even one ping has room none is made to see how long it takes.
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+    findings.costs = exceeds_memory(assembly.sonars, available)
+                         ? std::vector(assembly.sonars.size(), PingCost{unknown, unknown})
+                         : measure_pings(mission, assembly, writers);
 }
 
 int say(const std::vector<Warning>& warnings, bool strict) {

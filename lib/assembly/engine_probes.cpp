@@ -38,7 +38,7 @@ EngineSettings engine_settings(const Mission& mission, const Assembly& assembly)
         for (const std::uint32_t pose :
              spread_pings(assembly.trajectory.size(), sonar.config.every, most_probes)) {
             settings.probes.push_back(
-                {heard_view(sonar.settings.view, sonar.settings.beams_beside),
+                {heard_view(sonar.settings.view, sonar.settings.beside),
                  sensor_pose(sonar, assembly.trajectory[pose].T_world_vehicle, pose),
                  rays_goal(sonar)});
         }

@@ -35,10 +35,14 @@ struct Backscatter {
 /// slope s; s = 0 has no facets.
 Backscatter backscatter(double lambert_db, double reflection, double slope_rms);
 
-/// e^-x for x >= 0, relative error below 3e-6 down to 1e-19, 0 below and for NaN: as exact as
-/// facets need it, and without branches.
-inline float fading(float x) {
-    constexpr float longest = 43.0F;
+/// Where `fading` is 0 from, as exact as facets need it: 1e-19 of a power.
+inline constexpr float fades_at = 43.0F;
+/// The same for absorption, of which a gain may make up: the least power that floats hold.
+inline constexpr float least_loss = 87.0F;
+
+/// e^-x for x >= -88, relative error below 3e-6; 0 from x = `longest` on and for NaN. Without
+/// branches.
+inline float fading(float x, float longest = fades_at) {
     const float turns = std::min(longest, x) * 1.44269504F;
     const float whole = std::floor(turns);
     const float rest = (turns - whole) * 0.69314718F;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calibrated/levels.h"
 #include "calibrated/normals.h"
 #include "calibrated/piston.h"
 #include "core/units.h"
@@ -177,7 +178,7 @@ void receive(const DirectedBeams& beams, const EchoGrid& grid, bool powers, bool
                 const float y = sigma * im[lane] + (powers ? 0.0F : place[1]);
                 const float echo = powers ? std::max(place[0], 0.0F) : 0.0F;
                 image[static_cast<std::size_t>(row + lane) * count + beam] =
-                    row_gain[row + lane] * (echo + std::fma(x, x, y * y));
+                    value_of(row_gain[row + lane], echo + std::fma(x, x, y * y));
             }
         }
     }

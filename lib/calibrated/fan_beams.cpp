@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calibrated/levels.h"
 #include "core/units.h"
 
 namespace sonarsim {
@@ -74,7 +75,7 @@ void write_rows(const std::vector<Lanes>& beams, int row, std::span<const float>
         const float gain = row_gain[row + lane];
         float* const out = image.data() + (row + lane) * beams.size();
         for (std::size_t j = 0; j < beams.size(); ++j)
-            out[j] = std::fma(gain, beams[j][lane], add ? out[j] : 0.0F);
+            out[j] = value_of(gain, beams[j][lane], add ? out[j] : 0.0F);
     }
 }
 

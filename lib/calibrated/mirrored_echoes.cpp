@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "calibrated/levels.h"
 
 namespace sonarsim {
 
@@ -64,8 +67,10 @@ std::uint64_t add_block(const Beams& beams, const SonarEquation& equation, Mirro
         const float range = 0.5F * (r + s);
         const float row = (range - equation.range_min_m) / equation.bin_m - 0.5F;
         const bool inside = row > -0.5F && row < rows - 0.5F;
-        const float lost = fading(equation.loss_per_m * range) / (r * r * s * s);
-        block.power[k] = inside ? block.power[k] * lost : 0.0F;
+        const float faded =
+            fading(std::fma(equation.loss_per_m, range, -equation.raised), least_loss);
+        const float lost = std::min(faded / (r * r * s * s), std::numeric_limits<float>::max());
+        block.power[k] = inside ? std::min(block.power[k] * lost, most_echo) : 0.0F;
         block.row[k] = inside ? row : 0.0F;
         outside += inside ? 0 : 2;
     }

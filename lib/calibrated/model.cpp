@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "calibrated/decibel.h"
+#include "calibrated/levels.h"
 #include "calibrated/mirrored_echoes.h"
 #include "calibrated/normals.h"
 #include "calibrated/scatterer_search.h"
@@ -186,10 +187,13 @@ CalibratedModel calibrated_model(const InstrumentConfig& instrument, const Water
         absorption_db_per_m(instrument.frequency_hz,
                             {water.temperature_c, water.salinity_psu, water.depth_m, water.ph});
 
-    const auto relative = [&](double db) { return power_of_db(db - instrument.source_level_db); };
-    const double noise = relative(receiver.noise_db);
-    const double common_mode =
-        receiver.common_mode_db > no_common_mode_db ? relative(receiver.common_mode_db) : 0.0;
+    const double noise_db = receiver.noise_db - instrument.source_level_db;
+    const bool has_common_mode = receiver.common_mode_db > no_common_mode_db;
+    const double common_mode_db =
+        has_common_mode ? receiver.common_mode_db - instrument.source_level_db : noise_db;
+    const double raised_db = raised_by_db(noise_db, common_mode_db);
+    const double noise = power_of_db(noise_db + raised_db);
+    const double common_mode = has_common_mode ? power_of_db(common_mode_db + raised_db) : 0.0;
     if (beam.aperture == Aperture::line) {
         model.beams = fan_beams(beam, beam_sines, noise, common_mode);
     } else {
@@ -200,18 +204,12 @@ CalibratedModel calibrated_model(const InstrumentConfig& instrument, const Water
                       .bin_m = static_cast<float>(bin_m),
                       .rows = view.range_bins,
                       .loss_per_m = static_cast<float>(0.2 * ln_10 * model.absorption_db_per_m),
+                      .raised = static_cast<float>(0.1 * ln_10 * raised_db),
                       .elevation = elevation_pattern(radians(beam.elevation_width_deg),
                                                      beam.elevation_side_lobe_db)};
     model.cells = scatterer_cells(instrument.speckle.per_cell, std::max(resolution_m, 0.5 * bin_m),
                                   radians(beam.width_deg), view.range_min_m, model.wavelength_m);
-    for (int i = 0; i < view.range_bins; ++i) {
-        const double range = std::max(view.range_min_m + (i + 0.5) * bin_m, receiver.tvg_from_m);
-        const double tvg_db =
-            receiver.tvg_log / 10.0 * db_of_power(range) +
-            (receiver.tvg_absorption ? 2.0 * model.absorption_db_per_m * range : 0.0);
-        model.row_gain.push_back(static_cast<float>(
-            power_of_db(instrument.source_level_db + tvg_db - receiver.full_scale_db)));
-    }
+    model.row_gain = row_gains(instrument, view, model.absorption_db_per_m, raised_db);
     return model;
 }
 

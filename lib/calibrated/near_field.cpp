@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calibrated/fourier.h"
 #include "core/elementary.h"
 #include "core/units.h"
 
@@ -28,6 +29,60 @@ int steps_for(double bend, double turn) {
 void add_times(const float* values, float factor, std::vector<float>& sums) {
     for (std::size_t i = 0; i < sums.size(); ++i)
         sums[i] = std::fma(factor, values[i], sums[i]);
+}
+
+// A table that takes more products than these, a second of work, is filled by Fourier transforms.
+constexpr double most_products = 1e9;
+
+/// Fills the table by Fourier transforms over the array, of several curvatures at once: half a
+/// second where sums take a minute. The sines are those of the transform. `bend` is the phase of
+/// the last curvature, `turn` that of the greatest sine, `half` how many sines there are to a side
+/// at least.
+void fill_by_transforms(const LineArray& array, double bend, double turn, int half,
+                        UnfocusedBeam& out) {
+    const int steps = 2 * (steps_for(bend, turn) / 4);
+    const Fourier fourier(
+        transform_size(static_cast<int>(std::ceil(2.0 * pi * half / turn * steps))));
+    const int size = fourier.size();
+    const double turn_by_sine = 2.0 * pi * steps / size;
+    const double sine_step = turn_by_sine / (2.0 * pi * array.wavelengths);
+    const int count = static_cast<int>(std::ceil(turn / turn_by_sine - 1e-9));
+    out.sines = 2 * count + 1;
+    out.greatest_sine = static_cast<float>(count * sine_step);
+    out.sines_per_unit = static_cast<float>(1.0 / sine_step);
+    out.values.resize(static_cast<std::size_t>(out.sines) * out.curvatures);
+    std::vector<ComplexLanes> data(size), spare(size);
+    for (int first = 0; first < out.curvatures; first += lanes_at_once) {
+        std::ranges::fill(data, ComplexLanes{});
+        for (int k = 0; k < steps / 2; ++k) {
+            const double x = (k + 0.5) / steps;
+            const double weight = array.weight(x).real() / steps;
+            ComplexLanes& value = data[k];
+            for (int lane = 0; lane < lanes_at_once; ++lane) {
+                const SinCos phase = sincos(bend * (first + lane) / (out.curvatures - 1) * x * x);
+                value.re[lane] = static_cast<float>(weight * phase.cos);
+                value.im[lane] = static_cast<float>(weight * phase.sin);
+            }
+            data[size - 1 - k] = value;  // at -x
+        }
+        fourier.forward(data.data(), spare.data());
+        const int lanes = std::min(lanes_at_once, out.curvatures - first);
+        for (int i = 0; i <= count; ++i) {
+            // The middles of steps lie half a step off those of the transform.
+            const SinCos off = sincos(-0.5 * turn_by_sine * i / steps);
+            const std::complex<float> shift(static_cast<float>(off.cos),
+                                            static_cast<float>(off.sin));
+            for (int lane = 0; lane < lanes; ++lane) {
+                const std::complex<float> one_way =
+                    shift * std::complex<float>(data[i].re[lane], data[i].im[lane]);
+                std::complex<float>* const middle =
+                    out.values.data() + static_cast<std::ptrdiff_t>(first + lane) * out.sines +
+                    count;
+                middle[i] = one_way * one_way;
+                middle[-i] = middle[i];
+            }
+        }
+    }
 }
 
 }  // namespace
@@ -65,6 +120,10 @@ UnfocusedBeam unfocused_beam(const LineArray& array, double wavelength_m, double
     // cancel, and the cosines of x times the turn are the same for every curvature.
     const int steps = steps_for(bend, turn) / 2;
     const int count = half + 1;
+    if (1.0 * steps * count * out.curvatures > most_products) {
+        fill_by_transforms(array, bend, turn, half, out);
+        return out;
+    }
     std::vector<double> x(steps);
     std::vector<float> cosines;
     for (int k = 0; k < steps; ++k) {

@@ -36,7 +36,7 @@ RangeTaps range_taps(double resolution_bins, double side_lobe_db, bool squared) 
     };
     RangeTaps out;
     // The main lobe and two side lobes, but not so many that a wide pulse takes all the time.
-    out.reach = std::clamp(static_cast<int>(std::ceil(3.0 * resolution_bins)), 2, 64);
+    out.reach = static_cast<int>(std::clamp(std::ceil(3.0 * resolution_bins), 2.0, 64.0));
     std::vector<double> products;
     constexpr int steps = 64;
     for (int m = -out.reach; m <= out.reach; ++m) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "calibrated/levels.h"
 #include "calibrated/line_array.h"
 
 namespace sonarsim {
@@ -23,8 +24,8 @@ __m256 product(__m256 a, __m256 b) {
 }
 
 /// `fading` of bottom.h, 8 at a time: what a compiler makes of a loop over it takes twice as long.
-__m256 fading(__m256 x) {
-    const __m256 longest = all(43.0F);
+__m256 fading(__m256 x, float end = fades_at) {
+    const __m256 longest = all(end);
     const __m256 turns = product(_mm256_min_ps(x, longest), all(1.44269504F));
     const __m256 whole = _mm256_floor_ps(turns);
     const __m256 rest = product(_mm256_sub_ps(turns, whole), all(0.69314718F));
@@ -157,10 +158,13 @@ std::uint64_t find_echoes(const PieceBlock& pieces, std::span<const Backscatter>
         const __m256 spreading = product(inverse, inverse);
         const __m256 sine = _mm256_min_ps(product(read(pieces.height_m), inverse), all(1.0F));
         const __m256 received = product(read(pieces.area_m2), product(spreading, spreading));
-        const __m256 loss = fading(product(all(equation.loss_per_m), range));
+        const __m256 loss = fading(
+            _mm256_fmsub_ps(all(equation.loss_per_m), range, all(equation.raised)), least_loss);
         write(echoes.range_m, range);
-        write(echoes.power,
-              product(product(scattering.at(pieces.material.data() + k, sine), loss), received));
+        const __m256 power =
+            product(product(scattering.at(pieces.material.data() + k, sine), loss), received);
+        // In this order what is no number stays that.
+        write(echoes.power, _mm256_min_ps(all(most_echo), power));
         write(echoes.row, _mm256_fmsub_ps(_mm256_sub_ps(range, all(equation.range_min_m)),
                                           all(per_bin), all(0.5F)));
     }

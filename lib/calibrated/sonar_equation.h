@@ -31,6 +31,7 @@ struct SonarEquation {
     float bin_m = 0.0F;
     int rows = 0;
     float loss_per_m = 0.0F;  ///< power goes with e^-(loss r) by absorption there and back
+    float raised = 0.0F;      ///< powers are e^raised times their ratio to the source level
     ElevationPattern elevation;
 };
 

@@ -90,8 +90,7 @@ TracedPing trace_ping(const PingSettings& settings, const Scene& scene,
     Stopwatch watch;
 
     // 1. The visible surface.
-    HeardSurface heard =
-        heard_surface(settings.view, settings.beams_beside, engine, T_world_sensor);
+    HeardSurface heard = heard_surface(settings.view, settings.beside, engine, T_world_sensor);
     traced.samples = std::move(heard.samples);
     traced.beside = std::move(heard.beside);
     traced.counts.samples = traced.samples.items.size() + traced.beside.size();

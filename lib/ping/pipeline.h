@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/pose.h"
+#include "ping/heard_surface.h"
 #include "ping/multipath.h"
 #include "ping/ping.h"
 #include "ping/pixel_noise.h"
@@ -24,7 +25,7 @@ struct PingSettings {
     /// Of a calibrated fan: beams of azimuth to either side of the view in which surface is looked
     /// for as well. A line array's beam is a cone, which reaches there far off the horizontal
     /// plane.
-    int beams_beside = 0;
+    BeamsBeside beside;
     Multipath multipath;
     RangeNoise range_noise;
     PixelNoise pixel_noise;

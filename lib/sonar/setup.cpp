@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 
+#include "calibrated/beamformer.h"
 #include "calibrated/model.h"
 #include "core/elementary.h"
 #include "core/units.h"
@@ -14,6 +15,20 @@ namespace {
 
 float cosine_of(double angle_deg) {
     return static_cast<float>(sincos(radians(angle_deg)).cos);
+}
+
+/// Beams that reach from the view to the borders of what is heard, `heard_rad` wide. They are as
+/// wide as the bins or, where that is wider, as `array_step_rad`, which the array cannot resolve.
+BeamsBeside beams_beside(const View& view, double heard_rad, double array_step_rad) {
+    const double side_rad = 0.5 * (heard_rad - view.azimuth_rad);
+    const double bin_rad = view.azimuth_rad / view.beams;
+    if (array_step_rad < 2.0 * bin_rad) {
+        // Whole beams; rounding of degrees to radians must not cost one.
+        return {.count = static_cast<int>(std::max(0.0, std::floor(side_rad / bin_rad + 1e-6)))};
+    }
+    if (side_rad <= 0.0) return {};
+    const double count = std::max(1.0, std::floor(side_rad / array_step_rad));
+    return {.count = static_cast<int>(count), .beam_rad = side_rad / count};
 }
 
 }  // namespace
@@ -125,11 +140,12 @@ void add_instrument(Sonar& sonar, const WaterConfig& water) {
         }
         for (int j = 0; even_sines && j <= view.beams; ++j)
             sonar.azimuth_edges_rad[j] = arcsin((2.0 * j / view.beams - 1.0) * sincos(half).sin);
-        // Whole beams; rounding of degrees to radians must not cost one.
-        const double beside =
-            0.5 * (radians(instrument.beam.view_azimuth_deg) / (2.0 * half) - 1.0);
-        sonar.settings.beams_beside =
-            static_cast<int>(std::max(0.0, std::floor(beside * view.beams + 1e-6)));
+        const double array_step = arcsin(
+            sine_grid(line_array(radians(instrument.beam.width_deg), instrument.beam.side_lobe_db),
+                      {0.0})
+                .step);
+        sonar.settings.beside =
+            beams_beside(view, radians(instrument.beam.view_azimuth_deg), array_step);
     }
     sonar.settings.calibrated =
         std::make_shared<const CalibratedModel>(calibrated_model(instrument, water, view, sines));

@@ -92,6 +92,10 @@ constexpr std::array rows{
          "of "
          "the two is seen there, and labelled, cannot be told",
          "take them out of one of the two"}},
+    Row{Doubt::memory,
+        {"a ping takes about {0:.2g} GB of memory, {1} at once {2:.2g} GB, and there are {3:.2g} "
+         "GB",
+         "lower {4}; with fewer threads (render -j) it takes less"}},
 };
 
 }  // namespace

@@ -34,6 +34,7 @@ enum class Doubt {
     quaternion_order = 23,
     engine = 24,
     doubled_triangles = 25,
+    memory = 26,
 };
 
 /// A doubt with its figures.

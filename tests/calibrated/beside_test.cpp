@@ -1,8 +1,10 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/units.h"
+#include "ping/heard_surface.h"
 #include "support/calibrated.h"
 #include "support/scenes.h"
 #include "validation/image_error.h"
@@ -44,12 +46,29 @@ TEST_SUITE("calibrated") {
         const double same = arcsin(sincos(azimuth).sin * sincos(elevation).cos);
         const Sonar narrow = line_array_sonar(0.0);
         const Sonar wide = line_array_sonar(180.0);
-        CHECK(narrow.settings.beams_beside == 0);
-        CHECK(wide.settings.beams_beside == 64);
+        CHECK(narrow.settings.beside.count == 0);
+        CHECK(wide.settings.beside.count == 64);
         const std::vector<float> ahead = image_of_ball(narrow, same, 0.0);
         CHECK(std::ranges::max(ahead) > 0.0F);
         CHECK(std::ranges::max(image_of_ball(narrow, azimuth, elevation)) == 0.0F);
         CHECK(image_error(image_of_ball(wide, azimuth, elevation), ahead).relative_l1 < 0.03);
         CHECK(image_error(image_of_ball(wide, same, 0.0), ahead).relative_l1 < 0.03);
+    }
+
+    TEST_CASE("beams beside the view may be wider than its bins: the ball sounds the same") {
+        const double azimuth = radians(70.0);
+        const double elevation = radians(70.0);
+        const Sonar by_bins = line_array_sonar(180.0);
+        Sonar wide = by_bins;
+        // As wide as two bins, in the same 60 degrees to either side.
+        wide.settings.beside = {.count = 32, .beam_rad = radians(60.0) / 32};
+        const View heard = heard_view(wide.settings.view, wide.settings.beside);
+        CHECK(std::fabs(heard.azimuth_rad - radians(180.0)) < 1e-9);
+        for (const double side : {-1.0, 1.0}) {
+            const std::vector<float> narrow = image_of_ball(by_bins, side * azimuth, elevation);
+            const std::vector<float> coarse = image_of_ball(wide, side * azimuth, elevation);
+            CHECK(std::ranges::max(narrow) > 0.0F);
+            CHECK(image_error(coarse, narrow).relative_l1 < 0.02);
+        }
     }
 }

@@ -1,10 +1,12 @@
 """Random missions: every key drawn from the range that `sonarsim keys --json` states for it, extremes
-included, over small scenes from a hundredth of a millimetre to the size of the Earth. Whatever they
-ask for: no crash, no hang, no pixel that is not finite, and a refusal has a place for each fault.
+included, over small scenes from a hundredth of a millimetre to the size of the Earth; half of the
+sonars are calibrated instruments. Whatever they ask for: no crash, no hang, no pixel that is not
+finite, the same bytes on one thread and on two, and a refusal has a place for each fault.
 
 RANDOM_MISSIONS is their number and RANDOM_SEED names the set; mission I alone, with its files kept:
 RANDOM_ONLY=I. A mission has at most six pings of some ten thousand bins and is to end within
-MOST_CPU_S of processor time, and within LONGEST_S on a machine that is busy with other things."""
+MOST_CPU_S of processor time, LONGEST_S on a machine that is busy with other things, and MOST_MEMORY.
+One that does not is no fault where `validate` has said so: by its hours, or by W26."""
 import array
 import json
 import math
@@ -28,6 +30,8 @@ SEED = os.environ.get("RANDOM_SEED", "1")
 ONLY = os.environ.get("RANDOM_ONLY")
 MOST_CPU_S = 300 if SANITIZED else 60
 LONGEST_S = 10 * MOST_CPU_S
+# What takes longer is not rendered again on one thread.
+MOST_TWICE_S = 600 if MISSIONS > 100 else 1
 MOST_MEMORY = 6 << 30
 
 PLACE = re.compile(r"error: (mission\.json|materials\.csv|scene\.gltf|path\.(csv|tum)"
@@ -114,7 +118,36 @@ def sensor(draw, keys, kind, size, wild):
         out["range_min_m"] = 0
     if kind == "sidescan":
         out.get("noise", {}).pop("range_lambda_m", None)
+    for of_instrument in ("model", "instrument"):
+        out.pop(of_instrument, None)
+    if draw.random() < 0.5:
+        instrument(draw, keys, kind, wild, out)
     return out
+
+
+def instrument(draw, keys, kind, wild, sonar):
+    """The calibrated model with an instrument, mostly one that fits the sonar's view."""
+    sonar["model"] = "calibrated"
+    path = "sensors.NAME.instrument"
+    sonar["instrument"] = section(draw, keys, path, wild, 0.6, kind)
+    for unused in ("noise", "streaks"):
+        sonar.pop(unused, None)
+    default = {key["name"]: key["default_by_kind"][kind] for key in keys["sensors.NAME"]
+               if kind in key.get("default_by_kind", {})}
+    beam = sonar["instrument"].get("beam", {})
+    of_beam = {key["name"]: key for key in keys[f"{path}.beam"]}
+    width = beam.get("width_deg", of_beam["width_deg"]["default_by_kind"][kind])
+    if draw.random() < 0.05:
+        return
+    view = {"echosounder": "opening_deg", "sidescan": "elevation_deg"}.get(kind, "azimuth_deg")
+    angle = sonar.get(view, default[view])
+    if kind in ("echosounder", "sidescan", "scanning"):
+        angle = max(angle, width)
+    if view == "azimuth_deg":
+        angle = min(angle, draw.choice([1, 30, 120, 179.9]) if kind != "scanning" else 179.9)
+    sonar[view] = angle
+    if 0 < beam.get("view_azimuth_deg", 0) < angle:
+        beam["view_azimuth_deg"] = draw.choice([angle, 179.95, 180])
 
 
 def trajectory(draw, size, at, folder):
@@ -224,16 +257,34 @@ def check_dataset(out):
         assert bad == 0, f"{path.relative_to(out)}: {bad} values are not finite"
 
 
-def run(folder):
+def limit_memory():
+    if not SANITIZED:
+        resource.setrlimit(resource.RLIMIT_AS, (MOST_MEMORY, MOST_MEMORY))
+
+
+def is_said_before(folder):
+    """Whether `validate` says that the mission takes long, or more memory than there is."""
+    done = subprocess.run([SONARSIM, "validate", "mission.json", "--json", "--overwrite"],
+                          cwd=folder, capture_output=True, timeout=LONGEST_S,
+                          preexec_fn=limit_memory)
+    if done.returncode != 0:
+        return b"out of memory" in done.stderr
+    found = json.loads(done.stdout)
+    seconds = sum(s["seconds_per_ping"] * s["pings"] for s in found.get("sensors", {}).values()
+                  if s["seconds_per_ping"] is not None)
+    too_large = any(warning["number"] == "W26" for warning in found.get("warnings", []))
+    return too_large or seconds > MOST_CPU_S / 3
+
+
+def run(folder, threads=2):
     """Exit code, what was said, and seconds; the code is None after LONGEST_S. A process that has
     had more than MOST_CPU_S is ended by SIGXCPU."""
     def limit():
         resource.setrlimit(resource.RLIMIT_CPU, (MOST_CPU_S, MOST_CPU_S + 5))
-        if not SANITIZED:
-            resource.setrlimit(resource.RLIMIT_AS, (MOST_MEMORY, MOST_MEMORY))
+        limit_memory()
 
     start = time.monotonic()
-    with subprocess.Popen([SONARSIM, "render", "mission.json", "-j2"], cwd=folder, text=True,
+    with subprocess.Popen([SONARSIM, "render", "mission.json", f"-j{threads}"], cwd=folder, text=True,
                           stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
                           preexec_fn=limit) as process:
         try:
@@ -246,20 +297,34 @@ def run(folder):
     return code, stderr, time.monotonic() - start
 
 
+def check_one_thread(folder):
+    """The same bytes again."""
+    (folder / "out").rename(folder / "two_threads")
+    code, stderr, _ = run(folder, threads=1)
+    assert code == 0, stderr
+    sums = [(folder / out / "SHA256SUMS").read_text() for out in ("two_threads", "out")]
+    assert sums[0] == sums[1], "one thread makes other files than two"
+
+
 def check(folder):
     """Renders; returns the exit code, or raises AssertionError."""
     code, stderr, seconds = run(folder)
+    if code in (None, -signal.SIGXCPU) and is_said_before(folder):
+        return 1, seconds
     assert code is not None, f"not done after {LONGEST_S} s: {stderr}"
     assert code in (0, 1, 2), f"exit code {code}: {stderr}"
     errors = [line for line in stderr.splitlines() if line.startswith("error:")]
     if code == 0:
         assert not errors, stderr
         check_dataset(folder / "out")
+        if seconds < MOST_TWICE_S:
+            check_one_thread(folder)
     else:
         assert errors and stderr.splitlines()[-len(errors):] == errors, stderr
         assert not any("nan" in error.lower() for error in errors), stderr
         if code == 1:
             assert "out of memory" in errors[0], stderr
+            assert is_said_before(folder), f"{stderr}, and validate says nothing of it"
         else:
             for error in errors:
                 assert PLACE.match(error), f"a refusal without a place: {stderr}"

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "mission/instrument.h"
+#include "mission/mission.h"
+#include "visibility/view.h"
+
+namespace sonarsim {
+
+// Levels are legal over 600 dB, their sums over many times that, and a float holds 380 dB to either
+// side of 1. What follows keeps all of them finite. Within what instruments have it changes
+// nothing.
+
+/// By how many dB the powers of the grid of echoes are raised above ratios to the source level, so
+/// that floats hold the noise of the receiver and what is heard above it. `noise_db` and
+/// `common_mode_db` are relative to the source level. 0 where the noise lies within -300 and 200
+/// dB.
+double raised_by_db(double noise_db, double common_mode_db);
+
+/// The greatest power of an echo in the grid, 40 dB above the most that noise has there. A million
+/// of them that add in phase are finite in every beam.
+inline constexpr float most_echo = 1e24F;
+
+/// Where the values of an image end: 300 dB above full scale, at which the receiver clips.
+inline constexpr float most_value = 1e30F;
+
+/// The factors from powers of the grid to values of the image, by bin: source level, gain and full
+/// scale. Those beyond 370 dB are 370 dB: they lift the least noise, -300 dB, above full scale.
+std::vector<float> row_gains(const InstrumentConfig& instrument, const View& view,
+                             double absorption_db_per_m, double raised_db);
+
+/// The value of a power. NaN stays NaN.
+inline float value_of(float gain, float power, float before = 0.0F) {
+    const float finite = std::min(power, std::numeric_limits<float>::max());
+    return std::min(std::fma(gain, finite, before), most_value);
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,143 @@
+#include "calibrated/levels.h"
+
+#include <doctest/doctest.h>
+
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <random>
+#include <vector>
+
+#include "calibrated/decibel.h"
+#include "calibrated/model.h"
+#include "support/calibrated.h"
+
+using namespace sonarsim;
+using namespace sonarsim::test;
+
+namespace {
+
+SonarConfig sonar_of(SonarKind kind) {
+    SonarConfig config = calibrated(default_sonar(kind), 1e5);
+    config.azimuth_deg = kind == SonarKind::sidescan ? 170.0 : 40.0;
+    config.elevation_deg = kind == SonarKind::sidescan ? 1.0 : 10.0;
+    config.range_min_m = 1.0;
+    config.range_max_m = 5.0;
+    config.range_bins = 200;
+    config.azimuth_bins = 16;
+    return config;
+}
+
+/// A plate of 1 cm^2 ahead that faces the sonar.
+Samples plate_at(float range_m) {
+    Samples out;
+    out.items = {{.position = {range_m, 0.0F, 0.0F},
+                  .edge_u = {0.0F, 0.005F, 0.0F},
+                  .edge_v = {0.0F, 0.0F, 0.005F},
+                  .normal = {-1.0F, 0.0F, 0.0F},
+                  .height_m = range_m,
+                  .area_m2 = 1e-4F,
+                  .material = 0,
+                  .instance = 0}};
+    return out;
+}
+
+std::vector<float> image_of(const SonarConfig& config, const Samples& samples, bool noise) {
+    const Sonar sonar = make_sonar(config, {});
+    const View& view = sonar.settings.view;
+    std::vector<float> image(static_cast<std::size_t>(view.range_bins) * view.beams);
+    form_calibrated(*sonar.settings.calibrated, {samples}, scene_of_rock(), {}, {},
+                    {.noise = noise}, image);
+    return image;
+}
+
+double mean_of(const std::vector<float>& image) {
+    return std::accumulate(image.begin(), image.end(), 0.0) / static_cast<double>(image.size());
+}
+
+constexpr std::array kinds{SonarKind::imaging, SonarKind::sidescan, SonarKind::echosounder,
+                           SonarKind::scanning};
+
+}  // namespace
+
+TEST_SUITE("calibrated") {
+    // Of 200 bins or more of exponential powers the mean is within 30 % of 1 by four deviations.
+    TEST_CASE("levels: noise at full scale is 1, whatever the source level") {
+        for (const SonarKind kind : kinds) {
+            for (const double source_db : {-300.0, -100.0, 0.0, 150.0, 300.0}) {
+                for (const double noise_db : {-300.0, -90.0, 300.0}) {
+                    SonarConfig config = sonar_of(kind);
+                    config.instrument.source_level_db = source_db;
+                    ReceiverConfig& receiver = config.instrument.receiver;
+                    receiver.noise_db = noise_db;
+                    receiver.full_scale_db = noise_db;
+                    receiver.tvg_log = 0.0;
+                    receiver.tvg_absorption = false;
+                    CAPTURE(static_cast<int>(kind));
+                    CAPTURE(source_db);
+                    CAPTURE(noise_db);
+                    CHECK(std::fabs(mean_of(image_of(config, {}, true)) - 1.0) < 0.3);
+                }
+            }
+        }
+    }
+
+    TEST_CASE("levels: of an echo, how far the noise lies below it changes nothing") {
+        SonarConfig config = sonar_of(SonarKind::imaging);
+        config.instrument.speckle.mode = SpeckleMode::none;
+        config.instrument.source_level_db = 200.0;
+        config.instrument.receiver.full_scale_db = 100.0;
+        const std::vector<float> usual = image_of(config, plate_at(3.0F), false);
+        config.instrument.receiver.noise_db = -300.0;
+        const std::vector<float> raised = image_of(config, plate_at(3.0F), false);
+        CHECK(mean_of(usual) > 0.0);
+        CHECK(std::fabs(mean_of(raised) / mean_of(usual) - 1.0) < 1e-5);
+    }
+
+    // At 10 MHz absorption there and back is more than 190 dB from 1.5 to 4.5 m: what is left of it
+    // is as strong, after the gain, as what came back from near by.
+    TEST_CASE("levels: gain makes up for absorption far below what e^-43 leaves") {
+        SonarConfig config = sonar_of(SonarKind::imaging);
+        config.instrument.frequency_hz = 1e7;
+        config.instrument.speckle.mode = SpeckleMode::none;
+        const Sonar sonar = make_sonar(config, {});
+        CHECK(2.0 * 4.5 * sonar.settings.calibrated->absorption_db_per_m > 190.0);
+        const double near = mean_of(image_of(config, plate_at(1.5F), false));
+        const double far = mean_of(image_of(config, plate_at(4.5F), false));
+        CHECK(near > 0.0);
+        // Both plates lie halfway between two bins, so that the gain is off by as much for both.
+        CHECK(std::fabs(db_of_power(far / near)) < 1.5);
+    }
+
+    TEST_CASE("levels: no legal level or range makes a value that is not finite") {
+        std::mt19937 draw(25);
+        const auto number = [&](double low, double high) {
+            const auto which = draw() % 4;
+            const double share = std::uniform_real_distribution<>(0.0, 1.0)(draw);
+            return which == 0 ? low : which == 1 ? high : low + share * (high - low);
+        };
+        for (int trial = 0; trial < 200; ++trial) {
+            SonarConfig config = sonar_of(kinds[draw() % kinds.size()]);
+            InstrumentConfig& instrument = config.instrument;
+            config.range_min_m = 0.0;
+            config.range_max_m = std::pow(10.0, number(-3.0, 9.0));
+            config.range_bins = 32;
+            instrument.frequency_hz = std::pow(10.0, number(3.0, 7.0));
+            instrument.source_level_db = number(-300.0, 300.0);
+            instrument.receiver.noise_db = number(-300.0, 300.0);
+            instrument.receiver.common_mode_db = number(-300.0, 300.0);
+            instrument.receiver.full_scale_db = number(-300.0, 300.0);
+            instrument.receiver.tvg_log = number(0.0, 60.0);
+            instrument.receiver.tvg_from_m = number(0.0, 1.0) < 0.5 ? 0.0 : 1e9;
+            instrument.speckle.mode = static_cast<SpeckleMode>(draw() % 3);
+            const auto range = static_cast<float>(number(0.001, 1.0) * config.range_max_m);
+            for (const bool noise : {false, true}) {
+                CAPTURE(trial);
+                bool finite = true;
+                for (const float value : image_of(config, plate_at(range), noise))
+                    finite = finite && value >= 0.0F && value <= most_value;
+                CHECK(finite);
+            }
+        }
+    }
+}
