@@ -9,8 +9,6 @@
 
 namespace sonarsim {
 
-inline constexpr const char* collection_name = "collection.json";
-
 struct CollectionSummary {
     std::uint64_t files = 0;            ///< copied by this run
     std::uint64_t skipped = 0;          ///< there already

@@ -10,10 +10,11 @@
 #include "core/pose.h"
 #include "core/units.h"
 #include "dataset/collection.h"
-#include "dataset/description.h"
+#include "dataset/dataset_file.h"
 #include "dataset/gallery_file.h"
 #include "dataset/layout.h"
 #include "dataset/variants.h"
+#include "gallery/content_policy.h"
 #include "gallery/page.h"
 #include "gallery/views.h"
 #include "mission/parse.h"
@@ -136,7 +137,7 @@ Json page_json(const fs::path& folder, const Json& description) {
     }
     return {{"mission", description.at("mission")},
             {"program", description.at("program_version")},
-            {"seed", description.at("seed")},
+            {"seed", description.at("seed").dump()},  // JavaScript rounds beyond 2^53
             {"complete", description.at("complete")},
             {"poses", description.at("poses")},
             {"track", track_json(read_trajectory(folder / trajectory_name))},
@@ -171,22 +172,17 @@ void require_one_dataset(const fs::path& folder) {
 
 GallerySummary write_gallery(const fs::path& folder) {
     require_one_dataset(folder);
-    const Json description = require_description(folder);
+    const Json description = require_dataset(folder).json;
     const fs::path file = folder / gallery_name;
     if (fs::exists(fs::symlink_status(file)) && !has_gallery(folder)) {
         throw InputError({file.string()},
                          "is not of sonarsim's making, and would be replaced; move it away");
     }
+    const Json json = page_json(folder, description);
     std::string page(page_html());
-    Json json;
-    try {
-        json = page_json(folder, description);
-    } catch (const Json::exception& error) {
-        throw InputError({folder.string()}, std::string("is damaged: ") + error.what() +
-                                                "; sonarsim verify tells which file");
-    }
     replace(page, "<!--page.css-->", page_css());
     replace(page, "<!--page.js-->", page_js());
+    replace(page, "<!--policy-->", content_policy(page));
     replace(page, "<!--dataset-->", inline_json(json));
     write_file(file, page);
     GallerySummary summary{file, page.size(), 0};
