@@ -19,6 +19,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t largest_description = std::size_t{1} << 28;
+constexpr auto replace_bytes = Json::error_handler_t::replace;  ///< those that are no text
 constexpr std::uint64_t any_count = std::numeric_limits<std::uint32_t>::max();
 constexpr std::uint64_t largest_side = std::uint64_t{1} << 20;  ///< of a picture, px
 
@@ -49,12 +50,12 @@ NamedTexts read_patterns(const CheckedJson& files, const std::string& folder) {
 }
 
 DescribedPacks read_packs(const CheckedJson& json, const std::string& folder) {
-    DescribedPacks packs{path_in(json.at("file"), folder, true),
-                         json.at("pings").whole(1, any_count),
-                         {}};
+    DescribedPacks packs{
+        path_in(json.at("file"), folder, true), json.at("pings").whole(1, any_count), {}};
     for (const auto& [kind, member] : json.at("members").members()) {
         const std::string pattern = member.text();
-        const bool sound = is_plain_name(kind) && is_pattern(pattern) && pattern.find('/') == std::string::npos;
+        const bool sound =
+            is_plain_name(kind) && is_pattern(pattern) && pattern.find('/') == std::string::npos;
         if (!sound) member.refuse("a name with one number as '%06d'");
         packs.members.emplace_back(kind, pattern);
     }
@@ -159,13 +160,15 @@ DescribedLabels read_labels(const CheckedJson& json) {
     return labels;
 }
 
-void check_version(const CheckedJson& json) {
-    if (json.at("format").text() != dataset_format) json.at("format").refuse(dataset_format);
+void check_version(const CheckedJson& json, const std::string& file) {
+    const CheckedJson format = json.at("format");
+    if (format.text() != dataset_format) format.refuse(dataset_format);
     const Json& version = json.at("format_version").json();
     if (version == dataset_format_version) return;
-    json.at("format_version")
-        .refuse(std::to_string(dataset_format_version) +
-                ", the one that this program knows; use the version that made the dataset");
+    throw InputError({file}, "has format_version " + version.dump(-1, ' ', true, replace_bytes) +
+                                 ", and this program knows " +
+                                 std::to_string(dataset_format_version) +
+                                 "; use the version that made the dataset");
 }
 
 }  // namespace
@@ -183,12 +186,13 @@ std::optional<Json> read_description(const std::filesystem::path& folder) {
 
 DatasetFile check_description(Json json, const std::string& file) {
     const CheckedJson root(json, file);
-    check_version(root);
+    check_version(root, file);
     DatasetFile dataset;
     root.at("program_version").text();
     dataset.complete = root.at("complete").flag();
     dataset.mission = root.at("mission").text();
-    const bool fit = is_folder_name(dataset.mission) && dataset.mission.find('\0') == std::string::npos;
+    const bool fit =
+        is_folder_name(dataset.mission) && dataset.mission.find('\0') == std::string::npos;
     if (!fit) root.at("mission").refuse("fit for the name of one folder");
     dataset.mission_hash = root.at("mission_hash").text();
     dataset.inputs_hash = root.at("inputs_hash").text();

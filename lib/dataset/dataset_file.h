@@ -54,7 +54,7 @@ struct DescribedLabels {
 struct DatasetFile {
     nlohmann::ordered_json json;  ///< all of it
     bool complete = false;
-    std::string mission;       ///< fit for the name of a folder
+    std::string mission;  ///< fit for the name of a folder
     std::string mission_hash;
     std::string inputs_hash;
     std::uint64_t seed = 0;
@@ -64,8 +64,8 @@ struct DatasetFile {
     std::vector<std::string> products;  ///< of all sensors
 };
 
-/// The dataset.json of a folder, its keys not checked; nothing when it is not sonarsim's. InputError
-/// when it cannot be read.
+/// The dataset.json of a folder, its keys not checked; nothing when it is not sonarsim's.
+/// InputError when it cannot be read.
 std::optional<nlohmann::ordered_json> read_description(const std::filesystem::path& folder);
 
 /// The one reader of what a dataset.json says. `file` is for the messages. InputError, with the key

@@ -6,8 +6,8 @@ namespace sonarsim {
 
 namespace {
 
-constexpr std::size_t longest_name = 255;   // of a file, on the file systems of Linux
-constexpr std::size_t longest_path = 1024;  // of three names, that is more than enough
+constexpr std::size_t longest_name = 255;    // of a file, on the file systems of Linux
+constexpr std::size_t longest_path = 1024;   // of three names, that is more than enough
 constexpr std::size_t conversion_bytes = 4;  // of "%06d"
 
 /// Where the only number of a pattern stands; npos where the text is none.

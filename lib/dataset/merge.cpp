@@ -96,8 +96,7 @@ MergeContext read_context(const fs::path& part, const CommonFiles& common, const
     for (const SonarConfig& sensor : context.mission.sensors)
         context.assembly.sonars.push_back(
             make_sonar(sensor, context.mission.accuracy, context.mission.water));
-    context.assembly.full_scales =
-        full_scales_of(dataset, (part / description_name).string());
+    context.assembly.full_scales = full_scales_of(dataset, (part / description_name).string());
     if (context.assembly.full_scales.size() != context.assembly.sonars.size())
         throw InputError({(part / description_name).string()}, "lists other sensors");
     return context;

@@ -134,7 +134,7 @@ JobStatus read_status(const std::vector<fs::path>& folders, double now_s) {
         status.sensors.push_back({sensor.name, {0, sensor.pings}});
     std::set<PingId> done;
     for (const fs::path& folder : folders) {
-        const std::string difference = 
+        const std::string difference =
             difference_between(require_dataset(folder).json, dataset.json);
         if (!difference.empty())
             throw InputError({folder.string()}, "holds a dataset " + difference);

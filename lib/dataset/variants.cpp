@@ -99,8 +99,8 @@ void check_variants(const Json& json, const std::string& file) {
         const std::string name = variant_folder(index++);
         if (variant.at("folder").text() != name) variant.at("folder").refuse("\"" + name + '"');
         const std::optional<CheckedJson> split = variant.find("split");
-        const bool known = !split || std::ranges::find(split_part_names, split->text()) !=
-                                         split_part_names.end();
+        const bool known =
+            !split || std::ranges::find(split_part_names, split->text()) != split_part_names.end();
         if (!known && split->text() != "none") split->refuse("train, val or test");
     }
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <sstream>
@@ -71,8 +72,8 @@ OpenedFile open_npy(std::istream& file, std::uint64_t bytes) {
     std::uint64_t told = static_cast<std::uint64_t>(format.type.back() - '0');
     for (const std::size_t length : format.shape) {
         // The product of the lengths may not fit its type: then it could be any number.
-        if (length > 0 && told > bytes / length)
-            throw std::runtime_error("is shorter than its header says");
+        if (length > 0 && told > std::numeric_limits<std::uint64_t>::max() / length)
+            throw std::runtime_error("tells more values than any file holds");
         told *= length;
     }
     const std::size_t header = npy_header(format).size();

@@ -16,7 +16,8 @@ std::string base64_of(const std::string& hex) {
     std::uint32_t bits = 0;
     int waiting = 0;  // bits that are not written yet
     for (const char digit : hex) {
-        bits = bits << 4 | static_cast<std::uint32_t>(std::stoi(std::string(1, digit), nullptr, 16));
+        bits =
+            bits << 4 | static_cast<std::uint32_t>(std::stoi(std::string(1, digit), nullptr, 16));
         waiting += 4;
         if (waiting < 6) continue;
         waiting -= 6;

@@ -18,8 +18,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t largest_ping_file = std::size_t{1} << 26;
 
-fs::path file_of(const fs::path& folder, const Json& sensor, const char* kind,
-                 std::uint64_t ping) {
+fs::path file_of(const fs::path& folder, const Json& sensor, const char* kind, std::uint64_t ping) {
     const auto every = sensor.at("every").get<std::uint64_t>();
     return folder / numbered(sensor.at("files").at(kind).get<std::string>(), ping * every);
 }
@@ -71,9 +70,8 @@ PingBoxes boxes_of_objects(const fs::path& folder, const Json& sensor, BoxLabels
         Json fan = Json::array();
         const fs::path file = file_of(folder, sensor, "objects", ping);
         if (const std::optional<std::string> text = text_of(file)) {
-            use_json(file, *text, [&](const Json& json) {
-                add_boxes(json.at("objects"), labels, image, fan);
-            });
+            use_json(file, *text,
+                     [&](const Json& json) { add_boxes(json.at("objects"), labels, image, fan); });
         }
         add_or_zero(all.in_image, std::move(image));
         add_or_zero(all.in_fan, std::move(fan));

@@ -12,9 +12,9 @@ namespace sonarsim {
 /// Mission, from any folder.
 std::string resolved_yaml(const Mission& mission, SonarKeyTable sonars);
 
-/// Reads what resolved_yaml() made of a portable mission whose files are not at hand. portable() and
-/// mission_hash() of the result are those of the mission that was rendered: its paths start at a
-/// made-up folder which lies so deep that none of them climbs above the root, where a path would
+/// Reads what resolved_yaml() made of a portable mission whose files are not at hand. portable()
+/// and mission_hash() of the result are those of the mission that was rendered: its paths start at
+/// a made-up folder which lies so deep that none of them climbs above the root, where a path would
 /// lose its "..". InputError as of parse_mission().
 Mission parse_resolved(std::string_view text, const std::string& file_name, SonarKeyTable sonars);
 

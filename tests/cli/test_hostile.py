@@ -1,4 +1,5 @@
 """Datasets that somebody else made, to do harm: each attack is refused, and nothing outside changes."""
+import hashlib
 import json
 import os
 import resource
@@ -37,6 +38,11 @@ class Hostile(Sandbox):
             inner = inner[key]
         inner[keys[-1]] = to
         self.write(f"{name}/dataset.json", json.dumps(description))
+        # Whoever changes a file can give its sum.
+        sums = self.folder / name / "SHA256SUMS"
+        own = hashlib.sha256((self.folder / name / "dataset.json").read_bytes()).hexdigest()
+        sums.write_text("".join(f"{own}  dataset.json\n" if line.endswith("  dataset.json\n") else line
+                                for line in sums.read_text().splitlines(keepends=True)))
 
     def assert_all_refuse(self, *fragments):
         for command in COMMANDS:
@@ -79,6 +85,9 @@ class Hostile(Sandbox):
         self.assert_renders()
         self.assertEqual(self.run_sonarsim("merge", "--different", "out", "all").returncode, 0)
         shutil.rmtree(self.folder / "all/box")
+        self.assertEqual(json.loads((self.folder / "all/collection.json").read_text())["complete"], True)
+        text = (self.folder / "all/collection.json").read_text()
+        self.write("all/collection.json", text.replace('"complete": true', '"complete": false'))
         (self.folder / "all/box").symlink_to(self.folder / "victim")
         result = self.run_sonarsim("merge", "--different", "out", "all")
         self.assert_refused(result, "all/box", "is a symbolic link")

@@ -33,11 +33,32 @@ void list_values(Json& json, std::vector<Json*>& values) {
 
 /// What somebody might put in the place of a value.
 Json foreign_value(std::mt19937_64& random) {
-    static const std::vector<Json> values{
-        nullptr, true, false, 0, 1, -1, 1.5, 1e300, -1e300, 18446744073709551615U, "", ".", "..",
-        "../victim", "/etc/passwd", "front/../../%06d.json", "front/%06d/%06d.json", "%s%n",
-        "javascript:alert(1)//%06d", "C:\\%06d", std::string("front/a\0b", 9), "front/polar/%d.npy",
-        Json::array(), Json::object(), Json::array({1, "a"}), Json{{"file", "../x"}}};
+    static const std::vector<Json> values{nullptr,
+                                          true,
+                                          false,
+                                          0,
+                                          1,
+                                          -1,
+                                          1.5,
+                                          1e300,
+                                          -1e300,
+                                          18446744073709551615U,
+                                          "",
+                                          ".",
+                                          "..",
+                                          "../victim",
+                                          "/etc/passwd",
+                                          "front/../../%06d.json",
+                                          "front/%06d/%06d.json",
+                                          "%s%n",
+                                          "javascript:alert(1)//%06d",
+                                          "C:\\%06d",
+                                          std::string("front/a\0b", 9),
+                                          "front/polar/%d.npy",
+                                          Json::array(),
+                                          Json::object(),
+                                          Json::array({1, "a"}),
+                                          Json{{"file", "../x"}}};
     return values[random() % values.size()];
 }
 
@@ -101,7 +122,7 @@ TEST_SUITE("dataset") {
             {"/poses", -7, "'poses' is -7 and must be a whole number from 1 to"},
             {"/poses", 1e18, "'poses'"},
             {"/seed", "7", "'seed'"},
-            {"/format_version", 2, "'format_version' is 2 and must be 3"},
+            {"/format_version", 2, "has format_version 2, and this program knows 3"},
             {"/sensors", 5, "'sensors' is 5 and must be an array"},
             {"/sensors/1/name", "../a", "'sensors[1].name'"},
             {"/sensors/1/name", "front", "another name than those of the other sensors"},
@@ -169,8 +190,9 @@ TEST_SUITE("dataset") {
             expect_input_error("gallery", json, [&] { write_gallery(out); });
             const std::filesystem::path merged = folder.path / "merged";
             expect_input_error("merge", json, [&] { merge_datasets({out}, merged, 1, {}, go); });
-            expect_input_error("merge --different", json,
-                               [&] { collect_datasets({out}, folder.path / "all/all", 1, {}, go); });
+            expect_input_error("merge --different", json, [&] {
+                collect_datasets({out}, folder.path / "all/all", 1, {}, go);
+            });
             expect_input_error("render", json, [&] { run(mission); });
             std::filesystem::remove_all(merged);
             std::filesystem::remove_all(folder.path / "all");
