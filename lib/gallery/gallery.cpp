@@ -127,6 +127,14 @@ Json page_json(const fs::path& folder, const Json& description) {
         throw InputError({(folder / mission_name).string()},
                          "has other sensors than dataset.json; one of them was changed");
     }
+    // Tables of the page have a line for each pose, so a false number would take memory.
+    const Trajectory trajectory = read_trajectory(folder / trajectory_name);
+    if (description.at("poses") != trajectory.size()) {
+        throw InputError({(folder / trajectory_name).string()},
+                         "has " + std::to_string(trajectory.size()) +
+                             " poses, and dataset.json says " + description.at("poses").dump() +
+                             "; one of them was changed");
+    }
     BoxLabels labels;
     const PictureBoxes boxes = picture_boxes(folder, description, labels);
     Json shown = Json::array();
@@ -135,15 +143,12 @@ Json page_json(const fs::path& folder, const Json& description) {
                                     make_sonar(mission.sensors[i], mission.accuracy, mission.water),
                                     boxes, labels));
     }
-    return {{"mission", description.at("mission")},
-            {"program", description.at("program_version")},
-            {"seed", description.at("seed").dump()},  // JavaScript rounds beyond 2^53
-            {"complete", description.at("complete")},
-            {"poses", description.at("poses")},
-            {"track", track_json(read_trajectory(folder / trajectory_name))},
-            {"objects", objects_json(description)},
-            {"labels", std::move(labels.texts)},
-            {"sensors", std::move(shown)}};
+    return {
+        {"mission", description.at("mission")},   {"program", description.at("program_version")},
+        {"seed", description.at("seed").dump()},  // JavaScript rounds beyond 2^53
+        {"complete", description.at("complete")}, {"poses", description.at("poses")},
+        {"track", track_json(trajectory)},        {"objects", objects_json(description)},
+        {"labels", std::move(labels.texts)},      {"sensors", std::move(shown)}};
 }
 
 void replace(std::string& text, std::string_view place, std::string_view by) {

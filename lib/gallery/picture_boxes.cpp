@@ -32,6 +32,7 @@ void add_boxes_of_file(const fs::path& coco, const std::vector<std::string>& tex
                 number.get<double>();  // throws unless it is one
                 box.push_back(number);
             }
+            if (box.size() != 5) throw std::out_of_range("a box has four numbers");
             by_id.at(annotation.at("image_id"))->push_back(std::move(box));
         }
     });

@@ -165,6 +165,12 @@ class Hostile(Sandbox):
             self.assert_refused(result, "out/fls/meta/000001.json")
             self.assertNotIn("json.exception", result.stderr)
 
+    def test_the_gallery_believes_no_count(self):
+        told = json.loads(json.dumps(self.sound))
+        told["poses"] = told["sensors"][0]["pings"] = 10_000_000
+        self.write("out/dataset.json", json.dumps(told))
+        self.assert_refused(self.run_sonarsim("gallery", "out"), "trajectory.tum", "has 2 poses")
+
     def test_variants_behind_a_link(self):
         self.write("victim/dataset.json", json.dumps(self.sound))
         mission = (self.folder / "mission.yaml").read_text()

@@ -184,7 +184,7 @@ TEST_SUITE("dataset") {
                     return true;
                 });
             });
-            if (k % 10 != 0) continue;  // the commands take longer
+            if (k % 20 != 0) continue;  // the commands take longer
             write_file(out / "dataset.json", json_text(json));
             const std::atomic<bool> go(false);
             expect_input_error("verify", json, [&] { verify_dataset(out, 1, nullptr, go); });
