@@ -127,7 +127,7 @@ TEST_SUITE("dataset") {
             {"/format_version", 2, "has format_version 2, and this program knows 3"},
             {"/sensors", 5, "'sensors' is 5 and must be an array"},
             {"/sensors/1/name", "../a", "'sensors[1].name'"},
-            {"/sensors/1/name", "front", "another name than those of the other sensors"},
+            {"/sensors/1/name", "front", "a file in 'front/'"},
             {"/sensors/1/every", 0, "'sensors[1].every' is 0 and must be a whole number from 1"},
             {"/sensors/1/pings", 4, "'sensors[1].pings' is 4 and must be a whole number from 3"},
             {"/sensors/0/files/meta", "../x/%06d.json", "'sensors[0].files.meta'"},
@@ -165,6 +165,7 @@ TEST_SUITE("dataset") {
         const std::filesystem::path out = folder.path / "out";
         Mission mission = small_mission(out);
         run(mission);
+        std::filesystem::create_directory(folder.path / "victim");
         write_file(folder.path / "victim/dataset.json", "kept");
         const Json sound = sound_description(out);
         std::mt19937_64 random(25);
