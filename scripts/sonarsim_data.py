@@ -20,7 +20,9 @@ import collections
 import collections.abc
 import io
 import json
+import math
 import pathlib
+import re
 import struct
 import sys
 import zlib
@@ -29,6 +31,13 @@ import numpy as np
 
 FORMAT_VERSION = 3
 TAR_BLOCK = 512
+# What the names of a dataset's files are made of: a dataset may come from anybody.
+NAME = r"[A-Za-z0-9_+-][A-Za-z0-9_+.-]*"
+INNER_PATH = re.compile(f"{NAME}(/{NAME})*", re.ASCII)
+# The only number of a pattern stands in its last name.
+PATTERN = re.compile(rf"(?:{NAME}/)*(?:{NAME})?%0[1-9]d[A-Za-z0-9_+.-]*", re.ASCII)
+# The bytes that a byte of a PNG file unpacks to, at most.
+MOST_INFLATED = 1032
 # Of packs, how many lists of members are kept.
 OPEN_PACKS = 8
 # Bits and colour type of the PNG files of pings: 0 is grey, 2 RGB, 3 a colour table.
@@ -48,11 +57,25 @@ class Dataset:
         path = folder / "dataset.json"
         if not path.is_file():
             raise ValueError(f"{folder}: is no dataset of sonarsim: it has no dataset.json")
-        self.description = json.loads(path.read_text())
-        version = self.description.get("format_version")
-        if self.description.get("format") != "sonarsim dataset" or version != FORMAT_VERSION:
+        try:
+            self.description = json.loads(path.read_text())
+        except (ValueError, RecursionError) as fault:
+            raise ValueError(f"{path}: is no JSON, or damaged: {fault}") from fault
+        is_ours = isinstance(self.description, dict) and (
+            self.description.get("format") == "sonarsim dataset")
+        version = self.description.get("format_version") if is_ours else None
+        if version != FORMAT_VERSION:
             raise ValueError(f"{path}: has format_version {version}; this reads {FORMAT_VERSION}")
-        self.sensors = {d["name"]: Sensor(folder, d) for d in self.description["sensors"]}
+        try:
+            self._read()
+        except (KeyError, TypeError, AttributeError, IndexError) as fault:
+            raise ValueError(f"{path}: is damaged: {fault!r}; sonarsim verify tells which key"
+                             ) from fault
+        except ValueError as fault:
+            raise ValueError(f"{path}: {fault}") from fault
+
+    def _read(self):
+        self.sensors = {d["name"]: Sensor(self.folder, d) for d in self.description["sensors"]}
         labels = self.description.get("labels", {})
         self.instances, self.classes, self.materials = (
             {entry["id"]: entry["name"] for entry in labels.get(kind, [])}
@@ -85,12 +108,13 @@ class Sensor:
     def __init__(self, folder, description):
         self.folder = folder
         self.description = description
-        self.name = description["name"]
+        self.name = checked(description["name"], re.compile(NAME, re.ASCII), "name")
         self.kind = description["kind"]
         self.range_edges_m = np.array(description["range_edges_m"])
         azimuth = description.get("azimuth_edges_rad")
         self.azimuth_edges_rad = None if azimuth is None else np.array(azimuth)
-        self.pings = [i * description["every"] for i in range(description["pings"])]
+        every, pings = (whole(description[key], low, key) for key, low in (("every", 1), ("pings", 0)))
+        self.pings = range(0, every * pings, every)
         self._packs = description.get("packs")
         self._members = collections.OrderedDict()
         self._files = (self._packs["members"] if self._packs else description["files"])
@@ -98,8 +122,23 @@ class Sensor:
         if "records" in description:
             record = description["records"]
             self._records[pathlib.PurePath(record["file"]).stem] = record
+        if self._packs:
+            whole(self._packs["pings"], 1, "packs.pings")
+            self._path(self._packs["file"], PATTERN)
+        for pattern in self._files.values():
+            if self._packs:
+                checked(pattern, PATTERN, "packs.members")
+            else:
+                self._path(pattern, PATTERN)
+        for record in self._records.values():
+            self._path(record["file"], INNER_PATH)
         self._arrays = {}
         self.keys = [*self._files, *self._records]
+
+    def _path(self, path, rule):
+        """ValueError unless the path, or pattern, lies in the folder of the sensor."""
+        if not checked(path, rule, "file").startswith(self.name + "/"):
+            raise ValueError(f"sensor {self.name!r} has {path!r}, which is not in its folder")
 
     def __len__(self):
         return len(self.pings)
@@ -133,7 +172,7 @@ class Sensor:
         offset, size = members[self._files[name] % number]
         with open(path, "rb") as file:
             file.seek(offset)
-            return file.read(size)
+            return file.read(size)      # no more than there is: tar_members() saw to it
 
     def read(self, index, name):
         """What a ping's file or record of this name holds: an array, of JSON a dict, of text a str."""
@@ -143,7 +182,10 @@ class Sensor:
         if name not in self._files:
             raise KeyError(f"sensor {self.name!r} has no {name!r}, but {', '.join(self.keys)}")
         data = self.raw(index, name)
-        return DECODERS[pathlib.PurePath(self._files[name]).suffix](data)
+        suffix = pathlib.PurePath(self._files[name]).suffix
+        if suffix not in DECODERS:
+            raise ValueError(f"sensor {self.name!r} has {self._files[name]!r}, which this cannot read")
+        return DECODERS[suffix](data)
 
     def _members_of(self, path):
         if path not in self._members:
@@ -242,17 +284,41 @@ def middles(edges):
     return 0.5 * (edges[:-1] + edges[1:])
 
 
+def checked(text, rule, key):
+    """The text, when it is all of what the rule describes; else ValueError."""
+    if isinstance(text, str) and rule.fullmatch(text):
+        return text
+    raise ValueError(f"{key!r} is {text!r}, which is no name that sonarsim gives")
+
+
+def whole(number, low, key):
+    """The number, when it is a whole one and not below `low`; else ValueError."""
+    if isinstance(number, int) and not isinstance(number, bool) and low <= number < 1 << 32:
+        return number
+    raise ValueError(f"{key!r} is {number!r} and must be a whole number from {low} on")
+
+
 def tar_members(path):
     """Of each file in an archive (name, (offset, bytes)); an archive that is still being written
-    ends where it is cut off."""
+    ends where it is cut off. ValueError for a header that is none."""
     with open(path, "rb") as file:
+        end = file.seek(0, io.SEEK_END)
+        at = 0
         while True:
+            file.seek(at)
             header = file.read(TAR_BLOCK)
             if len(header) < TAR_BLOCK or not header[0]:
                 return
-            size = int(header[124:136].rstrip(b"\0 "), 8)
-            yield header[:100].rstrip(b"\0").decode(), (file.tell(), size)
-            file.seek(-(-size // TAR_BLOCK) * TAR_BLOCK, io.SEEK_CUR)
+            digits = header[124:136].rstrip(b"\0 ")
+            # int() would take a sign, blanks and '_', too.
+            if not re.fullmatch(rb"[0-7]{1,11}", digits):
+                raise ValueError(f"{path}: a member has the size {digits!r}, which is no octal number")
+            size = int(digits, 8)
+            at += TAR_BLOCK
+            if at + size > end:
+                return
+            yield header[:100].rstrip(b"\0").decode(), (at, size)
+            at += -(-size // TAR_BLOCK) * TAR_BLOCK
 
 
 def read_png(data):
@@ -261,24 +327,42 @@ def read_png(data):
     ValueError for any other."""
     if data[:8] != b"\x89PNG\r\n\x1a\n":
         raise ValueError("is no PNG")
-    packed, header, at = b"", None, 8
-    while at < len(data):
+    packed, header, at = [], None, 8
+    while at + 12 <= len(data):
         size, kind = struct.unpack(">I4s", data[at:at + 8])
         chunk = data[at + 8:at + 8 + size]
-        if kind == b"IHDR":
+        if kind == b"IHDR" and len(chunk) == 13:
             header = struct.unpack(">IIBBBBB", chunk)
         elif kind == b"IDAT":
-            packed += chunk
+            packed.append(chunk)
         at += size + 12
+    if header is None:
+        raise ValueError("is a PNG without a header")
     width, height, bits, colour, _, _, interlaced = header
     if (bits, colour) not in PNG_KINDS or interlaced:
         raise ValueError("is a PNG of a kind that sonarsim does not write")
     channels = 3 if colour == 2 else 1
     pixel = channels * bits // 8
-    rows = np.frombuffer(zlib.decompress(packed), np.uint8).reshape(height, 1 + width * pixel)
+    expected = height * (1 + width * pixel)
+    if not width or not height or expected > MOST_INFLATED * len(data):
+        raise ValueError("is a PNG that cannot hold the pixels it tells")
+    rows = np.frombuffer(unpacked(b"".join(packed), expected), np.uint8)
+    rows = rows.reshape(height, 1 + width * pixel)
     pixels = unfiltered(rows[:, 0], rows[:, 1:].reshape(height, width, pixel))
     values = pixels.view(">u2").astype(np.uint16) if bits == 16 else pixels
     return values.reshape((height, width, channels) if channels > 1 else (height, width))
+
+
+def unpacked(data, expected):
+    """What zlib packed, `expected` bytes of it; ValueError when there are more or fewer."""
+    stream = zlib.decompressobj()
+    try:
+        out = stream.decompress(data, expected + 1)
+    except zlib.error as fault:
+        raise ValueError(f"cannot be unpacked: {fault}") from fault
+    if len(out) != expected:
+        raise ValueError("is a PNG with more or fewer rows than it tells")
+    return out
 
 
 def unfiltered(filters, rows):
@@ -295,8 +379,25 @@ def unfiltered(filters, rows):
     return out
 
 
-DECODERS = {".npy": lambda data: np.load(io.BytesIO(data)), ".png": read_png, ".json": json.loads,
-            ".txt": bytes.decode}
+def read_npy(data):
+    """The array in a .npy file, format 1.0; ValueError when it is none or not as long as it tells."""
+    file = io.BytesIO(data)
+    if np.lib.format.read_magic(file) != (1, 0):
+        raise ValueError("is no .npy file, format 1.0")
+    shape, _, dtype = np.lib.format.read_array_header_1_0(file)
+    if dtype.hasobject or math.prod(shape) * dtype.itemsize != len(data) - file.tell():
+        raise ValueError(f"is {len(data)} bytes long and tells {shape} of {dtype}")
+    return np.load(io.BytesIO(data))
+
+
+def read_json(data):
+    try:
+        return json.loads(data)
+    except RecursionError as fault:
+        raise ValueError("is JSON that is nested too deep") from fault
+
+
+DECODERS = {".npy": read_npy, ".png": read_png, ".json": read_json, ".txt": bytes.decode}
 
 
 def main(folder):

@@ -36,7 +36,8 @@ for upper in ("dataset", "validation", "benchmark", "preview", "gallery"):
 # each other. "x/" is a subfolder, "x" the files x.h and x.cpp, "*" every other file of the folder.
 PARTS = {
     "dataset": [["*"], ["writers/"], ["writers"],
-                ["layout"], ["folder_lock"], ["journal", "metadata"], ["description", "checksums", "ping_file_reader"], ["listed_files"],
+                ["layout"], ["folder_lock"], ["journal", "metadata"], ["dataset_file"],
+                ["collection_file", "description", "checksums", "ping_file_reader"], ["listed_files"],
                 ["folder", "coco/"], ["resume"], ["encode_ping", "ping_files"], ["ping_cost", "shared_files"], ["completion"],
                 ["collection", "job", "merge", "verify"], ["variants"], ["status", "variants_check"]],
     "scene": [["*"], ["gltf/", "placing/"]],

@@ -1,7 +1,11 @@
 #include "assembly/poses.h"
 
+#include <cmath>
 #include <variant>
 
+#include "core/error.h"
+#include "core/input_limits.h"
+#include "core/text.h"
 #include "core/units.h"
 #include "mission/ping_draws.h"
 #include "trajectory/files.h"
@@ -33,6 +37,22 @@ Trajectory form_of(const LawnmowerTrajectoryConfig& config) {
                       config.line_spacing_m, config.speed_m_s, config.rate_hz});
 }
 
+/// A dataset has its poses in trajectory.tum, which its reader takes within the limits of inputs.
+void require_readable(const Trajectory& poses) {
+    for (const TimedPose& pose : poses) {
+        if (!(std::fabs(pose.t_s) <= furthest_s)) {
+            throw InputError("trajectory: a pose at " + number_text(pose.t_s) + " s lies beyond " +
+                             number_text(furthest_s) +
+                             " s; let the vehicle be faster (speed_m_s), or begin at 0");
+        }
+        if (!(pose.T_world_vehicle.translation.cwiseAbs().maxCoeff() <= furthest_m)) {
+            throw InputError("trajectory: with vehicle.offset_m a pose at " +
+                             number_text(pose.t_s) + " s lies beyond " + number_text(furthest_m) +
+                             " m; move the scene and the trajectory towards the origin");
+        }
+    }
+}
+
 }  // namespace
 
 std::vector<Pose> poses_at(std::span<const Trajectory> motions, double t_s) {
@@ -59,6 +79,7 @@ Trajectory vehicle_poses(const Mission& mission) {
             (pose.rotation * rotation_from_rpy(radians(roll), radians(pitch), radians(yaw)))
                 .normalized();
     }
+    require_readable(poses);
     return poses;
 }
 

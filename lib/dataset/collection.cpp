@@ -14,9 +14,11 @@
 #include "core/file.h"
 #include "core/ordered_pipeline.h"
 #include "core/sha256.h"
+#include "core/text.h"
 #include "core/whole_file.h"
 #include "dataset/checksums.h"
-#include "dataset/description.h"
+#include "dataset/collection_file.h"
+#include "dataset/dataset_file.h"
 #include "dataset/folder_lock.h"
 #include "dataset/layout.h"
 #include "dataset/ping_metadata.h"
@@ -28,31 +30,35 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr const char* collection_format = "sonarsim collection";
-constexpr int collection_format_version = 1;
 constexpr std::size_t largest_text = std::size_t{1} << 32;
 
 /// A dataset that is to be collected.
 struct Member {
     fs::path from;
-    Json description;
+    DatasetFile description;
     std::map<std::string, std::string> sums;  ///< by file
     std::string folder;                       ///< in the collection
 };
 
+/// The name of the mission becomes that of a folder, which stands in lines of SHA256SUMS.
+void require_printable(const fs::path& from, const std::string& mission) {
+    if (printable(mission) == mission) return;
+    throw InputError({(from / description_name).string()},
+                     "'mission' is \"" + printable(mission) +
+                         "\" and must be plain text to be the name of a folder");
+}
+
 Member read_member(const fs::path& from) {
     const fs::path sums = from / checksums_name;
-    std::optional<Json> description;
-    if (fs::is_regular_file(from / description_name)) description = read_description(from);
-    if (!description)
-        throw InputError({from.string()}, "is no dataset; give the output folders of renders");
-    if (description->value("complete", Json()) != true || !fs::is_regular_file(sums)) {
+    DatasetFile description = require_dataset(from);
+    require_printable(from, description.mission);
+    if (!description.complete || !fs::is_regular_file(sums)) {
         throw InputError({from.string()},
                          "is not complete, and only whole datasets can stand side by side; render "
                          "what is missing, or merge its shards first");
     }
     Member member{from,
-                  *std::move(description),
+                  std::move(description),
                   parse_checksums(read_file(sums, largest_text), sums.string()),
                   {}};
     member.sums[checksums_name] = sha256_of_file(sums);
@@ -65,12 +71,11 @@ std::vector<Member> read_members(const std::vector<fs::path>& parts) {
     for (const fs::path& part : parts)
         members.push_back(read_member(part));
     const auto key = [](const Member& member) {
-        const Json& d = member.description;
-        return std::tuple(d.value("mission", ""), d.value("mission_hash", ""),
-                          d.value("inputs_hash", ""));
+        const DatasetFile& d = member.description;
+        return std::tuple(d.mission, d.mission_hash, d.inputs_hash);
     };
     std::ranges::stable_sort(members, {}, key);
-    std::set<std::string> taken;
+    std::set<std::string> taken{collection_name, checksums_name};
     for (std::size_t k = 0; k < members.size(); ++k) {
         Member& member = members[k];
         if (k > 0 && key(members[k - 1]) == key(member)) {
@@ -86,18 +91,11 @@ std::vector<Member> read_members(const std::vector<fs::path>& parts) {
     return members;
 }
 
-/// What collection.json tells of a kind of ids in a dataset.
-const Json& labels_of(const Member& member, const char* kind) {
-    static const Json none = Json::array();
-    const Json& d = member.description;
-    return d.contains("labels") && d["labels"].contains(kind) ? d["labels"][kind] : none;
-}
-
 Json describe(const std::vector<Member>& members) {
     std::set<std::string> class_names;
     for (const Member& member : members) {
-        for (const Json& one : labels_of(member, "classes"))
-            class_names.insert(one.at("name").get<std::string>());
+        const std::vector<std::string>& classes = member.description.labels.classes;
+        class_names.insert(classes.begin(), classes.end());
     }
     Json json = {{"format", collection_format},
                  {"format_version", collection_format_version},
@@ -113,16 +111,17 @@ Json describe(const std::vector<Member>& members) {
     json["datasets"] = Json::array();
     for (const Member& member : members) {
         Json classes = Json::object();
-        for (const Json& one : labels_of(member, "classes"))
-            classes[one.at("id").dump()] = class_ids.at(one.at("name").get<std::string>());
+        const DescribedLabels& labels = member.description.labels;
+        for (std::size_t k = 0; k < labels.classes.size(); ++k)
+            classes[std::to_string(k + 1)] = class_ids.at(labels.classes[k]);
         json["datasets"].push_back({{"folder", member.folder},
-                                    {"mission", member.description.value("mission", "")},
-                                    {"mission_hash", member.description.value("mission_hash", "")},
-                                    {"seed", member.description.value("seed", Json())},
+                                    {"mission", member.description.mission},
+                                    {"mission_hash", member.description.mission_hash},
+                                    {"seed", member.description.seed},
                                     {"sha256sums", member.sums.at(checksums_name)},
                                     {"instance_id_offset", offset},
                                     {"class_ids", std::move(classes)}});
-        offset += labels_of(member, "instances").size();
+        offset += labels.instances.size();
     }
     return json;
 }
@@ -130,7 +129,7 @@ Json describe(const std::vector<Member>& members) {
 std::vector<std::string> seeds_shared_by(const std::vector<Member>& members) {
     std::map<std::string, std::vector<std::string>> by_seed;
     for (const Member& member : members)
-        by_seed[member.description.value("seed", Json()).dump()].push_back(member.folder);
+        by_seed[std::to_string(member.description.seed)].push_back(member.folder);
     std::vector<std::string> warnings;
     for (const auto& [seed, folders] : by_seed) {
         if (folders.size() < 2) continue;
@@ -145,22 +144,33 @@ std::vector<std::string> seeds_shared_by(const std::vector<Member>& members) {
     return warnings;
 }
 
-std::optional<Json> read_collection(const fs::path& folder) {
-    if (!fs::is_regular_file(folder / collection_name)) return std::nullopt;
-    try {
-        Json json = Json::parse(read_file(folder / collection_name, largest_text));
-        if (json.is_object() && json.value("format", "") == collection_format) return json;
-    } catch (const Json::exception&) {  // NOLINT(bugprone-empty-catch): not ours
+/// What is written through a link does not become part of the collection.
+void require_no_links(const fs::path& out, const std::vector<Member>& members) {
+    const auto require = [](const fs::path& path) {
+        if (!fs::is_symlink(path)) return;
+        throw InputError({path.string()},
+                         "is a symbolic link, and a collection is written into folders of its own; "
+                         "remove the link or choose another folder");
+    };
+    for (const Member& member : members) {
+        std::set<fs::path> folders;
+        for (const auto& [name, sum] : member.sums) {
+            for (fs::path above = fs::path(name).parent_path(); !above.empty();
+                 above = above.parent_path())
+                folders.insert(above);
+        }
+        require(out / member.folder);
+        for (const fs::path& folder : folders)
+            require(out / member.folder / folder);
     }
-    throw InputError({(folder / collection_name).string()}, "is not sonarsim's, or damaged");
 }
 
 /// Makes the folder ready, or finds it so, and locks it.
 FolderLock begin_collection(const fs::path& out, const Json& description) {
     FolderLock lock = lock_alone(out);
-    if (std::optional<Json> found = read_collection(out)) {
-        (*found)["complete"] = false;
-        if (*found == description) return lock;
+    if (std::optional<CollectionFile> found = read_collection(out)) {
+        found->json["complete"] = false;
+        if (found->json == description) return lock;
         throw InputError({out.string()},
                          "holds a collection of other datasets; choose another folder");
     }
@@ -192,6 +202,7 @@ CollectionSummary collect_datasets(
     const std::vector<Member> members = read_members(parts);
     Json description = describe(members);
     const FolderLock lock = begin_collection(out, description);
+    require_no_links(out, members);
     struct Copy {
         const Member* member;
         const std::string* name;
@@ -236,17 +247,17 @@ CollectionSummary collect_datasets(
 
 std::vector<fs::path> collected_folders(const fs::path& folder) {
     std::vector<fs::path> folders;
-    if (const std::optional<Json> json = read_collection(folder)) {
-        for (const Json& dataset : json->value("datasets", Json::array()))
-            folders.push_back(folder / dataset.value("folder", ""));
+    if (const std::optional<CollectionFile> collection = read_collection(folder)) {
+        for (const std::string& name : collection->folders)
+            folders.push_back(folder / name);
     }
     return folders;
 }
 
 std::vector<std::string> collection_faults(const fs::path& folder) {
-    const std::optional<Json> json = read_collection(folder);
+    const std::optional<CollectionFile> collection = read_collection(folder);
     std::vector<std::string> faults;
-    if (!json || json->value("complete", Json()) != true) {
+    if (!collection || !collection->complete) {
         faults.push_back(std::string(collection_name) +
                          ": is not complete; the merge command that made it, run again, goes on");
         return faults;

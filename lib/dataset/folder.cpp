@@ -87,8 +87,8 @@ FolderState inspect_folder(const Layout& layout, const Json& description) {
     const Json found = own_description(folder);
     const std::string difference = difference_between(found, description);
     if (!difference.empty()) refuse(folder, "holds a dataset " + difference, or_overwrite);
-    return found.value("complete", Json()) == true ? FolderState::complete
-                                                   : FolderState::unfinished;
+    const DatasetFile dataset = check_description(found, (folder / description_name).string());
+    return dataset.complete ? FolderState::complete : FolderState::unfinished;
 }
 
 void protect_inputs(const Layout& layout, const Mission& mission) {

@@ -41,11 +41,13 @@ std::string journal_part(int shard, int shards) {
 }
 
 bool is_journal_part(std::string_view name) {
+    constexpr std::uint64_t most_shards = 1'000'000;  // as --shard has it
     const std::size_t of = name.find("-of-");
     if (of == std::string_view::npos || !name.ends_with(".txt")) return false;
     const auto shard = parse_unsigned(name.substr(0, of));
     name.remove_suffix(4);
-    return shard && parse_unsigned(name.substr(of + 4));
+    const auto shards = parse_unsigned(name.substr(of + 4));
+    return shard && shards && *shard >= 1 && *shard <= *shards && *shards <= most_shards;
 }
 
 std::string Layout::number(std::uint32_t pose) const {

@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/text.h"
-#include "dataset/description.h"
+#include "dataset/file_names.h"
 #include "dataset/gallery_file.h"
 #include "dataset/layout.h"
 

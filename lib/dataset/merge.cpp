@@ -15,13 +15,14 @@
 #include "core/file.h"
 #include "core/ordered_pipeline.h"
 #include "core/text.h"
+#include "dataset/checked_json.h"
 #include "dataset/completion.h"
 #include "dataset/description.h"
 #include "dataset/folder.h"
 #include "dataset/folder_lock.h"
+#include "dataset/metadata.h"
 #include "dataset/ping_files.h"
 #include "dataset/resume.h"
-#include "mission/parse.h"
 #include "mission/resolved.h"
 #include "sonar/kinds.h"
 #include "sonar/sonar.h"
@@ -38,16 +39,9 @@ constexpr std::size_t largest_common_file = std::size_t{1} << 32;
 
 /// Beside the pings, what a part holds. `complete` is set to false, as at the beginning of a run.
 CommonFiles read_common(const fs::path& folder) {
-    if (!fs::is_regular_file(folder / description_name)) {
-        throw InputError({folder.string()},
-                         "is no dataset: it has no dataset.json; give the output folders of the "
-                         "shards, and then the folder to write to");
-    }
-    std::optional<Json> description = read_description(folder);
-    if (!description)
-        throw InputError({(folder / description_name).string()}, "is not sonarsim's, or damaged");
-    (*description)["complete"] = false;
-    return {*std::move(description), read_file(folder / mission_name, largest_common_file),
+    Json description = require_dataset(folder).json;
+    description["complete"] = false;
+    return {std::move(description), read_file(folder / mission_name, largest_common_file),
             read_file(folder / trajectory_name, largest_common_file)};
 }
 
@@ -57,7 +51,11 @@ void require_same(const fs::path& part, const CommonFiles& found, const fs::path
     if (difference.empty() &&
         (found.mission != expected.mission || found.trajectory != expected.trajectory))
         difference = "of this mission whose inputs or poses were changed since";
-    if (difference.empty()) return;
+    if (difference.empty()) {
+        const auto key = first_difference(found.description, expected.description);
+        if (!key) return;
+        difference = "whose dataset.json differs in '" + printable(*key) + "'";
+    }
     throw InputError({part.string()},
                      "holds a dataset " + difference + ", seen from " + first.string() +
                          "; only parts of one mission become one dataset; whole datasets "
@@ -72,15 +70,12 @@ struct MergeContext {
 };
 
 /// The white of each sensor's pictures, which the scene was needed to find.
-std::vector<double> full_scales_of(const Json& description, const fs::path& part) {
+std::vector<double> full_scales_of(const DatasetFile& dataset, const std::string& file) {
     std::vector<double> scales;
-    for (const Json& sensor : description.value("sensors", Json::array())) {
-        const Json scale = sensor.is_object() ? sensor.value("full_scale", Json()) : Json();
-        if (!scale.is_number() || scale.get<double>() <= 0.0) {
-            throw InputError({(part / description_name).string()},
-                             "a sensor has no full_scale above 0");
-        }
-        scales.push_back(scale.get<double>());
+    for (const DescribedSensor& sensor : dataset.sensors) {
+        if (sensor.full_scale <= 0.0)
+            throw InputError({file}, "sensor '" + sensor.name + "' has no full_scale above 0");
+        scales.push_back(sensor.full_scale);
     }
     return scales;
 }
@@ -88,8 +83,10 @@ std::vector<double> full_scales_of(const Json& description, const fs::path& part
 MergeContext read_context(const fs::path& part, const CommonFiles& common, const fs::path& out) {
     MergeContext context;
     const std::string file = (part / mission_name).string();
-    context.mission = parse_mission(common.mission, file, part, {}, sonar_keys());
-    if (mission_hash(context.mission, sonar_keys()) != common.description["mission_hash"]) {
+    context.mission = parse_resolved(common.mission, file, sonar_keys());
+    const DatasetFile dataset =
+        check_description(common.description, (part / description_name).string());
+    if (mission_hash(context.mission, sonar_keys()) != dataset.mission_hash) {
         throw InputError({file},
                          "is not the mission that dataset.json was made of, or not by this version "
                          "of sonarsim; copy the part again, or merge with the version that "
@@ -100,18 +97,38 @@ MergeContext read_context(const fs::path& part, const CommonFiles& common, const
     for (const SonarConfig& sensor : context.mission.sensors)
         context.assembly.sonars.push_back(
             make_sonar(sensor, context.mission.accuracy, context.mission.water));
-    context.assembly.full_scales = full_scales_of(common.description, part);
+    context.assembly.full_scales = full_scales_of(dataset, (part / description_name).string());
     if (context.assembly.full_scales.size() != context.assembly.sonars.size())
         throw InputError({(part / description_name).string()}, "lists other sensors");
     return context;
 }
 
-/// How many pings fit a pack depends on the scene, which is not needed here: the parts tell.
-void adopt_packs(Layout& layout, const Json& description) {
-    const Json sensors = description.value("sensors", Json::array());
-    for (std::size_t i = 0; i < std::min(layout.sensors.size(), sensors.size()); ++i) {
-        if (sensors[i].contains("packs"))
-            layout.sensors[i].pings_per_pack = sensors[i]["packs"].value("pings", std::size_t{1});
+/// How many pings fit a pack depends on the scene, which is not needed here: the parts tell. Of a
+/// sensor that the mission does not pack, the packs are a fault that is found later.
+void adopt_packs(Layout& layout, const DatasetFile& dataset) {
+    for (std::size_t i = 0; i < layout.sensors.size(); ++i) {
+        std::size_t& own = layout.sensors[i].pings_per_pack;
+        if (own > 0 && dataset.sensors[i].packs) own = dataset.sensors[i].packs->pings;
+    }
+}
+
+/// Compares what dataset.json says with what the mission gives: a key that was changed would be
+/// copied into the whole.
+void require_as_made(const Json& told, const fs::path& part, const MergeContext& context,
+                     const Layout& layout, const std::vector<Writers>& writers) {
+    const Mission& mission = context.mission;
+    Json made = {{"mission", mission.name},
+                 {"seed", mission.seed},
+                 {"poses", context.assembly.trajectory.size()},
+                 {"sensors", describe_sensors(context.assembly, layout, writers)}};
+    if (!layout.products.empty()) made["products"] = layout.products;
+    for (const auto& [key, value] : made.items()) {
+        const auto way = first_difference(told.value(key, Json()), value, key);
+        if (!way) continue;
+        throw InputError({(part / description_name).string()},
+                         "'" + printable(*way) +
+                             "' is not what its mission.resolved.yaml gives; copy the part again, "
+                             "or render it anew");
     }
 }
 
@@ -221,7 +238,8 @@ MergeSummary merge_datasets(const std::vector<fs::path>& folders, const fs::path
     const std::size_t poses = context.assembly.trajectory.size();
     const std::vector<Writers> writers = make_writers(context.mission, context.assembly);
     Layout layout = make_layout(context.mission, writers, poses);
-    adopt_packs(layout, common.description);
+    adopt_packs(layout, check_description(common.description, folders[0].string()));
+    require_as_made(common.description, folders[0], context, layout, writers);
     std::vector<std::unique_ptr<Part>> parts;
     for (const fs::path& folder : folders)
         parts.push_back(std::make_unique<Part>(layout, folder, folders.size() + 1));

@@ -134,14 +134,19 @@ Json describe_dataset(const Mission& mission, const Assembly& assembly, const La
     }
     json["scene"] = describe_scene_use(assembly.scene);
     if (!mission.output.labels.empty()) json["labels"] = describe_label_ids(assembly);
+    json["sensors"] = describe_sensors(assembly, layout, writers);
+    if (!layout.products.empty()) json["products"] = layout.products;
+    return json;
+}
+
+Json describe_sensors(const Assembly& assembly, const Layout& layout,
+                      const std::vector<Writers>& writers) {
     Json sensors = Json::array();
     for (std::size_t i = 0; i < assembly.sonars.size(); ++i) {
         sensors.push_back(describe_sensor(assembly.sonars[i], assembly.full_scales[i], layout,
                                           layout.sensors[i], writers[i]));
     }
-    json["sensors"] = std::move(sensors);
-    if (!layout.products.empty()) json["products"] = layout.products;
-    return json;
+    return sensors;
 }
 
 std::string resolved_text(const Mission& mission, const Assembly& assembly) {

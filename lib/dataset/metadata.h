@@ -18,6 +18,10 @@ inline constexpr int dataset_format_version = 3;
 nlohmann::ordered_json describe_dataset(const Mission& mission, const Assembly& assembly,
                                         const Layout& layout, const std::vector<Writers>& writers);
 
+/// Its block `sensors`, which does not depend on the scene but for the full scales.
+nlohmann::ordered_json describe_sensors(const Assembly& assembly, const Layout& layout,
+                                        const std::vector<Writers>& writers);
+
 /// mission.resolved.yaml: the mission with paths that start at the folder of the scene file, and
 /// the SHA-256 of what it read in comments. The same wherever mission and dataset lie.
 std::string resolved_text(const Mission& mission, const Assembly& assembly);

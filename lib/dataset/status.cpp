@@ -21,45 +21,32 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-Json description_of(const fs::path& folder) {
-    std::optional<Json> description;
-    if (fs::exists(folder / description_name)) description = read_description(folder);
-    if (!description) throw InputError({folder.string()}, "holds no sonarsim dataset");
-    return *std::move(description);
-}
-
 /// As much of the layout as tells which ping is in which shard.
-Layout layout_of(const fs::path& folder, const Json& description) {
+Layout layout_of(const fs::path& folder, const DatasetFile& dataset) {
     Layout layout;
     layout.folder = folder;
-    try {
-        layout.poses = description.at("poses").get<std::size_t>();
-        for (const Json& sensor : description.at("sensors")) {
-            SensorLayout own;
-            own.name = sensor.at("name").get<std::string>();
-            own.every = sensor.at("every").get<std::uint32_t>();
-            own.pings = sensor.at("pings").get<std::size_t>();
-            if (sensor.contains("packs"))
-                own.pings_per_pack = sensor["packs"].at("pings").get<std::size_t>();
-            if (own.every == 0) throw InputError({folder.string()}, "its dataset.json is damaged");
-            layout.sensors.push_back(std::move(own));
-        }
-    } catch (const Json::exception& error) {
-        throw InputError({(folder / description_name).string()},
-                         std::string("is damaged: ") + error.what());
+    layout.poses = dataset.poses;
+    for (const DescribedSensor& sensor : dataset.sensors) {
+        SensorLayout own;
+        own.name = sensor.name;
+        own.every = static_cast<std::uint32_t>(sensor.every);
+        own.pings = sensor.pings;
+        if (sensor.packs) own.pings_per_pack = sensor.packs->pings;
+        layout.sensors.push_back(std::move(own));
     }
     return layout;
 }
 
-/// Every ping of the dataset, as list_pings() has them.
-std::vector<PingId> pings_of(const Layout& layout) {
-    std::vector<PingId> pings;
+/// Calls `visit` with every ping of the dataset and its index, as list_pings() has them. A list of
+/// them could take more memory than there is: dataset.json alone tells how many they are.
+template <class Visit>
+void for_each_ping(const Layout& layout, const Visit& visit) {
+    std::size_t index = 0;
     for (std::uint32_t pose = 0; pose < layout.poses; ++pose) {
         for (std::uint32_t sensor = 0; sensor < layout.sensors.size(); ++sensor) {
-            if (pose % layout.sensors[sensor].every == 0) pings.push_back({pose, sensor});
+            if (pose % layout.sensors[sensor].every == 0) visit(PingId{pose, sensor}, index++);
         }
     }
-    return pings;
 }
 
 /// The shards that a name of the form journal_part() stands for.
@@ -125,16 +112,17 @@ double JobStatus::pings_per_s() const {
 }
 
 JobStatus read_status(const std::vector<fs::path>& folders, double now_s) {
-    const Json description = description_of(folders.at(0));
-    const Layout layout = layout_of(folders[0], description);
+    const DatasetFile dataset = require_dataset(folders.at(0));
+    const Layout layout = layout_of(folders[0], dataset);
     JobStatus status;
-    status.mission = description.value("mission", std::string());
-    status.complete = description.value("complete", false);
+    status.mission = dataset.mission;
+    status.complete = dataset.complete;
     for (const SensorLayout& sensor : layout.sensors)
         status.sensors.push_back({sensor.name, {0, sensor.pings}});
     std::set<PingId> done;
     for (const fs::path& folder : folders) {
-        const std::string difference = difference_between(description_of(folder), description);
+        const std::string difference =
+            difference_between(require_dataset(folder).json, dataset.json);
         if (!difference.empty())
             throw InputError({folder.string()}, "holds a dataset " + difference);
         read_journal(folder).pings.for_each(
@@ -147,18 +135,17 @@ JobStatus read_status(const std::vector<fs::path>& folders, double now_s) {
         status.shards.push_back(one);
     }
     status.shards = status.complete ? std::vector<ShardStatus>() : with_missing(status.shards);
-    const std::vector<PingId> all = pings_of(layout);
-    status.pings.all = all.size();
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        const bool is_done = status.complete || done.contains(all[i]);
+    for_each_ping(layout, [&](const PingId& ping, std::size_t index) {
+        const bool is_done = status.complete || done.contains(ping);
+        ++status.pings.all;
         status.pings.done += is_done;
-        status.sensors[all[i].sensor].second.done += is_done;
+        status.sensors[ping.sensor].second.done += is_done;
         for (ShardStatus& shard : status.shards) {
-            if (shard_of(layout, all[i], i, shard.shards) + 1 != shard.shard) continue;
+            if (shard_of(layout, ping, index, shard.shards) + 1 != shard.shard) continue;
             ++shard.pings.all;
             shard.pings.done += is_done;
         }
-    }
+    });
     return status;
 }
 

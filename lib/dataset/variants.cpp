@@ -7,6 +7,7 @@
 #include "core/file.h"
 #include "core/sha256.h"
 #include "core/text.h"
+#include "dataset/checked_json.h"
 #include "dataset/description.h"
 #include "dataset/folder.h"
 #include "dataset/folder_lock.h"
@@ -131,6 +132,31 @@ void add(RenderSummary& all, const RenderSummary& one) {
     }
 }
 
+/// What is read of variants.json. The keys that are compared alone may be anything.
+void check_variants(const Json& json, const std::string& file) {
+    int index = 0;
+    for (const CheckedJson& variant : CheckedJson(json, file).at("variants").items()) {
+        const std::string name = variant_folder(index++);
+        if (variant.at("folder").text() != name) variant.at("folder").refuse("\"" + name + '"');
+        const std::optional<CheckedJson> split = variant.find("split");
+        const bool known =
+            !split || std::ranges::find(split_part_names, split->text()) != split_part_names.end();
+        if (!known && split->text() != "none") split->refuse("train, val or test");
+    }
+}
+
+/// Nothing is written or removed through a link: what it leads to is not of this folder.
+void require_no_links(const fs::path& folder, const Json& json) {
+    std::vector<fs::path> folders = folders_of_variants(folder, json);
+    folders.push_back(folder / "split");
+    for (const fs::path& one : folders) {
+        if (!fs::is_symlink(one)) continue;
+        throw InputError({one.string()},
+                         "is a symbolic link, and variants are written into folders of their own; "
+                         "remove the link or choose another output.folder");
+    }
+}
+
 }  // namespace
 
 Json describe_variants(const Mission& mission, std::span<const Mission> variants) {
@@ -157,9 +183,11 @@ Json describe_variants(const Mission& mission, std::span<const Mission> variants
 std::optional<Json> read_variants(const fs::path& folder) {
     const fs::path file = folder / variants_name;
     if (!fs::exists(file)) return std::nullopt;
-    Json json = Json::parse(read_file(file, largest_index), nullptr, false);
-    if (json.is_object() && json.value("format", Json()) == variants_format) return json;
-    throw InputError({file.string()}, "is not sonarsim's, or damaged");
+    Json json = read_json(file, largest_index);
+    if (!json.is_object() || json.value("format", Json()) != variants_format)
+        throw InputError({file.string()}, "is not sonarsim's, or damaged");
+    check_variants(json, file.string());
+    return json;
 }
 
 std::vector<fs::path> folders_of_variants(const fs::path& folder, const Json& json) {
@@ -174,7 +202,7 @@ std::vector<fs::path> folders_of_variants(const fs::path& folder, const Json& js
 bool is_complete(const fs::path& dataset) {
     if (!fs::exists(dataset / description_name)) return false;
     const std::optional<Json> description = read_description(dataset);
-    return description && description->value("complete", false);
+    return description && description->value("complete", Json()) == true;
 }
 
 void begin_variants(const fs::path& folder, const Json& json, std::span<const Mission> variants,
@@ -188,6 +216,8 @@ void begin_variants(const fs::path& folder, const Json& json, std::span<const Mi
                          "output.folder, or remove it");
     if (found && *found != json && !overwrite)
         refuse_folder(folder, "holds variants of another mission, seed or version of sonarsim");
+    if (found) require_no_links(folder, *found);
+    require_no_links(folder, json);
     if (found && overwrite) {
         for (const fs::path& old : folders_of_variants(folder, *found))
             remove_variant(old, variants.front());

@@ -17,9 +17,9 @@
 #include "core/text.h"
 #include "dataset/checksums.h"
 #include "dataset/description.h"
+#include "dataset/file_names.h"
 #include "dataset/gallery_file.h"
 #include "dataset/layout.h"
-#include "dataset/metadata.h"
 #include "format/open_file.h"
 #include "format/tar.h"
 
@@ -28,7 +28,6 @@ namespace sonarsim {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 using Shape = std::vector<std::size_t>;
 
 constexpr std::size_t largest_checksums = std::size_t{1} << 32;
@@ -49,45 +48,45 @@ struct Task {
     std::optional<std::size_t> ids;  ///< that there are, of a file of ids
 };
 
+bool has_kind(const NamedTexts& files, const std::string& kind) {
+    return std::ranges::any_of(files, [&](const auto& file) { return file.first == kind; });
+}
+
 /// The shape that dataset.json tells; none where it does not.
 Shape told_shape(const DescribedFile& file) {
-    if (!file.sensor) return {};
-    const Json& sensor = *file.sensor;
-    const auto bins = [&](const char* key) { return sensor.at(key).size() - 1; };
-    if (!sensor.at("files").contains(file.kind)) return {};
+    if (!file.sensor || !has_kind(file.sensor->files, file.kind)) return {};
+    const DescribedSensor& sensor = *file.sensor;
     const std::string extension = fs::path(file.name).extension().string();
     if (file.kind == "stages" || (extension != ".npy" && extension != ".png")) return {};
-    if (file.kind.starts_with("fan"))
-        return {sensor.at("fan").at("height_px"), sensor.at("fan").at("width_px")};
-    return {bins("range_edges_m"), bins("azimuth_edges_rad")};
+    if (!file.kind.starts_with("fan")) return {sensor.range_bins, sensor.azimuth_bins};
+    return sensor.fan ? Shape{sensor.fan->height, sensor.fan->width} : Shape{};
 }
 
 /// How many ids dataset.json tells for the values of a file; nothing where they are no ids.
-std::optional<std::size_t> told_ids(const DescribedFile& file, const Json& description) {
+std::optional<std::size_t> told_ids(const DescribedFile& file, const DatasetFile& dataset) {
     std::string_view kind = file.kind;
     for (const std::string_view prefix : {"label_records/", "fan_"}) {
         if (kind.starts_with(prefix)) kind.remove_prefix(prefix.size());
     }
-    const char* list = nullptr;
-    if (kind == "instance" || kind == "second" || kind == "shadow") list = "instances";
-    if (kind == "class") list = "classes";
-    if (kind == "material") list = "materials";
-    if (!list) return std::nullopt;
-    return description.at("labels").at(list).size();
+    const DescribedLabels& labels = dataset.labels;
+    if (kind == "instance" || kind == "second" || kind == "shadow") return labels.instances.size();
+    if (kind == "class") return labels.classes.size();
+    if (kind == "material") return labels.materials.size();
+    return std::nullopt;
 }
 
 /// What is to be looked at; what is missing is a fault already.
-std::vector<Task> list_tasks(const fs::path& folder, const Json& description,
+std::vector<Task> list_tasks(const fs::path& folder, const DatasetFile& dataset,
                              const std::map<std::string, std::string>& sums,
                              std::set<std::string>& expected, DatasetCheck& check) {
     std::vector<Task> tasks;
-    for_each_described(description, [&](const DescribedFile& file) {
+    for_each_described(dataset, [&](const DescribedFile& file) {
         expected.insert(file.name);
         const auto sum = sums.find(file.name);
         if (!fs::is_regular_file(folder / file.name)) {
             add_fault(check, file.name + ": is missing; " + render_again);
         } else if (sum != sums.end()) {
-            tasks.push_back({file, sum->second, told_ids(file, description)});
+            tasks.push_back({file, sum->second, told_ids(file, dataset)});
         } else if (file.name != checksums_name && !sums.empty()) {
             add_fault(check, file.name +
                                  ": SHA256SUMS does not list it; remove SHA256SUMS, and the render "
@@ -122,7 +121,7 @@ void note_opened(Look& look, const DescribedFile& file, const std::optional<std:
     if (!file.sensor || file.kind.empty() || file.kind == "records") return;
     const Shape& shape = opened.shape;
     Shape told = told_shape(file);
-    const std::string kind = file.sensor->at("name").get<std::string>() + "/" + file.kind;
+    const std::string kind = file.sensor->name + "/" + file.kind;
     const bool is_told = !told.empty();
     if (!is_told) told = look.shapes.try_emplace(kind, shape).first->second;
     if (shape == told || !look.fault.empty()) return;
@@ -132,43 +131,41 @@ void note_opened(Look& look, const DescribedFile& file, const std::optional<std:
 }
 
 /// Opens every file in a pack. They must be those that dataset.json tells, in its order.
-void look_into(const fs::path& path, const DescribedFile& pack, const Json& description,
+void look_into(const fs::path& path, const DescribedFile& pack, const DatasetFile& dataset,
                Look& look) {
-    const Json& told = pack.sensor->at("packs");
-    const auto every = pack.sensor->at("every").get<std::uint64_t>();
-    const auto each = told.at("pings").get<std::uint64_t>();
+    const DescribedSensor& sensor = *pack.sensor;
+    const NamedTexts& members = sensor.packs->members;
     const std::uint64_t number = parse_unsigned(path.stem().string()).value_or(0);
-    const std::uint64_t first = number * each;
-    const std::uint64_t end = std::min(first + each, pack.sensor->at("pings").get<std::uint64_t>());
-    const Json& members = told.at("members");
+    const std::uint64_t first = number * sensor.packs->pings;
+    const std::uint64_t end = std::min(first + sensor.packs->pings, sensor.pings);
     std::uint64_t ping = first;
-    auto member = members.items().begin();
+    std::size_t k = 0;  // of the members of a ping
     for_each_in_tar(path, [&](const std::string& name, const std::string& bytes) {
-        const bool more = ping < end && member != members.items().end();
+        const bool more = ping < end && k < members.size();
         const std::string expected =
-            more ? numbered(member.value().get<std::string>(), ping * every) : std::string();
-        if (name != expected) {
+            more ? numbered(members[k].second, ping * sensor.every) : std::string();
+        if (name != expected || !more) {
             throw std::runtime_error("holds " + name + " where " +
                                      (more ? expected : std::string("its end")) + " should be");
         }
-        const DescribedFile file{name, pack.sensor, member.key()};
+        const DescribedFile file{name, pack.sensor, members[k].first};
         const bool sound = look.fault.empty();
-        note_opened(look, file, told_ids(file, description), open_bytes(name, bytes));
+        note_opened(look, file, told_ids(file, dataset), open_bytes(name, bytes));
         if (sound && !look.fault.empty()) look.fault = name + " in it " + look.fault;
-        if (++member != members.items().end()) return;
-        member = members.items().begin();
+        if (++k < members.size()) return;
+        k = 0;
         ++ping;
     });
     if (ping < end) throw std::runtime_error("lacks pings from its end");
 }
 
-Look look_at(const fs::path& folder, const Task& task, const Json& description) {
+Look look_at(const fs::path& folder, const Task& task, const DatasetFile& dataset) {
     const fs::path path = folder / task.file.name;
     Look look;
     look.bytes = fs::file_size(path);
     try {
         if (task.file.kind == "packs")
-            look_into(path, task.file, description, look);
+            look_into(path, task.file, dataset, look);
         else
             note_opened(look, task.file, task.ids, open_file(path));
     } catch (const std::system_error&) {
@@ -185,13 +182,13 @@ Look look_at(const fs::path& folder, const Task& task, const Json& description) 
     return look;
 }
 
-void look_at_all(const fs::path& folder, const Json& description, const std::vector<Task>& tasks,
+void look_at_all(const fs::path& folder, const DatasetFile& dataset, const std::vector<Task>& tasks,
                  int threads, const std::function<void(std::uint64_t, std::uint64_t)>& progress,
                  const std::atomic<bool>& stop, DatasetCheck& check) {
     std::map<std::string, Shape> shapes;  // of the first file of each kind
     ordered_pipeline(
         tasks.size(), 4 * static_cast<std::size_t>(threads), stop,
-        [&](std::size_t i) { return look_at(folder, tasks[i], description); },
+        [&](std::size_t i) { return look_at(folder, tasks[i], dataset); },
         [&](const Look& look) {
             const std::string& name = tasks[check.files++].file.name;
             check.bytes += look.bytes;
@@ -225,10 +222,9 @@ std::vector<std::string> strangers_in(const fs::path& folder,
 DatasetCheck verify_dataset(const fs::path& folder, int threads,
                             const std::function<void(std::uint64_t, std::uint64_t)>& progress,
                             const std::atomic<bool>& stop) {
-    const Json description = require_description(folder);
-    const bool complete = description.value("complete", Json()) == true;
+    const DatasetFile dataset = require_dataset(folder);
     DatasetCheck check;
-    if (!complete) {
+    if (!dataset.complete) {
         add_fault(check, std::string(description_name) +
                              ": the dataset is not complete; the render command that made it, run "
                              "again, goes on with it");
@@ -238,7 +234,7 @@ DatasetCheck verify_dataset(const fs::path& folder, int threads,
     if (fs::is_regular_file(sums_file))
         sums = parse_checksums(read_file(sums_file, largest_checksums), sums_file.string());
     std::set<std::string> expected;
-    const std::vector<Task> tasks = list_tasks(folder, description, sums, expected, check);
+    const std::vector<Task> tasks = list_tasks(folder, dataset, sums, expected, check);
     if (check.more_faults == 0) {
         for (const auto& [name, sum] : sums) {
             if (!expected.contains(name)) {
@@ -253,7 +249,7 @@ DatasetCheck verify_dataset(const fs::path& folder, int threads,
     if (threads <= 0) threads = tbb::info::default_concurrency();
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     tbb::task_arena arena(threads);
-    arena.execute([&] { look_at_all(folder, description, tasks, threads, progress, stop, check); });
+    arena.execute([&] { look_at_all(folder, dataset, tasks, threads, progress, stop, check); });
     return check;
 }
 

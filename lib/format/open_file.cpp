@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <sstream>
@@ -34,12 +35,13 @@ std::uint16_t largest_of(std::span<const std::byte> bytes) {
     return largest;
 }
 
-/// Pictures may be longer than memory: they are decoded row by row and dropped.
-OpenedFile open_png(std::istream& file) {
+/// Pictures may be longer than memory: they are decoded row by row and dropped. `bytes`: how long
+/// the file is.
+OpenedFile open_png(std::istream& file, std::uint64_t bytes) {
     std::uint16_t largest = 0;
     bool has_ids = false;
     const PngShape shape =
-        read_png(file, [&](const PngShape& of, std::span<const std::uint8_t> row) {
+        read_png(file, bytes, [&](const PngShape& of, std::span<const std::uint8_t> row) {
             has_ids = of.bits == 16 && of.channels == 1;
             for (std::size_t k = 0; has_ids && k < row.size(); k += 2)
                 largest = std::max(largest, static_cast<std::uint16_t>(row[k] << 8 | row[k + 1]));
@@ -68,8 +70,12 @@ OpenedFile open_npy(std::istream& file, std::uint64_t bytes) {
     start.resize(static_cast<std::size_t>(file.gcount()));
     const NpyFormat format = npy_format(start);
     std::uint64_t told = static_cast<std::uint64_t>(format.type.back() - '0');
-    for (const std::size_t length : format.shape)
+    for (const std::size_t length : format.shape) {
+        // The product of the lengths may not fit its type: then it could be any number.
+        if (length > 0 && told > std::numeric_limits<std::uint64_t>::max() / length)
+            throw std::runtime_error("tells more values than any file holds");
         told *= length;
+    }
     const std::size_t header = npy_header(format).size();
     told += header;
     if (bytes != told) {
@@ -100,7 +106,7 @@ void open_json(std::istream& file) {
 OpenedFile open_file(const fs::path& path) {
     const std::string extension = path.extension().string();
     std::ifstream file(path, std::ios::binary);
-    if (extension == ".png") return open_png(file);
+    if (extension == ".png") return open_png(file, fs::file_size(path));
     if (extension == ".tif") return open_geotiff(file, fs::file_size(path));
     if (extension == ".npy") return open_npy(file, fs::file_size(path));
     if (extension == ".json") open_json(file);  // COCO files may be longer than memory
@@ -110,7 +116,7 @@ OpenedFile open_file(const fs::path& path) {
 OpenedFile open_bytes(const std::string& name, const std::string& bytes) {
     const std::string extension = fs::path(name).extension().string();
     std::istringstream file(bytes);
-    if (extension == ".png") return open_png(file);
+    if (extension == ".png") return open_png(file, bytes.size());
     if (extension == ".npy") return open_npy(file, bytes.size());
     if (extension == ".json") open_json(file);
     return {};

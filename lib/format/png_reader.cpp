@@ -17,7 +17,10 @@ namespace sonarsim {
 namespace {
 
 constexpr std::size_t piece_bytes = std::size_t{1} << 16;
-constexpr std::uint32_t largest_side = 1U << 30;
+/// More than any picture of sonarsim has: two rows are held at a time.
+constexpr std::uint32_t largest_side = 1U << 20;
+/// The bytes that a byte of DEFLATE can give: 258 for two bits, and the block's own.
+constexpr std::uint64_t most_inflated = 1032;
 
 [[noreturn]] void refuse_png(const std::string& what) {
     throw std::runtime_error(what);
@@ -34,7 +37,8 @@ std::uint32_t number_at(const char* bytes) {
     return value;
 }
 
-PngShape shape_of(const std::string& header) {
+/// `file_bytes`: how long the file is.
+PngShape shape_of(const std::string& header, std::uint64_t file_bytes) {
     if (header.size() != 13) refuse_png("has a header of another length");
     const std::uint32_t width = number_at(header.data());
     const std::uint32_t height = number_at(header.data() + 4);
@@ -45,7 +49,12 @@ PngShape shape_of(const std::string& header) {
     if (!known || header[12] != 0) refuse_png("has pixels of a kind that sonarsim does not write");
     if (width == 0 || height == 0 || width > largest_side || height > largest_side)
         refuse_png("has no pixels, or too many");
-    return {static_cast<int>(width), static_cast<int>(height), bits, colours == 2 ? 3 : 1};
+    const PngShape shape{static_cast<int>(width), static_cast<int>(height), bits,
+                         colours == 2 ? 3 : 1};
+    // A row takes memory before it is unpacked, and no file unpacks to more than this.
+    const std::uint64_t row = 1 + std::uint64_t{width} * bits * shape.channels / 8;
+    if (row * height / most_inflated > file_bytes) refuse_png("has more pixels than it can hold");
+    return shape;
 }
 
 /// Which of left, up and upper left is nearest to left + up - upper left.
@@ -166,7 +175,7 @@ void read_chunk(std::istream& file, std::string_view kind, std::uint32_t length,
 
 }  // namespace
 
-PngShape read_png(std::istream& file,
+PngShape read_png(std::istream& file, std::uint64_t file_bytes,
                   const std::function<void(const PngShape&, std::span<const std::uint8_t>)>& row) {
     char start[8];
     read_exactly(file, start, sizeof start);
@@ -184,7 +193,7 @@ PngShape read_png(std::istream& file,
             if (kind == "IDAT") pixels->add(piece, row);
         });
         if (!is_header) continue;
-        shape = shape_of(header);
+        shape = shape_of(header, file_bytes);
         pixels = std::make_unique<RowUnpacker>(shape);
     }
     pixels->finish();

@@ -29,6 +29,8 @@ constexpr Field time_field{136, 12};
 constexpr Field sum_field{148, 8};
 constexpr Field type_field{156, 1};
 constexpr Field magic_field{257, 8};
+/// What eleven octal digits hold.
+constexpr std::uint64_t largest_member = (std::uint64_t{1} << 33) - 1;
 constexpr std::string_view magic{"ustar\00000", 8};
 
 void put(Block& header, const Field& field, std::string_view text) {
@@ -54,7 +56,7 @@ std::uint64_t sum_of(Block header) {
 }
 
 Block header_of(std::string_view name, std::uint64_t bytes) {
-    if (name.size() > name_field.bytes || bytes >> 33 != 0)
+    if (name.size() > name_field.bytes || bytes > largest_member)
         throw std::logic_error("a tar archive cannot hold " + std::string(name));
     Block header{};
     put(header, name_field, name);
@@ -101,8 +103,10 @@ void for_each_in_tar(
             bytes = 8 * bytes + static_cast<std::uint64_t>(digit - '0');
         }
         const std::string name(get(header, name_field));
-        if (header != header_of(name, bytes)) throw std::runtime_error("is no archive of ours");
+        // First: a size that no archive holds is none that a header could be made of.
         if (bytes > left) throw std::runtime_error("is cut off");
+        if (bytes > largest_member || header != header_of(name, bytes))
+            throw std::runtime_error("is no archive of ours");
         std::string content(bytes, '\0');
         read(content.data(), bytes);
         Block padding{};

@@ -10,10 +10,11 @@
 #include "core/pose.h"
 #include "core/units.h"
 #include "dataset/collection.h"
-#include "dataset/description.h"
+#include "dataset/dataset_file.h"
 #include "dataset/gallery_file.h"
 #include "dataset/layout.h"
 #include "dataset/variants.h"
+#include "gallery/content_policy.h"
 #include "gallery/page.h"
 #include "gallery/views.h"
 #include "mission/parse.h"
@@ -126,6 +127,14 @@ Json page_json(const fs::path& folder, const Json& description) {
         throw InputError({(folder / mission_name).string()},
                          "has other sensors than dataset.json; one of them was changed");
     }
+    // Tables of the page have a line for each pose, so a false number would take memory.
+    const Trajectory trajectory = read_trajectory(folder / trajectory_name);
+    if (description.at("poses") != trajectory.size()) {
+        throw InputError({(folder / trajectory_name).string()},
+                         "has " + std::to_string(trajectory.size()) +
+                             " poses, and dataset.json says " + description.at("poses").dump() +
+                             "; one of them was changed");
+    }
     BoxLabels labels;
     const PictureBoxes boxes = picture_boxes(folder, description, labels);
     Json shown = Json::array();
@@ -134,15 +143,12 @@ Json page_json(const fs::path& folder, const Json& description) {
                                     make_sonar(mission.sensors[i], mission.accuracy, mission.water),
                                     boxes, labels));
     }
-    return {{"mission", description.at("mission")},
-            {"program", description.at("program_version")},
-            {"seed", description.at("seed")},
-            {"complete", description.at("complete")},
-            {"poses", description.at("poses")},
-            {"track", track_json(read_trajectory(folder / trajectory_name))},
-            {"objects", objects_json(description)},
-            {"labels", std::move(labels.texts)},
-            {"sensors", std::move(shown)}};
+    return {
+        {"mission", description.at("mission")},   {"program", description.at("program_version")},
+        {"seed", description.at("seed").dump()},  // JavaScript rounds beyond 2^53
+        {"complete", description.at("complete")}, {"poses", description.at("poses")},
+        {"track", track_json(trajectory)},        {"objects", objects_json(description)},
+        {"labels", std::move(labels.texts)},      {"sensors", std::move(shown)}};
 }
 
 void replace(std::string& text, std::string_view place, std::string_view by) {
@@ -171,22 +177,17 @@ void require_one_dataset(const fs::path& folder) {
 
 GallerySummary write_gallery(const fs::path& folder) {
     require_one_dataset(folder);
-    const Json description = require_description(folder);
+    const Json description = require_dataset(folder).json;
     const fs::path file = folder / gallery_name;
     if (fs::exists(fs::symlink_status(file)) && !has_gallery(folder)) {
         throw InputError({file.string()},
                          "is not of sonarsim's making, and would be replaced; move it away");
     }
+    const Json json = page_json(folder, description);
     std::string page(page_html());
-    Json json;
-    try {
-        json = page_json(folder, description);
-    } catch (const Json::exception& error) {
-        throw InputError({folder.string()}, std::string("is damaged: ") + error.what() +
-                                                "; sonarsim verify tells which file");
-    }
     replace(page, "<!--page.css-->", page_css());
     replace(page, "<!--page.js-->", page_js());
+    replace(page, "<!--policy-->", content_policy(page));
     replace(page, "<!--dataset-->", inline_json(json));
     write_file(file, page);
     GallerySummary summary{file, page.size(), 0};

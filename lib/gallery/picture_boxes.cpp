@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/file.h"
+#include "gallery/foreign_json.h"
 
 namespace sonarsim {
 
@@ -17,19 +18,24 @@ constexpr std::size_t largest_coco = std::size_t{1} << 30;
 void add_boxes_of_file(const fs::path& coco, const std::vector<std::string>& texts,
                        BoxLabels& labels, PictureBoxes& boxes) {
     if (!fs::is_regular_file(coco)) return;
-    const Json all = Json::parse(read_file(coco, largest_coco));
-    std::map<std::uint64_t, Json*> by_id;
-    for (const Json& image : all.at("images")) {
-        Json& own = boxes[image.at("file_name")];
-        own = Json::array();
-        by_id[image.at("id")] = &own;
-    }
-    for (const Json& annotation : all.at("annotations")) {
-        Json box = {labels.index_of(texts.at(annotation.at("instance_id").get<std::size_t>() - 1))};
-        for (const Json& number : annotation.at("bbox"))
-            box.push_back(number);
-        by_id.at(annotation.at("image_id"))->push_back(std::move(box));
-    }
+    use_json(coco, read_file(coco, largest_coco), [&](const Json& all) {
+        std::map<std::uint64_t, Json*> by_id;
+        for (const Json& image : all.at("images")) {
+            Json& own = boxes[image.at("file_name")];
+            own = Json::array();
+            by_id[image.at("id")] = &own;
+        }
+        for (const Json& annotation : all.at("annotations")) {
+            const auto instance = annotation.at("instance_id").get<std::size_t>();
+            Json box = {labels.index_of(texts.at(instance - 1))};
+            for (const Json& number : annotation.at("bbox")) {
+                number.get<double>();  // throws unless it is one
+                box.push_back(number);
+            }
+            if (box.size() != 5) throw std::out_of_range("a box has four numbers");
+            by_id.at(annotation.at("image_id"))->push_back(std::move(box));
+        }
+    });
 }
 
 }  // namespace

@@ -96,8 +96,10 @@ Json view_of_scans(const Sonar& sonar, const std::vector<std::string>& files, co
                  {"radius", sonar.config.range_max_m / frame.pixel_m / frame.width}};
     if (!boxes.contains(files.front())) return view;
     view["boxes"] = Json::array();
-    for (const std::string& file : files)
-        view["boxes"].push_back(boxes.at(file));
+    for (const std::string& file : files) {
+        const auto own = boxes.find(file);
+        view["boxes"].push_back(own == boxes.end() ? Json::array() : own->second);
+    }
     return view;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "mission/mission.h"
 #include "mission/sonar_keys.h"
@@ -10,6 +11,12 @@ namespace sonarsim {
 /// The mission as YAML with every value written out. `parse_mission` reads it back to an equal
 /// Mission, from any folder.
 std::string resolved_yaml(const Mission& mission, SonarKeyTable sonars);
+
+/// Reads what resolved_yaml() made of a portable mission whose files are not at hand. portable()
+/// and mission_hash() of the result are those of the mission that was rendered: its paths start at
+/// a made-up folder which lies so deep that none of them climbs above the root, where a path would
+/// lose its "..". InputError as of parse_mission().
+Mission parse_resolved(std::string_view text, const std::string& file_name, SonarKeyTable sonars);
 
 /// The mission as it can go to another machine: its paths start at the folder of the scene file,
 /// and it has no output folder.

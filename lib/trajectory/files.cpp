@@ -29,7 +29,7 @@ struct Column {
 };
 
 // The first four columns are the same for both ways to give an attitude; TUM has the first set.
-constexpr std::array<Column, 8> with_quaternion{{{"t_s", 1e10},
+constexpr std::array<Column, 8> with_quaternion{{{"t_s", furthest_s},
                                                  {"x_m", furthest_m},
                                                  {"y_m", furthest_m},
                                                  {"z_m", furthest_m},
@@ -37,7 +37,7 @@ constexpr std::array<Column, 8> with_quaternion{{{"t_s", 1e10},
                                                  {"qy", 1e9},
                                                  {"qz", 1e9},
                                                  {"qw", 1e9}}};
-constexpr std::array<Column, 7> with_angles{{{"t_s", 1e10},
+constexpr std::array<Column, 7> with_angles{{{"t_s", furthest_s},
                                              {"x_m", furthest_m},
                                              {"y_m", furthest_m},
                                              {"z_m", furthest_m},

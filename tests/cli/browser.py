@@ -95,6 +95,15 @@ class Browser:
             time.sleep(0.05)
         raise AssertionError(f"never true: {script}")
 
+    def wait_for_complaint(self):
+        """The warnings and errors on the console, once there is one."""
+        for _ in range(200):
+            told = self.complaints()
+            if told:
+                return "\n".join(told)
+            time.sleep(0.05)
+        raise AssertionError("no warning on the console")
+
     def screenshot(self, selector):
         """What an element of the page looks like, PNG bytes."""
         element = self._send("POST", f"{self.session}/element",

@@ -1,4 +1,5 @@
 """scripts/sonarsim_data.py: opens what sonarsim writes, loose or packed, with numpy alone."""
+import json
 import os
 import pathlib
 import subprocess
@@ -181,6 +182,54 @@ class Reader(Sandbox):
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(result.stdout.count("(2, 40, 24)"), 3)
         self.assertIn("torch.int32", result.stdout)
+
+    def test_hostile_datasets(self):
+        """Every fault is a ValueError, and nothing outside the folder is read."""
+        sound = (self.out / "dataset.json").read_text()
+        self.write("secret/000000.json", '{"secret": 1}')
+        for keys, value in ((("sensors", 0, "files", "meta"), "../secret/%06d.json"),
+                            (("sensors", 0, "files", "meta"), "fls/../../secret/%06d.json"),
+                            (("sensors", 0, "files", "meta"), f"{self.folder}/secret/%06d.json"),
+                            (("sensors", 0, "files", "meta"), "fls/%06d-%06d.json"),
+                            (("sensors", 0, "files", "meta"), "fls/meta/%(x)d.json"),
+                            (("sensors", 0, "files", "meta"), 7),
+                            (("sensors", 0, "name"), "../secret"),
+                            (("sensors", 0, "every"), -1),
+                            (("sensors", 0, "pings"), 1 << 70),
+                            (("sensors", 3, "records", "file"), "../secret/x.npy"),
+                            (("sensors",), 5)):
+            told = json.loads(sound)
+            inner = told
+            for key in keys[:-1]:
+                inner = inner[key]
+            inner[keys[-1]] = value
+            self.write("out/dataset.json", json.dumps(told))
+            with self.subTest(keys=keys, value=value), self.assertRaises(ValueError):
+                self.open()
+        for text in ("[" * 200000, "7", "{"):
+            self.write("out/dataset.json", text)
+            with self.assertRaises(ValueError):
+                self.open()
+
+    def test_files_that_tell_more_than_they_hold(self):
+        self.assert_renders("--out", "packed", "--set", "output.pack=tar")
+        pack = self.folder / "packed/fls/pack/000000.tar"
+        whole = pack.read_bytes()
+        for size in (b"-0000001000\0", b"+0000001000\0", b"0_000001000\0", b"99999999999\0", b"           \0"):
+            pack.write_bytes(whole[:124] + size + whole[136:])
+            with self.subTest(size=size), self.assertRaises(ValueError):
+                self.open("packed")["fls"].raw(0, "polar")
+        pack.write_bytes(whole[:124] + b"77777777777\0" + whole[136:])
+        self.assertEqual(list(sonarsim_data.tar_members(pack)), [])     # cut off before its end
+        image = (self.out / "fls/image/000000.png").read_bytes()
+        huge = image[:16] + (1 << 30).to_bytes(4, "big") + image[20:]
+        for data in (huge, image[:40], image[:8], image[:-200]):
+            with self.subTest(bytes=len(data)), self.assertRaises(ValueError):
+                sonarsim_data.read_png(data)
+        polar = (self.out / "fls/polar/000000.npy").read_bytes()
+        for data in (polar.replace(b"(40, 24)", b"(99, 99)"), polar[:-1], polar[:20]):
+            with self.subTest(bytes=len(data)), self.assertRaises(ValueError):
+                sonarsim_data.read_npy(data)
 
 
 if __name__ == "__main__":

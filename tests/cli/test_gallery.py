@@ -100,6 +100,11 @@ class Gallery(Sandbox):
         self.assertIn("output.fan or output.image", notes[0])
         self.assertEqual(notes[1:], ["", "", ""])
 
+    def test_the_seed_is_a_text(self):
+        """JavaScript rounds whole numbers from 2^53 on."""
+        self.assert_renders("--seed", "9007199254740993", "--set", "output.labels=false")
+        self.assertEqual(dataset_in(self.gallery())["seed"], "9007199254740993")
+
     def test_folders_that_are_no_dataset(self):
         (self.folder / "empty").mkdir()
         self.assert_refused(self.run_sonarsim("gallery", "empty"), "is no dataset")
@@ -160,6 +165,27 @@ class Gallery(Sandbox):
             self.assertEqual(window.run("document.getElementById('picture').dispatchEvent("
                                         "new MouseEvent('dblclick')); return picture.zoom"), 1)
             self.assertEqual(window.complaints(), [])
+
+    @unittest.skipUnless(browser.available(), "Debian's chromium and chromium-driver are not here")
+    def test_nothing_foreign_runs_in_the_page(self):
+        """The reader lets no such link into the page; where one gets in, the policy stops it."""
+        self.assert_renders("--set", "output.labels=false")
+        page = self.gallery()
+        self.assertIn("default-src 'none'", page)
+        click = ("const link = document.createElement('a'); link.href = \"javascript:document.title='hit'\";"
+                 "document.body.append(link); link.click();")
+        inline = ("const script = document.createElement('script');"
+                  "script.textContent = \"document.title='hit'\"; document.body.append(script);")
+        with browser.Browser() as window:
+            window.open(self.out / "index.html")
+            window.wait_for("return image_of(url_of(view(), state.ping)).naturalWidth")
+            self.assertEqual(window.complaints(), [])
+            for attack in (click, inline):
+                window.run(attack)
+                self.assertIn("Content Security Policy", window.wait_for_complaint())
+            self.assertEqual(window.run("return document.title"), "box - sonarsim")
+            window.run("new Image().src = 'http://127.0.0.1:9/x.png';")
+            self.assertIn("Content Security Policy", window.wait_for_complaint())
 
 
 if __name__ == "__main__":

@@ -61,6 +61,52 @@ class Merge(Sandbox):
         self.assertFalse((self.folder / "all").exists())
         self.assert_refused(result, "1 of 20 pings", "sensor 'fls'")
 
+    def test_the_depth_of_a_folder_is_no_matter(self):
+        """Paths of the mission start at the scene, which may lie deeper than the parts and far from the
+        trajectory: a path of many '..' from a part that lies near the root."""
+        deep = "a/b/c/d/e/f/g/h/i/j"
+        for name in ("box.gltf", "materials.csv"):
+            self.write(f"{deep}/{name}", (self.folder / name).read_text())
+        scene = ("--set", f"scene.file={deep}/box.gltf", "--set", f"scene.materials={deep}/materials.csv")
+        self.assert_renders(*scene, "--out", "single")
+        self.assertIn("../../../../../../../../../../path.csv",
+                      (self.folder / "single/mission.resolved.yaml").read_text())
+        parts = ("one", "x/y/z/two", "a/b/c/d/e/f/g/h/i/j/k/l/three")
+        for k, part in enumerate(parts, 1):
+            self.assert_renders(*scene, "--shard", f"{k}/3", "--out", part)
+        whole = digest(self.folder / "single")
+        for order in itertools.permutations(parts):
+            with self.subTest(order=order):
+                result = self.merge(*order, "all")
+                self.assertEqual(result.returncode, 0, result.stderr)
+                self.assertEqual(digest(self.folder / "all"), whole)
+                shutil.rmtree(self.folder / "all")
+
+    def test_times_far_from_zero(self):
+        """What is written as trajectory.tum is read again by merge and gallery."""
+        for start in (1.7e9, 1e10 + 1, 9e11, -9e11):
+            with self.subTest(start=start):
+                rows = path_csv(3).splitlines()
+                moved = [rows[0]] + [f"{start + k}," + row.split(",", 1)[1] for k, row in enumerate(rows[1:])]
+                self.write("path.csv", "\n".join(moved) + "\n")
+                self.assert_renders("--out", "single")
+                self.assertEqual(self.merge("single", "all").returncode, 0)
+                self.assertEqual(digest(self.folder / "all"), digest(self.folder / "single"))
+                result = self.run_sonarsim("gallery", "single")
+                self.assertEqual(result.returncode, 0, result.stderr)
+                for name in ("single", "all"):
+                    shutil.rmtree(self.folder / name)
+        # A survey so slow that it would end beyond what is read is refused before it is rendered.
+        mission = (self.folder / "mission.yaml").read_text()
+        slow = ("trajectory: {waypoints: [{position_m: [0, 0, 0]}, {position_m: [1, 0, 0]}], "
+                "speed_m_s: 1e-13, rate_hz: 2e-13}")
+        lines = mission.splitlines()
+        at = next(k for k, line in enumerate(lines) if line.startswith("trajectory:"))
+        rest = next((k for k in range(at + 1, len(lines)) if not lines[k].startswith(" ")), len(lines))
+        self.write("mission.yaml", "\n".join([*lines[:at], slow, *lines[rest:]]) + "\n")
+        self.assert_refused(self.render("--out", "slow"), "trajectory", "speed_m_s")
+        self.assertFalse((self.folder / "slow").exists())
+
     def test_foreign_parts(self):
         self.assert_renders("--shard", "2/3", "--out", "seed", "--seed", "8")
         self.assert_refused(self.merge("part1", "seed", "part3", "all"), "seed", "another mission")

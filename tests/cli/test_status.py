@@ -62,7 +62,7 @@ class Status(Sandbox):
         self.assertEqual(self.status("out"), {"variants": 3, "complete": 2, "under_way": {}})
 
     def test_what_is_no_dataset(self):
-        self.assert_refused(self.run_sonarsim("status", "."), "holds no sonarsim dataset")
+        self.assert_refused(self.run_sonarsim("status", "."), "is no dataset")
         self.assert_renders()
         self.assert_renders("--seed", "8", "--out", "other")
         self.assert_refused(self.run_sonarsim("status", "out", "other"), "of another mission")

@@ -159,12 +159,18 @@ class Verify(Sandbox):
 
     def test_a_description_that_lies(self):
         """Whatever it claims, the answer comes at once and is short."""
-        self.edit("out/dataset.json", '"pings": 3', '"pings": 1000000000000000000')
+        told = self.dataset()
+        told["poses"] = 10_000_000
+        for sensor in told["sensors"]:
+            sensor["pings"] = -(-told["poses"] // sensor["every"])
+        self.write("out/dataset.json", json.dumps(told))
         result = self.verify()
         self.assertEqual(result.returncode, 1)
         self.assertIn("more faults", result.stderr)
-        self.edit("out/dataset.json", '"pings": 1000000000000000000', '"pings": "many"')
-        self.assert_refused(self.verify(), "dataset.json", "damaged")
+        for value in (10 ** 18, "many"):
+            told["sensors"][0]["pings"] = value
+            self.write("out/dataset.json", json.dumps(told))
+            self.assert_refused(self.verify(), "dataset.json", "'sensors[0].pings'")
 
 
 class EveryFile(Sandbox):

@@ -177,6 +177,18 @@ TEST_SUITE("trajectory") {
         CHECK(write_tum({{0.5, Pose{}}}) == "# t_s x_m y_m z_m qx qy qz qw\n0.5 0 0 0 0 0 0 1\n");
     }
 
+    TEST_CASE("Times far from zero survive the round trip; those of another unit are refused") {
+        for (const double begin : {1.7e9, 1e10, 1e11 + 1.0 / 3.0, 1e12 - 10.0, -1.7e9, -1e12}) {
+            const std::vector<TimedPose> poses{{begin, {}}, {begin + 0.1, {}}, {begin + 7.0, {}}};
+            check_same(parse_tum(write_tum(poses), "p.tum"), poses);
+        }
+        // Milliseconds and nanoseconds since 1970.
+        for (const char* time : {"1.7e12", "1700000000000000000", "-1.1e12"}) {
+            CHECK_THROWS_WITH_AS(parse_tum(std::string(time) + " 0 0 0 0 0 0 1\n", "p.tum"),
+                                 doctest::Contains("is beyond 1e+12"), InputError);
+        }
+    }
+
     TEST_CASE("A normalised quaternion survives the round trip, too") {
         const auto poses =
             parse_csv_trajectory(quaternion_header + "0,0,0,0,0.1826,0.3651,0.5477,0.7303\n", "p");

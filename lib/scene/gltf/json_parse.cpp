@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/json_depth.h"
 #include "scene/gltf/json_rules.h"
 
 namespace sonarsim {
@@ -26,22 +27,8 @@ constexpr int max_depth = 64;
 
 /// The parser's own hook for this is quadratic in the length of an array.
 void check_depth(std::string_view text, const std::string& file) {
-    int depth = 0;
-    bool is_string = false;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const char c = text[i];
-        if (is_string && c == '\\') {
-            ++i;
-        } else if (c == '"') {
-            is_string = !is_string;
-        } else if (!is_string && (c == '[' || c == '{')) {
-            if (++depth > max_depth) {
-                throw InputError(Location{file}, "the JSON is nested more than 64 deep");
-            }
-        } else if (!is_string && (c == ']' || c == '}')) {
-            --depth;
-        }
-    }
+    if (is_nested_deeper(text, max_depth))
+        throw InputError(Location{file}, "the JSON is nested more than 64 deep");
 }
 
 /// What of a value is kept. A scalar is kept in any case.

@@ -1,0 +1,195 @@
+"""Datasets that somebody else made, to do harm: each attack is refused, and nothing outside changes."""
+import hashlib
+import json
+import os
+import resource
+import shutil
+import struct
+import subprocess
+import unittest
+import zlib
+
+from sandbox import SONARSIM, Sandbox, digest, path_csv
+
+COMMANDS = (("verify", "out"), ("status", "out"), ("gallery", "out"), ("merge", "out", "merged"),
+            ("merge", "--different", "out", "merged"))
+
+
+def png_header(width, height):
+    """A PNG file that is whole but for its pixels."""
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 0, 0, 0, 0)) +
+            chunk(b"IDAT", zlib.compress(b"\0")) + chunk(b"IEND", b""))
+
+
+class Hostile(Sandbox):
+    def setUp(self):
+        super().setUp()
+        self.write("path.csv", path_csv(2))
+        self.assert_renders()
+        self.sound = self.dataset()
+
+    def change(self, *keys, to, name="out"):
+        """Sets a value of dataset.json, or of another one."""
+        description = json.loads(json.dumps(self.sound))
+        inner = description
+        for key in keys[:-1]:
+            inner = inner[key]
+        inner[keys[-1]] = to
+        self.write(f"{name}/dataset.json", json.dumps(description))
+        # Whoever changes a file can give its sum.
+        sums = self.folder / name / "SHA256SUMS"
+        own = hashlib.sha256((self.folder / name / "dataset.json").read_bytes()).hexdigest()
+        sums.write_text("".join(f"{own}  dataset.json\n" if line.endswith("  dataset.json\n") else line
+                                for line in sums.read_text().splitlines(keepends=True)))
+
+    def assert_all_refuse(self, *fragments):
+        for command in COMMANDS:
+            with self.subTest(command=command, fragments=fragments):
+                result = self.run_sonarsim(*command)
+                self.assert_refused(result, "out/dataset.json", *fragments)
+                self.assertNotIn("json.exception", result.stderr)
+                self.assertFalse((self.folder / "merged").exists())
+
+    def test_keys_of_the_wrong_kind(self):
+        for keys, value, words in (
+                (("mission",), "../victim", "'mission' is"),
+                (("complete",), "yes", "'complete' is"),
+                (("poses",), -1, "'poses' is -1 and must be a whole number from 1"),
+                (("sensors",), {}, "'sensors' is an object and must be an array"),
+                (("sensors", 0, "every"), 0, "'sensors[0].every' is 0"),
+                (("sensors", 0, "pings"), 1 << 60, "'sensors[0].pings'"),
+                (("sensors", 0, "name"), "../fls", "'sensors[0].name'"),
+                (("sensors", 0, "range_edges_m", 3), None, "'sensors[0].range_edges_m[3]'"),
+                (("sensors", 0, "files", "meta"), "../secret/%06d.json", "'sensors[0].files.meta'"),
+                (("sensors", 0, "files", "meta"), "/etc/%06d.json", "'sensors[0].files.meta'"),
+                (("sensors", 0, "files", "meta"), "javascript:alert(1)//%06d", "files.meta'"),
+                (("sensors", 0, "files", "image"), "http://a.example/%06d.png", "files.image'"),
+                (("sensors", 0, "files", "fan"), "fls/fan/%06d-%06d.png", "files.fan'"),
+                (("products",), ["../../x"], "'products[0]'")):
+            self.change(*keys, to=value)
+            self.assert_all_refuse(words)
+        self.write("out/dataset.json", "[" * 200000)
+        for command in COMMANDS:
+            self.assert_refused(self.run_sonarsim(*command), "not sonarsim's, or damaged")
+
+    def test_a_merge_touches_no_other_folder(self):
+        self.write("victim/kept.txt", "years of work")
+        self.change("mission", to="../victim")
+        self.assert_refused(self.run_sonarsim("merge", "--different", "out", "all"), "'mission'")
+        self.assertEqual(os.listdir(self.folder / "victim"), ["kept.txt"])
+        # Neither through a link that an unfinished merge is said to have left.
+        self.write("out/dataset.json", json.dumps(self.sound))
+        shutil.rmtree(self.out)
+        self.assert_renders()
+        self.assertEqual(self.run_sonarsim("merge", "--different", "out", "all").returncode, 0)
+        shutil.rmtree(self.folder / "all/box")
+        self.assertEqual(json.loads((self.folder / "all/collection.json").read_text())["complete"], True)
+        text = (self.folder / "all/collection.json").read_text()
+        self.write("all/collection.json", text.replace('"complete": true', '"complete": false'))
+        (self.folder / "all/box").symlink_to(self.folder / "victim")
+        result = self.run_sonarsim("merge", "--different", "out", "all")
+        self.assert_refused(result, "all/box", "is a symbolic link")
+        self.assertEqual(os.listdir(self.folder / "victim"), ["kept.txt"])
+
+    def test_a_merge_finds_damaged_keys(self):
+        """What the mission gives again is compared; the rest must be the same in all parts."""
+        for keys, value, words in ((("seed",), 8, "'seed'"),
+                                   (("sensors", 0, "range_edges_m", 0), 0.05, "range_edges_m[0]"),
+                                   (("sensors", 0, "files", "image"), "fls/polar/%06d.png", "files.image"),
+                                   (("sensors", 0, "T_vehicle_sensor"), {}, "T_vehicle_sensor")):
+            self.change(*keys, to=value)
+            self.assert_refused(self.run_sonarsim("merge", "out", "merged"), "out/dataset.json", words,
+                                "is not what its mission.resolved.yaml gives")
+            self.assertFalse((self.folder / "merged").exists())
+        shutil.copytree(self.out, self.folder / "other")
+        self.write("out/dataset.json", json.dumps(self.sound))
+        self.change("inputs", to=[], name="other")
+        self.assert_refused(self.run_sonarsim("merge", "out", "other", "merged"), "other", "'inputs'")
+
+    def test_collections_and_variants(self):
+        self.assertEqual(self.run_sonarsim("merge", "--different", "out", "all").returncode, 0)
+        for old, new in (('"folder": "box"', '"folder": "../out"'), ('"datasets": [', '"datasets": [7,'),
+                         ('"complete": true', '"complete": 1')):
+            text = (self.folder / "all/collection.json").read_text()
+            self.assertIn(old, text)
+            self.write("all/collection.json", text.replace(old, new))
+            result = self.run_sonarsim("verify", "all")
+            self.assert_refused(result, "all/collection.json", "and must be")
+            self.write("all/collection.json", text)
+        for text in ('{"format": "sonarsim variants", "variants": 5}',
+                     '{"format": "sonarsim variants", "variants": [{"folder": 5}]}',
+                     '{"format": "sonarsim variants", "variants": [{"folder": "../out"}]}'):
+            self.write("drawn/variants.json", text)
+            for command in (("verify", "drawn"), ("status", "drawn"), ("merge", "drawn", "merged")):
+                self.assert_refused(self.run_sonarsim(*command), "drawn/variants.json", "and must be")
+
+    def test_names_of_shards(self):
+        """The name of a part of the journal tells how many shards there are."""
+        self.change("complete", to=False)
+        for name in ("1-of-0.txt", "0-of-0.txt", "2-of-1.txt", "1-of-4294967296.txt", "1-of-2000000000.txt"):
+            self.write(f"out/journal.d/{name}", "")
+        result = self.run_sonarsim("status", "out", "--json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(json.loads(result.stdout)["shards"], [])
+        (self.out / "journal.txt").unlink()
+        self.assert_refused(self.run_sonarsim("merge", "out", "merged"), "pings are in none of the parts")
+
+    def test_files_that_tell_more_than_they_hold(self):
+        """verify says so, and takes no memory for it."""
+        def limit():
+            resource.setrlimit(resource.RLIMIT_AS, (1 << 31, 1 << 31))
+        sums = (self.out / "SHA256SUMS").read_text()
+        for name, data in (("fls/image/000000.png", png_header(1 << 30, 1)),
+                           ("fls/image/000000.png", png_header(1 << 20, 1 << 20)),
+                           ("fls/polar/000000.npy", npy((1 << 32, 1 << 32)))):
+            with self.subTest(name=name):
+                path = self.out / name
+                whole = path.read_bytes()
+                path.write_bytes(data)
+                sanitized = os.environ.get("SANITIZED") == "1"
+                done = subprocess.run([SONARSIM, "verify", "out", "-j1"], cwd=self.folder, check=False,
+                                      capture_output=True, text=True, timeout=60,
+                                      preexec_fn=None if sanitized else limit)
+                self.assertEqual(done.returncode, 1, done.stderr)
+                self.assertIn(f"{name}: its bytes are not those that SHA256SUMS tells, and it does not "
+                              "open: ", done.stderr)
+                path.write_bytes(whole)
+        self.assertEqual((self.out / "SHA256SUMS").read_text(), sums)
+
+    def test_the_gallery_tells_which_file(self):
+        for text in ("[", '{"measured": {"a": ' * 100, "7"):
+            self.write("out/fls/meta/000001.json", text)
+            result = self.run_sonarsim("gallery", "out")
+            self.assert_refused(result, "out/fls/meta/000001.json")
+            self.assertNotIn("json.exception", result.stderr)
+
+    def test_the_gallery_believes_no_count(self):
+        told = json.loads(json.dumps(self.sound))
+        told["poses"] = told["sensors"][0]["pings"] = 10_000_000
+        self.write("out/dataset.json", json.dumps(told))
+        self.assert_refused(self.run_sonarsim("gallery", "out"), "trajectory.tum", "has 2 poses")
+
+    def test_variants_behind_a_link(self):
+        self.write("victim/dataset.json", json.dumps(self.sound))
+        mission = (self.folder / "mission.yaml").read_text()
+        self.write("drawn.yaml", mission.replace("folder: out", "folder: drawn") +
+                   "variants: 2\n")
+        first = self.run_sonarsim("render", "drawn.yaml")
+        self.assertEqual(first.returncode, 0, first.stderr)
+        shutil.rmtree(self.folder / "drawn/variant_0000")
+        (self.folder / "drawn/variant_0000").symlink_to(self.folder / "victim")
+        result = self.run_sonarsim("render", "drawn.yaml", "--overwrite")
+        self.assert_refused(result, "variant_0000", "is a symbolic link")
+        self.assertTrue((self.folder / "victim/dataset.json").exists())
+
+
+def npy(shape):
+    text = f"{{'descr': '<f4', 'fortran_order': False, 'shape': {shape}, }}"
+    text += " " * (-(10 + len(text) + 1) % 64) + "\n"
+    return b"\x93NUMPY\x01\x00" + struct.pack("<H", len(text)) + text.encode()
+
+
+if __name__ == "__main__":
+    unittest.main()
