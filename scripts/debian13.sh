@@ -1,33 +1,42 @@
 #!/usr/bin/env bash
-# ./scripts/debian13.sh [folder]: builds the program on Debian 13 in a chroot (default:
-# /var/tmp/sonarsim-debian13, kept for the next time) and compares the bytes that it and the build of
-# this machine render. Takes root and, at first, some 700 MB. Exit code 77 where it cannot run.
+# ./scripts/debian13.sh [--prepare] [folder]: runs README's first command on Debian 13, in a chroot
+# (default: /var/tmp/sonarsim-debian13, kept for the next time) and in a clone of the last commit;
+# verifies the dataset; compares what that build and the build of this machine render, byte by byte.
+# --prepare only makes the chroot and installs the packages. The chroot takes root and some 1.2 GB.
+# Exit code 77 where a chroot cannot be made.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 root=$PWD
+prepare=no
+if [ "${1:-}" = --prepare ]; then
+    prepare=yes
+    shift
+fi
 chroot=${1:-/var/tmp/sonarsim-debian13}
-program=$root/build-debian13/sonarsim
+clone=$root/build-debian13/clone
 
 skip() {
     echo "skipped: $1" >&2
     exit 77
 }
-[ "$(id -u)" -eq 0 ] || skip "only root may make a chroot"
-command -v mmdebstrap >/dev/null || skip "mmdebstrap is not installed"
-[ -e /usr/share/keyrings/debian-archive-keyring.gpg ] || skip "Debian's keys are not installed"
+[ "$(id -u)" -eq 0 ] || skip "only root can make a chroot of Debian 13"
+SONARSIM_BUILD=no ./scripts/setup.sh mmdebstrap debian-archive-keyring python3-pil ||
+    skip "mmdebstrap cannot be installed"
+unshare --mount true 2>/dev/null || skip "this machine does not let root mount into a chroot"
 
 if [ ! -e "$chroot/etc/debian_version" ]; then
-    mmdebstrap --quiet --variant=minbase --include=ca-certificates \
-        --aptopt='Acquire::Check-Valid-Until "false"' --aptopt='Acquire::Check-Date "false"' trixie "$chroot" \
+    # The name is final only when the chroot is whole: an interrupted run leaves none behind.
+    rm -rf "$chroot.part"
+    mmdebstrap --quiet --variant=minbase --include=ca-certificates,git \
+        --aptopt='Acquire::Check-Valid-Until "false"' --aptopt='Acquire::Check-Date "false"' trixie "$chroot.part" \
         "deb [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] http://deb.debian.org/debian trixie main" ||
         skip "Debian 13 cannot be fetched"
+    mv "$chroot.part" "$chroot"
 fi
-./scripts/setup.sh python3-pil
 
-# The mounts go with the process that made them. The checkout is where it is outside, so that one
-# command line serves both.
+# The mounts end with the process that made them. The checkout has the same path inside and outside,
+# so that one command line serves both.
 cat >"$chroot/enter" <<'END'
-#!/usr/bin/env bash
 set -euo pipefail
 chroot=$1 root=$2
 shift 2
@@ -39,13 +48,20 @@ exec chroot "$chroot" "$@"
 END
 enter=(unshare --mount bash "$chroot/enter" "$chroot" "$root")
 "${enter[@]}" env SONARSIM_BUILD=no "$root/scripts/setup.sh"
-"${enter[@]}" bash -c "cd '$root' && cmake --preset program -B build-debian13 && cmake --build build-debian13 --target sonarsim"
+[ "$prepare" = no ] || exit 0
 
+rm -rf "$clone"
+git clone --quiet "$root" "$clone"
+"${enter[@]}" "$clone/scripts/render.sh" "$clone/configs/tank_imaging.yaml" --quiet --out "$clone/out/tank"
+"${enter[@]}" "$clone/build/sonarsim" verify "$clone/out/tank"
+
+./scripts/setup.sh
 configs=$root/configs
-# Another zlib compresses the same pixels otherwise.
+# Debian 13's zlib compresses the same pixels to other bytes.
 # Debian's Pillow belongs to Debian's Python, which need not be the first on the PATH.
 exec /usr/bin/python3 ./scripts/same_bytes.py --pixels --folder "$root/build-debian13" \
     --mission "$root/tests/four_sonars.yaml,engine=rays" --mission "$root/tests/four_sonars.yaml,engine=octree" \
     --mission "$configs/tank_imaging.yaml,trajectory.rate_hz=1" \
     --mission "$configs/tank_multipath.yaml,trajectory.rate_hz=1" \
-    --mission "$configs/tank_echosounder.yaml" "$root/build/sonarsim" "${enter[*]} $program"
+    --mission "$configs/tank_calibrated.yaml,trajectory.rate_hz=0.2" \
+    --mission "$configs/tank_echosounder.yaml" "$root/build/sonarsim" "${enter[*]} $clone/build/sonarsim"
