@@ -7,8 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "mission/dataset_names.h"
-
 namespace sonarsim {
 
 struct CollectionSummary {

@@ -6,9 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "mission/dataset_names.h"
+
 namespace sonarsim {
 
-inline constexpr const char* collection_name = "collection.json";
 inline constexpr const char* collection_format = "sonarsim collection";
 inline constexpr int collection_format_version = 1;
 

@@ -183,7 +183,9 @@ void render(const Mission& mission, const Assembly& assembly, const std::vector<
 FolderState set_up(const Layout& layout, const CommonFiles& common, const Mission& mission,
                    const RenderOptions& options, FolderLock& lock) {
     if (options.overwrite) remove_dataset(layout, mission);
-    const FolderState state = inspect_folder(layout, common.description);
+    // Files that are not the dataset's stay in the folder; without its dataset.json it is fresh.
+    const FolderState state =
+        options.overwrite ? FolderState::fresh : inspect_folder(layout, common.description);
     if (state != FolderState::complete) begin_dataset(layout, common);
     if (options.shards == 1) return state;
     if (!lock.share([&] { return !others_write(layout.folder, options.shards); }))

@@ -17,8 +17,8 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t largest_checksums = std::size_t{1} << 24;
-constexpr const char* render_again =
+constexpr std::size_t largest_variant_sums = std::size_t{1} << 24;
+constexpr const char* render_variants_again =
     "the render command that made the variants, run again, writes it anew";
 
 Json require_variants(const fs::path& folder) {
@@ -35,26 +35,26 @@ void check_files_beside(const fs::path& folder, const Json& json, DatasetCheck& 
         expected.insert(name);
     const fs::path sums_file = folder / checksums_name;
     if (!fs::is_regular_file(sums_file)) {
-        check.faults.push_back(std::string(checksums_name) + ": is missing; " + render_again);
+        check.faults.push_back(std::string(checksums_name) + ": is missing; " + render_variants_again);
         return;
     }
     const auto sums =
-        parse_checksums(read_file(sums_file, largest_checksums), sums_file.string());
+        parse_checksums(read_file(sums_file, largest_variant_sums), sums_file.string());
     for (const std::string& name : expected) {
         const auto sum = sums.find(name);
         if (!fs::is_regular_file(folder / name)) {
-            check.faults.push_back(name + ": is missing; " + render_again);
+            check.faults.push_back(name + ": is missing; " + render_variants_again);
             continue;
         }
         ++check.files;
         check.bytes += fs::file_size(folder / name);
         if (sum == sums.end() || sha256_of_file(folder / name) != sum->second)
-            check.faults.push_back(name + ": is not what SHA256SUMS tells; " + render_again);
+            check.faults.push_back(name + ": is not what SHA256SUMS tells; " + render_variants_again);
     }
     for (const auto& [name, sum] : sums) {
         if (!expected.contains(name))
             check.faults.push_back(name + ": SHA256SUMS lists it, and variants.json does not; " +
-                                   render_again);
+                                   render_variants_again);
     }
 }
 

@@ -8,9 +8,9 @@ namespace sonarsim {
 
 namespace {
 
-// Measured: surface in every bin, at the error goal of 1 % that is the default.
+// An estimate, not a measurement: surface in every bin, at the default error goal of 1 %.
 constexpr double samples_per_bin = 4.0;
-// The image, and with all of them the labels and what is encoded.
+// An estimate too: the image, all labels and the encoded files.
 constexpr double bytes_per_bin = 64.0;
 
 /// Of the calibrated model: the grid of echoes, of which multipath has its own.

@@ -244,7 +244,7 @@ class Disks(Sandbox):
                 self.assertEqual(result.returncode, 0, result.stderr)
                 warnings = [line for line in result.stderr.splitlines() if "no locks" in line]
                 self.assertEqual(len(warnings), 1, result.stderr)
-                self.assertIn(str(self.out), warnings[0])
+                self.assertIn("out: the disk", warnings[0])
                 self.assertEqual(self.run_sonarsim("verify", "out").returncode, 0)
 
     def test_a_complete_dataset_on_a_read_only_disk(self):

@@ -96,7 +96,7 @@ TEST_SUITE("trajectory") {
               "p.csv:2: t_s: '-inf' is not a finite number");
         // Nanoseconds since 1970 in the column of seconds.
         CHECK(csv_error(angle_header + "1700000000000000000,0,0,0,0,0,0\n") ==
-              "p.csv:2: t_s: '1700000000000000000' is beyond 1e+10; the unit is that of the name");
+              "p.csv:2: t_s: '1700000000000000000' is beyond 1e+12; the unit is that of the name");
         CHECK(csv_error(angle_header + "0,0,-2e8,0,0,0,0\n") ==
               "p.csv:2: y_m: '-2e8' is beyond 1e+08; the unit is that of the name");
         CHECK(csv_error(angle_header + "0,1e8,-1e8,0,0,0,0\n") == "no error");
