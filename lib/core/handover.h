@@ -6,8 +6,8 @@
 #endif
 #endif
 
-// For a function that TBB calls. It reads its arguments before it can call `received`, which the
-// thread sanitizer would report: the sanitizer skips the function itself, and still checks
+// Marks a function that TBB calls. It reads its arguments before it can call tsan_acquire(), which
+// the thread sanitizer would report. The sanitizer skips the function itself and still checks
 // everything that it calls.
 #ifdef SONARSIM_THREAD_SANITIZER
 #define SONARSIM_CALLED_BY_TBB __attribute__((no_sanitize("thread")))
@@ -22,10 +22,12 @@ extern "C" void __tsan_release(void* address);
 
 namespace sonarsim {
 
-// Debian's TBB is not built for the thread sanitizer, which therefore does not see that TBB orders
-// the threads it hands work to. These functions tell it; in other builds they do nothing.
+// Debian's TBB is not built for the thread sanitizer, so the sanitizer does not see that TBB orders
+// the threads it hands work to. These functions announce that order; in other builds they do
+// nothing.
 
-/// What this thread has written may be read by those that call `received` for the same address.
+/// Makes what this thread has written visible to threads that call tsan_acquire() with the same
+/// address.
 inline void handed_over([[maybe_unused]] const void* address) {
 #ifdef SONARSIM_THREAD_SANITIZER
     __tsan_release(const_cast<void*>(address));
@@ -38,13 +40,13 @@ inline void received([[maybe_unused]] const void* address) {
 #endif
 }
 
-/// Calls `handed_over` at the end of a scope, also when an exception ends it.
+/// Calls tsan_release() at the end of a scope, even if an exception ends it.
 struct HandOverAtEnd {
     const void* address;
     ~HandOverAtEnd() { handed_over(address); }
 };
 
-/// Calls `received` at the end of a scope, also when an exception ends it.
+/// Calls tsan_acquire() at the end of a scope, even if an exception ends it.
 struct ReceiveAtEnd {
     const void* address;
     ~ReceiveAtEnd() { received(address); }

@@ -8,8 +8,8 @@
 
 namespace sonarsim {
 
-/// A name that a file bears while it is being written, beside the one that it gets in the end: a
-/// reader sees the old file or the whole new one. What is not kept is removed.
+/// A temporary name for a file while it is written: a reader sees the old file or the whole new
+/// one. The destructor removes a file that was not committed.
 class WholeFile {
   public:
     explicit WholeFile(const std::filesystem::path& path);
@@ -18,7 +18,7 @@ class WholeFile {
     WholeFile& operator=(const WholeFile&) = delete;
 
     const std::filesystem::path& part() const { return part_; }
-    /// Gives the file its name. std::system_error when the disk refuses.
+    /// Renames the file to its final name. std::system_error when the disk refuses.
     void keep();
 
   private:
@@ -27,8 +27,7 @@ class WholeFile {
     bool kept_ = false;
 };
 
-/// A file of any length that is written piece by piece. std::system_error when the disk does not
-/// take it.
+/// A file of any length that is written in pieces. std::system_error when the disk refuses.
 class StreamedFile {
   public:
     explicit StreamedFile(const std::filesystem::path& path);
@@ -44,7 +43,7 @@ class StreamedFile {
 
     WholeFile whole_;
     std::unique_ptr<std::FILE, Close> file_;
-    std::string pending_;  ///< lines come in by the thousand
+    std::string pending_;  ///< buffer, since lines are appended by the thousand
 };
 
 }  // namespace sonarsim

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t max_file_bytes = 1 << 24;
 
-/// Whether the table says how its materials scatter.
+/// True if the table has the columns for backscatter.
 bool has_scattering(const CsvTable& csv) {
     const std::vector<std::string> ours{"material", "density_kg_m3", "sound_speed_m_s"};
     const std::vector<std::string> holoocean{"Material", "Density kg/m^3", "Speed of Sound m/s"};
@@ -73,7 +73,7 @@ MaterialTable to_materials(const CsvTable& csv) {
     return table;
 }
 
-/// A name as a field of a CSV.
+/// Quotes a name for CSV if it needs quotes.
 std::string field_of(const std::string& name) {
     if (name.find_first_of(",\"# ") == std::string::npos) return name;
     std::string out = "\"";
@@ -140,8 +140,8 @@ std::string materials_csv(const Scene& scene, const MaterialTable& known) {
 }
 
 std::vector<std::string> unit_doubts(std::span<const Material> materials) {
-    // Gases are lighter than 10 kg/m^3 and carry sound at less than 1,300 m/s; liquids and solids
-    // are heavier than 30.
+    // Gases are lighter than 10 kg/m^3 and their speed of sound is below 1,300 m/s; liquids and
+    // solids are heavier than 30 kg/m^3.
     constexpr double lightest_solid = 30.0;
     constexpr double fast_for_a_gas = 1300.0;
     constexpr double slowest = 20.0;

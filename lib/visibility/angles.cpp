@@ -4,7 +4,7 @@ namespace sonarsim {
 
 namespace {
 
-/// `count` columns of one beam side by side over [low, high] across.
+/// Adds `count` columns of equal width that together cover [low, high] across.
 void add_columns(int beam, double low, double high, int count, double along_min, double along_max,
                  std::vector<ViewColumn>& out) {
     const double width = (high - low) / count;

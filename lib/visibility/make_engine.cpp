@@ -12,11 +12,11 @@ namespace sonarsim {
 
 namespace {
 
-/// Rows of the octree's depth buffer are equal in the tangent of elevation, which is infinite at
-/// 90 degrees.
+/// Rows of the octree's depth buffer have equal steps of the tangent of elevation, which is
+/// infinite at 90 degrees.
 constexpr double widest_octree_deg = 160.0;
 
-/// Of the slices, where energies add.
+/// The error of the slices in cones, for the calibrated model.
 constexpr double least_error_in_cones = 0.01;
 
 }  // namespace
@@ -70,7 +70,7 @@ std::string refusal_of(const EngineSettings& settings, const View& view) {
 
 std::string doubt_about(const EngineSettings& settings, const View& view, bool multipath,
                         bool energies_add) {
-    // A box under a water surface: 669 echoes by way of both with rays, none with slices.
+    // With a box under a water surface, rays found 669 echoes over both, slices none.
     if (settings.type == EngineType::slices && multipath) {
         return "engine: slices finds little multipath: sound goes on from the middle of each piece "
                "of surface, and a piece of the slices may be as long as a beam is high; use "

@@ -12,7 +12,7 @@ namespace sonarsim {
 
 namespace {
 
-/// By how much a float of this size may be off for being a float: half a unit in the last place.
+/// The rounding of a float of this size: half a unit in the last place.
 double half_unit(double x) {
     int exponent = 0;
     std::frexp(x, &exponent);
@@ -44,7 +44,7 @@ Extent find_extent(const OpenFile& file, ReadingLimit& limit) {
                 extent.box.extend(point);
             }
         }
-        // Integers are what their exporter made them.
+        // Integer coordinates are exact.
         if (piece.source.positions.component_type != TINYGLTF_COMPONENT_TYPE_FLOAT) return;
         const Eigen::Vector3d off =
             piece.mesh.T_world_mesh.linear().cwiseAbs() * farthest.unaryExpr(&half_unit);

@@ -6,9 +6,9 @@
 
 namespace sonarsim {
 
-/// How far the surface of a file reaches, where it is placed.
+/// The extent of a file's surface where it is placed.
 struct Extent {
-    /// Around the triangles that have an area, before any rounding of ours.
+    /// Box around the triangles that have an area, before they are rounded to floats.
     Eigen::AlignedBox3d box;
     double vertex_rounding_m = 0.0;  ///< as in Scene
 };
@@ -16,7 +16,7 @@ struct Extent {
 /// InputError for vertices that lie too far out.
 Extent find_extent(const OpenFile& file, ReadingLimit& limit);
 
-/// The same somewhere else: a box around the moved box.
+/// The same after a transform: a box around the moved box.
 Extent moved(const Extent& extent, const Eigen::Affine3d& transform);
 
 }  // namespace sonarsim

@@ -23,7 +23,7 @@ using nlohmann::json;
 constexpr std::size_t max_objects = 2'000'000;
 constexpr std::size_t max_name = 1000;
 
-/// The place of a value in the document; its text is made only when something is wrong.
+/// A position in the document. Its text is made only for an error message.
 struct Place {
     const Place* parent = nullptr;
     std::string_view key;
@@ -70,7 +70,7 @@ struct Reducer {
                 if (!from.is_string()) expected(place, "a text", from);
                 break;
             case Kind::name:
-                // Children inherit names, so that a long one would be held many times.
+                // Children inherit names, so a long name would be stored many times.
                 if (!from.is_string() || from.get_ref<const std::string&>().size() > max_name) {
                     expected(place, "a text of at most 1000 bytes", from);
                 }
@@ -125,7 +125,7 @@ struct Reducer {
         return to;
     }
 
-    /// Extras are everyone's; `sonar` in them is strict.
+    /// Extras may hold keys of other programs; `sonar` may hold only ours.
     json extras(json& from, const Place& place) {
         const auto sonar = from.is_object() ? from.find("sonar") : from.end();
         if (sonar == from.end()) return json::object();
@@ -161,7 +161,7 @@ void check_version(const json& document, const std::string& file) {
     }
 }
 
-/// tinygltf drops the one where there is the other.
+/// Refuses nodes with both a matrix and its parts: tinygltf would drop one of them silently.
 void check_transforms(const json& gltf, const std::string& file) {
     if (!gltf.contains("nodes")) return;
     for (std::size_t i = 0; i < gltf["nodes"].size(); ++i) {

@@ -22,14 +22,14 @@ namespace sonarsim {
 
 namespace {
 
-/// Beyond these a file is probably not in the unit that it is read in.
+/// A file larger or smaller than these was probably read in the wrong unit.
 constexpr double suspicious_length_m = 1e4;
 constexpr double suspicious_smallness_m = 1e-3;
 
 Eigen::Vector3d choose_origin(const Eigen::AlignedBox3d& box) {
     if (box.isEmpty()) return Eigen::Vector3d::Zero();
-    // Sizes such as 100 m and centres such as 50 m are common and would sit on the edge of a
-    // decision, where the rounding of a moved scene could tip it; so the edges stand aside.
+    // Extents of 100 m and centres at 50 m are common and would lie exactly on a limit, where the
+    // rounding of a moved scene could change the result; so the limits are shifted slightly.
     constexpr double aside = 1e-6;
     double grid = 1.0;
     while (grid < box.sizes().maxCoeff() * (1.0 - aside))
@@ -38,8 +38,8 @@ Eigen::Vector3d choose_origin(const Eigen::AlignedBox3d& box) {
     return grid * (cells.array() + 0.5 + aside).floor().matrix();
 }
 
-/// Opens the files and names their instances. Names that objects are given come first: what nodes
-/// are called gives way to them.
+/// Opens the files and names their instances. Names of objects in the mission take precedence:
+/// nodes with the same name get another one.
 std::vector<OpenFile> open_files(std::span<const PlacedFile> files, SceneFiles& models,
                                  Scene& scene) {
     UniqueNames names;
@@ -71,7 +71,7 @@ std::vector<OpenFile> open_files(std::span<const PlacedFile> files, SceneFiles& 
     return open;
 }
 
-/// Once for each file that is read in one unit.
+/// Warns once for each file and unit if the file is implausibly long or short.
 void doubt_units(const OpenFile& file, const Eigen::AlignedBox3d& box,
                  std::set<std::pair<std::string, double>>& doubted, Scene& scene) {
     if (box.isEmpty()) return;
@@ -84,7 +84,7 @@ void doubt_units(const OpenFile& file, const Eigen::AlignedBox3d& box,
                            "`units`, as in units: mm");
 }
 
-/// Where the files reach. Those of repeated ones are looked at once.
+/// The extents of the files. A file that is repeated is read once.
 std::vector<Extent> find_extents(const std::vector<OpenFile>& open, const Repeats& repeats) {
     ReadingLimit limit;
     std::vector<Extent> of_repeat;
@@ -104,7 +104,7 @@ std::vector<Extent> find_extents(const std::vector<OpenFile>& open, const Repeat
     return extents;
 }
 
-/// What the extents say of the whole scene.
+/// Stores the extents in the scene, and warns about implausible units.
 void note_extents(const std::vector<OpenFile>& open, const std::vector<Extent>& extents,
                   Scene& scene) {
     Eigen::AlignedBox3d whole;
@@ -171,7 +171,7 @@ Scene compose(std::span<const PlacedFile> files, SceneFiles& models, const Mater
     return scene;
 }
 
-/// Materials that the mission names, each where it does so.
+/// InputError, with the place in the mission, for a material that the table lacks.
 void require_materials(std::span<const PlacedFile> files, const MaterialTable& table) {
     for (const PlacedFile& file : files) {
         if (!file.material.empty()) require_material(table, file.material, file.place);

@@ -14,14 +14,14 @@
 
 namespace sonarsim {
 
-/// Adds triangles to a scene, a body or a shared mesh, vertex by vertex as triangles ask for them.
+/// Adds triangles to a scene, a body or a shared mesh, and the vertices that they use.
 template <class Mesh>
 struct MeshBuilder {
     Mesh& mesh;
     SceneRejects& rejects;
     Eigen::Vector3d origin;
-    // Where a piece's vertex stands in `mesh.vertices`, plus 1. What earlier pieces left is not
-    // above their number of vertices, so nothing has to be cleared.
+    // Index of a piece's vertex in `mesh.vertices`, plus 1. Entries of earlier pieces are at most
+    // their number of vertices, so nothing has to be cleared.
     std::vector<std::uint32_t> slots = {};
 
     /// Calls `note` for every triangle that is added.
@@ -59,7 +59,7 @@ struct MeshBuilder {
     }
 };
 
-/// Numbers the materials of a scene in the order in which they come.
+/// Numbers the materials of a scene in the order in which they occur.
 struct MaterialNumbers {
     std::map<std::string, std::uint32_t> numbers = {};
 

@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t max_triangles = std::size_t{1} << 28;
 constexpr std::size_t piece_cost = 64;
 
-/// The name that the file gives the material of a piece; "" where it gives none.
+/// The name of a piece's material in the file; "" if it has none.
 std::string name_in_file(const Piece& piece) {
     if (!piece.mesh.material.empty()) return piece.mesh.material;
     if (piece.material < 0) return "";
@@ -56,7 +56,7 @@ void take_class_of_material(const Piece& piece, std::string& class_name) {
     if (!piece.mesh.label.empty() || piece.material < 0) return;
     const auto index = static_cast<std::size_t>(piece.material);
     const tinygltf::Model& model = *piece.file.model;
-    if (index >= model.materials.size()) return;  // refused where the material is looked up
+    if (index >= model.materials.size()) return;  // reported where the material is looked up
     const std::string own = sonar_class(model.materials[index].extras);
     if (own.empty() || own == class_name) return;
     if (!class_name.empty()) {

@@ -11,7 +11,7 @@ namespace sonarsim {
 
 namespace {
 
-/// What decides how a file is read, apart from its place.
+/// The settings that decide how a file is read, without its place.
 auto reading_of(const PlacedFile& file) {
     return std::tie(file.file, file.unit_m, file.z_up, file.material, file.renamed_materials,
                     file.exclude, file.class_name);
@@ -30,7 +30,7 @@ std::size_t triangles_of(const OpenFile& file) {
     return triangles;
 }
 
-/// The file at the origin. Its materials speak for the class of the first of its copies.
+/// Adds the file as if placed at the origin. Its class is that of the first copy.
 RepeatedFile& add_repeated(const OpenFile& first, std::deque<RepeatedFile>& files) {
     RepeatedFile& repeated = files.emplace_back();
     repeated.placed = *first.placed;

@@ -25,7 +25,7 @@ void add_piece(const Piece& piece, Surface& surface) {
     }
 }
 
-/// Without the vertices that no triangle has.
+/// The surface without unused vertices.
 Surface compact(const Surface& surface) {
     constexpr std::uint32_t unused = 0xFFFFFFFFU;
     std::vector<std::uint32_t> slots(surface.vertices.size(), unused);
@@ -48,7 +48,7 @@ Surface compact(const Surface& surface) {
 
 Surface surface_of(const PlacedFile& file, SceneFiles& models, std::span<const std::string> nodes) {
     PlacedFile by_node = file;
-    by_node.name.clear();  // so that meshes have the names of their nodes
+    by_node.name.clear();  // empty, so that meshes have the names of their nodes
     UniqueNames names;
     OpenFile open{&by_node, &model_of(file, models), {}, {}};
     open.meshes = place_meshes(*open.model, by_node, names);
