@@ -65,10 +65,10 @@ ColdStart in_child(const std::function<ColdStart()>& run) {
     const pid_t child = ::fork();
     if (child < 0) fail("cannot start a process");
     if (child == 0) {
-        // A signal that ends the parent ends what it measures, too.
+        // A signal that ends the parent also ends the child.
         ::prctl(PR_SET_PDEATHSIG, SIGKILL);
         if (::getppid() != parent) ::_exit(1);
-        // The child leaves by _exit, without the parent's destructors and buffers.
+        // _exit() skips the parent's destructors and buffers.
         try {
             const ColdStart cold = run();
             const bool whole = ::write(ends[1], &cold, sizeof cold) == sizeof cold;

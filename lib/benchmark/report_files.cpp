@@ -81,7 +81,7 @@ Json growth_of(const Growth& growth) {
     return json;
 }
 
-/// The figures of a multipath row: epsilon and delta, then what was measured.
+/// The figures of a multipath row: epsilon and delta, then the measurements.
 std::vector<std::pair<const char*, double>> figures(const MultipathRow& row) {
     return {{"epsilon_bins", row.setting.epsilon_bins},
             {"delta_deg", row.setting.delta_deg},

@@ -90,7 +90,7 @@ std::string stages(const Report& report, const std::string& sensor) {
     return text;
 }
 
-/// How far the mission's own setting is from bare Embree, and what holds it back.
+/// Compares the mission's own setting with bare Embree, and names the slowest stage.
 std::string floors(const Report& report, const std::string& sensor) {
     for (const ReportRow& row : report.rows) {
         double sum = 0.0;
@@ -125,7 +125,7 @@ std::string label(const MultipathRow& row) {
     return fmt::format("cluster epsilon={} delta={}", setting.epsilon_bins, setting.delta_deg);
 }
 
-/// The ways to find multipath, against the exact one; nothing for a sonar without multipath.
+/// Compares the multipath methods with the exact one; empty for a sonar without multipath.
 std::string multipath(const Report& report, const std::string& sensor) {
     std::string text;
     for (const MultipathRow& row : report.multipath) {

@@ -5,9 +5,9 @@
 
 namespace sonarsim {
 
-/// A figure over several poses.
+/// Summary of a figure over several poses.
 struct Spread {
-    double centre = 0.0;  ///< the median of a time, the mean of anything else
+    double centre = 0.0;  ///< the median of a time, the mean of any other figure
     double min = 0.0;
     double max = 0.0;
 };
@@ -17,8 +17,8 @@ Spread spread_of_times(std::vector<double> values);
 /// The mean, and the extremes. All zero for no values.
 Spread spread_of(const std::vector<double>& values);
 
-/// `count` indices into a trajectory, evenly spaced from its first pose to its last; all of them
-/// when it has fewer.
+/// `count` indices into a trajectory, evenly spaced from its first pose to its last; all of them if
+/// it has fewer.
 std::vector<std::size_t> spread_poses(std::size_t poses, int count);
 
 }  // namespace sonarsim

@@ -10,7 +10,7 @@ namespace sonarsim {
 
 namespace {
 
-/// Images of points, some at a time: of expected powers, the image of all is the sum.
+/// Images of points, added in parts: the expected powers of the parts sum to the image of all.
 class EnergyImage {
   public:
     EnergyImage(const Scene& scene, const PingSettings& settings, const Pose& T_world_sensor)
@@ -52,7 +52,8 @@ class EnergyImage {
     void form() {
         const auto count = static_cast<std::uint32_t>(traced_.samples.items.size());
         if (count == 0) return;
-        // The calibrated model finds the beams of a sample by itself.
+        // The calibrated model assigns samples to beams itself, so all of them belong to the first
+        // beam here.
         traced_.samples.beam_begin.assign(static_cast<std::size_t>(settings_.view.beams) + 1,
                                           count);
         traced_.samples.beam_begin.front() = 0;

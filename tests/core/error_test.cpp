@@ -12,7 +12,7 @@ TEST_SUITE("core") {
         CHECK(Location{"a.yaml"}.text() == "a.yaml");
         CHECK(Location{"a.yaml", 3}.text() == "a.yaml:3");
         CHECK(Location{"a.yaml", 3, 7}.text() == "a.yaml:3:7");
-        // A column without a line says nothing.
+        // A column without a line is meaningless.
         CHECK(Location{"a.yaml", 0, 7}.text() == "a.yaml");
     }
 
@@ -30,7 +30,7 @@ TEST_SUITE("core") {
             CHECK_FALSE(problems.attempt([&] { throw InputError(fault); }));
         CHECK(problems.count() == 2);
         CHECK_THROWS_WITH_AS(problems.raise(), "one\ntwo", InputError);
-        // What is no fault of the input goes through.
+        // Other exceptions pass through.
         CHECK_THROWS_AS(problems.attempt([] { throw std::runtime_error("disk"); }),
                         std::runtime_error);
         for (int i = 0; i < 100; ++i)

@@ -94,7 +94,7 @@ TEST_SUITE("trajectory") {
               "p.csv:2: x_m: 'nan' is not a finite number");
         CHECK(csv_error(angle_header + "-inf,0,0,0,0,0,0\n") ==
               "p.csv:2: t_s: '-inf' is not a finite number");
-        // Nanoseconds since 1970 in the column of seconds.
+        // A frequent mistake: nanoseconds since 1970 in the column of seconds.
         CHECK(csv_error(angle_header + "1700000000000000000,0,0,0,0,0,0\n") ==
               "p.csv:2: t_s: '1700000000000000000' is beyond 1e+10; the unit is that of the name");
         CHECK(csv_error(angle_header + "0,0,-2e8,0,0,0,0\n") ==
@@ -102,7 +102,7 @@ TEST_SUITE("trajectory") {
         CHECK(csv_error(angle_header + "0,1e8,-1e8,0,0,0,0\n") == "no error");
         CHECK(csv_error(angle_header + "0,0,0,0,0,0\n") ==
               "p.csv:2: 6 fields, but the header in line 1 has 7");
-        // A long or binary field is shown in part, and as plain text.
+        // A long or binary field is shown shortened and as plain text.
         CHECK(csv_error(angle_header + "0,0,0,0,0,0," + std::string(100, '9') + "x\n") ==
               "p.csv:2: yaw_deg: '" + std::string(40, '9') + "...' is not a number");
         CHECK(csv_error(angle_header + "0,0,0,0,0,0,1\x1b[2J\n") ==
@@ -165,7 +165,8 @@ TEST_SUITE("trajectory") {
         Trajectory poses;
         for (int i = 0; i < 1000; ++i) {
             const double s = i;
-            // Thirds and sevenths have no short decimals; UTM-sized coordinates, epoch times.
+            // Thirds and sevenths have no short decimals; the coordinates are UTM-sized, the times
+            // epochs.
             poses.push_back({1.7e9 + s / 3.0,
                              {rotation_from_rpy(s / 7.0, s / 11.0, -s / 13.0),
                               {5e6 + s / 7.0, -s / 3.0, 1e-9 * s}}});

@@ -29,8 +29,8 @@ Sonar coarse_sonar(SonarKind kind) {
 
 TEST_SUITE_BEGIN("validation");
 
-// Of a floor that is seen whole, the rays know every piece to rounding: what they show and what
-// many single points show is the same integral.
+// The rays represent a fully visible floor to within rounding, so their image and that of many
+// single points are the same integral.
 TEST_CASE("where energies add the reference is what the engines come to" *
           doctest::skip(test::sanitized)) {
     Scene scene = empty_scene();

@@ -26,7 +26,7 @@ View auto_view(double relative_l1 = 0.03) {
             .relative_l1 = relative_l1};
 }
 
-/// A smooth swell, cut into triangles of 25 cm.
+/// A smooth swell in triangles of 25 cm.
 Scene swell() {
     Scene scene = test::empty_scene();
     test::add_floor(scene, 30.0F, 0.0F, test::add_material(scene, 0.3F), 240);
@@ -35,7 +35,7 @@ Scene swell() {
     return scene;
 }
 
-/// Three metres above the floor, looking 15 degrees down.
+/// A pose three metres above the floor that looks 15 degrees down.
 Pose above_floor(double x) {
     Pose pose;
     pose.translation = {x, 0.0, 3.0};
@@ -78,7 +78,7 @@ TEST_CASE("of a finely cut floor auto makes rays, with the error that its probes
     lenient.relative_l1 = trial.goal;
     CHECK(same(seen, rays->visible_surface(lenient, above_floor(-15.0))));
     CHECK(seen.estimated_l1 == trial.error);
-    // Over so smooth a floor the rays are better than they are asked to be.
+    // Over so smooth a floor the rays are more accurate than their goal.
     CHECK(trial.goal > view.relative_l1);
 
     SUBCASE("and slices of a view that was not tried") {

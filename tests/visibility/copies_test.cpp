@@ -12,7 +12,7 @@ using namespace sonarsim::test;
 
 namespace {
 
-/// A scene of copies of a sphere of radius 1 m, with nothing else.
+/// A scene that holds only copies of a sphere of radius 1 m.
 Scene spheres(std::span<const Eigen::Affine3d> T_world_sphere, const Eigen::Vector3d& origin) {
     Scene shape = empty_scene();
     add_sphere(shape, {0, 0, 0}, 1.0F, add_material(shape, 1.0F), 512);
@@ -40,7 +40,7 @@ Eigen::Affine3d placed(const Eigen::Vector3d& position, double scale, double tur
 
 TEST_SUITE("visibility") {
     TEST_CASE("copies: every copy of a sphere is met where it stands, in its own size") {
-        // Far from the world's origin, where floats are a quarter of a metre apart.
+        // The origin is far from the world's, where floats are a quarter of a metre apart.
         const Eigen::Vector3d origin(4e6, 5e6, 0.0);
         std::vector<Eigen::Affine3d> places;
         for (int k = 0; k < 20; ++k)

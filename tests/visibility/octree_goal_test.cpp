@@ -17,7 +17,7 @@ using namespace sonarsim;
 
 TEST_SUITE_BEGIN("visibility");
 
-// The octree follows accuracy.relative_l1, and says so where it does not get there.
+// The octree follows accuracy.relative_l1, and warns if it misses it.
 
 namespace {
 

@@ -49,7 +49,7 @@ TEST_CASE(
 }
 
 TEST_CASE("octree memory: what cannot be dropped does not stop what can from being kept") {
-    // The top of this tree alone exceeds 1 MB. It once made every tile that grew drop all others.
+    // The top of this tree alone exceeds 1 MB. It once made every tile that grew evict all others.
     const Scene scene = test::rough_floor();
     const auto tight = make_octree_engine(scene, {.memory_mb = 1});
     tight->visible_surface(view, pose(0));

@@ -11,7 +11,7 @@ using namespace sonarsim;
 
 namespace {
 
-/// A closed room with things in it that are narrower than a beam.
+/// A closed room with objects narrower than a beam.
 Scene room_with_poles() {
     Scene scene = test::empty_scene();
     const std::uint32_t material = test::add_material(scene, 0.5F);
@@ -45,7 +45,7 @@ View view_of(ViewShape shape) {
     return view;
 }
 
-/// Between two elevations, over an azimuth: sin elevation by azimuth. A cone: 2 pi (1 - cos).
+/// Solid angle of azimuth times the integral over elevation. For a cone: 2 pi (1 - cos).
 double solid_angle(const View& view) {
     if (view.shape == ViewShape::cone) return 2.0 * pi * (1.0 - std::cos(0.5 * view.azimuth_rad));
     return 2.0 * view.azimuth_rad * std::sin(0.5 * view.elevation_rad);
@@ -55,8 +55,8 @@ double solid_angle(const View& view) {
 
 TEST_SUITE_BEGIN("visibility");
 
-// Where energies add, an engine must neither lose nor invent surface: dOmega = cosine dA / r^2,
-// with cosine = h / r, adds up to the solid angle of a view that a room fills. The octree does not
+// If energies add, an engine must neither lose nor invent surface: dOmega = cosine dA / r^2, with
+// cosine = h / r, must add up to the solid angle of a view that a room fills. The octree does not
 // see all of a pole that is thinner than its leaves.
 TEST_CASE("what fills a view fills its solid angle, thin things included") {
     const Scene scene = room_with_poles();
