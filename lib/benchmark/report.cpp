@@ -116,7 +116,7 @@ ReferenceQuality quality(const std::string& sensor, const std::vector<Reference>
         apart.push_back(reference.apart);
         rays.push_back(reference.rays_per_bin);
     }
-    return {sensor, spread_of(moved), spread_of(apart), spread_of(rays)};
+    return {sensor, mean_summary(moved), mean_summary(apart), mean_summary(rays)};
 }
 
 /// Uses a new engine, so that its warnings are about these pings only.
@@ -146,11 +146,11 @@ void measure_errors(const PingSet& pings, const Trial& trial,
     const double goal = trial.sonar.settings.view.relative_l1;
     row.warned = !engine->warnings().empty() ||
                  std::ranges::any_of(estimated_l1, [&](double error) { return error > goal; });
-    row.relative_l1 = spread_of(l1);
-    row.relative_l2 = spread_of(l2);
-    row.miss_rate = spread_of(miss);
-    row.false_rate = spread_of(false_bins);
-    row.samples_per_ping = spread_of(samples);
+    row.relative_l1 = mean_summary(l1);
+    row.relative_l2 = mean_summary(l2);
+    row.miss_rate = mean_summary(miss);
+    row.false_rate = mean_summary(false_bins);
+    row.samples_per_ping = mean_summary(samples);
 }
 
 void summarise_times(const Trial& trial, ReportRow& row) {
@@ -161,11 +161,11 @@ void summarise_times(const Trial& trial, ReportRow& row) {
     row.ms_rays = over_poses(trial.poses, &PoseTimes::rays_thread_ms).centre;
     std::vector<double> times_rays;
     for (const PoseTimes& pose : trial.poses) {
-        times_rays.push_back(spread_of_times(pose.ping_thread_ms).centre /
-                             spread_of_times(pose.rays_thread_ms).centre);
+        times_rays.push_back(median_summary(pose.ping_thread_ms).centre /
+                             median_summary(pose.rays_thread_ms).centre);
     }
-    row.times_rays = spread_of_times(times_rays).centre;
-    row.pings_per_s = spread_of_times(trial.pings_per_s).centre;
+    row.times_rays = median_summary(times_rays).centre;
+    row.pings_per_s = median_summary(trial.pings_per_s).centre;
 }
 
 void mark_front(std::vector<ReportRow>& rows, const std::string& sensor) {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "assembly/assemble.h"
-#include "benchmark/spread.h"
+#include "benchmark/summary.h"
 #include "mission/mission.h"
 
 namespace sonarsim {
@@ -47,11 +47,11 @@ struct ColdStart {
 struct ReportRow {
     std::string sensor;
     Setting setting;
-    Spread ms_per_ping;                                      ///< noise on, one thread
-    double pings_per_s = 0.0;                                ///< noise on, all threads
-    Spread relative_l1, relative_l2, miss_rate, false_rate;  ///< noise off
+    Summary ms_per_ping;                                      ///< noise on, one thread
+    double pings_per_s = 0.0;                                 ///< noise on, all threads
+    Summary relative_l1, relative_l2, miss_rate, false_rate;  ///< noise off
     bool warned = false;  ///< the engine warned at one of the poses
-    Spread samples_per_ping;
+    Summary samples_per_ping;
     ColdStart cold;
     PingSeconds stages;    ///< medians over the poses
     double ms_bare = 0.0;  ///< likewise: Embree alone, one ray to every sample
@@ -82,10 +82,10 @@ struct MultipathRow {
     double relative_l1 = 0.0;
     double recall = 1.0;      ///< share of the exact method's bins that this one fills, too
     double precision = 1.0;   ///< share of this method's bins that the exact one fills, too
-    Spread ms_multipath;      ///< time of this stage over the poses; one thread
-    Spread ms_per_ping;       ///< noise on, one thread
+    Summary ms_multipath;     ///< time of this stage over the poses; one thread
+    Summary ms_per_ping;      ///< noise on, one thread
     double ms_without = 0.0;  ///< ping without multipath, median over the poses
-    double speed_up = 0.0;    ///< of the multipath stage, relative to the exact method
+    double speed_up = 0.0;    ///< time of this stage by the exact method / by this one
 
     double times_without() const { return ms_without > 0.0 ? ms_per_ping.centre / ms_without : 0; }
 };
@@ -93,9 +93,9 @@ struct MultipathRow {
 /// The convergence of a sonar's reference images.
 struct ReferenceQuality {
     std::string sensor;
-    Spread moved;         ///< Reference::moved
-    Spread apart;         ///< Reference::apart
-    Spread rays_per_bin;  ///< rays that echoed, per occupied bin
+    Summary moved;         ///< Reference::moved
+    Summary apart;         ///< Reference::apart
+    Summary rays_per_bin;  ///< rays that echoed, per occupied bin
 };
 
 /// The growth of the time per ping with the scene.

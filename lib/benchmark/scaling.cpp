@@ -21,7 +21,7 @@ double time_pings(const Mission& mission, const Assembly& assembly, const Scene&
                   const Sonar& sonar, const VisibilityEngine& engine,
                   const ReportOptions& options) {
     std::vector<double> ms;
-    const auto poses = spread_poses(assembly.trajectory.size(), options.poses);
+    const auto poses = sample_poses(assembly.trajectory.size(), options.poses);
     for (int round = 0; round <= options.rounds; ++round) {
         for (const std::size_t pose : poses) {
             const double start = seconds_now();
@@ -32,7 +32,7 @@ double time_pings(const Mission& mission, const Assembly& assembly, const Scene&
             if (round > 0) ms.push_back(1e3 * (seconds_now() - start));
         }
     }
-    return spread_of_times(ms).centre;
+    return median_summary(ms).centre;
 }
 
 /// The scenes of one kind of growth, starting with the original.

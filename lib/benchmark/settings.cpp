@@ -94,11 +94,11 @@ std::vector<Setting> make_settings(const Mission& mission, bool quick) {
     return settings;
 }
 
-std::string refusal_of(const Setting& setting, const Assembly& assembly) {
+std::string unsupported(const Setting& setting, const Assembly& assembly) {
     const EngineSettings engine = engine_settings(setting.kind, setting.octree, setting.slices);
-    std::string refusal = refusal_of(engine, assembly.scene);
+    std::string refusal = unsupported(engine, assembly.scene);
     for (const Sonar& sonar : assembly.sonars) {
-        if (refusal.empty()) refusal = refusal_of(engine, sonar.settings.view);
+        if (refusal.empty()) refusal = unsupported(engine, sonar.settings.view);
     }
     return refusal;
 }

@@ -14,6 +14,6 @@ std::vector<Setting> make_settings(const Mission& mission, bool quick);
 
 /// The error message of a mission with this setting, if the engine does not support the scene or a
 /// view of its sonars; empty otherwise.
-std::string refusal_of(const Setting& setting, const Assembly& assembly);
+std::string unsupported(const Setting& setting, const Assembly& assembly);
 
 }  // namespace sonarsim

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "assembly/assemble.h"
-#include "benchmark/spread.h"
+#include "benchmark/summary.h"
 #include "mission/mission.h"
 #include "sonar/sonar_at_pose.h"
 
@@ -48,7 +48,7 @@ TracedPing visit_pose(const PingSet& pings, const Sonar& sonar, const Visibility
                       std::size_t p, PoseTimes& times);
 
 /// The medians at the poses, summarised over the poses; milliseconds.
-Spread over_poses(std::span<const PoseTimes> poses, std::vector<double> PoseTimes::*times_ms);
-Spread over_poses(std::span<const PoseTimes> poses, double PingSeconds::*stage);
+Summary over_poses(std::span<const PoseTimes> poses, std::vector<double> PoseTimes::*times_ms);
+Summary over_poses(std::span<const PoseTimes> poses, double PingSeconds::*stage);
 
 }  // namespace sonarsim

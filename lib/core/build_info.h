@@ -2,7 +2,7 @@
 
 namespace sonarsim {
 
-/// How the program was built, as written to dataset.json.
+/// Build information, as written to dataset.json.
 struct BuildInfo {
     const char* compiler;  ///< name and version
     const char* flags;     ///< build type and what the user added to the flags

@@ -25,7 +25,7 @@ class InputError : public std::runtime_error {
 };
 
 /// Collects the errors of an input, so that the user sees all of them at once.
-class Problems {
+class ErrorList {
   public:
     /// Runs `check` and keeps the InputError that it throws. Returns true if it threw none.
     template <class Check>

@@ -13,11 +13,11 @@
 #include <sstream>
 #include <system_error>
 
+#include "core/atomic_file.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "core/hash.h"
 #include "core/text.h"
-#include "core/whole_file.h"
 #include "dataset/layout.h"
 
 namespace sonarsim {

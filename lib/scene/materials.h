@@ -38,6 +38,6 @@ std::string materials_csv(const Scene& scene, const MaterialTable& known);
 
 /// One warning for each material whose density looks like g/cm^3 or whose speed looks like km/s: a
 /// density below 30 with a speed of sound above that of any gas, or a speed below 20.
-std::vector<std::string> unit_doubts(std::span<const Material> materials);
+std::vector<std::string> unit_warnings(std::span<const Material> materials);
 
 }  // namespace sonarsim

@@ -50,7 +50,7 @@ std::vector<const ClassRule*> rule_of_instances(const Scene& scene,
 void require_ids(std::size_t count, const char* what) {
     if (count <= most_ids) return;
     throw InputError("the scene has " + std::to_string(count) + " " + what +
-                     ", and labels of 16 bits tell 65535 apart: group them with `classes`");
+                     ", and labels of 16 bits have at most 65535: group them with `classes`");
 }
 
 }  // namespace

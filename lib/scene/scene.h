@@ -87,7 +87,7 @@ struct Scene {
     double vertex_rounding_m = 0.0;
     std::optional<WaterSurface> water_surface;
     SceneRejects rejects;
-    std::vector<std::string> doubts;  ///< what the user should look at, as sentences
+    std::vector<std::string> warnings;  ///< sentences for the user
 };
 
 /// True if `vertex_rounding_m` spoils the scene. That is so if it is more than a millimetre, about

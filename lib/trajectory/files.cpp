@@ -67,7 +67,8 @@ double field_value(std::string_view field, const Column& column, const Location&
     }
     if (std::fabs(*value) > column.limit) {
         throw InputError(where, name + ": " + shown(field) + " is beyond " +
-                                    number_text(column.limit) + "; the unit is that of the name");
+                                    number_text(column.limit) +
+                                    "; the column's name gives the unit");
     }
     return *value;
 }
@@ -121,7 +122,7 @@ bool has(std::span<const Column> columns, std::string_view name) {
 void check_names(std::span<const std::string> header, const Location& where) {
     for (std::size_t i = 0; i < header.size(); ++i) {
         if (has(header.first(i), header[i])) {
-            throw InputError(where, "column " + shown(header[i]) + " stands twice");
+            throw InputError(where, "column " + shown(header[i]) + " occurs twice");
         }
         if (has(with_quaternion, header[i]) || has(with_angles, header[i])) continue;
         std::vector<std::string> known;

@@ -64,7 +64,7 @@ Trajectory resample(const Trajectory& trajectory, double rate_hz) {
     const double tolerance = 1e-9 + rounding;
     if (rate_hz * 4.0 * tolerance > 1.0) {
         throw InputError("rate_hz of " + number_text(rate_hz) + " is too high: near " +
-                         number_text(last) + " s the times of its poses cannot be told apart");
+                         number_text(last) + " s neighbouring poses would have equal times");
     }
     const double steps = std::floor((last - first + tolerance) * rate_hz);
     if (steps + 1.0 > static_cast<double>(most_poses)) {

@@ -103,7 +103,7 @@ Trajectory follow_waypoints(std::span<const Waypoint> waypoints, double speed_m_
             const double length = (waypoint.position_m - last.T_world_vehicle.translation).norm();
             t_s = last.t_s + length / speed_m_s;
             if (!(t_s > last.t_s)) {
-                throw InputError("waypoint " + number + " stands where the one before it does: " +
+                throw InputError("waypoint " + number + " has the position of the one before: " +
                                  "a leg needs a length (turn along a leg, not on the spot)");
             }
         }

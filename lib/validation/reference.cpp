@@ -57,14 +57,14 @@ SurfaceSums together(SurfaceSums a, const SurfaceSums& b) {
 }  // namespace
 
 Reference settled(const View& view, const ReferenceGoal& goal,
-                  const std::function<Look(int per_beam, int count)>& look) {
+                  const std::function<CastResult(int per_beam, int count)>& cast) {
     const std::size_t bins = static_cast<std::size_t>(view.range_bins) * view.beams;
     Reference reference{view.range_bins, view.beams, std::vector<float>(bins, 0.0F)};
     int per_beam = view.shape == ViewShape::fan ? 1 : 16;
     int count = 256;  // per column
     double last_moved = 1.0;
     for (bool wider = false;; wider = !wider) {
-        Look now = look(per_beam, count);
+        CastResult now = cast(per_beam, count);
         reference.apart = std::max(image_error(now.lattice, now.both).relative_l1,
                                    image_error(now.scattered, now.both).relative_l1);
         // The two directions are doubled in turn; the image has settled when neither changes it.
@@ -90,7 +90,7 @@ Reference cast_reference(const Caster& caster, const Scene& scene, const View& v
     const LocalPose pose = local_pose(T_world_sensor, scene.origin);
     const std::vector<SurfaceShare> shares = surface_shares(scene, view, pose);
     const ReferenceView looking{caster, scene, view, pose, shares};
-    return settled(view, goal, [&](int per_beam, int count) -> Look {
+    return settled(view, goal, [&](int per_beam, int count) -> CastResult {
         const SurfaceSums lattice = sums_over_surface(looking, {per_beam, count, 0});
         const SurfaceSums scattered = sums_over_surface(looking, {per_beam, count, 1});
         const SurfaceSums both = together(lattice, scattered);

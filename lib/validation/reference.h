@@ -33,7 +33,7 @@ struct ReferenceGoal {
 
 /// Result of a cast with a given number of rays: images [range_bins, beams] of each start and of
 /// both.
-struct Look {
+struct CastResult {
     std::vector<float> lattice;
     std::vector<float> scattered;
     std::vector<float> both;
@@ -44,7 +44,7 @@ struct Look {
 /// Casts again with twice the rays, along and across in turn, until the image of both starts has
 /// settled: `per_beam` columns of `count` rays, as in RayLayout.
 Reference settled(const View& view, const ReferenceGoal& goal,
-                  const std::function<Look(int per_beam, int count)>& look);
+                  const std::function<CastResult(int per_beam, int count)>& cast);
 
 /// Casts rays from two different starts, on a lattice and at random, each with its own points of
 /// the surface, and doubles the rays until the goal is met. The image is that of both together. A

@@ -80,12 +80,12 @@ struct Cast {
 };
 
 /// Position of ray i in its cell: shares of the column's width and of a step along it.
-struct Place {
+struct CellPosition {
     double across;
     double along;
 };
 
-Place place_of(const RayLayout& layout, std::uint32_t column, std::uint32_t i) {
+CellPosition position_in_cell(const RayLayout& layout, std::uint32_t column, std::uint32_t i) {
     if (layout.start == 0) {
         // A lattice oblique to columns and rows: an edge along either of them is sampled at all
         // phases.
@@ -105,9 +105,9 @@ void column_directions(const Cast& cast, const ViewColumn& column, std::uint32_t
     const double step = (column.along_max - column.along_min) / cast.layout.count;
     const SinCosFloat middle = sincos_float(column.across);
     for (std::uint32_t i = 0; i < directions.size(); ++i) {
-        const Place place = place_of(cast.layout, index, i);
-        const auto off = static_cast<float>((place.across - 0.5) * column.width);
-        const SinCosFloat along = sincos_float(column.along_min + (i + place.along) * step);
+        const CellPosition position = position_in_cell(cast.layout, index, i);
+        const auto off = static_cast<float>((position.across - 0.5) * column.width);
+        const SinCosFloat along = sincos_float(column.along_min + (i + position.along) * step);
         directions[i] = direction(cast.looking.view.shape, middle + sincos_small(off), along);
     }
 }

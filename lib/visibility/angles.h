@@ -39,13 +39,13 @@ inline Eigen::Vector3d direction_off_boresight(double off_rad, double around_rad
 
 // A view is swept by two angles: `across` numbers its columns, `along` runs through each of them.
 //   fan:   across is azimuth, along is elevation: a column lies within a beam;
-//   sides: across is elevation, along is azimuth, from nadir outward on either side;
+//   port_starboard: across is elevation, along is azimuth, from nadir outward on either side;
 //   cone:  across is tau, the angle around the boresight, along is psi, the angle off it.
 
 /// The direction as a unit vector in the sensor frame.
 inline Eigen::Vector3f direction(ViewShape shape, SinCosFloat across, SinCosFloat along) {
     switch (shape) {
-        case ViewShape::sides:
+        case ViewShape::port_starboard:
             return {across.cos * along.cos, across.cos * along.sin, across.sin};
         case ViewShape::cone:
             return {along.cos, along.sin * across.cos, along.sin * across.sin};

@@ -23,7 +23,7 @@ constexpr double most_samples_share = 0.5;
 
 // Goals to try rays with, as multiples of the view's goal. The density of rays was fitted to rough
 // floors at grazing incidence; over a smooth floor their error is a third of the goal.
-constexpr std::array leniencies{2.0, 1.8, 1.6, 1.4, 1.2, 1.0};
+constexpr std::array goal_factors{2.0, 1.8, 1.6, 1.4, 1.2, 1.0};
 
 // The images that rays are compared with are made for this share of the goal, so that their own
 // error takes little of the rays' allowance.
@@ -109,7 +109,7 @@ RaysTrial try_rays(const Scene& scene, const View& view, std::span<const Probe> 
                    const VisibilityEngine& rays, const VisibilityEngine& slices) {
     const std::vector<SlicesImage> by_slices = slices_images(scene, view, probes, slices);
     RaysTrial trial;
-    for (const double leniency : leniencies) {
+    for (const double leniency : goal_factors) {
         trial = try_goal(scene, view, leniency * view.relative_l1, by_slices, rays);
         if (trial.error <= view.relative_l1) break;
     }

@@ -37,7 +37,7 @@ class EmbreeTree {
 /// where it divides: all rays of the packet in the octant of a ray with -1e-19 would meet nothing.
 /// This turns a ray by at most 1e-9, a micrometre in a kilometre. Products of two components that
 /// pass stay above Embree's limit.
-inline float without_rest(float component) {
+inline float flush_to_zero(float component) {
     constexpr float rest = 1e-9F;
     return std::fabs(component) < rest ? 0.0F : component;
 }

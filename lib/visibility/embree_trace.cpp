@@ -51,9 +51,9 @@ void trace_packets(std::span<const TracedLayer> layers, const RayOrigins& origin
             rays.ray.org_x[k] = origin.x();
             rays.ray.org_y[k] = origin.y();
             rays.ray.org_z[k] = origin.z();
-            rays.ray.dir_x[k] = without_rest(directions[i].x());
-            rays.ray.dir_y[k] = without_rest(directions[i].y());
-            rays.ray.dir_z[k] = without_rest(directions[i].z());
+            rays.ray.dir_x[k] = flush_to_zero(directions[i].x());
+            rays.ray.dir_y[k] = flush_to_zero(directions[i].y());
+            rays.ray.dir_z[k] = flush_to_zero(directions[i].z());
             rays.ray.tfar[k] = reach_m;
             rays.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
             rays.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;

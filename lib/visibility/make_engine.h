@@ -28,15 +28,15 @@ std::unique_ptr<VisibilityEngine> make_engine(const Scene& scene, const EngineSe
 
 /// Error message, beginning with the mission's key, if the engine does not support this scene;
 /// empty otherwise.
-std::string refusal_of(const EngineSettings& settings, const Scene& scene);
+std::string unsupported(const EngineSettings& settings, const Scene& scene);
 
 /// Error message with the mission's keys if the engine does not support this view; empty otherwise.
-std::string refusal_of(const EngineSettings& settings, const View& view);
+std::string unsupported(const EngineSettings& settings, const View& view);
 
 /// Warning text, with the mission's keys, if the engine will probably miss the error goal of this
 /// view; empty otherwise. `energies_add`: a bin holds the sum of its echoes (calibrated model), not
 /// their mean.
-std::string doubt_about(const EngineSettings& settings, const View& view, bool multipath = false,
-                        bool energies_add = false);
+std::string accuracy_warning(const EngineSettings& settings, const View& view,
+                             bool multipath = false, bool energies_add = false);
 
 }  // namespace sonarsim

@@ -6,9 +6,9 @@ namespace sonarsim {
 
 /// The division of a view into beams.
 enum class ViewShape {
-    fan,    ///< equal beams of azimuth; beam 0 is the most negative azimuth (starboard)
-    sides,  ///< beam 0 is starboard (azimuth < 0), beam 1 port (azimuth >= 0)
-    cone    ///< one beam around the boresight
+    fan,             ///< equal beams of azimuth; beam 0 is the most negative azimuth (starboard)
+    port_starboard,  ///< beam 0 is starboard (azimuth < 0), beam 1 port (azimuth >= 0)
+    cone             ///< one beam around the boresight
 };
 
 /// The volume that a sonar views, in the sensor frame: x along the boresight, azimuth = atan2(y,

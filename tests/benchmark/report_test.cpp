@@ -152,8 +152,8 @@ TEST_CASE("a report on shared copies is one on their triangles" * doctest::skip(
     // Only rays can trace it.
     for (const Setting& setting : make_settings(mission, false)) {
         CAPTURE(setting.engine);
-        CHECK(refusal_of(setting, copied).empty());
-        CHECK(refusal_of(setting, shared).empty() == (setting.kind == EngineKind::rays));
+        CHECK(unsupported(setting, copied).empty());
+        CHECK(unsupported(setting, shared).empty() == (setting.kind == EngineKind::rays));
     }
 }
 
@@ -252,11 +252,11 @@ TEST_CASE("a promise is kept at the worst pose, or warned of") {
     CHECK(std::string(row.promise()) == "-");
 }
 
-TEST_CASE("the rays that pings are measured by lie evenly in the view") {
+TEST_CASE("the yardstick rays are spread evenly over the view") {
     View view{radians(60.0), radians(12.0), 0.5, 10.0, 100, 1, 0.03};
     SUBCASE("fan") {}
     SUBCASE("sides") {
-        view.shape = ViewShape::sides;
+        view.shape = ViewShape::port_starboard;
         view.beams = 2;
     }
     SUBCASE("cone") {
@@ -273,17 +273,17 @@ TEST_CASE("the rays that pings are measured by lie evenly in the view") {
 }
 
 TEST_CASE("poses are spread from end to end") {
-    CHECK(spread_poses(10, 4) == std::vector<std::size_t>{0, 3, 6, 9});
-    CHECK(spread_poses(2, 8) == std::vector<std::size_t>{0, 1});
-    CHECK(spread_poses(5, 1) == std::vector<std::size_t>{0});
+    CHECK(sample_poses(10, 4) == std::vector<std::size_t>{0, 3, 6, 9});
+    CHECK(sample_poses(2, 8) == std::vector<std::size_t>{0, 1});
+    CHECK(sample_poses(5, 1) == std::vector<std::size_t>{0});
 }
 
-TEST_CASE("spreads by hand") {
-    const Spread times = spread_of_times({4.0, 1.0, 2.0, 3.0});
+TEST_CASE("summaries by hand") {
+    const Summary times = median_summary({4.0, 1.0, 2.0, 3.0});
     CHECK(times.centre == 2.5);
     CHECK(times.min == 1.0);
     CHECK(times.max == 4.0);
-    CHECK(spread_of({1.0, 2.0, 6.0}).centre == doctest::Approx(3.0));
+    CHECK(mean_summary({1.0, 2.0, 6.0}).centre == doctest::Approx(3.0));
 }
 
 TEST_SUITE_END();

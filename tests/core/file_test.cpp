@@ -73,7 +73,7 @@ std::string message_of_reading(const fs::path& path, std::size_t limit = 1000) {
 }  // namespace
 
 TEST_SUITE("core") {
-    TEST_CASE("file: what is written is read back, zero bytes and all") {
+    TEST_CASE("file: written bytes are read back, zero bytes included") {
         const Folder folder;
         const std::string bytes("a\0b\r\n\xff", 6);
         write_file(folder / "a.bin", bytes);

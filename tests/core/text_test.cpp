@@ -10,7 +10,7 @@
 using namespace sonarsim;
 
 TEST_SUITE("core") {
-    TEST_CASE("text: what could steer a terminal is shown, not sent") {
+    TEST_CASE("text: control characters are escaped") {
         CHECK(printable("Steel plate 3\" \\ \xc3\xa9\xe6\xb0\xb4") ==
               "Steel plate 3\" \\ \xc3\xa9\xe6\xb0\xb4");
         CHECK(printable("\x1b[2J\r\n\t\x7f") == "\\x1b[2J\\x0d\\x0a\\x09\\x7f");

@@ -74,7 +74,7 @@ TEST_SUITE("trajectory") {
                              "a trajectory needs at least one pose", InputError);
         const std::vector<Waypoint> on_the_spot{at(0, 0, 0), at(1, 0, 0), at(1, 0, 0, 90)};
         CHECK_THROWS_WITH_AS(follow_waypoints(on_the_spot, 1.0, 10.0),
-                             "waypoint 3 stands where the one before it does: a leg needs a length "
+                             "waypoint 3 has the position of the one before: a leg needs a length "
                              "(turn along a leg, not on the spot)",
                              InputError);
 

@@ -87,7 +87,7 @@ TEST_CASE("the reference sees a ball of 2 cm at 8 m and a wire of 4 mm at 5 m") 
         view.beams = 1;
     }
     SUBCASE("side-scan") {
-        view.shape = ViewShape::sides;
+        view.shape = ViewShape::port_starboard;
         view.beams = 2;
     }
     // 64 rays per bin of a whole image are the minimum.

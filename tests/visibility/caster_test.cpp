@@ -15,7 +15,7 @@ TEST_SUITE("visibility") {
     // A rotation by 90 degrees leaves about 1e-19 of a zero. Embree takes the sign of such a
     // component for its octant, but divides by +1e-18: in a packet of coherent rays, all that
     // shared the octant of one such ray passed through the scene.
-    TEST_CASE("caster: a ray with a component that is all but zero loses no neighbour of its") {
+    TEST_CASE("caster: a ray with a component near zero does not disturb its neighbours") {
         Scene scene = empty_scene();
         add_sphere(scene, {0, 0, -8}, 1.0F, add_material(scene, 1.0F), 256);
         const Caster caster(scene);
@@ -33,7 +33,7 @@ TEST_SUITE("visibility") {
         }
     }
 
-    TEST_CASE("caster: rays that lead away from the box around all there is are told beforehand") {
+    TEST_CASE("caster: may_meet() excludes rays that lead away from the box around the scene") {
         // A sphere in [-1, 1]^3, and a body that is moved to [9, 11] x [-1, 1]^2.
         Scene scene = empty_scene();
         const std::uint32_t m = add_material(scene, 1.0F);

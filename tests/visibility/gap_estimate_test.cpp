@@ -91,7 +91,7 @@ TEST_CASE("a surface that hides another one breaks off") {
 }
 
 TEST_CASE("facets of one plane are parted half way, and nothing is uncertain") {
-    // Where two planes cross that are equal but for rounding is random.
+    // Planes that are equal but for rounding cross at a random place.
     const Eigen::Vector3f tilt(0.1F, 0.2F, 1.0F);
     for (int k = 0; k < 100; ++k) {
         const double along = radians(-20.0 + 0.1 * k);

@@ -70,7 +70,7 @@ TEST_CASE("octree goal: images are within it, and smaller goals make smaller err
     }
 }
 
-TEST_CASE("octree goal: leaves that are too large are told of, with a figure that is about right" *
+TEST_CASE("octree goal: a warning gives the error of leaves that are too large" *
           doctest::skip(test::sanitized)) {
     for (const Subject& subject : subjects()) {
         CAPTURE(subject.name);

@@ -136,7 +136,7 @@ TEST_CASE("octree image: a side-scan and an echosounder over a floor with a box 
         trial.sonar.settings.pixel_noise.range_scale.assign(view.range_bins, 1.0F);
         trial.truth = cast_reference(caster, scene, view, trial.pose, {0.004, 64.0, 40'000'000});
     };
-    view = {radians(170.0), radians(0.5), 0.5, 10.0, 190, 2, 0.03, ViewShape::sides};
+    view = {radians(170.0), radians(0.5), 0.5, 10.0, 190, 2, 0.03, ViewShape::port_starboard};
     retry();
     CHECK(trial.error(*make_rays_engine(scene)) < 0.04);
     CHECK(trial.octree_error(0.0) < 0.06);

@@ -170,7 +170,7 @@ TEST_CASE("octree: samples face the sonar and stay in their beam") {
     }
 }
 
-TEST_CASE("octree: nothing is refined that nobody looks at") {
+TEST_CASE("octree: only tiles in view are refined") {
     const Scene scene = test::tank();
     const auto octree = make_octree_engine(scene, {0.02, 512, false});
     CHECK(octree->statistics().nodes == 1);

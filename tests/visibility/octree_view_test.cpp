@@ -95,22 +95,22 @@ TEST_CASE("octree view: the narrowest views see a wall") {
     }
 }
 
-TEST_CASE("octree view: a doubt is said with the figure, and only where there is one") {
+TEST_CASE("octree view: a warning gives the expected error, and appears only above the goal") {
     const EngineSettings octree{EngineType::octree, {}};
     View view = fan(60.0, 12.0, 10.0, 512, 256);
-    CHECK(doubt_about(octree, view).empty());
-    CHECK(doubt_about({EngineType::octree, {.leaf_m = 0.02}}, view).empty());
-    CHECK(doubt_about({EngineType::octree, {.leaf_m = 0.5}}, view).find("octree.leaf_m") !=
+    CHECK(accuracy_warning(octree, view).empty());
+    CHECK(accuracy_warning({EngineType::octree, {.leaf_m = 0.02}}, view).empty());
+    CHECK(accuracy_warning({EngineType::octree, {.leaf_m = 0.5}}, view).find("octree.leaf_m") !=
           std::string::npos);
-    CHECK(doubt_about({EngineType::octree, {.leaf_m = 0.05}}, view) ==
+    CHECK(accuracy_warning({EngineType::octree, {.leaf_m = 0.05}}, view) ==
           "engine: octree will be off by about 4.7 % in this view, more than accuracy.relative_l1 "
           "(3 %); use engine: rays or a smaller octree.leaf_m");
     view.relative_l1 = 0.01;
-    CHECK(doubt_about(octree, view).empty());
-    CHECK(doubt_about({}, view).empty());
+    CHECK(accuracy_warning(octree, view).empty());
+    CHECK(accuracy_warning({}, view).empty());
     // With an opening of a hundredth of a degree, narrower than any leaf, 18 of 64 beams of the
     // wall above are dark.
-    CHECK(doubt_about(octree, fan(60.0, 0.01, 10.0, 20, 64)).find("off by about 19.2 %") !=
+    CHECK(accuracy_warning(octree, fan(60.0, 0.01, 10.0, 20, 64)).find("off by about 19.2 %") !=
           std::string::npos);
 }
 

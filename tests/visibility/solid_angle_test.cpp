@@ -34,7 +34,7 @@ View view_of(ViewShape shape) {
               .beams = 64,
               .relative_l1 = 0.03,
               .shape = shape};
-    if (shape == ViewShape::sides) {
+    if (shape == ViewShape::port_starboard) {
         view.elevation_rad = radians(2.0);
         view.azimuth_rad = radians(160.0);
         view.beams = 2;
@@ -58,10 +58,10 @@ TEST_SUITE_BEGIN("visibility");
 // If energies add, an engine must neither lose nor invent surface: dOmega = cosine dA / r^2, with
 // cosine = h / r, must add up to the solid angle of a view that a room fills. The octree does not
 // see all of a pole that is thinner than its leaves.
-TEST_CASE("what fills a view fills its solid angle, thin things included") {
+TEST_CASE("a room fills the solid angle of a view, thin objects included") {
     const Scene scene = room_with_poles();
     const Pose T_world_sensor{rotation_from_rpy(0.0, radians(15.0), 0.05), {0.1, 0.05, 0.2}};
-    for (const ViewShape shape : {ViewShape::fan, ViewShape::sides, ViewShape::cone}) {
+    for (const ViewShape shape : {ViewShape::fan, ViewShape::port_starboard, ViewShape::cone}) {
         for (const EngineType type : {EngineType::rays, EngineType::slices, EngineType::octree}) {
             EngineSettings settings;
             settings.type = type;

@@ -13,7 +13,7 @@
 
 namespace sonarsim {
 
-/// Reads a .gltf or .glb file (told apart by content) with the materials of a CSV.
+/// Reads a .gltf or .glb file (its content says which) with the materials of a CSV.
 ///
 /// World frame: (x, y, z)_world = (x, -z, y)_gltf, node transforms composed in double precision.
 /// Reads the file's default scene, else its first, else all root nodes. A triangle's material is

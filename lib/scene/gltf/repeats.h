@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "scene/gltf/mesh_builder.h"
-#include "scene/gltf/pieces.h"
+#include "scene/gltf/primitives.h"
 #include "scene/scene.h"
 
 namespace sonarsim {

@@ -3,19 +3,19 @@
 #include <algorithm>
 
 #include "scene/gltf/model_of.h"
-#include "scene/gltf/pieces.h"
+#include "scene/gltf/primitives.h"
 #include "scene/objects.h"
 
 namespace sonarsim {
 
 namespace {
 
-void add_piece(const Piece& piece, Surface& surface) {
+void add_primitive(const PlacedPrimitive& primitive, Surface& surface) {
     const auto first = static_cast<std::uint32_t>(surface.vertices.size());
-    for (std::size_t i = 0; i < piece.source.positions.count; ++i)
-        surface.vertices.push_back(corner(piece, static_cast<std::uint32_t>(i)));
-    for (std::size_t i = 0; i < piece.source.count; ++i) {
-        std::array<std::uint32_t, 3> corners = triangle(piece.source, i, piece.where);
+    for (std::size_t i = 0; i < primitive.source.positions.count; ++i)
+        surface.vertices.push_back(corner(primitive, static_cast<std::uint32_t>(i)));
+    for (std::size_t i = 0; i < primitive.source.count; ++i) {
+        std::array<std::uint32_t, 3> corners = triangle(primitive.source, i, primitive.where);
         bool finite = true;
         for (std::uint32_t& c : corners) {
             c += first;
@@ -69,7 +69,8 @@ Surface surface_of(const PlacedFile& file, SceneFiles& models, std::span<const s
     open.instance_of_mesh.assign(open.meshes.size(), 0);
     Surface surface;
     ReadingLimit limit;
-    for_each_piece(open, limit, [&](const Piece& piece) { add_piece(piece, surface); });
+    for_each_primitive(
+        open, limit, [&](const PlacedPrimitive& primitive) { add_primitive(primitive, surface); });
     return compact(surface);
 }
 

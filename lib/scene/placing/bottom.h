@@ -58,7 +58,7 @@ class Bottom {
     Eigen::AlignedBox2d area_;
     int side_ = 1;  ///< cells along x and along y
     std::vector<std::uint32_t> begin_;
-    std::vector<std::uint32_t> triangles_;  ///< by cell, the highest first
+    std::vector<std::uint32_t> triangles_;  ///< the highest first in each cell
     Eigen::Vector3d corner_ = Eigen::Vector3d::Zero();
     std::vector<Box> boxes_;  ///< one for each triangle
 };

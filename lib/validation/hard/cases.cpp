@@ -25,7 +25,7 @@ std::string broken_invariant(const Ping& ping, double brightest) {
         if (x < 0.0F) return "a pixel is negative";
         if (x > brightest) return fmt::format("a pixel is {}, above {}", x, brightest);
     }
-    if (ping.counts.occupied_bins > ping.intensity.size()) return "more bins lit than there are";
+    if (ping.counts.occupied_bins > ping.intensity.size()) return "more occupied bins than bins";
     return "";
 }
 
@@ -91,7 +91,7 @@ HardResult run(const HardCase& hard, const Scene& scene, EngineKind engine_kind)
     for (const SonarKind kind :
          {SonarKind::imaging, SonarKind::profiling, SonarKind::sidescan, SonarKind::echosounder}) {
         const HardTrial trial = hard.trial(kind);
-        const std::string refused = refusal_of(settings, trial.sonar.settings.view);
+        const std::string refused = unsupported(settings, trial.sonar.settings.view);
         if (!refused.empty()) {
             result.refused = refused;
             if (engine_kind != EngineKind::octree || !hard.octree_may_refuse)

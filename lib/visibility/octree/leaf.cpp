@@ -98,7 +98,7 @@ LeafFacet facet_of(const Group& group, const Eigen::Vector3d& relative_to) {
     if (split > 1e-3 * mean) {
         high = mean + split;
         low = mean - split;
-        // Of two expressions for the eigenvector, the larger one is more accurate.
+        // There are two expressions for the eigenvector; the larger one is more accurate.
         major = half > 0.0 ? ((half + split) * p + pq * q).normalized()
                            : (pq * p + (split - half) * q).normalized();
     }

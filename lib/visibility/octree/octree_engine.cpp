@@ -57,7 +57,7 @@ class LazyOctreeEngine final : public OctreeEngine {
         all.push_back(
             "octree.memory_mb: " + std::to_string(options_.memory_mb) +
             " is too little: one ping needs " + number_text(needed_mb) +
-            " MB, so what it grows is dropped before the next ping can use it; set it to " +
+            " MB, so its tiles are dropped before the next ping can use them; set it to " +
             number_text(needed_mb) + " or more");
         return all;
     }

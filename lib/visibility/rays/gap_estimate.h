@@ -9,7 +9,7 @@ namespace sonarsim {
 /// met.
 struct GapEstimate {
     bool continuous = true;  ///< the surface continues between the rays
-    float border = 0.5F;     ///< where the planes meet, as a share of the gap
+    float border = 0.5F;     ///< border of the two planes, as a share of the gap
     /// Metres of range whose echo may differ from the two planes'.
     float range_uncertainty_m = 0.0F;
     bool bends = false;  ///< the surface continues and bends by more than five degrees

@@ -119,7 +119,7 @@ class ColumnCaster {
     std::size_t neighbour(std::size_t c) const {
         if (view_.shape == ViewShape::cone) return (c + 1) % out_.whole_columns;
         const bool last = c + 1 == out_.whole_columns;
-        const bool other_side = !last && view_.shape == ViewShape::sides &&
+        const bool other_side = !last && view_.shape == ViewShape::port_starboard &&
                                 view_columns_[c].beam != view_columns_[c + 1].beam;
         return last || other_side ? c : c + 1;
     }

@@ -43,7 +43,7 @@ Sampling sampling_for(const View& view) {
             // other shapes gain nothing from them.
             sampling.inset = 0.0F;
             break;
-        case ViewShape::sides:
+        case ViewShape::port_starboard:
             // A side is one row of bins, so other beams do not average out its errors: it gets one
             // ray per bin, and a few columns for the shapes of shadows.
             sampling.columns = rays(std::max(4.0, view.elevation_rad / widest_strip), 2.0);

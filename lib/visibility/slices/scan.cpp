@@ -143,7 +143,7 @@ std::vector<SliceFrame> slice_frames(const View& view, int per_beam) {
                                       enough(view.azimuth_rad / view.beams, widest_strip)),
                           -half_elevation, half_elevation, axes, frames);
             break;
-        case ViewShape::sides:
+        case ViewShape::port_starboard:
             for (const int side : {0, 1}) {
                 const Strips strips =
                     strips_over(-half_elevation, view.elevation_rad, 1,

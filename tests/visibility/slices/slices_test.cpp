@@ -33,7 +33,7 @@ View sides_view() {
     view.azimuth_rad = radians(160.0);
     view.elevation_rad = radians(1.0);
     view.beams = 2;
-    view.shape = ViewShape::sides;
+    view.shape = ViewShape::port_starboard;
     return view;
 }
 

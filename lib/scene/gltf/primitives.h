@@ -22,7 +22,7 @@ struct OpenFile {
 };
 
 /// One primitive of one placed mesh.
-struct Piece {
+struct PlacedPrimitive {
     const OpenFile& file;
     const PlacedMesh& mesh;
     std::uint32_t instance;
@@ -31,8 +31,8 @@ struct Piece {
     std::string where;  ///< location for error messages
 };
 
-inline Eigen::Vector3d corner(const Piece& piece, std::uint32_t vertex) {
-    return piece.mesh.T_world_mesh * position(piece.source.positions, vertex);
+inline Eigen::Vector3d corner(const PlacedPrimitive& primitive, std::uint32_t vertex) {
+    return primitive.mesh.T_world_mesh * position(primitive.source.positions, vertex);
 }
 
 /// Counts how much of a scene has been read. A small file can place a large mesh, or many small
@@ -43,10 +43,10 @@ struct ReadingLimit {
     void add(const TriangleSource* source, const std::string& file);
 };
 
-/// Calls `visit` with every piece of a file. Returns the number of primitives that are not
+/// Calls `visit` with every primitive of a file. Returns the number of primitives that are not
 /// surfaces.
 template <class Visit>
-std::uint64_t for_each_piece(const OpenFile& file, ReadingLimit& limit, const Visit& visit) {
+std::uint64_t for_each_primitive(const OpenFile& file, ReadingLimit& limit, const Visit& visit) {
     std::uint64_t skipped = 0;
     const std::string path = file.placed->file.string();
     for (std::size_t i = 0; i < file.meshes.size(); ++i) {
@@ -63,8 +63,8 @@ std::uint64_t for_each_piece(const OpenFile& file, ReadingLimit& limit, const Vi
                 ++skipped;
                 continue;
             }
-            visit(Piece{file, file.meshes[i], file.instance_of_mesh[i], *source,
-                        mesh.primitives[k].material, where});
+            visit(PlacedPrimitive{file, file.meshes[i], file.instance_of_mesh[i], *source,
+                                  mesh.primitives[k].material, where});
         }
     }
     return skipped;
@@ -77,11 +77,11 @@ struct MaterialRules {
     std::string fallback;           ///< replaces a missing or unknown name; "": no replacement
 };
 
-/// The name of a piece's material in the CSV. InputError if it has none.
-std::string material_name(const Piece& piece, const MaterialRules& rules);
+/// The name of a primitive's material in the CSV. InputError if it has none.
+std::string material_name(const PlacedPrimitive& primitive, const MaterialRules& rules);
 
 /// Gives an instance without a class the class of its materials. InputError if they differ.
-void take_class_of_material(const Piece& piece, std::string& class_name);
+void take_class_of_material(const PlacedPrimitive& primitive, std::string& class_name);
 
 /// InputError at the place of `file` for a material of its materials_map that it does not have.
 void require_renamed(const OpenFile& file);

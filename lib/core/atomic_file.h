@@ -10,21 +10,21 @@ namespace sonarsim {
 
 /// A temporary name for a file while it is written: a reader sees the old file or the whole new
 /// one. The destructor removes a file that was not committed.
-class WholeFile {
+class AtomicFile {
   public:
-    explicit WholeFile(const std::filesystem::path& path);
-    ~WholeFile();
-    WholeFile(const WholeFile&) = delete;
-    WholeFile& operator=(const WholeFile&) = delete;
+    explicit AtomicFile(const std::filesystem::path& path);
+    ~AtomicFile();
+    AtomicFile(const AtomicFile&) = delete;
+    AtomicFile& operator=(const AtomicFile&) = delete;
 
     const std::filesystem::path& part() const { return part_; }
     /// Renames the file to its final name. std::system_error when the disk refuses.
-    void keep();
+    void commit();
 
   private:
     std::filesystem::path path_;
     std::filesystem::path part_;
-    bool kept_ = false;
+    bool committed_ = false;
 };
 
 /// A file of any length that is written in pieces. std::system_error when the disk refuses.
@@ -41,7 +41,7 @@ class StreamedFile {
 
     void put(std::string_view bytes);
 
-    WholeFile whole_;
+    AtomicFile file_name_;
     std::unique_ptr<std::FILE, Close> file_;
     std::string pending_;  ///< buffer, since lines are appended by the thousand
 };

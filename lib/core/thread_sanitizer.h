@@ -28,28 +28,28 @@ namespace sonarsim {
 
 /// Makes what this thread has written visible to threads that call tsan_acquire() with the same
 /// address.
-inline void handed_over([[maybe_unused]] const void* address) {
+inline void tsan_release([[maybe_unused]] const void* address) {
 #ifdef SONARSIM_THREAD_SANITIZER
     __tsan_release(const_cast<void*>(address));
 #endif
 }
 
-inline void received([[maybe_unused]] const void* address) {
+inline void tsan_acquire([[maybe_unused]] const void* address) {
 #ifdef SONARSIM_THREAD_SANITIZER
     __tsan_acquire(const_cast<void*>(address));
 #endif
 }
 
 /// Calls tsan_release() at the end of a scope, even if an exception ends it.
-struct HandOverAtEnd {
+struct ReleaseAtEnd {
     const void* address;
-    ~HandOverAtEnd() { handed_over(address); }
+    ~ReleaseAtEnd() { tsan_release(address); }
 };
 
 /// Calls tsan_acquire() at the end of a scope, even if an exception ends it.
-struct ReceiveAtEnd {
+struct AcquireAtEnd {
     const void* address;
-    ~ReceiveAtEnd() { received(address); }
+    ~AcquireAtEnd() { tsan_acquire(address); }
 };
 
 }  // namespace sonarsim
