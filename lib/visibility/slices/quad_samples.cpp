@@ -177,8 +177,8 @@ void QuadSampler::add_patch(const Quad& quad, const QuadPoints& corners, float f
 }
 
 void QuadSampler::add_sample(const Quad& quad, const QuadPoints& corners) {
-    const FrontFacet& front = scan_.scene().facets[quad.facet_index];
-    const SliceFacet& facet = scan_.mesh().facets[front.facet];
+    const FrontFacet& seen = scan_.scene().facets[quad.facet_index];
+    const SliceFacet& facet = scan_.mesh().facets[seen.facet];
     const Eigen::Vector3f a = corners.at(0);
     const Eigen::Vector3f b = corners.at(1);
     const Eigen::Vector3f c = corners.at(2);
@@ -197,9 +197,9 @@ void QuadSampler::add_sample(const Quad& quad, const QuadPoints& corners) {
     sample.edge_u = R_sensor_frame_ * (0.25F * (b + c - a - d));
     sample.edge_v = R_sensor_frame_ * (0.25F * (c + d - a - b));
     const Interval range_m = fit_range(corners.range, sample);
-    edge_bins_.add(range_m, area, front.height_m, materials_[facet.material].reflection);
-    sample.normal = R_sensor_frame_ * front.normal;
-    sample.height_m = front.height_m;
+    edge_bins_.add(range_m, area, seen.height_m, materials_[facet.material].reflection);
+    sample.normal = R_sensor_frame_ * seen.normal;
+    sample.height_m = seen.height_m;
     sample.area_m2 = area;
     sample.material = facet.material;
     sample.instance = facet.instance;
