@@ -18,8 +18,8 @@ void AtomicFile::commit() {
 }
 
 StreamedFile::StreamedFile(const std::filesystem::path& path)
-    : file_name_(path), file_(std::fopen(file_name_.part().c_str(), "wbe")) {
-    if (!file_) throw_errno("cannot write", file_name_.part());
+    : atomic_file_(path), file_(std::fopen(atomic_file_.part().c_str(), "wbe")) {
+    if (!file_) throw_errno("cannot write", atomic_file_.part());
 }
 
 void StreamedFile::append(std::string_view bytes) {
@@ -32,14 +32,14 @@ void StreamedFile::append(std::string_view bytes) {
 
 void StreamedFile::put(std::string_view bytes) {
     if (std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size()) {
-        throw_errno("cannot write", file_name_.part());
+        throw_errno("cannot write", atomic_file_.part());
     }
 }
 
 void StreamedFile::finish() {
     put(pending_);
-    if (std::fclose(file_.release()) != 0) throw_errno("cannot write", file_name_.part());
-    file_name_.commit();
+    if (std::fclose(file_.release()) != 0) throw_errno("cannot write", atomic_file_.part());
+    atomic_file_.commit();
 }
 
 }  // namespace sonarsim

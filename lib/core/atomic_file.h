@@ -41,7 +41,7 @@ class StreamedFile {
 
     void put(std::string_view bytes);
 
-    AtomicFile file_name_;
+    AtomicFile atomic_file_;
     std::unique_ptr<std::FILE, Close> file_;
     std::string pending_;  ///< buffer, since lines are appended by the thousand
 };
