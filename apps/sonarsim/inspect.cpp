@@ -81,7 +81,7 @@ int inspect(const InspectArguments& arguments) {
     MaterialTable table;
     if (!arguments.materials.empty()) table = read_materials(arguments.materials);
     warn_about(scene);
-    for (const std::string& doubt : unit_doubts(table.materials))
+    for (const std::string& doubt : unit_warnings(table.materials))
         spdlog::warn("{}", doubt);
     if (arguments.as_csv) {
         fmt::print("{}", materials_csv(scene, table));

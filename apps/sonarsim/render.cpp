@@ -149,9 +149,9 @@ void spare_mission(const std::filesystem::path& file, const Mission& mission) {
 std::size_t warn_before(const Mission& mission, const Assembly& assembly) {
     std::size_t warnings = warn_about(assembly.scene);
     for (const Sonar& sonar : assembly.sonars) {
-        const std::string doubt =
-            doubt_about(engine_settings(mission), sonar.settings.view, sonar.settings.multipath.on,
-                        sonar.config.model == EchoModel::of_instrument);
+        const std::string doubt = accuracy_warning(engine_settings(mission), sonar.settings.view,
+                                                   sonar.settings.multipath.on,
+                                                   sonar.config.model == EchoModel::of_instrument);
         if (doubt.empty()) continue;
         ++warnings;
         spdlog::warn("sensor '{}': {}", sonar.config.name, doubt);

@@ -76,7 +76,7 @@ std::vector<Setting> settings_of(const ReportArguments& arguments, const Mission
         if (!arguments.engines.empty() &&
             std::ranges::find(arguments.engines, setting.engine) == arguments.engines.end())
             return true;
-        const std::string refusal = refusal_of(setting, assembly);
+        const std::string refusal = unsupported(setting, assembly);
         if (refusal.empty()) return false;
         if (refusals.insert(refusal).second) spdlog::info("left out: {}", refusal);
         return true;

@@ -19,8 +19,8 @@ std::vector<std::string> doubts_about(const Scene& scene) {
     left_out(rejects.degenerate_triangles, "triangles without area");
     left_out(rejects.non_finite_triangles, "triangles with a vertex that is NaN or infinite");
     left_out(rejects.skipped_primitives, "primitives of points or lines");
-    doubts.insert(doubts.end(), scene.doubts.begin(), scene.doubts.end());
-    for (std::string& doubt : unit_doubts(scene.materials))
+    doubts.insert(doubts.end(), scene.warnings.begin(), scene.warnings.end());
+    for (std::string& doubt : unit_warnings(scene.materials))
         doubts.push_back(std::move(doubt));
     if (has_coarse_vertices(scene)) {
         doubts.push_back(fmt::format(

@@ -74,14 +74,14 @@ void add_water_surface(const Mission& mission, Assembly& assembly) {
     const double mirrored = power_reflection(air_kg_m3, air_m_s, water) * (1.0 - config.roughness);
     assembly.scene.water_surface = {config.height_m, static_cast<float>(mirrored)};
     const std::string doubt = doubt_about_surface(mission, assembly);
-    if (!doubt.empty()) assembly.scene.doubts.push_back(doubt);
+    if (!doubt.empty()) assembly.scene.warnings.push_back(doubt);
 }
 
 void doubt_empty_scatter(const Mission& mission, Scene& scene) {
     for (const ScatterConfig& scatter : mission.scene.scatter) {
         if (scatter.count[1] > 0.0) continue;
-        scene.doubts.push_back("scene.scatter: of '" + printable(scatter.name) +
-                               "' nothing is scattered, for its count is 0");
+        scene.warnings.push_back("scene.scatter: of '" + printable(scatter.name) +
+                                 "' nothing is scattered, for its count is 0");
     }
 }
 
@@ -89,7 +89,7 @@ void doubt_empty_scatter(const Mission& mission, Scene& scene) {
 Sonar checked_sonar(const Mission& mission, const SonarConfig& sensor,
                     const EngineSettings& settings) {
     Sonar sonar = make_sonar(sensor, mission.accuracy, mission.water);
-    const std::string refusal = refusal_of(settings, sonar.settings.view);
+    const std::string refusal = unsupported(settings, sonar.settings.view);
     if (!refusal.empty()) throw InputError("sensor '" + sensor.name + "': " + refusal);
     if (has_even_sines(sonar) && !mission.output.labels.empty()) {
         throw InputError(mission.output.labels_place.location,
@@ -102,10 +102,10 @@ Sonar checked_sonar(const Mission& mission, const SonarConfig& sensor,
 
 /// InputError for the files of the scene that are no glTF.
 void read_scene_files(const Mission& mission, SceneFiles& models) {
-    Problems problems;
+    ErrorList errors;
     const auto read = [&](const std::filesystem::path& file, const Place& place) {
         if (file.empty()) return;
-        problems.attempt([&] { model_of({.file = file, .place = place.location}, models); });
+        errors.attempt([&] { model_of({.file = file, .place = place.location}, models); });
     };
     read(mission.scene.file, mission.scene.place);
     for (const ObjectConfig& object : mission.scene.objects)
@@ -114,7 +114,7 @@ void read_scene_files(const Mission& mission, SceneFiles& models) {
         for (const std::filesystem::path& file : scatter.files)
             read(file, scatter.place);
     }
-    problems.raise();
+    errors.raise();
 }
 
 /// For load_scene. A million triangles take 170 MB.
@@ -140,14 +140,14 @@ Assembly assemble(const Mission& mission) {
 
 Assembly assemble(const Mission& mission, SceneFiles& models) {
     Assembly assembly;
-    Problems problems;
-    problems.attempt([&] { assembly.trajectory = vehicle_poses(mission); });
+    ErrorList errors;
+    errors.attempt([&] { assembly.trajectory = vehicle_poses(mission); });
     const EngineSettings settings = engine_settings(mission);
     for (const SonarConfig& sensor : mission.sensors)
-        problems.attempt(
+        errors.attempt(
             [&] { assembly.sonars.push_back(checked_sonar(mission, sensor, settings)); });
     MaterialTable materials;
-    problems.attempt([&] {
+    errors.attempt([&] {
         materials = read_materials(mission.scene.materials);
         if (!mission.scene.material_default.empty()) {
             require_material(materials, mission.scene.material_default,
@@ -155,8 +155,8 @@ Assembly assemble(const Mission& mission, SceneFiles& models) {
         }
     });
     // What moves is checked against the trajectory, and every surface against the materials.
-    if (problems.count() > 0) problems.attempt([&] { read_scene_files(mission, models); });
-    problems.raise();
+    if (errors.count() > 0) errors.attempt([&] { read_scene_files(mission, models); });
+    errors.raise();
     SceneParts parts = place_scene(mission, assembly.trajectory, models);
     assembly.scene = load_scene(parts.files, models, materials, mission.scene.material_default,
                                 {mission.water.density_kg_m3, mission.water.sound_speed_m_s},
@@ -171,7 +171,7 @@ Assembly assemble(const Mission& mission, SceneFiles& models) {
             rules.push_back({rule.nodes, rule.name, rule.instance, rule.place.location});
         assembly.objects = group_objects(assembly.scene, rules);
     }
-    const std::string refusal = refusal_of(settings, assembly.scene);
+    const std::string refusal = unsupported(settings, assembly.scene);
     if (!refusal.empty()) throw InputError(refusal);
     assembly.inputs = inputs_of(mission);
     assembly.full_scales = find_full_scales(mission, assembly.scene, assembly.trajectory,

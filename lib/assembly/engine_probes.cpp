@@ -19,7 +19,7 @@ constexpr double share_along_track = 1.0 / 3.0;
 /// The error goal at which a sonar's surface has to be seen by rays; 0: slices will do.
 double rays_goal(const Sonar& sonar) {
     const View& view = sonar.settings.view;
-    if (sonar.settings.calibrated && view.shape == ViewShape::sides)
+    if (sonar.settings.calibrated && view.shape == ViewShape::port_starboard)
         return share_along_track * view.relative_l1;
     // With multipath sound goes on from the middle of each sample, and a sample of the slices may
     // be as long as a beam is high. In a cone where energies add the slices come out up to 1 % off,

@@ -36,7 +36,7 @@ ColdStart run_cold(const Mission& mission, const Assembly& assembly, const Setti
         make_engine(assembly.scene, engine_settings(setting.kind, setting.octree, setting.slices));
     cold.build_s = seconds_now() - start;
     bool first = true;
-    for (const std::size_t pose : spread_poses(assembly.trajectory.size(), poses)) {
+    for (const std::size_t pose : sample_poses(assembly.trajectory.size(), poses)) {
         const double before = seconds_now();
         const SonarAtPose then(mission, sonar, static_cast<std::uint32_t>(pose));
         render_ping(*then, assembly.scene, *engine, assembly.trajectory[pose].T_world_vehicle,
@@ -65,10 +65,10 @@ ColdStart in_child(const std::function<ColdStart()>& run) {
     const pid_t child = ::fork();
     if (child < 0) fail("cannot start a process");
     if (child == 0) {
-        // A signal that ends the parent ends what it measures, too.
+        // A signal that ends the parent also ends the child.
         ::prctl(PR_SET_PDEATHSIG, SIGKILL);
         if (::getppid() != parent) ::_exit(1);
-        // The child leaves by _exit, without the parent's destructors and buffers.
+        // _exit() skips the parent's destructors and buffers.
         try {
             const ColdStart cold = run();
             const bool whole = ::write(ends[1], &cold, sizeof cold) == sizeof cold;
@@ -84,7 +84,8 @@ ColdStart in_child(const std::function<ColdStart()>& run) {
     int status = 0;
     ::waitpid(child, &status, 0);
     if (!whole || status != 0) {
-        throw std::runtime_error("a setting failed in a process of its own: is memory short?");
+        throw std::runtime_error(
+            "a setting failed in its child process; it may have run out of memory");
     }
     return cold;
 }

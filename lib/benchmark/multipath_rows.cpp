@@ -14,12 +14,12 @@ namespace {
 constexpr MultipathConfig exact{MultipathMethod::exact, 0, 0.0};
 constexpr MultipathConfig none{MultipathMethod::none, 0, 0.0};
 
-/// The exact method has neither epsilon nor delta.
+/// The exact method ignores epsilon and delta, so one setting stands for all of them.
 MultipathConfig canonical(const MultipathConfig& config) {
     return config.method == MultipathMethod::exact ? exact : config;
 }
 
-/// A sonar with one way to find multipath, on its way through the rounds.
+/// A sonar with one multipath method, and its times so far.
 struct MultipathTrial {
     Sonar sonar;
     std::vector<PoseTimes> poses;
@@ -33,7 +33,7 @@ MultipathTrial trial_of(const Sonar& sonar, const MultipathConfig& multipath,
             std::vector<PoseTimes>(pings.poses.size())};
 }
 
-/// What the sonar sees from each pose, without multipath.
+/// Traces the visible surface at each pose, without multipath.
 std::vector<TracedPing> trace_surfaces(const PingSet& pings, const Sonar& sonar,
                                        const VisibilityEngine& engine) {
     std::vector<TracedPing> traced(pings.poses.size());
@@ -44,8 +44,8 @@ std::vector<TracedPing> trace_surfaces(const PingSet& pings, const Sonar& sonar,
     return traced;
 }
 
-/// The multipath echoes alone, of all poses one after the other. What is seen stays as it is in
-/// `traced`, and the sonar's way to find multipath is put on top.
+/// The multipath echoes only, of all poses one after the other. Keeps the surface in `traced` and
+/// replaces its multipath by that of the sonar's method.
 std::vector<float> multipath_images(const PingSet& pings, const Sonar& sonar,
                                     const VisibilityEngine& engine,
                                     std::vector<TracedPing>& traced) {
@@ -70,7 +70,7 @@ void take_turns(const PingSet& pings, const VisibilityEngine& engine,
     }
 }
 
-/// All ways on one sonar.
+/// All multipath methods on one sonar.
 std::vector<MultipathRow> measure_sonar(const Mission& mission, const PingSet& pings,
                                         const Sonar& sonar, const VisibilityEngine& engine,
                                         int rounds, const ReportProgress& progress) {

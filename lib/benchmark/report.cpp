@@ -25,7 +25,7 @@ namespace sonarsim {
 
 namespace {
 
-/// A sonar with a setting, on its way through the rounds.
+/// A sonar with a setting, and its times so far.
 struct Trial {
     Sonar sonar;
     const VisibilityEngine* engine = nullptr;
@@ -33,11 +33,11 @@ struct Trial {
     std::vector<double> pings_per_s;
 };
 
-/// What all trials share.
+/// The common inputs of all trials.
 struct Comparison {
     PingSet pings;
     const Caster& caster;
-    ReportOptions options;  ///< with the number of threads found out
+    ReportOptions options;  ///< with the actual number of threads
 };
 
 /// Milliseconds of bare Embree: rays from the sensor to every sample, in the order of the samples.
@@ -58,7 +58,8 @@ double bare_ms(const Comparison& comparison, const TracedPing& traced, double ra
     return 1e3 * watch.lap();
 }
 
-/// Embree alone, rays over the view: once to warm the caches, then once per ping of a visit.
+/// Times Embree alone on rays over the view: once to warm the caches, then once per ping of a
+/// visit.
 void time_view_rays(const Comparison& comparison, std::span<const Eigen::Vector3f> in_sensor,
                     const TracedPing& traced, double range_max_m, PoseTimes& times) {
     constexpr int repeats = 3;
@@ -75,7 +76,7 @@ void time_view_rays(const Comparison& comparison, std::span<const Eigen::Vector3
     }
 }
 
-/// Pings per second with all threads at work for about a quarter of a second.
+/// Pings per second with all threads, measured over about a quarter of a second.
 double rate(const Comparison& comparison, const Trial& trial) {
     const PingSet& pings = comparison.pings;
     const int threads = comparison.options.threads;
@@ -88,7 +89,7 @@ double rate(const Comparison& comparison, const Trial& trial) {
     return count / (seconds_now() - start);
 }
 
-/// The truth at each pose.
+/// The reference at each pose.
 std::vector<Reference> cast_references(const Comparison& comparison, const Sonar& sonar) {
     const PingSet& pings = comparison.pings;
     const ReportOptions& options = comparison.options;
@@ -115,10 +116,10 @@ ReferenceQuality quality(const std::string& sensor, const std::vector<Reference>
         apart.push_back(reference.apart);
         rays.push_back(reference.rays_per_bin);
     }
-    return {sensor, spread_of(moved), spread_of(apart), spread_of(rays)};
+    return {sensor, mean_summary(moved), mean_summary(apart), mean_summary(rays)};
 }
 
-/// With an engine that has seen nothing yet, so that its warnings are those of these pings.
+/// Uses a new engine, so that its warnings are about these pings only.
 void measure_errors(const PingSet& pings, const Trial& trial,
                     const std::vector<Reference>& references, ReportRow& row) {
     const Setting& setting = row.setting;
@@ -145,11 +146,11 @@ void measure_errors(const PingSet& pings, const Trial& trial,
     const double goal = trial.sonar.settings.view.relative_l1;
     row.warned = !engine->warnings().empty() ||
                  std::ranges::any_of(estimated_l1, [&](double error) { return error > goal; });
-    row.relative_l1 = spread_of(l1);
-    row.relative_l2 = spread_of(l2);
-    row.miss_rate = spread_of(miss);
-    row.false_rate = spread_of(false_bins);
-    row.samples_per_ping = spread_of(samples);
+    row.relative_l1 = mean_summary(l1);
+    row.relative_l2 = mean_summary(l2);
+    row.miss_rate = mean_summary(miss);
+    row.false_rate = mean_summary(false_bins);
+    row.samples_per_ping = mean_summary(samples);
 }
 
 void summarise_times(const Trial& trial, ReportRow& row) {
@@ -160,11 +161,11 @@ void summarise_times(const Trial& trial, ReportRow& row) {
     row.ms_rays = over_poses(trial.poses, &PoseTimes::rays_thread_ms).centre;
     std::vector<double> times_rays;
     for (const PoseTimes& pose : trial.poses) {
-        times_rays.push_back(spread_of_times(pose.ping_thread_ms).centre /
-                             spread_of_times(pose.rays_thread_ms).centre);
+        times_rays.push_back(median_summary(pose.ping_thread_ms).centre /
+                             median_summary(pose.rays_thread_ms).centre);
     }
-    row.times_rays = spread_of_times(times_rays).centre;
-    row.pings_per_s = spread_of_times(trial.pings_per_s).centre;
+    row.times_rays = median_summary(times_rays).centre;
+    row.pings_per_s = median_summary(trial.pings_per_s).centre;
 }
 
 void mark_front(std::vector<ReportRow>& rows, const std::string& sensor) {

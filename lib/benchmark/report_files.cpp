@@ -15,7 +15,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// The figures of a row that vary over the poses.
-std::vector<std::pair<const char*, const Spread*>> spreads(const ReportRow& row) {
+std::vector<std::pair<const char*, const Summary*>> summaries(const ReportRow& row) {
     return {{"ms_per_ping", &row.ms_per_ping}, {"relative_l1", &row.relative_l1},
             {"relative_l2", &row.relative_l2}, {"miss_rate", &row.miss_rate},
             {"false_rate", &row.false_rate},   {"samples_per_ping", &row.samples_per_ping}};
@@ -38,7 +38,7 @@ Json json_of(const ReportRow& row) {
               {"build_s", row.cold.build_s},
               {"first_ping_s", row.cold.first_ping_s},
               {"peak_memory_mb", row.cold.peak_memory_mb}};
-    for (const auto& [name, spread] : spreads(row)) {
+    for (const auto& [name, spread] : summaries(row)) {
         json["spread"][name] = {spread->min, spread->max};
     }
     return json;
@@ -81,7 +81,7 @@ Json growth_of(const Growth& growth) {
     return json;
 }
 
-/// The figures of a multipath row: epsilon and delta, then what was measured.
+/// The figures of a multipath row: epsilon and delta, then the measurements.
 std::vector<std::pair<const char*, double>> figures(const MultipathRow& row) {
     return {{"epsilon_bins", row.setting.epsilon_bins},
             {"delta_deg", row.setting.delta_deg},
@@ -138,7 +138,7 @@ std::string report_csv(const Report& report) {
         "sensor,engine,setting,promise,ms_per_ping,pings_per_s,times_131k_rays,relative_l1,"
         "worst_relative_l1,relative_l2,miss_rate,false_rate,samples_per_ping,build_s,first_ping_s,"
         "peak_memory_mb";
-    for (const auto& [name, spread] : spreads(ReportRow{})) {
+    for (const auto& [name, spread] : summaries(ReportRow{})) {
         text += "," + std::string(name) + "_min," + name + "_max";
     }
     text += "\n";
@@ -152,7 +152,7 @@ std::string report_csv(const Report& report) {
               row.cold.first_ping_s, row.cold.peak_memory_mb}) {
             text += "," + number_text(value);
         }
-        for (const auto& [name, spread] : spreads(row)) {
+        for (const auto& [name, spread] : summaries(row)) {
             text += "," + number_text(spread->min) + "," + number_text(spread->max);
         }
         text += "\n";

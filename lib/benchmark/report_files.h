@@ -10,7 +10,7 @@ namespace sonarsim {
 /// `growth`, `multipath_rows`. Ends with a line feed.
 std::string report_json(const Report& report);
 
-/// The rows as CSV with a header; the spreads as columns *_min and *_max.
+/// The rows as CSV with a header; the summaries as columns *_min and *_max.
 std::string report_csv(const Report& report);
 
 /// The multipath rows as CSV with a header, the columns named as in the JSON.

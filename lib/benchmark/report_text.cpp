@@ -24,7 +24,7 @@ std::string percent(double x) {
     return short_number(100.0 * x) + " %";
 }
 
-std::string between(const Spread& spread) {
+std::string between(const Summary& spread) {
     return short_number(spread.min) + "-" + short_number(spread.max);
 }
 
@@ -72,7 +72,7 @@ std::string costs(const Report& report, const std::string& sensor) {
 }
 
 std::string stages(const Report& report, const std::string& sensor) {
-    std::string text = fmt::format("{:<28}", "where it goes, ms");
+    std::string text = fmt::format("{:<28}", "stages, ms");
     for (const auto& timer : ping_timers)
         text += fmt::format("{:>12}", timer.name);
     text += fmt::format("{:>14}{:>12}{:>12}{:>14}\n", "bare Embree", "x of bare", "131k rays",
@@ -90,7 +90,7 @@ std::string stages(const Report& report, const std::string& sensor) {
     return text;
 }
 
-/// How far the mission's own setting is from bare Embree, and what holds it back.
+/// Compares the mission's own setting with bare Embree, and names the slowest stage.
 std::string floors(const Report& report, const std::string& sensor) {
     for (const ReportRow& row : report.rows) {
         double sum = 0.0;
@@ -107,7 +107,7 @@ std::string floors(const Report& report, const std::string& sensor) {
         const auto most = std::ranges::max_element(
             ping_timers, {}, [&](const auto& timer) { return row.stages.*timer.member; });
         return fmt::format(
-            "{}: a ping takes {} times what bare Embree needs for as many rays: {}. The stage {} "
+            "{}: a ping takes {} times as long as bare Embree with as many rays: {}. The stage {} "
             "takes most.\n",
             label(row), short_number(row.ms_per_ping.centre / row.ms_bare), shares, most->name);
     }
@@ -125,7 +125,7 @@ std::string label(const MultipathRow& row) {
     return fmt::format("cluster epsilon={} delta={}", setting.epsilon_bins, setting.delta_deg);
 }
 
-/// The ways to find multipath, against the exact one; nothing for a sonar without multipath.
+/// Compares the multipath methods with the exact one; empty for a sonar without multipath.
 std::string multipath(const Report& report, const std::string& sensor) {
     std::string text;
     for (const MultipathRow& row : report.multipath) {
@@ -144,10 +144,11 @@ std::string multipath(const Report& report, const std::string& sensor) {
     }
     if (text.empty()) return text;
     const MultipathRow& any = *std::ranges::find(report.multipath, sensor, &MultipathRow::sensor);
-    return text + fmt::format(
-                      "Of the multipath echoes alone, against the exact method, which lights {} "
-                      "bins at {} poses;\nwithout multipath a ping takes {} ms.\n",
-                      any.exact_bins, report.poses, short_number(any.ms_without));
+    return text +
+           fmt::format(
+               "Errors are those of the multipath echoes only, relative to the exact method, "
+               "which fills {} bins at {} poses;\nwithout multipath a ping takes {} ms.\n",
+               any.exact_bins, report.poses, short_number(any.ms_without));
 }
 
 std::string growth_text(const Report& report) {
@@ -213,11 +214,11 @@ std::string report_text(const Report& report) {
                 multipath(report, reference.sensor);
     }
     return text + growth_text(report) +
-           "* nothing is both faster and more accurate; < the mission's own setting. ms/ping on "
-           "one thread,\npings/s on all, noise on; x rays: times what Embree alone needs for "
-           "131,072 rays over the view. Errors\nare those of the direct echoes without noise: the "
-           "mean over the poses, and the worst of them, which the\ngoal is met by, or warned of, "
-           "or missed by. MiB is the peak of a process with this setting alone.\n";
+           "* no setting is both faster and more accurate; < the mission's own setting. ms/ping on "
+           "one thread,\npings/s on all, noise on; x rays: multiple of Embree's time for 131,072 "
+           "rays over the view. Errors are\nthose of the direct echoes without noise, mean and "
+           "worst over the poses; goal: whether the worst met it,\nor the engine warned, or missed "
+           "it. MiB is the peak of a process with this setting alone.\n";
 }
 
 std::string report_markdown(const Report& report) {

@@ -16,12 +16,12 @@ namespace sonarsim {
 
 namespace {
 
-/// Median milliseconds per ping over the poses; the first look at each pose does not count.
+/// Median milliseconds per ping over the poses; the first ping at each pose does not count.
 double time_pings(const Mission& mission, const Assembly& assembly, const Scene& scene,
                   const Sonar& sonar, const VisibilityEngine& engine,
                   const ReportOptions& options) {
     std::vector<double> ms;
-    const auto poses = spread_poses(assembly.trajectory.size(), options.poses);
+    const auto poses = sample_poses(assembly.trajectory.size(), options.poses);
     for (int round = 0; round <= options.rounds; ++round) {
         for (const std::size_t pose : poses) {
             const double start = seconds_now();
@@ -32,10 +32,10 @@ double time_pings(const Mission& mission, const Assembly& assembly, const Scene&
             if (round > 0) ms.push_back(1e3 * (seconds_now() - start));
         }
     }
-    return spread_of_times(ms).centre;
+    return median_summary(ms).centre;
 }
 
-/// The scenes of one kind of growth, from the original up.
+/// The scenes of one kind of growth, starting with the original.
 std::vector<Scene> grown(const Scene& scene, const std::string& along, std::size_t most) {
     std::vector<Scene> scenes{scene};
     if (along == "detail") {
@@ -49,8 +49,8 @@ std::vector<Scene> grown(const Scene& scene, const std::string& along, std::size
     return scenes;
 }
 
-/// Cuts every triangle of a mesh into four at the middles of its edges. `piece_of(t)` is called for
-/// each piece of triangle t.
+/// Cuts every triangle of a mesh into four at the midpoints of its edges. Calls `piece_of(t)` for
+/// each part of triangle t.
 template <class Mesh, class PieceOf>
 void cut(Mesh& mesh, const PieceOf& piece_of) {
     const auto whole = std::exchange(mesh.triangles, {});
@@ -132,7 +132,7 @@ Scene tile(const Scene& scene, int n) {
 std::vector<Growth> measure_growth(const Mission& mission, const Assembly& assembly,
                                    std::size_t most_triangles, const ReportOptions& options,
                                    const ReportProgress& progress) {
-    // The octree sees no copies of shared meshes.
+    // The octree does not support copies of shared meshes.
     const bool octree_too = assembly.scene.copies.empty();
     const std::size_t engine_count = octree_too ? 2 : 1;
     std::vector<Growth> out;

@@ -18,7 +18,7 @@ Setting rays_with(double goal) {
             .relative_l1 = goal};
 }
 
-/// `per_beam` 0 follows the goal.
+/// `per_beam` 0: the number of slices follows the goal.
 Setting slices_with(int per_beam, double goal) {
     return {.engine = "slices",
             .name = per_beam > 0 ? "per_beam=" + std::to_string(per_beam)
@@ -29,7 +29,7 @@ Setting slices_with(int per_beam, double goal) {
             .slices = {per_beam}};
 }
 
-/// `leaf_m` 0 is auto.
+/// `leaf_m` 0: automatic.
 Setting octree_with(double leaf_m, bool literal, const Mission& mission) {
     OctreeConfig octree = mission.octree;
     octree.leaf_m = leaf_m;
@@ -94,11 +94,11 @@ std::vector<Setting> make_settings(const Mission& mission, bool quick) {
     return settings;
 }
 
-std::string refusal_of(const Setting& setting, const Assembly& assembly) {
+std::string unsupported(const Setting& setting, const Assembly& assembly) {
     const EngineSettings engine = engine_settings(setting.kind, setting.octree, setting.slices);
-    std::string refusal = refusal_of(engine, assembly.scene);
+    std::string refusal = unsupported(engine, assembly.scene);
     for (const Sonar& sonar : assembly.sonars) {
-        if (refusal.empty()) refusal = refusal_of(engine, sonar.settings.view);
+        if (refusal.empty()) refusal = unsupported(engine, sonar.settings.view);
     }
     return refusal;
 }

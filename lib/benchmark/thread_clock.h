@@ -4,8 +4,7 @@
 
 namespace sonarsim {
 
-/// Seconds of the processor that this thread has had: what can still be compared on a machine with
-/// other work.
+/// CPU time of this thread in seconds, which stays comparable on a busy machine.
 inline double thread_seconds_now() {
     timespec now{};
     ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);

@@ -11,7 +11,7 @@ Ping PingSet::render(const Sonar& sonar, const VisibilityEngine& engine, std::si
 
 PingSet make_ping_set(const Mission& mission, const Assembly& assembly, int poses) {
     PingSet pings{mission, assembly.scene, {}, {}};
-    for (const std::size_t pose : spread_poses(assembly.trajectory.size(), poses)) {
+    for (const std::size_t pose : sample_poses(assembly.trajectory.size(), poses)) {
         pings.poses.push_back(assembly.trajectory[pose].T_world_vehicle);
         pings.indices.push_back(static_cast<std::uint32_t>(pose));
     }
@@ -46,22 +46,22 @@ TracedPing visit_pose(const PingSet& pings, const Sonar& sonar, const Visibility
     return traced;
 }
 
-Spread over_poses(std::span<const PoseTimes> poses, std::vector<double> PoseTimes::*times_ms) {
+Summary over_poses(std::span<const PoseTimes> poses, std::vector<double> PoseTimes::*times_ms) {
     std::vector<double> medians;
     for (const PoseTimes& times : poses)
-        medians.push_back(spread_of_times(times.*times_ms).centre);
-    return spread_of_times(medians);
+        medians.push_back(median_summary(times.*times_ms).centre);
+    return median_summary(medians);
 }
 
-Spread over_poses(std::span<const PoseTimes> poses, double PingSeconds::*stage) {
+Summary over_poses(std::span<const PoseTimes> poses, double PingSeconds::*stage) {
     std::vector<double> medians;
     for (const PoseTimes& times : poses) {
         std::vector<double> ms;
         for (const PingSeconds& stages : times.stages)
             ms.push_back(1e3 * stages.*stage);
-        medians.push_back(spread_of_times(ms).centre);
+        medians.push_back(median_summary(ms).centre);
     }
-    return spread_of_times(medians);
+    return median_summary(medians);
 }
 
 }  // namespace sonarsim

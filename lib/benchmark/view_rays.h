@@ -7,12 +7,12 @@
 
 namespace sonarsim {
 
-/// Rays of the yardstick that pings are measured by: what Embree alone needs to trace as many over
-/// the same view of the same scene.
+/// Number of rays of the yardstick for pings: the time of Embree alone for as many rays over the
+/// same view of the same scene.
 inline constexpr int view_rays_count = 131'072;
 
-/// `view_rays_count` directions of the sensor frame, unit length, evenly over a view: 512 columns
-/// of 256, neighbours of a column one after the other.
+/// `view_rays_count` unit directions in the sensor frame, evenly spread over a view: 512 columns of
+/// 256 rays, column by column.
 std::vector<Eigen::Vector3f> view_rays(const View& view);
 
 }  // namespace sonarsim

@@ -8,7 +8,7 @@ namespace sonarsim {
 
 namespace {
 
-// Libraries that are headers (Eigen) choose their instructions by these macros.
+// Eigen is header-only and chooses its instructions by these macros.
 #if defined(__AVX512F__)
 constexpr const char* arithmetic = "AVX-512";
 #elif defined(__AVX2__) && defined(__FMA__)

@@ -2,12 +2,12 @@
 
 namespace sonarsim {
 
-/// How the program was built, as dataset.json tells it.
+/// Build information, as written to dataset.json.
 struct BuildInfo {
     const char* compiler;  ///< name and version
     const char* flags;     ///< build type and what the user added to the flags
-    /// What the values of an image depend on besides the mission and the program's version. Builds
-    /// that agree in it make the same values, whatever compiled them.
+    /// Instruction set of the arithmetic. Two builds with the same one give the same image values
+    /// for a mission and a program version, whatever compiler built them.
     const char* arithmetic;
 };
 

@@ -5,16 +5,16 @@
 
 namespace sonarsim {
 
-/// Seconds of a clock that only goes forward, from a start that means nothing.
+/// Seconds of a monotonic clock; its zero is arbitrary.
 inline double seconds_now() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
         .count();
 }
 
-/// Times the steps of a piece of work, one after the other.
+/// Times consecutive steps of a piece of work.
 class Stopwatch {
   public:
-    /// Seconds since the last call, or since the stopwatch was made.
+    /// Seconds since the last call, or since construction.
     double lap() {
         const double now = seconds_now();
         return now - std::exchange(last_, now);

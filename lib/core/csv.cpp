@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t max_columns = 1024;
 
-/// A quoted field that starts at `line[at]`; leaves `at` behind the closing quote.
+/// Reads a quoted field that starts at `line[at]` and moves `at` past the closing quote.
 std::string read_quoted(std::string_view line, std::size_t& at, const Location& where) {
     std::string field;
     for (++at; at < line.size(); ++at) {

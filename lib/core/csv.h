@@ -9,8 +9,8 @@
 namespace sonarsim {
 
 struct CsvRow {
-    int line = 0;                     ///< in the file, from 1
-    std::vector<std::string> fields;  ///< blanks around them removed, quotes taken off
+    int line = 0;                     ///< line number in the file, from 1
+    std::vector<std::string> fields;  ///< without blanks around them and without quotes
 };
 
 struct CsvTable {

@@ -8,15 +8,15 @@
 
 #include "core/units.h"
 
-// Elementary functions of our own. The C library's choose a variant by the processor that they
-// run on, and the variants differ in the last bit; a dataset must not. These are branch-free where
-// it matters, so that a loop over them vectorises. Only sqrt, floor and fma of <cmath> are used:
-// IEEE 754 fixes their results.
+// Elementary functions with the same result on every processor. The C library's choose a variant by
+// the processor that they run on, and the variants differ in the last bit. Those that are called in
+// inner loops are branch-free, so that a loop over them vectorises. Only sqrt, floor and fma of
+// <cmath> are used: IEEE 754 fixes their results.
 
 namespace sonarsim {
 
-/// c0 + c1 x + c2 x^2 + ... by Horner's rule, rounded once per term. The fused multiply-add is
-/// asked for by name, since the build does not let compilers choose it.
+/// c0 + c1 x + c2 x^2 + ... by Horner's rule, rounded once per term. It calls fma() explicitly,
+/// since the build forbids compilers to contract products and sums.
 constexpr float polynomial(float, float c0) {
     return c0;
 }
@@ -30,8 +30,8 @@ struct SinCos {
     double cos;
 };
 
-/// Sine and cosine, absolute error below 1e-15 for |x| up to 1e5 rad. Reduction to [-pi/4, pi/4]
-/// by a pi/2 in two parts (Cody and Waite), then the Taylor series.
+/// Sine and cosine, absolute error below 1e-15 for |x| up to 1e5 rad. Cody and Waite's reduction to
+/// [-pi/4, pi/4] (pi/2 in two parts), then the Taylor series.
 inline SinCos sincos(double x) {
     constexpr double half_pi_high = 0x1.921fb54442d18p+0;
     constexpr double half_pi_low = 0x1.1a62633145c07p-54;
@@ -104,8 +104,8 @@ inline double arccos(double x) {
 }
 
 /// e^x for every x, relative error below 1e-15 where the result is a normal number; 0 below the
-/// smallest number, infinity above the largest, NaN for NaN. e^x = 2^k e^y with |y| <= ln(2) / 2:
-/// ln 2 in two parts (Cody and Waite), e^y by its Taylor series.
+/// smallest number, infinity above the largest, NaN for NaN. Cody and Waite's reduction to e^x =
+/// 2^k e^y with |y| <= ln(2) / 2 (ln 2 in two parts), then the Taylor series.
 inline double exponential(double x) {
     constexpr double ln2_high = 0x1.62e42fefa39efp-1;
     constexpr double ln2_low = 0x1.abc9e3b39803fp-56;
@@ -117,7 +117,7 @@ inline double exponential(double x) {
     double series = 1.0;
     for (int n = 14; n >= 1; --n)
         series = 1.0 + series * y / n;
-    // In two factors: 2^k may overflow or underflow although the result does not.
+    // Two factors: 2^k may overflow or underflow although the result does not.
     const auto power_of_two = [](std::int64_t exponent) {
         return std::bit_cast<double>((exponent + 1023) << 52);
     };
@@ -152,7 +152,7 @@ inline double logarithm(double x) {
     return std::fma(2.0 * s, series, static_cast<double>(exponent) * ln2);
 }
 
-/// x^y of a positive x.
+/// x^y for positive x.
 inline double power(double x, double y) {
     return exponential(y * logarithm(x));
 }
@@ -162,8 +162,8 @@ struct SinCosFloat {
     float cos;
 };
 
-/// Sine and cosine of an angle within [-pi, pi], absolute error below 1e-6. The Taylor series of
-/// the half angle, doubled once.
+/// Sine and cosine of an angle within [-pi, pi], absolute error below 1e-6. Taylor series of the
+/// half angle and one doubling.
 inline SinCosFloat sincos_small(float x) {
     const float y = 0.5F * x;
     const float t = y * y;

@@ -14,20 +14,20 @@ std::string Location::text() const {
 InputError::InputError(const Location& where, const std::string& what)
     : std::runtime_error(where.text() + ": " + what) {}
 
-void Problems::add(const InputError& error) {
+void ErrorList::add(const InputError& error) {
     const std::string text = error.what();
     if (std::ranges::find(kept_, text) != kept_.end()) return;
     ++count_;
     if (kept_.size() < most_kept) kept_.push_back(text);
 }
 
-void Problems::raise() const {
+void ErrorList::raise() const {
     if (kept_.empty()) return;
     std::string all;
     for (const std::string& text : kept_)
         all += (all.empty() ? "" : "\n") + text;
     if (count_ > kept_.size())
-        all += "\nand " + std::to_string(count_ - kept_.size()) + " more faults like these";
+        all += "\nand " + std::to_string(count_ - kept_.size()) + " more errors like these";
     throw InputError(all);
 }
 

@@ -40,7 +40,7 @@ std::string reason() {
 
 enum class Durable { no, yes };
 
-/// A new file: what bears the name already, a link included, is not written to.
+/// Writes a new file. Fails if the name exists already, even as a link.
 void write_bytes(const std::filesystem::path& path, std::string_view bytes, Durable durable) {
     Descriptor file(path, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW);
     if (file.get() < 0) throw_errno("cannot write", path);
@@ -54,7 +54,7 @@ void write_bytes(const std::filesystem::path& path, std::string_view bytes, Dura
     if (!file.close()) throw_errno("cannot write", path);
 }
 
-/// The names in a folder become durable.
+/// Makes the names in a folder durable.
 void sync_folder(const std::filesystem::path& folder) {
     const Descriptor names(folder.empty() ? "." : folder, O_RDONLY | O_DIRECTORY);
     if (names.get() < 0 || ::fsync(names.get()) != 0) throw_errno("cannot write", folder);

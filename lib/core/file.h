@@ -12,9 +12,9 @@ namespace sonarsim {
 /// cannot be read or is larger than `limit` bytes.
 std::string read_file(const std::filesystem::path& path, std::size_t limit);
 
-/// Writes to a temporary name beside `path` and renames it: a reader sees the old file or the
+/// Writes to a temporary name next to `path` and renames it: a reader sees the old file or the
 /// whole new one, and a link at `path` is replaced, not followed. std::system_error when the disk
-/// does not take it; no temporary file is left then.
+/// refuses; no temporary file is left then.
 void write_file(const std::filesystem::path& path, std::string_view bytes);
 
 /// As write_file(); when it returns, the file survives a power cut.
@@ -22,23 +22,23 @@ void write_file_durably(const std::filesystem::path& path, std::string_view byte
 
 /// Makes durable whatever was written to the file system that holds `folder`: one call for a
 /// thousand files costs a fraction of a thousand fsync() calls. std::system_error when the disk
-/// did not take it all.
+/// refuses.
 void sync_file_system(const std::filesystem::path& folder);
 
-/// Throws std::system_error for errno: "cannot write PATH: No space left on device", where `what`
-/// is "cannot write".
+/// Throws std::system_error for errno with the text "`what` `path`: ...", as in "cannot write PATH:
+/// No space left on device".
 [[noreturn]] void throw_errno(const char* what, const std::filesystem::path& path);
 
-/// A new name for a file until it is whole: a hidden sibling of `path`, so that a rename stays
-/// within one file system, ".<name>.<16 random hex digits>.part", so that two processes may write
-/// the same file, also where both have the same process id (in containers).
+/// A new temporary name, ".<name>.<16 random hex digits>.part". It is a hidden sibling of `path`,
+/// so that a rename stays within one file system. The digits are random, since processes in two
+/// containers may have the same id.
 std::filesystem::path temporary_name(const std::filesystem::path& path);
 
-/// Whether temporary_name() made this name.
+/// True if temporary_name() made this name.
 bool is_temporary_name(std::string_view name);
 
-/// The name that a file gets or was to get: ".000007.npy.<digits>.part" gives "000007.npy"; any
-/// other name is its own.
+/// The name that a temporary file gets once it is whole: "000007.npy" for
+/// ".000007.npy.<digits>.part". Returns any other name unchanged.
 std::string final_name(std::string_view name);
 
 }  // namespace sonarsim

@@ -5,8 +5,8 @@
 
 namespace sonarsim {
 
-/// The FNV-1a hash of 128 bits, as 32 hexadecimal digits. It tells inputs apart; it is no defence
-/// against somebody who makes two inputs agree on purpose.
+/// The 128-bit FNV-1a hash, as 32 hexadecimal digits. It is not cryptographic: inputs with the same
+/// hash can be made on purpose.
 std::string fnv1a_128(std::string_view bytes);
 
 }  // namespace sonarsim

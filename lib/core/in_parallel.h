@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-#include "core/handover.h"
+#include "core/thread_sanitizer.h"
 
 namespace sonarsim {
 
@@ -13,11 +13,11 @@ template <class Body>
 void in_parallel(std::size_t count, const Body& body) {
     char begun = 0;
     char done = 0;
-    const ReceiveAtEnd all{&done};
-    handed_over(&begun);
+    const AcquireAtEnd all{&done};
+    tsan_release(&begun);
     tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) SONARSIM_CALLED_BY_TBB {
-        received(&begun);
-        const HandOverAtEnd one{&done};
+        tsan_acquire(&begun);
+        const ReleaseAtEnd one{&done};
         body(i);
     });
 }

@@ -1,7 +1,7 @@
 #pragma once
 
-// What the program accepts from files and missions. Beyond these values numbers lose the precision
-// that the results promise, or overflow.
+// Limits on what the program accepts from files and missions. Beyond them numbers overflow or lose
+// the promised precision.
 
 namespace sonarsim {
 

@@ -6,7 +6,7 @@
 
 namespace sonarsim {
 
-/// A fault of a file that another one names, with the place where it does.
+/// Adds to an error in a file the location at which another file names that file.
 inline InputError named_at(const InputError& fault, const Location& where) {
     return InputError(std::string(fault.what()) + "; " + where.text() + " names it");
 }

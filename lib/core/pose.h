@@ -28,8 +28,8 @@ struct Rpy {
     double yaw = 0.0;
 };
 
-/// The angles of rotation_from_rpy(). Where the bow points straight up or down only the sum or the
-/// difference of roll and yaw counts: roll is 0 then.
+/// The angles of rotation_from_rpy(). If the bow points straight up or down, only the sum or the
+/// difference of roll and yaw is defined; roll is 0 then.
 Rpy rpy_from_rotation(const Eigen::Quaterniond& rotation);
 
 }  // namespace sonarsim

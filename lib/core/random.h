@@ -12,13 +12,13 @@ struct PhiloxBlock {
     std::uint32_t x0, x1, x2, x3;
 };
 
-/// The 64-bit key of Philox: what names a family of draws.
+/// The 64-bit key of Philox. It identifies a family of draws.
 struct PhiloxKey {
     std::uint32_t k0, k1;
 };
 
-/// Philox4x32-10 of Salmon et al., "Parallel random numbers: as easy as 1, 2, 3" (SC11), the same
-/// function as in Random123; a test holds the two against each other.
+/// Philox4x32-10 of Salmon et al., "Parallel random numbers: as easy as 1, 2, 3" (SC11). A test
+/// compares it with Random123.
 inline PhiloxBlock philox(PhiloxBlock c, PhiloxKey key) {
     for (int round = 0; round < 10; ++round) {
         const std::uint64_t a = std::uint64_t{0xD2511F53U} * c.x0;
@@ -31,15 +31,15 @@ inline PhiloxBlock philox(PhiloxBlock c, PhiloxKey key) {
     return c;
 }
 
-/// Rounds of the draws that come by the million. The authors know of no statistical flaw of
-/// Philox2x32 from 6 rounds on; with 10 it would take 1.4 times as long.
+/// Rounds for draws that are made by the million. The authors know of no statistical flaw of
+/// Philox2x32 from 6 rounds on; 10 rounds would take 1.4 times as long.
 constexpr int pair_rounds = 7;
 
 /// Philox2x32 of the same paper for a batch of counters, in place: counter k is (x0[k], x1[k]) and
-/// becomes two random words. `count` is a multiple of 8. Philox2x32 has a key of one word: the
-/// second goes into the counter. Two families of draws meet only when their first words are equal,
-/// and then in other counters. Eight counters at a time in AVX2 registers; what a compiler makes of
-/// the plain loop takes more than twice as long.
+/// becomes two random words. `count` is a multiple of 8. Philox2x32 has a key of one word, so the
+/// second word goes into the counter. Two families of draws share a key only if their first words
+/// are equal, and they use different counters then. The function works on eight counters at a time
+/// in AVX2 registers; the plain loop takes more than twice as long.
 inline void philox_pairs(std::uint32_t* x0, std::uint32_t* x1, std::size_t count, PhiloxKey key) {
     const __m256i multiplier = _mm256_set1_epi64x(0xD256D193);
     const __m256i second_key = _mm256_set1_epi32(static_cast<int>(key.k1));
@@ -72,18 +72,18 @@ inline void philox_pairs(std::uint32_t* x0, std::uint32_t* x1, std::size_t count
     }
 }
 
-/// A float in (0, 1): the midpoint of one of 2^23 equal intervals. Neither 0 nor 1 occurs, so the
-/// logarithm of it is finite; with 24 bits the last midpoint would round to 1.
+/// A float in (0, 1): the midpoint of one of 2^23 equal intervals. 0 and 1 never occur, so its
+/// logarithm is finite; with 24 bits the last midpoint would round to 1.
 inline float unit_float(std::uint32_t word) {
     return (static_cast<float>(static_cast<std::int32_t>(word >> 9)) + 0.5F) * 0x1p-23F;
 }
 
-/// A double in [0, 1), of 53 random bits.
+/// A double in [0, 1) with 53 random bits.
 inline double unit_double(std::uint32_t high, std::uint32_t low) {
     return (static_cast<double>(high >> 5) * 67108864.0 + static_cast<double>(low >> 6)) * 0x1p-53;
 }
 
-/// What a draw is for. Draws of different streams never share a number.
+/// The purpose of a draw. Draws of different streams never share a number.
 enum class Stream : std::uint32_t {
     range_noise = 1,
     pixel_noise = 2,
@@ -96,8 +96,8 @@ enum class Stream : std::uint32_t {
     ping_variation = 9,  ///< the key that varies as `sensor`, the pose as `ping`
 };
 
-/// The key of one stream of one ping of one sensor. The counter below it names what the draw
-/// belongs to (a scatterer cell, a pixel).
+/// The key of one stream of one ping of one sensor. The counter that goes with it identifies the
+/// item of the draw (a scatterer cell, a pixel).
 inline PhiloxKey stream_key(std::uint64_t seed, std::uint32_t sensor, std::uint32_t ping,
                             Stream stream) {
     const PhiloxBlock block =

@@ -30,8 +30,7 @@ alignas(16) constexpr std::uint32_t round_constants[64] = {
 
 using State = std::array<std::uint32_t, 8>;
 
-/// The same as the portable one in instructions that are made for it. They want the state as two
-/// registers, ABEF and CDGH.
+/// The same with the SHA instructions, which need the state as two registers, ABEF and CDGH.
 __attribute__((target("sha"))) void blocks_by_sha_instructions(State& state, const char* blocks,
                                                                std::size_t count) {
     const __m128i big_endian = _mm_set_epi64x(0x0c0d0e0f08090a0b, 0x0405060700010203);
@@ -141,7 +140,7 @@ void Sha256::add(std::string_view bytes) {
 
 std::string Sha256::digest() {
     const std::uint64_t bits = 8 * bytes_;
-    // A set bit, zeros, and the length in bits in the last eight bytes of a block.
+    // Padding: a set bit, zeros, and the length in bits in the last eight bytes of a block.
     std::string end(1 + (2 * block_bytes - 9 - rest_bytes_) % block_bytes, '\0');
     end[0] = '\x80';
     for (int shift = 56; shift >= 0; shift -= 8)

@@ -8,11 +8,11 @@
 
 namespace sonarsim {
 
-/// The whole of `text` as a finite or infinite decimal number ("1", "-2.5e-3", "inf", "nan");
-/// nothing when anything is left over. Never octal, never hexadecimal, never a locale's comma.
+/// Parses the whole of `text` as a decimal number ("1", "-2.5e-3", "inf", "nan"); nullopt if
+/// anything is left over. Octal, hexadecimal and a locale's comma are not accepted.
 std::optional<double> parse_number(std::string_view text);
 
-/// The whole of `text` as a decimal integer; nothing when it is not one or does not fit.
+/// Parses the whole of `text` as a decimal integer; nullopt if it is not one or does not fit.
 std::optional<std::int64_t> parse_integer(std::string_view text);
 std::optional<std::uint64_t> parse_unsigned(std::string_view text);
 
@@ -21,10 +21,10 @@ std::string number_text(double value);
 
 std::string_view trim(std::string_view text);
 
-/// Length of the well-formed UTF-8 character that `text` starts with; 0 when it is none.
+/// Length of the well-formed UTF-8 character at the start of `text`; 0 if there is none.
 std::size_t utf8_length(std::string_view text);
 
-/// `text` from a file as it may be shown: control characters, which could steer a terminal, and
+/// Makes `text` from a file safe to print: control characters, which could steer a terminal, and
 /// bytes that are not UTF-8 become "\\x1b" and the like.
 std::string printable(std::string_view text);
 

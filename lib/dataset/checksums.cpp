@@ -4,10 +4,10 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "core/atomic_file.h"
 #include "core/error.h"
 #include "core/in_parallel.h"
 #include "core/sha256.h"
-#include "core/whole_file.h"
 
 namespace sonarsim {
 

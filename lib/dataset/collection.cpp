@@ -10,12 +10,12 @@
 #include <set>
 #include <tuple>
 
+#include "core/atomic_file.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "core/ordered_pipeline.h"
 #include "core/sha256.h"
 #include "core/text.h"
-#include "core/whole_file.h"
 #include "dataset/checksums.h"
 #include "dataset/collection_file.h"
 #include "dataset/dataset_file.h"
@@ -183,13 +183,13 @@ FolderLock begin_collection(const fs::path& out, const Json& description) {
 bool copy_whole(const fs::path& from, const fs::path& to, const std::string& sum) {
     if (fs::is_regular_file(to) && sha256_of_file(to) == sum) return false;
     fs::create_directories(to.parent_path());
-    WholeFile copy(to);
+    AtomicFile copy(to);
     fs::copy_file(from, copy.part());
     if (sha256_of_file(copy.part()) != sum) {
         throw InputError({from.string()},
                          "is not what its SHA256SUMS tells; sonarsim verify says what to do");
     }
-    copy.keep();
+    copy.commit();
     return true;
 }
 

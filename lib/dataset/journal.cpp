@@ -12,11 +12,11 @@
 #include <sstream>
 #include <system_error>
 
+#include "core/atomic_file.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "core/hash.h"
 #include "core/text.h"
-#include "core/whole_file.h"
 #include "dataset/folder_lock.h"
 #include "dataset/layout.h"
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/whole_file.h"
+#include "core/atomic_file.h"
 
 namespace sonarsim {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/whole_file.h"
+#include "core/atomic_file.h"
 #include "product/picture.h"
 
 struct z_stream_s;  // zlib's

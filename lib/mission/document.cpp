@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t deepest = 16;
 // A mission of 2,000 sensors, as written into its dataset, has 120,000.
-constexpr std::size_t most_nodes = 500'000;
+constexpr std::size_t most_nodes = 250'000;
 
 bool is_control(char byte) {
     const auto value = static_cast<unsigned char>(byte);

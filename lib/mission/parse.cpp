@@ -50,14 +50,14 @@ void check_draws_of_pings(const Mission& mission, const YamlNode& root,
                           SonarKeyTable sonars) {
     std::vector<std::pair<const VaryConfig*, std::vector<std::string>>> rules;
     std::size_t most = 0;
-    Problems problems;
+    ErrorList errors;
     for (const VaryConfig& rule : mission.vary) {
         if (rule.per != VaryPer::ping) continue;
-        problems.attempt([&] { check_key_of_pings(mission, rule); });
+        errors.attempt([&] { check_key_of_pings(mission, rule); });
         rules.emplace_back(&rule, extremes_of(rule));
         most = std::max(most, rules.back().second.size());
     }
-    problems.raise();
+    errors.raise();
     YamlNode without = root;
     erase_key(without, "vary");
     erase_key(without, "variants");
@@ -87,11 +87,10 @@ void check_rules(const Mission& mission) {
         Reserved{"vary", "it says what varies"},
         Reserved{"output.folder", "each variant has a folder of its own in that of the mission"},
         Reserved{"output.split", "it parts whole variants"}};
-    Problems problems;
+    ErrorList errors;
     for (auto rule = mission.vary.begin(); rule != mission.vary.end(); ++rule) {
         const auto refuse = [&](const std::string& what) {
-            problems.add(
-                InputError(rule->place.location, "'" + printable(rule->key) + "' " + what));
+            errors.add(InputError(rule->place.location, "'" + printable(rule->key) + "' " + what));
         };
         for (const Reserved& one : reserved) {
             if (is_within(rule->key, one.key)) refuse(std::string("cannot vary: ") + one.why);
@@ -104,7 +103,7 @@ void check_rules(const Mission& mission) {
                                       : "replaces what is drawn for '" + printable(lost->key) +
                                             "' before it; write that rule after this one");
     }
-    problems.raise();
+    errors.raise();
 }
 
 }  // namespace
@@ -137,13 +136,13 @@ Mission parse_mission(const YamlNode& root, const std::string& file_name,
     mission.name = std::filesystem::path(file_name).stem().string();
     YamlNode filled = root;
     fill_in_presets(filled, base_folder);
-    Problems problems;
-    problems.attempt([&] {
-        MissionReader reader(filled, "mission", base_folder, sonars, problems);
+    ErrorList errors;
+    errors.attempt([&] {
+        MissionReader reader(filled, "mission", base_folder, sonars, errors);
         describe(reader, mission);
         reader.finish();
     });
-    problems.raise();
+    errors.raise();
     check_rules(mission);
     check_draws_of_pings(mission, root, file_name, base_folder, sonars);
     if (mission.water.sound_speed_m_s == 0.0)

@@ -21,12 +21,12 @@ bool is_name(std::string_view text) {
 
 MissionReader::MissionReader(const YamlNode& node, std::string name,
                              const std::filesystem::path& base_folder, SonarKeyTable sonars,
-                             Problems& problems)
+                             ErrorList& errors)
     : node_(node),
       name_(std::move(name)),
       base_folder_(base_folder),
       sonars_(sonars),
-      problems_(problems) {
+      errors_(errors) {
     if (node.kind != YamlNode::Kind::map) refuse_type(node, name_, "a section of keys");
 }
 
@@ -278,7 +278,7 @@ void MissionReader::require(bool holds, std::initializer_list<const char*> keys,
         const YamlNode* node = node_.find(key);
         if (node != nullptr && (last == nullptr || after(node->place, last->place))) last = node;
     }
-    problems_.attempt([&] { refuse(last != nullptr ? *last : node_, message); });
+    errors_.attempt([&] { refuse(last != nullptr ? *last : node_, message); });
     faulty_.insert(faulty_.end(), keys.begin(), keys.end());
 }
 
@@ -286,9 +286,9 @@ void MissionReader::finish() {
     for (const YamlNode& item : node_.items) {
         if (std::ranges::find(known_, item.key) != known_.end()) continue;
         const std::string hint = did_you_mean(item.key, known_);
-        problems_.add(InputError(item.key_place.location(),
-                                 "unknown key " + in_quotes(item.key) +
-                                     (hint.empty() ? "; known here: " + listed(known_) : hint)));
+        errors_.add(InputError(item.key_place.location(),
+                               "unknown key " + in_quotes(item.key) +
+                                   (hint.empty() ? "; known here: " + listed(known_) : hint)));
     }
 }
 

@@ -21,7 +21,7 @@
 namespace sonarsim {
 
 /// The visitor that fills a section of a mission from YAML. A key that the document leaves out
-/// keeps its value. Whatever is not exactly right goes to `problems`, with the place of the fault;
+/// keeps its value. Whatever is not exactly right goes to `errors`, with the place of the fault;
 /// only where nothing more can be told of a section, its kind being unknown, an InputError is
 /// thrown.
 class MissionReader {
@@ -29,7 +29,7 @@ class MissionReader {
     /// `name` is what messages call the section. Relative paths start at `base_folder`. InputError
     /// when the node is no section.
     MissionReader(const YamlNode& node, std::string name, const std::filesystem::path& base_folder,
-                  SonarKeyTable sonars, Problems& problems);
+                  SonarKeyTable sonars, ErrorList& errors);
 
     void number(const char* key, double& value, const Limits& limits, const char* meaning,
                 Presence presence = Presence::optional);
@@ -176,8 +176,8 @@ class MissionReader {
   private:
     template <class T>
     void read(const YamlNode& node, std::string name, T& value) {
-        problems_.attempt([&] {
-            MissionReader reader(node, std::move(name), base_folder_, sonars_, problems_);
+        errors_.attempt([&] {
+            MissionReader reader(node, std::move(name), base_folder_, sonars_, errors_);
             describe(reader, value);
             reader.finish();
         });
@@ -186,9 +186,9 @@ class MissionReader {
     /// Reads one key. When it is wrong its value is not to be used.
     template <class Read>
     void attempt(const char* key, Read&& read_key) {
-        const std::size_t before = problems_.count();
-        problems_.attempt(read_key);
-        if (problems_.count() > before) faulty_.emplace_back(key);
+        const std::size_t before = errors_.count();
+        errors_.attempt(read_key);
+        if (errors_.count() > before) faulty_.emplace_back(key);
     }
 
     const YamlNode* find(const char* key, Presence presence);
@@ -201,7 +201,7 @@ class MissionReader {
     std::string name_;
     const std::filesystem::path& base_folder_;
     SonarKeyTable sonars_;
-    Problems& problems_;
+    ErrorList& errors_;
     std::vector<std::string> known_;
     std::vector<std::string> faulty_;  ///< keys with something wrong in them
 };

@@ -9,18 +9,18 @@
 
 namespace sonarsim {
 
-/// Boxes around the copies of shared meshes, world, by Scene::copies: around the turned box of the
-/// mesh, and so up to sqrt(3) times as large along an axis as the copy itself. To look at every
-/// vertex of every copy takes long where there are many.
+/// World boxes around the copies of shared meshes, in the order of Scene::copies. Each encloses the
+/// rotated box of its mesh, so it may be up to sqrt(3) times as large along an axis as the copy
+/// itself. Exact boxes would need every vertex of every copy.
 std::vector<Eigen::AlignedBox3d> boxes_of_copies(const Scene& scene);
 
-/// The triangles of all copies together.
+/// Number of triangles of all copies.
 std::size_t triangles_of_copies(const Scene& scene);
 
-/// Those and the scene's own.
+/// Number of triangles of the scene, copies included.
 std::size_t all_triangles(const Scene& scene);
 
-/// The corners of a triangle of a copy's mesh where the copy stands, scene-local.
+/// The corners of a triangle of a placed copy, scene-local.
 std::array<Eigen::Vector3f, 3> placed_corners(const Scene& scene, const MeshCopy& copy,
                                               std::size_t triangle);
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t max_file_bytes = 1 << 24;
 
-/// Whether the table says how its materials scatter.
+/// True if the table has the columns for backscatter.
 bool has_scattering(const CsvTable& csv) {
     const std::vector<std::string> ours{"material", "density_kg_m3", "sound_speed_m_s"};
     const std::vector<std::string> holoocean{"Material", "Density kg/m^3", "Speed of Sound m/s"};
@@ -58,8 +58,8 @@ MaterialTable to_materials(const CsvTable& csv) {
         if (material.name.empty()) throw InputError(where, "the material has no name");
         const auto [known, is_new] = line_of.emplace(material.name, row.line);
         if (!is_new) {
-            throw InputError(where, "material '" + material.name + "' stands in line " +
-                                        std::to_string(known->second) + " already");
+            throw InputError(where, "material '" + material.name + "' is already in line " +
+                                        std::to_string(known->second));
         }
         material.density_kg_m3 = medium_number(row.fields[1], "density", where);
         material.sound_speed_m_s = medium_number(row.fields[2], "sound speed", where);
@@ -73,7 +73,7 @@ MaterialTable to_materials(const CsvTable& csv) {
     return table;
 }
 
-/// A name as a field of a CSV.
+/// Quotes a name for CSV if it needs quotes.
 std::string field_of(const std::string& name) {
     if (name.find_first_of(",\"# ") == std::string::npos) return name;
     std::string out = "\"";
@@ -123,7 +123,7 @@ void require_material(const MaterialTable& table, const std::string& name, const
     if (std::ranges::find(known, name) != known.end()) return;
     throw InputError(place, "unknown material '" + printable(name) + "'" +
                                 did_you_mean(name, known) + "; " + table.file +
-                                " lists those that there are");
+                                " lists the materials");
 }
 
 std::string materials_csv(const Scene& scene, const MaterialTable& known) {
@@ -139,28 +139,29 @@ std::string materials_csv(const Scene& scene, const MaterialTable& known) {
     return csv;
 }
 
-std::vector<std::string> unit_doubts(std::span<const Material> materials) {
-    // Gases are lighter than 10 kg/m^3 and carry sound at less than 1,300 m/s; liquids and solids
-    // are heavier than 30.
+std::vector<std::string> unit_warnings(std::span<const Material> materials) {
+    // Gases are lighter than 10 kg/m^3 and their speed of sound is below 1,300 m/s; liquids and
+    // solids are heavier than 30 kg/m^3.
     constexpr double lightest_solid = 30.0;
     constexpr double fast_for_a_gas = 1300.0;
     constexpr double slowest = 20.0;
-    std::vector<std::string> doubts;
+    std::vector<std::string> warnings;
     for (const Material& material : materials) {
         if (material.density_kg_m3 <= 0.0 || material.sound_speed_m_s <= 0.0) continue;
         const std::string name = "material '" + printable(material.name) + "': ";
         const bool slow = material.sound_speed_m_s < slowest;
         if (slow) {
-            doubts.push_back(name + "a speed of sound of " + number_text(material.sound_speed_m_s) +
-                             " looks like km/s; the CSV takes m/s");
+            warnings.push_back(name + "a speed of sound of " +
+                               number_text(material.sound_speed_m_s) +
+                               " looks like km/s; the CSV takes m/s");
         }
         const double speed = material.sound_speed_m_s * (slow ? 1000.0 : 1.0);
         if (material.density_kg_m3 < lightest_solid && speed > fast_for_a_gas) {
-            doubts.push_back(name + "a density of " + number_text(material.density_kg_m3) +
-                             " looks like g/cm^3; the CSV takes kg/m^3");
+            warnings.push_back(name + "a density of " + number_text(material.density_kg_m3) +
+                               " looks like g/cm^3; the CSV takes kg/m^3");
         }
     }
-    return doubts;
+    return warnings;
 }
 
 }  // namespace sonarsim

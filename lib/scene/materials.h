@@ -11,33 +11,33 @@
 
 namespace sonarsim {
 
-/// The materials of a CSV file, in its order. `reflection` is 0: it depends on the water.
+/// The materials of a CSV file, in its order. `reflection` is 0, since it depends on the water.
 struct MaterialTable {
     std::string file;
     std::vector<Material> materials;
 };
 
-/// Reads `material,density_kg_m3,sound_speed_m_s`, or HoloOcean's own header
-/// `Material, Density kg/m^3, Speed of Sound m/s`. Ours may go on with `lambert_db,slope_rms_deg`,
-/// how the material scatters (calibrated/bottom.h); without them it is -27 dB, Mackenzie's mean of
-/// the sea floor, and 10 degrees. InputError with file:line for any other header,
-/// for a wrong number of fields, for a density or speed that is not a number within
-/// the limits of core/input_limits.h, and for a material that stands there twice.
+/// Reads `material,density_kg_m3,sound_speed_m_s`, or HoloOcean's header `Material, Density kg/m^3,
+/// Speed of Sound m/s`. Our header may continue with `lambert_db,slope_rms_deg`, the backscattering
+/// strength of the material (calibrated/bottom.h); the defaults are -27 dB, Mackenzie's mean of the
+/// sea floor, and 10 degrees. InputError with file:line for any other header, for a wrong number of
+/// fields, for a density or speed that is not a number within the limits of core/input_limits.h,
+/// and for a material that occurs twice.
 MaterialTable read_materials(const std::filesystem::path& path);
 MaterialTable parse_materials(std::string_view text, const std::string& file_name);
 
-/// InputError at `place`, where the mission names a material, when the table lacks it.
+/// InputError at `place`, where the mission names a material, if the table lacks it.
 void require_material(const MaterialTable& table, const std::string& name, const Location& place);
 
-/// Gives every material of the scene its density, sound speed and reflection in `water`.
-/// InputError that lists every name which the table lacks.
+/// Gives every material of the scene its density, sound speed and reflection in `water`. InputError
+/// that lists all names that the table lacks.
 void resolve_materials(Scene& scene, const MaterialTable& table, const Water& water);
 
-/// A CSV with a row for each material of the scene, filled in where the table has it.
+/// A CSV with a row for each material of the scene, filled in for those that `known` has.
 std::string materials_csv(const Scene& scene, const MaterialTable& known);
 
-/// A sentence for each material whose density looks like g/cm^3 or whose speed looks like km/s: a
-/// density below 30 where sound is faster than in any gas, a speed below 20.
-std::vector<std::string> unit_doubts(std::span<const Material> materials);
+/// One warning for each material whose density looks like g/cm^3 or whose speed looks like km/s: a
+/// density below 30 with a speed of sound above that of any gas, or a speed below 20.
+std::vector<std::string> unit_warnings(std::span<const Material> materials);
 
 }  // namespace sonarsim

@@ -8,9 +8,9 @@ namespace sonarsim {
 
 namespace {
 
-constexpr std::size_t most_ids = 65535;  // of 16 bits, without 0
+constexpr std::size_t most_ids = 65535;  // 16 bits without 0
 
-/// Numbers names in the order in which they come.
+/// Numbers names in the order in which they occur.
 struct NumberedNames {
     std::vector<std::string> names;
     std::map<std::string, std::uint32_t> numbers;
@@ -23,8 +23,8 @@ struct NumberedNames {
     }
 };
 
-/// The rule that counts for each instance; null for none. InputError for a rule that none is left
-/// for.
+/// The rule that applies to each instance; null if none does. InputError for a rule that applies to
+/// no instance.
 std::vector<const ClassRule*> rule_of_instances(const Scene& scene,
                                                 std::span<const ClassRule> rules) {
     std::vector<const ClassRule*> chosen(scene.instances.size(), nullptr);
@@ -50,7 +50,7 @@ std::vector<const ClassRule*> rule_of_instances(const Scene& scene,
 void require_ids(std::size_t count, const char* what) {
     if (count <= most_ids) return;
     throw InputError("the scene has " + std::to_string(count) + " " + what +
-                     ", and labels of 16 bits tell 65535 apart: group them with `classes`");
+                     ", and labels of 16 bits have at most 65535: group them with `classes`");
 }
 
 }  // namespace
@@ -58,7 +58,7 @@ void require_ids(std::size_t count, const char* what) {
 bool fits_pattern(std::string_view pattern, std::string_view text) {
     std::size_t p = 0;
     std::size_t t = 0;
-    std::size_t star = std::string_view::npos;  // the last one passed, and where its text ends
+    std::size_t star = std::string_view::npos;  // the last one passed, and the end of its text
     std::size_t resume = 0;
     while (t < text.size()) {
         if (p < pattern.size() && pattern[p] == '*') {
@@ -82,7 +82,7 @@ SceneObjects group_objects(const Scene& scene, std::span<const ClassRule> rules)
     SceneObjects out;
     NumberedNames classes;
     NumberedNames names;
-    std::vector<const ClassRule*> maker;  // the rule that grouped an object
+    std::vector<const ClassRule*> maker;  // the rule that made each object
     for (std::size_t i = 0; i < scene.instances.size(); ++i) {
         const ClassRule* const rule = rule_of[i];
         const bool grouped = rule && !rule->instance.empty();
@@ -97,7 +97,7 @@ SceneObjects group_objects(const Scene& scene, std::span<const ClassRule> rules)
             maker.push_back(grouped ? rule : nullptr);
             continue;
         }
-        // Names of nodes are unique: one of the two nodes that share a name is in a group.
+        // Names of nodes are unique, so if two nodes share a name, a rule has grouped one of them.
         const ClassRule& culprit = grouped ? *rule : *maker[object];
         if (!grouped || !maker[object]) {
             throw InputError(culprit.place, "the instance '" + culprit.instance +

@@ -10,16 +10,16 @@
 
 namespace sonarsim {
 
-/// Gives a class to the nodes whose names fit a pattern and, if `instance` is not empty, makes one
-/// object of them all.
+/// Gives a class to the nodes whose names match a pattern. If `instance` is not empty, they become
+/// one object.
 struct ClassRule {
     std::string nodes;  ///< `*` stands for any text, `?` for any one byte
-    std::string name;   ///< of the class
+    std::string name;   ///< name of the class
     std::string instance;
     Location place;  ///< for messages
 };
 
-/// What labels tell apart. An id counts from 1, since 0 in a label means none.
+/// The objects and classes that labels distinguish. Ids count from 1; a label of 0 means none.
 struct SceneObjects {
     struct Object {
         std::string name;
@@ -33,14 +33,14 @@ struct SceneObjects {
     std::uint32_t class_of(std::uint32_t object) const { return objects[object].class_index; }
 };
 
-/// Whether all of `text` fits a pattern with `*` and `?`.
+/// True if the whole of `text` matches a pattern with `*` and `?`.
 bool fits_pattern(std::string_view pattern, std::string_view text);
 
-/// Groups the instances of a scene. Of the rules the first that fits a node counts; a node that
-/// none fits is an object of its own, of the class that the scene's file gives it or else of a
-/// class with its name. InputError for a rule that no node is left for, for two rules that put
-/// nodes of different classes into one object, for an object that has the name of a node outside of
-/// it, and for more objects or classes than 16 bits can name.
+/// Groups the instances of a scene into objects. The first rule that matches a node applies to it.
+/// A node without rule is an object of its own; its class is the one that the scene's file gives
+/// it, or else its name. InputError for a rule that applies to no node, for two rules that put
+/// nodes of different classes into one object, for an object with the name of a node outside of it,
+/// and for more objects or classes than 16 bits can number.
 SceneObjects group_objects(const Scene& scene, std::span<const ClassRule> rules);
 
 }  // namespace sonarsim

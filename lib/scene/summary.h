@@ -7,12 +7,12 @@
 
 namespace sonarsim {
 
-/// What a person wants to know of a scene, as lines of text: bounds, triangles and area, then a
-/// table of materials and one of instances with their triangles and area, and what was dropped.
+/// Summary of a scene as lines of text: bounds, triangles and area, dropped parts, then a table of
+/// materials and one of instances with their triangles and area.
 std::string describe_scene(const Scene& scene);
 
-/// A table of what a CSV says of the scene's materials, with their power reflection coefficients in
-/// `water`. Those that it lacks say so.
+/// A table of the scene's materials as a CSV has them, with their power reflection coefficients in
+/// `water`. Materials that the CSV lacks are marked.
 std::string describe_materials(const Scene& scene, const MaterialTable& table, const Water& water);
 
 }  // namespace sonarsim

@@ -86,7 +86,7 @@ void set_noise(Sonar& sonar, const KindOfSonar& kind) {
 Sonar common_sonar(const SonarConfig& config, const AccuracyConfig& accuracy,
                    const KindOfSonar& kind) {
     const bool cone = kind.shape == ViewShape::cone;
-    const int sides_or_one = kind.shape == ViewShape::sides ? 2 : 1;
+    const int sides_or_one = kind.shape == ViewShape::port_starboard ? 2 : 1;
     const int beams = kind.keys.azimuth_bins ? config.azimuth_bins : sides_or_one;
     Sonar sonar;
     sonar.config = config;

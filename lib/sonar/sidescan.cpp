@@ -31,7 +31,7 @@ KindOfSonar sidescan_kind() {
                      .name = "sidescan",
                      .defaults = defaults,
                      .range_noise = false},
-            .shape = ViewShape::sides,
+            .shape = ViewShape::port_starboard,
             .looks_down = true,
             .gain = 1.0,
             .range_noise_fades = true,

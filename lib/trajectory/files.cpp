@@ -22,13 +22,13 @@ namespace {
 
 constexpr std::size_t most_bytes = std::size_t{64} << 20;
 
-/// A column and the largest magnitude that makes sense in it.
+/// A column and the largest magnitude that is plausible in it.
 struct Column {
     std::string_view name;
     double limit;
 };
 
-// The first four columns are the same for both ways to give an attitude; TUM has the first set.
+// Both attitude formats start with the same four columns; TUM files have the first set.
 constexpr std::array<Column, 8> with_quaternion{{{"t_s", furthest_s},
                                                  {"x_m", furthest_m},
                                                  {"y_m", furthest_m},
@@ -48,7 +48,7 @@ constexpr std::size_t attitude_begin = 4;
 constexpr const char* header_help =
     "t_s, x_m, y_m, z_m and either qx, qy, qz, qw or roll_deg, pitch_deg, yaw_deg";
 
-/// What a message shows of a field: all of it, unless it is long or not plain text.
+/// A field as shown in a message: quoted, shortened if long, without control characters.
 std::string shown(std::string_view field) {
     constexpr std::size_t longest = 40;
     std::string out(field.substr(0, longest));
@@ -67,7 +67,8 @@ double field_value(std::string_view field, const Column& column, const Location&
     }
     if (std::fabs(*value) > column.limit) {
         throw InputError(where, name + ": " + shown(field) + " is beyond " +
-                                    number_text(column.limit) + "; the unit is that of the name");
+                                    number_text(column.limit) +
+                                    "; the column's name gives the unit");
     }
     return *value;
 }
@@ -80,12 +81,11 @@ Eigen::Quaterniond unit_quaternion(std::span<const double, 4> xyzw, const Locati
         throw InputError(where, "the quaternion has norm " + number_text(norm) +
                                     "; a rotation has norm 1 (1e-3 off is tolerated)");
     }
-    // What is a unit quaternion to within rounding stays as it is, so that written poses read back
-    // bit for bit.
+    // Unit quaternions keep their bits, so that written poses read back exactly.
     return std::fabs(norm - 1.0) < 1e-14 ? q : q.normalized();
 }
 
-/// `values` in the order of with_quaternion or with_angles.
+/// Takes `values` in the order of with_quaternion or with_angles.
 TimedPose pose_from(std::span<const double> values, const Location& where) {
     const auto attitude = values.subspan(attitude_begin);
     const Eigen::Quaterniond rotation =
@@ -110,7 +110,7 @@ Trajectory require_poses(Trajectory trajectory, const std::string& file) {
     return trajectory;
 }
 
-/// Whether a header, or a set of columns, has a column of that name.
+/// True if a header, or a set of columns, has a column of that name.
 bool has(std::span<const std::string> header, std::string_view name) {
     return std::find(header.begin(), header.end(), name) != header.end();
 }
@@ -122,7 +122,7 @@ bool has(std::span<const Column> columns, std::string_view name) {
 void check_names(std::span<const std::string> header, const Location& where) {
     for (std::size_t i = 0; i < header.size(); ++i) {
         if (has(header.first(i), header[i])) {
-            throw InputError(where, "column " + shown(header[i]) + " stands twice");
+            throw InputError(where, "column " + shown(header[i]) + " occurs twice");
         }
         if (has(with_quaternion, header[i]) || has(with_angles, header[i])) continue;
         std::vector<std::string> known;
@@ -137,7 +137,7 @@ void check_names(std::span<const std::string> header, const Location& where) {
     }
 }
 
-/// The set of columns that a header has, or an error that lists what it lacks.
+/// The set of columns that a header has. InputError that lists the missing ones.
 std::span<const Column> columns_of(std::span<const std::string> header, const Location& where) {
     check_names(header, where);
     const auto any_of = [&](std::span<const Column> attitude) {

@@ -23,7 +23,7 @@ Eigen::Quaterniond slerp(const Eigen::Quaterniond& from, const Eigen::Quaternion
     const Eigen::Vector4d& a = from.coeffs();
     const Eigen::Vector4d b = a.dot(to.coeffs()) < 0.0 ? -to.coeffs() : to.coeffs();
     const double angle = 2.0 * arctan2((b - a).norm(), (b + a).norm());
-    // Below this angle sin(angle) cancels, and a straight line is the arc to within angle^3.
+    // For smaller angles sin(angle) cancels, and a straight line equals the arc to within angle^3.
     if (angle < 1e-6) return Eigen::Quaterniond(a + fraction * (b - a)).normalized();
     const double whole = sincos(angle).sin;
     const double share_a = sincos((1.0 - fraction) * angle).sin / whole;
@@ -64,7 +64,7 @@ Trajectory resample(const Trajectory& trajectory, double rate_hz) {
     const double tolerance = 1e-9 + rounding;
     if (rate_hz * 4.0 * tolerance > 1.0) {
         throw InputError("rate_hz of " + number_text(rate_hz) + " is too high: near " +
-                         number_text(last) + " s the times of its poses cannot be told apart");
+                         number_text(last) + " s neighbouring poses would have equal times");
     }
     const double steps = std::floor((last - first + tolerance) * rate_hz);
     if (steps + 1.0 > static_cast<double>(most_poses)) {

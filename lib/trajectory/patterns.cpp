@@ -31,7 +31,7 @@ void require_within(const char* name, double value, double limit) {
                      number_text(limit) + ", not " + number_text(value));
 }
 
-/// The corners of the survey's rectangle, in order around it: x along the heading, y to port.
+/// The corners of the survey's rectangle, in order: x along the heading, y to port.
 std::array<Eigen::Vector2d, 4> corners_along(const Lawnmower& survey, const SinCos& heading) {
     const Eigen::Vector2d& lo = survey.area_min_m;
     const Eigen::Vector2d& hi = survey.area_max_m;
@@ -53,7 +53,7 @@ struct Interval {
     }
 };
 
-/// How far along x a polygon reaches within a strip of y.
+/// The interval of x that a polygon covers within a strip of y.
 Interval reach_in_strip(const std::array<Eigen::Vector2d, 4>& corners, const Interval& strip) {
     Interval reach;
     for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -103,7 +103,7 @@ Trajectory follow_waypoints(std::span<const Waypoint> waypoints, double speed_m_
             const double length = (waypoint.position_m - last.T_world_vehicle.translation).norm();
             t_s = last.t_s + length / speed_m_s;
             if (!(t_s > last.t_s)) {
-                throw InputError("waypoint " + number + " stands where the one before it does: " +
+                throw InputError("waypoint " + number + " has the position of the one before: " +
                                  "a leg needs a length (turn along a leg, not on the spot)");
             }
         }
@@ -123,7 +123,8 @@ Trajectory lawnmower(const Lawnmower& survey) {
 
     const double width = across.hi - across.lo;
     const double spacing = survey.line_spacing_m;
-    // The tiny share keeps an exact multiple of the spacing from rounding up to one strip more.
+    // The subtracted 1e-9 keeps an exact multiple of the spacing from rounding up to one strip
+    // more.
     const double lines = std::max(1.0, std::ceil(width / spacing - 1e-9));
     if (lines > most_lines) {
         throw InputError("line_spacing_m of " + number_text(spacing) + " gives " +
@@ -133,7 +134,8 @@ Trajectory lawnmower(const Lawnmower& survey) {
     const double first_line = across.lo + 0.5 * (width - (lines - 1.0) * spacing);
 
     const auto in_world = [&](double along, double to_port) {
-        // Spelled out: GCC contracts such a pair of products even where that is switched off.
+        // Explicit fma(): GCC contracts such a pair of products even where contraction is switched
+        // off.
         return Eigen::Vector3d(std::fma(heading.cos, along, -(heading.sin * to_port)),
                                std::fma(heading.sin, along, heading.cos * to_port), survey.z_m);
     };
@@ -146,7 +148,7 @@ Trajectory lawnmower(const Lawnmower& survey) {
         const Eigen::Vector3d start = in_world(forth ? reach.lo : reach.hi, y);
         const Eigen::Vector3d end = in_world(forth ? reach.hi : reach.lo, y);
         const Eigen::Quaterniond attitude = turned(forth ? 0.0 : pi);
-        // A half turn has two shortest arcs; half-way waypoints choose the one over port.
+        // A half turn has two shortest arcs; a waypoint half-way chooses the one over port.
         if (line > 0) {
             waypoints.push_back({0.5 * (waypoints.back().position_m + start), turned(0.5 * pi)});
         }

@@ -11,32 +11,32 @@ struct Waypoint {
     Eigen::Quaterniond attitude = Eigen::Quaterniond::Identity();  ///< unit; vehicle to world
 };
 
-/// Straight legs from waypoint to waypoint at constant speed, from time 0, with a pose every
-/// 1 / rate_hz s. The attitude turns from one waypoint's to the next one's along the whole leg; say
-/// with a waypoint in between which way round a half turn goes. One waypoint gives one pose. A leg
-/// without length is an InputError, since it could not be flown at the speed: move the waypoint,
-/// or turn along a leg. So are: no waypoint, a coordinate that is not finite or beyond 1e8 m, an
-/// attitude that is not unit, a speed that is not positive, and what resample() refuses.
+/// Straight legs from waypoint to waypoint at constant speed, from time 0, with a pose every 1 /
+/// rate_hz s. The attitude turns from one waypoint's to the next one's along the whole leg; a
+/// waypoint in between decides the direction of a half turn. One waypoint gives one pose.
+/// InputError for a leg without length, which has no speed (move the waypoint, or turn along a
+/// leg), for no waypoint, a coordinate that is not finite or beyond 1e8 m, an attitude that is not
+/// a unit quaternion, a speed that is not positive, and for what resample() refuses.
 Trajectory follow_waypoints(std::span<const Waypoint> waypoints, double speed_m_s, double rate_hz);
 
-/// A survey in parallel lines. Every default is the mission's.
+/// A survey in parallel lines. The defaults are the mission's.
 struct Lawnmower {
     Eigen::Vector2d area_min_m = Eigen::Vector2d::Zero();  ///< corner of least x and y, world
     Eigen::Vector2d area_max_m = Eigen::Vector2d::Zero();  ///< corner of greatest x and y, world
     double z_m = 0.0;                                      ///< height of the vehicle, world
-    double heading_deg = 0.0;  ///< of the first line; 0 along x, positive to the left
+    double heading_deg = 0.0;  ///< heading of the first line; 0 along x, positive to the left
     double line_spacing_m = 0.0;
     double speed_m_s = 0.0;
     double rate_hz = 0.0;
 };
 
-/// Lines flown to and fro over the rectangle at constant height and speed. The rectangle is cut
-/// into the fewest strips along the heading that are line_spacing_m wide and together cover it
-/// with equal margins; a line runs down the middle of each, as far as the strip meets the
-/// rectangle, bow ahead. The first line lies furthest to starboard, each next one to port of it.
-/// From the end of a line the vehicle flies straight to the start of the next while it turns
-/// through the port side of the first line's heading. InputError when the rectangle has no area, a
-/// number is out of its domain, there are more than 100,000 lines or more poses than most_poses.
+/// A lawnmower pattern over the rectangle at constant height and speed. The rectangle is cut along
+/// the heading into the fewest strips of width line_spacing_m that cover it with equal margins. A
+/// line runs along the middle of each strip, as far as the strip meets the rectangle, bow ahead.
+/// The first line is the furthest to starboard; each next line lies to port of the one before. At
+/// the end of a line the vehicle moves straight to the start of the next while it turns through the
+/// port side of the first line's heading. InputError if the rectangle has no area, a number is out
+/// of its domain, or there are more than 100,000 lines or more poses than most_poses.
 Trajectory lawnmower(const Lawnmower& survey);
 
 }  // namespace sonarsim

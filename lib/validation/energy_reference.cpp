@@ -10,7 +10,7 @@ namespace sonarsim {
 
 namespace {
 
-/// Images of points, some at a time: of expected powers, the image of all is the sum.
+/// Images of points, added in parts: the expected powers of the parts sum to the image of all.
 class EnergyImage {
   public:
     EnergyImage(const Scene& scene, const PingSettings& settings, const Pose& T_world_sensor)
@@ -52,7 +52,8 @@ class EnergyImage {
     void form() {
         const auto count = static_cast<std::uint32_t>(traced_.samples.items.size());
         if (count == 0) return;
-        // The calibrated model finds the beams of a sample by itself.
+        // The calibrated model assigns samples to beams itself, so all of them belong to the first
+        // beam here.
         traced_.samples.beam_begin.assign(static_cast<std::size_t>(settings_.view.beams) + 1,
                                           count);
         traced_.samples.beam_begin.front() = 0;
@@ -80,21 +81,21 @@ Reference cast_energy_reference(const Caster& caster, const Scene& scene,
     const std::vector<SurfaceShare> shares = surface_shares(scene, view, pose);
     const ReferenceView looking{caster, scene, view, pose, shares};
     return settled(settings.view, goal, [&](int per_beam, int count) {
-        Look look;
+        CastResult cast;
         std::vector<double> mean;
         for (const std::uint32_t start : {0U, 1U}) {
             EnergyImage image(scene, settings, T_world_sensor);
-            look.rays += cast_over_surface(looking, {per_beam, count, start},
+            cast.rays += cast_over_surface(looking, {per_beam, count, start},
                                            [&](const SurfacePoint& point) { image.add(point); });
             const std::vector<double> sum = image.take();
-            look.hits += image.hits();
-            (start == 0 ? look.lattice : look.scattered).assign(sum.begin(), sum.end());
+            cast.hits += image.hits();
+            (start == 0 ? cast.lattice : cast.scattered).assign(sum.begin(), sum.end());
             mean.resize(sum.size());
             for (std::size_t k = 0; k < sum.size(); ++k)
                 mean[k] += 0.5 * sum[k];
         }
-        look.both.assign(mean.begin(), mean.end());
-        return look;
+        cast.both.assign(mean.begin(), mean.end());
+        return cast;
     });
 }
 

@@ -5,9 +5,10 @@
 
 namespace sonarsim {
 
-/// The truth for the calibrated model, where energies add: its expected image, without speckle and
-/// noise, of as many single points of the surface as it takes to settle, each with the area that it
-/// stands for. Casts as cast_reference() does. `settings` must be of a calibrated sonar.
+/// The ground truth of the calibrated model, where energies add: its expected image, without
+/// speckle and noise, from single points of the surface, each with the area that it represents. The
+/// number of points grows until the image has settled. Casts rays as cast_reference() does.
+/// `settings` must be of a calibrated sonar.
 Reference cast_energy_reference(const Caster& caster, const Scene& scene,
                                 const PingSettings& settings, const Pose& T_world_sensor,
                                 const ReferenceGoal& goal);

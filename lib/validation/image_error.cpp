@@ -7,7 +7,7 @@ namespace sonarsim {
 
 namespace {
 
-/// a / b; 0 for 0 / 0 and 1 for anything else over nothing.
+/// a / b, with 0 for 0 / 0 and 1 for other divisions by 0.
 double share(double a, double b) {
     if (b > 0.0) return a / b;
     return a > 0.0 ? 1.0 : 0.0;

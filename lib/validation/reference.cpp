@@ -14,9 +14,9 @@ namespace {
 /// Sums over the visible surface in every bin, [range_bins, beams].
 struct SurfaceSums {
     std::vector<double> area;  ///< m^2
-    std::vector<double> echo;  ///< m^2, times what the surface echoes
-    std::uint64_t rays = 0;    ///< all that were cast
-    std::uint64_t hits = 0;    ///< those that met surface in range
+    std::vector<double> echo;  ///< area times echo, m^2
+    std::uint64_t rays = 0;    ///< all rays cast
+    std::uint64_t hits = 0;    ///< rays that met surface in range
 };
 
 SurfaceSums sums_over_surface(const ReferenceView& looking, const RayLayout& layout) {
@@ -43,7 +43,7 @@ std::vector<float> image_of(const SurfaceSums& sums) {
     return image;
 }
 
-/// Both casts together. Each sums up the whole surface, so their quotient is that of one cast.
+/// Adds both casts. Each sums over the whole surface, so their quotient is that of one cast.
 SurfaceSums together(SurfaceSums a, const SurfaceSums& b) {
     for (std::size_t k = 0; k < a.area.size(); ++k) {
         a.area[k] += b.area[k];
@@ -57,17 +57,17 @@ SurfaceSums together(SurfaceSums a, const SurfaceSums& b) {
 }  // namespace
 
 Reference settled(const View& view, const ReferenceGoal& goal,
-                  const std::function<Look(int per_beam, int count)>& look) {
+                  const std::function<CastResult(int per_beam, int count)>& cast) {
     const std::size_t bins = static_cast<std::size_t>(view.range_bins) * view.beams;
     Reference reference{view.range_bins, view.beams, std::vector<float>(bins, 0.0F)};
     int per_beam = view.shape == ViewShape::fan ? 1 : 16;
     int count = 256;  // per column
     double last_moved = 1.0;
     for (bool wider = false;; wider = !wider) {
-        Look now = look(per_beam, count);
+        CastResult now = cast(per_beam, count);
         reference.apart = std::max(image_error(now.lattice, now.both).relative_l1,
                                    image_error(now.scattered, now.both).relative_l1);
-        // Along and across are doubled in turn; the image has settled when neither moves it.
+        // The two directions are doubled in turn; the image has settled when neither changes it.
         const double moved = image_error(reference.intensity, now.both).relative_l1;
         reference.moved = std::max({moved, std::exchange(last_moved, moved), reference.apart});
         const auto lit = std::ranges::count_if(now.both, [](float x) { return x > 0.0F; });
@@ -90,7 +90,7 @@ Reference cast_reference(const Caster& caster, const Scene& scene, const View& v
     const LocalPose pose = local_pose(T_world_sensor, scene.origin);
     const std::vector<SurfaceShare> shares = surface_shares(scene, view, pose);
     const ReferenceView looking{caster, scene, view, pose, shares};
-    return settled(view, goal, [&](int per_beam, int count) -> Look {
+    return settled(view, goal, [&](int per_beam, int count) -> CastResult {
         const SurfaceSums lattice = sums_over_surface(looking, {per_beam, count, 0});
         const SurfaceSums scattered = sums_over_surface(looking, {per_beam, count, 1});
         const SurfaceSums both = together(lattice, scattered);

@@ -11,45 +11,47 @@
 
 namespace sonarsim {
 
-/// The truth that all engines approximate: the area-weighted mean over the visible surface of
-/// every bin, by brute force.
+/// The ground truth that all engines approximate: the area-weighted mean over the visible surface
+/// in every bin, by brute force.
 struct Reference {
     int range_bins = 0;
     int beams = 0;
     std::vector<float> intensity;  ///< [range_bins, beams], noise-free, before pixel noise
-    /// Relative L1 by which it may still be off: the largest of `apart` and of what doubling the
-    /// rays moved it by, along the columns and across them.
+    /// Bound of its own relative L1: the largest of `apart` and of the changes by the last doubling
+    /// of rays along the columns and across them.
     double moved = 1.0;
     double apart = 1.0;         ///< relative L1 between it and the farther one of its two starts
     double rays_per_bin = 0.0;  ///< rays that echoed, per occupied bin
 };
 
 struct ReferenceGoal {
-    double moved = 0.002;        ///< stop when Reference::moved is less
-    double rays_per_bin = 64.0;  ///< and each occupied bin has had this many rays on average
-    std::uint64_t rays_max = 400'000'000;  ///< give up here; `moved` then says how far it got
+    double moved = 0.002;        ///< stop when Reference::moved is below this
+    double rays_per_bin = 64.0;  ///< minimum mean number of rays per occupied bin
+    /// Stop at this number in any case; `moved` then says how far it got.
+    std::uint64_t rays_max = 400'000'000;
 };
 
-/// What a cast of so many rays, from either start and from both, shows: images [range_bins, beams].
-struct Look {
+/// Result of a cast with a given number of rays: images [range_bins, beams] of each start and of
+/// both.
+struct CastResult {
     std::vector<float> lattice;
     std::vector<float> scattered;
     std::vector<float> both;
-    std::uint64_t rays = 0;  ///< all that were cast
-    std::uint64_t hits = 0;  ///< those that met surface
+    std::uint64_t rays = 0;  ///< all rays cast
+    std::uint64_t hits = 0;  ///< rays that met surface
 };
 
-/// Looks again with twice the rays, along and across in turn, until the image of both starts has
+/// Casts again with twice the rays, along and across in turn, until the image of both starts has
 /// settled: `per_beam` columns of `count` rays, as in RayLayout.
 Reference settled(const View& view, const ReferenceGoal& goal,
-                  const std::function<Look(int per_beam, int count)>& look);
+                  const std::function<CastResult(int per_beam, int count)>& cast);
 
-/// Looks at the scene from two unlike starts, rays on a lattice and rays strewn at random, each
-/// with points of the surface of its own, and doubles the rays until the goal is met. The
-/// image is that of both together. A lattice alone settles on a wrong image where the scene repeats
-/// at its step, and before it has met what is thinner than the step; it is the random start that
-/// then disagrees, and the points of the surface that find what is thin
-/// (validation/reference_cast.h). Every ray counts in the one bin where it ends.
+/// Casts rays from two different starts, on a lattice and at random, each with its own points of
+/// the surface, and doubles the rays until the goal is met. The image is that of both together. A
+/// lattice alone settles on a wrong image if the scene repeats at its step, or before it has met
+/// objects thinner than the step. The random start disagrees in the first case, and points of the
+/// surface find thin objects (validation/reference_cast.h). Every ray counts only in the bin where
+/// it ends.
 Reference cast_reference(const Caster& caster, const Scene& scene, const View& view,
                          const Pose& T_world_sensor, const ReferenceGoal& goal);
 

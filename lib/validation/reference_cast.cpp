@@ -12,16 +12,16 @@ namespace sonarsim {
 
 namespace {
 
-// Rays to points for each ray over directions.
+// Number of rays to points of the surface per ray over directions.
 constexpr double points_per_ray = 0.5;
 
-/// dOmega / (d across d along) of a direction of the sensor frame.
+/// dOmega / (d across d along) at a direction of the sensor frame.
 double solid_angle_density(ViewShape shape, const Eigen::Vector3f& d) {
     const float x = shape == ViewShape::cone ? d.z() : d.x();
     return std::sqrt(static_cast<double>(x) * x + static_cast<double>(d.y()) * d.y());
 }
 
-/// How many points to the square metre each facet has.
+/// Number of points per square metre on each facet.
 class PointDensity {
   public:
     PointDensity(const ReferenceView& looking, std::span<const std::uint32_t> counts)
@@ -34,7 +34,8 @@ class PointDensity {
 
     float of(std::uint32_t facet) const {
         if (facet < of_own_.size()) return of_own_[facet];
-        // Copies may have more triangles than memory holds, and few of them are in view.
+        // Looked up by search: copies may have more triangles than memory holds, and few of them
+        // are in view.
         const auto of_copies = shares_.subspan(own_shares_);
         const auto at = std::ranges::lower_bound(of_copies, facet, {}, &SurfaceShare::facet);
         if (at == of_copies.end() || at->facet != facet) return 0.0F;
@@ -47,21 +48,23 @@ class PointDensity {
     }
 
     std::span<const SurfaceShare> shares_;
-    std::span<const std::uint32_t> counts_;  ///< of points, by share
+    std::span<const std::uint32_t> counts_;  ///< number of points by share
     std::vector<float> of_own_;
-    std::size_t own_shares_ = 0;  ///< shares of the scene's own triangles, which come first
+    /// Number of shares of the scene's own triangles, which come first.
+    std::size_t own_shares_ = 0;
 };
 
-/// One cast under way.
+/// A cast in progress.
 struct Cast {
     const ReferenceView& looking;
     const RayLayout& layout;
     const PointDensity& points;
-    double cell_rad2;  ///< of a ray: step across times step along
+    double cell_rad2;  ///< cell of a ray: step across times step along
     const PointSink& found;
     std::uint64_t rays = 0;
 
-    /// Hands on what a ray has met. `density` is solid_angle_density() of its direction.
+    /// Reports the surface point that a ray has met. `density` is solid_angle_density() of its
+    /// direction.
     void add(const Eigen::Vector3f& direction, double density, int beam, std::uint32_t index) {
         const Facet facet = looking.caster.facet(index);
         const Eigen::Vector3d normal = facet.normal.cast<double>();
@@ -76,16 +79,16 @@ struct Cast {
     float reach_m() const { return static_cast<float>(looking.view.range_max_m) * 1.01F; }
 };
 
-/// Where in its cell of a column ray i goes: shares of the column's width and of a step along it.
-struct Place {
+/// Position of ray i in its cell: shares of the column's width and of a step along it.
+struct CellPosition {
     double across;
     double along;
 };
 
-Place place_of(const RayLayout& layout, std::uint32_t column, std::uint32_t i) {
+CellPosition position_in_cell(const RayLayout& layout, std::uint32_t column, std::uint32_t i) {
     if (layout.start == 0) {
-        // A lattice that stands askew to columns and rows: an edge that runs along either is met at
-        // every phase.
+        // A lattice oblique to columns and rows: an edge along either of them is sampled at all
+        // phases.
         constexpr double golden = 0.6180339887498949;
         constexpr double root_two = 0.4142135623730950;
         const double across = golden * i;
@@ -102,9 +105,9 @@ void column_directions(const Cast& cast, const ViewColumn& column, std::uint32_t
     const double step = (column.along_max - column.along_min) / cast.layout.count;
     const SinCosFloat middle = sincos_float(column.across);
     for (std::uint32_t i = 0; i < directions.size(); ++i) {
-        const Place place = place_of(cast.layout, index, i);
-        const auto off = static_cast<float>((place.across - 0.5) * column.width);
-        const SinCosFloat along = sincos_float(column.along_min + (i + place.along) * step);
+        const CellPosition position = position_in_cell(cast.layout, index, i);
+        const auto off = static_cast<float>((position.across - 0.5) * column.width);
+        const SinCosFloat along = sincos_float(column.along_min + (i + position.along) * step);
         directions[i] = direction(cast.looking.view.shape, middle + sincos_small(off), along);
     }
 }
@@ -131,7 +134,7 @@ void cast_directions(Cast& cast) {
     }
 }
 
-/// Rays to points of the surface, collected to be cast together.
+/// Rays to points of the surface, collected for one cast.
 struct PointRays {
     std::vector<Eigen::Vector3f> directions = {};  ///< scene-local frame
     std::vector<double> densities = {};
@@ -140,7 +143,7 @@ struct PointRays {
     std::vector<std::uint32_t> met = {};
 };
 
-/// Casts what was collected. A point is visible where the ray to it meets its own triangle.
+/// Casts the collected rays. A point is visible if the ray to it meets its own triangle.
 void cast_points(Cast& cast, PointRays& rays) {
     rays.met.resize(rays.directions.size());
     cast.looking.caster.cast(cast.looking.pose.position, rays.directions, cast.reach_m(), rays.met);

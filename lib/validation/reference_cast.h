@@ -13,28 +13,28 @@
 
 namespace sonarsim {
 
-/// What a reference looks at.
+/// The scene and the view of a reference.
 struct ReferenceView {
     const Caster& caster;
     const Scene& scene;
     const View& view;
     LocalPose pose;
-    std::span<const SurfaceShare> shares;  ///< of surface_shares()
+    std::span<const SurfaceShare> shares;  ///< from surface_shares()
 };
 
-/// Where the rays of a cast go.
+/// The number and placement of a cast's rays.
 struct RayLayout {
-    int per_beam;         ///< columns: of each beam of a fan, on either side, around a cone
-    int count;            ///< rays of a column
-    std::uint32_t start;  ///< 0: a lattice; above: each ray anywhere in its cell of that lattice
+    int per_beam;         ///< columns per beam of a fan, per side, or around a cone
+    int count;            ///< rays per column
+    std::uint32_t start;  ///< 0: a lattice; above: random positions in the lattice's cells
 };
 
 /// A point of the visible surface.
 struct SurfacePoint {
-    Eigen::Vector3f direction;  ///< to it, scene-local frame
+    Eigen::Vector3f direction;  ///< towards the point, scene-local frame
     double range_m;
-    double cosine;   ///< of the angle of incidence
-    double area_m2;  ///< of the surface that it stands for
+    double cosine;   ///< cosine of the angle of incidence
+    double area_m2;  ///< area of surface that it represents
     int beam;
     Facet facet;
 };
@@ -42,16 +42,16 @@ struct SurfacePoint {
 using PointSink = std::function<void(const SurfacePoint&)>;
 
 /// Casts rays in two ways, about twice as many over the directions of the view as to points of the
-/// surface, and weighs each ray by both. Rays over directions see what is wide, and see through
-/// gaps; rays to points find a wire of any thinness, since every triangle has points. A piece of
-/// surface of area A is met by d A rays of the two together, where d is the sum of
+/// surface, and weights each ray by the density of both. Rays over directions find wide objects and
+/// may pass beside thin ones; rays to points find a wire of any thinness, since every triangle has
+/// points. The expected number of rays that meet a patch of area A is d A, where d is the sum of
 ///
-///     (v . n) / (r^2 dOmega)   of one ray for every dOmega, and
-///     n / area                 of n points on the triangle's area;
+///     (v . n) / (r^2 dOmega)   for one ray per dOmega, and
+///     n / area                 for n points on the triangle's area;
 ///
-/// so every ray stands for 1 / d of surface (the balance heuristic of Veach and Guibas, SIGGRAPH
-/// 1995), and sums over the points are right on average however the shares are chosen. Returns how
-/// many rays were cast; `found` is given those that met surface within 1 % of the greatest range.
+/// so every ray represents an area of 1 / d (the balance heuristic of Veach and Guibas, SIGGRAPH
+/// 1995), and sums over the points are unbiased whatever the shares. Returns the number of rays
+/// cast. Calls `found` with the points within 1 % beyond the greatest range.
 std::uint64_t cast_over_surface(const ReferenceView& looking, const RayLayout& layout,
                                 const PointSink& found);
 

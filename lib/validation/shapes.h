@@ -6,9 +6,10 @@
 
 namespace sonarsim::shapes {
 
-// Scenes of closed form, built in memory. Materials are named by their reflection coefficient.
+// Test scenes with simple geometry, built in memory. Materials are named by their reflection
+// coefficient.
 
-/// An empty scene to add shapes to. `origin` becomes Scene::origin; shapes are given relative to
+/// An empty scene for shapes. `origin` becomes Scene::origin; coordinates of shapes are relative to
 /// it.
 Scene empty_scene(const Eigen::Vector3d& origin = Eigen::Vector3d::Zero());
 

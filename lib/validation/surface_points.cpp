@@ -14,12 +14,12 @@ namespace sonarsim {
 
 namespace {
 
-/// The angle that a ball of radius `radius` at `distance` reaches to either side of its centre.
+/// The half angle of a ball of radius `radius` at `distance`.
 double half_angle(double radius, double distance) {
     return radius < distance ? arcsin(radius / distance) : pi;
 }
 
-/// False only where no point of the ball is in view. Sensor frame.
+/// False only if no point of the ball is in view. Sensor frame.
 bool may_be_in_view(const View& view, const Eigen::Vector3d& centre, double radius) {
     const double distance = centre.norm();
     if (distance - radius > view.range_max_m || distance + radius < view.range_min_m) return false;
@@ -88,7 +88,7 @@ void add_share(const Scene& scene, const View& view, const LocalPose& pose, Surf
     if (!(area > 0.0)) return;
     const double nearest = std::max({view.range_min_m, centre.norm() - radius, view.bin_m()});
     const double length = 2.0 * radius;
-    // A triangle that reaches beyond the view has no more bins than the view.
+    // The extent of a triangle beyond the view counts no bins.
     const double bins = std::min<double>(view.range_bins, length / view.bin_m());
     const double beams = std::min<double>(view.beams, length / beam_width_m(view, nearest));
     share.area_m2 = static_cast<float>(area);
@@ -125,7 +125,7 @@ std::vector<SurfaceShare> surface_shares(const Scene& scene, const View& view,
 
 Eigen::Vector2d point_of_triangle(std::uint32_t facet, std::uint32_t i, std::uint32_t start) {
     // The additive recurrence of the plastic number, evenly spread in the square; the half of the
-    // square beyond the diagonal is turned onto the other.
+    // square beyond the diagonal is rotated onto the other half.
     constexpr double a = 0.7548776662466927;
     constexpr double b = 0.5698402909980532;
     const PhiloxBlock shift = philox({facet, start, 0, 0}, {0x706f696eU, 0x74730000U});

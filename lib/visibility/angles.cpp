@@ -4,7 +4,7 @@ namespace sonarsim {
 
 namespace {
 
-/// `count` columns of one beam side by side over [low, high] across.
+/// Adds `count` columns of equal width that together cover [low, high] across.
 void add_columns(int beam, double low, double high, int count, double along_min, double along_max,
                  std::vector<ViewColumn>& out) {
     const double width = (high - low) / count;
@@ -27,7 +27,7 @@ std::vector<ViewColumn> view_columns(const View& view, int per_beam) {
                             -half_elevation, half_elevation, out);
             }
             break;
-        case ViewShape::sides:
+        case ViewShape::port_starboard:
             add_columns(0, -half_elevation, half_elevation, per_beam, -half_azimuth, 0.0, out);
             add_columns(1, -half_elevation, half_elevation, per_beam, 0.0, half_azimuth, out);
             break;

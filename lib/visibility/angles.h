@@ -29,7 +29,8 @@ inline Eigen::Vector3d direction_of(double azimuth_rad, double elevation_rad) {
     return {e.cos * a.cos, e.cos * a.sin, e.sin};
 }
 
-/// The unit vector that is `off_rad` off the boresight, `around_rad` about it from y towards z.
+/// The unit vector at the angle `off_rad` from the boresight, and `around_rad` about it from y
+/// towards z.
 inline Eigen::Vector3d direction_off_boresight(double off_rad, double around_rad) {
     const SinCos off = sincos(off_rad);
     const SinCos around = sincos(around_rad);
@@ -38,13 +39,13 @@ inline Eigen::Vector3d direction_off_boresight(double off_rad, double around_rad
 
 // A view is swept by two angles: `across` numbers its columns, `along` runs through each of them.
 //   fan:   across is azimuth, along is elevation: a column lies within a beam;
-//   sides: across is elevation, along is azimuth, from nadir outward on either side;
+//   port_starboard: across is elevation, along is azimuth, from nadir outward on either side;
 //   cone:  across is tau, the angle around the boresight, along is psi, the angle off it.
 
-/// Unit vector in the sensor frame.
+/// The direction as a unit vector in the sensor frame.
 inline Eigen::Vector3f direction(ViewShape shape, SinCosFloat across, SinCosFloat along) {
     switch (shape) {
-        case ViewShape::sides:
+        case ViewShape::port_starboard:
             return {across.cos * along.cos, across.cos * along.sin, across.sin};
         case ViewShape::cone:
             return {along.cos, along.sin * across.cos, along.sin * across.sin};
@@ -57,14 +58,14 @@ inline Eigen::Vector3f direction(ViewShape shape, SinCosFloat across, SinCosFloa
 /// [along_min, along_max].
 struct ViewColumn {
     int beam;
-    double across;  ///< of its middle, rad
+    double across;  ///< middle angle, rad
     double width;   ///< rad
     double along_min;
     double along_max;
 };
 
-/// The view cut into columns of equal width, sorted by beam. A fan has `per_beam` columns in each
-/// beam; sides have `per_beam` on either side; a cone has `per_beam` sectors.
+/// Divides the view into columns of equal width, sorted by beam: `per_beam` columns in each beam of
+/// a fan, `per_beam` on each side, or `per_beam` sectors of a cone.
 std::vector<ViewColumn> view_columns(const View& view, int per_beam);
 
 }  // namespace sonarsim

@@ -13,29 +13,30 @@ namespace sonarsim {
 
 namespace {
 
-// With fewer triangles in the whole scene the slices were faster at every goal, or rays missed it.
+// With fewer triangles in the whole scene the slices were faster at every goal, or rays missed the
+// goal.
 constexpr std::size_t few_triangles = 20'000;
 
 // Per sample, rays take 0.8 to 1.4 times as long as slices on the tank, the wreck and the sea
-// floor: with half of the samples they are faster.
+// floor, so rays with half of the samples are faster.
 constexpr double most_samples_share = 0.5;
 
-// Goals to try rays with, by that of the view. How dense rays are was fitted to rough floors at
-// grazing incidence; over a smooth one they come out three times better than asked for.
-constexpr std::array leniencies{2.0, 1.8, 1.6, 1.4, 1.2, 1.0};
+// Goals to try rays with, as multiples of the view's goal. The density of rays was fitted to rough
+// floors at grazing incidence; over a smooth floor their error is a third of the goal.
+constexpr std::array goal_factors{2.0, 1.8, 1.6, 1.4, 1.2, 1.0};
 
 // The images that rays are compared with are made for this share of the goal, so that their own
-// error takes little of what the rays are allowed.
+// error takes little of the rays' allowance.
 constexpr double share_for_slices = 1.0 / 3.0;
 
-/// A view that rays see, at a goal of their own, and their error.
+/// A view traced by rays at a goal of their own, and the error of its image.
 struct RaysView {
     View view;
     double goal;
     double error;
 };
 
-/// What the slices see from a probe.
+/// The slices' image from a probe.
 struct SlicesImage {
     Pose T_world_sensor;
     std::vector<double> image;
@@ -108,7 +109,7 @@ RaysTrial try_rays(const Scene& scene, const View& view, std::span<const Probe> 
                    const VisibilityEngine& rays, const VisibilityEngine& slices) {
     const std::vector<SlicesImage> by_slices = slices_images(scene, view, probes, slices);
     RaysTrial trial;
-    for (const double leniency : leniencies) {
+    for (const double leniency : goal_factors) {
         trial = try_goal(scene, view, leniency * view.relative_l1, by_slices, rays);
         if (trial.error <= view.relative_l1) break;
     }

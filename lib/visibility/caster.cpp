@@ -17,7 +17,8 @@ namespace {
 
 static_assert(Caster::nothing == RTC_INVALID_GEOMETRY_ID);
 
-/// The normal from edges in double: in float, a needle's cross product is mostly cancellation.
+/// The normal is computed from edges in double: in float, a needle's cross product is mostly
+/// cancellation.
 template <class Mesh>
 Facet make_facet(const Mesh& mesh, std::size_t triangle, std::uint32_t instance) {
     const auto& corners = mesh.triangles[triangle];
@@ -30,10 +31,10 @@ Facet make_facet(const Mesh& mesh, std::size_t triangle, std::uint32_t instance)
 
 }  // namespace
 
-/// What does not change: a tree of the scene's own triangles, one of each body and one of each
-/// shared mesh, the latter two in frames of their own.
+/// The parts that never change: a tree of the scene's own triangles, one of each body and one of
+/// each shared mesh, the latter two in their own frames.
 struct Caster::Trees {
-    /// Where a copy of a shared mesh stands, scene-local.
+    /// A placed copy of a shared mesh, scene-local.
     struct PlacedCopy {
         std::uint32_t tree;
         std::uint32_t instance;
@@ -43,7 +44,7 @@ struct Caster::Trees {
     RTCDevice device = nullptr;
     std::vector<EmbreeTree> trees;
     std::vector<Facet> facets;
-    std::vector<std::uint32_t> first_of_tree;  ///< index into `facets`, and their end
+    std::vector<std::uint32_t> first_of_tree;  ///< index into `facets`, with one entry for the end
     std::size_t bodies = 0;
     std::vector<PlacedCopy> copies;
 
@@ -65,16 +66,16 @@ struct Caster::Trees {
     }
 };
 
-/// Things that have been put somewhere, in one tree: the scene's own triangles, or bodies, or both,
-/// and then copies. Their facets are numbered from `begin` on.
+/// One tree of placed objects: the scene's own triangles, or bodies, or both, followed by copies.
+/// Their facet numbers start at `begin`.
 struct Caster::Moment {
     EmbreeTree tree;
     std::uint32_t begin = 0;
     std::uint32_t end = 0;
-    std::vector<std::uint32_t> first_facet;  ///< the numbers that each one's facets have
+    std::vector<std::uint32_t> first_facet;  ///< number of each object's first facet
     std::vector<std::uint32_t> tree_of;      ///< index into Trees::trees
     std::vector<Eigen::Matrix<float, 3, 4>> transforms;
-    std::size_t first_copy = 0;  ///< where copies begin
+    std::size_t first_copy = 0;  ///< index of the first copy
 
     Moment(const Trees& trees, std::uint32_t first)
         : tree(trees.device), begin(first), end(first) {}
@@ -109,7 +110,7 @@ struct Caster::Moment {
     }
 
     void finish(const Trees& trees) {
-        // A thread that waits for Embree must not begin another ping meanwhile.
+        // Isolated: a thread that waits for Embree must not begin another ping meanwhile.
         tbb::this_task_arena::isolate([&] { rtcCommitScene(tree.get()); });
         check_embree(trees.device, "placing bodies and copies");
     }
@@ -145,7 +146,7 @@ void Caster::find_box() {
     for (const auto& moment : moments_)
         include(moment->tree);
     if ((low_ > high_).any()) return;
-    // Wider by what a ray may miss a surface by and still meet it, for rounding.
+    // Widened, since rounding may let a ray meet a surface slightly outside.
     const float rounding = 0x1p-20F * low_.abs().max(high_.abs()).maxCoeff();
     low_ -= rounding;
     high_ += rounding;
@@ -157,7 +158,7 @@ Caster::~Caster() = default;
 
 std::shared_ptr<const Caster::Trees> Caster::make_trees(const Scene& scene) {
     auto made = std::make_shared<Trees>();
-    // Pinned to AVX2: another instruction set may order equal distances otherwise.
+    // Pinned to AVX2, since another instruction set may order equal distances differently.
     made->device = rtcNewDevice("isa=avx2,max_isa=avx2");
     check_embree(made->device, "starting");
     std::size_t facets = scene.triangles.size();
@@ -183,8 +184,8 @@ std::shared_ptr<const Caster::Trees> Caster::make_trees(const Scene& scene) {
 }
 
 Caster Caster::moved(std::span<const Pose> T_local_body) const {
-    // Copies are many and stand still: their tree, the first, stays, and bodies have one of their
-    // own. Without copies all is one tree, which is faster to trace.
+    // Copies are many and at rest: the first tree holds them and is kept; bodies get a tree of
+    // their own. Without copies one tree holds everything, which is faster to trace.
     const bool has_copies = !trees_->copies.empty();
     auto moment = std::make_shared<Moment>(*trees_, has_copies ? moments_.front()->end : 0);
     if (!has_copies) moment->add_own(*trees_);

@@ -1,6 +1,7 @@
 #pragma once
 
-// One view of Embree 3 (Debian 12) and Embree 4 (Debian 13). The build says which one it found.
+// One interface to Embree 3 (Debian 12) and Embree 4 (Debian 13). The build defines the version it
+// found.
 #if SONARSIM_EMBREE == 3
 #include <embree3/rtcore.h>
 #else
@@ -12,7 +13,7 @@
 
 namespace sonarsim {
 
-/// A tree of Embree's that goes with its owner.
+/// Owns an Embree tree.
 class EmbreeTree {
   public:
     explicit EmbreeTree(RTCDevice device) : scene_(rtcNewScene(device)) {
@@ -31,17 +32,17 @@ class EmbreeTree {
     RTCScene scene_;
 };
 
-/// Without what rounding has left of a zero. Embree sorts coherent rays into octants by the signs
-/// of their components, but takes one that is nearer to zero than 1e-18 for +1e-18 where it divides
-/// by it: all rays of the packet that share the octant of a ray with -1e-19 would meet nothing. A
-/// ray is turned by 1e-9 at most, a micrometre in a kilometre; what is left of a product of two
-/// numbers that pass stays above that limit.
-inline float without_rest(float component) {
+/// Sets components that are rounding errors of zero to 0. Embree sorts coherent rays into octants
+/// by the signs of their components, but replaces a component nearer to zero than 1e-18 by +1e-18
+/// where it divides: all rays of the packet in the octant of a ray with -1e-19 would meet nothing.
+/// This turns a ray by at most 1e-9, a micrometre in a kilometre. Products of two components that
+/// pass stay above Embree's limit.
+inline float flush_to_zero(float component) {
     constexpr float rest = 1e-9F;
     return std::fabs(component) < rest ? 0.0F : component;
 }
 
-/// rtcIntersect8 for rays that lie close together; the arguments are Embree's.
+/// rtcIntersect8 for rays that lie close together; the arguments are Embree's own.
 inline void intersect_coherent_8(const int* valid, RTCScene tree, RTCRayHit8& rays) {
 #if SONARSIM_EMBREE == 3
     RTCIntersectContext context;

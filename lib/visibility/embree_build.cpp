@@ -42,7 +42,7 @@ EmbreeTree make_tree(RTCDevice device, std::span<const Eigen::Vector3f> vertices
 
 void add_instance(RTCDevice device, const EmbreeTree& into, unsigned int index,
                   const EmbreeTree& tree, Eigen::Matrix<float, 3, 4> transform) {
-    transform.leftCols<3>() = transform.leftCols<3>().unaryExpr(&without_rest).eval();
+    transform.leftCols<3>() = transform.leftCols<3>().unaryExpr(&flush_to_zero).eval();
     RTCGeometry instance = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
     rtcSetGeometryInstancedScene(instance, tree.get());
     rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, transform.data());

@@ -9,8 +9,8 @@
 
 namespace sonarsim {
 
-/// std::bad_alloc or std::runtime_error with what was being done, when Embree has failed since it
-/// was last asked.
+/// Throws std::bad_alloc, or std::runtime_error with the text `doing`, if Embree has failed since
+/// the last call.
 void check_embree(RTCDevice device, const char* doing);
 
 /// The tree of a mesh.

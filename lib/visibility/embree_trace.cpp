@@ -10,8 +10,8 @@ namespace {
 constexpr int packet = 8;
 constexpr std::uint32_t no_hit = RTC_INVALID_GEOMETRY_ID;
 
-/// Takes the facets that a packet has met in a layer over, and lets it go on to the next one: what
-/// it meets there has to be nearer, for Embree has shortened its rays.
+/// Stores the facets that a packet has met in a layer. Embree has shortened the rays, so a hit in
+/// the next layer has to be nearer.
 void take_hits(RTCRayHit8& rays, int count, const TracedLayer& layer,
                std::span<std::uint32_t> facets) {
     for (int k = 0; k < count; ++k) {
@@ -45,15 +45,15 @@ void trace_packets(std::span<const TracedLayer> layers, const RayOrigins& origin
         const int count =
             static_cast<int>(std::min<std::size_t>(packet, directions.size() - first));
         for (int k = 0; k < packet; ++k) {
-            // A short packet repeats its last ray: whatever the idle lanes hold is then harmless.
+            // A short packet repeats its last ray, so the idle lanes are harmless.
             const std::size_t i = first + std::min(k, count - 1);
             const Eigen::Vector3f& origin = origins.of(i);
             rays.ray.org_x[k] = origin.x();
             rays.ray.org_y[k] = origin.y();
             rays.ray.org_z[k] = origin.z();
-            rays.ray.dir_x[k] = without_rest(directions[i].x());
-            rays.ray.dir_y[k] = without_rest(directions[i].y());
-            rays.ray.dir_z[k] = without_rest(directions[i].z());
+            rays.ray.dir_x[k] = flush_to_zero(directions[i].x());
+            rays.ray.dir_y[k] = flush_to_zero(directions[i].y());
+            rays.ray.dir_z[k] = flush_to_zero(directions[i].z());
             rays.ray.tfar[k] = reach_m;
             rays.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
             rays.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;

@@ -7,7 +7,7 @@ namespace sonarsim {
 
 namespace {
 
-/// The sums of a beam's bins, whose quotient is the mean.
+/// Sums over the samples in each bin of a beam. Their quotient is the mean echo.
 struct BeamSums {
     std::vector<double> weight;
     std::vector<double> echo;
@@ -15,7 +15,7 @@ struct BeamSums {
     double mean(int bin) const { return weight[bin] > 0.0 ? echo[bin] / weight[bin] : 0.0; }
 };
 
-/// Adds a sample to the bins that it covers, in proportion to the overlap.
+/// Spreads a sample over the bins that it covers, in proportion to the overlap.
 void add_box(const Sample& sample, double reflection, const View& view, BeamSums& sums) {
     const double range = static_cast<double>(sample.position.norm());
     const double half = static_cast<double>(std::fabs(sample.position.dot(sample.edge_u)) +

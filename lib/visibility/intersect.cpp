@@ -10,10 +10,11 @@ namespace sonarsim {
 
 namespace {
 
-/// How far o + d v may lie off the plane of a facet through q, when all is float with a unit u of
-/// 2^-24. The error of n . (q - o) is 4 u |q - o|; that of d (n . v), with v turned into the
-/// scene's axes, 9 u d; o is turned, 6 u |o|, and moved, u |o| of what it is there; adding up p is
-/// off by u (2 d + |o|) and its direction from the sonar, which is asked for next, by 2 u |p|.
+/// Bound of the distance of o + d v from the plane of a facet through q, in float with a unit u of
+/// 2^-24. The error of n . (q - o) is 4 u |q - o|; that of d (n . v), with v rotated into the
+/// scene's axes, 9 u d; the rotation of o adds 6 u |o| and its translation u |o| in scene
+/// coordinates; the sum that makes p adds u (2 d + |o|) and the direction from the sonar to p 2 u
+/// |p|.
 float plane_rounding(const Eigen::Vector3f& to_vertex, const Eigen::Vector3f& origin,
                      const Eigen::Vector3f& local_origin, float distance) {
     constexpr float unit = 0x1p-24F;
@@ -29,7 +30,7 @@ void intersect_rays(const Caster& caster, const Eigen::Vector3d& scene_origin,
     const LocalPose pose = local_pose(T_world_sensor, scene_origin);
     const Intersection none{std::numeric_limits<float>::infinity(), 0.0F, Eigen::Vector3f::Zero(),
                             0, 0};
-    // Those that can meet something, which behind the walls and the floor of a scene are few.
+    // Skips rays that surely meet nothing; most rays that leave a scene's walls and floor do.
     std::vector<std::uint32_t> aimed;
     std::vector<Eigen::Vector3f> origins;
     std::vector<Eigen::Vector3f> directions;

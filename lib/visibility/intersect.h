@@ -8,7 +8,7 @@
 
 namespace sonarsim {
 
-/// VisibilityEngine::intersect by tracing rays, as every engine does it.
+/// VisibilityEngine::intersect by ray tracing, for all engines.
 void intersect_rays(const Caster& caster, const Eigen::Vector3d& scene_origin,
                     const Pose& T_world_sensor, std::span<const Ray> rays,
                     std::span<Intersection> intersections);

@@ -12,11 +12,11 @@ namespace sonarsim {
 
 namespace {
 
-/// Rows of the octree's depth buffer are equal in the tangent of elevation, which is infinite at
-/// 90 degrees.
+/// Rows of the octree's depth buffer have equal steps of the tangent of elevation, which is
+/// infinite at 90 degrees.
 constexpr double widest_octree_deg = 160.0;
 
-/// Of the slices, where energies add.
+/// The error of the slices in cones, for the calibrated model.
 constexpr double least_error_in_cones = 0.01;
 
 }  // namespace
@@ -35,15 +35,15 @@ std::unique_ptr<VisibilityEngine> make_engine(const Scene& scene, const EngineSe
     return make_rays_engine(scene);
 }
 
-std::string refusal_of(const EngineSettings& settings, const Scene& scene) {
+std::string unsupported(const EngineSettings& settings, const Scene& scene) {
     const bool is_octree = settings.type == EngineType::octree;
     if (!scene.bodies.empty() && (is_octree || settings.type == EngineType::slices)) {
         return std::string(is_octree ? "engine: octree" : "engine: slices") +
-               " sees no objects that move; use engine: auto or engine: rays";
+               " does not support moving objects; use engine: auto or engine: rays";
     }
     if (!scene.copies.empty() && (is_octree || settings.type == EngineType::slices)) {
         return std::string(is_octree ? "engine: octree" : "engine: slices") +
-               " sees no copies of shared meshes; use engine: auto or engine: rays, or "
+               " does not support copies of shared meshes; use engine: auto or engine: rays, or "
                "scene.repeats: copied";
     }
     if (settings.type != EngineType::octree) return "";
@@ -58,7 +58,7 @@ std::string refusal_of(const EngineSettings& settings, const Scene& scene) {
            (leaf_m > 0.0 ? " or larger leaves" : "");
 }
 
-std::string refusal_of(const EngineSettings& settings, const View& view) {
+std::string unsupported(const EngineSettings& settings, const View& view) {
     if (settings.type != EngineType::octree) return "";
     const double width_deg = std::round(1e9 * degrees(view.elevation_rad)) / 1e9;
     if (width_deg <= widest_octree_deg) return "";
@@ -68,21 +68,23 @@ std::string refusal_of(const EngineSettings& settings, const View& view) {
            "; use engine: rays";
 }
 
-std::string doubt_about(const EngineSettings& settings, const View& view, bool multipath,
-                        bool energies_add) {
-    // A box under a water surface: 669 echoes by way of both with rays, none with slices.
+std::string accuracy_warning(const EngineSettings& settings, const View& view, bool multipath,
+                             bool energies_add) {
+    // With a box under a water surface, rays found 669 echoes over both, slices none.
     if (settings.type == EngineType::slices && multipath) {
-        return "engine: slices finds little multipath: sound goes on from the middle of each piece "
-               "of surface, and a piece of the slices may be as long as a beam is high; use "
+        return "engine: slices misses most multipath: reflections start at the middle of each "
+               "patch "
+               "of surface, and a patch of the slices may span the whole elevation of a beam; use "
                "engine: auto or engine: rays";
     }
-    if (settings.type == EngineType::slices && energies_add && view.shape == ViewShape::sides) {
-        return "engine: slices is up to 18 % off where energies add in the narrow beam of a "
-               "side-scan; use engine: auto or engine: rays";
+    if (settings.type == EngineType::slices && energies_add &&
+        view.shape == ViewShape::port_starboard) {
+        return "engine: slices is off by up to 18 % in the narrow beam of a side-scan with the "
+               "calibrated model; use engine: auto or engine: rays";
     }
     if (settings.type == EngineType::slices && energies_add && view.shape == ViewShape::cone &&
         view.relative_l1 < least_error_in_cones) {
-        return "engine: slices is up to 1 % off where energies add in a cone, more than "
+        return "engine: slices is off by up to 1 % in a cone with the calibrated model, more than "
                "accuracy.relative_l1; use engine: auto or engine: rays";
     }
     if (settings.type != EngineType::octree || settings.octree.literal) return "";

@@ -16,27 +16,27 @@ enum class EngineType { automatic, rays, octree, slices };
 
 struct EngineSettings {
     EngineType type = EngineType::rays;
-    OctreeOptions octree;            ///< read by the octree alone
-    SlicesOptions slices = {};       ///< read by the slices alone
-    std::vector<Probe> probes = {};  ///< read by `automatic` alone; without, it takes the slices
+    OctreeOptions octree;       ///< for the octree only
+    SlicesOptions slices = {};  ///< for the slices only
+    /// For `automatic` only; it takes the slices if there are none.
+    std::vector<Probe> probes = {};
 };
 
-/// The engine over a scene that must outlive it. Throws InputError when octree.leaf_m is too small
-/// for the scene, and std::runtime_error when memory does not suffice.
+/// Makes the engine over a scene, which must outlive it. Throws InputError when octree.leaf_m is
+/// too small for the scene, and std::runtime_error when memory does not suffice.
 std::unique_ptr<VisibilityEngine> make_engine(const Scene& scene, const EngineSettings& settings);
 
-/// Why the engine cannot hold this scene, as a sentence that begins with the mission's key; empty
-/// when it can.
-std::string refusal_of(const EngineSettings& settings, const Scene& scene);
+/// Error message, beginning with the mission's key, if the engine does not support this scene;
+/// empty otherwise.
+std::string unsupported(const EngineSettings& settings, const Scene& scene);
 
-/// Why the engine cannot see this view, as a sentence that names the mission's keys; empty when it
-/// can.
-std::string refusal_of(const EngineSettings& settings, const View& view);
+/// Error message with the mission's keys if the engine does not support this view; empty otherwise.
+std::string unsupported(const EngineSettings& settings, const View& view);
 
-/// Why the images of this view, with `multipath` or without, and with the mean of echoes over a bin
-/// or their sum (`energies_add`), will probably be off by more than its error goal, in a sentence
-/// that names the mission's keys; empty when they should meet it.
-std::string doubt_about(const EngineSettings& settings, const View& view, bool multipath = false,
-                        bool energies_add = false);
+/// Warning text, with the mission's keys, if the engine will probably miss the error goal of this
+/// view; empty otherwise. `energies_add`: a bin holds the sum of its echoes (calibrated model), not
+/// their mean.
+std::string accuracy_warning(const EngineSettings& settings, const View& view,
+                             bool multipath = false, bool energies_add = false);
 
 }  // namespace sonarsim

@@ -30,7 +30,7 @@ BeamLocator::BeamLocator(const View& view)
 float BeamLocator::beam(const Eigen::Vector3f& point, float range_m) const {
     const float edge = range_m * half_sine_;
     if (cone_) {
-        // By the sine: the cosine of a tenth of a degree is 1 in float.
+        // Uses the sine: in float the cosine of a tenth of a degree is 1.
         const float off_axis2 = point.y() * point.y() + point.z() * point.z();
         return point.x() >= 0.0F && off_axis2 <= edge * edge ? 0.5F : -1.0F;
     }

@@ -4,18 +4,19 @@
 
 namespace sonarsim {
 
-/// How a view is divided into beams.
+/// The division of a view into beams.
 enum class ViewShape {
-    fan,    ///< equal beams of azimuth; beam 0 is the most negative azimuth (starboard)
-    sides,  ///< beam 0 is starboard (azimuth < 0), beam 1 port (azimuth >= 0)
-    cone    ///< one beam, round the boresight
+    fan,             ///< equal beams of azimuth; beam 0 is the most negative azimuth (starboard)
+    port_starboard,  ///< beam 0 is starboard (azimuth < 0), beam 1 port (azimuth >= 0)
+    cone             ///< one beam around the boresight
 };
 
-/// What a sonar looks at, in the sensor frame: x along the boresight, azimuth = atan2(y, x),
-/// elevation = asin(z / r).
+/// The volume that a sonar views, in the sensor frame: x along the boresight, azimuth = atan2(y,
+/// x), elevation = asin(z / r).
 struct View {
-    double azimuth_rad = 0.0;    ///< full angle, centred on the boresight; of a cone its full angle
-    double elevation_rad = 0.0;  ///< full angle; of a cone the same
+    /// Full angle, centred on the boresight; for a cone its opening angle.
+    double azimuth_rad = 0.0;
+    double elevation_rad = 0.0;  ///< full angle; for a cone its opening angle
     double range_min_m = 0.0;
     double range_max_m = 0.0;
     int range_bins = 0;
@@ -28,7 +29,7 @@ struct View {
     double bin_m() const { return (range_max_m - range_min_m) / range_bins; }
 };
 
-/// The beam that a point of the sensor frame lies in, or -1 outside the field of view. Intervals
+/// The beam that contains a point of the sensor frame, or -1 outside the field of view. Intervals
 /// are half-open in azimuth and elevation.
 int beam_of(const View& view, const Eigen::Vector3f& point);
 
@@ -38,17 +39,17 @@ class BeamLocator {
   public:
     explicit BeamLocator(const View& view);
 
-    /// Beam and fraction of it, in [0, beams); -1 outside. `range_m` is the norm of `point`.
+    /// Beam and its fraction, in [0, beams); -1 outside. `range_m` is the norm of `point`.
     float beam(const Eigen::Vector3f& point, float range_m) const;
 
-    /// 0 for a cone: its one beam lies all around the boresight.
+    /// 0 for a cone, whose one beam surrounds the boresight.
     float beams_per_rad() const { return beams_per_rad_; }
 
   private:
     bool cone_;
     float beams_;
     float beams_per_rad_;
-    float half_sine_;  ///< of the elevation; of a cone's opening
+    float half_sine_;  ///< sine of half the elevation, or of half a cone's opening
 };
 
 }  // namespace sonarsim

@@ -18,14 +18,14 @@ using namespace sonarsim::test;
 
 namespace {
 
-/// Two sonars of which the first has multipath.
+/// Two sonars; only the first has multipath.
 Mission corner_mission(const MultipathConfig& multipath) {
     Mission mission = small_mission("unused");
     mission.sensors[0].multipath = multipath;
     return mission;
 }
 
-/// Two walls that meet at a right angle in front of the vehicle, which moves towards them.
+/// A corner of two walls in front of the vehicle, which moves towards them.
 Assembly corner_assembly(const Mission& mission) {
     Assembly assembly = small_assembly(mission, 3);
     Scene scene = empty_scene();
@@ -68,7 +68,7 @@ TEST_CASE("multipath rows of a corner are sane, as text, JSON and CSV") {
         CAPTURE(row.setting.delta_deg);
         CHECK(row.sensor == "front");
         CHECK(row.exact_bins > 20);
-        // On two planes every cluster is right but for rounding at the edges of bins.
+        // On two planes every cluster is exact up to rounding at the edges of bins.
         CHECK(row.relative_l1 < 0.02);
         CHECK(row.recall > 0.98);
         CHECK(row.precision > 0.98);
@@ -102,7 +102,7 @@ TEST_CASE("multipath rows of a corner are sane, as text, JSON and CSV") {
     CHECK(csv.starts_with(
         "sensor,method,current,epsilon_bins,delta_deg,relative_l1,recall,precision,"));
     CHECK(std::ranges::count(csv, '\n') == 14);
-    CHECK(std::ranges::count(csv, ',') % 14 == 0);  // as many in every line
+    CHECK(std::ranges::count(csv, ',') % 14 == 0);  // the same in every line
     CHECK(csv.find("\nfront,cluster,true,5,5,") != std::string::npos);
 
     const std::string text = report_text(report);
@@ -114,8 +114,8 @@ TEST_CASE("multipath rows of a corner are sane, as text, JSON and CSV") {
 
 TEST_CASE("multipath rows tell a coarse way from a fine one") {
     Mission mission = corner_mission({MultipathMethod::cluster, 1, 5.0});
-    // The tank has a pole and a sphere, on which the normal turns. A bin that holds all of the
-    // sphere would hide it.
+    // The tank has a pole and a sphere, whose normals vary. Coarse bins would hold the whole sphere
+    // and hide the difference.
     mission.sensors[0].range_bins = 192;
     const std::vector<MultipathRow> rows = measure(mission, small_assembly(mission, 3));
     const MultipathRow& fine = row_of(rows, 1, 5.0);
@@ -146,7 +146,7 @@ TEST_CASE("the settings of multipath holds the mission's own way once") {
     };
     CHECK(size({MultipathMethod::cluster, 5, 15.0}) == 13);
     CHECK(size({MultipathMethod::cluster, 4, 15.0}) == 14);
-    // Exact is exact, whatever epsilon and delta say.
+    // The exact method ignores epsilon and delta.
     CHECK(size({MultipathMethod::exact, 5, 5.0}) == 13);
     const Mission mission = corner_mission({MultipathMethod::exact, 5, 5.0});
     const std::vector<MultipathRow> rows = measure(mission, corner_assembly(mission));

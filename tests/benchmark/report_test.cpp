@@ -51,7 +51,7 @@ Report report_of_rays(const Mission& mission, const Assembly& assembly) {
     return make_report(mission, assembly, settings, {}, options, [](const std::string&) {});
 }
 
-/// A row with the figures that the choice looks at.
+/// A row with the figures that the choice depends on.
 ReportRow row_of(const std::string& engine, const std::string& name, double ms, double l1) {
     ReportRow row;
     row.sensor = "fls";
@@ -88,7 +88,7 @@ TEST_CASE("a report has a sane row per setting, as text, JSON and CSV" *
         CHECK(row.ms_rays > 0.0);
         CHECK(row.times_rays > 0.0);
     }
-    // A finer goal takes more samples and errs less.
+    // A finer goal takes more samples and gives a smaller error.
     CHECK(report.rows[1].samples_per_ping.centre > report.rows[0].samples_per_ping.centre);
     CHECK(report.rows[1].relative_l1.centre < report.rows[0].relative_l1.centre);
     CHECK(report.rows[1].relative_l1.centre < 0.03);
@@ -113,7 +113,7 @@ TEST_CASE("a report has a sane row per setting, as text, JSON and CSV" *
 
     const std::string csv = report_csv(report);
     CHECK(std::ranges::count(csv, '\n') == 5);
-    CHECK(std::ranges::count(csv, ',') % 5 == 0);  // as many in every line
+    CHECK(std::ranges::count(csv, ',') % 5 == 0);  // the same in every line
     CHECK(report_text(report).find("rays relative_l1=0.01") != std::string::npos);
     CHECK(report_markdown(report).find("| rays | relative_l1=0.01 |") != std::string::npos);
 }
@@ -149,11 +149,11 @@ TEST_CASE("a report on shared copies is one on their triangles" * doctest::skip(
           doctest::Approx(1.0).epsilon(0.02));
     CHECK(of_copies.samples_per_ping.centre / of_triangles.samples_per_ping.centre ==
           doctest::Approx(1.0).epsilon(1e-3));
-    // Of all settings rays alone can see it.
+    // Only rays can trace it.
     for (const Setting& setting : make_settings(mission, false)) {
         CAPTURE(setting.engine);
-        CHECK(refusal_of(setting, copied).empty());
-        CHECK(refusal_of(setting, shared).empty() == (setting.kind == EngineKind::rays));
+        CHECK(unsupported(setting, copied).empty());
+        CHECK(unsupported(setting, shared).empty() == (setting.kind == EngineKind::rays));
     }
 }
 
@@ -170,7 +170,7 @@ TEST_CASE("a report pings as the mission does: with the draws of each ping, and 
         rule.uniform = {20.0, 70.0};
         mission.vary.push_back(rule);
         const ReportRow row = report_of_rays(mission, assembly).rows[0];
-        // Where it looked another way than its reference does, nearly every bin would be wrong.
+        // If it looked in another direction than its reference, nearly every bin would be wrong.
         CHECK(row.relative_l1.max < 0.05);
         CHECK(row.relative_l1.max != still.relative_l1.max);
     }
@@ -185,7 +185,8 @@ TEST_CASE("a report pings as the mission does: with the draws of each ping, and 
         CHECK(report_of_rays(mission, turning).rows[0].relative_l1.max < 0.02);
     }
     SUBCASE("the calibrated model") {
-        // Judged where energies add: by the paper's mean its levels would be far off.
+        // Compared with the calibrated reference; compared with the paper's, its levels would be
+        // far off.
         mission.sensors[0].model = EchoModel::of_instrument;
         mission.sensors[0].instrument.frequency_hz = 9e5;
         const ReportRow row = report_of_rays(mission, small_assembly(mission, 4)).rows[0];
@@ -201,7 +202,7 @@ TEST_CASE("auto is explained by the fastest setting that meets the goal") {
         row_of("rays", "relative_l1=0.01", 4.0, 0.01), row_of("octree", "leaf_m=0.02", 3.0, 0.04)};
     std::string text = explain_auto(report, "fls");
     CHECK(text.find("the best rays are rays relative_l1=0.03") != std::string::npos);
-    // No octree meets the goal: the most accurate stands for it.
+    // No octree meets the goal, so the most accurate one is named.
     CHECK(text.find("the best octree is octree leaf_m=0.02") != std::string::npos);
     CHECK(text.find("Here the octree is better") == std::string::npos);
     report.rows.push_back(row_of("octree", "leaf_m=0.04", 1.5, 0.03));
@@ -251,11 +252,11 @@ TEST_CASE("a promise is kept at the worst pose, or warned of") {
     CHECK(std::string(row.promise()) == "-");
 }
 
-TEST_CASE("the rays that pings are measured by lie evenly in the view") {
+TEST_CASE("the yardstick rays are spread evenly over the view") {
     View view{radians(60.0), radians(12.0), 0.5, 10.0, 100, 1, 0.03};
     SUBCASE("fan") {}
     SUBCASE("sides") {
-        view.shape = ViewShape::sides;
+        view.shape = ViewShape::port_starboard;
         view.beams = 2;
     }
     SUBCASE("cone") {
@@ -272,17 +273,17 @@ TEST_CASE("the rays that pings are measured by lie evenly in the view") {
 }
 
 TEST_CASE("poses are spread from end to end") {
-    CHECK(spread_poses(10, 4) == std::vector<std::size_t>{0, 3, 6, 9});
-    CHECK(spread_poses(2, 8) == std::vector<std::size_t>{0, 1});
-    CHECK(spread_poses(5, 1) == std::vector<std::size_t>{0});
+    CHECK(sample_poses(10, 4) == std::vector<std::size_t>{0, 3, 6, 9});
+    CHECK(sample_poses(2, 8) == std::vector<std::size_t>{0, 1});
+    CHECK(sample_poses(5, 1) == std::vector<std::size_t>{0});
 }
 
-TEST_CASE("spreads by hand") {
-    const Spread times = spread_of_times({4.0, 1.0, 2.0, 3.0});
+TEST_CASE("summaries by hand") {
+    const Summary times = median_summary({4.0, 1.0, 2.0, 3.0});
     CHECK(times.centre == 2.5);
     CHECK(times.min == 1.0);
     CHECK(times.max == 4.0);
-    CHECK(spread_of({1.0, 2.0, 6.0}).centre == doctest::Approx(3.0));
+    CHECK(mean_summary({1.0, 2.0, 6.0}).centre == doctest::Approx(3.0));
 }
 
 TEST_SUITE_END();

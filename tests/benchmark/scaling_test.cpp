@@ -49,7 +49,7 @@ TEST_CASE("tiles lie side by side around the original") {
     CHECK(area(wide) == doctest::Approx(144.0));
     CHECK(wide.bounds_min == Eigen::Vector3d(-6.0, -6.0, 0.0));
     CHECK(wide.bounds_max == Eigen::Vector3d(6.0, 6.0, 0.0));
-    CHECK(wide.triangles[0] == scene.triangles[0]);  // the original comes first and stays put
+    CHECK(wide.triangles[0] == scene.triangles[0]);  // the original comes first, unmoved
     for (const Eigen::Vector3f& v : wide.vertices) {
         CHECK(std::fabs(v.x()) <= 6.0F);
         CHECK(std::fabs(v.y()) <= 6.0F);

@@ -71,7 +71,7 @@ class Moving(Composed):
 
     def test_other_engines_refuse(self):
         for engine in ("octree", "slices"):
-            self.refused(f"engine: {engine} sees no objects that move; use engine: auto or engine: rays",
+            self.refused(f"engine: {engine} does not support moving objects; use engine: auto or engine: rays",
                          arguments=["--set", f"engine={engine}"])
 
     def test_too_short(self):

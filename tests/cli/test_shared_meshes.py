@@ -80,18 +80,18 @@ class Shared(Composed):
         chosen = "--set", "scene.repeats=shared", "--poses", "1", "--quick"
         result = self.run_sonarsim("report", "mission.yaml", *chosen, "--json", "report.json")
         self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertIn("left out: engine: octree sees no copies", result.stderr)
+        self.assertIn("left out: engine: octree does not support copies", result.stderr)
         report = json.loads((self.folder / "report.json").read_text())
         self.assertEqual(report["triangles"], 128 + 3 * 12)
         self.assertEqual({row["engine"] for row in report["rows"]}, {"rays"})
         self.assertLess(report["rows"][-1]["relative_l1"], 0.02)
         self.assert_refused(self.run_sonarsim("report", "mission.yaml", *chosen, "--quiet",
                                               "--engines", "slices"),
-                            "mission.yaml: engine: slices sees no copies of shared meshes")
+                            "mission.yaml: engine: slices does not support copies of shared meshes")
 
     def test_other_engines_refuse(self):
         for engine in ("octree", "slices"):
-            self.refused(f"engine: {engine} sees no copies of shared meshes",
+            self.refused(f"engine: {engine} does not support copies of shared meshes",
                          "scene.repeats: copied",
                          arguments=["--set", f"engine={engine}", "--set", "scene.repeats=shared"])
 

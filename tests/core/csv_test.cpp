@@ -43,7 +43,7 @@ TEST_SUITE("core") {
         CHECK(table.rows.at(1).fields == std::vector<std::string>{"#c", ""});
     }
 
-    TEST_CASE("CSV: what is wrong is said with file and line") {
+    TEST_CASE("CSV: errors name file and line") {
         const auto parse = [](const std::string& text) { parse_csv(text, "t.csv"); };
         CHECK_THROWS_WITH_AS(parse(""), "t.csv: is empty; expected a header line", InputError);
         CHECK_THROWS_WITH_AS(parse("# only\n\n"), "t.csv: is empty; expected a header line",

@@ -8,7 +8,7 @@
 
 using namespace sonarsim;
 
-// The C library's functions in long double serve as the truth here.
+// The reference values come from the C library's functions in long double.
 
 TEST_SUITE("core") {
     TEST_CASE("elementary: sine and cosine are off by less than 1e-15") {
@@ -22,10 +22,10 @@ TEST_SUITE("core") {
         };
         for (int i = -20000; i <= 20000; ++i)
             probe(i * 0.001);
-        // Up to the 1e5 rad that are promised; 4.99 keeps the steps off any multiple of pi.
+        // The accuracy is promised up to 1e5 rad; steps of 4.99 avoid multiples of pi.
         for (int i = -20000; i <= 20000; ++i)
             probe(i * 4.99);
-        // Where the reduction changes quadrant, and one step of double to either side.
+        // Points where the reduction changes quadrant, and one step of double to either side.
         for (int k = -1000; k <= 1000; ++k) {
             const double x = k * (pi / 4.0);
             probe(x);
@@ -55,7 +55,7 @@ TEST_SUITE("core") {
         CHECK(arctan2(0.0, 1.0) == 0.0);
         CHECK(arctan2(1.0, 0.0) == doctest::Approx(pi / 2).epsilon(1e-15));
         CHECK(arctan2(-1.0, 0.0) == doctest::Approx(-pi / 2).epsilon(1e-15));
-        // The cut runs along the negative x axis: a zero's sign says on which side of it.
+        // The branch cut runs along the negative x axis: the sign of a zero selects its side.
         CHECK(arctan2(0.0, -1.0) == doctest::Approx(pi).epsilon(1e-15));
         CHECK(arctan2(-0.0, -1.0) == doctest::Approx(-pi).epsilon(1e-15));
         CHECK(std::signbit(arctan2(-0.0, 1.0)));
@@ -68,7 +68,7 @@ TEST_SUITE("core") {
             for (const double x : {0.0, -0.0})
                 CHECK(arctan2(y, x) == 0.0);
         }
-        // What a bin's edge test relies on: never beyond [-pi, pi].
+        // The test of bin edges relies on results within [-pi, pi].
         CHECK(arctan2(1e-300, -1.0) <= pi);
         CHECK(arctan2(-1e-300, -1.0) >= -pi);
     }
@@ -95,7 +95,7 @@ TEST_SUITE("core") {
         }
         CHECK(worst < 1e-15);
         CHECK(exponential(0.0) == 1.0);
-        // Below the normal numbers as precise as such numbers are, and then 0.
+        // Subnormal results have the precision of subnormal numbers; below them the result is 0.
         CHECK(std::fabs(exponential(-740.0) - std::exp(-740.0)) <= 5e-324);
         constexpr double infinity = std::numeric_limits<double>::infinity();
         for (const double x : {-746.0, -1e4, -1e300, -infinity})

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// An empty folder that goes away with this object.
+/// A temporary folder that the destructor removes.
 class Folder {
   public:
     Folder() {
@@ -40,7 +40,7 @@ class Folder {
     fs::path path_;
 };
 
-/// While it lives, the kernel refuses to let a file grow beyond `bytes`, as a full disk would.
+/// Limits the size of files to `bytes` during its lifetime, as a full disk would.
 class FileSizeLimit {
   public:
     explicit FileSizeLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
@@ -73,7 +73,7 @@ std::string message_of_reading(const fs::path& path, std::size_t limit = 1000) {
 }  // namespace
 
 TEST_SUITE("core") {
-    TEST_CASE("file: what is written is read back, zero bytes and all") {
+    TEST_CASE("file: written bytes are read back, zero bytes included") {
         const Folder folder;
         const std::string bytes("a\0b\r\n\xff", 6);
         write_file(folder / "a.bin", bytes);
@@ -93,7 +93,7 @@ TEST_SUITE("core") {
         CHECK(temporary_name("a.png").parent_path().empty());
         CHECK_FALSE(is_temporary_name("a.png"));
         CHECK_FALSE(is_temporary_name("a.part"));
-        // What other programs call their own.
+        // Names of other programs' files.
         for (const char* name : {".part", ".a.mkv.part", ".a.mkv.0123456789ABCDEF.part",
                                  ".a.mkv.0123456789abcde.part", ".0123456789abcdef.part"})
             CHECK_FALSE(is_temporary_name(name));

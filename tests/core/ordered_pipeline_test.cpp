@@ -15,12 +15,12 @@ namespace {
 constexpr std::size_t threads = 4;
 constexpr std::size_t in_flight = 6;
 
-// A worker each, also on a machine of one core.
+// Four worker threads, even on a machine with one core.
 struct FourThreads {
     tbb::global_control limit{tbb::global_control::max_allowed_parallelism, threads};
 };
 
-/// Work that takes the longer the earlier it begins, so that results come about out of order.
+/// Work whose duration decreases with i, so that results complete out of order.
 std::string work_on(std::size_t i) {
     std::atomic<unsigned> spin = 0;
     for (std::size_t k = 0; k < 2000 * (7 - i % 7); ++k)

@@ -24,7 +24,7 @@ TEST_SUITE("core") {
         const Vector3d bow = Vector3d::UnitX();
         const Vector3d port = Vector3d::UnitY();
         const Vector3d mast = Vector3d::UnitZ();
-        // Positive yaw turns the bow to port, pitch the bow down, roll the port side up.
+        // Positive yaw turns the bow to port, pitch turns it down, roll raises the port side.
         check_near(rotation_from_rpy(0, 0, pi / 2) * bow, port);
         check_near(rotation_from_rpy(0, pi / 2, 0) * bow, -mast);
         check_near(rotation_from_rpy(pi / 2, 0, 0) * port, mast);
@@ -32,7 +32,7 @@ TEST_SUITE("core") {
     }
 
     TEST_CASE("pose: roll comes first, yaw last, about fixed axes") {
-        // y --roll 90--> z --pitch 90--> x --yaw 90--> y. In any other order y ends elsewhere.
+        // y --roll 90--> z --pitch 90--> x --yaw 90--> y. Any other order gives another result.
         check_near(rotation_from_rpy(pi / 2, pi / 2, pi / 2) * Vector3d::UnitY(),
                    Vector3d::UnitY());
 
@@ -47,7 +47,7 @@ TEST_SUITE("core") {
     }
 
     TEST_CASE("pose: the angles of a rotation are those that it is made of") {
-        // Pitch stays within a quarter turn, where the angles of a rotation are unique.
+        // Within a quarter turn of pitch the angles of a rotation are unique.
         for (const double roll : {-3.1, -1.0, 0.0, 0.4, 3.0}) {
             for (const double pitch : {-1.57, -0.7, 0.0, 1e-9, 1.2}) {
                 for (const double yaw : {-3.1, -0.2, 0.0, 1.6, 3.14}) {
@@ -55,14 +55,14 @@ TEST_SUITE("core") {
                     CAPTURE(pitch);
                     CAPTURE(yaw);
                     const Rpy told = rpy_from_rotation(rotation_from_rpy(roll, pitch, yaw));
-                    // At a pitch of -1.57 roll and yaw rest on a cosine of 8e-4.
+                    // At a pitch of -1.57 roll and yaw depend on a cosine of 8e-4.
                     CHECK(std::abs(told.roll - roll) < 1e-12);
                     CHECK(std::abs(told.pitch - pitch) < 1e-12);
                     CHECK(std::abs(told.yaw - yaw) < 1e-12);
                 }
             }
         }
-        // A pitch beyond that is the same attitude as one within, turned by half a turn.
+        // A pitch beyond a quarter turn equals one within, with a roll and a yaw of half a turn.
         const Rpy over = rpy_from_rotation(rotation_from_rpy(0.0, 2.0, 0.0));
         CHECK(std::abs(over.pitch - (pi - 2.0)) < 1e-12);
         CHECK(std::abs(std::abs(over.roll) - pi) < 1e-12);
@@ -88,7 +88,7 @@ TEST_SUITE("core") {
         const Pose T_world_vehicle{rotation_from_rpy(0, 0, pi / 2), {10, 0, 0}};
         const Pose T_vehicle_sonar{rotation_from_rpy(0, pi / 2, 0), {1, 2, 3}};
         const Pose T_world_sonar = T_world_vehicle * T_vehicle_sonar;
-        // The mount (1, 2, 3) turned by 90 deg to port is (-2, 1, 3).
+        // The mount (1, 2, 3), rotated by 90 deg to port, is (-2, 1, 3).
         check_near(T_world_sonar.translation, {8, 1, 3});
         // The sonar's boresight points down, its left is the vehicle's left: world -x.
         check_near(T_world_sonar.rotation * Vector3d::UnitX(), {0, 0, -1});

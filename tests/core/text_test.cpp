@@ -10,7 +10,7 @@
 using namespace sonarsim;
 
 TEST_SUITE("core") {
-    TEST_CASE("text: what could steer a terminal is shown, not sent") {
+    TEST_CASE("text: control characters are escaped") {
         CHECK(printable("Steel plate 3\" \\ \xc3\xa9\xe6\xb0\xb4") ==
               "Steel plate 3\" \\ \xc3\xa9\xe6\xb0\xb4");
         CHECK(printable("\x1b[2J\r\n\t\x7f") == "\\x1b[2J\\x0d\\x0a\\x09\\x7f");
@@ -18,7 +18,7 @@ TEST_SUITE("core") {
         CHECK(printable("\xc2\x9b"
                         "2J") ==
               "\\xc2\\x9b"
-              "2J");  // U+009B, an ESC [ in one
+              "2J");  // U+009B is an ESC [ in one character
         CHECK(printable("\xc2\xa0\xc2\xbf") == "\xc2\xa0\xc2\xbf");
         CHECK(printable("\xff\xc3") == "\\xff\\xc3");
     }
@@ -62,7 +62,7 @@ TEST_SUITE("core") {
         CHECK(number_text(3.0) == "3");
         CHECK(number_text(-0.0) == "-0");
         CHECK(number_text(std::numeric_limits<double>::infinity()) == "inf");
-        // The longest doubles that there are: 17 digits, sign and a three-digit exponent.
+        // The longest doubles: 17 digits, sign and a three-digit exponent.
         for (const double value : {1.0 / 3.0, -2.2250738585072014e-308, 4.9406564584124654e-324,
                                    -1.7976931348623157e308, 0.1 + 0.2}) {
             CAPTURE(value);
@@ -82,7 +82,7 @@ TEST_SUITE("core") {
         CHECK(did_you_mean("range_mx_m", keys) == " (did you mean 'range_max_m'?)");
         CHECK(did_you_mean("azimut_deg", keys) == " (did you mean 'azimuth_deg'?)");
         CHECK(did_you_mean("evry", keys) == " (did you mean 'every'?)");
-        // Four edits in five letters is another word; a third of the word is the most.
+        // Four edits in five letters make another word; at most a third of the letters may differ.
         CHECK(did_you_mean("water", keys) == "");
         CHECK(did_you_mean("", keys) == "");
         CHECK(did_you_mean("every", {}) == "");

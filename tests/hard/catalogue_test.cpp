@@ -14,9 +14,9 @@ void check(const std::vector<HardCase>& cases) {
     REQUIRE(!cases.empty());
     for (HardCase hard : cases) {
         if (test::sanitized) {
-            // The octree takes two minutes for this one then.
+            // Here the octree takes two minutes under a sanitizer.
             if (hard.name == "8,192 range bins") continue;
-            // The truths take most of the time; without them the invariants are left.
+            // The expected images take most of the time; without them the invariants remain.
             hard.truth = {};
         }
         for (const HardResult& result : run_hard_case(hard)) {
@@ -27,7 +27,7 @@ void check(const std::vector<HardCase>& cases) {
             CAPTURE(result.bound);
             CAPTURE(result.broken);
             CHECK(result.broken.empty());
-            // A fault that is known must be mended or still be there: a stale entry is a lie.
+            // A known fault must still exist: a fixed one must leave the list.
             if (!test::sanitized) CHECK(result.holds() == result.known_fault.empty());
         }
     }
@@ -55,7 +55,7 @@ TEST_CASE("hard cases: invariances") {
 }
 
 TEST_CASE("hard cases: what a mission would be refused for") {
-    // A floor and a view that takes no time: the refusals are the matter.
+    // A floor and a quick view, since only the refusals matter.
     HardCase hard{"180 degrees", "", "", plain_floor, [](SonarKind kind) {
                       return over_floor(kind, [](SonarConfig& c) {
                           c.elevation_deg = 180.0;
@@ -68,10 +68,10 @@ TEST_CASE("hard cases: what a mission would be refused for") {
     CHECK(results[1].refused.find("octree takes opening_deg up to 160, not 180") !=
           std::string::npos);
     CHECK(results[1].holds());
-    // What is refused unasked for does not hold.
+    // A refusal that the case does not allow is a failure.
     hard.octree_may_refuse = false;
     CHECK(!run_hard_case(hard)[1].holds());
-    // And what is not refused is compared: here with an image that it cannot be.
+    // A case that is not refused is compared: here with an image that cannot match.
     hard.octree_may_refuse = true;
     hard.trial = [](SonarKind kind) { return over_floor(kind); };
     hard.truth = dark;

@@ -14,7 +14,7 @@ TEST_SUITE_BEGIN("hard");
 
 namespace {
 
-/// Looking along the floor, `height_m` above it: every bin sees it.
+/// A view along the floor from `height_m` above it: every bin sees it.
 HardTrial along_the_floor(double height_m) {
     HardTrial trial = over_floor(SonarKind::imaging);
     trial.T_world_vehicle = {rotation_from_rpy(0.0, 0.0, 0.1), {0.31, 0.17, height_m}};

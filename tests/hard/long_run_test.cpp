@@ -15,8 +15,8 @@ using namespace sonarsim;
 TEST_SUITE_BEGIN("hard");
 
 TEST_CASE("a million pings of two sensors: no two of their random streams are the same") {
-    // 6 million keys of 64 bits: by chance two of them would meet once in a million such runs,
-    // n^2 / 2^65 = 1e-6, and the test has no chance in it.
+    // 6 million keys of 64 bits: the probability that two of them are equal is n^2 / 2^65 = 1e-6,
+    // and the keys do not vary from run to run.
     std::vector<std::uint64_t> keys;
     keys.reserve(6'000'000);
     for (const char* const sensor : {"fls", "sss"}) {
@@ -34,9 +34,9 @@ TEST_CASE("a million pings of two sensors: no two of their random streams are th
 }
 
 TEST_CASE("float sums against double sums: a bin of a million echoes") {
-    // n additions of positive numbers in float are off by at most n 2^-24 of the sum: for 1e6
-    // echoes 6 %. Roundings are of either sign, so that what is seen is nearer to sqrt(n) 2^-24;
-    // and the mean is a quotient of two sums that are off alike. A ping's fullest bin has some 1e4
+    // n additions of positive numbers in float have an error of at most n 2^-24 of the sum: for 1e6
+    // echoes 6 %. Roundings have both signs, so the actual error is nearer to sqrt(n) 2^-24; and
+    // the mean is a quotient of two sums with similar errors. A ping's fullest bin has some 1e4
     // echoes.
     for (const std::size_t n : {std::size_t{10'000}, std::size_t{1'000'000}}) {
         Echoes echoes;
@@ -82,7 +82,7 @@ TEST_CASE("an echo that is not a number is dropped and counted") {
 }
 
 TEST_CASE("an echo just short of the first bin or beyond the last is dropped, one across is cut") {
-    // Bins from 2 to 3 m, 0.25 m each. Truncated towards zero, 1.8 m would fall into the first.
+    // Bins from 2 to 3 m, 0.25 m each. Truncation towards zero would put 1.8 m into the first bin.
     Echoes echoes;
     echoes.resize(5, false);
     echoes.range_m = {1.8F, 3.2F, 3.01F, 2.0F, 2.99F};
@@ -92,10 +92,10 @@ TEST_CASE("an echo just short of the first bin or beyond the last is dropped, on
     BinSums sums;
     sums.clear(4);
     CHECK(accumulate(echoes, {2.0F, 0.25F, 4}, sums) == 3);
-    CHECK(sums.weight(0) == doctest::Approx(0.5));  // the half of 1.9 to 2.1 m that lies within
+    CHECK(sums.weight(0) == doctest::Approx(0.5));  // the half of 1.9 to 2.1 m that is in range
     CHECK(sums.weight(1) == 0.0F);
     CHECK(sums.weight(2) == 0.0F);
-    CHECK(sums.weight(3) == doctest::Approx(0.55));  // of 2.89 to 3.09 m up to 3
+    CHECK(sums.weight(3) == doctest::Approx(0.55));  // the part of 2.89 to 3.09 m below 3
 }
 
 TEST_CASE("fields of view are half-open: the last edge belongs to no beam") {
@@ -116,7 +116,7 @@ TEST_CASE("fields of view are half-open: the last edge belongs to no beam") {
     CHECK(both({1.0F, 0.0F, 1.00002F}) == -1);
     CHECK(both({-1.0F, 0.0F, 0.0F}) == -1);
     view.azimuth_rad = 2.0 * pi;
-    // Straight behind lies exactly on the seam of a full turn: in the first beam or in none.
+    // Straight behind is exactly the seam of a full turn: in the first beam or in none.
     CHECK(beam_of(view, {-1.0F, -1e-3F, 0.0F}) == 0);
     CHECK(beam_of(view, {-1.0F, 1e-3F, 0.0F}) == 2);
 }

@@ -17,12 +17,12 @@ TEST_CASE("the error of both engines falls with their resolution" *
         CAPTURE(one.scene);
         CAPTURE(one.engine);
         CAPTURE(one.order);
-        // First order is what silhouettes and bin edges allow; less than half of it would be no
-        // convergence worth the name.
+        // Silhouettes and bin edges limit the order to one; less than half of that would not be
+        // convergence.
         CHECK(one.order > 0.4);
         CHECK(one.errors.back() < 0.5 * one.errors.front());
         if (one.engine != "rays") continue;
-        // The steps of the rays are what the errors are meant to be; a single pose may miss one.
+        // The steps of the rays are their error goals; a single pose may miss its goal.
         for (std::size_t i = 0; i < one.steps.size(); ++i)
             CHECK(one.errors[i] < 1.2 * one.steps[i]);
     }

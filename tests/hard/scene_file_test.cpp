@@ -15,8 +15,8 @@ using namespace sonarsim;
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-// What the catalogue of hard cases tries on scenes in memory, by way of real glTF files: the tank
-// of the repository, under a node that places it elsewhere.
+// The transforms of the hard cases on real glTF files: the tank of the repository, under a node
+// that places it elsewhere.
 
 TEST_SUITE_BEGIN("hard");
 
@@ -24,7 +24,7 @@ namespace {
 
 const fs::path scenes = fs::path(SONARSIM_SOURCE_DIR) / "scenes";
 
-/// scenes/tank.glb taken apart. All of its positions are floats in nodes without a transform.
+/// scenes/tank.glb in parts. All of its positions are floats in nodes without a transform.
 struct TankFile {
     json document;
     std::string binary;
@@ -76,7 +76,8 @@ json in_file(double x, double y, double z) {
     return {x, z, -y};
 }
 
-/// The node that moves the scene by `motion` of the world. Of a rotation, the axis is a vector.
+/// The node that moves the scene by `motion` in the world. The axis of a rotation transforms as a
+/// vector.
 json node_of(const Pose& motion) {
     const Eigen::Quaterniond& q = motion.rotation;
     const Eigen::Vector3d& t = motion.translation;
@@ -85,9 +86,9 @@ json node_of(const Pose& motion) {
     return {{"translation", in_file(t.x(), t.y(), t.z())}, {"rotation", rotation}};
 }
 
-/// The largest errors of the four sonars, when scene and trajectory both have moved.
+/// The largest errors of the four sonars after scene and trajectory have both moved.
 struct Apart {
-    double largest = 0.0;   ///< of a pixel
+    double largest = 0.0;   ///< largest difference of a pixel
     double relative = 0.0;  ///< sum |A - B| / sum B
 };
 
@@ -135,11 +136,11 @@ TEST_CASE("glTF scene under a node at UTM coordinates: the image at the origin")
         file.wrap({{"translation", in_file(at.x(), at.y(), at.z())}});
         const Scene scene = file.load();
         CHECK((scene.bounds_min - at - Eigen::Vector3d(-4, -3, 0)).norm() < 1e-5);
-        // A range is off by some 6e-8 of 10 m, and a bin is 2e-2 m: 3e-5 of an echo may go
-        // elsewhere.
+        // The error of a range is some 6e-8 of 10 m, and a bin is 2e-2 m: 3e-5 of an echo may fall
+        // into another bin.
         check("UTM", scene, motion, EngineKind::rays, {1e-4, 2e-5});
         // Off the grid of 10 m vertices round to other floats; somewhere a cell of the octree then
-        // sees past an edge that it did not.
+        // sees past an edge that hid it before.
         check("UTM", scene, motion, EngineKind::octree, {0.05, 5e-4});
     }
 }
@@ -160,7 +161,7 @@ TEST_CASE("glTF scene under a rotated node, and the trajectory with it: the same
     file.wrap(node_of(motion));
     const Scene scene = file.load();
     check("rotated", scene, motion, EngineKind::rays, {1e-3, 1e-4});
-    // The lattice of the octree lies otherwise to the scene; see "rigid motion" in the catalogue.
+    // The lattice of the octree is rotated against the scene; see "rigid motion" in the catalogue.
     check("rotated", scene, motion, EngineKind::octree, {1.0, 0.20});
 }
 
@@ -189,7 +190,7 @@ TEST_CASE("glTF vertices are fine where only the node is far away, or the scene 
     file.wrap({{"translation", {500000.0, 0.0, -4800000.0}}});
     CHECK(!has_coarse_vertices(file.load()));
     CHECK(file.load().vertex_rounding_m < 3e-7);
-    // 50 km across, about its own origin: what its floats lose they lose in any place.
+    // 50 km across, about its own origin: floats are as coarse as that at any place.
     file.document["nodes"].back()["scale"] = {6250.0, 6250.0, 6250.0};
     CHECK(!has_coarse_vertices(file.load()));
     CHECK(file.load().vertex_rounding_m > 5e-4);

@@ -12,8 +12,8 @@ using namespace sonarsim::test;
 
 TEST_SUITE("scene") {
     TEST_CASE("bottom: the next surface below a point is that of all triangles one by one") {
-        // Three layers of waves over each other, at UTM coordinates, and points above, between and
-        // below them and beside them all.
+        // Three layers of waves above each other, at UTM coordinates, and points above, between,
+        // below and outside of them.
         Surface layers;
         const Surface one = Waves::surface();
         const Eigen::Vector3d place(5e5, 6e6, -40.0);

@@ -59,7 +59,7 @@ TEST_SUITE("scene") {
             "m.csv:2: lambert_db is -90; expected a number from -80 to 20");
     }
 
-    TEST_CASE("materials: what is wrong is said with file and line") {
+    TEST_CASE("materials: errors name file and line") {
         check_error(
             "name,density,speed\n",
             "m.csv:1: expected the header 'material,density_kg_m3,sound_speed_m_s', the same "
@@ -81,7 +81,7 @@ TEST_SUITE("scene") {
         check_error(header + "steel,7850,1e-300\n",
                     "m.csv:2: sound speed is 1e-300; expected a number from 1e-09 to 1e+09");
         check_error(header + "a,1,1\n\nb,1,1\na,2,2\n",
-                    "m.csv:5: material 'a' stands in line 2 already");
+                    "m.csv:5: material 'a' is already in line 2");
         check_error(header + ",1,1\n", "m.csv:2: the material has no name");
     }
 

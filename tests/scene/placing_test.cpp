@@ -24,7 +24,7 @@ Surface box(double x, double y, double z) {
     return out;
 }
 
-/// The least height of the edges and faces over the bottom. Edges are walked in steps of a
+/// The least height of the edges and faces above the bottom. Samples edges in steps of a
 /// millimetre; a face is nearest at its edges or above a node of the bottom.
 double least_gap(const Surface& object) {
     double gap = 1e9;
@@ -62,8 +62,8 @@ double least_gap(const Surface& object) {
     return gap;
 }
 
-/// Whether two boxes from above meet, by walking the sides of all faces of one in steps of a
-/// centimetre and asking whether they lie in a face of the other.
+/// True if two boxes meet as seen from above: samples the sides of all faces of one in steps of a
+/// centimetre and tests whether they lie in a face of the other.
 bool meet_from_above(const Surface& one, const Surface& other) {
     const auto in_face = [&](const Eigen::Vector2d& p) {
         return std::ranges::any_of(other.triangles, [&](const auto& corners) {
@@ -142,8 +142,8 @@ TEST_SUITE("scene") {
                         outside += v.head<2>().cwiseAbs().maxCoeff() > 8.0;
                 }
             }
-            CHECK(lowest > -1e-9);  // nothing is in the bottom
-            CHECK(highest < 1e-3);  // and everything touches it
+            CHECK(lowest > -1e-9);  // nothing is inside the bottom
+            CHECK(highest < 1e-3);  // everything touches it
             CHECK(meetings == 0);
             CHECK(outside == 0);
         }
@@ -169,7 +169,7 @@ TEST_SUITE("scene") {
     }
 
     TEST_CASE("placing: on a plane a box that is aligned lies flat on it") {
-        // z = 0.3 x + 0.1 y: the box's lower face is in the plane, all four corners of it.
+        // z = 0.3 x + 0.1 y: all four corners of the box's lower face must lie in the plane.
         Surface plane;
         for (const auto& [x, y] : {std::pair(-9, -9), {9, -9}, {9, 9}, {-9, 9}})
             plane.vertices.emplace_back(x, y, 0.3 * x + 0.1 * y);
@@ -189,13 +189,13 @@ TEST_SUITE("scene") {
     }
 
     TEST_CASE("placing: a spike of the bottom below a face, and an edge across a ridge") {
-        // A pyramid of height 1 under the middle of a box: no corner of the box is near it.
+        // A pyramid of height 1 under the middle of a box: no corner of the box is near its top.
         Surface pyramid;
         pyramid.vertices = {{-5, -5, 0}, {5, -5, 0}, {5, 5, 0}, {-5, 5, 0}, {0, 0, 1}};
         pyramid.triangles = {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}};
         const Surface plate = box(1.0, 1.0, 0.1);
         CHECK(std::fabs(*lift_to_rest(Bottom(pyramid), plate) - 1.1) < 1e-12);
-        // A ridge along y at x = 0, and a beam along x that is turned so that an edge is below.
+        // A ridge along y at x = 0, and a beam along x, rotated so that one edge is lowest.
         Surface ridge;
         ridge.vertices = {{-5, -5, 0}, {0, -5, 1}, {5, -5, 0}, {-5, 5, 0}, {0, 5, 1}, {5, 5, 0}};
         ridge.triangles = {{0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}};

@@ -58,7 +58,7 @@ TEST_SUITE("scene") {
         CHECK(coarse(100.0, 1.1e-3));
         CHECK(!coarse(0.01, 0.9e-6));
         CHECK(coarse(0.01, 1.1e-6));
-        CHECK(!coarse(50'000.0, 0.04));  // as good as its size allows, or nearly
+        CHECK(!coarse(50'000.0, 0.04));  // as accurate as its size allows, or nearly
         CHECK(coarse(50'000.0, 0.25));
     }
 

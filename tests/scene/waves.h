@@ -8,8 +8,8 @@
 
 namespace sonarsim::test {
 
-/// A bottom of 40 x 40 cells of half a metre about the origin, and its height by arithmetic of its
-/// own: cells are cut from their corner of least x and y to that of largest.
+/// A bottom of 40 x 40 cells of half a metre about the origin. height() computes its height
+/// independently: the diagonal of a cell runs from its corner of least x and y to that of largest.
 struct Waves {
     static constexpr int cells = 40;
     static constexpr double cell_m = 0.5;

@@ -8,8 +8,7 @@
 
 namespace sonarsim::test {
 
-/// An instrument whose image is the mean of what comes back to it: no noise, no gain by range, no
-/// speckle.
+/// An instrument whose image is the mean echo: no noise, no TVG, no speckle.
 inline InstrumentConfig bare(InstrumentConfig instrument) {
     instrument.receiver.noise_db = -300.0;
     instrument.receiver.tvg_log = 0.0;
@@ -24,7 +23,7 @@ inline SonarConfig calibrated(SonarConfig config, double frequency_hz) {
     return config;
 }
 
-/// The expected image from the origin, without speckle and noise, by an engine.
+/// The expected image of an engine from the origin, without speckle and noise.
 inline std::vector<float> expected_image(const Sonar& sonar, const Scene& scene, EngineType type) {
     EngineSettings settings;
     settings.type = type;
@@ -34,7 +33,7 @@ inline std::vector<float> expected_image(const Sonar& sonar, const Scene& scene,
         .intensity;
 }
 
-/// Without surface, for samples that are of its only material.
+/// A scene without surface, for samples of its only material.
 inline Scene scene_of_rock() {
     Scene scene;
     scene.materials.push_back({.name = "rock", .reflection = 0.4F});

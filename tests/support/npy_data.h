@@ -12,7 +12,7 @@
 
 namespace sonarsim::test {
 
-/// What follows the header of a NumPy file, which must be that of `format`.
+/// The data after the header of a NumPy file. Requires the header of `format`.
 template <class T>
 std::vector<T> data_of(const std::filesystem::path& path, const NpyFormat& format) {
     const std::string bytes = read_file(path, 1 << 26);

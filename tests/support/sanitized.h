@@ -2,8 +2,8 @@
 
 namespace sonarsim::test {
 
-/// Whether this build looks for faults of memory or threads. It is some twenty times slower then,
-/// and a test whose point is a figure, on paths that others walk too, is left to the other builds.
+/// True in builds with a sanitizer. They are some twenty times slower, so tests about figures,
+/// whose code other tests cover, are left to other builds.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 inline constexpr bool sanitized = true;
 #elif defined(__has_feature)

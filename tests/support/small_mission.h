@@ -16,11 +16,10 @@ Mission small_mission(const std::filesystem::path& output_folder);
 /// second pose.
 Mission survey_mission(const std::filesystem::path& output_folder);
 
-/// Either of them with scene, poses and sonars made in memory: `poses` of them, 10 Hz, moving along
-/// x.
+/// Scene, poses and sonars of a mission, made in memory: `poses` poses at 10 Hz, moving along x.
 Assembly small_assembly(const Mission& mission, int poses);
 
-/// Every file below a folder with its bytes, by its path relative to the folder.
+/// The bytes of every file below a folder, by its path relative to the folder.
 std::map<std::string, std::string> contents(const std::filesystem::path& folder);
 
 }  // namespace sonarsim::test

@@ -17,7 +17,7 @@ inline SonarConfig small_imaging() {
     return config;
 }
 
-/// A sonar whose images are the truth, Eq. 9: the gain of one half of Eq. 12 is taken out as well.
+/// A sonar whose images are the truth, Eq. 9, without the gain of one half of Eq. 12.
 inline Sonar noise_free(const SonarConfig& config, double relative_l1 = 0.03) {
     Sonar sonar = make_sonar(config, {relative_l1});
     sonar.settings.pixel_noise.gain = 1.0F;

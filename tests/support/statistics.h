@@ -52,8 +52,8 @@ inline double ks_two_samples_p_value(std::vector<double> a, std::vector<double> 
     return kolmogorov_tail(distance, n * m / (n + m));
 }
 
-/// The level at which each of `tests` independent tests is held so that all of them together
-/// reject a true hypothesis once in a thousand (Sidak).
+/// The significance level of each of `tests` independent tests, so that all together reject a true
+/// hypothesis once in a thousand (Sidak).
 inline double sidak(int tests) {
     return 1.0 - std::pow(1.0 - 1e-3, 1.0 / tests);
 }

@@ -8,7 +8,7 @@
 
 namespace sonarsim::test {
 
-/// A folder of its own for a test, removed with all that is in it.
+/// A temporary folder for a test, removed with all its contents.
 struct TemporaryFolder {
     std::filesystem::path path;
 

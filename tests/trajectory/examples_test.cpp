@@ -15,7 +15,7 @@ Trajectory example(const char* name) {
     return read_trajectory(std::filesystem::path(SONARSIM_SOURCE_DIR) / "trajectories" / name);
 }
 
-/// How far the bow points below the horizon, degrees.
+/// The depression of the bow below the horizon, degrees.
 double dip(const TimedPose& pose) {
     return degrees(-std::asin((pose.T_world_vehicle.rotation * Vector3d::UnitX()).z()));
 }
@@ -42,7 +42,8 @@ TEST_SUITE("trajectory") {
             CHECK(bow.x() > 0.0);
             CHECK(std::abs(bow.x() * to_target.y() - bow.y() * to_target.x()) < 1e-6);
         }
-        // It closes: from the last pose to the first is one step like the others, below 15 cm.
+        // The loop is closed: the step from the last pose to the first is below 15 cm, like the
+        // others.
         CHECK((poses.back().T_world_vehicle.translation - poses.front().T_world_vehicle.translation)
                   .norm() < 0.15);
     }
@@ -52,7 +53,7 @@ TEST_SUITE("trajectory") {
         REQUIRE(poses.size() == 120);
         for (std::size_t k = 0; k < poses.size(); ++k) {
             CAPTURE(k);
-            // 119 steps of 0.4 m, centred: from -23.8 m.
+            // 119 steps of 0.4 m about the origin, so it starts at -23.8 m.
             const double x = -23.8 + 0.4 * static_cast<double>(k);
             CHECK((poses[k].T_world_vehicle.translation - Vector3d(x, 0, 8)).norm() < 1e-9);
             CHECK(poses[k].t_s == doctest::Approx(0.2 * static_cast<double>(k)));

@@ -77,7 +77,7 @@ TEST_SUITE("trajectory") {
               "p.csv:1: unknown column 'pich_deg' (did you mean 'pitch_deg'?)" + expected);
         CHECK(csv_error("t_s,x_m,y_m,z_m,qx,qy,qz,qw,salinity\n") ==
               "p.csv:1: unknown column 'salinity'" + expected);
-        CHECK(csv_error("# survey 7\nt_s,x_m,y_m,x_m\n") == "p.csv:2: column 'x_m' stands twice");
+        CHECK(csv_error("# survey 7\nt_s,x_m,y_m,x_m\n") == "p.csv:2: column 'x_m' occurs twice");
         CHECK(csv_error("t_s,y_m,qx,qy,qz\n") == "p.csv:1: missing column x_m, z_m, qw" + expected);
         CHECK(csv_error("t_s,x_m,y_m,z_m,yaw_deg\n") ==
               "p.csv:1: missing column roll_deg, pitch_deg" + expected);
@@ -94,15 +94,16 @@ TEST_SUITE("trajectory") {
               "p.csv:2: x_m: 'nan' is not a finite number");
         CHECK(csv_error(angle_header + "-inf,0,0,0,0,0,0\n") ==
               "p.csv:2: t_s: '-inf' is not a finite number");
-        // Nanoseconds since 1970 in the column of seconds.
+        // A frequent mistake: nanoseconds since 1970 in the column of seconds.
         CHECK(csv_error(angle_header + "1700000000000000000,0,0,0,0,0,0\n") ==
-              "p.csv:2: t_s: '1700000000000000000' is beyond 1e+12; the unit is that of the name");
+              "p.csv:2: t_s: '1700000000000000000' is beyond 1e+12; the column's name gives the "
+              "unit");
         CHECK(csv_error(angle_header + "0,0,-2e8,0,0,0,0\n") ==
-              "p.csv:2: y_m: '-2e8' is beyond 1e+08; the unit is that of the name");
+              "p.csv:2: y_m: '-2e8' is beyond 1e+08; the column's name gives the unit");
         CHECK(csv_error(angle_header + "0,1e8,-1e8,0,0,0,0\n") == "no error");
         CHECK(csv_error(angle_header + "0,0,0,0,0,0\n") ==
               "p.csv:2: 6 fields, but the header in line 1 has 7");
-        // A long or binary field is shown in part, and as plain text.
+        // A long or binary field is shown shortened and as plain text.
         CHECK(csv_error(angle_header + "0,0,0,0,0,0," + std::string(100, '9') + "x\n") ==
               "p.csv:2: yaw_deg: '" + std::string(40, '9') + "...' is not a number");
         CHECK(csv_error(angle_header + "0,0,0,0,0,0,1\x1b[2J\n") ==
@@ -165,7 +166,8 @@ TEST_SUITE("trajectory") {
         Trajectory poses;
         for (int i = 0; i < 1000; ++i) {
             const double s = i;
-            // Thirds and sevenths have no short decimals; UTM-sized coordinates, epoch times.
+            // Thirds and sevenths have no short decimals; the coordinates are UTM-sized, the times
+            // epochs.
             poses.push_back({1.7e9 + s / 3.0,
                              {rotation_from_rpy(s / 7.0, s / 11.0, -s / 13.0),
                               {5e6 + s / 7.0, -s / 3.0, 1e-9 * s}}});

@@ -22,7 +22,7 @@ double angle_between(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b) {
     return degrees(2.0 * std::acos(w));
 }
 
-/// How far apart two attitudes are, q and -q being the same one; good for tiny differences.
+/// The distance between two attitudes, which is 0 for q and -q; accurate for tiny differences.
 double distance(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b) {
     return std::min((a.coeffs() - b.coeffs()).norm(), (a.coeffs() + b.coeffs()).norm());
 }
@@ -111,11 +111,12 @@ TEST_SUITE("trajectory") {
         CHECK(resample(two_poses(0.0, 1.0), 10.0).size() == 11);
         CHECK(resample(two_poses(0.0, 0.95), 10.0).size() == 10);
         CHECK(resample(two_poses(0.0, 1.05), 10.0).size() == 11);
-        // 0.3 is less than 3 * 0.1 in doubles, and 2e-10 s short of the grid is on it; 2e-9 is not.
+        // 0.3 is less than 3 * 0.1 in doubles. 2e-10 s short of the grid counts as on it; 2e-9 does
+        // not.
         CHECK(resample(two_poses(0.0, 0.3), 10.0).size() == 4);
         CHECK(resample(two_poses(0.0, 1.0 - 2e-10), 10.0).size() == 11);
         CHECK(resample(two_poses(0.0, 1.0 - 2e-9), 10.0).size() == 10);
-        // Times since 1970 are only good to 2.4e-7 s; the pose at the end is the last one itself.
+        // Times since 1970 are only accurate to 2.4e-7 s; the last pose is that of the trajectory.
         const Trajectory epoch = resample(two_poses(1700000000.1, 1700000000.4), 10.0);
         REQUIRE(epoch.size() == 4);
         CHECK(
@@ -145,8 +146,8 @@ TEST_SUITE("trajectory") {
             InputError);
         // At 1.7e9 s neighbouring doubles are 2.4e-7 s apart: 10 MHz would repeat times.
         CHECK_THROWS_WITH_AS(resample(two_poses(1.7e9, 1.7e9 + 0.5), 1e7),
-                             "rate_hz of 1e+07 is too high: near 1700000000.5 s the times of its "
-                             "poses cannot be told apart",
+                             "rate_hz of 1e+07 is too high: near 1700000000.5 s neighbouring "
+                             "poses would have equal times",
                              InputError);
         CHECK_THROWS_AS(resample({}, 1.0), InputError);
     }

@@ -74,7 +74,7 @@ TEST_SUITE("trajectory") {
                              "a trajectory needs at least one pose", InputError);
         const std::vector<Waypoint> on_the_spot{at(0, 0, 0), at(1, 0, 0), at(1, 0, 0, 90)};
         CHECK_THROWS_WITH_AS(follow_waypoints(on_the_spot, 1.0, 10.0),
-                             "waypoint 3 stands where the one before it does: a leg needs a length "
+                             "waypoint 3 has the position of the one before: a leg needs a length "
                              "(turn along a leg, not on the spot)",
                              InputError);
 
@@ -111,8 +111,8 @@ TEST_SUITE("trajectory") {
         CHECK(heading(poses[200]) == doctest::Approx(0).epsilon(1e-12));
         CHECK(std::abs(turn(heading(poses[650]), 180)) < 1e-9);
         CHECK(heading(poses[1100]) == doctest::Approx(0).epsilon(1e-12));
-        // Half-way through a step the bow points to where the survey goes: +y. The first turn is
-        // to port, the second to starboard.
+        // Half-way through a step the bow points to where the survey goes: +y. The first turn is to
+        // port, the second to starboard.
         CHECK(heading(poses[425]) == doctest::Approx(90));
         CHECK(heading(poses[410]) == doctest::Approx(36));
         CHECK(heading(poses[875]) == doctest::Approx(90));
@@ -156,8 +156,8 @@ TEST_SUITE("trajectory") {
             std::size_t holes = 0;
             for (double x = plan.area_min_m.x(); x <= plan.area_max_m.x(); x += 1.0) {
                 for (double y = plan.area_min_m.y(); y <= plan.area_max_m.y(); y += 1.0) {
-                    // Covered when some pose on a line passes abeam within half the spacing; the
-                    // poses are 5 cm apart.
+                    // A point is covered if some pose on a line passes abeam within half the
+                    // spacing; the poses are 5 cm apart.
                     holes += std::none_of(poses.begin(), poses.end(), [&](const TimedPose& pose) {
                         const Vector2d off = Vector2d(x, y) - position(pose).head<2>();
                         const double yaw = turn(heading(pose), degrees_of_line);
@@ -169,7 +169,7 @@ TEST_SUITE("trajectory") {
                 }
             }
             CHECK(holes == 0);
-            // Steps are flown at the same speed. A pose that skips a corner comes a little nearer.
+            // Steps have the same speed. A pose that skips a corner comes a little nearer.
             for (std::size_t k = 1; k < poses.size(); ++k) {
                 const double step = (position(poses[k]) - position(poses[k - 1])).norm();
                 REQUIRE(step < 0.05 + 1e-9);
@@ -179,7 +179,8 @@ TEST_SUITE("trajectory") {
 
     TEST_CASE("lawnmower: a rotated line is no longer than its strip needs") {
         // A square of side s = 10 at 45 degrees is sqrt(2) s across. In one strip the line runs
-        // from corner to corner; in two, each as far as the widest part of its half, the diagonal.
+        // from corner to corner; in two strips, each line is as long as the widest part of its
+        // half, the diagonal.
         Lawnmower plan{{0, 0}, {10, 10}, 0.0, 45.0, 20.0, 1.0, 100.0};
         const double diagonal = 10.0 * std::sqrt(2.0);
         Trajectory poses = lawnmower(plan);

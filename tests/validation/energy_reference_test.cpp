@@ -29,10 +29,9 @@ Sonar coarse_sonar(SonarKind kind) {
 
 TEST_SUITE_BEGIN("validation");
 
-// Of a floor that is seen whole, the rays know every piece to rounding: what they show and what
-// many single points show is the same integral.
-TEST_CASE("where energies add the reference is what the engines come to" *
-          doctest::skip(test::sanitized)) {
+// The rays represent a fully visible floor to within rounding, so their image and that of many
+// single points are the same integral.
+TEST_CASE("the calibrated reference agrees with the engines" * doctest::skip(test::sanitized)) {
     Scene scene = empty_scene();
     const std::uint32_t rock = add_material(scene, 0.4F);
     add_floor(scene, 30.0F, -4.0F, rock, 4);

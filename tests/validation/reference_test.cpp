@@ -24,7 +24,7 @@ View small_view() {
 TEST_SUITE_BEGIN("validation");
 
 TEST_CASE("the reference of a floor is its closed form, R H / r_mid") {
-    // Derived in tests/sonar/imaging_test.cpp.
+    // Derivation in tests/sonar/imaging_test.cpp.
     constexpr float R = 0.7F;
     constexpr double H = 1.5;
     Scene scene = empty_scene();
@@ -45,8 +45,8 @@ TEST_CASE("the reference of a floor is its closed form, R H / r_mid") {
 
 TEST_CASE("where two surfaces share a bin the reference weighs them by area" *
           doctest::skip(test::sanitized)) {
-    // Two walls face on at the same distance, split at elevation 0: R = 0.2 below, 0.8 above. In
-    // every bin the areas are equal, so the mean is 0.5 D / r.
+    // Two walls at normal incidence at the same distance, divided at elevation 0: R = 0.2 below,
+    // 0.8 above. The areas are equal in every bin, so the mean is 0.5 D / r.
     Scene scene = empty_scene();
     add_quad(scene, {4, -9, -9}, {4, 9, -9}, {4, 9, 0}, {4, -9, 0}, add_material(scene, 0.2F));
     add_quad(scene, {4, -9, 0}, {4, 9, 0}, {4, 9, 9}, {4, -9, 9}, add_material(scene, 0.8F));
@@ -64,9 +64,9 @@ TEST_CASE("where two surfaces share a bin the reference weighs them by area" *
 }
 
 TEST_CASE("the reference sees a ball of 2 cm at 8 m and a wire of 4 mm at 5 m") {
-    // In water alone, each within one range bin and one beam. As seen from afar, v . n of a ball is
-    // 1/2 on average over the hemisphere in view, by area, and that of a wire 2 / pi over its half
-    // times cos(elevation), which over |z| <= D t is asinh(t) / t on average.
+    // Each is alone in the water, within one range bin and one beam. For a distant ball, the mean
+    // of v . n over the visible hemisphere, by area, is 1/2; for a wire it is 2 / pi over the
+    // visible half times cos(elevation), whose mean over |z| <= D t is asinh(t) / t.
     constexpr float R = 0.7F;
     Scene scene = empty_scene();
     const std::uint32_t material = add_material(scene, R);
@@ -87,10 +87,10 @@ TEST_CASE("the reference sees a ball of 2 cm at 8 m and a wire of 4 mm at 5 m") 
         view.beams = 1;
     }
     SUBCASE("side-scan") {
-        view.shape = ViewShape::sides;
+        view.shape = ViewShape::port_starboard;
         view.beams = 2;
     }
-    // The fewest rays that it takes, 64 to a bin of a whole image.
+    // 64 rays per bin of a whole image are the minimum.
     const Reference reference = cast_reference(caster, scene, view, Pose{}, {0.01, 64.0});
     std::vector<float> lit;
     for (const float x : reference.intensity) {
@@ -103,7 +103,8 @@ TEST_CASE("the reference sees a ball of 2 cm at 8 m and a wire of 4 mm at 5 m") 
 }
 
 TEST_CASE("rays and points of the surface together add up to its area") {
-    // Two plates that face the sonar, one of them behind the other, of which a known part shows.
+    // Two plates that face the sonar, one behind the other; a known part of the farther one is
+    // visible.
     Scene scene = empty_scene();
     const std::uint32_t material = add_material(scene, 0.5F);
     add_quad(scene, {4, -0.3F, -0.3F}, {4, 0.1F, -0.3F}, {4, 0.1F, 0.2F}, {4, -0.3F, 0.2F},
@@ -124,14 +125,14 @@ TEST_CASE("rays and points of the surface together add up to its area") {
                               (point.range_m < 5.0 ? near : far) += point.area_m2;
                           });
         CHECK(near / (0.4 * 0.5) == doctest::Approx(1.0).epsilon(5e-3));
-        // The near plate hides 1.5 times its size.
+        // The near plate hides 1.5 times its size in the farther one.
         CHECK(far / (1.2 * 1.2 - 0.6 * 0.75) == doctest::Approx(1.0).epsilon(5e-3));
     }
 }
 
 TEST_CASE("a reference sees copies of a mesh as it sees their triangles") {
-    // A plate of the scene's own, and before it two copies of a sphere, one of them twice as large;
-    // a third stands behind the sonar.
+    // A plate of the scene's own, and in front of it two copies of a sphere, one of them twice as
+    // large; a third copy is behind the sonar.
     Scene shared = empty_scene(Eigen::Vector3d(1e4, -2e4, 5.0));
     const std::uint32_t stone = add_material(shared, 0.5F);
     const std::uint32_t steel = add_material(shared, 0.9F);
@@ -167,12 +168,12 @@ TEST_CASE("a reference sees copies of a mesh as it sees their triangles") {
     const ReferenceGoal goal{0.01, 64.0, 2'000'000};
     const Reference a = cast_reference(Caster(shared), shared, view, pose, goal);
     const Reference b = cast_reference(Caster(copied), copied, view, pose, goal);
-    // The same rays to the same points, of corners that differ by the rounding of a transform.
+    // The same rays to the same points; the corners differ by the rounding of a transform.
     CHECK(a.rays_per_bin / b.rays_per_bin == doctest::Approx(1.0).epsilon(1e-3));
     CHECK(image_error(a.intensity, b.intensity).relative_l1 < 1e-3);
     CHECK(a.moved < 0.01);
-    // Points on the copies' triangles find them, not only rays over directions: half a sphere
-    // shows.
+    // Points on the copies' triangles find them, not only rays over directions: half of a sphere is
+    // visible.
     const LocalPose local = local_pose(pose, shared.origin);
     const std::vector<SurfaceShare> shares = surface_shares(shared, view, local);
     const auto of_copies = std::ranges::count_if(

@@ -26,7 +26,7 @@ View auto_view(double relative_l1 = 0.03) {
             .relative_l1 = relative_l1};
 }
 
-/// A smooth swell, cut into triangles of 25 cm.
+/// A smooth swell in triangles of 25 cm.
 Scene swell() {
     Scene scene = test::empty_scene();
     test::add_floor(scene, 30.0F, 0.0F, test::add_material(scene, 0.3F), 240);
@@ -35,7 +35,7 @@ Scene swell() {
     return scene;
 }
 
-/// Three metres above the floor, looking 15 degrees down.
+/// A pose three metres above the floor that looks 15 degrees down.
 Pose above_floor(double x) {
     Pose pose;
     pose.translation = {x, 0.0, 3.0};
@@ -56,14 +56,14 @@ bool same(const Samples& a, const Samples& b) {
 
 TEST_SUITE_BEGIN("auto engine");
 
-TEST_CASE("rays are taken where they meet the goal with less than half of the samples") {
+TEST_CASE("rays are better if they meet the goal with less than half of the samples") {
     const View view = auto_view(0.03);
     CHECK(rays_are_better({.error = 0.03, .samples_share = 0.49}, view));
     CHECK_FALSE(rays_are_better({.error = 0.031, .samples_share = 0.1}, view));
     CHECK_FALSE(rays_are_better({.error = 0.01, .samples_share = 0.5}, view));
 }
 
-TEST_CASE("of a finely cut floor auto makes rays, with the error that its probes showed") {
+TEST_CASE("auto takes rays for a floor of small triangles, with the error of its probes") {
     const Scene scene = swell();
     REQUIRE(scene.triangles.size() > 20'000);
     const View view = auto_view();
@@ -78,16 +78,16 @@ TEST_CASE("of a finely cut floor auto makes rays, with the error that its probes
     lenient.relative_l1 = trial.goal;
     CHECK(same(seen, rays->visible_surface(lenient, above_floor(-15.0))));
     CHECK(seen.estimated_l1 == trial.error);
-    // Over so smooth a floor the rays are better than they are asked to be.
+    // Over so smooth a floor the rays are more accurate than their goal.
     CHECK(trial.goal > view.relative_l1);
 
-    SUBCASE("and slices of a view that was not tried") {
+    SUBCASE("and slices for a view without probes") {
         View other = view;
         other.beams = 64;
         CHECK(same(chosen->visible_surface(other, above_floor(-15.0)),
                    slices->visible_surface(other, above_floor(-15.0))));
     }
-    SUBCASE("and slices where rays miss the goal") {
+    SUBCASE("and slices if rays miss the goal") {
         const View strict = auto_view(0.003);
         const auto strict_choice = make_auto_engine(scene, {}, probes_of(strict));
         CHECK(same(strict_choice->visible_surface(strict, above_floor(-15.0)),
@@ -95,7 +95,7 @@ TEST_CASE("of a finely cut floor auto makes rays, with the error that its probes
     }
 }
 
-TEST_CASE("of few triangles, and without a view to try, auto makes slices") {
+TEST_CASE("auto takes slices for few triangles, and without probes") {
     const Scene scene = test::tank();
     REQUIRE(scene.triangles.size() < 20'000);
     const View view = auto_view();
@@ -106,24 +106,24 @@ TEST_CASE("of few triangles, and without a view to try, auto makes slices") {
     CHECK(same(make_auto_engine(scene, {}, probes)->visible_surface(view, pose), by_slices));
     CHECK(same(make_auto_engine(scene, {}, {})->visible_surface(view, pose), by_slices));
 
-    SUBCASE("but rays where sound goes on from what is seen") {
+    SUBCASE("but rays with multipath") {
         const std::vector<Probe> bouncing{{view, pose, view.relative_l1}};
         CHECK(same(make_auto_engine(scene, {}, bouncing)->visible_surface(view, pose),
                    make_rays_engine(scene)->visible_surface(view, pose)));
     }
 }
 
-TEST_CASE("slices that were asked for by name are doubted where there is multipath") {
+TEST_CASE("engine: slices with multipath gives a warning") {
     const View view = auto_view();
-    const auto doubt = [&](EngineType type, bool multipath) {
+    const auto warning = [&](EngineType type, bool multipath) {
         EngineSettings settings;
         settings.type = type;
-        return doubt_about(settings, view, multipath);
+        return accuracy_warning(settings, view, multipath);
     };
-    CHECK(doubt(EngineType::slices, true).find("use engine: auto") != std::string::npos);
-    CHECK(doubt(EngineType::slices, false).empty());
-    CHECK(doubt(EngineType::automatic, true).empty());
-    CHECK(doubt(EngineType::rays, true).empty());
+    CHECK(warning(EngineType::slices, true).find("use engine: auto") != std::string::npos);
+    CHECK(warning(EngineType::slices, false).empty());
+    CHECK(warning(EngineType::automatic, true).empty());
+    CHECK(warning(EngineType::rays, true).empty());
 }
 
 TEST_SUITE_END();

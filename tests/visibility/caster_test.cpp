@@ -12,10 +12,10 @@ using namespace sonarsim;
 using namespace sonarsim::test;
 
 TEST_SUITE("visibility") {
-    // What a rotation by 90 degrees leaves of a zero is 1e-19 or so. Embree takes the sign of such
-    // a component for its octant, and counts it as +1e-18 where it divides by it: of a packet of
-    // coherent rays, all that shared the octant of one such ray passed through the scene.
-    TEST_CASE("caster: a ray with a component that is all but zero loses no neighbour of its") {
+    // A rotation by 90 degrees leaves about 1e-19 of a zero. Embree takes the sign of such a
+    // component for its octant, but divides by +1e-18: in a packet of coherent rays, all that
+    // shared the octant of one such ray passed through the scene.
+    TEST_CASE("caster: a ray with a component near zero does not disturb its neighbours") {
         Scene scene = empty_scene();
         add_sphere(scene, {0, 0, -8}, 1.0F, add_material(scene, 1.0F), 256);
         const Caster caster(scene);
@@ -33,7 +33,7 @@ TEST_SUITE("visibility") {
         }
     }
 
-    TEST_CASE("caster: rays that lead away from the box around all there is are told beforehand") {
+    TEST_CASE("caster: may_meet() excludes rays that lead away from the box around the scene") {
         // A sphere in [-1, 1]^3, and a body that is moved to [9, 11] x [-1, 1]^2.
         Scene scene = empty_scene();
         const std::uint32_t m = add_material(scene, 1.0F);
@@ -48,7 +48,7 @@ TEST_SUITE("visibility") {
         CHECK(!still.may_meet({5, 0, 0}, {1, 0, 0}));
         CHECK(!still.may_meet({5, 0, 0}, {0, 1, 0}));
         CHECK(!still.may_meet({0, -5, 0}, Eigen::Vector3f(0.9F, -0.1F, 0).normalized()));
-        // It is on its way to the box and passes it by: no more than a box can tell.
+        // It leads towards the box and passes beside it, which this test does not exclude.
         CHECK(still.may_meet({5, 0, 0}, Eigen::Vector3f(-0.1F, 1, 0).normalized()));
         scene.bodies.push_back(std::move(body));
         const Caster moved =

@@ -12,7 +12,7 @@ using namespace sonarsim::test;
 
 namespace {
 
-/// A scene of copies of a sphere of radius 1 m, with nothing else.
+/// A scene that holds only copies of a sphere of radius 1 m.
 Scene spheres(std::span<const Eigen::Affine3d> T_world_sphere, const Eigen::Vector3d& origin) {
     Scene shape = empty_scene();
     add_sphere(shape, {0, 0, 0}, 1.0F, add_material(shape, 1.0F), 512);
@@ -40,7 +40,7 @@ Eigen::Affine3d placed(const Eigen::Vector3d& position, double scale, double tur
 
 TEST_SUITE("visibility") {
     TEST_CASE("copies: every copy of a sphere is met where it stands, in its own size") {
-        // Far from the world's origin, where floats are a quarter of a metre apart.
+        // The origin is far from the world's, where floats are a quarter of a metre apart.
         const Eigen::Vector3d origin(4e6, 5e6, 0.0);
         std::vector<Eigen::Affine3d> places;
         for (int k = 0; k < 20; ++k)
@@ -93,12 +93,13 @@ TEST_SUITE("visibility") {
     TEST_CASE("copies: the octree and the slices refuse") {
         const Eigen::Affine3d place = placed({5.0, 0.0, 0.0}, 1.0, 0.0);
         const Scene scene = spheres({&place, 1}, Eigen::Vector3d::Zero());
-        CHECK(refusal_of({.type = EngineType::rays, .octree = {}}, scene).empty());
-        CHECK(refusal_of({.type = EngineType::automatic, .octree = {}}, scene).empty());
-        CHECK(refusal_of({.type = EngineType::octree, .octree = {}}, scene) ==
-              "engine: octree sees no copies of shared meshes; use engine: auto or engine: rays, "
+        CHECK(unsupported({.type = EngineType::rays, .octree = {}}, scene).empty());
+        CHECK(unsupported({.type = EngineType::automatic, .octree = {}}, scene).empty());
+        CHECK(unsupported({.type = EngineType::octree, .octree = {}}, scene) ==
+              "engine: octree does not support copies of shared meshes; use engine: auto or "
+              "engine: rays, "
               "or scene.repeats: copied");
-        CHECK(refusal_of({.type = EngineType::slices, .octree = {}}, scene).find("slices sees") !=
-              std::string::npos);
+        CHECK(unsupported({.type = EngineType::slices, .octree = {}}, scene)
+                  .find("slices does not support") != std::string::npos);
     }
 }

@@ -29,7 +29,7 @@ CastRay nothing_at(double along) {
     return node;
 }
 
-/// A ray in the plane y = 0 at an elevation, on the plane through (x, 0, z) with the given normal.
+/// A ray in the plane y = 0 at an elevation, and the plane through `point` that it met.
 CastRay on_plane(double along, std::uint32_t facet, const Eigen::Vector3f& point,
                  const Eigen::Vector3f& normal) {
     CastRay node = nothing_at(along);
@@ -60,7 +60,7 @@ TEST_CASE("two facets that share an edge are parted by it, be it a ridge or a va
             CHECK(gap.continuous);
             CHECK(gap.border == doctest::Approx(share).epsilon(0.01));
             CHECK(gap.bends);
-            // No more than what lies between the rays.
+            // The uncertainty is at most the range between the rays.
             CHECK(gap.range_uncertainty_m > 0.0F);
             CHECK(gap.range_uncertainty_m < 0.25F * 0.3F);
         };
@@ -77,11 +77,11 @@ TEST_CASE("a surface that hides another one breaks off") {
         const GapEstimate gap = swapped ? estimate_gap(floor, wall, usual(), reach_m)
                                         : estimate_gap(wall, floor, usual(), reach_m);
         CHECK_FALSE(gap.continuous);
-        // The floor runs on from 1 / sin 0.16 to 1 / sin 0.17 behind the wall, the wall hardly.
+        // Behind the wall the floor extends from 1 / sin 0.16 to 1 / sin 0.17, the wall hardly.
         CHECK(gap.range_uncertainty_m ==
               doctest::Approx(1.0 / std::sin(0.16) - 1.0 / std::sin(0.17)).epsilon(1e-3));
     }
-    // Beside nothing it might run on to the reach.
+    // Next to a ray that met nothing, the floor may extend to the reach.
     const GapEstimate horizon = estimate_gap(floor, nothing_at(0.01), usual(), reach_m);
     CHECK_FALSE(horizon.continuous);
     CHECK(horizon.range_uncertainty_m == doctest::Approx(10.0 - 1.0 / std::sin(0.16)));
@@ -91,7 +91,7 @@ TEST_CASE("a surface that hides another one breaks off") {
 }
 
 TEST_CASE("facets of one plane are parted half way, and nothing is uncertain") {
-    // Where planes that are equal but for rounding cross is chance.
+    // Planes that are equal but for rounding cross at a random place.
     const Eigen::Vector3f tilt(0.1F, 0.2F, 1.0F);
     for (int k = 0; k < 100; ++k) {
         const double along = radians(-20.0 + 0.1 * k);
@@ -114,7 +114,7 @@ TEST_CASE("beside nothing, the next ray goes to where the plane leaves the reach
     const double range = 1e-3 / std::sin(-next);
     CHECK(range > 10.0);
     CHECK(range < 10.1);
-    // A ray that was cast there is not cast again.
+    // No second ray is cast at the same angle.
     CHECK(split_angle(floor, nothing_at(next), reach_m) == doctest::Approx(0.5 * (next - 0.01)));
     // A wall stays within reach.
     const CastRay wall = on_plane(-0.01, 1, {4, 0, 0}, {1, 0, 0});

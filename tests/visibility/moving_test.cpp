@@ -12,7 +12,7 @@ using namespace sonarsim::test;
 
 namespace {
 
-/// The triangles of a scene as a body that moves, in a scene with nothing else.
+/// The triangles of a scene as a moving body, in a scene with nothing else.
 Scene as_body(const Scene& shape) {
     Scene scene = empty_scene();
     scene.materials = shape.materials;
@@ -31,7 +31,7 @@ TEST_SUITE("visibility") {
         add_sphere(shape, {0, 0, 0}, static_cast<float>(radius), add_material(shape, 1.0F), 512);
         const auto engine = make_rays_engine(as_body(shape));
         // A ray from the origin along x meets a sphere at (a, b, 0) at a - sqrt(r^2 - b^2). The
-        // facets are at most r (1 - cos(pi / 512)) = 9.4 um inside the sphere, which along the ray
+        // facets are at most r (1 - cos(pi / 512)) = 9.4 um inside the sphere; along the ray that
         // is longer by 1 / cos(incidence), below 2.6 here.
         const Ray ray{Eigen::Vector3f::Zero(), Eigen::Vector3f::UnitX()};
         for (int k = -9; k <= 9; ++k) {
@@ -48,7 +48,7 @@ TEST_SUITE("visibility") {
             CHECK((hit.normal.cast<double>() - normal).norm() < 0.02);
             CHECK(hit.instance == 0);
         }
-        // Before it has been put anywhere, and beside it, nothing is met.
+        // A ray meets nothing before the body is placed, nor next to it.
         Intersection hit{};
         engine->intersect({}, {&ray, 1}, {&hit, 1});
         CHECK(std::isinf(hit.distance_m));
@@ -110,10 +110,10 @@ TEST_SUITE("visibility") {
         Scene shape = empty_scene();
         add_sphere(shape, {0, 0, 0}, 0.5F, add_material(shape, 1.0F), 16);
         const Scene scene = as_body(shape);
-        CHECK(refusal_of({.type = EngineType::rays, .octree = {}}, scene).empty());
-        CHECK(refusal_of({.type = EngineType::octree, .octree = {}}, scene) ==
-              "engine: octree sees no objects that move; use engine: auto or engine: rays");
-        CHECK(refusal_of({.type = EngineType::slices, .octree = {}}, scene) ==
-              "engine: slices sees no objects that move; use engine: auto or engine: rays");
+        CHECK(unsupported({.type = EngineType::rays, .octree = {}}, scene).empty());
+        CHECK(unsupported({.type = EngineType::octree, .octree = {}}, scene) ==
+              "engine: octree does not support moving objects; use engine: auto or engine: rays");
+        CHECK(unsupported({.type = EngineType::slices, .octree = {}}, scene) ==
+              "engine: slices does not support moving objects; use engine: auto or engine: rays");
     }
 }

@@ -38,7 +38,7 @@ TEST_CASE("octree clip: a triangle in a face belongs to the cube above alone") {
 }
 
 TEST_CASE("octree clip: moments of the unit square") {
-    // As two triangles about the corner: area 1, first moments 1/2, second moments 1/3 and 1/4.
+    // Two triangles about the corner: area 1, first moments 1/2, second moments 1/3 and 1/4.
     const Cube cube{Eigen::Vector3d(0, 0, -0.5), 1.0};
     const Triangle lower{Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(2, 0, 0),
                          Eigen::Vector3d(2, 2, 0)};

@@ -12,9 +12,9 @@ using namespace sonarsim;
 
 TEST_SUITE_BEGIN("visibility");
 
-// The octree leaves out what it cannot place. Each scene here is one facet, a plate within one leaf
-// of half a metre, and is built to trigger one reason. No scene depends on its unit: all are tried
-// in metres and 2^13 times smaller.
+// The octree drops surface that it cannot place. Each scene here is one facet, a plate within one
+// leaf of half a metre, and triggers one reason. The results do not depend on the unit: all scenes
+// are tested in metres and 2^13 times smaller.
 
 namespace {
 
@@ -33,7 +33,7 @@ Samples look(Scene scene, View view, double unit = 1.0, bool literal = false) {
     return samples;
 }
 
-/// A level plate above the sonar, about (x, 0).
+/// A level plate above the sonar, centred at (x, 0).
 Scene plate_above(float x, float half_size, float height) {
     Scene scene = test::empty_scene();
     const float h = half_size;
@@ -54,13 +54,14 @@ Scene plate_ahead(float y0, float y1, float half_height = 0.05F) {
 
 TEST_CASE("octree drops: surface in view about the sensor's axis is counted") {
     for (const double unit : {1.0, 0x1p-13}) {
-        // 5 mm above the sonar, 2 cm wide: at 80 degrees the view begins 0.9 mm off the axis.
+        // The plate is 5 mm above the sonar and 2 cm wide; at 80 degrees the view begins 0.9 mm off
+        // the axis.
         const Samples lost = look(plate_above(0.0F, 0.01F, 0.005F), view_of(60.0, 160.0, 4), unit);
         CHECK(lost.items.empty());
         CHECK(lost.dropped == 1);
         // At 5 degrees it would begin 57 mm off: nothing is lost.
         CHECK(look(plate_above(0.0F, 0.01F, 0.005F), view_of(60.0, 10.0, 4), unit).dropped == 0);
-        // Off the axis by more than a ten-thousandth of a metre, in a range of 10 m, it is seen.
+        // More than a ten-thousandth of a metre off the axis, in a range of 10 m, it is visible.
         const Samples seen =
             look(plate_above(0.002F, 0.001F, 0.005F), view_of(60.0, 160.0, 1), unit);
         CHECK(!seen.items.empty());
@@ -69,9 +70,9 @@ TEST_CASE("octree drops: surface in view about the sensor's axis is counted") {
 }
 
 TEST_CASE("octree drops: a sliver that reaches into the next beam is counted") {
-    // Of the plate from -0.2 m to y the sonar sees the angles from atan(-0.04) on; to first order
-    // in its size, as the octree takes it, it ends at 0.2 y - 5.3e-6 rad. Half its width is 0.02
-    // rad, of which less than 2 / 10,000 counts as a sliver.
+    // The sonar sees the plate from -0.2 m to y from the angle atan(-0.04) on; to first order in
+    // its size, as in the octree, it ends at 0.2 y - 5.3e-6 rad. Half its width is 0.02 rad, and
+    // less than 2 / 10,000 of it counts as a sliver.
     for (const double unit : {1.0, 0x1p-13}) {
         const auto at = [&](float y) {
             return look(plate_ahead(-0.2F, y), view_of(60.0, 20.0, 2), unit);
@@ -100,8 +101,8 @@ TEST_CASE("octree drops: a sliver that is hidden is none") {
 }
 
 TEST_CASE("octree drops: what the view sees of a plate that spans far more than the view") {
-    // 0.2 mm off the axis a plate of 20 cm, 5 mm above the sonar, spans tan(elevation) = 25 +- 25 *
-    // 500. Of that a view of 10 degrees sees 0.17, a share of 7e-6.
+    // A plate of 20 cm, 0.2 mm off the axis and 5 mm above the sonar, spans tan(elevation) = 25 +-
+    // 25 * 500. A view of 10 degrees sees 0.17 of that, a share of 7e-6.
     for (const double unit : {1.0, 0x1p-13}) {
         const Samples samples =
             look(plate_above(2e-4F, 0.1F, 0.005F), view_of(60.0, 10.0, 1), unit);
@@ -111,7 +112,7 @@ TEST_CASE("octree drops: what the view sees of a plate that spans far more than 
 }
 
 TEST_CASE("octree: a full turn has a seam behind the sonar, and nothing is lost there") {
-    // A plate of 40 x 10 cm, its middle at, beside and on the other side of 180 degrees.
+    // A plate of 40 x 10 cm with its middle at 180 degrees and on either side of it.
     for (const float middle : {0.0F, 0.05F, -0.05F, 0.19F}) {
         CAPTURE(middle);
         Scene scene = plate_ahead(middle - 0.2F, middle + 0.2F);
@@ -132,8 +133,8 @@ TEST_CASE("octree: a full turn has a seam behind the sonar, and nothing is lost 
 }
 
 TEST_CASE("octree drops: to the letter, a leaf about the sonar lies in no direction") {
-    // Literal leaves are cubes that stand for their centre. The corner of the lattice lies
-    // (0.382, 0.618, 0.272) leaves before the scene's lowest vertex.
+    // Literal leaves are cubes represented by their centre. The corner of the lattice lies (0.382,
+    // 0.618, 0.272) leaves before the scene's lowest vertex.
     Scene scene = test::empty_scene();
     const float x = static_cast<float>((0.381966011 - 0.5) * leaf_m);
     const float y = static_cast<float>((0.618033989 - 0.5) * leaf_m);
@@ -163,13 +164,13 @@ TEST_CASE("octree leaf: a triangle is not too small for its cube, a touch of one
         FacetArrays facets;
         return LeafMaker(scene, caster).append(cube, std::vector<std::uint32_t>{0}, facets);
     };
-    // 1 um by 1 um in a cube of 10 m: 5e-15 of its section, on its own all the surface there is.
+    // 1 um by 1 um in a cube of 10 m: 5e-15 of its section, but the only surface there is.
     scene.vertices = {{0.1F, 0.1F, 0.1F}, {0.1F + 1e-6F, 0.1F, 0.1F}, {0.1F, 0.1F + 1e-6F, 0.1F}};
     scene.triangles = {{0, 1, 2}};
     scene.triangle_material = {material};
     scene.triangle_instance = {0};
     CHECK(count({{0, 0, 0}, 10.0}) == 1);
-    // As small a corner of a triangle of 1 m is rounding of what lies in the cube beside.
+    // An equally small corner of a triangle of 1 m is rounding of the surface in the next cube.
     scene.vertices = {{-1.0F, 0.1F, 0.1F}, {1e-7F, 0.1F, 0.1F}, {-1.0F, 0.6F, 0.1F}};
     CHECK(count({{0, 0, 0}, 10.0}) == 0);
     CHECK(count({{-10, 0, 0}, 10.0}) == 1);

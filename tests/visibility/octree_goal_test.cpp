@@ -17,7 +17,7 @@ using namespace sonarsim;
 
 TEST_SUITE_BEGIN("visibility");
 
-// The octree follows accuracy.relative_l1, and says so where it does not get there.
+// The octree follows accuracy.relative_l1, and warns if it misses it.
 
 namespace {
 
@@ -70,7 +70,7 @@ TEST_CASE("octree goal: images are within it, and smaller goals make smaller err
     }
 }
 
-TEST_CASE("octree goal: leaves that are too large are told of, with a figure that is about right" *
+TEST_CASE("octree goal: a warning gives the error of leaves that are too large" *
           doctest::skip(test::sanitized)) {
     for (const Subject& subject : subjects()) {
         CAPTURE(subject.name);

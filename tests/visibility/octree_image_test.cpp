@@ -112,7 +112,8 @@ TEST_CASE("octree image: the error falls with the leaf, and is a fraction of the
     const double coarse = trial.octree_error(0.08);
     const double middle = trial.octree_error(0.04);
     const double fine = trial.octree_error(0.02);
-    // Measured: 0.028, 0.019, 0.0083. How the lattice lies to the walls makes the steps uneven.
+    // Measured: 0.028, 0.019, 0.0083. The steps are uneven, since the lattice is not aligned with
+    // the walls.
     CHECK(middle < 0.75 * coarse);
     CHECK(fine < 0.55 * middle);
     CHECK(trial.octree_error(0.04, true) > 3.0 * middle);
@@ -124,7 +125,7 @@ TEST_CASE("octree image: a side-scan and an echosounder over a floor with a box 
     test::add_floor(scene, 15.0F, 0.0F, test::add_material(scene, 0.2F));
     test::add_box(scene, {-0.5F, 2.0F, 0.0F}, {0.5F, 3.0F, 0.8F}, test::add_material(scene, 0.9F));
     test::add_box(scene, {-0.1F, 0.1F, 0.0F}, {0.2F, 0.4F, 0.3F}, test::add_material(scene, 0.7F));
-    // Looking straight down, the sensor's z axis along the world's x axis.
+    // A view straight down, with the sensor's z axis along the world's x axis.
     Eigen::Matrix3d R;
     R << 0, 0, 1, 0, 1, 0, -1, 0, 0;
     Trial trial(scene, {Eigen::Quaterniond(R), {0, 0, 3}});
@@ -135,14 +136,14 @@ TEST_CASE("octree image: a side-scan and an echosounder over a floor with a box 
         trial.sonar.settings.pixel_noise.range_scale.assign(view.range_bins, 1.0F);
         trial.truth = cast_reference(caster, scene, view, trial.pose, {0.004, 64.0, 40'000'000});
     };
-    view = {radians(170.0), radians(0.5), 0.5, 10.0, 190, 2, 0.03, ViewShape::sides};
+    view = {radians(170.0), radians(0.5), 0.5, 10.0, 190, 2, 0.03, ViewShape::port_starboard};
     retry();
     CHECK(trial.error(*make_rays_engine(scene)) < 0.04);
     CHECK(trial.octree_error(0.0) < 0.06);
     CHECK(trial.octree_error(0.02) < 0.04);
     view = {radians(30.0), radians(30.0), 0.5, 10.0, 190, 1, 0.03, ViewShape::cone};
     retry();
-    // The box's top and its sides, seen nearly edge-on, share one bin that holds half the image.
+    // The box's top and its sides, nearly edge-on, share one bin that holds half the image.
     CHECK(trial.octree_error(0.0) < 0.15);
     CHECK(trial.octree_error(0.02) < 0.08);
 }

@@ -13,16 +13,16 @@ using namespace sonarsim;
 
 TEST_SUITE_BEGIN("visibility");
 
-// What the octree must not show: surface that the sonar does not see although nothing lies before
-// it by much, or through the gaps that the pieces of nearer surface leave.
+// The octree must not show hidden surface, neither just behind the limb of a surface nor through
+// the gaps between the patches of nearer surface.
 
 namespace {
 
 constexpr float sphere_radius_m = 0.5F;
 
-/// Pixels lit beyond the limb of a sphere `distance_m` ahead, of those that are lit. Every line
-/// that touches the sphere is sqrt(d^2 - R^2) long, so the limb has that range in all beams. A
-/// leaf at the limb reaches beyond it by half its edge.
+/// The share of nonzero pixels that lie beyond the limb of a sphere `distance_m` ahead. Every line
+/// that touches the sphere is sqrt(d^2 - R^2) long, so the limb has that range in all beams. A leaf
+/// at the limb extends beyond it by half its edge.
 double lit_beyond_limb(float distance_m, double leaf_m) {
     Scene scene = test::empty_scene();
     test::add_sphere(scene, {distance_m, 0.1F, 0.05F}, sphere_radius_m,
@@ -45,7 +45,7 @@ double lit_beyond_limb(float distance_m, double leaf_m) {
     return beyond / lit;
 }
 
-/// An upright square across the boresight, its material 0.
+/// An upright square across the boresight, of material 0.
 void add_plate(Scene& scene, float x, float half_size) {
     const float h = half_size;
     test::add_quad(scene, {x, -h, -h}, {x, h, -h}, {x, h, h}, {x, -h, h}, 0);
@@ -70,7 +70,7 @@ std::size_t seen(const Scene& scene, const Sample& sample, float thickness_m) {
 
 TEST_CASE("octree limb: a sphere ends at its limb, however small the leaves" *
           doctest::skip(test::sanitized)) {
-    // Measured: 0 to 1.5 %, from leaves that straddle the limb.
+    // Measured: 0 to 1.5 %, from leaves across the limb.
     for (const float distance_m : {2.0F, 4.0F, 8.0F}) {
         for (const double leaf_m : {0.08, 0.04, 0.02, 0.01}) {
             CAPTURE(distance_m);

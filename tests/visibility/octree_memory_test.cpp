@@ -48,8 +48,8 @@ TEST_CASE(
     CHECK(enough->statistics().evictions == 0);
 }
 
-TEST_CASE("octree memory: what cannot be dropped does not stop what can from being kept") {
-    // The top of this tree alone exceeds 1 MB. It once made every tile that grew drop all others.
+TEST_CASE("octree memory: a large top does not evict the tiles") {
+    // The top of this tree alone exceeds 1 MB. It once made every tile that grew evict all others.
     const Scene scene = test::rough_floor();
     const auto tight = make_octree_engine(scene, {.memory_mb = 1});
     tight->visible_surface(view, pose(0));

@@ -27,7 +27,7 @@ Pose tank_pose(int k) {
             Eigen::Vector3d(-3.0 + 0.3 * k, -1.0 + 0.7 * k, 1.5)};
 }
 
-/// A view of everything around the sonar that azimuth and elevation can name.
+/// A view of all directions that azimuth and elevation can express.
 View wide_view(double reach) {
     return {radians(360.0), radians(170.0), 0.0, reach, 64, 64, 0.03};
 }
@@ -114,7 +114,7 @@ TEST_CASE("octree leaf: on a sphere, normals are radial and centroids lie just i
     const Caster caster(scene);
     const LeafMaker maker(scene, caster);
     FacetArrays facets;
-    // A cube of 0.1 m that the sphere passes through at (0.6, 0, 0.8), roughly its centre.
+    // A cube of 0.1 m about the point (0.6, 0, 0.8) of the sphere.
     const int count = maker.append({{0.55, -0.05, 0.75}, 0.1}, all_triangles(scene), facets);
     REQUIRE(count == 1);
     const LeafFacet facet = facets.at(0);
@@ -162,7 +162,7 @@ TEST_CASE("octree: samples face the sonar and stay in their beam") {
             for (const float side : {-1.0F, 1.0F}) {
                 const Eigen::Vector3f end = s.position + side * s.edge_u;
                 const double azimuth = std::atan2(end.y(), end.x());
-                // To second order in the size of a leaf, against a beam of 4 mrad.
+                // Accurate to second order in the size of a leaf; a beam has 4 mrad.
                 CHECK(azimuth > low - 2e-4);
                 CHECK(azimuth < high + 2e-4);
             }
@@ -170,7 +170,7 @@ TEST_CASE("octree: samples face the sonar and stay in their beam") {
     }
 }
 
-TEST_CASE("octree: nothing is refined that nobody looks at") {
+TEST_CASE("octree: only tiles in view are refined") {
     const Scene scene = test::tank();
     const auto octree = make_octree_engine(scene, {0.02, 512, false});
     CHECK(octree->statistics().nodes == 1);
@@ -250,8 +250,8 @@ TEST_CASE("octree: bad leaf sizes are refused") {
 }
 
 TEST_CASE("octree literal: one leaf one vote, and a gap of four leaves ends a cluster") {
-    // Two walls seen face on through one beam and one elevation cell, 0.3 m or 0.5 m apart; leaves
-    // of 0.1 m. The farther wall is kept at three leaves and lost at five.
+    // Two walls at normal incidence in one beam and one elevation cell, 0.3 m or 0.5 m apart;
+    // leaves of 0.1 m. The farther wall is kept at three leaves and lost at five.
     for (const float apart : {0.3F, 0.55F}) {
         Scene scene = test::empty_scene();
         const auto material = test::add_material(scene, 0.5F);

@@ -17,8 +17,8 @@ using namespace sonarsim;
 
 TEST_SUITE_BEGIN("visibility");
 
-// Views that are coarser or narrower than those of an ordinary sonar. Each failed when leaves
-// followed the beams alone: coarse views were off by 20 to 150 %, narrow ones were black.
+// Views that are coarser or narrower than those of usual sonars. Each failed when leaves followed
+// only the beams: coarse views were off by 20 to 150 %, narrow ones were black.
 
 namespace {
 
@@ -65,8 +65,9 @@ TEST_CASE("octree view: few wide beams, few long bins" * doctest::skip(test::san
 
 TEST_CASE("octree view: the narrowest views see a wall") {
     // The plane through (5, 0, 0) with a normal 20 degrees off the boresight: v . n = cos(20
-    // degrees) on the boresight, at a range of 5 m. At 30 degrees to starboard the plane is met
-    // 2.5 m from there, at 30 degrees to port 3.9 m: six metres to either side fill every view.
+    // degrees) on the boresight, at a range of 5 m. At 30 degrees to starboard the ray meets the
+    // plane 2.5 m from there, at 30 degrees to port 3.9 m: six metres to either side fill every
+    // view.
     Scene scene = test::empty_scene();
     const auto material = test::add_material(scene, 0.5F);
     const auto across = static_cast<float>(6.0 * std::cos(radians(20.0)));
@@ -94,22 +95,22 @@ TEST_CASE("octree view: the narrowest views see a wall") {
     }
 }
 
-TEST_CASE("octree view: a doubt is said with the figure, and only where there is one") {
+TEST_CASE("octree view: a warning gives the expected error, and appears only above the goal") {
     const EngineSettings octree{EngineType::octree, {}};
     View view = fan(60.0, 12.0, 10.0, 512, 256);
-    CHECK(doubt_about(octree, view).empty());
-    CHECK(doubt_about({EngineType::octree, {.leaf_m = 0.02}}, view).empty());
-    CHECK(doubt_about({EngineType::octree, {.leaf_m = 0.5}}, view).find("octree.leaf_m") !=
+    CHECK(accuracy_warning(octree, view).empty());
+    CHECK(accuracy_warning({EngineType::octree, {.leaf_m = 0.02}}, view).empty());
+    CHECK(accuracy_warning({EngineType::octree, {.leaf_m = 0.5}}, view).find("octree.leaf_m") !=
           std::string::npos);
-    CHECK(doubt_about({EngineType::octree, {.leaf_m = 0.05}}, view) ==
+    CHECK(accuracy_warning({EngineType::octree, {.leaf_m = 0.05}}, view) ==
           "engine: octree will be off by about 4.7 % in this view, more than accuracy.relative_l1 "
           "(3 %); use engine: rays or a smaller octree.leaf_m");
     view.relative_l1 = 0.01;
-    CHECK(doubt_about(octree, view).empty());
-    CHECK(doubt_about({}, view).empty());
-    // In an opening of a hundredth of a degree, narrower than any leaf, 18 of 64 beams of the wall
-    // above are dark.
-    CHECK(doubt_about(octree, fan(60.0, 0.01, 10.0, 20, 64)).find("off by about 19.2 %") !=
+    CHECK(accuracy_warning(octree, view).empty());
+    CHECK(accuracy_warning({}, view).empty());
+    // With an opening of a hundredth of a degree, narrower than any leaf, 18 of 64 beams of the
+    // wall above are dark.
+    CHECK(accuracy_warning(octree, fan(60.0, 0.01, 10.0, 20, 64)).find("off by about 19.2 %") !=
           std::string::npos);
 }
 

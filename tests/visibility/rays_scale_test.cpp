@@ -10,7 +10,7 @@ TEST_SUITE_BEGIN("visibility");
 
 namespace {
 
-/// Of a tank with the sonar `height` above a floor of its own, all in metres times `unit`.
+/// The samples of a tank with the sonar `height` above an extra floor, all in metres times `unit`.
 Samples samples_at(float height, double unit) {
     Scene scene = test::tank();
     test::add_floor(scene, 1.0F, 1.5F - height, 0);
@@ -25,7 +25,7 @@ Samples samples_at(float height, double unit) {
 }  // namespace
 
 TEST_CASE("rays: a scene of a millimetre is seen as the same scene of ten metres is") {
-    // At this unit the sonar stands 0.6 um above the floor.
+    // At this unit the sonar is 0.6 um above the floor.
     constexpr double unit = 0x1p-13;
     const Samples metres = samples_at(0.005F, 1.0);
     const Samples small = samples_at(0.005F, unit);

@@ -11,7 +11,7 @@ using namespace sonarsim;
 
 namespace {
 
-/// A closed room with things in it that are narrower than a beam.
+/// A closed room with objects narrower than a beam.
 Scene room_with_poles() {
     Scene scene = test::empty_scene();
     const std::uint32_t material = test::add_material(scene, 0.5F);
@@ -34,7 +34,7 @@ View view_of(ViewShape shape) {
               .beams = 64,
               .relative_l1 = 0.03,
               .shape = shape};
-    if (shape == ViewShape::sides) {
+    if (shape == ViewShape::port_starboard) {
         view.elevation_rad = radians(2.0);
         view.azimuth_rad = radians(160.0);
         view.beams = 2;
@@ -45,7 +45,7 @@ View view_of(ViewShape shape) {
     return view;
 }
 
-/// Between two elevations, over an azimuth: sin elevation by azimuth. A cone: 2 pi (1 - cos).
+/// Solid angle of azimuth times the integral over elevation. For a cone: 2 pi (1 - cos).
 double solid_angle(const View& view) {
     if (view.shape == ViewShape::cone) return 2.0 * pi * (1.0 - std::cos(0.5 * view.azimuth_rad));
     return 2.0 * view.azimuth_rad * std::sin(0.5 * view.elevation_rad);
@@ -55,13 +55,13 @@ double solid_angle(const View& view) {
 
 TEST_SUITE_BEGIN("visibility");
 
-// Where energies add, an engine must neither lose nor invent surface: dOmega = cosine dA / r^2,
-// with cosine = h / r, adds up to the solid angle of a view that a room fills. The octree does not
+// If energies add, an engine must neither lose nor invent surface: dOmega = cosine dA / r^2, with
+// cosine = h / r, must add up to the solid angle of a view that a room fills. The octree does not
 // see all of a pole that is thinner than its leaves.
-TEST_CASE("what fills a view fills its solid angle, thin things included") {
+TEST_CASE("a room fills the solid angle of a view, thin objects included") {
     const Scene scene = room_with_poles();
     const Pose T_world_sensor{rotation_from_rpy(0.0, radians(15.0), 0.05), {0.1, 0.05, 0.2}};
-    for (const ViewShape shape : {ViewShape::fan, ViewShape::sides, ViewShape::cone}) {
+    for (const ViewShape shape : {ViewShape::fan, ViewShape::port_starboard, ViewShape::cone}) {
         for (const EngineType type : {EngineType::rays, EngineType::slices, EngineType::octree}) {
             EngineSettings settings;
             settings.type = type;

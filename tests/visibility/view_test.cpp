@@ -11,10 +11,10 @@ using namespace sonarsim;
 TEST_SUITE_BEGIN("visibility");
 
 TEST_CASE("the field of view in float agrees with beam_of") {
-    for (const ViewShape shape : {ViewShape::fan, ViewShape::sides, ViewShape::cone}) {
+    for (const ViewShape shape : {ViewShape::fan, ViewShape::port_starboard, ViewShape::cone}) {
         View view{radians(100.0), radians(40.0), 0.5, 10.0, 512, 128, 0.03};
         view.shape = shape;
-        if (shape == ViewShape::sides) view.beams = 2;
+        if (shape == ViewShape::port_starboard) view.beams = 2;
         if (shape == ViewShape::cone) view.beams = 1;
         const BeamLocator field(view);
         int differ = 0;

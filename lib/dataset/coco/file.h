@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "core/whole_file.h"
+#include "core/atomic_file.h"
 
 namespace sonarsim {
 

@@ -1,6 +1,6 @@
 #include "product/scan.h"
 
-#include "core/whole_file.h"
+#include "core/atomic_file.h"
 #include "dataset/fan_png.h"
 #include "dataset/writers/formats.h"
 #include "format/npy.h"

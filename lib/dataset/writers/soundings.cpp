@@ -6,8 +6,8 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
+#include "core/atomic_file.h"
 #include "core/file.h"
-#include "core/whole_file.h"
 #include "dataset/ping_metadata.h"
 #include "dataset/writers/formats.h"
 #include "format/geotiff.h"

@@ -7,10 +7,10 @@
 #include <optional>
 #include <span>
 
+#include "core/atomic_file.h"
 #include "core/file.h"
 #include "core/pose.h"
 #include "core/units.h"
-#include "core/whole_file.h"
 #include "dataset/ping_metadata.h"
 #include "format/geotiff.h"
 #include "format/xtf.h"

@@ -62,7 +62,8 @@ struct Elements {
     std::size_t stride;
 };
 
-/// `count` >= 1 elements from `offset` on in a buffer view, all of them within their buffer.
+/// Finds `count` >= 1 elements from `offset` on in a buffer view and checks that they lie within
+/// their buffer.
 Elements locate(const tinygltf::Model& model, int view_index, std::size_t offset,
                 std::size_t element_bytes, std::size_t count, const std::string& where) {
     const std::string name = "bufferView " + std::to_string(view_index);
@@ -84,7 +85,7 @@ Elements locate(const tinygltf::Model& model, int view_index, std::size_t offset
         throw InputError(where + ": byteStride " + std::to_string(stride) +
                          " is less than the size of an element, " + std::to_string(element_bytes));
     }
-    // The gate bounds offsets by 2^53 and `max_count` bounds the product, so nothing wraps.
+    // json.cpp bounds offsets by 2^53 and `max_count` bounds the product, so nothing wraps.
     if (offset + stride * (count - 1) + element_bytes > view.byteLength) {
         throw InputError(where + ": claims " + std::to_string(count) + " elements; " + name +
                          " is too short for them (" + std::to_string(view.byteLength) + " bytes)");
@@ -109,7 +110,7 @@ void open_sparse(const tinygltf::Model& model, const tinygltf::Accessor& from, A
     const Elements indices = locate(model, sparse.indices.bufferView,
                                     static_cast<std::size_t>(sparse.indices.byteOffset),
                                     index_bytes, count, where + ": sparse indices");
-    // Tightly packed by definition: the view of the values may not have a stride.
+    // Sparse values are tightly packed: glTF allows no stride for them.
     const Elements values =
         locate(model, sparse.values.bufferView, static_cast<std::size_t>(sparse.values.byteOffset),
                to.element_bytes, count, where + ": sparse values");

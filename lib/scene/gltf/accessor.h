@@ -11,20 +11,20 @@
 namespace sonarsim {
 
 /// Elements of a glTF accessor, read one by one from the model's buffers: strided, sparse or both.
-/// Every byte that it can reach has been checked to exist.
+/// All bytes within its reach have been checked to exist.
 struct Accessor {
-    const unsigned char* data = nullptr;  ///< null: zeros, under the sparse elements
+    const unsigned char* data = nullptr;  ///< null: zeros below the sparse elements
     std::size_t stride = 0;
     std::size_t count = 0;
     int component_type = 0;
     bool is_normalized = false;
     std::size_t element_bytes = 0;
-    std::vector<std::uint32_t> sparse_at;  ///< ascending indices of the elements that are replaced
+    std::vector<std::uint32_t> sparse_at;  ///< indices of the replaced elements, ascending
     const unsigned char* sparse_values = nullptr;
 };
 
 /// Opens accessor `index` for positions (VEC3) or for vertex indices (SCALAR, unsigned). InputError
-/// starting with `where` when it is of another type or claims more than its buffer holds.
+/// starting with `where` if its type is wrong or it claims more than its buffer holds.
 Accessor open_positions(const tinygltf::Model& model, int index, const std::string& where);
 Accessor open_indices(const tinygltf::Model& model, int index, const std::string& where);
 

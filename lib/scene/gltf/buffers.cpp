@@ -40,7 +40,7 @@ bool stays_below(const std::string& uri) {
            std::find(path.begin(), path.end(), "..") == path.end();
 }
 
-/// Notes where the bytes of buffer `index` come from and renames its URI.
+/// Notes the source of buffer `index` and renames its URI.
 GltfBuffer claim_buffer(json& entry, std::size_t index, bool has_binary_chunk,
                         const std::string& file) {
     constexpr std::array<std::string_view, 2> embedded{"data:application/octet-stream;base64,",

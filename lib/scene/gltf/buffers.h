@@ -6,7 +6,7 @@
 
 namespace sonarsim {
 
-/// Where the bytes of a glTF buffer come from.
+/// The source of a glTF buffer's bytes.
 struct GltfBuffer {
     enum class Source { data_uri, binary_chunk, file };
     Source source = Source::data_uri;
@@ -14,9 +14,9 @@ struct GltfBuffer {
     std::string file;  ///< relative to the folder of the glTF file
 };
 
-/// Says where each buffer of a reduced glTF comes from, and replaces every URI that is no data URI
-/// by the buffer's index. InputError with `file` for a URI that leaves the folder of the glTF file
-/// and for a buffer without one that is not the BIN chunk of a .glb.
+/// Finds the source of each buffer of a reduced glTF, and replaces every URI that is no data URI by
+/// the buffer's index. InputError with `file` for a URI that leaves the folder of the glTF file,
+/// and for a buffer without URI that is not the BIN chunk of a .glb.
 std::vector<GltfBuffer> claim_buffers(nlohmann::json& gltf, bool has_binary_chunk,
                                       const std::string& file);
 

@@ -2,21 +2,21 @@
 
 #include <Eigen/Geometry>
 
-#include "scene/gltf/pieces.h"
+#include "scene/gltf/primitives.h"
 
 namespace sonarsim {
 
-/// How far the surface of a file reaches, where it is placed.
-struct Extent {
-    /// Around the triangles that have an area, before any rounding of ours.
+/// The extent of a file's surface where it is placed.
+struct SurfaceExtent {
+    /// Box around the triangles that have an area, before they are rounded to floats.
     Eigen::AlignedBox3d box;
     double vertex_rounding_m = 0.0;  ///< as in Scene
 };
 
 /// InputError for vertices that lie too far out.
-Extent find_extent(const OpenFile& file, ReadingLimit& limit);
+SurfaceExtent find_extent(const OpenFile& file, ReadingLimit& limit);
 
-/// The same somewhere else: a box around the moved box.
-Extent moved(const Extent& extent, const Eigen::Affine3d& transform);
+/// The same after a transform: a box around the moved box.
+SurfaceExtent moved(const SurfaceExtent& extent, const Eigen::Affine3d& transform);
 
 }  // namespace sonarsim

@@ -36,7 +36,7 @@ std::uint32_t little_endian(std::string_view bytes, std::size_t at) {
     return value;
 }
 
-/// Takes a chunk of a .glb off the front of `bytes`.
+/// Removes a chunk of a .glb from the front of `bytes`.
 std::string_view take_chunk(std::string_view& bytes, std::uint32_t type, const Location& where) {
     constexpr std::size_t head = 8;
     if (bytes.size() < head) throw InputError(where, "the .glb ends within a chunk header");
@@ -82,7 +82,7 @@ bool contains(std::span<const std::string_view> list, std::string_view word) {
     return std::find(list.begin(), list.end(), word) != list.end();
 }
 
-/// Other formats of meshes, which a look at their first bytes would only call malformed.
+/// Names other mesh formats in the message, since the parser would only call them malformed.
 void check_format(const std::filesystem::path& path, std::string_view bytes) {
     constexpr std::array<std::string_view, 5> others{".obj", ".stl", ".fbx", ".dae", ".ply"};
     std::string extension = path.extension().string();
@@ -124,7 +124,7 @@ void check_extensions(const json& document, const std::string& file) {
     }
 }
 
-/// What tinygltf's file callbacks can reach: the buffers, by index.
+/// The buffers that tinygltf's file callbacks may read, by index.
 struct BufferReader {
     const std::filesystem::path& gltf;
     std::string_view binary;
@@ -148,7 +148,7 @@ struct BufferReader {
     }
 };
 
-/// tinygltf 2.9 wants to be told the sizes of files as well; 2.8 knows no such callback.
+/// Sets the file size callback that tinygltf 2.9 requires; 2.8 has none.
 template <class Callbacks>
 void tell_sizes(Callbacks& callbacks) {
     if constexpr (requires { callbacks.GetFileSizeInBytes; }) {
@@ -164,7 +164,7 @@ void tell_sizes(Callbacks& callbacks) {
 tinygltf::FsCallbacks callbacks_of(BufferReader& buffers) {
     tinygltf::FsCallbacks callbacks{};
     tell_sizes(callbacks);
-    // Never called, but tinygltf 2.9 takes all callbacks or none.
+    // Never called, but tinygltf 2.9 requires all callbacks or none.
     callbacks.WriteWholeFile = [](std::string*, const std::string&,
                                   const std::vector<unsigned char>&, void*) { return false; };
     callbacks.FileExists = [](const std::string&, void*) { return true; };
@@ -198,7 +198,7 @@ tinygltf::Model read_gltf(const std::filesystem::path& path) {
     std::string warning;
     const bool is_read = reader.LoadASCIIFromString(&model, &error, &warning, text.data(),
                                                     static_cast<unsigned int>(text.size()), "");
-    // tinygltf goes on after some errors, and quotes whole data URIs.
+    // tinygltf continues after some errors, and quotes whole data URIs in its messages.
     if (!is_read || !error.empty()) {
         throw InputError(Location{file}, "is no valid glTF: " + error.substr(0, 300));
     }

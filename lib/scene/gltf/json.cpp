@@ -23,9 +23,9 @@ using nlohmann::json;
 constexpr std::size_t max_objects = 2'000'000;
 constexpr std::size_t max_name = 1000;
 
-/// The place of a value in the document; its text is made only when something is wrong.
-struct Place {
-    const Place* parent = nullptr;
+/// A position in the document. Its text is made only for an error message.
+struct JsonPath {
+    const JsonPath* parent = nullptr;
     std::string_view key;
     std::size_t index = std::string_view::npos;
 
@@ -41,13 +41,14 @@ struct Reducer {
     const std::string& file;
     std::size_t objects = 0;
 
-    [[noreturn]] void expected(const Place& place, const std::string& what, const json& got) const {
+    [[noreturn]] void expected(const JsonPath& place, const std::string& what,
+                               const json& got) const {
         const std::string where = place.parent ? place.text() + ": " : "";
         throw InputError(Location{file}, where + "expected " + what + ", not " +
                                              (got.is_number() ? got.dump() : got.type_name()));
     }
 
-    json object(json& from, std::span<const Rule> rules, const Place& place) {
+    json object(json& from, std::span<const Rule> rules, const JsonPath& place) {
         if (!from.is_object()) expected(place, "an object", from);
         if (++objects > max_objects) {
             throw InputError(Location{file}, "holds more than " + std::to_string(max_objects) +
@@ -62,7 +63,7 @@ struct Reducer {
         return to;
     }
 
-    json value(json& from, const Rule& rule, const Place& place) {
+    json value(json& from, const Rule& rule, const JsonPath& place) {
         constexpr std::uint64_t max_index = std::numeric_limits<int>::max();
         constexpr std::uint64_t max_size = std::uint64_t{1} << 53;
         switch (rule.kind) {
@@ -70,7 +71,7 @@ struct Reducer {
                 if (!from.is_string()) expected(place, "a text", from);
                 break;
             case Kind::name:
-                // Children inherit names, so that a long one would be held many times.
+                // Children inherit names, so a long name would be stored many times.
                 if (!from.is_string() || from.get_ref<const std::string&>().size() > max_name) {
                     expected(place, "a text of at most 1000 bytes", from);
                 }
@@ -101,7 +102,7 @@ struct Reducer {
         return std::move(from);
     }
 
-    json array(json& from, const Rule& rule, const Place& place) {
+    json array(json& from, const Rule& rule, const JsonPath& place) {
         if (!from.is_array()) expected(place, "an array", from);
         if (rule.count > 0 && from.size() != rule.count) {
             throw InputError(Location{file}, place.text() + ": expected " +
@@ -110,7 +111,7 @@ struct Reducer {
         }
         json to = json::array();
         for (std::size_t i = 0; i < from.size(); ++i) {
-            const Place at{&place, {}, i};
+            const JsonPath at{&place, {}, i};
             json& element = from[i];
             if (rule.kind == Kind::objects) {
                 to.push_back(object(element, rule.members, at));
@@ -125,11 +126,11 @@ struct Reducer {
         return to;
     }
 
-    /// Extras are everyone's; `sonar` in them is strict.
-    json extras(json& from, const Place& place) {
+    /// Extras may hold keys of other programs; `sonar` may hold only ours.
+    json extras(json& from, const JsonPath& place) {
         const auto sonar = from.is_object() ? from.find("sonar") : from.end();
         if (sonar == from.end()) return json::object();
-        const Place at{&place, "sonar"};
+        const JsonPath at{&place, "sonar"};
         if (!sonar->is_object()) expected(at, "an object", *sonar);
         for (const auto& [key, unused] : sonar->items()) {
             const std::array<std::string, 2> known{"material", "class"};
@@ -161,7 +162,7 @@ void check_version(const json& document, const std::string& file) {
     }
 }
 
-/// tinygltf drops the one where there is the other.
+/// Refuses nodes with both a matrix and its parts: tinygltf would drop one of them silently.
 void check_transforms(const json& gltf, const std::string& file) {
     if (!gltf.contains("nodes")) return;
     for (std::size_t i = 0; i < gltf["nodes"].size(); ++i) {

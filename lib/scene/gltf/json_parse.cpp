@@ -21,24 +21,24 @@ using nlohmann::json;
 
 constexpr std::size_t max_json_bytes = std::size_t{1} << 28;
 constexpr std::size_t max_kept_bytes = std::size_t{1} << 30;
-constexpr std::size_t bytes_per_value = 16;       // of an array; a scalar
-constexpr std::size_t bytes_per_container = 128;  // with its entry in the one around it
+constexpr std::size_t bytes_per_value = 16;       // a scalar in an array
+constexpr std::size_t bytes_per_container = 128;  // including its entry in the container around it
 constexpr int max_depth = 64;
 
-/// The parser's own hook for this is quadratic in the length of an array.
+/// nlohmann's own check of the depth takes time quadratic in the length of an array.
 void check_depth(std::string_view text, const std::string& file) {
     if (is_nested_deeper(text, max_depth))
         throw InputError(Location{file}, "the JSON is nested more than 64 deep");
 }
 
-/// What of a value is kept. A scalar is kept in any case.
+/// The parts of a value that are kept. Scalars are always kept.
 struct Keep {
-    std::span<const Rule> members;   ///< of an object
-    const Rule* elements = nullptr;  ///< of an array: the rule of the array itself
-    bool all = false;                ///< every member or element, whatever it is
+    std::span<const Rule> members;   ///< members of an object
+    const Rule* elements = nullptr;  ///< rule of an array
+    bool all = false;                ///< keep every member or element
 };
 
-/// What is kept of a value that the member `rule` asks for.
+/// The parts of a value that the member `rule` keeps.
 Keep keep_by(const Rule& rule) {
     switch (rule.kind) {
         case Kind::object:
@@ -57,7 +57,7 @@ Keep keep_by(const Rule& rule) {
     }
 }
 
-/// Receives the values of the document one by one, as nlohmann's sax_parse asks for it.
+/// Receives the values of the document one by one from nlohmann's sax_parse.
 class Keeper {
   public:
     explicit Keeper(const std::string& file) : file_(file) {}
@@ -74,7 +74,7 @@ class Keeper {
         if (is_kept()) spend(value.size());
         return scalar(std::move(value));
     }
-    bool binary(json::binary_t&) { return false; }  // JSON text has none
+    bool binary(json::binary_t&) { return false; }  // JSON text has no binary values
 
     bool start_object(std::size_t) { return open(json::object()); }
     bool start_array(std::size_t) { return open(json::array()); }
@@ -95,16 +95,16 @@ class Keeper {
     }
 
   private:
-    /// An object or array that is kept and not closed yet.
+    /// An object or array that is kept and still open.
     struct Level {
         json* container;
         Keep keep;
-        std::string key = {};  ///< of the member that comes next, in an object
+        std::string key = {};  ///< key of the next member, in an object
         const Rule* rule = nullptr;
         bool member_is_kept = false;
     };
 
-    /// Whether the value that comes next is kept.
+    /// True if the next value is kept.
     bool is_kept() const {
         if (forgotten_ > 0) return false;
         if (levels_.empty()) return true;

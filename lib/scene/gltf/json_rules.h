@@ -5,7 +5,7 @@
 #include <span>
 #include <string_view>
 
-// Which members of a glTF's JSON are read, and what they must be.
+// The members of a glTF's JSON that are read, and their types.
 
 namespace sonarsim::gltf_rules {
 
@@ -20,19 +20,19 @@ enum class Kind {
     numbers,
     object,
     objects,
-    extras,    ///< an object of which `extras_members` are read
-    anything,  ///< whatever it is, with all that is in it
+    extras,    ///< an object; only `extras_members` of it are read
+    anything,  ///< any value, with all its contents
 };
 
-/// A member of a JSON object that is read; the others are left behind.
+/// A member of a JSON object that is read; other members are dropped.
 struct Rule {
     std::string_view key;
     Kind kind;
-    std::size_t count = 0;               ///< of numbers; 0: any
-    std::span<const Rule> members = {};  ///< of an object, or of each object of an array
+    std::size_t count = 0;               ///< required count of numbers; 0: any
+    std::span<const Rule> members = {};  ///< members of an object, or of each object of an array
 };
 
-// Extras belong to everyone and may be anything; `sonar` in them is ours.
+// Extras may hold keys of other programs; only `sonar` is read.
 inline constexpr std::array extras_members{Rule{"sonar", Kind::anything}};
 inline constexpr std::array asset{Rule{"version", Kind::name}};
 inline constexpr std::array scene{Rule{"nodes", Kind::indices}};
@@ -80,7 +80,7 @@ inline constexpr std::array root{Rule{"asset", Kind::object, 0, asset},
                                  Rule{"extensionsUsed", Kind::names},
                                  Rule{"extensionsRequired", Kind::names}};
 
-/// The rule for `key`, or nullptr where it is not read.
+/// The rule for `key`, or nullptr if it is not read.
 inline const Rule* find_rule(std::span<const Rule> rules, std::string_view key) {
     for (const Rule& rule : rules) {
         if (rule.key == key) return &rule;

@@ -15,21 +15,21 @@
 #include "scene/gltf/extent.h"
 #include "scene/gltf/mesh_builder.h"
 #include "scene/gltf/model_of.h"
-#include "scene/gltf/pieces.h"
+#include "scene/gltf/primitives.h"
 #include "scene/gltf/repeats.h"
 
 namespace sonarsim {
 
 namespace {
 
-/// Beyond these a file is probably not in the unit that it is read in.
+/// A file larger or smaller than these was probably read in the wrong unit.
 constexpr double suspicious_length_m = 1e4;
 constexpr double suspicious_smallness_m = 1e-3;
 
 Eigen::Vector3d choose_origin(const Eigen::AlignedBox3d& box) {
     if (box.isEmpty()) return Eigen::Vector3d::Zero();
-    // Sizes such as 100 m and centres such as 50 m are common and would sit on the edge of a
-    // decision, where the rounding of a moved scene could tip it; so the edges stand aside.
+    // Extents of 100 m and centres at 50 m are common and would lie exactly on a limit, where the
+    // rounding of a moved scene could change the result; so the limits are shifted slightly.
     constexpr double aside = 1e-6;
     double grid = 1.0;
     while (grid < box.sizes().maxCoeff() * (1.0 - aside))
@@ -38,8 +38,8 @@ Eigen::Vector3d choose_origin(const Eigen::AlignedBox3d& box) {
     return grid * (cells.array() + 0.5 + aside).floor().matrix();
 }
 
-/// Opens the files and names their instances. Names that objects are given come first: what nodes
-/// are called gives way to them.
+/// Opens the files and names their instances. Names of objects in the mission take precedence:
+/// nodes with the same name get another one.
 std::vector<OpenFile> open_files(std::span<const PlacedFile> files, SceneFiles& models,
                                  Scene& scene) {
     UniqueNames names;
@@ -71,28 +71,27 @@ std::vector<OpenFile> open_files(std::span<const PlacedFile> files, SceneFiles& 
     return open;
 }
 
-/// Once for each file that is read in one unit.
-void doubt_units(const OpenFile& file, const Eigen::AlignedBox3d& box,
-                 std::set<std::pair<std::string, double>>& doubted, Scene& scene) {
+/// Warns once for each file and unit if the file is implausibly long or short.
+void warn_of_unit(const OpenFile& file, const Eigen::AlignedBox3d& box,
+                  std::set<std::pair<std::string, double>>& warned, Scene& scene) {
     if (box.isEmpty()) return;
     const double length_m = box.sizes().maxCoeff();
     if (length_m < suspicious_length_m && length_m > suspicious_smallness_m) return;
     const std::string path = file.placed->file.string();
-    if (!doubted.emplace(path, file.placed->unit_m).second) return;
-    scene.doubts.push_back(path + fmt::format(" is {:.4g} m long", length_m) +
-                           "; if its lengths are not what they are read as, say what they are with "
-                           "`units`, as in units: mm");
+    if (!warned.emplace(path, file.placed->unit_m).second) return;
+    scene.warnings.push_back(path + fmt::format(" is {:.4g} m long", length_m) +
+                             "; if that is wrong, set its `units`, as in units: mm");
 }
 
-/// Where the files reach. Those of repeated ones are looked at once.
-std::vector<Extent> find_extents(const std::vector<OpenFile>& open, const Repeats& repeats) {
+/// The extents of the files. A file that is repeated is read once.
+std::vector<SurfaceExtent> find_extents(const std::vector<OpenFile>& open, const Repeats& repeats) {
     ReadingLimit limit;
-    std::vector<Extent> of_repeat;
+    std::vector<SurfaceExtent> of_repeat;
     for (const RepeatedFile& repeated : repeats.files) {
         require_renamed(repeated.open);
         of_repeat.push_back(find_extent(repeated.open, limit));
     }
-    std::vector<Extent> extents;
+    std::vector<SurfaceExtent> extents;
     for (std::size_t i = 0; i < open.size(); ++i) {
         if (repeats.of_file[i] == Repeats::none) {
             require_renamed(open[i]);
@@ -104,21 +103,21 @@ std::vector<Extent> find_extents(const std::vector<OpenFile>& open, const Repeat
     return extents;
 }
 
-/// What the extents say of the whole scene.
-void note_extents(const std::vector<OpenFile>& open, const std::vector<Extent>& extents,
+/// Stores the extents in the scene, and warns about implausible units.
+void note_extents(const std::vector<OpenFile>& open, const std::vector<SurfaceExtent>& extents,
                   Scene& scene) {
     Eigen::AlignedBox3d whole;
-    std::set<std::pair<std::string, double>> doubted;
+    std::set<std::pair<std::string, double>> warned;
     for (std::size_t i = 0; i < open.size(); ++i) {
-        const Extent& extent = extents[i];
-        doubt_units(open[i], extent.box, doubted, scene);
+        const SurfaceExtent& extent = extents[i];
+        warn_of_unit(open[i], extent.box, warned, scene);
         scene.vertex_rounding_m = std::max(scene.vertex_rounding_m, extent.vertex_rounding_m);
         if (!open[i].placed->moves) whole.extend(extent.box);
     }
     scene.origin = choose_origin(whole);
 }
 
-void set_bounds(const std::vector<Extent>& extents, const Repeats& repeats, Scene& scene) {
+void set_bounds(const std::vector<SurfaceExtent>& extents, const Repeats& repeats, Scene& scene) {
     Eigen::AlignedBox3d box;
     for (const Eigen::Vector3f& vertex : scene.vertices)
         box.extend(vertex.cast<double>());
@@ -137,7 +136,7 @@ Scene compose(std::span<const PlacedFile> files, SceneFiles& models, const Mater
     Scene scene;
     const std::vector<OpenFile> open = open_files(files, models, scene);
     const Repeats repeats = find_repeats(open, share_beyond);
-    const std::vector<Extent> extents = find_extents(open, repeats);
+    const std::vector<SurfaceExtent> extents = find_extents(open, repeats);
     note_extents(open, extents, scene);
     MaterialNumbers materials;
     ReadingLimit limit;
@@ -151,18 +150,19 @@ Scene compose(std::span<const PlacedFile> files, SceneFiles& models, const Mater
         }
         Body body;
         MeshBuilder<Body> moving{body, scene.rejects, Eigen::Vector3d::Zero()};
-        scene.rejects.skipped_primitives += for_each_piece(file, limit, [&](const Piece& piece) {
-            const std::uint32_t material = materials.of(material_name(piece, rules), scene);
-            take_class_of_material(piece, scene.instance_classes[piece.instance]);
-            if (file.placed->moves) {
-                moving.add(piece, [&] { body.triangle_material.push_back(material); });
-                return;
-            }
-            still.add(piece, [&] {
-                scene.triangle_material.push_back(material);
-                scene.triangle_instance.push_back(piece.instance);
+        scene.rejects.skipped_primitives +=
+            for_each_primitive(file, limit, [&](const PlacedPrimitive& primitive) {
+                const std::uint32_t material = materials.of(material_name(primitive, rules), scene);
+                take_class_of_material(primitive, scene.instance_classes[primitive.instance]);
+                if (file.placed->moves) {
+                    moving.add(primitive, [&] { body.triangle_material.push_back(material); });
+                    return;
+                }
+                still.add(primitive, [&] {
+                    scene.triangle_material.push_back(material);
+                    scene.triangle_instance.push_back(primitive.instance);
+                });
             });
-        });
         if (!file.placed->moves) continue;
         body.instance = file.instance_of_mesh.front();
         scene.bodies.push_back(std::move(body));
@@ -171,7 +171,7 @@ Scene compose(std::span<const PlacedFile> files, SceneFiles& models, const Mater
     return scene;
 }
 
-/// Materials that the mission names, each where it does so.
+/// InputError, with the place in the mission, for a material that the table lacks.
 void require_materials(std::span<const PlacedFile> files, const MaterialTable& table) {
     for (const PlacedFile& file : files) {
         if (!file.material.empty()) require_material(table, file.material, file.place);

@@ -9,32 +9,32 @@
 #include <vector>
 
 #include "scene/gltf/corners.h"
-#include "scene/gltf/pieces.h"
+#include "scene/gltf/primitives.h"
 #include "scene/scene.h"
 
 namespace sonarsim {
 
-/// Adds triangles to a scene, a body or a shared mesh, vertex by vertex as triangles ask for them.
+/// Adds triangles to a scene, a body or a shared mesh, and the vertices that they use.
 template <class Mesh>
 struct MeshBuilder {
     Mesh& mesh;
     SceneRejects& rejects;
     Eigen::Vector3d origin;
-    // Where a piece's vertex stands in `mesh.vertices`, plus 1. What earlier pieces left is not
-    // above their number of vertices, so nothing has to be cleared.
+    // Index of a primitive's vertex in `mesh.vertices`, plus 1. Entries of earlier primitives are
+    // at most their number of vertices, so nothing has to be cleared.
     std::vector<std::uint32_t> slots = {};
 
     /// Calls `note` for every triangle that is added.
     template <class Note>
-    void add(const Piece& piece, const Note& note) {
+    void add(const PlacedPrimitive& primitive, const Note& note) {
         const std::size_t first = mesh.vertices.size();
-        slots.resize(std::max(slots.size(), piece.source.positions.count), 0);
-        for (std::size_t i = 0; i < piece.source.count; ++i) {
-            std::array<std::uint32_t, 3> vertices = triangle(piece.source, i, piece.where);
+        slots.resize(std::max(slots.size(), primitive.source.positions.count), 0);
+        for (std::size_t i = 0; i < primitive.source.count; ++i) {
+            std::array<std::uint32_t, 3> vertices = triangle(primitive.source, i, primitive.where);
             std::array<Eigen::Vector3f, 3> local;
             std::array<Eigen::Vector3d, 3> rounded;
             for (std::size_t k = 0; k < 3; ++k) {
-                local[k] = (corner(piece, vertices[k]) - origin).template cast<float>();
+                local[k] = (corner(primitive, vertices[k]) - origin).template cast<float>();
                 rounded[k] = local[k].template cast<double>();
             }
             if (!is_finite(rounded)) {
@@ -59,7 +59,7 @@ struct MeshBuilder {
     }
 };
 
-/// Numbers the materials of a scene in the order in which they come.
+/// Numbers the materials of a scene in the order in which they occur.
 struct MaterialNumbers {
     std::map<std::string, std::uint32_t> numbers = {};
 

@@ -67,7 +67,7 @@ void check_no_cycle(const Graph& graph, const std::vector<int>& parent) {
         is_reached[static_cast<std::size_t>(index)] = true;
     const auto first = std::find(is_reached.begin(), is_reached.end(), false);
     auto index = static_cast<int>(first - is_reached.begin());
-    // As many steps up as there are nodes surely end on the cycle itself.
+    // graph.size() steps up surely end on the cycle itself.
     for (std::size_t i = 0; i < graph.size(); ++i)
         index = parent[static_cast<std::size_t>(index)];
     graph.fail(index, "is its own ancestor");
@@ -146,7 +146,7 @@ void check_rigid(const Graph& graph, int index) {
     }
 }
 
-/// The patterns of nodes that are left out, and which of them have fitted one.
+/// The patterns of nodes that are left out, with a flag for each that matched a node.
 class Exclusion {
   public:
     explicit Exclusion(const PlacedFile& placed)
@@ -176,7 +176,7 @@ class Exclusion {
     std::vector<bool> used_;
 };
 
-/// From the file's axes and unit to metres with z up.
+/// The transform from the file's axes and unit to metres with z up.
 Eigen::Affine3d file_from_gltf(const PlacedFile& placed) {
     Eigen::Affine3d T_file_gltf = Eigen::Affine3d::Identity();
     if (!placed.z_up) T_file_gltf.linear() << 1, 0, 0, 0, 0, -1, 0, 1, 0;
@@ -184,7 +184,7 @@ Eigen::Affine3d file_from_gltf(const PlacedFile& placed) {
     return T_file_gltf;
 }
 
-/// The text extras.sonar.`key`, or "".
+/// The text of extras.sonar.`key`, or "".
 std::string sonar_extra(const tinygltf::Value& extras, const char* key) {
     if (!extras.IsObject() || !extras.Has("sonar")) return "";
     const tinygltf::Value& sonar = extras.Get("sonar");
@@ -229,7 +229,7 @@ std::vector<PlacedMesh> place_meshes(const tinygltf::Model& model, const PlacedF
     std::vector<Visit> pending;
     const auto push = [&pending](const std::vector<int>& nodes, int depth, const auto& transform,
                                  const std::string& material, const std::string& label) {
-        // In reverse, so that the stack yields them in their order.
+        // Pushed in reverse, so that the stack yields them in their order.
         for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) {
             pending.push_back({*node, depth, transform, material, label});
         }

@@ -11,7 +11,7 @@ namespace sonarsim {
 
 namespace {
 
-/// What decides how a file is read, apart from its place.
+/// The settings that decide how a file is read, without its place.
 auto reading_of(const PlacedFile& file) {
     return std::tie(file.file, file.unit_m, file.z_up, file.material, file.renamed_materials,
                     file.exclude, file.class_name);
@@ -26,11 +26,13 @@ struct LessReading {
 std::size_t triangles_of(const OpenFile& file) {
     std::size_t triangles = 0;
     ReadingLimit limit;
-    for_each_piece(file, limit, [&](const Piece& piece) { triangles += piece.source.count; });
+    for_each_primitive(file, limit, [&](const PlacedPrimitive& primitive) {
+        triangles += primitive.source.count;
+    });
     return triangles;
 }
 
-/// The file at the origin. Its materials speak for the class of the first of its copies.
+/// Adds the file as if placed at the origin. Its class is that of the first copy.
 RepeatedFile& add_repeated(const OpenFile& first, std::deque<RepeatedFile>& files) {
     RepeatedFile& repeated = files.emplace_back();
     repeated.placed = *first.placed;
@@ -61,8 +63,8 @@ Repeats find_repeats(const std::vector<OpenFile>& open, std::size_t share_beyond
     if (triangles <= share_beyond) return repeats;
     if (triangles > most_triangles) {
         throw InputError(alike.begin()->first->place,
-                         "files that are used again make " + std::to_string(triangles) +
-                             " triangles with this one's; at most 4294901760 can be told apart");
+                         "repeated files have " + std::to_string(triangles) +
+                             " triangles together with this one; at most 4294901760 are supported");
     }
     for (const auto& group : alike) {
         add_repeated(open[group.second.front()], repeats.files);
@@ -88,11 +90,12 @@ void SharedMeshes::add_copy(std::size_t repeat, const OpenFile& file, const Mate
         if (!box.isEmpty()) made.centre = box.center();
         SharedMesh& mesh = scene.shared_meshes.emplace_back();
         MeshBuilder<SharedMesh> builder{mesh, scene.rejects, made.centre};
-        scene.rejects.skipped_primitives += for_each_piece(source, limit, [&](const Piece& piece) {
-            const std::uint32_t material = materials.of(material_name(piece, rules), scene);
-            take_class_of_material(piece, made.class_name);
-            builder.add(piece, [&] { mesh.triangle_material.push_back(material); });
-        });
+        scene.rejects.skipped_primitives +=
+            for_each_primitive(source, limit, [&](const PlacedPrimitive& primitive) {
+                const std::uint32_t material = materials.of(material_name(primitive, rules), scene);
+                take_class_of_material(primitive, made.class_name);
+                builder.add(primitive, [&] { mesh.triangle_material.push_back(material); });
+            });
     }
     const std::uint32_t instance = file.instance_of_mesh.front();
     scene.instance_classes[instance] = made.class_name;

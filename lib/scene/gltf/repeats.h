@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "scene/gltf/mesh_builder.h"
-#include "scene/gltf/pieces.h"
+#include "scene/gltf/primitives.h"
 #include "scene/scene.h"
 
 namespace sonarsim {
 
-/// A file that the scene has in several places, as if it stood at the origin.
+/// A file that the scene places several times, as if it were placed at the origin.
 struct RepeatedFile {
     PlacedFile placed;
     OpenFile open;
@@ -24,15 +24,15 @@ struct Repeats {
     static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
     std::deque<RepeatedFile> files;    ///< a deque, since `open` points to `placed`
-    std::vector<std::size_t> of_file;  ///< index into `files` by file of the scene, or `none`
+    std::vector<std::size_t> of_file;  ///< index into `files` for each file of the scene, or `none`
 };
 
-/// Files that are read alike more than once, have names and do not move. None of them when they
-/// have no more than `share_beyond` triangles together, each counted as often as it is placed.
-/// InputError when there are more triangles than 32 bits can number.
+/// Finds the files that have names, do not move and are read more than once in the same way.
+/// Returns none if they have at most `share_beyond` triangles together, counted as often as they
+/// are placed. InputError if there are more triangles than 32 bits can number.
 Repeats find_repeats(const std::vector<OpenFile>& open, std::size_t share_beyond);
 
-/// Makes the shared meshes of a scene, each when its first copy comes.
+/// Makes the shared meshes of a scene, each when its first copy is added.
 class SharedMeshes {
   public:
     explicit SharedMeshes(const Repeats& repeats);
@@ -44,8 +44,9 @@ class SharedMeshes {
   private:
     struct Made {
         bool is_made = false;
-        std::uint32_t mesh = 0;                            ///< index into Scene::shared_meshes
-        Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< of the mesh, in the file's frame
+        std::uint32_t mesh = 0;  ///< index into Scene::shared_meshes
+        /// Centre of the mesh, in the file's frame.
+        Eigen::Vector3d centre = Eigen::Vector3d::Zero();
         std::string class_name = {};
     };
 

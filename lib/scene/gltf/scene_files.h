@@ -9,8 +9,7 @@ class Model;
 
 namespace sonarsim {
 
-/// glTF files that have been read, each once however often a scene uses it. Not for several threads
-/// at a time.
+/// glTF files that have been read, each once however often a scene uses it. Not thread-safe.
 class SceneFiles {
   public:
     SceneFiles();
@@ -18,7 +17,7 @@ class SceneFiles {
     SceneFiles(const SceneFiles&) = delete;
     SceneFiles& operator=(const SceneFiles&) = delete;
 
-    /// Reads the file unless it has been. InputError as read_gltf. Stays valid.
+    /// Reads the file on the first call. InputError as read_gltf. The reference stays valid.
     const tinygltf::Model& model(const std::filesystem::path& file);
 
   private:

@@ -3,19 +3,19 @@
 #include <algorithm>
 
 #include "scene/gltf/model_of.h"
-#include "scene/gltf/pieces.h"
+#include "scene/gltf/primitives.h"
 #include "scene/objects.h"
 
 namespace sonarsim {
 
 namespace {
 
-void add_piece(const Piece& piece, Surface& surface) {
+void add_primitive(const PlacedPrimitive& primitive, Surface& surface) {
     const auto first = static_cast<std::uint32_t>(surface.vertices.size());
-    for (std::size_t i = 0; i < piece.source.positions.count; ++i)
-        surface.vertices.push_back(corner(piece, static_cast<std::uint32_t>(i)));
-    for (std::size_t i = 0; i < piece.source.count; ++i) {
-        std::array<std::uint32_t, 3> corners = triangle(piece.source, i, piece.where);
+    for (std::size_t i = 0; i < primitive.source.positions.count; ++i)
+        surface.vertices.push_back(corner(primitive, static_cast<std::uint32_t>(i)));
+    for (std::size_t i = 0; i < primitive.source.count; ++i) {
+        std::array<std::uint32_t, 3> corners = triangle(primitive.source, i, primitive.where);
         bool finite = true;
         for (std::uint32_t& c : corners) {
             c += first;
@@ -25,7 +25,7 @@ void add_piece(const Piece& piece, Surface& surface) {
     }
 }
 
-/// Without the vertices that no triangle has.
+/// The surface without unused vertices.
 Surface compact(const Surface& surface) {
     constexpr std::uint32_t unused = 0xFFFFFFFFU;
     std::vector<std::uint32_t> slots(surface.vertices.size(), unused);
@@ -48,7 +48,7 @@ Surface compact(const Surface& surface) {
 
 Surface surface_of(const PlacedFile& file, SceneFiles& models, std::span<const std::string> nodes) {
     PlacedFile by_node = file;
-    by_node.name.clear();  // so that meshes have the names of their nodes
+    by_node.name.clear();  // empty, so that meshes have the names of their nodes
     UniqueNames names;
     OpenFile open{&by_node, &model_of(file, models), {}, {}};
     open.meshes = place_meshes(*open.model, by_node, names);
@@ -69,7 +69,8 @@ Surface surface_of(const PlacedFile& file, SceneFiles& models, std::span<const s
     open.instance_of_mesh.assign(open.meshes.size(), 0);
     Surface surface;
     ReadingLimit limit;
-    for_each_piece(open, limit, [&](const Piece& piece) { add_piece(piece, surface); });
+    for_each_primitive(
+        open, limit, [&](const PlacedPrimitive& primitive) { add_primitive(primitive, surface); });
     return compact(surface);
 }
 

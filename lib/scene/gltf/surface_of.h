@@ -9,8 +9,8 @@
 
 namespace sonarsim {
 
-/// The triangles of a file where it is placed, or of those of its nodes alone that fit one of
-/// `nodes`. InputError as load_scene, and at the place of the file for a pattern that fits no node.
+/// The triangles of a placed file, or only of its nodes that match one of `nodes`. InputError as
+/// load_scene, and at the place of the file for a pattern that matches no node.
 Surface surface_of(const PlacedFile& file, SceneFiles& models,
                    std::span<const std::string> nodes = {});
 

@@ -20,14 +20,14 @@ struct TriangleSource {
     std::size_t count = 0;
 };
 
-/// Opens a primitive of triangles, a strip or a fan; nothing for points and lines. InputError
+/// Opens a primitive of triangles, a strip or a fan; nullopt for points and lines. InputError
 /// starting with `where`.
 std::optional<TriangleSource> open_triangles(const tinygltf::Model& model,
                                              const tinygltf::Primitive& primitive,
                                              const std::string& where);
 
-/// The vertices of triangle `i` < count, below positions.count. InputError starting with `where`
-/// when an index is not.
+/// The vertices of triangle `i` < count, all below positions.count. InputError starting with
+/// `where` if an index is not.
 std::array<std::uint32_t, 3> triangle(const TriangleSource& source, std::size_t i,
                                       const std::string& where);
 

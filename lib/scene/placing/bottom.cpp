@@ -13,10 +13,11 @@ namespace sonarsim {
 
 namespace {
 
-constexpr int most_cells = 1024;  // along x, and along y
+constexpr int most_cells = 1024;  // limit along x and along y
 
-// More than one, since most triangles are often those of small things that cover few of the cells.
-// To place 3,000 rings on a plane takes 12 % less time with 8 than with 1, and no less with 32.
+// More than one cell, since most triangles often belong to small objects that cover few of the
+// cells. Placing 3,000 rings on a plane takes 12 % less time with 8 than with 1, and 32 are no
+// faster.
 constexpr double cells_per_triangle = 8.0;
 
 std::array<Eigen::Vector3d, 3> corners_of(const Surface& surface, std::uint32_t triangle) {
@@ -38,7 +39,7 @@ Bottom::Bottom(Surface surface) : surface_(std::move(surface)) {
         area_.extend(vertex.head<2>());
     const auto count = static_cast<std::uint32_t>(surface_.triangles.size());
     side_ = std::clamp(static_cast<int>(std::sqrt(cells_per_triangle * count)), 1, most_cells);
-    // Counted first, then filled in.
+    // Count first, then fill.
     std::vector<std::uint32_t> size(static_cast<std::size_t>(side_) * side_ + 1, 0);
     const auto for_each_cell = [&](std::uint32_t triangle, const auto& visit) {
         const Eigen::AlignedBox2d box = area_of(surface_, triangle);
@@ -126,7 +127,7 @@ std::optional<double> Bottom::highest_below(const Eigen::Vector3d& point, double
 
 std::optional<double> height_above(const std::array<Eigen::Vector3d, 3>& corners,
                                    const Eigen::Vector2d& point) {
-    // Relative to the point, so that large coordinates lose nothing.
+    // Coordinates are relative to the point, so that large ones lose nothing.
     const auto at = [&](int k) -> Eigen::Vector2d { return corners[k].head<2>() - point; };
     const auto cross = [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
         return a.x() * b.y() - a.y() * b.x();

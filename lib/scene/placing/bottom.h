@@ -10,7 +10,7 @@
 
 namespace sonarsim {
 
-/// The surface that objects rest on, with a grid over x and y that finds its triangles. World
+/// The surface that objects rest on, with a grid over x and y for the search of triangles. World
 /// frame.
 class Bottom {
   public:
@@ -19,15 +19,15 @@ class Bottom {
     const Surface& surface() const { return surface_; }
     const Eigen::AlignedBox2d& area() const { return area_; }
 
-    /// Heights of the lowest and the highest surface at a point; nothing where there is none.
+    /// Heights of the lowest and the highest surface at a point.
     struct Heights {
         double lowest;
         double highest;
     };
     std::optional<Heights> heights(const Eigen::Vector2d& point) const;
 
-    /// The highest of the surfaces at the x and y of a point that lie below it, or at most
-    /// `tolerance` above it; nothing where there is none.
+    /// The highest surface at the x and y of a point that lies below it, or at most `tolerance`
+    /// above it; nullopt if there is none.
     std::optional<double> highest_below(const Eigen::Vector3d& point, double tolerance) const;
 
     /// Calls `visit` with the index of every triangle that may meet the box, some more than once.
@@ -45,8 +45,8 @@ class Bottom {
     }
 
   private:
-    /// Around a triangle, counted from `corner_` and wider by more than the rounding of floats:
-    /// most triangles of a cell are passed over at the cost of one of these.
+    /// Box around a triangle, relative to `corner_` and enlarged by more than the rounding of
+    /// floats. Most triangles of a cell are skipped after one comparison of boxes.
     struct alignas(16) Box {
         std::array<float, 4> min, max;  ///< x, y, z; the last is 0
     };
@@ -58,13 +58,13 @@ class Bottom {
     Eigen::AlignedBox2d area_;
     int side_ = 1;  ///< cells along x and along y
     std::vector<std::uint32_t> begin_;
-    std::vector<std::uint32_t> triangles_;  ///< in a cell from the highest down
+    std::vector<std::uint32_t> triangles_;  ///< the highest first in each cell
     Eigen::Vector3d corner_ = Eigen::Vector3d::Zero();
-    std::vector<Box> boxes_;  ///< by triangle
+    std::vector<Box> boxes_;  ///< one for each triangle
 };
 
-/// The height of a triangle's plane above a point that lies within the triangle, seen from above,
-/// edges included; nothing for any other point and for an upright triangle.
+/// The height of a triangle's plane at a point within the triangle as seen from above, edges
+/// included; nullopt for any other point and for a vertical triangle.
 std::optional<double> height_above(const std::array<Eigen::Vector3d, 3>& corners,
                                    const Eigen::Vector2d& point);
 

@@ -19,7 +19,7 @@ double distance_to_edge(const Eigen::Vector2d& p, const Eigen::Vector2d& a,
     return (p - a - t * along).norm();
 }
 
-/// Whether a line along an edge of `a` has all of `b` on its far side.
+/// True if a line along an edge of `a` separates `a` from `b`.
 bool has_gap(const Hull& a, const Hull& b) {
     for (std::size_t i = 0; i < a.size(); ++i) {
         const Eigen::Vector2d& from = a[i];
@@ -71,7 +71,7 @@ Hull hull_of(std::span<const Eigen::Vector3d> points) {
 
 double distance_between(const Hull& a, const Hull& b) {
     if (a.empty() || b.empty()) return std::numeric_limits<double>::infinity();
-    // Convex polygons are apart when one of their edges tells them apart.
+    // Convex polygons are disjoint if and only if an edge of one of them separates them.
     if (!has_gap(a, b) && !has_gap(b, a)) return 0.0;
     return std::min(least_distance(a, b), least_distance(b, a));
 }

@@ -23,8 +23,8 @@ Eigen::AlignedBox2d box_from_above(const Corners& corners) {
     return box;
 }
 
-/// By how much the second of two edges lies above the first where they cross, seen from above;
-/// minus infinity where they do not.
+/// Height of the second edge above the first where they cross, seen from above; minus infinity if
+/// they do not cross.
 double rise_at_crossing(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                         const Eigen::Vector3d& c, const Eigen::Vector3d& d) {
     constexpr double none = -std::numeric_limits<double>::infinity();
@@ -39,7 +39,7 @@ double rise_at_crossing(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
     return (c.z() + t * (d.z() - c.z())) - (a.z() + s * (b.z() - a.z()));
 }
 
-/// The most by which the bottom's triangle reaches above the object's.
+/// The greatest height of the bottom's triangle above the object's.
 double rise_of(const Corners& object, const Corners& ground) {
     double rise = -std::numeric_limits<double>::infinity();
     for (int i = 0; i < 3; ++i) {
@@ -84,7 +84,7 @@ std::optional<double> lift_to_rest(const Bottom& bottom, const Surface& object) 
         const double lowest = std::min({own[0].z(), own[1].z(), own[2].z()});
         bottom.for_each_near(box, [&](std::uint32_t near) {
             const Corners ground = corners_at(bottom.surface(), near);
-            // Most of an object is too high to touch.
+            // Quick test first: most of an object is too high to touch.
             const double highest = std::max({ground[0].z(), ground[1].z(), ground[2].z()});
             if (highest - lowest <= lift) return;
             if (!box.intersects(box_from_above(ground))) return;

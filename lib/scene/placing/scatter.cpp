@@ -11,7 +11,8 @@ namespace sonarsim {
 
 namespace {
 
-/// What is drawn for an object, as the second word of the counter; the first is the try.
+/// The quantity that is drawn for an object, as the second word of the counter; the first is the
+/// try.
 enum class Draw : std::uint32_t { count, shape, scale, roll, pitch, yaw, bury, x, y };
 
 /// The draws of one object of one rule.
@@ -23,7 +24,7 @@ class Draws {
     double in(const std::array<double, 2>& range, Draw what, std::uint32_t attempt = 0) const {
         return range[0] + (range[1] - range[0]) * unit(what, attempt);
     }
-    /// Of `count` possibilities.
+    /// Index of one of `count` equally likely choices.
     std::size_t one_of(std::size_t count, Draw what) const {
         const auto chosen = static_cast<std::size_t>(unit(what, 0) * static_cast<double>(count));
         return std::min(chosen, count - 1);
@@ -45,7 +46,7 @@ std::size_t count_of(const ScatterRule& rule, std::uint64_t seed, std::uint32_t 
     return fewest + Draws(seed, rule_index, of_the_rule).one_of(most - fewest + 1, Draw::count);
 }
 
-/// Why places were refused.
+/// Number of refused positions by reason.
 struct Refusals {
     int outside = 0;
     int taken = 0;
@@ -78,7 +79,7 @@ Eigen::AlignedBox2d box_around(const Hull& hull) {
     return box;
 }
 
-/// The ground that is taken, with boxes that tell quickly what is far away.
+/// The occupied ground, with boxes for a quick test.
 struct TakenGround {
     std::vector<Hull>& hulls;
     std::vector<Eigen::AlignedBox2d> boxes = {};
@@ -93,7 +94,7 @@ struct TakenGround {
     }
     bool has_room_for(const Hull& room, double spacing_m) const {
         const Eigen::AlignedBox2d box = box_around(room);
-        // More than rounding can make of the distance between two hulls.
+        // The margin exceeds the rounding of the distance between two hulls.
         const double near_m = 1.001 * spacing_m + 1e-6 * (1.0 + box.max().cwiseAbs().maxCoeff() +
                                                           box.min().cwiseAbs().maxCoeff());
         for (std::size_t k = 0; k < hulls.size(); ++k) {
@@ -105,16 +106,16 @@ struct TakenGround {
     }
 };
 
-/// What is tried for one object at one place after the other.
+/// One object whose positions are tried one after the other.
 struct Attempt {
     const ScatterRule& rule;
     const Bottom& bottom;
     const Surface& shape;
     const Stance& stance;
-    const Hull& outline;  ///< of the shape as it stands, its origin at 0
+    const Hull& outline;  ///< outline of the rotated shape about its origin
 };
 
-/// The object's transform where there is room for it, which is taken then.
+/// Returns the object's transform if there is room for it, and marks the ground as taken.
 std::optional<Eigen::Affine3d> try_at(const Eigen::Vector2d& position, const Attempt& attempt,
                                       TakenGround& taken, Refusals& refusals) {
     const ScatterRule& rule = attempt.rule;
@@ -126,7 +127,7 @@ std::optional<Eigen::Affine3d> try_at(const Eigen::Vector2d& position, const Att
         refusals.taken += inside && !alone;
         return alone;
     };
-    // First as it stands before it is lowered, which takes longer.
+    // Cheap test first, with the outline before the object is lowered.
     if (!fits(shifted(attempt.outline, position))) return std::nullopt;
     std::optional<Eigen::Affine3d> T_world_shape =
         put_on_bottom(attempt.bottom, attempt.shape, position, attempt.stance);
@@ -138,7 +139,7 @@ std::optional<Eigen::Affine3d> try_at(const Eigen::Vector2d& position, const Att
         taken.add(shifted(attempt.outline, position));
         return T_world_shape;
     }
-    // On a slope it is tilted.
+    // The object may have been tilted on a slope, so its outline is tested again.
     Hull room = hull_of(moved(attempt.shape, *T_world_shape).vertices);
     if (!fits(room)) return std::nullopt;
     taken.add(std::move(room));

@@ -18,14 +18,14 @@ namespace sonarsim {
 
 namespace {
 
-/// The first invariant that the image breaks.
+/// Describes the first invariant that the image breaks.
 std::string broken_invariant(const Ping& ping, double brightest) {
     for (const float x : ping.intensity) {
         if (!std::isfinite(x)) return "a pixel is not finite";
         if (x < 0.0F) return "a pixel is negative";
         if (x > brightest) return fmt::format("a pixel is {}, above {}", x, brightest);
     }
-    if (ping.counts.occupied_bins > ping.intensity.size()) return "more bins lit than there are";
+    if (ping.counts.occupied_bins > ping.intensity.size()) return "more occupied bins than bins";
     return "";
 }
 
@@ -36,8 +36,8 @@ double brightest_of(const HardCase& hard, const Scene& scene) {
         for (const Material& material : scene.materials)
             most = std::max(most, static_cast<double>(material.reflection));
     }
-    // Room for the rounding of a mean.
-    // A mean of many thousand echoes is off by that much in float.
+    // The margin covers the rounding of a mean: that of many thousand echoes is off by this much in
+    // float.
     return most * (1.0 + 5e-5);
 }
 
@@ -61,7 +61,7 @@ Difference compare(const Ping& ping, const std::vector<float>& truth) {
     return out;
 }
 
-/// What an engine is held to.
+/// The error bound of an engine, and its known fault.
 struct Standard {
     std::string engine;
     double bound;
@@ -91,7 +91,7 @@ HardResult run(const HardCase& hard, const Scene& scene, EngineKind engine_kind)
     for (const SonarKind kind :
          {SonarKind::imaging, SonarKind::profiling, SonarKind::sidescan, SonarKind::echosounder}) {
         const HardTrial trial = hard.trial(kind);
-        const std::string refused = refusal_of(settings, trial.sonar.settings.view);
+        const std::string refused = unsupported(settings, trial.sonar.settings.view);
         if (!refused.empty()) {
             result.refused = refused;
             if (engine_kind != EngineKind::octree || !hard.octree_may_refuse)

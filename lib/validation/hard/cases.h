@@ -12,8 +12,8 @@
 
 namespace sonarsim {
 
-// Scenes that are hard on the arithmetic, each with what must come out of it. Every case is run
-// for all four kinds of sonar and with all engines.
+// Scenes that are hard on the arithmetic, each with its expected result. Every case is run for all
+// four kinds of sonar and with all engines.
 
 /// One sonar in the scene of a case.
 struct HardTrial {
@@ -21,7 +21,7 @@ struct HardTrial {
     Pose T_world_vehicle;
 };
 
-/// What the expected image of a case may depend on.
+/// The inputs of a case's expected image.
 struct HardContext {
     const Scene& scene;
     const HardTrial& trial;
@@ -30,17 +30,17 @@ struct HardContext {
     const Ping& ping;
 };
 
-/// Pixels of an expected image that may be anything.
+/// Marks pixels of an expected image that are not checked.
 inline constexpr float unchecked = -1.0F;
 
-/// The largest error that each engine may make.
+/// The largest permitted error of each engine.
 struct HardBounds {
     double rays = 0.0;
     double octree = 0.0;
-    double slices = -1.0;  ///< below 0: that of the rays
+    double slices = -1.0;  ///< below 0: the same as for rays
 };
 
-/// What is known to be wrong, and why; empty: nothing.
+/// Descriptions of known faults; empty: none.
 struct KnownFaults {
     std::string rays;
     std::string octree;
@@ -53,26 +53,27 @@ struct HardCase {
     std::string expected;
     std::function<Scene()> scene;
     std::function<HardTrial(SonarKind)> trial;
-    /// The image that must come out, [range_bins, beams]; none: the invariants alone are checked.
+    /// The expected image, [range_bins, beams]; none: only the invariants are checked.
     std::function<std::vector<float>(const HardContext&)> truth = {};
     HardBounds bounds = {};
     bool noisy = false;      ///< may be brighter than the brightest material
-    double brightest = 0.0;  ///< no pixel may be above; 0: the largest reflection of the scene
+    double brightest = 0.0;  ///< limit of all pixels; 0: the largest reflection of the scene
     KnownFaults known = {};
-    bool octree_may_refuse = false;  ///< a mission that asks it for this; else it must render it
+    /// True if a mission may refuse the octree here; otherwise it must render.
+    bool octree_may_refuse = false;
 };
 
-/// One case with one engine; of the four sonars the worst.
+/// One case with one engine; the worst of the four sonars.
 struct HardResult {
     std::string name, stresses, expected, engine;
-    std::string sonar = {};  ///< that made the error
+    std::string sonar = {};  ///< the sonar with the largest error
     double error = 0.0;      ///< sum |A - B| / sum B over the pixels that are checked
     double bound = 0.0;
-    double largest_difference = 0.0;  ///< of any pixel, max |A - B|
-    double slowest_ms = 0.0;          ///< of the four pings
-    std::string broken = {};          ///< the invariant that does not hold; empty: all do
+    double largest_difference = 0.0;  ///< largest difference of a pixel, max |A - B|
+    double slowest_ms = 0.0;          ///< slowest of the four pings
+    std::string broken = {};          ///< the broken invariant; empty: none
     std::string known_fault = {};
-    std::string refused = {};  ///< why no mission may have these sonars with this engine
+    std::string refused = {};  ///< why a mission would refuse these sonars with this engine
 
     bool holds() const { return broken.empty() && error <= bound; }
 };
@@ -86,9 +87,9 @@ std::vector<HardCase> hard_sonar_limits();
 std::vector<HardCase> hard_noise();
 std::vector<HardCase> hard_invariances();
 
-/// Runs a case with the rays, the octree and the slices. What a mission would be refused for is
-/// refused here, by the same check, and is not rendered. Invariants of every image: no NaN, nothing
-/// infinite or negative, and nothing brighter than physics allows.
+/// Runs a case with the rays, the octree and the slices. A combination that a mission would refuse
+/// is refused by the same check, and not rendered. Invariants of every image: no pixel is NaN,
+/// infinite, negative or brighter than physics allows.
 std::vector<HardResult> run_hard_case(const HardCase& hard);
 
 /// The results as a table: case, what it stresses, error, bound, verdict.

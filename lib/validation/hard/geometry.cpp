@@ -13,7 +13,7 @@ namespace {
 
 using namespace shapes;
 
-/// The floor of `plain_floor`, of R = 0.5 and 3 m below the sonar.
+/// The image of plain_floor(): R = 0.5, 3 m below the sonar.
 std::vector<float> plain_floor_image(const HardContext& context) {
     return image_of(plain_floor(), context.trial, context.engine);
 }
@@ -28,7 +28,7 @@ void add_triangle(Scene& scene, const std::array<std::uint32_t, 3>& corners) {
     scene.triangle_instance.push_back(0);
 }
 
-/// Triangles that are a point, a line, or folded onto themselves.
+/// A floor with triangles that are a point, a line, or folded onto themselves.
 Scene floor_with_degenerates() {
     Scene scene = plain_floor();
     add_triangle(scene, {0, 0, 0});
@@ -41,7 +41,7 @@ Scene floor_with_degenerates() {
     return scene;
 }
 
-/// A floor in strips, among them needles of 60 m by 60 micrometres.
+/// A floor in strips; some are needles of 60 m by 60 micrometres.
 Scene floor_with_needles() {
     Scene scene = empty_scene();
     const std::uint32_t m = add_material(scene, 0.5F);
@@ -72,7 +72,7 @@ Scene flipped_tank() {
     return scene;
 }
 
-/// Two halves of a floor whose vertices do not match, a tenth of a millimetre apart.
+/// A floor in two halves, a tenth of a millimetre apart, whose vertices do not match.
 Scene cracked_floor() {
     Scene scene = empty_scene();
     const std::uint32_t m = add_material(scene, 0.5F);
@@ -110,11 +110,11 @@ Scene floor_with_pole() {
 
 }  // namespace
 
-// What the octree is off by on its own, with leaves that suit the bins: 0.15 in the cone over a
-// plain floor, where a leaf lights one bin of twenty too many; 0.05 to 0.16 in the tank. Where two
-// of its looks at one scene are compared they may differ by as much. A face that is there twice is
-// no plain rectangle to it and casts a shadow that is a fifth larger; faces of opposite winding are
-// apart in a leaf, since they may be the two sides of a plate.
+// Errors of the octree itself, with leaves that suit the bins: 0.15 in the cone over a plain floor,
+// where a leaf fills one bin of twenty too many; 0.05 to 0.16 in the tank. Two octree images of one
+// scene may differ by as much. A duplicated face is not a plain rectangle to the octree, and its
+// shadow is a fifth larger; faces of opposite winding are separate in a leaf, since they may be the
+// two sides of a plate.
 std::vector<HardCase> hard_geometry() {
     return {{.name = "triangles without area",
              .stresses = "points, lines, folded triangles",

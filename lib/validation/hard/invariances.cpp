@@ -37,7 +37,7 @@ Scene mirrored() {
     return scene;
 }
 
-/// y -> -y turns the sense of roll and yaw around.
+/// y -> -y reverses the sense of roll and yaw.
 HardTrial mirrored_trial(SonarKind kind) {
     HardTrial trial = in_tank(kind);
     Pose& pose = trial.T_world_vehicle;
@@ -47,7 +47,7 @@ HardTrial mirrored_trial(SonarKind kind) {
     return trial;
 }
 
-/// Port and starboard change places.
+/// Swaps port and starboard.
 std::vector<float> mirrored_image(const HardContext& context) {
     std::vector<float> image = unmoved_tank_image(context);
     for (auto row = image.begin(); row != image.end(); row += context.ping.beams)
@@ -55,7 +55,7 @@ std::vector<float> mirrored_image(const HardContext& context) {
     return image;
 }
 
-/// A fixed permutation: 7919 is prime to the number of triangles.
+/// A fixed permutation: 7919 and the number of triangles are coprime.
 Scene permuted() {
     const Scene in_order = tank();
     Scene scene = in_order;
@@ -69,7 +69,7 @@ Scene permuted() {
     return scene;
 }
 
-/// Every triangle cut in four at the middles of its edges.
+/// Cuts every triangle into four at the midpoints of its edges.
 Scene split() {
     Scene scene = tank();
     const Scene whole = scene;
@@ -98,10 +98,10 @@ Scene split() {
 
 }  // namespace
 
-// Under a motion the lattice of the octree lies otherwise to the scene: two images may differ by
-// the sum of what each is off. The octree's bounds are twice what was measured or more, for the
-// imaging, profiling, side-scan and echosounder in turn: rigid motion 0.019, 0.011, 0.0015, 0.0018;
-// mirror 0.013 and below 0.001; permuted 0.0017 and 0; split 0.0002 and less.
+// A motion shifts the lattice of the octree against the scene, so two images may differ by the sum
+// of their errors. The octree's bounds are at least twice the measured errors, for the imaging,
+// profiling, side-scan and echosounder in turn: rigid motion 0.019, 0.011, 0.0015, 0.0018; mirror
+// 0.013 and below 0.001; permuted 0.0017 and 0; split 0.0002 and less.
 std::vector<HardCase> hard_invariances() {
     return {{.name = "rigid motion",
              .stresses = "scene and trajectory moved and turned",

@@ -10,7 +10,7 @@ namespace {
 
 using namespace shapes;
 
-/// A sonar of the tank with its gain of 1. Side-scan has no range noise.
+/// A sonar of the tank with a gain of 1. Side-scan has no range noise.
 std::function<HardTrial(SonarKind)> tank_with(const NoiseConfig& noise) {
     return [noise](SonarKind kind) {
         return in_tank(kind, [&](SonarConfig& c) {
@@ -32,14 +32,14 @@ NoiseConfig pixel_noise(double sigma) {
     return noise;
 }
 
-/// Where range noise moves nothing and fades nothing: the image without it.
+/// For kinds whose range noise changes nothing here: the image without it.
 std::vector<float> without_noise_where_nothing_fades(const HardContext& context) {
     const bool fades = context.kind == SonarKind::imaging || context.kind == SonarKind::profiling;
     if (fades) return std::vector<float>(context.ping.intensity.size(), unchecked);
     return image_of(context.scene, in_tank(context.kind), context.engine);
 }
 
-/// P(w < 10 m) = 1e-8 at lambda = 1e9 m: what has range noise sees nothing.
+/// P(w < 10 m) = 1e-8 at lambda = 1e9 m: sonars with range noise see nothing.
 std::vector<float> all_drowned(const HardContext& context) {
     return context.kind == SonarKind::sidescan
                ? std::vector<float>(context.ping.intensity.size(), unchecked)
@@ -49,7 +49,7 @@ std::vector<float> all_drowned(const HardContext& context) {
 std::function<HardTrial(SonarKind)> with_streaks(StreakMode mode) {
     return [mode](SonarKind kind) {
         return in_tank(kind, [&](SonarConfig& c) {
-            c.streaks = {mode, 0.0, 90.0};  // every row that sees anything
+            c.streaks = {mode, 0.0, 90.0};  // every row that sees surface
             c.noise.add_sigma = 5.0;
             c.noise.scale_with_range = false;
         });
@@ -57,7 +57,7 @@ std::function<HardTrial(SonarKind)> with_streaks(StreakMode mode) {
 }
 
 /// With threshold 0 all rows that see surface become 1 - (1 - I)^2 or I^2 of a clamped I: within
-/// [0, 1] however bright the noise is. Here only what is above 1 counts as an error.
+/// [0, 1] however bright the noise is. Only pixels above 1 count as errors here.
 std::vector<float> at_most_one(const HardContext& context) {
     std::vector<float> truth(context.ping.intensity.size(), unchecked);
     const std::vector<float> clean = image_of(context.scene, in_tank(context.kind), context.engine);
@@ -72,7 +72,7 @@ std::vector<float> at_most_one(const HardContext& context) {
     return truth;
 }
 
-/// A wall along the boresight, so near to it that what the floor mirrors runs along the wall.
+/// A wall along the boresight, so near that specular reflections from the floor run along the wall.
 Scene wall_along() {
     Scene scene = plain_floor();
     add_quad(scene, {-9, 0.4F, 0}, {20, 0.4F, 0}, {20, 0.4F, 6}, {-9, 0.4F, 6}, 0);
@@ -83,8 +83,8 @@ void clusters(SonarConfig& config) {
     config.multipath.method = MultipathMethod::cluster;
 }
 
-/// The multipath in the tank as it was modelled. Where scene and sonar move or grow together, it
-/// stays the same.
+/// The multipath of the original tank. If scene and sonar are moved or scaled together, the image
+/// must not change.
 std::vector<float> multipath_in_unmoved_tank(const HardContext& context) {
     return image_of(tank(), in_tank(context.kind, clusters), context.engine);
 }

@@ -12,23 +12,23 @@ using namespace shapes;
 
 const Eigen::Vector3d utm(500000.0, 4800000.0, 0.0);
 
-/// The image of the tank as it was modelled. Where scene and sonar move or grow together, the image
-/// stays the same.
+/// The image of the original tank. If scene and sonar are moved or scaled together, it must not
+/// change.
 std::vector<float> at_home(const HardContext& context) {
     return image_of(tank(), in_tank(context.kind), context.engine);
 }
 
 constexpr double grazing_height_m = 1.745e-3;
 
-/// Looking along the floor: 0.01 degrees at 10 m.
+/// A view along the floor: 0.01 degrees at 10 m.
 HardTrial grazing(SonarKind kind) {
     HardTrial trial = over_floor(kind);
     trial.T_world_vehicle = {rotation_from_rpy(0.0, 0.0, 0.1), {0.31, 0.17, grazing_height_m}};
     return trial;
 }
 
-/// An imaging sonar sees the floor in every bin. What looks down sees none of it: within 85 degrees
-/// of nadir it is nearer than 1.745 mm / cos 85 = 20 mm.
+/// An imaging sonar sees the floor in every bin. Sonars that look down see none of it: within 85
+/// degrees of nadir it is nearer than 1.745 mm / cos 85 = 20 mm.
 std::vector<float> grazing_law(const HardContext& context) {
     if (context.kind != SonarKind::imaging) return dark(context);
     std::vector<float> truth(context.ping.intensity.size());
@@ -54,8 +54,8 @@ float reflection_of(double impedances) {
 
 }  // namespace
 
-// The leaves of a scene larger than 8 m do not grow with it: in 50 km the octree may be off by
-// twice its own error.
+// The leaves of a scene larger than 8 m do not grow with it: in 50 km the octree's error may be
+// twice as large.
 std::vector<HardCase> hard_numbers() {
     return {{.name = "UTM, on the grid",
              .stresses = "5e5, 4.8e6 m against the origin",

@@ -22,8 +22,9 @@ HardTrial in_the_centre(SonarKind kind, const ConfigChange& change) {
     return trial;
 }
 
-/// All of a sphere about the sonar is seen face on, at its radius: R in that bin, else nothing. The
-/// facets' middles lie 5 (1 - cos(pi / 256)) < 0.4 mm nearer, well within the bin of 77 mm.
+/// A sphere about the sonar is at normal incidence everywhere: R in the bin of its radius, else
+/// nothing. The facets' middles lie 5 (1 - cos(pi / 256)) < 0.4 mm nearer, well within the bin of
+/// 77 mm.
 std::vector<float> sphere_law(const HardContext& context) {
     const View& view = context.trial.sonar.settings.view;
     std::vector<float> truth(context.ping.intensity.size(), 0.0F);
@@ -38,7 +39,7 @@ HardTrial on_the_floor(SonarKind kind) {
     return trial;
 }
 
-/// Sonar and floor turned about the sonar, so that rounding puts it above, on or below the plane.
+/// Sonar and floor, rotated about the sonar, so that rounding puts it above, on or below the plane.
 Scene turned_floor() {
     Scene scene = plain_floor();
     add_quad(scene, {3, -9, -9}, {3, 9, -9}, {3, 9, 9}, {3, -9, 9}, 0);

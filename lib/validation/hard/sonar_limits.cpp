@@ -11,14 +11,14 @@ std::function<HardTrial(SonarKind)> floor_with(const ConfigChange& change) {
     return [change](SonarKind kind) { return over_floor(kind, change); };
 }
 
-/// Room to all sides of the sonar over the floor.
+/// A room on all sides of the sonar over the floor.
 Scene room() {
     Scene scene = empty_scene();
     add_box(scene, {-4, -4, 0}, {5, 5, 6}, add_material(scene, 0.5F));
     return scene;
 }
 
-/// All round. A cone has no more azimuth than it always has.
+/// Full azimuth. A cone keeps its own.
 void all_azimuths(SonarConfig& config) {
     if (config.kind == SonarKind::echosounder) return;
     config.azimuth_deg = 360.0;
@@ -30,7 +30,7 @@ void half_sphere(SonarConfig& config) {
     config.opening_deg = 180.0;
 }
 
-/// With 1 m bins from 0 to 10 m the radius of this sphere is the edge of a bin.
+/// A sphere whose radius is the edge of a bin, with bins of 1 m from 0 to 10 m.
 Scene sphere_on_an_edge() {
     Scene scene = empty_scene();
     add_sphere(scene, {0, 0, 0}, 5.0F, add_material(scene, 0.7F), 512);
@@ -46,7 +46,7 @@ HardTrial in_sphere_of_edge(SonarKind kind) {
     return trial;
 }
 
-/// The two bins that meet at 5 m are R where they are lit and no other is.
+/// R in those of the two bins at 5 m that have an echo, and nothing in any other bin.
 std::vector<float> edge_law(const HardContext& context) {
     std::vector<float> truth(context.ping.intensity.size(), 0.0F);
     for (int i = 4; i <= 5; ++i) {
@@ -58,8 +58,8 @@ std::vector<float> edge_law(const HardContext& context) {
     return truth;
 }
 
-/// A floor in two halves whose seam runs along the boresight, the edge between two beams of an even
-/// number and between the two sides of a side-scan: port is of R = 0.5, starboard echoes nothing.
+/// A floor in two halves whose seam runs along the boresight: the edge between two beams of an even
+/// number and between the two sides of a side-scan. R = 0.5 to port, 0 to starboard.
 Scene halves() {
     Scene scene = empty_scene();
     const std::uint32_t port = add_material(scene, 0.5F);
@@ -76,7 +76,8 @@ HardTrial over_seam(SonarKind kind) {
     return trial;
 }
 
-/// A cone sees both halves alike: half of R H / r. Others: all of it to port, nothing to starboard.
+/// A cone sees both halves equally: half of R H / r. Other sonars: R H / r to port, nothing to
+/// starboard.
 std::vector<float> seam_law(const HardContext& context) {
     const bool cone = context.kind == SonarKind::echosounder;
     std::vector<float> truth = plane_law(context, cone ? 0.25 : 0.5, 3.0);
@@ -89,8 +90,8 @@ std::vector<float> seam_law(const HardContext& context) {
 
 }  // namespace
 
-// The octree's cells are rows of tan(elevation), which has no end at 90 degrees: missions that look
-// there with it are refused.
+// The octree's rows are steps of tan(elevation), which is infinite at 90 degrees: missions that
+// look there with the octree are refused.
 std::vector<HardCase> hard_sonar_limits() {
     return {{.name = "range_min 0",
              .stresses = "bins from the sonar on",

@@ -31,7 +31,7 @@ SonarConfig hard_sonar(SonarKind kind) {
     config.azimuth_bins = 48;
     if (kind == SonarKind::imaging) config.azimuth_deg = 60.0;
     if (kind == SonarKind::sidescan) config.elevation_deg = 0.5;
-    // Over a floor a narrow cone lights two bins; one more or less would be all that is seen.
+    // A narrow cone over a floor fills two bins, and one bin more or less would dominate the error.
     config.opening_deg = 90.0;
     return config;
 }

@@ -8,55 +8,55 @@
 
 namespace sonarsim {
 
-// What the hard cases share.
+// Helpers of the hard cases.
 
-/// A small sonar of each kind, noise-free, its gain 1, 0.2 to 10 m.
+/// A small sonar of each kind, noise-free, with a gain of 1, from 0.2 to 10 m.
 SonarConfig hard_sonar(SonarKind kind);
 Sonar without_gain(const SonarConfig& config);
 
-/// What a case changes in the sonar that all cases share.
+/// A change that a case makes to hard_sonar().
 using ConfigChange = std::function<void(SonarConfig&)>;
 
-/// Three metres over z = 0; an imaging sonar pitched down by 30 degrees.
+/// A sonar three metres over z = 0; an imaging sonar is pitched down by 30 degrees.
 HardTrial over_floor(SonarKind kind, const ConfigChange& change = {});
 HardTrial plain_sonar_over_floor(SonarKind kind);
 
-/// In the tank of shapes.h.
+/// A sonar in the tank of shapes.h.
 HardTrial in_tank(SonarKind kind, const ConfigChange& change = {});
 HardTrial plain_sonar_in_tank(SonarKind kind);
 
-/// The tank somewhere else, as a file that says so would be read: positions are rounded to float
-/// about an origin on a grid of 10 m; and a sonar in it, where in_tank has it.
+/// The tank at another position, with positions rounded to float about an origin on a grid of 10 m,
+/// as when a file is read; and a sonar in it at the position of in_tank().
 Scene moved_tank(const Eigen::Vector3d& by);
 HardTrial in_moved_tank(SonarKind kind, const Eigen::Vector3d& by, const ConfigChange& change = {});
 
-/// The tank in another size, and a sonar in it that sees as far in proportion.
+/// The tank in another size, and a sonar in it with its ranges scaled by the same factor.
 Scene scaled_tank(double scale);
 HardTrial in_scaled_tank(SonarKind kind, double scale, const ConfigChange& change = {});
 
-/// Eastings and northings as in UTM, off the grid.
+/// UTM eastings and northings off the grid.
 inline const Eigen::Vector3d utm_odd(512345.678, 4812345.678, -43.21);
 
 /// A floor of 60 m at z = 0, R = 0.5.
 Scene plain_floor();
 
-/// Of a plane at distance H, v . n = H / r wherever it is seen: R H / r in the middle of each bin
-/// that sees it, to the second order of bin / r. Unchecked are dark pixels, and the first and the
-/// last lit bin of a beam, which the plane fills in part.
+/// The image of a plane at distance H: v . n = H / r, so R H / r in the middle of each bin that
+/// sees it, to second order in bin / r. Not checked: dark pixels, and the first and the last filled
+/// bin of a beam, which the plane fills in part.
 std::vector<float> plane_law(const HardContext& context, double reflection, double height_m);
 
-/// That law three metres over plain_floor().
+/// plane_law() at three metres over plain_floor().
 std::vector<float> floor_law(const HardContext& context);
 
-/// The brute-force reference of this very scene.
+/// The brute-force reference of this scene.
 std::vector<float> reference_of(const HardContext& context, const ReferenceGoal& goal);
 
-/// The same, settled to 0.2 % or after two million rays.
+/// The reference after settling to 0.2 % or after two million rays.
 std::vector<float> settled_reference(const HardContext& context);
 
 std::vector<float> dark(const HardContext& context);
 
-/// What the same engine shows of another scene.
+/// The image of another scene with the same engine.
 std::vector<float> image_of(const Scene& scene, const HardTrial& trial, EngineKind engine);
 
 }  // namespace sonarsim

@@ -6,7 +6,7 @@ namespace sonarsim {
 
 namespace {
 
-/// Keeps x[axis] >= bound, or x[axis] < bound.
+/// Keeps the part of a polygon with x[axis] >= bound, or the part with x[axis] < bound.
 void cut(const Polygon& from, int axis, double bound, bool keep_above, Polygon& to) {
     to.corners = 0;
     for (int i = 0; i < from.corners; ++i) {

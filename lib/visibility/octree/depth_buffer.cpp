@@ -11,31 +11,30 @@ namespace sonarsim {
 
 namespace {
 
-// Azimuths are floats: where a facet ends just beyond the border of a beam, a part narrower than
-// this share of the facet may as well lie in the next beam.
+// Azimuths are floats: if a facet ends just beyond the border of a beam, a part narrower than this
+// share of the facet may really lie in the next beam.
 constexpr float least_width = 1e-4F;
 
-// And of the rows that a facet spans, less than a float can tell of their sum.
+// The same for rows: a smaller share of the rows that a facet spans is rounding.
 constexpr float least_share = 1e-5F;
 
-// A facet that spans more than this, as half a tangent, is not where its first-order projection
-// says.
+// First-order projection is valid only for facets that span less than this, as half a tangent.
 constexpr float widest_facet = 0.1F;
 
-/// Keeps a divisor away from zero, where only the sign of the quotient matters.
+/// Keeps a divisor away from zero. Only the sign of the quotient matters there.
 float divisor(float x) {
     return std::fabs(x) > 1e-9F ? x : std::copysign(1e-9F, x);
 }
 
-/// An index in [0, count]; a facet close to the sonar reaches far beyond the view.
+/// An index in [0, count]; a facet close to the sonar extends far beyond the view.
 int index_in(float x, int count) {
     return static_cast<int>(std::clamp(x, 0.0F, static_cast<float>(count)));
 }
 
-/// What hides a facet in the pixels of one column is nearer than this, by row: the depth of the
-/// facet's plane at the pixel's centre and its slack, but no farther than the facet. It may be much
-/// nearer: at grazing incidence many facets of one plane share a pixel, and the one that is drawn
-/// at its centre hides none of them.
+/// The depths that hide a facet in the pixels of one column, by row: surface hides it if it is
+/// nearer than the facet's plane at the pixel's centre and its slack, at most as far as the facet.
+/// The limit may be much nearer than the facet: at grazing incidence many facets of one plane share
+/// a pixel, and the facet drawn at its centre must hide none of them.
 class ColumnDepths {
   public:
     ColumnDepths(const ProjectedFacet& facet, int column, float columns_per_beam)
@@ -75,7 +74,7 @@ void DepthBuffer::draw(const ProjectedFacet& facet, const Outline& outline) {
     const float nearest = facet.depth + facet.depth_range;
     const float farthest = facet.depth - facet.depth_range;
     for (int column = first; column < last; ++column) {
-        // Within the parallelogram: both coordinates along its edges within [-1, 1].
+        // Inside the parallelogram both coordinates along its edges are within [-1, 1].
         const float d = static_cast<float>(column) - centre;
         const float middle_u = d * rows_u * per_u;
         const float middle_v = d * rows_v * per_v;
@@ -95,8 +94,7 @@ void DepthBuffer::draw(const ProjectedFacet& facet, const Outline& outline) {
 }
 
 void DepthBuffer::mask_cone(double opening_rad) {
-    // In double, and by the sine: the cosine of half an opening of a tenth of a degree is 1 in
-    // float.
+    // Computed in double from the sine: in float the cosine of half an opening of 0.1 degrees is 1.
     const double sine = sincos(0.5 * opening_rad).sin;
     for (int column = 0; column < grid_.columns; ++column) {
         const double azimuth = opening_rad * ((column + 0.5) / grid_.columns - 0.5);
@@ -138,8 +136,8 @@ DepthBuffer::Visibility DepthBuffer::visible_part(const ProjectedFacet& facet, i
     part.u = 0.5F * (from + to);
     part.half_u = 0.5F * (to - from);
     if (!(part.half_u > 0.0F)) return Visibility::hidden;
-    // A beam or a view much narrower than the facet leaves a small part of it that is no matter of
-    // rounding: its borders lie well inside the facet.
+    // If a beam or a view is much narrower than the facet, even a small visible part is no rounding
+    // error, since both borders lie well inside the facet.
     const bool well_projected = facet.half_beams < widest_facet * grid_.beams_per_rad &&
                                 facet.half_rows < widest_facet * grid_.rows_per_slope;
     const bool fills_beam = well_projected && from > -1.0F && to < 1.0F;
@@ -190,7 +188,8 @@ DepthBuffer::Visibility DepthBuffer::visible_part(const ProjectedFacet& facet, i
         return Visibility::too_small;
     const float per_rows = 1.0F / facet.half_rows;
     part.v = (moment / sum - row) * per_rows;
-    // The visible rows are one run, or nearly: as long as their number, within what was met.
+    // The visible rows are contiguous, or nearly so: half_v follows from the first and the last of
+    // them.
     part.half_v = 0.5F * (most - least) * per_rows;
     return Visibility::visible;
 }

@@ -6,35 +6,35 @@
 
 namespace sonarsim {
 
-/// The part of a facet that one beam sees.
+/// The part of a facet that is visible in one beam.
 struct VisiblePart {
-    float share;   ///< of the facet's area
+    float share;   ///< share of the facet's area
     float u;       ///< centre of the part along edge_u, in [-1, 1]
-    float half_u;  ///< half its length
-    float v;       ///< and along edge_v
+    float half_u;  ///< half the part's length along edge_u
+    float v;       ///< the same along edge_v
     float half_v;
 };
 
-/// Tells hidden surface from visible surface: each pixel knows the nearest surface at its centre.
-/// First all facets are drawn, then facets are asked for. Facets are parallelograms in place of
-/// polygons and leave gaps between them: what is hidden here is hidden, what is visible may not be.
+/// Depth buffer: each pixel holds the depth of the nearest surface at its centre. Draw all facets
+/// first, then test them. Facets are parallelograms that approximate polygons and leave gaps
+/// between them: a result `hidden` is certain, `visible` is not.
 class DepthBuffer {
   public:
     explicit DepthBuffer(const ProjectionGrid& grid);
 
-    /// Enters a facet as what may hide others.
+    /// Draws a facet as an occluder.
     void draw(const ProjectedFacet& facet, const Outline& outline);
 
-    /// Hides all that lies outside a cone of this full angle.
+    /// Hides everything outside a cone of this full angle.
     void mask_cone(double opening_rad);
 
-    /// Whether nothing hides any part of the facet and no edge of the view cuts it off.
+    /// True if nothing hides any part of the facet and no edge of the view clips it.
     bool is_clear(const ProjectedFacet& facet) const;
 
     enum class Visibility { visible, hidden, too_small };
 
-    /// The part that a beam sees of a facet; `clear` is what is_clear() said. `part` is set when
-    /// the answer is `visible`. `too_small`: a part that cannot be told from rounding.
+    /// Finds the part of a facet that is visible in a beam; `clear` is the result of is_clear().
+    /// Sets `part` if the result is `visible`. `too_small`: the part is within rounding.
     Visibility visible_part(const ProjectedFacet& facet, int beam, bool clear,
                             VisiblePart& part) const;
 
@@ -47,7 +47,7 @@ class DepthBuffer {
     }
 
     ProjectionGrid grid_;
-    std::vector<float> depth_;  ///< [columns, rows], 1 / rho in 1/m; 0: nothing
+    std::vector<float> depth_;  ///< [columns, rows], 1 / rho in 1/m; 0: empty
 };
 
 }  // namespace sonarsim

@@ -13,10 +13,10 @@ namespace sonarsim {
 
 namespace {
 
-/// Pings of a view whose error is estimated. Each costs a third of a ping.
+/// Number of pings of a view whose error is estimated. Each estimate costs a third of a ping.
 constexpr std::size_t checked_pings = 8;
 
-/// A number that says nothing of where the pose is, but is the same for the same pose.
+/// A hash of the pose: equal for equal poses.
 std::uint64_t number_of(const Pose& pose) {
     const auto& q = pose.rotation.coeffs();
     const auto& t = pose.translation;
@@ -43,7 +43,7 @@ std::string percent_text(double x) {
     return number_text(std::ceil(1e3 * x) / 10.0) + " %";
 }
 
-/// To two digits.
+/// Rounds down to two digits.
 double rounded_down(double x) {
     const double step = std::pow(10.0, std::floor(std::log10(x)) - 1.0);
     return std::floor(x / step) * step;

@@ -11,24 +11,26 @@
 
 namespace sonarsim {
 
-/// Which pings' errors are estimated, and what came out. Of each view those of a few pings, chosen
-/// by their poses alone: the same whatever the order in which pings are rendered, and by whom.
+/// Selects pings for an estimate of their error, and stores the estimates. Each view has a few such
+/// pings, chosen only by their poses: they do not depend on the order in which pings are rendered,
+/// nor on threads.
 class GoalCheck {
   public:
-    /// Whether the error of this ping is still wanted.
+    /// True if the error of this ping should be estimated.
     bool wants(const View& view, const Pose& T_world_sensor) const;
 
-    /// Notes the estimated relative L1 of a ping.
+    /// Stores the estimated relative L1 of a ping.
     void add(const View& view, const Pose& T_world_sensor, double error);
 
-    /// A sentence for every view with an estimate above its goal. `fixed_leaf_m` is
-    /// octree.leaf_m, 0 where the leaf follows the goal.
+    /// One warning for every view with an estimate above its goal. `fixed_leaf_m` is octree.leaf_m,
+    /// 0 if the leaf size follows the goal.
     std::vector<std::string> warnings(double fixed_leaf_m) const;
 
   private:
     struct OfView {
         View view;
-        std::map<std::uint64_t, double> errors;  ///< by the pose's number, the least of them
+        /// The entries with the least hashes of their poses.
+        std::map<std::uint64_t, double> errors;
     };
 
     const OfView* find(const View& view) const;

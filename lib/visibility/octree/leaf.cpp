@@ -12,20 +12,20 @@ namespace {
 constexpr int most_facets = 6;
 constexpr double same_direction = 0.85;  // cosine
 
-/// Whether an area that is small beside a cube is part of a triangle in it, rather than rounding
-/// where the triangle touches the cube: it is not small beside the triangle. Of a triangle that has
-/// no area, all area is rounding.
+/// True if the part of a triangle in a cube is real surface, false if it is rounding where the
+/// triangle touches the cube: then its area is tiny compared to the triangle. All area of a
+/// triangle without area is rounding.
 bool is_real(double part, const Triangle& t) {
     const double whole = 0.5 * (t[1] - t[0]).cross(t[2] - t[0]).norm();
     return whole > 0.0 && part > 1e-6 * whole;
 }
 
-/// The surface of one direction and material inside a cube.
+/// Surface of one direction and material inside a cube.
 struct Group {
     Moments moments;
     Eigen::Vector3d normal;  ///< sum of area times normal
     double largest;          ///< area of the largest polygon
-    std::uint32_t triangle;  ///< whose it is
+    std::uint32_t triangle;  ///< index of the triangle with the largest polygon
     std::uint32_t material;
 };
 
@@ -52,7 +52,8 @@ class FacetGroups {
         home->moments.area += moments.area;
         home->moments.first += moments.first;
         home->moments.second += moments.second;
-        // A sum that stays well away from zero, although the last group takes all directions.
+        // Opposite normals are not added, so that the sum stays away from zero: the last group
+        // takes all directions.
         home->normal += moments.area * (best < 0.0 ? Eigen::Vector3d::Zero().eval() : normal);
         if (moments.area > home->largest) {
             home->largest = moments.area;
@@ -79,8 +80,8 @@ LeafFacet facet_of(const Group& group, const Eigen::Vector3d& relative_to) {
     const Eigen::Vector3d centre = m.first / m.area;
     const Eigen::Matrix3d covariance = m.second / m.area - centre * centre.transpose();
     const Eigen::Vector3d n = group.normal.normalized();
-    // In-plane axes along those of the cube where they can be: its section by a plane that lies
-    // along it is a square, whose second moments do not say how it is turned.
+    // In-plane axes follow those of the cube where possible: the cube's section by a plane parallel
+    // to an axis is a square, whose second moments do not define its rotation.
     int axis = 0;
     n.cwiseAbs().minCoeff(&axis);
     const Eigen::Vector3d p = (Eigen::Vector3d::Unit(axis) - n[axis] * n).normalized();
@@ -97,7 +98,7 @@ LeafFacet facet_of(const Group& group, const Eigen::Vector3d& relative_to) {
     if (split > 1e-3 * mean) {
         high = mean + split;
         low = mean - split;
-        // The larger of the two expressions for the eigenvector.
+        // There are two expressions for the eigenvector; the larger one is more accurate.
         major = half > 0.0 ? ((half + split) * p + pq * q).normalized()
                            : (pq * p + (split - half) * q).normalized();
     }

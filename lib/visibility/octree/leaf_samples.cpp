@@ -13,11 +13,11 @@ namespace sonarsim {
 
 namespace {
 
-/// What the depth buffer lets through, in the order of the leaves.
+/// The visible parts of the leaves, in the order of the leaves.
 struct LeafParts {
     std::vector<Sample> samples;
-    std::vector<std::uint32_t> beams;  ///< of each sample
-    std::vector<float> thickness_m;    ///< by how much its surface strays from its plane
+    std::vector<std::uint32_t> beams;  ///< beam of each sample
+    std::vector<float> thickness_m;    ///< largest distance of its surface from its plane
     std::uint64_t dropped = 0;
 };
 
@@ -73,7 +73,7 @@ LeafParts find_parts(Octree& tree, const Scene& scene, const View& view, const V
     return parts;
 }
 
-/// Leaves out what the sight lines meet other surface before.
+/// Drops samples that other surface hides, as sight lines show.
 void drop_hidden(const Caster& caster, const View& view, const ViewVolume& volume,
                  LeafParts& parts) {
     const LocalPose pose{volume.R_sensor_local().transpose(), volume.position().cast<float>()};

@@ -6,33 +6,33 @@ namespace sonarsim {
 
 namespace {
 
-// Edges at a scale of 1. They were fitted at an error goal of 3 %.
+// Leaf edges at a scale of 1, fitted at an error goal of 3 %.
 
-/// Edge of a leaf in a fan, in widths of a beam.
+/// Edge of a leaf in a fan, in beamwidths.
 constexpr double beams_per_leaf = 1.4;
-/// And at least in range bins: nearer than that, beams tell apart more than bins can show.
+/// Least edge in range bins: at short range, beams resolve more than bins can show.
 constexpr double least_bins_per_leaf = 0.5;
-/// In range bins, where beams are as wide as the view.
+/// Edge in range bins for views of one beam.
 constexpr double bins_per_leaf = 1.5;
 
-// However coarse the bins are, the shape of what is seen, and of what hides it, must be right.
-// Without these limits, views of few beams or few bins were off by 20 to 150 %.
+// Even if bins are coarse, the shapes of the surface and of its occluders must be right. Without
+// these limits, views of few beams or few bins were off by 20 to 150 %.
 
-/// Angle that a leaf may span: its projection is of first order in it.
+/// Largest angle that a leaf may span, since its projection is of first order in that angle.
 constexpr double widest_rad = 0.03;
-/// In openings of the view: the pieces of a surface in larger leaves leave gaps that a narrow view
-/// may fall into.
+/// In openings of the view: larger leaves leave gaps between the patches of a surface, and a narrow
+/// view may fall into a gap.
 constexpr double openings_per_leaf = 1.0;
 constexpr double leaves_per_range = 64.0;
 
-/// A limit to the work next to the sonar, where angles call for ever smaller leaves.
+/// Limits the work next to the sonar, where angles would require ever smaller leaves.
 constexpr double most_leaves_per_range = 1024.0;
 
-/// The error grows as the leaf does, on all scenes that were measured (model.md). At this scale the
-/// mean over eight poses is 0.2 to 0.8 of the goal; at 1 it comes up to the goal on a wreck.
+/// The error grows linearly with the leaf on all measured scenes (model.md). At this scale the mean
+/// over eight poses is 0.2 to 0.8 of the goal; at 1 it reaches the goal on a wreck.
 constexpr double scale_per_goal = 0.8 / 0.03;
 
-/// So the estimate before anything is seen, as a share of the goal.
+/// Estimated error before any ping, as a share of the goal.
 constexpr double usual_share = 0.75;
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace {
 constexpr float gap_leaves = 4.0F;
 
 struct Vote {
-    std::uint64_t pixel;  ///< of azimuth and elevation, azimuth first
+    std::uint64_t pixel;  ///< index of azimuth and elevation, azimuth first
     int beam;
     float range_m;
     float leaf_m;
@@ -26,10 +26,10 @@ struct Vote {
 
 Samples literal_samples(Octree& tree, const Scene& scene, const View& view,
                         const ViewVolume& volume, const LeafSize& leaf_size) {
-    // Pixels as high as a leaf halfway to the greatest range.
+    // Pixel height: a leaf at half the greatest range.
     const auto middle = static_cast<float>(0.5 * view.range_max_m);
     const double row_height = leaf_size.at(middle) / middle;
-    // As wide as a beam of a fan; the wide beams of other views are divided into square pixels.
+    // Pixel width: a beam of a fan; the wide beams of other views are divided into square pixels.
     const bool fan = view.shape == ViewShape::fan;
     std::vector<Vote> votes;
     Samples samples;
@@ -40,7 +40,7 @@ Samples literal_samples(Octree& tree, const Scene& scene, const View& view,
                 volume.R_sensor_local() * node_visit(run.root, run.level->nodes[i]).centre;
             const double range = centre.norm();
             if (!(range > 0.0)) {
-                ++samples.dropped;  // the leaf's centre is the sonar: it lies in no direction
+                ++samples.dropped;  // the leaf's centre is at the sonar and has no direction
                 continue;
             }
             const int beam = beam_of(view, centre);

@@ -8,9 +8,10 @@
 
 namespace sonarsim {
 
-/// The paper to the letter, as the baseline of the report: every leaf in view stands for its
-/// cube's centre and has one vote. In every direction, a pixel of azimuth and elevation, the leaves
-/// are sorted by range and the first cluster is kept, which a gap of four leaves ends.
+/// The paper's method without changes, as the baseline of the report: every leaf in view is
+/// represented by its cube's centre and has one vote. In every direction, a pixel of azimuth and
+/// elevation, the leaves are sorted by range, and the first cluster up to a gap of four leaves is
+/// kept.
 Samples literal_samples(Octree& tree, const Scene& scene, const View& view,
                         const ViewVolume& volume, const LeafSize& leaf_size);
 

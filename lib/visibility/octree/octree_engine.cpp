@@ -17,9 +17,9 @@ namespace sonarsim {
 
 namespace {
 
-/// The relative L1 of an image as a share of what changes when its leaves are twice as large.
-/// Measured on five scenes with leaves from 1 to 8 cm, as means over eight poses: 0.39 to 0.76, the
-/// least on a sphere; of a single ping 0.25 to 1.56.
+/// The relative L1 of an image, as a share of its change when leaves are twice as large. Measured
+/// on five scenes with leaves from 1 to 8 cm, as means over eight poses: 0.39 to 0.76, the least on
+/// a sphere; for single pings 0.25 to 1.56.
 constexpr double error_per_change = 0.7;
 
 class LazyOctreeEngine final : public OctreeEngine {
@@ -57,7 +57,7 @@ class LazyOctreeEngine final : public OctreeEngine {
         all.push_back(
             "octree.memory_mb: " + std::to_string(options_.memory_mb) +
             " is too little: one ping needs " + number_text(needed_mb) +
-            " MB, so what it grows is dropped before the next ping can use it; set it to " +
+            " MB, so its tiles are dropped before the next ping can use them; set it to " +
             number_text(needed_mb) + " or more");
         return all;
     }
@@ -68,8 +68,8 @@ class LazyOctreeEngine final : public OctreeEngine {
     const Scene* scene_;
     OctreeOptions options_;
     Caster caster_;
-    mutable Octree tree_;           ///< grows with the pings, under its own locks
-    mutable GoalCheck goal_check_;  ///< under its own lock
+    mutable Octree tree_;           ///< grows with the pings; has its own locks
+    mutable GoalCheck goal_check_;  ///< has its own lock
 };
 
 }  // namespace

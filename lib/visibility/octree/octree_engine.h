@@ -8,15 +8,15 @@
 
 namespace sonarsim {
 
-/// The octree engine. The tree grows with the pings that it serves; what a ping sees does not
-/// depend on those before it.
+/// The octree engine. The tree grows with the pings that it serves; the result of a ping does not
+/// depend on earlier pings.
 class OctreeEngine : public VisibilityEngine {
   public:
     virtual OctreeStatistics statistics() const = 0;
 };
 
-/// `scene` must outlive the engine. Throws InputError when `leaf_m` is negative or so small that
-/// the scene is more than 2^30 leaves long.
+/// Makes the engine; `scene` must outlive it. Throws InputError when `leaf_m` is negative or so
+/// small that the scene is more than 2^30 leaves long.
 std::unique_ptr<OctreeEngine> make_octree_engine(const Scene& scene, const OctreeOptions& options);
 
 }  // namespace sonarsim

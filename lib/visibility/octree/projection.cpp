@@ -11,25 +11,26 @@ namespace sonarsim {
 
 namespace {
 
-/// A surface hides what lies behind it by more than this many leaves. What is nearer than that, a
-/// sight line tells.
+/// A surface hides what lies more than this many leaves behind it. Sight lines decide about nearer
+/// surface.
 constexpr float slack_leaves = 0.5F;
 
-// Positions are floats, off by some 1e-7 of the range. Within a hundred times that of the sensor's
-// z axis an azimuth is a matter of rounding.
+// Positions are floats with errors of 1e-7 of the range. Nearer to the sensor's z axis than a
+// hundred times that, an azimuth is mostly rounding.
 constexpr double axis_per_range = 1e-5;
 
-// A plane that passes the sensor at less than its own rounding is seen edge-on.
+// A plane that passes the sensor at less than its own rounding counts as edge-on.
 constexpr double edge_on_per_range = 1e-7;
 
-// In pixels: leaves are a few wide, and a narrow view is several high, to tell what hides what.
+// In pixels: leaves are a few pixels wide, and a narrow view is several pixels high, to resolve
+// occlusion.
 constexpr double pixels_per_leaf = 4.0;
 constexpr double least_rows = 16.0;
 
 constexpr int most_columns = 8192;
 constexpr int most_rows = 2048;
 
-/// A block of facets as they are projected.
+/// A block of facets during projection.
 struct Lanes {
     static constexpr int width = 32;
     using Lane = std::array<float, width>;
@@ -41,7 +42,7 @@ struct Lanes {
 
 void project_block(const FacetArrays& facets, std::uint32_t begin, int count,
                    const ViewVolume& volume, const ProjectionGrid& grid, float leaf_m, Lanes& out) {
-    // A copy, which nothing that is written to `out` can change: it stays in registers.
+    // A local copy, which no write to `out` can change, stays in registers.
     // NOLINTNEXTLINE(performance-unnecessary-copy-initialization)
     const Eigen::Matrix3f R = volume.R_sensor_local();
     const Eigen::Vector3f at = R * volume.position().cast<float>();
@@ -90,7 +91,7 @@ void project_block(const FacetArrays& facets, std::uint32_t begin, int count,
         const float half_rows = std::fabs(rows_u) + std::fabs(rows_v);
         const float out_of_sight = std::max(std::max(-half_beams - beam, beam - half_beams - beams),
                                             std::max(-half_rows - row, row - half_rows - rows));
-        // No azimuth on the sensor's axis.
+        // The sensor's axis has no azimuth.
         out.in_sight[k] = rho2 > least_rho2 ? -out_of_sight : -1.0F;
         out.beams_u[k] = beams_u;
         out.beams_v[k] = beams_v;
@@ -127,8 +128,7 @@ void project_block(const FacetArrays& facets, std::uint32_t begin, int count,
     }
 }
 
-/// Whether a facet is out of sight only because its azimuth cannot be told, although the view
-/// reaches it.
+/// True if a facet is dropped only because its azimuth is within rounding, although it is in view.
 bool is_lost_on_axis(const Lanes& lanes, int k, const ProjectionGrid& grid) {
     const float x = lanes.centre[0][k];
     const float y = lanes.centre[1][k];
@@ -189,12 +189,12 @@ int project(const LeafRun& run, const ViewVolume& volume, const ProjectionGrid& 
             ProjectedFacet& next = projected.emplace_back();
             next.centre = vector(lanes.centre);
             next.normal = vector(lanes.normal);
-            // Mixing conjugate half edges by a rotation leaves the second moments as they are.
+            // Rotating conjugate half edges into each other keeps the second moments.
             next.edge_u = a * u + b * v;
             next.edge_v = a * v - b * u;
             next.rows_u = a * lanes.rows_u[k] + b * lanes.rows_v[k];
             const float rows = a * lanes.rows_v[k] - b * lanes.rows_u[k];
-            // Rows grow along edge_v, so that a piece of the facet lies where its rows are.
+            // Rows must grow along edge_v, so that a part's v follows from its rows.
             if (rows < 0.0F) next.edge_v = -next.edge_v;
             next.half_rows = std::max(std::fabs(rows), 1e-4F);
             next.area_m2 = facets.values[FacetArrays::area][begin + k];
@@ -212,7 +212,7 @@ int project(const LeafRun& run, const ViewVolume& volume, const ProjectionGrid& 
                 {lanes.beams_u[k], lanes.beams_v[k], lanes.rows_u[k], lanes.rows_v[k]});
             const float beam = next.beam;
             const float half = next.half_beams;
-            // So near the axis the facet seems to lie all around, its ends where they are not.
+            // So near the axis the facet covers all azimuths, and its ends are meaningless.
             if (half > 0.5F * grid.beams_per_revolution) continue;
             for (const float other :
                  {beam - grid.beams_per_revolution, beam + grid.beams_per_revolution}) {

@@ -10,10 +10,10 @@
 
 namespace sonarsim {
 
-/// How directions are counted: azimuth in beams, elevation in rows, where row = (z / rho +
-/// tan(elevation / 2)) / row height and rho is the distance from the sensor's z axis. On a plane,
-/// 1 / rho is linear in z / rho along an azimuth. Each beam is divided into columns; a column and a
-/// row cross in a pixel.
+/// Pixel coordinates: azimuth in beams, elevation in rows, where row = (z / rho + tan(elevation /
+/// 2)) / row height and rho is the distance from the sensor's z axis. On a plane, 1 / rho is linear
+/// in z / rho at constant azimuth. Each beam is divided into columns; a pixel is one row of a
+/// column.
 struct ProjectionGrid {
     int beams;
     int columns_per_beam;
@@ -21,36 +21,37 @@ struct ProjectionGrid {
     int rows;
     float beams_per_rad;
     float beams_per_revolution;
-    float rows_per_slope;  ///< of z / rho
-    float least_rho2_m2;   ///< nearer to the sensor's z axis no azimuth can be told from rounding
-    float least_height_m;  ///< of the sensor above a plane, as a divisor
+    float rows_per_slope;  ///< rows per unit of z / rho
+    /// Squared distance from the sensor's z axis below which azimuths are rounding.
+    float least_rho2_m2;
+    float least_height_m;  ///< least distance of the sensor from a plane, as a divisor
 };
 
 /// `leaf_rad` is the angle that a leaf spans as seen from the sonar.
 ProjectionGrid projection_grid(const View& view, float leaf_rad);
 
-/// A facet as the sonar sees it.
+/// A facet in the coordinates of the sonar's view.
 struct ProjectedFacet {
     Eigen::Vector3f centre;  ///< sensor frame
     Eigen::Vector3f normal;  ///< towards the sonar
     Eigen::Vector3f edge_u;  ///< half edges of the footprint; edge_v has no extent in azimuth
     Eigen::Vector3f edge_v;
     float area_m2;
-    float thickness_m;  ///< by how much the surface strays from the facet's plane
+    float thickness_m;  ///< largest distance of the surface from the facet's plane
     std::uint32_t triangle;
-    float beam;         ///< of the centre
-    float half_beams;   ///< along edge_u
-    float row;          ///< of the centre
-    float rows_u;       ///< along edge_u
-    float half_rows;    ///< along edge_v
-    float depth;        ///< 1 / rho of the centre
-    float depth_beam;   ///< its derivative by beam
-    float depth_row;    ///< its derivative by row
-    float depth_range;  ///< by how much the depth of the facet may differ from the centre's
-    float slack;        ///< what is nearer by less does not hide the facet
+    float beam;         ///< beam coordinate of the centre
+    float half_beams;   ///< half extent in beams along edge_u
+    float row;          ///< row coordinate of the centre
+    float rows_u;       ///< half extent in rows along edge_u
+    float half_rows;    ///< half extent in rows along edge_v
+    float depth;        ///< 1 / rho at the centre
+    float depth_beam;   ///< derivative by beam
+    float depth_row;    ///< derivative by row
+    float depth_range;  ///< largest difference of depth between the facet and its centre
+    float slack;        ///< surface that is nearer by less does not hide the facet
 };
 
-/// The outline of a facet as it hides what lies behind: half edges of a parallelogram.
+/// The outline of a facet as an occluder: half edges of a parallelogram.
 struct Outline {
     float beams_u;
     float beams_v;
@@ -58,10 +59,10 @@ struct Outline {
     float rows_v;
 };
 
-/// Projects the facets of a run and appends those that the view may see to `facets`, with their
-/// outlines in step. A facet that reaches over the half plane behind the sonar, where azimuths
-/// jump, is appended once for either end. Returns how many facets are left out although the view
-/// reaches them: their centre lies on the sensor's z axis to within rounding.
+/// Projects the facets of a run and appends those that may be in view to `facets`, and their
+/// outlines to `outlines`. A facet that crosses the half plane behind the sonar, where azimuths
+/// jump, is appended once for each end. Returns the number of facets in view that are dropped,
+/// since their centre lies on the sensor's z axis to within rounding.
 int project(const LeafRun& run, const ViewVolume& volume, const ProjectionGrid& grid,
             std::vector<ProjectedFacet>& facets, std::vector<Outline>& outlines);
 

@@ -14,8 +14,9 @@
 
 namespace sonarsim {
 
-/// Levels of a tile below its own cube. All of a tile has one level: one more would take four times
-/// the memory. With tiles of 1 to 2 m, leaves are no smaller than 2 to 4 mm.
+/// Number of levels of a tile below its own cube. A tile is refined to one level as a whole: one
+/// more level would take four times the memory. With tiles of 1 to 2 m, leaves are at least 2 to 4
+/// mm.
 inline constexpr int most_levels = 9;
 
 /// A cube that the search visits.
@@ -36,7 +37,7 @@ inline Visit node_visit(const Visit& root, const LevelNode& node) {
 
 /// Leaves in view: a run of nodes of a level. Some of them may be hidden.
 struct LeafRun {
-    Visit root;  ///< of the tile that the level belongs to
+    Visit root;  ///< the tile that the level belongs to
     const Level* level;
     std::uint32_t begin, end;
     float leaf_m;  ///< edge of the level's cubes
@@ -45,8 +46,8 @@ struct LeafRun {
     std::uint32_t facets_end() const { return level->nodes[end].facets; }
 };
 
-/// Finds the leaves in the volume of view. `take(run)` is called for each run of them, near tiles
-/// before far ones, roughly; a run lives as long as the call.
+/// Finds the leaves in the volume of view. Calls `take(run)` for each run of them, roughly near
+/// tiles before far ones; a run is valid only during the call.
 template <class Take>
 class Search {
   public:
@@ -93,8 +94,8 @@ class Search {
                 Containment::partly};
     }
 
-    /// False when the node is not in view. The radius of the ball around a cube is a little more
-    /// than half its diagonal, for rounding.
+    /// Returns false if the node is not in view. The radius of the ball around a cube is slightly
+    /// more than half its diagonal, for rounding.
     bool is_in_view(Visit& visit) const {
         if (visit.containment != Containment::inside)
             visit.containment =
@@ -102,7 +103,7 @@ class Search {
         return visit.containment != Containment::outside;
     }
 
-    /// How many times a node must be halved until it is as small as a leaf there may be.
+    /// Number of halvings until a node is as small as a leaf at its distance.
     int halvings(const Visit& visit) const {
         const float leaf = leaf_size_.at(visit.centre.norm()) * 1.0001F;
         int count = 0;
@@ -111,7 +112,8 @@ class Search {
         return count;
     }
 
-    /// Lists what lies below the top. False when a node must be split and `grower` is null.
+    /// Lists the tiles below a top node. Returns false if a node must be split and `grower` is
+    /// null.
     bool enter_top(std::uint32_t index, Visit visit, Octree* grower) {
         if (!is_in_view(visit)) return true;
         const TopNode& node = tree_.top(index);
@@ -206,7 +208,7 @@ class Search {
     Take& take_;
     std::uint64_t ping_;
     LeafRun pending_{};
-    std::size_t bytes_ = 0;  ///< of the tiles searched so far
+    std::size_t bytes_ = 0;  ///< size of the tiles searched so far
     std::vector<Entry> entries_;
 };
 

@@ -7,19 +7,19 @@ namespace sonarsim {
 
 namespace {
 
-/// Along a sight line a surface strays by its thickness over the cosine of incidence, which counts
-/// as this at least: behind the limb of a sphere it falls to zero.
+/// Along a sight line a surface deviates by its thickness over the cosine of incidence. The cosine
+/// is limited to this, since it falls to zero behind the limb of a sphere.
 constexpr float least_sight_cosine = 0.1F;
 
-/// Positions are floats, off by some roundings of 6e-8 of the range.
+/// Positions are floats; their error is some roundings of 6e-8 of the range.
 constexpr float sight_rounding = 1e-6F;
 
-/// Whether the plane that a sight line met lies before the sample. `towards` is the sample in local
-/// axes, from the sonar.
+/// True if the plane that a sight line met lies in front of the sample. `towards` is the vector
+/// from the sonar to the sample in local axes.
 bool hides(const Facet& facet, const LocalPose& pose, const Eigen::Vector3f& towards,
            const Sample& sample, float thickness_m, float rounding_m) {
-    // A sample on that plane is more of the same surface, even where it is seen so nearly edge-on
-    // that ranges say nothing.
+    // A sample in that plane belongs to the same surface, even if it is so nearly edge-on that
+    // ranges are meaningless.
     const float height = facet.normal.dot(pose.position - facet.vertex);
     const float along = facet.normal.dot(towards);
     if (std::fabs(height + along) <= thickness_m + rounding_m) return false;

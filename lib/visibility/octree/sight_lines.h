@@ -10,10 +10,10 @@
 
 namespace sonarsim {
 
-/// The indices of the samples whose middle the sonar sees, ascending, by a ray to each of them.
-/// Surface in the way hides a sample when it lies nearer by more than the sample's own surface may
-/// stray from its plane, `thickness_m` [samples], and not in that plane. `reach_m` is the greatest
-/// range.
+/// Indices of the samples whose middle is visible from the sonar, ascending. One ray to each sample
+/// decides. Surface in the way hides a sample if it is nearer by more than `thickness_m` [samples],
+/// the deviation of the sample's own surface from its plane, and does not lie in that plane.
+/// `reach_m` is the greatest range.
 std::vector<std::uint32_t> in_sight(const Caster& caster, const LocalPose& pose, float reach_m,
                                     std::span<const Sample> samples,
                                     std::span<const float> thickness_m);

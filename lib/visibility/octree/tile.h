@@ -10,7 +10,7 @@
 
 namespace sonarsim {
 
-/// Where a node lies: cube (x, y, z) of the 8^level cubes of its level.
+/// The position of a node: cube (x, y, z) of the 8^level cubes of its level.
 struct CubeIndex {
     std::int32_t x = 0;
     std::int32_t y = 0;
@@ -23,19 +23,18 @@ struct CubeIndex {
 };
 
 /// A node of a level. Its cube may be larger than the level's: a node whose surface is one flat
-/// rectangle is not split before the level is a few times finer, since its parts would say the
-/// same.
+/// rectangle is not split until the level is a few times finer, since its parts would add nothing.
 struct LevelNode {
-    std::uint16_t x, y, z;       ///< which of the cubes of its size within the tile
-    std::uint8_t level;          ///< of its cube, below the tile's
+    std::uint16_t x, y, z;       ///< index of its cube among those of its size within the tile
+    std::uint8_t level;          ///< level of its cube below the tile's
     bool flat;                   ///< one flat rectangle
-    std::uint32_t facets;        ///< index of its first
-    std::uint32_t children = 0;  ///< index of its first in the next level, where there is one
+    std::uint32_t facets;        ///< index of its first facet
+    std::uint32_t children = 0;  ///< index of its first child in the next level, if there is one
 };
 
-/// All surface of a tile in cubes of one size. Nodes lie in the order of their parents, so what is
-/// below a node is one run of nodes and of facets in every finer level. The last node is a
-/// sentinel.
+/// All surface of a tile in cubes of one size. Nodes are in the order of their parents, so the
+/// descendants of a node are one run of nodes and of facets in every finer level. The last node is
+/// a sentinel.
 struct Level {
     std::vector<LevelNode> nodes;
     FacetArrays facets;
@@ -45,15 +44,15 @@ struct Level {
     }
 };
 
-/// A subtree over few triangles, the unit of growth and eviction. Readers hold `lock` shared; who
-/// grows or drops it holds it alone.
+/// A subtree over few triangles, the unit of growth and eviction. Readers hold `lock` shared; a
+/// thread that grows or drops it holds it exclusively.
 struct Tile {
     CubeIndex index;
     std::vector<std::uint32_t> triangles;
     std::shared_mutex lock;
     std::vector<Level> levels;                ///< [0] is the tile's own cube; none when dropped
-    std::size_t bytes = 0;                    ///< of the levels, as the cache counts them
-    std::atomic<std::uint64_t> last_ping{0};  ///< that searched the tile
+    std::size_t bytes = 0;                    ///< size of the levels, as counted by the cache
+    std::atomic<std::uint64_t> last_ping{0};  ///< last ping that searched the tile
 };
 
 }  // namespace sonarsim

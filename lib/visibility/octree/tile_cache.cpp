@@ -32,7 +32,7 @@ void TileCache::evict(std::size_t fixed_bytes) {
     }
     std::stable_sort(oldest_first.begin(), oldest_first.end(),
                      [](const auto& a, const auto& b) { return a.first < b.first; });
-    // A quarter at a time, so that the sort pays.
+    // Evicts a quarter of the limit at a time, so that the sort pays.
     auto next = oldest_first.begin();
     for (; next != oldest_first.end() && bytes_ > limit / 4 * 3; ++next) {
         Tile& tile = *next->second;

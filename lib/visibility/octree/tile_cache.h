@@ -10,16 +10,16 @@
 
 namespace sonarsim {
 
-/// Bounds the memory of grown tiles: drops those that no ping has searched for longest.
+/// Limits the memory of grown tiles: drops the least recently used ones.
 class TileCache {
   public:
     explicit TileCache(std::size_t limit_bytes) : limit_bytes_(limit_bytes) {}
 
-    /// Counts the bytes of a tile that has grown. Needs the tile's lock alone.
+    /// Counts the bytes of a tile that has grown. Needs the tile's lock exclusively.
     void count(Tile& tile);
 
-    /// Drops tiles where they and the `fixed_bytes` of the rest of the tree exceed the limit. A
-    /// quarter of the limit is left to the tiles in any case. No lock may be held.
+    /// Drops tiles if they and the `fixed_bytes` of the rest of the tree exceed the limit. Tiles
+    /// always keep a quarter of the limit. The caller must hold no lock.
     void evict(std::size_t fixed_bytes);
 
     std::size_t bytes() const { return bytes_; }

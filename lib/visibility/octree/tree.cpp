@@ -16,11 +16,11 @@ constexpr double leaves_per_tile_edge = 32.0;
 constexpr double auto_tile_edge_m = 2.0;
 constexpr double auto_leaves_per_tile = 200.0;
 
-/// A flat node is this many times larger than the leaves of its level, at most, as a power of 2.
+/// Largest ratio of a flat node's size to the leaves of its level, as a power of 2.
 constexpr int flat_levels = 1;
 
-// Planes of a scene like round coordinates. Cubes whose faces coincide with them would hold their
-// surface or not by a rounding; these offsets, in units of a leaf, keep them apart.
+// Planes of a scene often have round coordinates. If faces of cubes coincided with them, rounding
+// would decide which cube holds the surface; these offsets, in units of a leaf, prevent that.
 const Eigen::Vector3d lattice_offset(0.381966011, 0.618033989, 0.272019650);
 
 bool overlaps(const Triangle& triangle, const Cube& cube) {
@@ -39,7 +39,7 @@ std::size_t bytes_of(const TopNode& node) {
            (node.tile ? sizeof(Tile) : 0);
 }
 
-/// Adds the sentinel and gives back spare memory.
+/// Adds the sentinel and frees spare memory.
 void close(Level& level) {
     LevelNode end{};
     end.facets = level.facets.size();
@@ -65,7 +65,8 @@ Octree::Octree(const Scene& scene, const Caster& caster, const OctreeOptions& op
         high = high.cwiseMax(vertex.cast<double>());
     }
     const double length = (high - low).maxCoeff();
-    // A tile has leaves of one size, by its distance: it must be small beside what is looked at.
+    // A tile has leaves of one size, chosen by its distance, so it must be small compared to the
+    // view.
     const double auto_tile_m = length > 0.0 ? std::min(auto_tile_edge_m, 0.25 * length) : 1.0;
     const double leaf = options.leaf_m > 0.0 ? options.leaf_m : auto_tile_m / auto_leaves_per_tile;
     tile_edge_m_ = options.leaf_m > 0.0 ? leaves_per_tile_edge * leaf : auto_tile_m;
@@ -101,7 +102,7 @@ void Octree::add_top(const CubeIndex& index, std::vector<std::uint32_t> triangle
     const double edge = edge_m(index.level);
     const bool small = edge <= tile_edge_m_;
     const bool few = triangles.size() <= triangles_per_tile;
-    // Where triangles are tiny, a tile holds many of them rather than the top growing forever.
+    // If triangles are tiny, a tile holds many of them, so that the top does not grow forever.
     if ((small && few) || edge <= tile_edge_m_ / 16.0) {
         node.tile = std::make_unique<Tile>();
         node.tile->index = index;

@@ -23,7 +23,7 @@ Containment ViewVolume::containment(const Eigen::Vector3f& centre, float radius)
     const Eigen::Vector3f p = R_sensor_local_ * centre;
     const float beyond_reach = p.norm() - reach_m_;
     // Distances from the half plane of the outermost azimuth and from the cone of the outermost
-    // elevation, positive outside, both folded to one side by symmetry.
+    // elevation, positive outside; symmetry reduces both to one side.
     const float beyond_azimuth = std::fabs(p.y()) * cos_azimuth_ - p.x() * sin_azimuth_;
     const float rho = std::sqrt(p.x() * p.x() + p.y() * p.y());
     const float beyond_elevation = std::fabs(p.z()) * cos_elevation_ - rho * sin_elevation_;

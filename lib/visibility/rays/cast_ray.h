@@ -12,17 +12,17 @@ struct CastRay {
     static constexpr int none = -1;
 
     Eigen::Vector3f direction;
-    float along;                                       ///< its angle along the column, rad
+    float along;                                       ///< angle along the column, rad
     Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< towards the sensor
-    float height_m = 0.0F;                             ///< of the sensor above the plane
-    float cosine = 0.0F;                               ///< of the angle of incidence
+    float height_m = 0.0F;                             ///< distance of the sensor from the plane
+    float cosine = 0.0F;                               ///< cosine of the angle of incidence
     float range_m = 0.0F;
     std::uint32_t facet = Caster::nothing;
     std::uint32_t material = 0;
     std::uint32_t instance = 0;
     int next = none;         ///< index of the next ray along the column
-    bool continuous = true;  ///< the surface continues from this ray to the next, as far as known
-    float border = 0.5F;     ///< where this ray's part ends, as a share of the way to the next
+    bool continuous = true;  ///< the surface continues to the next ray, as far as known
+    float border = 0.5F;     ///< end of this ray's part, as a share of the way to the next
 
     bool missed() const { return facet == Caster::nothing; }
 };

@@ -7,11 +7,11 @@ namespace sonarsim {
 
 namespace {
 
-// A ray whose segment is shorter than this share of a step tells little about its plane across the
-// column.
+// The plane of a ray whose segment is shorter than this share of a step is a poor estimate across
+// the column.
 constexpr float short_segment = 0.1F;
 
-/// Where the segments of two neighbouring rays meet, and the ranges of the two planes there.
+/// The border between the segments of two neighbouring rays, and the ranges of both planes there.
 struct Border {
     Eigen::Vector3f direction;
     float along;
@@ -26,11 +26,11 @@ struct ColumnSides {
     SinCosFloat high;
 };
 
-/// The part of a column that a ray stands for.
+/// The part of a column that a ray represents.
 struct Segment {
     Border from;
     Border to;
-    bool may_end_beside;  ///< the surface may end beside the column
+    bool may_end_beside;  ///< the surface may end within the column's width
 };
 
 struct Context {
@@ -39,8 +39,8 @@ struct Context {
     const RayColumns& columns;
 };
 
-/// The range at which `direction` meets the plane of `ray`, kept within `most_m` of `about_m`: a
-/// plane at grazing incidence would run far beyond the edge of the surface that was seen of it.
+/// The range at which `direction` meets the plane of `ray`, limited to `most_m` from `about_m`: at
+/// grazing incidence a plane extends far beyond the edge of its surface.
 float range_on_plane(const CastRay& ray, const Eigen::Vector3f& direction, float about_m,
                      float most_m) {
     const float cosine = -ray.normal.dot(direction);
@@ -85,7 +85,8 @@ Sample piece(const Context& context, const CastRay& ray, const ColumnSides& side
     const auto onto_surface = [&](const Eigen::Vector3f& beside) -> Eigen::Vector3f {
         return beside * range_on_plane(ray, beside, about, most);
     };
-    // A point whose range was limited lies off the plane, and multipath would start from there.
+    // A point whose range was limited lies off the plane; multipath would start from there, so it
+    // is projected back.
     const auto onto_plane = [&](const Eigen::Vector3f& p) -> Eigen::Vector3f {
         return p - (ray.normal.dot(p) + ray.height_m) * ray.normal;
     };
@@ -97,9 +98,9 @@ Sample piece(const Context& context, const CastRay& ray, const ColumnSides& side
     sample.edge_v = 0.5F * (to - from);
     sample.normal = ray.normal;
     sample.height_m = ray.height_m;
-    // Surface of cosine h / r at range r in a solid angle has the area that follows, though a
-    // parallelogram whose ranges were limited, or whose width is that at its middle angle, is
-    // smaller. No energy is lost then.
+    // The area of surface with cosine h / r at range r in this solid angle. The parallelogram is
+    // smaller if its ranges were limited, or since it has the width of its middle angle; the area
+    // keeps the energy.
     const float solid_angle =
         (high - low).cross(segment.to.direction - segment.from.direction).norm();
     const float range = sample.position.norm();
@@ -109,16 +110,16 @@ Sample piece(const Context& context, const CastRay& ray, const ColumnSides& side
     return sample;
 }
 
-// A parallelogram is as wide at its far end as at its near end, which the surface is not. A piece
-// may therefore reach from one range to this many times that range, no farther.
+// A parallelogram is as wide at its far end as at its near end; the surface is not. So a patch may
+// extend from one range to at most this many times that range.
 constexpr float longest_ratio = 2.0F;
 
 bool too_long(float from_m, float to_m) {
     return to_m > longest_ratio * from_m || from_m > longest_ratio * to_m;
 }
 
-/// Cuts a segment wherever its range doubles and adds all pieces but the last, which `segment` is
-/// left with. Only surface at grazing incidence reaches so far.
+/// Cuts a segment wherever its range doubles. Adds all patches but the last, which stays in
+/// `segment`. Only surface at grazing incidence extends so far.
 void cut_off(const Context& context, const RayColumn& column, const CastRay& ray,
              const ColumnSides& sides, Segment& segment, std::vector<Sample>& items) {
     const Border end = segment.to;
@@ -126,7 +127,7 @@ void cut_off(const Context& context, const RayColumn& column, const CastRay& ray
     while (too_long(segment.from.above_m, to_m)) {
         const float from_m = segment.from.above_m;
         const float next_m = to_m > from_m ? longest_ratio * from_m : from_m / longest_ratio;
-        // On a plane the cosine, and so the inverse of the range, is linear in a small angle.
+        // On a plane the cosine, and so the inverse range, is linear in a small angle.
         const float share = (1.0F / from_m - 1.0F / next_m) / (1.0F / from_m - 1.0F / to_m);
         segment.to.along = segment.from.along + share * (end.along - segment.from.along);
         segment.to.direction =
@@ -138,8 +139,8 @@ void cut_off(const Context& context, const RayColumn& column, const CastRay& ray
     segment.to = end;
 }
 
-/// Adds the samples of one column. `narrowed` tells for which of a whole column's rays only the
-/// middle strip is left; null for an edge strip.
+/// Adds the samples of one column. `narrowed` marks the rays of a whole column that keep only its
+/// middle strip; null for an edge strip.
 void collect(const Context& context, const RayColumn& column, const std::uint8_t* narrowed,
              std::vector<Sample>& items) {
     const int n = context.sampling.rays;

@@ -11,23 +11,23 @@ namespace {
 // counts. Surface with a smaller cosine than this is too dark to matter.
 constexpr float least_cosine = 0.02F;
 
-// Two planes that touch a smooth surface meet half way. There each is off by half of the change in
-// cosine between them, and by a quarter of it on average.
+// Two planes tangent to a smooth surface meet half way. The error of each is half of the change in
+// cosine between them there, and a quarter of it on average.
 constexpr float mean_cosine_error = 0.25F;
 
-// Of five degrees. A ball may fill a single bin, and a corner two, with little range uncertainty;
-// but their mirrored rays spread far apart, and multipath in the tank misses less when such gaps
-// are split once more.
+// Cosine of five degrees. A ball may fill a single bin, and a corner two, with little range
+// uncertainty; but their specular reflections diverge, and multipath in the tank misses less when
+// such gaps are split once more.
 constexpr float cosine_of_bend = 0.9962F;
 
-// Relative error of a product of a height and a cosine: some roundings of a float.
+// Relative error of a product of a height and a cosine: a few roundings of a float.
 constexpr float rounding = 1e-6F;
 
-/// Two rays, and the cosines at which each would meet the other's plane.
+/// Two rays, and the cosine of each at the other's plane.
 struct Neighbours {
     const CastRay& a;
     const CastRay& b;
-    float cosine_ab;  ///< of b's ray on a's plane
+    float cosine_ab;  ///< b's ray at a's plane
     float cosine_ba;
 };
 
@@ -39,15 +39,15 @@ bool in_reach(const CastRay& ray, float reach_m) {
     return !ray.missed() && ray.range_m < reach_m;
 }
 
-/// Metres of range that the ray's plane could cover between this ray and one that meets the plane
-/// at `cosine`; a cosine of 0 or less means that it does not.
+/// Metres of range that the ray's plane could cover from this ray to one that meets the plane at
+/// `cosine`; a cosine of 0 or less means that the other ray misses the plane.
 float range_covered_m(const CastRay& ray, float cosine, float reach_m) {
     if (ray.missed()) return 0.0F;
     const float there = ray.height_m < reach_m * cosine ? ray.height_m / cosine : reach_m;
     return std::fabs(there - std::min(ray.range_m, reach_m));
 }
 
-/// Whether each plane predicts the other ray's range. Both rays have met something.
+/// True if each plane predicts the other ray's range. Both rays have met something.
 bool nearly_one_plane(const Neighbours& pair, float tolerance_m) {
     const auto& [a, b, cosine_ab, cosine_ba] = pair;
     return cosine_ab > 0.0F && cosine_ba > 0.0F &&
@@ -75,7 +75,7 @@ GapEstimate estimate_gap(const CastRay& a, const CastRay& b, const Sampling& sam
     };
     if (a.missed() || b.missed()) return broken_off();
     const bool same_material = a.material == b.material;
-    // `covered_m` metres of range of the two planes lie between the rays.
+    // `covered_m`: metres of range of the two planes between the rays.
     const auto continuous = [&](float border, float covered_m) -> GapEstimate {
         const float cosine_error =
             same_material ? mean_cosine_error * std::max(relative_change(a.cosine, cosine_ba),
@@ -86,9 +86,9 @@ GapEstimate estimate_gap(const CastRay& a, const CastRay& b, const Sampling& sam
                 .range_uncertainty_m = cosine_error * covered_m,
                 .bends = a.normal.dot(b.normal) < cosine_of_bend};
     };
-    // In a direction that meets the planes at cosines c_a and c_b, plane a is the nearer one where
-    // h_a c_b < h_b c_a. Cosines are as good as linear in the small angle between the rays. Where
-    // the order of the planes differs between the two rays, the planes cross in the gap.
+    // In a direction with cosines c_a and c_b at the planes, plane a is the nearer one if h_a c_b <
+    // h_b c_a. Cosines are nearly linear in the small angle between the rays. If the order of the
+    // planes differs between the two rays, the planes cross in the gap.
     const float at_a = a.height_m * cosine_ba - b.height_m * a.cosine;
     const float at_b = a.height_m * b.cosine - b.height_m * cosine_ab;
     if ((at_a < 0.0F) != (at_b < 0.0F) &&
@@ -111,15 +111,15 @@ GapEstimate estimate_gap(const CastRay& a, const CastRay& b, const Sampling& sam
 float split_angle(const CastRay& a, const CastRay& b, float reach_m) {
     const float middle = 0.5F * (a.along + b.along);
     if (in_reach(a, reach_m) == in_reach(b, reach_m)) return middle;
-    // One ray met a surface in reach, the other none. At grazing incidence that surface may run on
-    // up to the greatest range within a tiny angle: the ray is cast to where the plane leaves the
-    // reach.
+    // One ray met a surface within reach, the other did not. At grazing incidence that surface may
+    // extend to the greatest range within a tiny angle, so the new ray goes to where the plane
+    // leaves the reach.
     const CastRay& near = in_reach(a, reach_m) ? a : b;
     const CastRay& other = in_reach(a, reach_m) ? b : a;
     const float cosine_leaving = near.height_m / (reach_m * (1.0F + 0.5F * overreach));
     const float cosine_other = -near.normal.dot(other.direction);
     const float share = (near.cosine - cosine_leaving) / (near.cosine - cosine_other);
-    // Closer to one of the two rays than this share of the gap, the new ray would only repeat it.
+    // A ray closer to one of the two than this share of the gap would only repeat it.
     constexpr float least_share = 0.01F;
     return cosine_other < cosine_leaving && share > least_share && share < 1.0F - least_share
                ? near.along + share * (other.along - near.along)

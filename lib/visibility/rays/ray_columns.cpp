@@ -11,18 +11,18 @@ namespace sonarsim {
 
 namespace {
 
-// A surface nearer than this share of the greatest range touches the sonar: a float cannot tell
-// its distance from 0 (positions in view are rounded to 2^-24 of that range), nor its direction.
+// A surface nearer than this share of the greatest range touches the sonar: in float (positions in
+// view are rounded to 2^-24 of that range) its distance is 0 and it has no direction.
 constexpr float nearest_share = 0x1p-23F;
 
-/// Two neighbouring rays of a column between which the surface is too uncertain.
+/// Two neighbouring rays of a column with an uncertain surface between them.
 struct Gap {
     int column;
     int below;
     int above;
 };
 
-/// Casts the columns of one view. Holds what its steps share; lives for one call.
+/// Casts the columns of one view. Holds the shared state of the steps of one call.
 class ColumnCaster {
   public:
     ColumnCaster(const Caster& caster, const View& view, const LocalPose& pose,
@@ -38,7 +38,7 @@ class ColumnCaster {
     }
 
     void cast_whole_columns() {
-        // Room for the edge strips and the splits, so that the rays are seldom moved.
+        // Reserves space for the edge strips and the splits, so that the rays are seldom moved.
         out_.rays.reserve(4 * view_columns_.size() * sampling_.rays);
         for (const ViewColumn& column : view_columns_) {
             add_column(column, column.across, 0.5 * column.width, 0, sampling_.rays, true);
@@ -46,7 +46,7 @@ class ColumnCaster {
         cast(in_tiles());
     }
 
-    /// Casts edge strips over the part of each column where it disagrees with a neighbour.
+    /// Casts edge strips over those parts of a column that disagree with a neighbour.
     void cast_edge_strips() {
         const int n = sampling_.rays;
         out_.narrowed.assign(out_.whole_columns * n, 0);
@@ -115,16 +115,16 @@ class ColumnCaster {
     }
 
   private:
-    /// The column beside column c, on its positive side; c itself where there is none.
+    /// The column next to column c on its positive side; c itself if there is none.
     std::size_t neighbour(std::size_t c) const {
         if (view_.shape == ViewShape::cone) return (c + 1) % out_.whole_columns;
         const bool last = c + 1 == out_.whole_columns;
-        const bool other_side = !last && view_.shape == ViewShape::sides &&
+        const bool other_side = !last && view_.shape == ViewShape::port_starboard &&
                                 view_columns_[c].beam != view_columns_[c + 1].beam;
         return last || other_side ? c : c + 1;
     }
 
-    /// Adds the rays [begin, end) of a column, at the angle `across`.
+    /// Adds the rays [begin, end) of a column at the angle `across`.
     void add_column(const ViewColumn& column, double across, double half_width, int begin, int end,
                     bool whole) {
         const double step = sampling_.step(column.along_max - column.along_min);
@@ -153,8 +153,8 @@ class ColumnCaster {
         out_.rays.push_back({direction(view_.shape, across, along), angle});
     }
 
-    /// The rays of the whole columns, in tiles of 4 columns by 4 rays. Rays that leave close
-    /// together walk Embree's tree together, twice as fast as column by column.
+    /// The rays of the whole columns, in tiles of 4 columns by 4 rays. Rays with similar directions
+    /// traverse Embree's tree together, twice as fast as column by column.
     std::vector<int> in_tiles() const {
         constexpr int side = 4;
         const int columns = static_cast<int>(out_.whole_columns);
@@ -191,7 +191,7 @@ class ColumnCaster {
         const Eigen::Matrix3f R_sensor_local = pose_.rotation.transpose();
         const float nearest_m = nearest_share * reach_m_;
         for (std::size_t i = 0; i < count; ++i) {
-            // The facets of a large scene are scattered over main memory.
+            // Prefetches: the facets of a large scene are scattered over main memory.
             constexpr std::size_t ahead = 16;
             if (i + ahead < count) caster_.prefetch(facets_[i + ahead]);
             CastRay& ray = out_.rays[order[i]];
@@ -206,7 +206,7 @@ class ColumnCaster {
             ray.range_m = ray.height_m / ray.cosine;
             ray.material = facet.material;
             ray.instance = facet.instance;
-            // A plane seen edge-on to within rounding has no range and reflects nothing.
+            // A plane that is edge-on to within rounding has no range and reflects nothing.
             if (!(ray.cosine > 1e-7F && ray.range_m > nearest_m)) {
                 ray.facet = Caster::nothing;
                 ++out_.dropped;
@@ -215,8 +215,8 @@ class ColumnCaster {
         cast_count_ = out_.rays.size();
     }
 
-    /// Enters the estimate of a gap that has been split `level` times, and lists the gap in `gaps`
-    /// when it must be split.
+    /// Stores the estimate of a gap that has been split `level` times, and adds the gap to `gaps`
+    /// if it must be split.
     void estimate(const Gap& gap, int level, std::vector<Gap>& gaps) {
         CastRay& below = out_.rays[gap.below];
         const GapEstimate found = estimate_gap(below, out_.rays[gap.above], sampling_, reach_m_);
@@ -235,7 +235,7 @@ class ColumnCaster {
     const float reach_m_;
     const std::vector<ViewColumn> view_columns_;
     RayColumns& out_;
-    std::size_t cast_count_ = 0;  ///< rays that have been cast
+    std::size_t cast_count_ = 0;  ///< number of rays cast so far
     std::vector<Eigen::Vector3f> directions_;
     std::vector<std::uint32_t> facets_;
 };

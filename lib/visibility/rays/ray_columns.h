@@ -16,28 +16,28 @@ namespace sonarsim {
 struct RayColumn {
     int beam;
     float half_width;    ///< across, rad
-    SinCosFloat across;  ///< of the angle across that its rays share
+    SinCosFloat across;  ///< the angle across that its rays share
     float along_min;
     float along_max;
-    float step;  ///< between its rays before gaps are split, rad
+    float step;  ///< spacing of its rays before gaps are split, rad
     int first;   ///< index of its first ray
     bool whole;  ///< a whole column of the view, not an edge strip
 };
 
 /// All rays that were cast for a view. The first `whole_columns` columns are those of the view, in
-/// order, each with `Sampling::rays` rays in a row; edge strips follow, sorted by beam.
+/// order, each with `Sampling::rays` consecutive rays; edge strips follow, sorted by beam.
 struct RayColumns {
     std::vector<CastRay> rays;
     std::vector<RayColumn> columns;
-    /// [whole_columns, Sampling::rays]: not 0 where edge strips leave the column its middle strip.
+    /// [whole_columns, Sampling::rays]: nonzero if edge strips leave the column only its middle
+    /// strip.
     std::vector<std::uint8_t> narrowed;
     std::size_t whole_columns = 0;
     std::uint64_t dropped = 0;  ///< as in Samples
 };
 
-/// Casts rays along every column of the view. Where neighbouring columns disagree, edge strips are
-/// cast as well; the gap between two neighbouring rays is split for as long as its estimate is too
-/// uncertain.
+/// Casts rays along every column of the view. Adds edge strips where neighbouring columns disagree,
+/// and splits the gap between two neighbouring rays while its estimate is too uncertain.
 RayColumns cast_ray_columns(const Caster& caster, const View& view, const LocalPose& pose,
                             const Sampling& sampling);
 

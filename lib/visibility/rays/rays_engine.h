@@ -7,8 +7,8 @@
 
 namespace sonarsim {
 
-/// The ray engine: Embree behind the engine interface. `scene` must outlive it. Throws
-/// std::runtime_error when Embree cannot build its tree (out of memory).
+/// The ray tracing engine, based on Embree. `scene` must outlive it. Throws std::runtime_error when
+/// Embree cannot build its tree (out of memory).
 std::unique_ptr<VisibilityEngine> make_rays_engine(const Scene& scene);
 
 }  // namespace sonarsim

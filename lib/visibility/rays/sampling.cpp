@@ -7,11 +7,11 @@ namespace sonarsim {
 
 namespace {
 
-// Half a degree: with one column to a beam of 2 degrees, the tank's error is nine times a goal of
+// Half a degree: with one column for a beam of 2 degrees, the tank's error is nine times a goal of
 // 1 %.
 constexpr double widest_column = 0.0088;  // rad
 
-// Two degrees of elevation: four columns over a wide side were off by 20 %.
+// Two degrees of elevation: with four columns over a wide side the error was 20 %.
 constexpr double widest_strip = 0.035;  // rad
 
 }  // namespace
@@ -20,8 +20,8 @@ Sampling sampling_for(const View& view) {
     // Fitted to the speed-against-error report and to measured orders of convergence. At a goal of
     // 3 % the mean error over poses is 1.2 % in the tank, 0.9 % on the sea floor and 2.5 % on a
     // rough floor at grazing incidence; a single pose may miss the goal. On the rough floor every
-    // goal from 24 % to 1.5 % is just met when the rays before splitting follow the goal, and the
-    // range uncertainty that a gap may keep follows its power of 3/2.
+    // goal from 24 % to 1.5 % is just met if the number of rays before splitting follows the goal,
+    // and the allowed range uncertainty of a gap follows its power of 3/2.
     const double scale = view.relative_l1 / 0.03;
     const double density = 1.0 / std::sqrt(scale);
     const auto rays = [&](double count, double least) {
@@ -30,28 +30,28 @@ Sampling sampling_for(const View& view) {
     Sampling sampling;
     switch (view.shape) {
         case ViewShape::fan:
-            // The error of a fan falls with the spacing of its rays, both in elevation and in
-            // azimuth: a beam wider than the usual half degree takes more than one column.
+            // The error of a fan falls with the spacing of its rays in elevation and in azimuth, so
+            // a beam wider than the usual half degree gets more than one column.
             sampling.columns = static_cast<int>(
                 std::clamp(std::ceil(view.azimuth_rad / view.beams / widest_column), 1.0, 64.0));
             sampling.rays = rays(0.75 * density * view.elevation_rad * view.beams *
                                      sampling.columns / view.azimuth_rad,
                                  8.0);
             // The nearest and the farthest surface of a beam often lie on the edges of the view,
-            // several bins away from what a ray half a step inside meets. Rays on the edges
-            // themselves took a sixth off the error of the tank. The denser columns of the other
-            // shapes gain nothing by it.
+            // several bins away from the surface that a ray half a step inside meets. Rays on the
+            // edges themselves reduced the error of the tank by a sixth. The denser columns of the
+            // other shapes gain nothing from them.
             sampling.inset = 0.0F;
             break;
-        case ViewShape::sides:
-            // A side is one row of bins, and no other beam averages out what it misses: one ray
-            // per bin, and a few columns for the shapes of shadows.
+        case ViewShape::port_starboard:
+            // A side is one row of bins, so other beams do not average out its errors: it gets one
+            // ray per bin, and a few columns for the shapes of shadows.
             sampling.columns = rays(std::max(4.0, view.elevation_rad / widest_strip), 2.0);
             sampling.rays = rays(1.0 * view.range_bins, 64.0);
             break;
         case ViewShape::cone:
-            // A cone is one row of bins, and a small object may be alone in its bin. Nothing
-            // refines the sampling around the boresight.
+            // A cone is one row of bins, and a small object may be alone in its bin. The sampling
+            // about the boresight is not refined.
             sampling.columns = rays(96.0, 8.0);
             sampling.rays = rays(36.0, 4.0);
             break;

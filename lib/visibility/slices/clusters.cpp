@@ -14,7 +14,7 @@ namespace sonarsim {
 
 namespace {
 
-/// The 21 low bits of x, two zeros after each.
+/// The 21 low bits of x with two zeros after each bit.
 std::uint64_t spread_bits(std::uint64_t x) {
     x &= 0x1fffff;
     x = (x | x << 32U) & 0x1f00000000ffff;
@@ -31,7 +31,8 @@ Eigen::Vector3f centre_of(const Scene& scene, const std::array<std::uint32_t, 3>
            3.0F;
 }
 
-/// Numbers of the triangles along the curve; those at the same place in the order of the scene.
+/// Indices of the triangles along the Morton curve; triangles with equal codes keep the scene's
+/// order.
 std::vector<std::uint32_t> along_morton_curve(const Scene& scene) {
     constexpr float infinity = std::numeric_limits<float>::infinity();
     Eigen::Vector3f low = Eigen::Vector3f::Constant(infinity);
@@ -57,7 +58,8 @@ std::vector<std::uint32_t> along_morton_curve(const Scene& scene) {
     return order;
 }
 
-/// The normal from edges in double: in float, a needle's cross product is mostly cancellation.
+/// The normal is computed from edges in double: in float, a needle's cross product is mostly
+/// cancellation.
 SliceFacet facet_of(const Scene& scene, std::uint32_t triangle) {
     const auto& corners = scene.triangles[triangle];
     const Eigen::Vector3d a = scene.vertices[corners[0]].cast<double>();
@@ -67,7 +69,7 @@ SliceFacet facet_of(const Scene& scene, std::uint32_t triangle) {
             scene.triangle_instance[triangle], 0};
 }
 
-/// For every vertex the first one at the same place.
+/// The first vertex with the same position, for every vertex.
 std::vector<std::uint32_t> welded(const Scene& scene) {
     std::vector<std::uint32_t> order(scene.vertices.size());
     std::iota(order.begin(), order.end(), 0U);
@@ -86,10 +88,10 @@ std::vector<std::uint32_t> welded(const Scene& scene) {
     return first;
 }
 
-/// Which triangles hang together: a number per triangle, from 0.
-class Pieces {
+/// The connected components of the triangles, numbered from 0.
+class Components {
   public:
-    Pieces(const Scene& scene, const std::vector<std::uint32_t>& vertex)
+    Components(const Scene& scene, const std::vector<std::uint32_t>& vertex)
         : vertex_(vertex), parent_(vertex), number_(vertex.size(), ClusterMesh::nothing) {
         for (const auto& triangle : scene.triangles) {
             join(triangle[0], triangle[1]);
@@ -160,7 +162,7 @@ std::vector<std::array<std::uint32_t, 3>> across_edges(const Scene& scene,
 
 /// Appends a cluster of the given triangles.
 void add_cluster(const Scene& scene, const std::uint32_t* triangles, std::uint32_t count,
-                 Pieces& pieces, ClusterMesh& mesh) {
+                 Components& components, ClusterMesh& mesh) {
     std::vector<std::uint32_t> used;
     for (std::uint32_t i = 0; i < count; ++i) {
         const auto& corners = scene.triangles[triangles[i]];
@@ -169,7 +171,7 @@ void add_cluster(const Scene& scene, const std::uint32_t* triangles, std::uint32
     std::ranges::sort(used);
     used.erase(std::unique(used.begin(), used.end()), used.end());
 
-    Cluster cluster{};
+    TriangleCluster cluster{};
     cluster.first_vertex = static_cast<std::uint32_t>(mesh.vertices.size());
     cluster.vertices = static_cast<std::uint32_t>(used.size());
     cluster.first_triangle = static_cast<std::uint32_t>(mesh.corners.size());
@@ -195,7 +197,7 @@ void add_cluster(const Scene& scene, const std::uint32_t* triangles, std::uint32
         }
         mesh.corners.push_back(local);
         mesh.facets.push_back(facet_of(scene, triangles[i]));
-        mesh.facets.back().piece = pieces.of(scene.triangles[triangles[i]]);
+        mesh.facets.back().component = components.of(scene.triangles[triangles[i]]);
     }
     mesh.clusters.push_back(cluster);
 }
@@ -210,16 +212,17 @@ ClusterMesh make_clusters(const Scene& whole) {
     const std::vector<std::uint32_t> order = along_morton_curve(scene);
     mesh.corners.reserve(order.size());
     mesh.facets.reserve(order.size());
-    Pieces pieces(scene, vertex);
+    Components components(scene, vertex);
     const std::vector<std::array<std::uint32_t, 3>> beyond = across_edges(scene, vertex);
     for (const std::uint32_t triangle : order)
         mesh.beyond.push_back(beyond[triangle]);
     for (std::size_t first = 0; first < order.size(); first += ClusterMesh::most_triangles) {
         const std::size_t count =
             std::min<std::size_t>(ClusterMesh::most_triangles, order.size() - first);
-        add_cluster(scene, order.data() + first, static_cast<std::uint32_t>(count), pieces, mesh);
+        add_cluster(scene, order.data() + first, static_cast<std::uint32_t>(count), components,
+                    mesh);
     }
-    mesh.pieces = pieces.count();
+    mesh.components = components.count();
     return mesh;
 }
 

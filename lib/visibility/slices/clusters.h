@@ -9,17 +9,17 @@
 
 namespace sonarsim {
 
-/// What is needed of a triangle once it is seen.
+/// The data of a visible triangle.
 struct SliceFacet {
     Eigen::Vector3f normal;  ///< unit; zero for a triangle without area
     std::uint32_t material;
     std::uint32_t instance;
-    std::uint32_t piece;  ///< triangles that hang together by their corners have the same
+    std::uint32_t component;  ///< connected component of the mesh, by shared corners
 };
 
-/// Up to 64 triangles that lie close together.
-struct Cluster {
-    Eigen::Vector3f centre;  ///< of a sphere around it, scene-local, m
+/// Up to 64 neighbouring triangles.
+struct TriangleCluster {
+    Eigen::Vector3f centre;  ///< centre of a bounding sphere, scene-local, m
     float radius_m;
     std::uint32_t first_vertex;
     std::uint32_t vertices;
@@ -27,20 +27,20 @@ struct Cluster {
     std::uint32_t triangles;
 };
 
-/// A scene's triangles, flat faces in as few as they need, sorted along a Morton curve through
-/// their centres and cut into clusters. Corners count from the cluster's first vertex.
+/// A scene's triangles, with flat faces merged, sorted along a Morton curve through their centres
+/// and divided into clusters. Corner indices count from the cluster's first vertex.
 struct ClusterMesh {
     static constexpr std::uint32_t most_triangles = 64;
     static constexpr std::uint32_t nothing = 0xFFFFFFFFU;
 
-    std::vector<Cluster> clusters;
+    std::vector<TriangleCluster> clusters;
     std::vector<Eigen::Vector3f> vertices;  ///< scene-local, m
     std::vector<std::array<std::uint8_t, 3>> corners;
     std::vector<SliceFacet> facets;
-    /// Of the triangle on the other side of each edge, from corner k to the next, the vertex that
-    /// is not on it: an index into Scene::vertices, or `nothing`.
+    /// The neighbour over each edge, from corner k to the next: its vertex that is not on the edge,
+    /// as an index into Scene::vertices, or `nothing`.
     std::vector<std::array<std::uint32_t, 3>> beyond;
-    std::uint32_t pieces = 0;
+    std::uint32_t components = 0;
 };
 
 ClusterMesh make_clusters(const Scene& scene);

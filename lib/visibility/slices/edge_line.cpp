@@ -8,10 +8,11 @@ namespace sonarsim {
 
 namespace {
 
-// Of an edge from behind the sensor: what is less of it lies across the picture is rounding.
+// An edge from behind the sensor with a smaller extent across the picture plane than this is
+// vertical to within rounding.
 constexpr float flattest = 1e-12F;
 
-/// Where the edge from a, in front, to b comes nearest.
+/// The point at `nearest_m` on the edge from a, in front, to b.
 Corner crossing(const Corner& a, const Corner& b, float nearest_m) {
     const float share = (nearest_m - a.X) / (b.X - a.X);
     const float U = a.U + share * (b.U - a.U);
@@ -28,7 +29,7 @@ EdgeLine edge_line(const Corner& p, const Corner& q, float nearest_m) {
     EdgeLine line{a.u, a.w, 0.0F, 1.0F / a.X, 0.0F, {std::min(a.u, b.u), std::max(a.u, b.u)}};
     if (b.X > nearest_m) {
         const float across = b.u - a.u;
-        // An edge that stands upright is met by no slice.
+        // No slice meets a vertical edge.
         if (across == 0.0F) return line;
         line.w_slope = (b.w - a.w) / across;
         line.q_slope = (1.0F / b.X - line.q) / across;

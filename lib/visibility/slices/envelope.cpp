@@ -9,21 +9,22 @@ namespace sonarsim {
 namespace {
 
 constexpr float never = std::numeric_limits<float>::infinity();
-constexpr Extent everywhere{-never, never};
+constexpr Interval everywhere{-never, never};
 
-// Along edges that triangles share without sharing their corners, cracks open that are as wide as
-// floats are coarse. What shows through them is not there.
+// Between edges that touch without common corners, rounding opens cracks of the width of a float's
+// step. Spans narrower than this are such cracks.
 constexpr float narrowest_span = 2e-6F;
 
-/// A sweep over w with one segment on top and those under it open.
+/// A sweep over w. One segment is on top; those below it are open.
 class Sweep {
   public:
     Sweep(std::span<const Segment> segments, const SliceScene& scene, const Slice& slice,
-          Reaches& reaches, std::vector<std::uint32_t>& open, std::vector<VisibleSpan>& out)
+          FacetExtents& facet_extents, std::vector<std::uint32_t>& open,
+          std::vector<VisibleSpan>& out)
         : segments_(segments),
           scene_(scene),
           slice_(slice),
-          reaches_(reaches),
+          facet_extents_(facet_extents),
           open_(open),
           out_(out) {
         open_.clear();
@@ -86,7 +87,7 @@ class Sweep {
         crossing_ = never;
     }
 
-    /// `s` rises above the top at w; where that is, moves with `border`.
+    /// Makes `s` the top at w, where it rises above the old top; that point moves with `border`.
     void replace_top(std::uint32_t s, float w, const Border& border) {
         emit(w, border);
         const std::uint32_t below = top_;
@@ -146,16 +147,16 @@ class Sweep {
         }
     }
 
-    /// The line where two planes cross. On a plane -h q = n . (1, u, w).
+    /// The line in which two planes cross. On a plane -h q = n . (1, u, w).
     Border crossing_border(std::uint32_t a, std::uint32_t b) const {
-        const std::uint32_t s = scene_.trapezoids[segments_[a].trapezoid].seen;
-        const std::uint32_t t = scene_.trapezoids[segments_[b].trapezoid].seen;
-        const SeenFacet& f = scene_.facets[s];
-        const SeenFacet& g = scene_.facets[t];
-        const Eigen::Vector3f apart = f.normal * g.height_m - g.normal * f.height_m;
-        const float slope = -apart.y() / apart.z();
-        const Extent u = reaches_.of(s).u;
-        const Extent v = reaches_.of(t).u;
+        const std::uint32_t s = scene_.trapezoids[segments_[a].trapezoid].facet_index;
+        const std::uint32_t t = scene_.trapezoids[segments_[b].trapezoid].facet_index;
+        const FrontFacet& f = scene_.facets[s];
+        const FrontFacet& g = scene_.facets[t];
+        const Eigen::Vector3f difference = f.normal * g.height_m - g.normal * f.height_m;
+        const float slope = -difference.y() / difference.z();
+        const Interval u = facet_extents_.of(s).u;
+        const Interval v = facet_extents_.of(t).u;
         return {std::isfinite(slope) ? slope : 0.0F,
                 segments_[b].q_at(crossing_),
                 {std::max(u.from, v.from), std::min(u.to, v.to)}};
@@ -163,30 +164,31 @@ class Sweep {
 
     void emit(float w, const Border& border) {
         if (!(w - begin_ > narrowest_span * (1.0F + std::fabs(w)))) return;
-        const std::uint32_t seen = scene_.trapezoids[top().trapezoid].seen;
+        const std::uint32_t facet_index = scene_.trapezoids[top().trapezoid].facet_index;
         out_.push_back({begin_, w, top().q_at(begin_), top().q_at(w), begin_border_, border,
-                        reaches_.of(seen), seen});
+                        facet_extents_.of(facet_index), facet_index});
     }
 
     std::span<const Segment> segments_;
     const SliceScene& scene_;
     const Slice& slice_;
-    Reaches& reaches_;
-    std::vector<std::uint32_t>& open_;  ///< under the top; some may have ended
+    FacetExtents& facet_extents_;
+    std::vector<std::uint32_t>& open_;  ///< segments below the top; some may have ended
     std::vector<VisibleSpan>& out_;
     std::uint32_t top_ = none;
-    float begin_ = 0.0F;  ///< of the top's visible span
+    float begin_ = 0.0F;  ///< begin of the top's visible span
     Border begin_border_{};
-    float crossing_ = never;  ///< where an open segment rises above the top
+    float crossing_ = never;  ///< w at which an open segment rises above the top
     std::uint32_t crosses_ = none;
 };
 
 }  // namespace
 
 void visible_spans(std::span<const Segment> segments, const SliceScene& scene, const Slice& slice,
-                   Reaches& reaches, EnvelopeScratch& scratch, std::vector<VisibleSpan>& out) {
+                   FacetExtents& facet_extents, EnvelopeScratch& scratch,
+                   std::vector<VisibleSpan>& out) {
     out.clear();
-    Sweep(segments, scene, slice, reaches, scratch.open, out).run();
+    Sweep(segments, scene, slice, facet_extents, scratch.open, out).run();
 }
 
 }  // namespace sonarsim

@@ -4,14 +4,14 @@
 #include <span>
 #include <vector>
 
-#include "visibility/slices/reach.h"
+#include "visibility/slices/facet_extent.h"
 #include "visibility/slices/setup.h"
 
 namespace sonarsim {
 
-/// What a slice cuts out of a triangle: a segment over w along which q = 1 / X is linear. The line
-/// is anchored at the farther end: where a triangle begins beside the sensor, q there is so large
-/// that nothing is left of the rest.
+/// The intersection of a slice with a triangle: a segment over w with linear q = 1 / X. The line is
+/// anchored at the farther end: if a triangle begins next to the sensor, q there is so large that
+/// float precision loses the rest.
 struct Segment {
     float w_low, w_high;
     float w_anchor, q_anchor;
@@ -21,30 +21,32 @@ struct Segment {
     float q_at(float w) const { return q_anchor + (w - w_anchor) * q_slope; }
 };
 
-/// How an end of a span moves with u, within the extent of the line that bounds it.
+/// The motion of a span's end with u, within the extent of the line that bounds it.
 struct Border {
     float slope;  ///< dw/du
-    float q;      ///< of the surface whose border it is
-    Extent extent;
+    float q;      ///< q of the surface whose border it is
+    Interval extent;
 };
 
-/// A visible part of a segment. Its ends move with u as the lines of the picture plane that bound
-/// it: an edge of its own triangle or of one that hides it, or the line where two triangles cross.
+/// A visible part of a segment. Its ends move with u along the lines of the picture plane that
+/// bound it: an edge of its own triangle or of an occluder, or the line in which two triangles
+/// cross.
 struct VisibleSpan {
     float w_low, w_high;
     float q_low, q_high;
     Border low, high;
-    Reach reach;         ///< of its surface
-    std::uint32_t seen;  ///< index of its SeenFacet
+    FacetExtent facet_extent;   ///< extent of its facet
+    std::uint32_t facet_index;  ///< index of its FrontFacet
 };
 
 struct EnvelopeScratch {
     std::vector<std::uint32_t> open;
 };
 
-/// The upper envelope of q over the segments, which are sorted by w_low: what is nearest at each w
-/// of the slice.
+/// The upper envelope of q over the segments, which are sorted by w_low: the nearest surface at
+/// each w of the slice.
 void visible_spans(std::span<const Segment> segments, const SliceScene& scene, const Slice& slice,
-                   Reaches& reaches, EnvelopeScratch& scratch, std::vector<VisibleSpan>& out);
+                   FacetExtents& facet_extents, EnvelopeScratch& scratch,
+                   std::vector<VisibleSpan>& out);
 
 }  // namespace sonarsim

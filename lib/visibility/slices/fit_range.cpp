@@ -7,7 +7,7 @@
 
 namespace sonarsim {
 
-Extent fit_range(const Eigen::Array4f& range, Sample& sample) {
+Interval fit_range(const Eigen::Array4f& range, Sample& sample) {
     const float r = sample.position.norm();
     const float u = sample.position.dot(sample.edge_u) / r;
     const float v = sample.position.dot(sample.edge_v) / r;
@@ -18,9 +18,10 @@ Extent fit_range(const Eigen::Array4f& range, Sample& sample) {
     const float edge_u = sample.edge_u.squaredNorm();
     const float edge_v = sample.edge_v.squaredNorm();
     const float bend = (edge_u - depth_u * depth_u + edge_v - depth_v * depth_v) / (2.0F * r);
-    // Beside the foot of the perpendicular the corners do not tell of the least range. Along t in
-    // [-1, 1] of an edge e the range is r + (u t + (e^2 - u^2) t^2 / 2 r): it has no least value
-    // within where |u| > (e^2 - u^2) / r, twice the bend. Twice as much leaves room for both edges.
+    // If the foot of the perpendicular lies on the patch, the corners do not give the least range.
+    // Along an edge e with t in [-1, 1] the range is r + (u t + (e^2 - u^2) t^2 / 2 r): it has no
+    // minimum inside if |u| > (e^2 - u^2) / r, twice the bend. Four times the bend allows for both
+    // edges.
     if (!(deeper > 4.0F * bend)) {
         const RangeExtent along_u = extent_of(edge_u, depth_u, r);
         const RangeExtent along_v = extent_of(edge_v, depth_v, r);

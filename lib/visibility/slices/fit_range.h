@@ -7,10 +7,9 @@
 
 namespace sonarsim {
 
-/// Makes a sample's parallelogram reach from the least to the greatest of `range`, m: that of the
-/// four corners of the surface that it stands for. It lights the bins that the surface reaches, and
-/// no others. Its deeper edge is lengthened and moved, by no more than half.
-/// Returns the range that it reaches over.
-Extent fit_range(const Eigen::Array4f& range, Sample& sample);
+/// Fits a sample's parallelogram to `range`, m, the ranges of the four corners of its surface, so
+/// that it fills the bins that the surface fills, and no others. The deeper edge is lengthened and
+/// moved, by at most half. Returns the interval of range that the parallelogram covers.
+Interval fit_range(const Eigen::Array4f& range, Sample& sample);
 
 }  // namespace sonarsim

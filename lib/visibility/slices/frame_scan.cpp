@@ -10,9 +10,9 @@ namespace {
 
 Groups by_gap(const SliceScene& scene, const SliceFrame& frame) {
     std::vector<std::uint32_t> gaps;
-    gaps.reserve(scene.between.size());
-    for (const Between& between : scene.between)
-        gaps.push_back(between.gap);
+    gaps.reserve(scene.in_gaps.size());
+    for (const FacetInGap& noted : scene.in_gaps)
+        gaps.push_back(noted.gap);
     return sort_into_groups(gaps, frame.gaps());
 }
 
@@ -23,15 +23,15 @@ FrameScan::FrameScan(const ClusterMesh& mesh, const Scene& scene, const SliceFra
     : mesh_(mesh),
       frame_(frame),
       setup_(mesh, frame, pose, range_max_m, scene_),
-      reaches_(mesh, scene.vertices, setup_, scene_) {
+      facet_extents_(mesh, scene.vertices, setup_, scene_) {
     setup_.run();
-    wanted_ = slices_through_narrow_pieces(scene_, frame_);
+    wanted_ = slices_through_narrow_components(scene_, frame_);
     walk_.start(scene_, frame_);
 }
 
-void FrameScan::see_next(SeenSlice& out) {
+void FrameScan::scan_next(SliceResult& out) {
     const std::vector<Segment>& segments = walk_.step(next_);
-    see(frame_.slices[next_++], segments, out);
+    scan_slice(frame_.slices[next_++], segments, out);
 }
 
 void FrameScan::find_candidates(std::uint32_t gap, std::span<const std::uint32_t> around,
@@ -39,11 +39,11 @@ void FrameScan::find_candidates(std::uint32_t gap, std::span<const std::uint32_t
     out.clear();
     for (const std::uint32_t trapezoid : around)
         out.push_back(candidate(scene_, trapezoid));
-    if (!between_) between_ = by_gap(scene_, frame_);
+    if (!by_gap_) by_gap_ = by_gap(scene_, frame_);
     facets_.clear();
-    for (std::uint32_t k = between_->begin[gap]; k < between_->begin[gap + 1]; ++k)
-        facets_.push_back(scene_.between[between_->items[k]].facet);
-    // A triangle of which two parts lie here was noted twice.
+    for (std::uint32_t k = by_gap_->begin[gap]; k < by_gap_->begin[gap + 1]; ++k)
+        facets_.push_back(scene_.in_gaps[by_gap_->items[k]].facet);
+    // A triangle with two parts in this gap was noted twice.
     facets_.erase(std::unique(facets_.begin(), facets_.end()), facets_.end());
     const auto first = static_cast<std::uint32_t>(scene_.trapezoids.size());
     setup_.add_between(facets_);
@@ -54,14 +54,15 @@ void FrameScan::find_candidates(std::uint32_t gap, std::span<const std::uint32_t
     }
 }
 
-void FrameScan::see(float u, std::span<const Candidate> candidates, SeenSlice& out) {
+void FrameScan::scan_slice(float u, std::span<const Candidate> candidates, SliceResult& out) {
     segments_at(scene_, u, candidates, segments_);
-    see(slice_at(frame_, u), segments_, out);
+    scan_slice(slice_at(frame_, u), segments_, out);
 }
 
-void FrameScan::see(const Slice& slice, std::span<const Segment> segments, SeenSlice& out) {
+void FrameScan::scan_slice(const Slice& slice, std::span<const Segment> segments,
+                           SliceResult& out) {
     out.slice = slice;
-    visible_spans(segments, scene_, slice, reaches_, envelope_, out.spans);
+    visible_spans(segments, scene_, slice, facet_extents_, envelope_, out.spans);
     merge_coplanar_spans(mesh_, scene_, out.spans);
 }
 

@@ -7,12 +7,13 @@
 
 namespace sonarsim {
 
-/// Whether two facets of the scene, at `range_m`, lie on one plane, of one material and instance.
+/// True if two facets of the scene, at `range_m`, lie in one plane and have one material and
+/// instance.
 bool one_plane(const ClusterMesh& mesh, const SliceScene& scene, std::uint32_t a, std::uint32_t b,
                float range_m);
 
-/// Makes one of neighbouring spans that lie on one plane, of one material and instance: a flat wall
-/// is one span, whatever it is cut into.
+/// Merges neighbouring spans in one plane with one material and instance: a flat wall is one span,
+/// however it is divided into triangles.
 void merge_coplanar_spans(const ClusterMesh& mesh, const SliceScene& scene,
                           std::vector<VisibleSpan>& spans);
 

@@ -13,23 +13,23 @@ namespace sonarsim {
 
 namespace {
 
-// A surface may move by this share of the greatest coordinate: halves of edges are rounded to 6e-8
-// of it, and a plane through small triangles is known that much worse beyond them.
+// Greatest motion of the surface, as a share of the greatest coordinate. Midpoints of edges are
+// rounded to 6e-8 of it, and a plane through small triangles extrapolates that error beyond them.
 constexpr double most_moved = 2e-6;
 
-// A triangle may become a needle of this height, as a share of its longest edge, and no thinner. Of
-// a lifeboat cut into 64 times its triangles 10,898 are left; with 0.02 it is 45,568.
+// Least height of a triangle, as a share of its longest edge. A lifeboat whose triangles are each
+// divided into 64 keeps 10,898 triangles; with 0.02 it keeps 45,568.
 constexpr double thinnest_needle = 0.002;
 
-// Where fewer of the corners than this share can go, merging is not worth its time: a slice then
-// has at most some twentieth fewer segments.
+// If a smaller share of the corners can be removed, merging is not worth its time: a slice then has
+// at most a twentieth fewer segments.
 constexpr double least_gone = 0.05;
 
 struct Face {
-    std::array<std::uint32_t, 3> corners;  ///< welded
-    std::uint32_t triangle;                ///< of the scene
+    std::array<std::uint32_t, 3> corners;  ///< after welding
+    std::uint32_t triangle;                ///< index in the scene
     bool gone = false;
-    Eigen::Vector3d normal;  ///< of the triangle as it was; the plane n . p = height
+    Eigen::Vector3d normal;  ///< normal of the original triangle; its plane is n . p = height~
     double height;
 };
 
@@ -37,7 +37,8 @@ struct Neighbour {
     std::uint32_t vertex;
     int faces = 0;
     std::uint32_t first_face = 0;
-    bool is_border = false;  ///< the edge to it parts materials or instances, or has one side
+    /// The edge to it separates materials or instances, or has one side only.
+    bool is_border = false;
 };
 
 class Merger {
@@ -53,7 +54,7 @@ class Merger {
             add_face(i);
     }
 
-    /// Whether there is enough to merge.
+    /// True if there is enough to merge.
     bool is_worth_it() {
         std::size_t flat = 0;
         std::size_t used = 0;
@@ -107,7 +108,7 @@ class Merger {
         return std::fabs(face.normal.dot(place(v)) - face.height) <= most_m_;
     }
 
-    /// How many planes meet at a vertex; 3 stands for more.
+    /// Number of planes that meet at a vertex; 3 means three or more.
     int planes_around(std::uint32_t v) const {
         std::array<std::uint32_t, 2> planes{};
         int count = 0;
@@ -124,7 +125,7 @@ class Merger {
         return count;
     }
 
-    /// Takes a vertex out by moving it onto a neighbour, where the surface stays as it is.
+    /// Removes a vertex by moving it to a neighbour, if the surface does not change.
     bool take_out(std::uint32_t v) {
         if (!find_neighbours(v)) return false;
         for (const Neighbour& to : neighbours_) {
@@ -135,7 +136,7 @@ class Merger {
         return false;
     }
 
-    /// False where the surface around v is not a disc or half a disc.
+    /// Returns false if the surface around v is not a disc or half a disc.
     bool find_neighbours(std::uint32_t v) {
         neighbours_.clear();
         for (const std::uint32_t f : around_[v]) {
@@ -168,7 +169,7 @@ class Merger {
         const Eigen::Vector3d end = place(to.vertex);
         for (const Neighbour& other : neighbours_) {
             if (!other.is_border || other.vertex == to.vertex) continue;
-            // A border stays one straight line.
+            // A border must remain one straight line.
             if (!to.is_border) return false;
             const Eigen::Vector3d along = (place(other.vertex) - end).normalized();
             const Eigen::Vector3d aside = place(v) - end;
@@ -186,7 +187,7 @@ class Merger {
         return shared == to.faces && common_neighbours(to.vertex) == shared;
     }
 
-    /// Whether a face keeps its plane and its side when v moves.
+    /// True if a face keeps its plane and its orientation when v moves.
     bool stays(const Face& face, std::uint32_t v, std::uint32_t to) const {
         if (!on_plane(face, to)) return false;
         std::array<Eigen::Vector3d, 3> p;
@@ -199,7 +200,7 @@ class Merger {
         return ab.cross(ac).dot(face.normal) >= thinnest_needle * longest2;
     }
 
-    /// Of v, which neighbours_ belong to, and another vertex.
+    /// Number of common neighbours of another vertex and v, whose neighbours are in neighbours_.
     int common_neighbours(std::uint32_t other) const {
         std::vector<std::uint32_t> common;
         for (const std::uint32_t f : around_[other]) {
@@ -232,8 +233,8 @@ class Merger {
     const Scene& scene_;
     const std::vector<std::uint32_t>& welded_;
     std::vector<Face> faces_;
-    std::vector<std::vector<std::uint32_t>> around_;  ///< faces, by vertex
-    std::vector<Neighbour> neighbours_;               ///< of the vertex that is looked at
+    std::vector<std::vector<std::uint32_t>> around_;  ///< faces of each vertex
+    std::vector<Neighbour> neighbours_;               ///< neighbours of the current vertex
     double most_m_ = 0.0;
 };
 

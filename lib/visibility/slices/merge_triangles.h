@@ -8,11 +8,11 @@
 
 namespace sonarsim {
 
-/// The vertices of a scene, and as few triangles as its flat faces need: what a plane is cut into
-/// costs a slice time and shows nothing. Corners are taken out where the surface stays where it was
-/// to within what floats about the scene's origin can tell, and no crack opens. Materials and
-/// instances keep their borders. Only geometry is filled in, and `vertices` stays as it is. Nothing
-/// for a scene in which next to nothing is flat.
+/// Merges flat faces into as few triangles as they need, since the triangles of one plane cost a
+/// slice time and add nothing. Keeps the vertices of the scene. Corners are removed if the surface
+/// stays in place to within the precision of floats about the scene's origin, and no crack opens.
+/// Borders of materials and instances are kept. Fills in only geometry. Returns nullopt for a scene
+/// with hardly any flat faces.
 std::optional<Scene> with_flat_faces_merged(const Scene& scene,
                                             const std::vector<std::uint32_t>& welded);
 

@@ -21,7 +21,7 @@ void move_ends(const Slice& slice, std::span<const VisibleSpan> spans, float u, 
         move(spans[i].w_high, spans[i].high, 2 * i + 1);
     }
     for (std::size_t i = 1; i < ends.size(); ++i) {
-        std::size_t first = i;  // of the ends that end up at one place
+        std::size_t first = i;  // first of the ends that move to one place
         while (first > 0 && ends[first - 1].w > ends[i].w && ends[first - 1].q <= ends[i].q)
             --first;
         const bool stopped = first > 0 && ends[first - 1].w > ends[i].w;

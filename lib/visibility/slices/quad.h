@@ -7,7 +7,7 @@
 
 namespace sonarsim {
 
-/// A side of a quadrilateral of the picture plane: between two points of a vertical.
+/// A side of a quadrilateral of the picture plane: two points of a vertical.
 struct QuadSide {
     float u;
     float low, high;  ///< w
@@ -23,16 +23,16 @@ struct QuadPoints {
     Eigen::Vector3f middle(int i, int k) const { return 0.5F * (at(i) + at(k)); }
 };
 
-/// A visible part of a plane of the scene: between two verticals of the picture plane and two
+/// A visible part of a plane of the scene, between two verticals of the picture plane and two
 /// lines.
 struct Quad {
-    std::uint32_t seen;  ///< index of its SeenFacet
-    bool widens;         ///< its u is that of w = 0 and grows with sqrt(1 + w^2)
+    std::uint32_t facet_index;  ///< index of its FrontFacet
+    bool widens;                ///< its u is that of w = 0 and grows with sqrt(1 + w^2)
     QuadSide low, high;
-    float u, w;         ///< of a point of the plane
+    float u, w;         ///< a point of the plane
     float q, q_u, q_w;  ///< 1 / X there, and its slopes
     float q_least;
-    Extent range_m;  ///< within which the surface lies
+    Interval range_m;  ///< range of the surface
 
     float middle_low() const { return 0.5F * (low.low + high.low); }
     float middle_high() const { return 0.5F * (low.high + high.high); }

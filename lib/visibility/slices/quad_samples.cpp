@@ -10,15 +10,15 @@ namespace sonarsim {
 
 namespace {
 
-// Across a piece, at most.
+// Largest number of parts across a patch.
 constexpr float most_parts = 8.0F;
 
-// Towards the line in which all slices meet a piece is cut into narrower ones down to this share of
-// its width. What is left there has a four-hundredth of the area.
+// Towards the line in which all slices meet, a patch is divided into narrower ones down to this
+// share of its width. The rest has a four-hundredth of the area.
 constexpr float least_width_share = 0.05F;
 
-// A parallelogram is as wide at its far end as at its near end, which the surface is not. A piece
-// may reach from one range to this many times that range.
+// A parallelogram is as wide at its far end as at its near end; the surface is not. So a patch may
+// extend from one range to at most this many times that range.
 constexpr float longest_ratio = 1.5F;
 
 // What floats leave of the area of a quadrilateral that is narrow in the picture.
@@ -40,21 +40,22 @@ float most_area(const QuadPoints& p, float height_m) {
 }  // namespace
 
 QuadSampler::QuadSampler(const FrameScan& scan, std::span<const Material> materials,
-                         const PieceLimits& limits, SliverBins& slivers, std::vector<Sample>& out)
+                         const PatchLimits& limits, EdgeBinError& edge_bins,
+                         std::vector<Sample>& out)
     : scan_(scan),
       materials_(materials),
-      slivers_(slivers),
+      edge_bins_(edge_bins),
       limits_(limits),
       any_width_(!scan.frame().meridians || limits.widest_ratio == unbounded),
       out_(out),
       R_sensor_frame_(scan.frame().R_frame_sensor.transpose()) {}
 
-/// Cuts a quadrilateral along w into pieces that are nearly parallelograms.
+/// Divides a quadrilateral along w into patches that are nearly parallelograms.
 void QuadSampler::add(const Quad& quad) {
     const QuadPoints corners = quad.corners(quad.low, quad.high, 0.0F, 1.0F);
     if (is_small(corners)) {
         if (any_width_) {
-            add_piece(quad, corners, 0.0F, 1.0F);
+            add_patch(quad, corners, 0.0F, 1.0F);
         } else {
             add_narrow(quad, 0.0F, 1.0F);
         }
@@ -66,7 +67,7 @@ void QuadSampler::add(const Quad& quad) {
     const QuadPoints ends = quad.points({u, u, u, u}, {w_low, w_high, w_low, w_high});
     const Eigen::Vector3f from = ends.at(0);
     const Eigen::Vector3f to = ends.at(1);
-    // Along the line from one to the other the range is sqrt(h^2 + s^2).
+    // Along the line between them the range is sqrt(h^2 + s^2).
     const float length = (to - from).norm();
     const Eigen::Vector3f along = length > 0.0F ? Eigen::Vector3f((to - from) / length) : from;
     const float s0 = from.dot(along);
@@ -108,7 +109,7 @@ void QuadSampler::add(const Quad& quad) {
     }
     cuts_.push_back(std::clamp(0.0F, s0, s1));
     if (s1 > 0.0F) outward(std::max(s0, 0.0F), s1);
-    // From places along the line to shares of the way between the borders.
+    // Converts positions along the line to shares of the way between the borders.
     const float per_w = 1.0F / (w_high - w_low);
     const auto share = [&](float s) {
         const Eigen::Vector3f p = from + (s - s0) * along;
@@ -122,8 +123,8 @@ void QuadSampler::add(const Quad& quad) {
     }
 }
 
-/// Whether the sag along w is that of add() or less, found with less work: the foot of the
-/// perpendicular is no farther away than the nearest point, h <= r, and that is at least 0.9 of the
+/// A cheap bound: true if the sag along w is below the limit of add(). The foot of the
+/// perpendicular is not farther than the nearest point, h <= r, which is at least 0.9 of the
 /// nearest corner.
 bool QuadSampler::is_small(const QuadPoints& corners) const {
     const float nearest = corners.range.minCoeff();
@@ -132,14 +133,14 @@ bool QuadSampler::is_small(const QuadPoints& corners) const {
            length2 <= std::min(7.0F * limits_.sag_m * nearest, 0.01F * nearest * nearest);
 }
 
-/// Adds the part of a quadrilateral between two shares of the way along w, in pieces that are not
-/// much wider at one end than at the other.
+/// Adds the part of a quadrilateral between two shares of the way along w, in patches with similar
+/// widths at both ends.
 void QuadSampler::add_narrow(const Quad& quad, float from, float to) {
     if (any_width_) {
-        add_piece(quad, from, to);
+        add_patch(quad, from, to);
         return;
     }
-    // Between two meridians the width goes with X, and 1 / X with w.
+    // Between two meridians the width is proportional to X, and 1 / X is linear in w.
     const float u = 0.5F * (quad.low.u + quad.high.u);
     const auto X_at = [&](float share) {
         const float w = quad.middle_low() + share * (quad.middle_high() - quad.middle_low());
@@ -156,21 +157,21 @@ void QuadSampler::add_narrow(const Quad& quad, float from, float to) {
     float X = widest / limits_.widest_ratio;
     while (X > narrowest) {
         const float next = std::clamp(from + (1.0F / X - 1.0F / X_from) / per_share, from, to);
-        if (next != last) add_piece(quad, std::min(last, next), std::max(last, next));
+        if (next != last) add_patch(quad, std::min(last, next), std::max(last, next));
         last = next;
         X /= limits_.widest_ratio;
     }
     const float end = narrows ? to : from;
-    if (end != last) add_piece(quad, std::min(last, end), std::max(last, end));
+    if (end != last) add_patch(quad, std::min(last, end), std::max(last, end));
 }
 
-/// Adds the part of a quadrilateral between two shares of the way along w. Where its range is not
-/// that of a parallelogram, it is cut across.
-void QuadSampler::add_piece(const Quad& quad, float from, float to) {
-    add_piece(quad, quad.corners(quad.low, quad.high, from, to), from, to);
+/// Adds the part of a quadrilateral between two shares of the way along w. It is divided across if
+/// its ranges are not those of a parallelogram.
+void QuadSampler::add_patch(const Quad& quad, float from, float to) {
+    add_patch(quad, quad.corners(quad.low, quad.high, from, to), from, to);
 }
 
-void QuadSampler::add_piece(const Quad& quad, const QuadPoints& corners, float from, float to) {
+void QuadSampler::add_patch(const Quad& quad, const QuadPoints& corners, float from, float to) {
     const Eigen::Array4f& r = corners.range;
     const float across = 0.5F * std::fabs(r[1] + r[2] - r[0] - r[3]);
     const float along = 0.5F * std::fabs(r[2] + r[3] - r[0] - r[1]);
@@ -192,7 +193,7 @@ void QuadSampler::add_piece(const Quad& quad, const QuadPoints& corners, float f
 }
 
 void QuadSampler::add_sample(const Quad& quad, const QuadPoints& corners) {
-    const SeenFacet& seen = scan_.scene().facets[quad.seen];
+    const FrontFacet& seen = scan_.scene().facets[quad.facet_index];
     const SliceFacet& facet = scan_.mesh().facets[seen.facet];
     const Eigen::Vector3f a = corners.at(0);
     const Eigen::Vector3f b = corners.at(1);
@@ -204,7 +205,7 @@ void QuadSampler::add_sample(const Quad& quad, const QuadPoints& corners) {
     Sample& sample = out_.emplace_back();
     Eigen::Vector3f middle = 0.25F * (a + b + c + d);
     if (!any_width_) {
-        // More of a trapezoid lies towards its wide end.
+        // The centroid of a trapezoid lies towards its wide end.
         const float one = (b - a).cross(c - a).norm();
         const float other = (c - a).cross(d - a).norm();
         middle = (one * (a + b + c) + other * (a + c + d)) / (3.0F * (one + other));
@@ -212,8 +213,8 @@ void QuadSampler::add_sample(const Quad& quad, const QuadPoints& corners) {
     sample.position = R_sensor_frame_ * middle;
     sample.edge_u = R_sensor_frame_ * (0.25F * (b + c - a - d));
     sample.edge_v = R_sensor_frame_ * (0.25F * (c + d - a - b));
-    const Extent range_m = fit_range(corners.range, sample);
-    slivers_.add(range_m, area, seen.height_m, materials_[facet.material].reflection);
+    const Interval range_m = fit_range(corners.range, sample);
+    edge_bins_.add(range_m, area, seen.height_m, materials_[facet.material].reflection);
     sample.normal = R_sensor_frame_ * seen.normal;
     sample.height_m = seen.height_m;
     sample.area_m2 = area;

@@ -7,17 +7,17 @@ namespace sonarsim {
 
 namespace {
 
-/// Four points of a plane of the scene, seen in the directions (1, u, w).
+/// Four points of a plane of the scene in the directions (1, u, w).
 struct PlanePoints {
     Eigen::Array4f q;
     Eigen::Array4f range_m;
 };
 
-PlanePoints plane_points(const SeenFacet& seen, const Extent& range_m, const Eigen::Array4f& u,
+PlanePoints plane_points(const FrontFacet& front, const Interval& range_m, const Eigen::Array4f& u,
                          const Eigen::Array4f& w) {
     const Eigen::Array4f secant = (1.0F + u * u + w * w).sqrt();
-    const Eigen::Array4f along = seen.normal.x() + seen.normal.y() * u + seen.normal.z() * w;
-    const Eigen::Array4f q = (along * (-1.0F / seen.height_m)).max(secant * (1.0F / range_m.to));
+    const Eigen::Array4f along = front.normal.x() + front.normal.y() * u + front.normal.z() * w;
+    const Eigen::Array4f q = (along * (-1.0F / front.height_m)).max(secant * (1.0F / range_m.to));
     PlanePoints points;
     points.range_m = (secant / q).max(std::min(range_m.from, range_m.to));
     points.q = secant / points.range_m;
@@ -51,24 +51,25 @@ void RangeProfile::set(const FrameScan& scan, std::span<const Material> material
         const VisibleSpan& span = spans[i];
         const float low = ends.ends[2 * i].w;
         const float high = ends.ends[2 * i + 1].w;
-        if (!(low < high) || ends.u < span.reach.u.from || ends.u > span.reach.u.to) continue;
-        const SeenFacet& seen = scan.scene().facets[span.seen];
+        if (!(low < high) || ends.u < span.facet_extent.u.from || ends.u > span.facet_extent.u.to)
+            continue;
+        const FrontFacet& front = scan.scene().facets[span.facet_index];
         const Eigen::Array4f w(low, high, 0.5F * (low + high), low);
         const Eigen::Array4f u = scan.frame().meridians
                                      ? Eigen::Array4f::Constant(ends.u)
                                      : Eigen::Array4f(ends.u * (1.0F + w * w).sqrt());
-        const PlanePoints points = plane_points(seen, span.reach.range_m, u, w);
+        const PlanePoints points = plane_points(front, span.facet_extent.range_m, u, w);
         const Eigen::Array4f& q = points.q;
         // dA = X^3 du dw / h, and 1 / X = q is linear in w.
         const float weight =
-            (high - low) * (q[0] + q[1]) / (2.0F * q[0] * q[0] * q[1] * q[1] * seen.height_m);
+            (high - low) * (q[0] + q[1]) / (2.0F * q[0] * q[0] * q[1] * q[1] * front.height_m);
         add(points.range_m.minCoeff(), std::max(points.range_m[0], points.range_m[1]), weight,
-            seen.height_m, materials[scan.mesh().facets[seen.facet].material].reflection);
+            front.height_m, materials[scan.mesh().facets[front.facet].material].reflection);
     }
     finish();
 }
 
-/// Adds a surface that spans a part of the range evenly.
+/// Adds surface that is spread evenly over an interval of range.
 void RangeProfile::add(float from_m, float to_m, float weight, float height_m, float reflection) {
     constexpr float least_bins = 1e-3F;
     const float low = from_m * per_m_ - min_bins_;

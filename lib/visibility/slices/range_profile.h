@@ -10,8 +10,8 @@
 
 namespace sonarsim {
 
-/// The noise-free echo of one vertical of the picture plane, bin by bin: the column of the image
-/// that a beam would have in which everything were as it is there.
+/// The noise-free echo of one vertical of the picture plane, bin by bin: the image of a beam in
+/// which all verticals were equal to this one.
 class RangeProfile {
   public:
     explicit RangeProfile(const View& view);
@@ -23,7 +23,7 @@ class RangeProfile {
     /// The sum of the bins' intensities.
     float sum() const { return sum_; }
 
-    /// The sum over the bins of how far two profiles differ.
+    /// The sum over the bins of the absolute difference of two profiles.
     static float difference(const RangeProfile& a, const RangeProfile& b);
 
   private:
@@ -32,14 +32,14 @@ class RangeProfile {
     void finish();
 
     float min_bins_;  ///< the least range, in bins
-    float per_m_;     ///< bins
+    float per_m_;     ///< bins per metre
     int bins_;
-    int first_ = 0;  ///< the bins that are not empty lie in [first_, last_)
+    int first_ = 0;  ///< bins outside of [first_, last_) are empty
     int last_ = 0;
     float sum_ = 0.0F;
     std::vector<float> per_range_;  ///< 1 / range of each bin, 1/m
     std::vector<float> weight_;
-    std::vector<float> echo_;  ///< in the end the intensity
+    std::vector<float> echo_;  ///< echo, and after finish() the intensity
 };
 
 }  // namespace sonarsim

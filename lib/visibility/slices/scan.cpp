@@ -12,15 +12,15 @@ namespace {
 // The picture plane stretches by 1 / cos^2 towards the edges of a sector.
 constexpr double widest_sector = 2.1;  // rad
 
-// A strip of sides follows a line of constant elevation, its slice a great circle: over this
-// azimuth the two differ by 2 % of the elevation.
+// A strip of a side has constant elevation; its slice is a great circle. Over this azimuth the two
+// differ by 2 % of the elevation.
 constexpr double widest_side = 0.4;  // rad
 
-constexpr double widest_strip = 0.0088;      // of a fan, rad
-constexpr double widest_side_strip = 0.035;  // of sides
+constexpr double widest_strip = 0.0088;      // fan, rad~
+constexpr double widest_side_strip = 0.035;  // port_starboard, rad~
 constexpr int cone_slices = 96;              // at one per beam
 
-// The poles of a view lie at w = infinity. Within 1e-3 rad of them nothing is looked for.
+// The poles of a view lie at w = infinity; surface within 1e-3 rad of them is ignored.
 constexpr double steepest = 1e3;
 
 double tangent(double angle) {
@@ -29,15 +29,15 @@ double tangent(double angle) {
                        : std::copysign(steepest, s.sin);
 }
 
-/// How far slice `k` lies beside its place, in strips: a little, and each by another share, so that
-/// no edge of a scene that is built along the sonar's axes runs along a slice.
+/// Offset of slice `k` from its place, in strips: small, and different for each slice, so that
+/// slices do not run along edges that are parallel to the sonar's axes.
 double aside(int k) {
     constexpr double golden = 0.6180339887498949;
     const double turns = golden * (k + 1);
     return 1e-3 * (0.5 + 0.5 * (turns - std::floor(turns)));
 }
 
-/// Equal strips over an angle across, numbered through all sectors.
+/// Equal strips of an angle across, numbered through all sectors.
 struct Strips {
     double low;  ///< rad
     double width;
@@ -49,8 +49,8 @@ struct Strips {
     int beam(int k) const { return first_beam + k / per_beam; }
 };
 
-/// Adds the slices and beams of a sector that holds the strips [first, last) and whose middle lies
-/// at `centre`.
+/// Adds the slices and beams of a sector that holds the strips [first, last) and whose middle is at
+/// `centre`.
 void add_slices(const Strips& strips, int first, int last, double centre, SliceFrame& frame) {
     const auto u = [&](double at) { return static_cast<float>(tangent(strips.at(at) - centre)); };
     for (int k = first; k <= last; ++k)
@@ -94,7 +94,7 @@ void add_meridians(const Strips& strips, double latitude_low, double latitude_hi
     }
 }
 
-/// Frames whose slices run from `azimuth_low` to `azimuth_high` one above the other.
+/// Frames whose slices run from `azimuth_low` to `azimuth_high`, one above the other.
 void add_parallels(const Strips& strips, double azimuth_low, double azimuth_high,
                    std::vector<SliceFrame>& frames) {
     const int sectors =
@@ -123,7 +123,7 @@ Strips strips_over(double low, double width, int beams, int per_beam, int first_
 
 Slice slice_at(const SliceFrame& frame, float u) {
     if (!frame.meridians) return {u, frame.tan_low, frame.tan_high, 0.0F, 0.0F};
-    // A parallel of the view is a hyperbola of the picture: w = tan(latitude) sqrt(1 + u^2).
+    // A parallel of the view is a hyperbola of the picture plane: w = tan(latitude) sqrt(1 + u^2).
     const float secant = std::sqrt(1.0F + u * u);
     return {u, frame.tan_low * secant, frame.tan_high * secant, frame.tan_low * u / secant,
             frame.tan_high * u / secant};
@@ -143,7 +143,7 @@ std::vector<SliceFrame> slice_frames(const View& view, int per_beam) {
                                       enough(view.azimuth_rad / view.beams, widest_strip)),
                           -half_elevation, half_elevation, axes, frames);
             break;
-        case ViewShape::sides:
+        case ViewShape::port_starboard:
             for (const int side : {0, 1}) {
                 const Strips strips =
                     strips_over(-half_elevation, view.elevation_rad, 1,

@@ -8,14 +8,14 @@ namespace sonarsim {
 
 namespace {
 
-// Surface nearer than this share of the range, along the forward axis of a frame, is not seen.
+// Surface nearer than this share of the range, along the forward axis of a frame, is ignored.
 constexpr float nearest_share = 1e-5F;
 
-// A plane whose distance from the sensor is less than this share of the triangle's own is seen
-// edge-on to within rounding.
+// A plane whose distance from the sensor is less than this share of the triangle's own is edge-on
+// to within rounding.
 constexpr float edge_on_share = 1e-7F;
 
-/// The line of the near plane between two corners on it.
+/// The line in the near plane between two corners on it.
 EdgeLine near_line(const Corner& a, const Corner& b) {
     const float slope = b.u != a.u ? (b.w - a.w) / (b.u - a.u) : 0.0F;
     return {a.u, a.w, slope, 1.0F / a.X, 0.0F, {}};
@@ -23,11 +23,11 @@ EdgeLine near_line(const Corner& a, const Corner& b) {
 
 }  // namespace
 
-void SliceScene::clear(std::uint32_t pieces) {
+void SliceScene::clear(std::uint32_t components) {
     facets.clear();
     trapezoids.clear();
-    between.clear();
-    piece_u.assign(pieces, {unbounded, -unbounded});
+    in_gaps.clear();
+    component_u.assign(components, {unbounded, -unbounded});
     dropped = 0;
 }
 
@@ -45,8 +45,8 @@ SliceSetup::SliceSetup(const ClusterMesh& mesh, const SliceFrame& frame, const L
       out_(out) {}
 
 void SliceSetup::run() {
-    out_.clear(mesh_.pieces);
-    for (const Cluster& cluster : mesh_.clusters) {
+    out_.clear(mesh_.components);
+    for (const TriangleCluster& cluster : mesh_.clusters) {
         if (in_view(cluster)) add_cluster(cluster);
     }
     out_.by_slice = sort_into_groups(first_slice_, frame_.slices.size());
@@ -59,7 +59,7 @@ void SliceSetup::add_between(std::span<const std::uint32_t> facets) {
 }
 
 Corners SliceSetup::corners_of(std::uint32_t facet) const {
-    const Cluster& cluster = mesh_.clusters[facet / ClusterMesh::most_triangles];
+    const TriangleCluster& cluster = mesh_.clusters[facet / ClusterMesh::most_triangles];
     Corners corners;
     for (int k = 0; k < 3; ++k) {
         const std::uint32_t vertex = cluster.first_vertex + mesh_.corners[facet][k];
@@ -68,7 +68,7 @@ Corners SliceSetup::corners_of(std::uint32_t facet) const {
     return corners;
 }
 
-bool SliceSetup::in_view(const Cluster& cluster) const {
+bool SliceSetup::in_view(const TriangleCluster& cluster) const {
     const Eigen::Vector3f c = in_frame(cluster.centre);
     const float radius = cluster.radius_m;
     const float reach = reach_m_ + radius;
@@ -81,7 +81,7 @@ bool SliceSetup::in_view(const Cluster& cluster) const {
              beyond(-c.z(), frame_.w_high));
 }
 
-void SliceSetup::add_cluster(const Cluster& cluster) {
+void SliceSetup::add_cluster(const TriangleCluster& cluster) {
     cluster_corners_.resize(cluster.vertices);
     for (std::uint32_t i = 0; i < cluster.vertices; ++i) {
         cluster_corners_[i] =
@@ -109,14 +109,14 @@ void SliceSetup::add_triangle(const Corners& corners, std::uint32_t facet) {
     if (!(first->u <= u_high_ && last->u > u_low_)) return;
     if (std::max({a.w, b.w, c.w}) <= frame_.w_low || std::min({a.w, b.w, c.w}) >= frame_.w_high)
         return;
-    widen_piece(facet, {first->u, last->u});
+    widen_component(facet, {first->u, last->u});
     const std::uint32_t begin = find_slice_(first->u);
     const std::uint32_t end = find_slice_(last->u);
     if (begin == end && !lazy_) {
-        if (begin > 0 && begin < frame_.slices.size()) out_.between.push_back({facet, begin - 1});
+        if (begin > 0 && begin < frame_.slices.size()) out_.in_gaps.push_back({facet, begin - 1});
         return;
     }
-    if (!see(facet, a)) return;
+    if (!add_facet(facet, a)) return;
     const EdgeLine whole = edge_line(*first, *last, nearest_m_);
     const bool above = middle->w > whole.w_at(middle->u);
     const auto part = [&](const Corner& from, const Corner& to) {
@@ -127,7 +127,7 @@ void SliceSetup::add_triangle(const Corners& corners, std::uint32_t facet) {
     part(*middle, *last);
 }
 
-/// Of a polygon's sides, two lie above each other between neighbouring corners.
+/// FacetInGap neighbouring corners a polygon has two sides, one above the other.
 void SliceSetup::add_part_in_front(const Corners& corners, std::uint32_t facet) {
     const FrontPart part = part_in_front(corners, nearest_m_);
     std::array<EdgeLine, 4> lines;
@@ -144,8 +144,8 @@ void SliceSetup::add_part_in_front(const Corners& corners, std::uint32_t facet) 
         u[i] = a.u;
     }
     std::ranges::sort(u);
-    widen_piece(facet, {-unbounded, unbounded});
-    if (!(u[0] <= u_high_ && u[part.count - 1] > u_low_) || !see(facet, corners[0])) return;
+    widen_component(facet, {-unbounded, unbounded});
+    if (!(u[0] <= u_high_ && u[part.count - 1] > u_low_) || !add_facet(facet, corners[0])) return;
     for (int k = 0; k + 1 < part.count; ++k) {
         const float middle = 0.5F * (u[k] + u[k + 1]);
         const EdgeLine* low = nullptr;
@@ -160,13 +160,13 @@ void SliceSetup::add_part_in_front(const Corners& corners, std::uint32_t facet) 
     }
 }
 
-void SliceSetup::widen_piece(std::uint32_t facet, const Extent& by) {
-    Extent& piece = out_.piece_u[mesh_.facets[facet].piece];
-    piece = {std::min(piece.from, by.from), std::max(piece.to, by.to)};
+void SliceSetup::widen_component(std::uint32_t facet, const Interval& by) {
+    Interval& component = out_.component_u[mesh_.facets[facet].component];
+    component = {std::min(component.from, by.from), std::max(component.to, by.to)};
 }
 
-/// Enters a facet that some slice meets; false when it is seen edge-on.
-bool SliceSetup::see(std::uint32_t facet, const Corner& corner) {
+/// Appends a facet that some slice meets; returns false if it is edge-on.
+bool SliceSetup::add_facet(std::uint32_t facet, const Corner& corner) {
     const Eigen::Vector3f point(corner.X, corner.U, corner.W);
     const Eigen::Vector3f normal = R_frame_local_ * mesh_.facets[facet].normal;
     const float height = -normal.dot(point);
@@ -180,20 +180,20 @@ bool SliceSetup::see(std::uint32_t facet, const Corner& corner) {
     return true;
 }
 
-/// Of the facet entered last. What lies between two slices is noted, or added once it is wanted.
+/// Adds a part of the last facet. A part between two slices is noted, or added on request.
 void SliceSetup::add_trapezoid(const EdgeLine& low, const EdgeLine& high, float from, float to) {
     if (!(from < to)) return;
     const std::uint32_t first = find_slice_(from);
     const bool met = first < find_slice_(to);
-    const auto seen = static_cast<std::uint32_t>(out_.facets.size() - 1);
-    const std::uint32_t facet = out_.facets[seen].facet;
+    const auto facet_index = static_cast<std::uint32_t>(out_.facets.size() - 1);
+    const std::uint32_t facet = out_.facets[facet_index].facet;
     if (met == lazy_) {
         if (met || first == 0 || first == frame_.slices.size()) return;
-        out_.between.push_back({facet, first - 1});
+        out_.in_gaps.push_back({facet, first - 1});
         return;
     }
     if (met) first_slice_.push_back(first);
-    out_.trapezoids.push_back({low, high, from, to, seen});
+    out_.trapezoids.push_back({low, high, from, to, facet_index});
 }
 
 }  // namespace sonarsim

@@ -15,48 +15,49 @@
 namespace sonarsim {
 
 /// The plane of a triangle that some slice meets, in the frame of the slices.
-struct SeenFacet {
+struct FrontFacet {
     Eigen::Vector3f normal;  ///< towards the sensor
-    float height_m;          ///< of the sensor above the plane
-    std::uint32_t facet;     ///< of ClusterMesh::facets
+    float height_m;          ///< distance of the sensor from the plane
+    std::uint32_t facet;     ///< index into ClusterMesh::facets
 };
 
 /// Part of a triangle between two verticals of the picture plane. Its lower and its upper edge are
-/// lines over u, and so is q = 1 / X along either: on a plane q is linear in u and w.
+/// linear in u, and so is q = 1 / X along each: on a plane q is linear in u and w.
 struct Trapezoid {
     EdgeLine low;
     EdgeLine high;
     float u_from;
-    float u_to;          ///< exclusive
-    std::uint32_t seen;  ///< index of its SeenFacet
+    float u_to;                 ///< exclusive
+    std::uint32_t facet_index;  ///< index of its FrontFacet
 };
 
 /// A triangle that lies between two slices.
-struct Between {
-    std::uint32_t facet;  ///< of ClusterMesh::facets
+struct FacetInGap {
+    std::uint32_t facet;  ///< index into ClusterMesh::facets
     std::uint32_t gap;
 };
 
-/// What the slices of a frame meet.
+/// The facets and trapezoids that the slices of a frame meet.
 struct SliceScene {
-    std::vector<SeenFacet> facets;
+    std::vector<FrontFacet> facets;
     std::vector<Trapezoid> trapezoids;
     Groups by_slice;  ///< trapezoids by the first slice that meets them
-    std::vector<Between> between;
-    std::vector<Extent> piece_u;  ///< of the triangles in view; of the other pieces from > to
-    std::uint64_t dropped = 0;    ///< triangles seen edge-on to within rounding
+    std::vector<FacetInGap> in_gaps;
+    std::vector<Interval> component_u;  ///< extent by component; from > to: out of view
+    std::uint64_t dropped = 0;          ///< triangles that are edge-on to within rounding
 
-    void clear(std::uint32_t pieces);
+    void clear(std::uint32_t components);
 };
 
 /// Projects the triangles of a mesh into a frame.
 class SliceSetup {
   public:
-    /// All arguments must outlive it. Nothing beyond `range_max_m` is projected.
+    /// All arguments must outlive it. Triangles beyond `range_max_m` are ignored.
     SliceSetup(const ClusterMesh& mesh, const SliceFrame& frame, const LocalPose& pose,
                float range_max_m, SliceScene& out);
 
-    /// Fills `out`: trapezoids for what a slice of the frame meets, notes for what lies between.
+    /// Fills `out`: trapezoids for the triangles that a slice of the frame meets, notes for those
+    /// between slices.
     void run();
 
     /// Adds the trapezoids of triangles that lie between two slices.
@@ -73,12 +74,12 @@ class SliceSetup {
     }
 
   private:
-    bool in_view(const Cluster& cluster) const;
-    void add_cluster(const Cluster& cluster);
+    bool in_view(const TriangleCluster& cluster) const;
+    void add_cluster(const TriangleCluster& cluster);
     void add_triangle(const Corners& corners, std::uint32_t facet);
     void add_part_in_front(const Corners& corners, std::uint32_t facet);
-    void widen_piece(std::uint32_t facet, const Extent& by);
-    bool see(std::uint32_t facet, const Corner& corner);
+    void widen_component(std::uint32_t facet, const Interval& by);
+    bool add_facet(std::uint32_t facet, const Corner& corner);
     void add_trapezoid(const EdgeLine& low, const EdgeLine& high, float from, float to);
 
     const ClusterMesh& mesh_;
@@ -92,8 +93,8 @@ class SliceSetup {
     const SliceFinder find_slice_;
     SliceScene& out_;
     std::vector<Corner> cluster_corners_;
-    std::vector<std::uint32_t> first_slice_;  ///< of each trapezoid
-    bool lazy_ = false;                       ///< triangles between slices are wanted
+    std::vector<std::uint32_t> first_slice_;  ///< first slice that meets each trapezoid
+    bool lazy_ = false;                       ///< add_between() is running
 };
 
 }  // namespace sonarsim

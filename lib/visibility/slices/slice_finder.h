@@ -8,7 +8,7 @@
 
 namespace sonarsim {
 
-/// Finds the first slice at or after u; as many as there are slices where there is none. The slices
+/// Finds the first slice at or after u; returns the number of slices if there is none. The slices
 /// must outlive it.
 class SliceFinder {
   public:

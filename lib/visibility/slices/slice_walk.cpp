@@ -6,7 +6,7 @@ namespace sonarsim {
 
 namespace {
 
-/// By place; equal places by number, so that the order is the same whatever came before.
+/// Orders by position, then by number, so that the order does not depend on the input's.
 struct Before {
     bool operator()(const Segment& a, const Segment& b) const {
         return a.w_low < b.w_low || (a.w_low == b.w_low && a.trapezoid < b.trapezoid);
@@ -14,7 +14,7 @@ struct Before {
 };
 constexpr Before before;
 
-/// Nearly sorted lists take linear time.
+/// Takes linear time for nearly sorted lists.
 void insertion_sort(std::vector<Segment>& segments) {
     for (std::size_t i = 1; i < segments.size(); ++i) {
         if (!before(segments[i], segments[i - 1])) continue;
@@ -32,7 +32,7 @@ void evaluate(const SliceScene& scene, float u, std::vector<Segment>& segments) 
         const float low_aside = u - t.low.anchor;
         const float high_aside = u - t.high.anchor;
         segment.w_low = t.low.w + t.low.w_slope * low_aside;
-        // Next to a corner the edges may cross by rounding.
+        // Near a corner the edges may cross by rounding.
         segment.w_high = std::max(t.high.w + t.high.w_slope * high_aside, segment.w_low);
         const float q_low = t.low.q + t.low.q_slope * low_aside;
         const float q_high = t.high.q + t.high.q_slope * high_aside;

@@ -16,7 +16,7 @@ struct Candidate {
 
 Candidate candidate(const SliceScene& scene, std::uint32_t trapezoid);
 
-/// The segments of a slice at u, sorted by w_low: of those among `candidates` that it meets.
+/// The segments of the candidates that a slice at u meets, sorted by w_low.
 void segments_at(const SliceScene& scene, float u, std::span<const Candidate> candidates,
                  std::vector<Segment>& out);
 
@@ -28,13 +28,13 @@ class SliceWalk {
     /// Steps to the next slice, of index `s`, and returns its segments, sorted by w_low.
     const std::vector<Segment>& step(int s);
 
-    /// The trapezoids that the last slice or the one before it meets.
+    /// Appends the trapezoids that the last slice or the one before it meets to `out`.
     void around_last_gap(std::vector<std::uint32_t>& out) const;
 
   private:
     const SliceScene* scene_ = nullptr;
     const SliceFrame* frame_ = nullptr;
-    std::vector<Segment> before_;  ///< of the slice before
+    std::vector<Segment> before_;  ///< segments of the slice before
     std::vector<Segment> active_;
     std::vector<Segment> old_;
     std::vector<Segment> fresh_;

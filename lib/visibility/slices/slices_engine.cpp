@@ -7,76 +7,78 @@
 #include "visibility/caster.h"
 #include "visibility/intersect.h"
 #include "visibility/local_pose.h"
-#include "visibility/slices/agreeing_slices.h"
+#include "visibility/slices/adaptive_slices.h"
 #include "visibility/slices/clusters.h"
+#include "visibility/slices/edge_bin_error.h"
 #include "visibility/slices/frame_scan.h"
 #include "visibility/slices/quad_samples.h"
 #include "visibility/slices/scan.h"
-#include "visibility/slices/sliver_bins.h"
 #include "visibility/slices/strip_quads.h"
 
 namespace sonarsim {
 
 namespace {
 
-// With a number of slices that is given, gaps are split for narrow pieces alone.
-constexpr DisagreementLimit unlimited{.share = 1e9, .lent = 0.0};
+// With a fixed number of slices, gaps are split only for narrow components.
+constexpr SliceErrorLimit unlimited{.share = 1e9, .carry_over = 0.0};
 
-/// Slices to a beam that an error goal begins with.
+/// Initial number of slices per beam for an error goal.
 int slices_for(double relative_l1) {
     return is_coarse(relative_l1) ? 1 : relative_l1 >= 0.005 ? 2 : 4;
 }
 
-// How far the slices of an image disagree says how far the image is off. Fitted to the errors of a
+// Ratio of an image's error to the square root of its slice error. Fitted to the errors of a
 // lifeboat of 7,920 triangles and a tank, eight poses each at goals of 10, 3, 1 and 0.3 %, within a
-// factor of 1.7. The square root: where slices are added they are added where they disagree most,
-// and the rest of the error does not fall along with it.
-constexpr double error_of_disagreement = 0.16;
+// factor of 1.7. The square root follows from where slices are added: where neighbours differ most,
+// so the rest of the error does not fall in proportion.
+constexpr double error_per_difference = 0.16;
 
-/// Error of an image whose slices see everything: pieces of surface become boxes in range.
+/// Error of an image without errors of visibility: patches of surface become boxes in range.
 double error_of_shapes(double relative_l1) {
     return 0.002 + 0.003 * std::clamp(relative_l1 / 0.03, 0.1, 1.0);
 }
 
-double estimated_error(double relative_l1, double disagreement) {
-    return error_of_shapes(relative_l1) + error_of_disagreement * std::sqrt(disagreement);
+double estimated_error(double relative_l1, double slice_error) {
+    return error_of_shapes(relative_l1) + error_per_difference * std::sqrt(slice_error);
 }
 
-/// What slices may disagree by for an error goal, of which slivers take `slivers`. Goals near the
-/// error of shapes are not met by more slices: they end at an eighth of the goal.
-DisagreementLimit disagreement_for(double relative_l1, double slivers) {
-    // A coarse goal is used up but for a tenth, by which the estimate may be off: beams lend to
-    // each other, and slivers are made up for. At 1 % errors come out up to 1.15 times the
-    // estimate, and every beam has to keep within the goal by itself.
+/// Limit of the slice error for an error goal, less `edge_bins`, the expected error of edge bins.
+/// More slices do not meet goals near the error of shapes: the limit is at least an eighth of the
+/// goal.
+SliceErrorLimit slice_error_limit(double relative_l1, double edge_bins) {
+    // A coarse goal is used except for a tenth, the uncertainty of the estimate: beams share their
+    // allowance, and edge bins are subtracted. At 1 % errors are up to 1.15 times the estimate, so
+    // every beam has to meet the goal by itself.
     const bool coarse = is_coarse(relative_l1);
-    const double goal = coarse ? 0.9 * relative_l1 - slivers : relative_l1;
+    const double goal = coarse ? 0.9 * relative_l1 - edge_bins : relative_l1;
     const double left = std::max(goal - error_of_shapes(relative_l1), 0.0);
-    return {.share = std::max(left * left / (error_of_disagreement * error_of_disagreement),
+    return {.share = std::max(left * left / (error_per_difference * error_per_difference),
                               0.125 * relative_l1),
-            .lent = coarse ? 0.25 : 0.0};
+            .carry_over = coarse ? 0.25 : 0.0};
 }
 
-/// Cuts the strips that slices stand for where a beam ends.
+/// Divides the strips of slices at the borders of beams.
 class BeamCutter {
   public:
     /// All arguments must outlive it.
-    BeamCutter(const SliceFrame& frame, StripQuads& quads, SliverBins& slivers, Samples& samples)
-        : frame_(frame), quads_(quads), slivers_(slivers), samples_(samples) {
-        slivers_.begin_beam(frame_.first_beam);
+    BeamCutter(const SliceFrame& frame, StripQuads& quads, EdgeBinError& edge_bins,
+               Samples& samples)
+        : frame_(frame), quads_(quads), edge_bins_(edge_bins), samples_(samples) {
+        edge_bins_.begin_beam(frame_.first_beam);
     }
 
-    /// Adds the samples of a strip. Strips are to be added from low u to high, without gaps.
-    void add(const SeenSlice& seen) {
+    /// Adds the samples of a strip. Strips must be added from low u to high, without gaps.
+    void add(const SliceResult& result) {
         if (beam_ + 1 == static_cast<int>(frame_.beam_u.size())) return;  // no width is left
-        const MovedEnds* low = &seen.low;
-        while (frame_.beam_u[beam_ + 1] < seen.high.u) {
-            move_ends(seen.slice, seen.spans, frame_.beam_u[beam_ + 1], at_border_[beam_ % 2]);
-            quads_.add(seen, *low, at_border_[beam_ % 2]);
+        const MovedEnds* low = &result.low;
+        while (frame_.beam_u[beam_ + 1] < result.high.u) {
+            move_ends(result.slice, result.spans, frame_.beam_u[beam_ + 1], at_border_[beam_ % 2]);
+            quads_.add(result, *low, at_border_[beam_ % 2]);
             low = &at_border_[beam_ % 2];
             end_beam();
         }
-        quads_.add(seen, *low, seen.high);
-        if (frame_.beam_u[beam_ + 1] == seen.high.u) end_beam();
+        quads_.add(result, *low, result.high);
+        if (frame_.beam_u[beam_ + 1] == result.high.u) end_beam();
     }
 
   private:
@@ -84,15 +86,15 @@ class BeamCutter {
         quads_.end_beam();
         samples_.beam_begin[frame_.first_beam + ++beam_] =
             static_cast<std::uint32_t>(samples_.items.size());
-        if (beam_ + 1 < std::ssize(frame_.beam_u)) slivers_.begin_beam(frame_.first_beam + beam_);
+        if (beam_ + 1 < std::ssize(frame_.beam_u)) edge_bins_.begin_beam(frame_.first_beam + beam_);
     }
 
     const SliceFrame& frame_;
     StripQuads& quads_;
-    SliverBins& slivers_;
+    EdgeBinError& edge_bins_;
     Samples& samples_;
     MovedEnds at_border_[2];
-    int beam_ = 0;  ///< of the frame, in which the next strip begins
+    int beam_ = 0;  ///< beam of the frame in which the next strip begins
 };
 
 class SlicesEngine final : public VisibilityEngine {
@@ -106,12 +108,12 @@ class SlicesEngine final : public VisibilityEngine {
         const LocalPose pose = local_pose(T_world_sensor, scene_->origin);
         Samples samples;
         samples.beam_begin.assign(view.beams + 1, 0);
-        Disagreement sum;
-        SliverBins slivers(view);
+        SliceError sum;
+        EdgeBinError edge_bins(view);
         for (const SliceFrame& frame : slice_frames(view, per_beam))
-            see_frame(view, pose, frame, samples, slivers, sum);
-        slivers.finish();
-        samples.estimated_l1 = estimated_error(view.relative_l1, sum.share()) + slivers.error();
+            see_frame(view, pose, frame, samples, edge_bins, sum);
+        edge_bins.finish();
+        samples.estimated_l1 = estimated_error(view.relative_l1, sum.share()) + edge_bins.error();
         return samples;
     }
 
@@ -122,24 +124,24 @@ class SlicesEngine final : public VisibilityEngine {
 
   private:
     void see_frame(const View& view, const LocalPose& pose, const SliceFrame& frame,
-                   Samples& samples, SliverBins& slivers, Disagreement& sum) const {
-        const PieceLimits limits = piece_limits(view);
+                   Samples& samples, EdgeBinError& edge_bins, SliceError& sum) const {
+        const PatchLimits limits = patch_limits(view);
         FrameScan scan(mesh_, *scene_, frame, pose, limits.range_max_m);
-        AgreeingSlices agreeing(view, scene_->materials, scan);
-        QuadSampler sampler(scan, scene_->materials, limits, slivers, samples.items);
+        AdaptiveSlices adaptive(view, scene_->materials, scan);
+        QuadSampler sampler(scan, scene_->materials, limits, edge_bins, samples.items);
         StripQuads quads(scan, limits, sampler);
-        BeamCutter cutter(frame, quads, slivers, samples);
+        BeamCutter cutter(frame, quads, edge_bins, samples);
         const auto most = [&] {
             return options_.per_beam > 0 ? unlimited
-                                         : disagreement_for(view.relative_l1, slivers.error());
+                                         : slice_error_limit(view.relative_l1, edge_bins.error());
         };
-        while (agreeing.see_next(most())) {
-            for (const SeenSlice* seen : agreeing.slices())
-                cutter.add(*seen);
+        while (adaptive.scan_next(most())) {
+            for (const SliceResult* result : adaptive.slices())
+                cutter.add(*result);
         }
         samples.dropped += scan.scene().dropped;
-        sum.apart += agreeing.sum().apart;
-        sum.signal += agreeing.sum().signal;
+        sum.difference += adaptive.sum().difference;
+        sum.signal += adaptive.sum().signal;
     }
 
     const Scene* scene_;

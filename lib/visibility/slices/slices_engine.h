@@ -8,7 +8,7 @@
 namespace sonarsim {
 
 struct SlicesOptions {
-    int per_beam = 0;  ///< slices to a beam; 0: what the view's error goal calls for
+    int per_beam = 0;  ///< slices per beam; 0: the view's error goal determines them
 };
 
 /// The slices engine: half-planes through the sensor, exact along each. `scene` must outlive it.

@@ -8,14 +8,14 @@ namespace sonarsim {
 
 namespace {
 
-// A plane beside the slice: where its q would fall below this share, it has run away to infinity.
+// A plane next to the slice whose q falls below this share has run away to infinity.
 constexpr float least_q_share = 1e-3F;
 
-// By what share of its height a quadrilateral's end may lie beside the straight line.
+// Largest distance of a quadrilateral's end from the straight line, as a share of its height.
 constexpr float most_bend = 0.02F;
 
-/// The border of a span's quadrilateral on one side: at the side itself, or on the way to it where
-/// the ends meet each other, or one of them the end that both follow.
+/// The border of a span's quadrilateral on one side: the side itself, or before it the point where
+/// the two ends meet, or where one of them meets the end that both follow.
 QuadSide quad_side(const Slice& slice, const MovedEnds& side, std::size_t span) {
     const MovedEnd& low = side.ends[2 * span];
     const MovedEnd& high = side.ends[2 * span + 1];
@@ -30,7 +30,7 @@ QuadSide quad_side(const Slice& slice, const MovedEnds& side, std::size_t span) 
     return {slice.u + share * (side.u - slice.u), w, w};
 }
 
-/// Whether the straight lines from one side to another pass by both ends of the one between them.
+/// True if the straight lines from one side to another pass both ends of the side between them.
 bool straight(const QuadSide& low, const QuadSide& between, const QuadSide& high) {
     const float share = (between.u - low.u) / (high.u - low.u);
     const auto bend = [&](float begin, float at, float end) {
@@ -41,7 +41,7 @@ bool straight(const QuadSide& low, const QuadSide& between, const QuadSide& high
            bend(low.high, between.high, high.high) <= most;
 }
 
-/// Of the gaps of a frame, in u at u = 0; a little more, for they are not all alike.
+/// Width of the frame's gaps, in u at u = 0; 1 % more, since they differ slightly.
 float gap_width(const SliceFrame& frame) {
     const std::size_t middle = frame.slices.size() / 2;
     const float low = frame.slices[middle - 1].u;
@@ -51,17 +51,17 @@ float gap_width(const SliceFrame& frame) {
 
 }  // namespace
 
-StripQuads::StripQuads(const FrameScan& scan, const PieceLimits& limits, QuadSampler& out)
+StripQuads::StripQuads(const FrameScan& scan, const PatchLimits& limits, QuadSampler& out)
     : scan_(scan),
       most_wedge_m_(limits.most_wedge_m),
       out_(out),
       widest_(gap_width(scan.frame())) {}
 
-void StripQuads::add(const SeenSlice& seen, const MovedEnds& low, const MovedEnds& high) {
-    const Slice& slice = seen.slice;
+void StripQuads::add(const SliceResult& result, const MovedEnds& low, const MovedEnds& high) {
+    const Slice& slice = result.slice;
     fresh_.clear();
-    for (std::size_t i = 0; i < seen.spans.size(); ++i)
-        add_span(slice, seen.spans[i], quad_side(slice, low, i), quad_side(slice, high, i));
+    for (std::size_t i = 0; i < result.spans.size(); ++i)
+        add_span(slice, result.spans[i], quad_side(slice, low, i), quad_side(slice, high, i));
     join(low.u);
     std::swap(open_, fresh_);
     std::erase_if(open_, [&](const Quad& quad) {
@@ -79,21 +79,21 @@ void StripQuads::end_beam() {
 
 void StripQuads::add_span(const Slice& slice, const VisibleSpan& span, const QuadSide& low,
                           const QuadSide& high) {
-    const SeenFacet& seen = scan_.scene().facets[span.seen];
+    const FrontFacet& front = scan_.scene().facets[span.facet_index];
     Quad quad;
-    quad.seen = span.seen;
+    quad.facet_index = span.facet_index;
     quad.widens = !scan_.frame().meridians;
     quad.u = slice.u;
     quad.w = span.q_low < span.q_high ? span.w_low : span.w_high;
     quad.q = std::min(span.q_low, span.q_high);
-    quad.q_u = -seen.normal.y() / seen.height_m;
-    quad.q_w = -seen.normal.z() / seen.height_m;
-    // Beside the slice a plane may run away from the sensor, but its triangle does not.
+    quad.q_u = -front.normal.y() / front.height_m;
+    quad.q_w = -front.normal.z() / front.height_m;
+    // Next to the slice a plane may run away from the sensor, but its triangle does not.
     quad.q_least = least_q_share * quad.q;
-    quad.range_m = span.reach.range_m;
+    quad.range_m = span.facet_extent.range_m;
     const QuadSide on_slice{slice.u, span.w_low, span.w_high};
     const auto kept = [&](const QuadSide& side) -> QuadSide {
-        const float u = std::clamp(side.u, span.reach.u.from, span.reach.u.to);
+        const float u = std::clamp(side.u, span.facet_extent.u.from, span.facet_extent.u.to);
         if (u == side.u) return side;
         const float share = (u - slice.u) / (side.u - slice.u);
         return {u, span.w_low + share * (side.low - span.w_low),
@@ -111,7 +111,7 @@ void StripQuads::add_span(const Slice& slice, const VisibleSpan& span, const Qua
     fresh_.push_back(quad);
 }
 
-/// Lets the open quadrilaterals go on into the fresh ones at u, and hands over the others.
+/// Joins the open quadrilaterals with the new ones at u, and passes the others on.
 void StripQuads::join(float u) {
     auto open = open_.begin();
     for (Quad& quad : fresh_) {
@@ -131,14 +131,14 @@ void StripQuads::join(float u) {
         out_.add(*open);
 }
 
-/// Whether `quad` is the rest of an open one, and both make one piece.
+/// True if `quad` continues an open one, and both make one patch.
 bool StripQuads::go_on(const Quad& open, const Quad& quad) const {
     const float most = most_bend * (quad.low.high - quad.low.low);
     if (!(std::fabs(open.high.low - quad.low.low) < most &&
           std::fabs(open.high.high - quad.low.high) < most &&
           quad.high.u - open.low.u <= widest_ * (1.0F + quad.low.u * quad.low.u) &&
           straight(open.low, quad.low, quad.high) &&
-          scan_.one_plane(open.seen, quad.seen, quad.range_m.to))) {
+          scan_.one_plane(open.facet_index, quad.facet_index, quad.range_m.to))) {
         return false;
     }
     const Eigen::Array4f r = quad.corners(open.low, quad.high, 0.0F, 1.0F).range;

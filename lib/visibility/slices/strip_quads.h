@@ -9,18 +9,18 @@
 
 namespace sonarsim {
 
-/// Turns the strips that slices stand for into quadrilaterals. Where two strips meet that show the
-/// same surface between the same lines, its quadrilateral goes on from one into the other.
+/// Converts the strips of slices to quadrilaterals. If two adjacent strips show the same surface
+/// between the same lines, their quadrilaterals are joined.
 class StripQuads {
   public:
     /// All arguments must outlive it.
-    StripQuads(const FrameScan& scan, const PieceLimits& limits, QuadSampler& out);
+    StripQuads(const FrameScan& scan, const PatchLimits& limits, QuadSampler& out);
 
-    /// Adds what a slice stands for between two verticals of the picture plane, to which its ends
-    /// are moved. Strips are to be added from low u to high.
-    void add(const SeenSlice& seen, const MovedEnds& low, const MovedEnds& high);
+    /// Adds the strip of a slice between two verticals of the picture plane, to which its ends are
+    /// moved. Strips must be added from low u to high.
+    void add(const SliceResult& result, const MovedEnds& low, const MovedEnds& high);
 
-    /// Hands over what goes on: the next strip lies in another beam.
+    /// Passes the open quadrilaterals on, since the next strip belongs to another beam.
     void end_beam();
 
   private:
@@ -32,9 +32,9 @@ class StripQuads {
     const FrameScan& scan_;
     const float most_wedge_m_;
     QuadSampler& out_;
-    const float widest_;       ///< that a quadrilateral becomes, in u at u = 0
-    std::vector<Quad> open_;   ///< that end with the last strip, from low w to high
-    std::vector<Quad> fresh_;  ///< of the strip that is being added
+    const float widest_;       ///< greatest width of a quadrilateral, in u at u = 0
+    std::vector<Quad> open_;   ///< quadrilaterals at the last strip's end, by w
+    std::vector<Quad> fresh_;  ///< quadrilaterals of this strip
 };
 
 }  // namespace sonarsim

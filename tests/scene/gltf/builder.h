@@ -19,7 +19,7 @@
 
 namespace sonarsim {
 
-/// A folder that goes away with the test.
+/// A temporary folder that the destructor removes.
 class TemporaryFolder {
   public:
     TemporaryFolder() {
@@ -43,7 +43,7 @@ class TemporaryFolder {
 
 using Point = std::array<float, 3>;
 
-/// The .glb container of a JSON text and a BIN chunk ("": none), padded as glTF asks for.
+/// The .glb container of a JSON text and a BIN chunk ("": none), with glTF's padding.
 inline std::string glb_of(std::string text, std::string binary) {
     const auto number = [](std::size_t value) {
         const auto v = static_cast<std::uint32_t>(value);
@@ -56,7 +56,7 @@ inline std::string glb_of(std::string text, std::string binary) {
     return "glTF" + number(2) + number(12 + chunks.size()) + chunks;
 }
 
-/// A small glTF under construction. `document` may be bent at will before it is written.
+/// A small glTF under construction. Tests may change `document` before it is written.
 struct GltfBuilder {
     nlohmann::json document = {{"asset", {{"version", "2.0"}}}};
     std::string binary;
@@ -143,7 +143,7 @@ inline Scene load(const GltfBuilder& gltf) {
     return load(gltf.glb());
 }
 
-/// What loading says, without the folder; "" when nothing is wrong.
+/// The error message of loading, without the folder; "" if there is none.
 inline std::string load_error(const std::string& bytes) {
     const TemporaryFolder folder;
     const auto materials = folder.write("materials.csv", test_materials);

@@ -42,11 +42,11 @@ TEST_SUITE("scene") {
                   .starts_with("x.glb: is no valid glTF: Failed to decode 'uri'"));
         CHECK(uri_error("data:application/octet-stream;base64,????") != "");
         CHECK(uri_error("data:application/octet-stream;base64,") != "");
-        // The message does not quote a long one whole.
+        // The message shortens a long URI.
         const std::string long_uri =
             "data:application/octet-stream;base64," + std::string(5000, 'A');
         CHECK(uri_error(long_uri).size() < 400);
-        CHECK(uri_error("x.glb") != "");  // itself, of another size
+        CHECK(uri_error("x.glb") != "");  // itself, with another size
 
         GltfBuilder gltf = one_triangle();
         gltf.document["buffers"] = {{{"byteLength", 40}}};
@@ -67,7 +67,7 @@ TEST_SUITE("scene") {
 
     TEST_CASE("glTF errors: .glb containers that lie") {
         const std::string whole = one_triangle().glb();
-        // Cut anywhere, it is refused, never read beyond its end.
+        // A file that is cut anywhere is refused, and never read beyond its end.
         for (std::size_t length = 0; length < whole.size(); length += 3) {
             CAPTURE(length);
             CHECK(load_error(whole.substr(0, length)) != "");
@@ -112,7 +112,7 @@ TEST_SUITE("scene") {
 
     TEST_CASE("glTF errors: a small file that would take the machine's memory") {
         GltfBuilder gltf = one_triangle();
-        // Zeros under a sparse accessor cost no bytes to claim.
+        // Zeros under a sparse accessor take no bytes in the file.
         json& accessor = gltf.document["accessors"][0];
         accessor.erase("bufferView");
         accessor["count"] = 1 << 28;

@@ -9,7 +9,7 @@ using nlohmann::json;
 
 namespace {
 
-/// The message for the triangle after `bend` has bent its document.
+/// The error message for the triangle after `bend` has changed its document.
 template <class Bend>
 std::string error_of(Bend bend) {
     GltfBuilder gltf = one_triangle();

@@ -77,7 +77,7 @@ TEST_SUITE("scene") {
     TEST_CASE("glTF: strips and fans") {
         check_square(load(square_mesh(5, -1)));
         check_square(load(indexed_square<std::uint16_t>({2, 0, 3, 1}, 5)));
-        // A fan goes around: 0 1 3 and 0 3 2.
+        // The fan's triangles are 0 1 3 and 0 3 2.
         check_square(load(indexed_square<std::uint8_t>({0, 1, 3, 2}, 6)));
     }
 
@@ -95,7 +95,7 @@ TEST_SUITE("scene") {
 
     TEST_CASE("glTF: strided positions") {
         GltfBuilder gltf;
-        // Position and normal interleaved: stride 24.
+        // Interleaved position and normal: stride 24.
         const std::vector<std::array<float, 6>> mixed{
             {0, 0, 0, 9, 9, 9}, {1, 0, 0, 9, 9, 9}, {0, 1, 0, 9, 9, 9}};
         const int points = gltf.accessor(gltf.view(mixed, 24), 5126, 3, "VEC3");
@@ -156,11 +156,11 @@ TEST_SUITE("scene") {
         gltf.node({{"mesh", 0}});
         const Scene scene = load(gltf);
         CHECK(scene.triangles.size() == 1);
-        CHECK(scene.vertices.size() == 3);  // nothing is left of the dropped ones
+        CHECK(scene.vertices.size() == 3);  // the dropped triangles leave no vertices
         CHECK(scene.rejects.degenerate_triangles == 2);
         CHECK(scene.rejects.non_finite_triangles == 2);
         check_point(scene.bounds_max, 1, 0, 1);
-        check_point(scene.origin, 1, 0, 1);  // and they did not move the origin: centre 0.5
+        check_point(scene.origin, 1, 0, 1);  // they did not move the origin either: centre 0.5
     }
 
     TEST_CASE("glTF: a triangle that floats flatten to a line is degenerate") {
@@ -183,7 +183,7 @@ TEST_SUITE("scene") {
     }
 
     TEST_CASE("glTF: a scene moved by multiples of g keeps its local coordinates bit by bit") {
-        // A size of exactly 100 m and a centre of exactly half of that are the delicate case.
+        // The delicate case: a size of exactly 100 m and a centre at exactly half of that.
         GltfBuilder gltf;
         const std::vector<Point> points{{0, 0, 0}, {100, 0.123456789F, 0}, {33.3F, 100, 77.7F}};
         gltf.mesh({{{"attributes", {{"POSITION", gltf.positions(points)}}},
@@ -214,7 +214,7 @@ TEST_SUITE("scene") {
         }
         gltf.document["meshes"][0]["primitives"] = primitives;
         const Scene scene = load(gltf);
-        CHECK(scene.vertices.size() == 6);  // each takes the ones that it uses
+        CHECK(scene.vertices.size() == 6);  // each takes the vertices that it uses
         check_point(world_corner(scene, 1, 1), 1, 0, 1);
     }
 

@@ -18,7 +18,7 @@ TEST_SUITE("scene") {
             MESSAGE("skipped: Debian's package assimp-testmodels is not installed");
             return;
         }
-        std::map<std::string, std::string> outcome;  // of each file: "" when it was read
+        std::map<std::string, std::string> outcome;  // message by file: "" if it was read
         std::map<std::string, Scene> scenes;
         for (const auto& entry : fs::recursive_directory_iterator(root)) {
             const std::string extension = entry.path().extension().string();
@@ -31,7 +31,7 @@ TEST_SUITE("scene") {
                 outcome[name] = error.what();
             }
         }
-        // Each of these is there for a fault of its own.
+        // Each of these files has its own fault.
         for (const char* name :
              {"glTF2/IndexOutOfRange/AllIndicesOutOfRange.gltf",
               "glTF2/IndexOutOfRange/IndexOutOfRange.gltf", "glTF2/MissingBin/BoxTextured.gltf",

@@ -25,7 +25,7 @@ TEST_SUITE("scene") {
         check_point(world_corner(scene, 0, 2), 0, 10, 2);
 
         GltfBuilder other = one_triangle();
-        // The same by matrices, column by column.
+        // The same transforms as matrices, column by column.
         other.document["nodes"][0]["matrix"] = {2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 10, 0, 0, 1};
         other.node(
             {{"matrix", {0, 0, -1, 0, 0, 1, 0, 0, 1, 0, 0, 0, 0, 0, 0, 1}}, {"children", {0}}});
@@ -85,7 +85,7 @@ TEST_SUITE("scene") {
         gltf.document["nodes"][0]["extras"] = rubber;
         CHECK(material_of(gltf) == "rubber");  // the nearest wins
         gltf.document["meshes"][0]["primitives"][0].erase("material");
-        CHECK(material_of(gltf) == "rubber");  // and serves where the primitive has none
+        CHECK(material_of(gltf) == "rubber");  // the node's material serves a primitive without one
     }
 
     TEST_CASE("glTF: textures, cameras, animations and unknown members are nobody's business") {
@@ -112,7 +112,7 @@ TEST_SUITE("scene") {
         };
         CHECK(count("a%20b+c.bin") == 1);
         CHECK(count("sub/d.bin") == 1);
-        // 36 bytes: nine floats, of which the fourth and the eighth are 1 (00 00 80 3f).
+        // 36 bytes: nine floats; the fourth and the eighth are 1 (00 00 80 3f).
         CHECK(count("data:application/octet-stream;base64,"
                     "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA") == 1);
     }

@@ -31,7 +31,7 @@ double area_of(const Scene& scene) {
     return area;
 }
 
-/// Two walls that meet at x = 0 at a right angle, of n x n x 2 triangles each, or one flat wall.
+/// Two walls of n x n x 2 triangles each that meet at x = 0 at a right angle, or one flat wall.
 /// They share the vertices of the line where they meet.
 Scene two_walls(int n, bool flat, bool two_materials) {
     Scene scene = test::empty_scene();
@@ -60,8 +60,8 @@ Scene two_walls(int n, bool flat, bool two_materials) {
 }  // namespace
 
 TEST_CASE("slices: flat faces keep their area and outline in a few triangles") {
-    // A rectangle needs 2 triangles, two that meet at an angle or in two materials 4. The walls
-    // are 1 m high, 2 m long when flat, else 1 m and sqrt(2) m.
+    // A rectangle needs 2 triangles; two at an angle or of two materials need 4. The walls are 1 m
+    // high and 2 m long if flat, else 1 m and sqrt(2) m.
     for (const bool flat : {true, false}) {
         for (const bool two_materials : {false, true}) {
             CAPTURE(flat);
@@ -74,7 +74,7 @@ TEST_CASE("slices: flat faces keep their area and outline in a few triangles") {
             CHECK(area_of(merged) / (flat ? 2.0 : 1.0 + std::sqrt(2.0)) ==
                   doctest::Approx(1.0).epsilon(1e-6));
             for (std::size_t i = 0; i < merged.triangles.size(); ++i) {
-                // What is left of x = 0 is of the first material.
+                // The triangles left of x = 0 have the first material.
                 float middle = 0.0F;
                 for (const std::uint32_t corner : merged.triangles[i])
                     middle += merged.vertices[corner].x();

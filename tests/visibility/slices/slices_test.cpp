@@ -33,11 +33,11 @@ View sides_view() {
     view.azimuth_rad = radians(160.0);
     view.elevation_rad = radians(1.0);
     view.beams = 2;
-    view.shape = ViewShape::sides;
+    view.shape = ViewShape::port_starboard;
     return view;
 }
 
-/// The solid angle that the samples cover.
+/// The solid angle that the samples fill.
 double filled(const Samples& samples) {
     double sum = 0.0;
     for (const Sample& sample : samples.items) {
@@ -59,8 +59,8 @@ Scene wall(float x, int n = 1) {
     return scene;
 }
 
-/// Of the wall x = d: |y| <= Y = d tan(phi) and |z| <= tan(theta) sqrt(d^2 + y^2). The integral of
-/// sqrt(d^2 + y^2) is (y sqrt(d^2 + y^2) + d^2 asinh(y / d)) / 2.
+/// The visible area of the wall x = d: |y| <= Y = d tan(phi) and |z| <= tan(theta) sqrt(d^2 + y^2).
+/// The integral of sqrt(d^2 + y^2) is (y sqrt(d^2 + y^2) + d^2 asinh(y / d)) / 2.
 double area_of_wall(double d, const View& view) {
     const double Y = d * std::tan(0.5 * view.azimuth_rad);
     return 2.0 * std::tan(0.5 * view.elevation_rad) *
@@ -84,10 +84,10 @@ TEST_CASE("slices: a wall seen face on has its area, whole or in many triangles"
 }
 
 TEST_CASE("slices: at a coarse goal the pieces of neighbouring slices become one") {
-    // Between slices on the borders of a beam every piece of a wall is two halves. Goals of 2 % and
-    // a little less ask for pieces of the same size.
+    // Between slices on the borders of a beam every patch of a wall has two halves. Goals of 2 %
+    // and slightly less give patches of the same size.
     View view = fan_view();
-    view.beams = 128;  // wider ones are more than one gap
+    view.beams = 128;  // wider beams are more than one gap
     const Pose pose{rotation_from_rpy(0.0, radians(20.0), radians(10.0)), {0.0, 0.0, 0.0}};
     view.relative_l1 = 0.02;
     const Samples coarse = seen(wall(5.0F), view, pose, 1);
@@ -121,7 +121,7 @@ TEST_CASE("slices: samples are sorted by beam and do not leave it") {
             for (const float side : {-1.0F, 1.0F}) {
                 const Eigen::Vector3f p = sample.position + side * sample.edge_u;
                 const double beam = std::atan2(p.y(), p.x()) / width + 0.5 * view.beams - j;
-                // A parallelogram that is as deep as its surface may be wider by a little.
+                // A parallelogram as deep as its surface may be slightly wider.
                 CHECK(beam > -0.05);
                 CHECK(beam < 1.05);
             }
@@ -135,7 +135,7 @@ TEST_CASE("slices: a sphere fills the solid angle that it should") {
     test::add_sphere(scene, {5, 0, 0}, 0.5F, test::add_material(scene, 0.5F), 256);
     const double expected = 2.0 * pi * (1.0 - std::sqrt(1.0 - 0.01));
     for (const View& view : {fan_view(), cone_view()}) {
-        // What is missing are the ends of facets beside the limb; it falls with the gaps' width.
+        // The missing part is ends of facets at the limb; it falls with the width of the gaps.
         CHECK(filled(seen(scene, view, {}, 4)) / expected == doctest::Approx(1.0).epsilon(0.015));
         CHECK(filled(seen(scene, view, {}, 16)) / expected == doctest::Approx(1.0).epsilon(0.004));
     }
@@ -151,7 +151,7 @@ TEST_CASE("slices: a cone sees a disc, whatever it is cut into") {
 }
 
 TEST_CASE("slices: the two sides see a strip of the floor") {
-    // Between elevations +-e, of the wall x = d: 2 e r_ground dy = 2 tan(e) sqrt(d^2 + y^2) dy.
+    // Elevations +-e on the wall x = d: 2 e r_ground dy = 2 tan(e) sqrt(d^2 + y^2) dy.
     View view = sides_view();
     view.range_max_m = 30.0;
     const Samples samples = seen(wall(3.0F, 3), view, {});
@@ -189,7 +189,7 @@ TEST_CASE("slices: a full turn and steep views see all of a sphere around the so
     view.azimuth_rad = 2.0 * pi;
     view.elevation_rad = pi;
     CHECK(area_of(seen(scene, view, {})) == doctest::Approx(36.0 * pi).epsilon(0.01));
-    // Between latitudes +-30 degrees: 2 pi R^2 (2 sin 30).
+    // Latitudes within +-30 degrees: 2 pi R^2 (2 sin 30).
     view.elevation_rad = radians(60.0);
     CHECK(area_of(seen(scene, view, {})) == doctest::Approx(18.0 * pi).epsilon(0.01));
 }

@@ -30,8 +30,8 @@ TEST_CASE("slices: a wire of 4 mm is seen in every ping, as bright as a cylinder
             echo += sample.area_m2 * sample.height_m / sample.position.norm();
         }
         REQUIRE(area > 0.0);
-        // Of a width of 4 mm and a height of 2 * 5 tan 10; facets of eight sides.
-        // Four slices show four facets; what is missing lies between the last of them and the limb.
+        // The wire is 4 mm wide and 2 * 5 tan 10 high, with eight sides. Four slices show four
+        // facets; the missing part is between the last of them and the limb.
         CHECK(echo / (0.004 * 1.763) > 0.7);
         CHECK(echo / (0.004 * 1.763) < 1.05);
         CHECK(echo / area / 0.637 > 0.9);
@@ -53,16 +53,15 @@ TEST_CASE("slices: a ball of 2 cm is seen in every ping") {
     }
 }
 
-// A pole that is narrower than a gap gets a slice of its own. Where that lay one float before the
-// last slice of the view, the last strip had no width, and what was written lay beyond the last
-// beam.
+// A pole narrower than a gap gets its own slice. If that was one float before the last slice of the
+// view, the last strip had no width, and its samples were written beyond the last beam.
 TEST_CASE("slices: a pole at the very border of the view ends its last beam once") {
     View view = fan_view();
     view.azimuth_rad = radians(90.0);  // u = y / x runs from -1 to 1
     view.beams = 4;
     for (int k = 0; k < 40; ++k) {
         Scene scene = shapes::empty_scene();
-        constexpr float ulp = 4.77e-7F;  // of 4 to 8
+        constexpr float ulp = 4.77e-7F;  // float step between 4 and 8
         const float left = 5.0F - ulp * static_cast<float>(k / 4 + k % 4 + 1);
         const float right = 5.0F - ulp * static_cast<float>(k / 4);
         shapes::add_box(scene, {5.0F, left, -0.5F}, {5.0F + ulp, right, 0.5F},

@@ -1,11 +1,11 @@
-#include "benchmark/spread.h"
+#include "benchmark/summary.h"
 
 #include <algorithm>
 #include <numeric>
 
 namespace sonarsim {
 
-std::vector<std::size_t> spread_poses(std::size_t poses, int count) {
+std::vector<std::size_t> sample_poses(std::size_t poses, int count) {
     const std::size_t n = std::min(poses, static_cast<std::size_t>(std::max(count, 1)));
     std::vector<std::size_t> out(n);
     for (std::size_t k = 0; k < n; ++k)
@@ -13,14 +13,14 @@ std::vector<std::size_t> spread_poses(std::size_t poses, int count) {
     return out;
 }
 
-Spread spread_of_times(std::vector<double> values) {
+Summary median_summary(std::vector<double> values) {
     if (values.empty()) return {};
     std::ranges::sort(values);
     const std::size_t n = values.size();
     return {0.5 * (values[(n - 1) / 2] + values[n / 2]), values.front(), values.back()};
 }
 
-Spread spread_of(const std::vector<double>& values) {
+Summary mean_summary(const std::vector<double>& values) {
     if (values.empty()) return {};
     const auto [min, max] = std::ranges::minmax(values);
     return {std::reduce(values.begin(), values.end()) / static_cast<double>(values.size()), min,

@@ -1,25 +1,25 @@
-#include "core/whole_file.h"
+#include "core/atomic_file.h"
 
 #include "core/file.h"
 
 namespace sonarsim {
 
-WholeFile::WholeFile(const std::filesystem::path& path)
+AtomicFile::AtomicFile(const std::filesystem::path& path)
     : path_(path), part_(temporary_name(path)) {}
 
-WholeFile::~WholeFile() {
+AtomicFile::~AtomicFile() {
     std::error_code ignored;
-    if (!kept_) std::filesystem::remove(part_, ignored);
+    if (!committed_) std::filesystem::remove(part_, ignored);
 }
 
-void WholeFile::keep() {
+void AtomicFile::commit() {
     std::filesystem::rename(part_, path_);
-    kept_ = true;
+    committed_ = true;
 }
 
 StreamedFile::StreamedFile(const std::filesystem::path& path)
-    : whole_(path), file_(std::fopen(whole_.part().c_str(), "wbe")) {
-    if (!file_) throw_errno("cannot write", whole_.part());
+    : atomic_file_(path), file_(std::fopen(atomic_file_.part().c_str(), "wbe")) {
+    if (!file_) throw_errno("cannot write", atomic_file_.part());
 }
 
 void StreamedFile::append(std::string_view bytes) {
@@ -32,14 +32,14 @@ void StreamedFile::append(std::string_view bytes) {
 
 void StreamedFile::put(std::string_view bytes) {
     if (std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size()) {
-        throw_errno("cannot write", whole_.part());
+        throw_errno("cannot write", atomic_file_.part());
     }
 }
 
 void StreamedFile::finish() {
     put(pending_);
-    if (std::fclose(file_.release()) != 0) throw_errno("cannot write", whole_.part());
-    whole_.keep();
+    if (std::fclose(file_.release()) != 0) throw_errno("cannot write", atomic_file_.part());
+    atomic_file_.commit();
 }
 
 }  // namespace sonarsim

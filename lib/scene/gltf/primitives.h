@@ -13,7 +13,7 @@
 
 namespace sonarsim {
 
-/// A file of the scene with its meshes where the scene has them.
+/// A file of the scene with its placed meshes.
 struct OpenFile {
     const PlacedFile* placed;
     const tinygltf::Model* model;
@@ -22,30 +22,31 @@ struct OpenFile {
 };
 
 /// One primitive of one placed mesh.
-struct Piece {
+struct PlacedPrimitive {
     const OpenFile& file;
     const PlacedMesh& mesh;
     std::uint32_t instance;
     const TriangleSource& source;
-    int material;       ///< of the glTF; -1: none
-    std::string where;  ///< for errors
+    int material;       ///< index into the glTF's materials; -1: none
+    std::string where;  ///< location for error messages
 };
 
-inline Eigen::Vector3d corner(const Piece& piece, std::uint32_t vertex) {
-    return piece.mesh.T_world_mesh * position(piece.source.positions, vertex);
+inline Eigen::Vector3d corner(const PlacedPrimitive& primitive, std::uint32_t vertex) {
+    return primitive.mesh.T_world_mesh * position(primitive.source.positions, vertex);
 }
 
-/// How much of a scene has been read. A small file can place a large mesh, or many small ones, many
-/// times: InputError with `file` when it is too much.
+/// Counts how much of a scene has been read. A small file can place a large mesh, or many small
+/// ones, many times: InputError with `file` beyond the limit.
 struct ReadingLimit {
     std::size_t work = 0;
 
     void add(const TriangleSource* source, const std::string& file);
 };
 
-/// Calls `visit` with every piece of a file and returns how many primitives are no surfaces.
+/// Calls `visit` with every primitive of a file. Returns the number of primitives that are not
+/// surfaces.
 template <class Visit>
-std::uint64_t for_each_piece(const OpenFile& file, ReadingLimit& limit, const Visit& visit) {
+std::uint64_t for_each_primitive(const OpenFile& file, ReadingLimit& limit, const Visit& visit) {
     std::uint64_t skipped = 0;
     const std::string path = file.placed->file.string();
     for (std::size_t i = 0; i < file.meshes.size(); ++i) {
@@ -62,25 +63,25 @@ std::uint64_t for_each_piece(const OpenFile& file, ReadingLimit& limit, const Vi
                 ++skipped;
                 continue;
             }
-            visit(Piece{file, file.meshes[i], file.instance_of_mesh[i], *source,
-                        mesh.primitives[k].material, where});
+            visit(PlacedPrimitive{file, file.meshes[i], file.instance_of_mesh[i], *source,
+                                  mesh.primitives[k].material, where});
         }
     }
     return skipped;
 }
 
-/// What the materials of the scene may be called.
+/// The names that materials of the scene may have.
 struct MaterialRules {
-    bool nameless_allowed = false;  ///< "(no material)" then
-    std::set<std::string> known;    ///< names of the CSV
-    std::string fallback;           ///< for what has no name or is not known; "": none
+    bool nameless_allowed = false;  ///< a missing name becomes "(no material)"
+    std::set<std::string> known;    ///< names in the CSV
+    std::string fallback;           ///< replaces a missing or unknown name; "": no replacement
 };
 
-/// The name of a piece's material in the CSV. InputError when it has none.
-std::string material_name(const Piece& piece, const MaterialRules& rules);
+/// The name of a primitive's material in the CSV. InputError if it has none.
+std::string material_name(const PlacedPrimitive& primitive, const MaterialRules& rules);
 
-/// Gives an instance without a class that of its materials. InputError when they differ.
-void take_class_of_material(const Piece& piece, std::string& class_name);
+/// Gives an instance without a class the class of its materials. InputError if they differ.
+void take_class_of_material(const PlacedPrimitive& primitive, std::string& class_name);
 
 /// InputError at the place of `file` for a material of its materials_map that it does not have.
 void require_renamed(const OpenFile& file);

@@ -1,4 +1,4 @@
-#include "visibility/slices/sliver_bins.h"
+#include "visibility/slices/edge_bin_error.h"
 
 #include <doctest/doctest.h>
 
@@ -19,11 +19,11 @@ View ten_bins() {
     return view;
 }
 
-/// Of surfaces of 1 m^2 per metre of range and intensity 1.
-double error_of(const std::vector<Extent>& surfaces) {
-    SliverBins bins(ten_bins());
+/// The expected error of surfaces with 1 m^2 per metre of range and intensity 1.
+double error_of(const std::vector<Interval>& surfaces) {
+    EdgeBinError bins(ten_bins());
     bins.begin_beam(0);
-    for (const Extent& range_m : surfaces)
+    for (const Interval& range_m : surfaces)
         bins.add(range_m, range_m.to - range_m.from, range_m.to, 1.0F);
     bins.finish();
     return bins.error();
@@ -31,26 +31,26 @@ double error_of(const std::vector<Extent>& surfaces) {
 
 }  // namespace
 
-TEST_CASE("slices: bins that surface only just reaches count as errors") {
-    // From bin 2 to bin 4: three bins lit, of which the last holds 0.0005, 0.002 or half a bin.
+TEST_CASE("slices: bins that surface only just facet_extents count as errors") {
+    // The surface fills bins 2 to 4, the last with 0.0005, 0.002 or half a bin.
     CHECK(error_of({{2.5F, 4.0005F}}) == doctest::Approx(0.7 / 3.0).epsilon(1e-3));
     CHECK(error_of({{2.5F, 4.002F}}) == doctest::Approx(0.3 / 3.0).epsilon(1e-3));
     CHECK(error_of({{2.5F, 4.5F}}) == 0.0);
-    // What ends just before the border: two bins are lit.
+    // Surface that ends just before the border fills two bins.
     CHECK(error_of({{2.5F, 3.9995F}}) == doctest::Approx(0.6 / 2.0).epsilon(1e-3));
-    // Nothing hangs on a sliver in a bin that another surface fills.
+    // A sliver in a bin that another surface fills is harmless.
     CHECK(error_of({{2.5F, 4.0005F}, {4.2F, 4.9F}}) == 0.0);
     CHECK(error_of({}) == 0.0);
 }
 
-TEST_CASE("slices: the error of slivers is that of the beams so far") {
-    SliverBins bins(ten_bins());
+TEST_CASE("slices: the error of edge_bins is that of the beams so far") {
+    EdgeBinError bins(ten_bins());
     bins.begin_beam(0);
     bins.add({2.5F, 4.0005F}, 1.5005F, 4.0005F, 1.0F);
     CHECK(bins.error() == 0.0);
     bins.begin_beam(1);
     CHECK(bins.error() == doctest::Approx(0.7 / 3.0).epsilon(1e-3));
-    // Three bins more, none of them a sliver.
+    // Three more bins without sliver.
     bins.add({6.5F, 8.5F}, 2.0F, 8.5F, 1.0F);
     bins.finish();
     CHECK(bins.error() == doctest::Approx(0.7 / 6.0).epsilon(1e-3));

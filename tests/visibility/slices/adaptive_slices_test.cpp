@@ -1,4 +1,4 @@
-#include "visibility/slices/agreeing_slices.h"
+#include "visibility/slices/adaptive_slices.h"
 
 #include <doctest/doctest.h>
 
@@ -12,29 +12,29 @@ using test::fan_view;
 
 namespace {
 
-/// How many slices a fan needed, and what was left.
+/// The number of slices that a fan needed, and the remaining error.
 struct Walk {
     std::size_t slices = 0;
-    Disagreement sum;
+    SliceError sum;
 };
 
-Walk walk(const Scene& scene, const DisagreementLimit& most) {
+Walk walk(const Scene& scene, const SliceErrorLimit& most) {
     const View view = fan_view();
     const ClusterMesh mesh = make_clusters(scene);
     const LocalPose pose{Eigen::Matrix3f::Identity(), Eigen::Vector3f::Zero()};
     Walk out;
     for (const SliceFrame& frame : slice_frames(view, 1)) {
         FrameScan scan(mesh, scene, frame, pose, static_cast<float>(view.range_max_m));
-        AgreeingSlices agreeing(view, scene.materials, scan);
-        while (agreeing.see_next(most))
+        AdaptiveSlices agreeing(view, scene.materials, scan);
+        while (agreeing.scan_next(most))
             out.slices += agreeing.slices().size();
-        out.sum.apart += agreeing.sum().apart;
+        out.sum.difference += agreeing.sum().difference;
         out.sum.signal += agreeing.sum().signal;
     }
     return out;
 }
 
-/// A wall, where slices agree, and leaning rods before half of it, where they do not.
+/// A wall, where slices agree, and leaning rods in front of half of it, where they do not.
 Scene wall_and_rods() {
     Scene scene = test::empty_scene();
     const std::uint32_t rock = test::add_material(scene, 0.5F);
@@ -52,26 +52,26 @@ Scene wall_and_rods() {
 
 TEST_SUITE_BEGIN("slices");
 
-// Without lending every beam keeps to the limit by itself, and most stay far below it.
+// Without the carry-over every beam keeps the limit by itself, and most stay far below it.
 TEST_CASE("slices: beams lend what they leave of the limit, and all together keep to it") {
     const Scene scene = wall_and_rods();
     for (const double share : {0.01, 0.03}) {
         CAPTURE(share);
-        const Walk alone = walk(scene, {.share = share, .lent = 0.0});
-        const Walk lent = walk(scene, {.share = share, .lent = 0.25});
-        CHECK(lent.slices < alone.slices);
-        CHECK(lent.sum.apart > alone.sum.apart);
+        const Walk alone = walk(scene, {.share = share, .carry_over = 0.0});
+        const Walk carry_over = walk(scene, {.share = share, .carry_over = 0.25});
+        CHECK(carry_over.slices < alone.slices);
+        CHECK(carry_over.sum.difference > alone.sum.difference);
         CHECK(alone.sum.share() < 0.25 * share);
-        CHECK(lent.sum.share() <= share);
+        CHECK(carry_over.sum.share() <= share);
     }
-    // Of a wall alone all slices agree, and there are no more than the walk begins with.
+    // On a wall alone all slices agree, so the number is the initial one.
     Scene wall = test::empty_scene();
     test::add_quad(wall, {9, -8, -4}, {9, 8, -4}, {9, 8, 4}, {9, -8, 4},
                    test::add_material(wall, 0.5F));
     std::size_t least = 0;
     for (const SliceFrame& frame : slice_frames(fan_view(), 1))
         least += frame.slices.size();
-    CHECK(walk(wall, {.share = 0.01, .lent = 0.25}).slices == least);
+    CHECK(walk(wall, {.share = 0.01, .carry_over = 0.25}).slices == least);
 }
 
 TEST_SUITE_END();

@@ -1,4 +1,4 @@
-#include "scene/gltf/pieces.h"
+#include "scene/gltf/primitives.h"
 
 #include <algorithm>
 
@@ -12,14 +12,15 @@ namespace {
 constexpr std::size_t max_triangles = std::size_t{1} << 28;
 constexpr std::size_t piece_cost = 64;
 
-/// The name that the file gives the material of a piece; "" where it gives none.
-std::string name_in_file(const Piece& piece) {
-    if (!piece.mesh.material.empty()) return piece.mesh.material;
-    if (piece.material < 0) return "";
-    const auto index = static_cast<std::size_t>(piece.material);
-    const tinygltf::Model& model = *piece.file.model;
+/// The name of a primitive's material in the file; "" if it has none.
+std::string name_in_file(const PlacedPrimitive& primitive) {
+    if (!primitive.mesh.material.empty()) return primitive.mesh.material;
+    if (primitive.material < 0) return "";
+    const auto index = static_cast<std::size_t>(primitive.material);
+    const tinygltf::Model& model = *primitive.file.model;
     if (index >= model.materials.size()) {
-        throw InputError(piece.where + ": material " + std::to_string(index) + " does not exist");
+        throw InputError(primitive.where + ": material " + std::to_string(index) +
+                         " does not exist");
     }
     const tinygltf::Material& material = model.materials[index];
     const std::string own = sonar_material(material.extras);
@@ -36,31 +37,31 @@ void ReadingLimit::add(const TriangleSource* source, const std::string& file) {
                      "places more than 2^28 triangles (a primitive counts as 64 more)");
 }
 
-std::string material_name(const Piece& piece, const MaterialRules& rules) {
-    const PlacedFile& placed = *piece.file.placed;
+std::string material_name(const PlacedPrimitive& primitive, const MaterialRules& rules) {
+    const PlacedFile& placed = *primitive.file.placed;
     if (!placed.material.empty()) return placed.material;
-    std::string name = name_in_file(piece);
+    std::string name = name_in_file(primitive);
     for (const auto& [from, to] : placed.renamed_materials) {
         if (from == name) return to;
     }
     if (!rules.fallback.empty() && !rules.known.contains(name)) return rules.fallback;
     if (!name.empty()) return name;
     if (rules.nameless_allowed) return "(no material)";
-    throw InputError(piece.where + " of node '" + piece.mesh.instance +
-                     "': " + (piece.material < 0 ? "has no material" : "its material has no name") +
+    throw InputError(primitive.where + " of node '" + primitive.mesh.instance + "': " +
+                     (primitive.material < 0 ? "has no material" : "its material has no name") +
                      "; name one in the glTF material or as extras.sonar.material of the node");
 }
 
-void take_class_of_material(const Piece& piece, std::string& class_name) {
-    if (!piece.file.placed->class_name.empty()) return;
-    if (!piece.mesh.label.empty() || piece.material < 0) return;
-    const auto index = static_cast<std::size_t>(piece.material);
-    const tinygltf::Model& model = *piece.file.model;
-    if (index >= model.materials.size()) return;  // refused where the material is looked up
+void take_class_of_material(const PlacedPrimitive& primitive, std::string& class_name) {
+    if (!primitive.file.placed->class_name.empty()) return;
+    if (!primitive.mesh.label.empty() || primitive.material < 0) return;
+    const auto index = static_cast<std::size_t>(primitive.material);
+    const tinygltf::Model& model = *primitive.file.model;
+    if (index >= model.materials.size()) return;  // reported where the material is looked up
     const std::string own = sonar_class(model.materials[index].extras);
     if (own.empty() || own == class_name) return;
     if (!class_name.empty()) {
-        throw InputError(piece.where + " of node '" + piece.mesh.instance +
+        throw InputError(primitive.where + " of node '" + primitive.mesh.instance +
                          "': its material has the class '" + own + "', another of the node's '" +
                          class_name + "'; give the node a class as its extras.sonar.class");
     }
@@ -72,7 +73,9 @@ void require_renamed(const OpenFile& file) {
     if (placed.renamed_materials.empty()) return;
     std::set<std::string> names;
     ReadingLimit limit;
-    for_each_piece(file, limit, [&](const Piece& piece) { names.insert(name_in_file(piece)); });
+    for_each_primitive(file, limit, [&](const PlacedPrimitive& primitive) {
+        names.insert(name_in_file(primitive));
+    });
     for (const auto& [from, to] : placed.renamed_materials) {
         if (names.contains(from)) continue;
         const std::vector<std::string> candidates(names.begin(), names.end());

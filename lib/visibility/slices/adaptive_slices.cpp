@@ -1,0 +1,198 @@
+#include "visibility/slices/adaptive_slices.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sonarsim {
+
+namespace {
+
+// The expected error in a gap is this times share^(5/8) of the difference midway between its two
+// slices, where the gap covers `share` of a beam. The error is zero at the slices, hence a mean of
+// a third. In bins that other gaps fill as well, the difference counts by the share; in bins that
+// only this gap fills it counts in full, since a bin is as bright for a sliver as for a wall.
+constexpr float mean_of_difference = 0.33F;
+
+// A gap is split slightly off its middle, so that slices do not run along edges that are parallel
+// to the sonar's axes.
+constexpr float split_share = 0.4937F;
+
+// Least distance of two slices, as a share of the frame's gap between them.
+constexpr float least_share = 1.0F / 256.0F;
+
+// Two ends are equal if they differ by less than this share of the slice.
+constexpr float same_place = 2e-4F;
+
+/// x^(5/8) by square roots, which are the same on every processor; a library's power function is
+/// not.
+float to_five_eighths(float x) {
+    const float root = std::sqrt(x);
+    return root * std::sqrt(std::sqrt(root));
+}
+
+}  // namespace
+
+AdaptiveSlices::AdaptiveSlices(const View& view, std::span<const Material> materials,
+                               FrameScan& scan)
+    : materials_(materials), scan_(scan), results_(1), low_(view), high_(view) {
+    SliceResult& first = results_[0];
+    scan_.scan_next(first);
+    move_ends(first.slice, first.spans, scan_.frame().beam_u.front(), first.low);
+}
+
+bool AdaptiveSlices::scan_next(const SliceErrorLimit& most) {
+    const SliceFrame& frame = scan_.frame();
+    const std::uint32_t gaps = frame.gaps();
+    if (next_gap_ == gaps) return false;
+    // The last slice of the gaps before is the first of these.
+    if (last_ != 0) std::swap(results_[0], results_[last_]);
+    last_ = 0;
+    used_ = 1;
+    first_gap_ = next_gap_;
+    const auto together = static_cast<std::uint32_t>(frame.slices_per_beam);
+    next_gap_ = std::min(first_gap_ + together, gaps);
+    const float width = frame.slices[next_gap_].u - frame.slices[first_gap_].u;
+    beam_width_ = width * static_cast<float>(together) / static_cast<float>(next_gap_ - first_gap_);
+    around_.resize(together);
+    subgaps_.clear();
+    for (std::uint32_t gap = first_gap_; gap < next_gap_; ++gap) {
+        scan_gap(gap);
+        split_where_wanted(gap);
+    }
+    refine(most);
+    collect_done();
+    return true;
+}
+
+void AdaptiveSlices::scan_gap(std::uint32_t gap) {
+    Around& around = around_[gap - first_gap_];
+    around.of_slices.clear();
+    around.all.clear();
+    const std::uint32_t before = last_;
+    last_ = new_slice();
+    scan_.scan_next(results_[last_]);
+    scan_.around_last_gap(around.of_slices);
+    subgaps_.push_back({before, last_, gap});
+    estimate(subgaps_.back());
+}
+
+void AdaptiveSlices::split_where_wanted(std::uint32_t gap) {
+    for (const WantedSlice& wanted : scan_.wanted_in(gap)) {
+        const Subgap& last = subgaps_.back();
+        const float least = least_width(gap);
+        if (wanted.u - results_[last.low].slice.u < least) continue;
+        // If the next slice is one float away, the midpoint is that slice itself: no width would be
+        // left for the last slice of a frame.
+        if (results_[last.high].slice.u - wanted.u < least) continue;
+        split(subgaps_.size() - 1, wanted.u);
+    }
+}
+
+/// Splits the interval between two slices at u; its upper part is appended.
+void AdaptiveSlices::split(std::size_t i, float u) {
+    const Subgap old = subgaps_[i];
+    if (!(results_[old.low].slice.u < u && u < results_[old.high].slice.u)) {
+        subgaps_[i].difference = 0.0F;
+        return;
+    }
+    Around& around = around_[old.gap - first_gap_];
+    if (around.all.empty()) scan_.find_candidates(old.gap, around.of_slices, around.all);
+    const std::uint32_t at = new_slice();
+    scan_.scan_slice(u, around.all, results_[at]);
+    subgaps_[i].high = at;
+    estimate(subgaps_[i]);
+    subgaps_.push_back({at, old.high, old.gap});
+    estimate(subgaps_.back());
+}
+
+void AdaptiveSlices::refine(const SliceErrorLimit& most) {
+    times_ += 1.0;
+    const double carry_over =
+        most.carry_over * std::max(most.share * sum_.signal - sum_.difference, 0.0);
+    while (true) {
+        SliceError beam;
+        std::size_t worst = subgaps_.size();
+        for (std::size_t i = 0; i < subgaps_.size(); ++i) {
+            const Subgap& b = subgaps_[i];
+            beam.difference += b.difference;
+            beam.signal += b.signal;
+            if (!(b.difference > 0.0F) || width(b) < 2.0F * least_width(b.gap)) continue;
+            if (worst == subgaps_.size() || b.difference > subgaps_[worst].difference) worst = i;
+        }
+        // The mean lets a dim beam have a larger share of its signal in error than a bright one.
+        const double mean = 0.5 * (beam.signal + (sum_.signal + beam.signal) / times_);
+        if (beam.difference <= most.share * mean + carry_over || worst == subgaps_.size()) {
+            sum_.difference += beam.difference;
+            sum_.signal += beam.signal;
+            return;
+        }
+        const Subgap& b = subgaps_[worst];
+        split(worst, results_[b.low].slice.u + split_share * width(b));
+    }
+}
+
+/// Compares the predictions of both slices midway, at the border of their strips.
+void AdaptiveSlices::estimate(Subgap& subgap) {
+    SliceResult& a = results_[subgap.low];
+    SliceResult& b = results_[subgap.high];
+    const float u = 0.5F * (a.slice.u + b.slice.u);
+    const float share = width(subgap) / beam_width_;
+    move_ends(a.slice, a.spans, u, a.high);
+    move_ends(b.slice, b.spans, u, b.low);
+    if (alike(a, b)) {
+        subgap.difference = 0.0F;
+        subgap.signal = share * last_signal_;
+        return;
+    }
+    low_.set(scan_, materials_, a.spans, a.high);
+    high_.set(scan_, materials_, b.spans, b.low);
+    last_signal_ = 0.5F * (low_.sum() + high_.sum());
+    subgap.signal = share * last_signal_;
+    subgap.difference =
+        mean_of_difference * to_five_eighths(share) * RangeProfile::difference(low_, high_);
+}
+
+/// True if both slices show the same planes between the same ends midway.
+bool AdaptiveSlices::alike(const SliceResult& a, const SliceResult& b) const {
+    if (a.spans.size() != b.spans.size()) return false;
+    const float most = same_place * (a.slice.w_high - a.slice.w_low);
+    for (std::size_t i = 0; i < a.spans.size(); ++i) {
+        const VisibleSpan& x = a.spans[i];
+        const VisibleSpan& y = b.spans[i];
+        const float farthest = std::min(x.facet_extent.range_m.to, y.facet_extent.range_m.to);
+        if (!scan_.one_plane(x.facet_index, y.facet_index, farthest)) return false;
+        for (const std::size_t end : {2 * i, 2 * i + 1}) {
+            if (!(std::fabs(a.high.ends[end].w - b.low.ends[end].w) <= most)) return false;
+        }
+    }
+    return true;
+}
+
+float AdaptiveSlices::least_width(std::uint32_t gap) const {
+    const std::vector<Slice>& slices = scan_.frame().slices;
+    return least_share * (slices[gap + 1].u - slices[gap].u);
+}
+
+float AdaptiveSlices::width(const Subgap& subgap) const {
+    return results_[subgap.high].slice.u - results_[subgap.low].slice.u;
+}
+
+std::uint32_t AdaptiveSlices::new_slice() {
+    if (used_ == results_.size()) results_.emplace_back();
+    return used_++;
+}
+
+void AdaptiveSlices::collect_done() {
+    done_.clear();
+    for (std::uint32_t i = 0; i < used_; ++i)
+        done_.push_back(&results_[i]);
+    std::ranges::sort(done_, {}, [](const SliceResult* result) { return result->slice.u; });
+    if (next_gap_ < scan_.frame().gaps()) {
+        done_.pop_back();
+        return;
+    }
+    SliceResult& last = results_[last_];
+    move_ends(last.slice, last.spans, scan_.frame().beam_u.back(), last.high);
+}
+
+}  // namespace sonarsim

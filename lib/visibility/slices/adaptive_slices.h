@@ -1,0 +1,88 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "visibility/slices/frame_scan.h"
+#include "visibility/slices/range_profile.h"
+
+namespace sonarsim {
+
+/// Difference of neighbouring slices' predictions midway between them, in intensities summed over
+/// bins and beams.
+struct SliceError {
+    double difference = 0.0;
+    double signal = 0.0;  ///< sum of the intensities
+
+    double share() const { return signal > 0.0 ? difference / signal : 0.0; }
+};
+
+/// Limit of the difference.
+struct SliceErrorLimit {
+    double share;       ///< share of the signal
+    double carry_over;  ///< share of the allowance left by earlier beams that a beam may use
+};
+
+/// Scans the slices of a frame, one beam at a time, and adds slices between them until neighbours
+/// agree.
+class AdaptiveSlices {
+  public:
+    /// All arguments must outlive it.
+    AdaptiveSlices(const View& view, std::span<const Material> materials, FrameScan& scan);
+
+    /// Scans the next gaps of the frame. Returns false if there are none left.
+    bool scan_next(const SliceErrorLimit& most);
+
+    /// The new slices whose strips are complete on both sides, from low u to high.
+    std::span<const SliceResult* const> slices() const { return done_; }
+
+    /// The sum over all gaps so far.
+    const SliceError& sum() const { return sum_; }
+
+  private:
+    /// An interval between two neighbouring slices; indices into results_.
+    struct Subgap {
+        std::uint32_t low;
+        std::uint32_t high;
+        std::uint32_t gap;        ///< index of the frame's gap that contains it
+        float difference = 0.0F;  ///< as in SliceError
+        float signal = 0.0F;
+    };
+
+    /// A gap of the frame, and the trapezoids that a slice in it may meet.
+    struct Around {
+        std::vector<std::uint32_t> of_slices;  ///< trapezoids that its own slices meet
+        std::vector<Candidate> all;            ///< filled when the gap is split
+    };
+
+    void scan_gap(std::uint32_t gap);
+    void split_where_wanted(std::uint32_t gap);
+    void split(std::size_t i, float u);
+    void refine(const SliceErrorLimit& most);
+    void estimate(Subgap& subgap);
+    bool alike(const SliceResult& a, const SliceResult& b) const;
+    float width(const Subgap& subgap) const;
+    float least_width(std::uint32_t gap) const;
+    std::uint32_t new_slice();
+    void collect_done();
+
+    const std::span<const Material> materials_;
+    FrameScan& scan_;
+    std::vector<SliceResult> results_;  ///< memory is reused; the first used_ are in use
+    std::uint32_t used_ = 1;
+    std::uint32_t last_ = 0;  ///< the last slice of the frame that was scanned
+    std::uint32_t next_gap_ = 0;
+    std::uint32_t first_gap_ = 0;  ///< first of the gaps scanned together
+    float beam_width_ = 0.0F;      ///< in u
+    std::vector<Around> around_;
+    std::vector<Subgap> subgaps_;
+    std::vector<const SliceResult*> done_;
+    RangeProfile low_;
+    RangeProfile high_;
+    float last_signal_ = 0.0F;  ///< signal of a whole beam
+    SliceError sum_;
+    double times_ = 0.0;  ///< number of refinements so far
+};
+
+}  // namespace sonarsim

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "visibility/slices/setup.h"
+
+namespace sonarsim {
+
+/// A slice that is requested within a gap.
+struct WantedSlice {
+    std::uint32_t gap;
+    float u;
+};
+
+/// Slices through the components of the mesh that are narrower than a gap, such as a wire or a
+/// small ball. Their facets have all orientations, and their brightness is the mean over them; a
+/// slice of the frame meets one facet or none. In order of u.
+std::vector<WantedSlice> slices_through_narrow_components(const SliceScene& scene,
+                                                          const SliceFrame& frame);
+
+}  // namespace sonarsim

@@ -1,0 +1,40 @@
+#include "visibility/slices/patch_limits.h"
+
+#include <algorithm>
+
+namespace sonarsim {
+
+namespace {
+
+// In range bins, at an error goal of 3 %. Compared with a third of the sag and half of the excess,
+// four poses each: error of the tank 0.83 % instead of 0.68 % with a quarter fewer samples; no
+// change for a lifeboat and a rough sea floor.
+constexpr float most_sag = 0.09F;
+constexpr float most_excess = 0.3F;
+constexpr float shortest_patch = 0.25F;
+
+// In range bins, at coarse goals. At 3 % and eight poses each, compared with no wedge: errors of
+// the tank 0.78 instead of 0.69 %, of a lifeboat 1.43 instead of 1.31 %, with a third fewer
+// samples. At 1 % errors would grow by a tenth, and four pings of a wreck would miss the goal
+// without a warning.
+constexpr float most_wedge = 1.0F;
+
+// With this limit the energy of a flat floor in a cone is off by 0.5 %, without it by 54 %; the
+// mean of its echo over all ranges by 0.4 % instead of 8 %, since a wedge lies farther out than its
+// middle.
+constexpr float widest_ratio = 1.5F;
+
+}  // namespace
+
+PatchLimits patch_limits(const View& view) {
+    const auto bin_m = static_cast<float>(view.bin_m());
+    const auto finer = static_cast<float>(std::clamp(view.relative_l1 / 0.03, 0.1, 1.0));
+    const float of_bin = finer * bin_m;
+    PatchLimits limits{most_sag * of_bin, most_excess * of_bin, shortest_patch * of_bin,
+                       is_coarse(view.relative_l1) ? most_wedge * bin_m : 0.0F,
+                       static_cast<float>(view.range_max_m)};
+    if (view.shape == ViewShape::cone) limits.widest_ratio = widest_ratio;
+    return limits;
+}
+
+}  // namespace sonarsim

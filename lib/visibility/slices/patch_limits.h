@@ -1,0 +1,29 @@
+#pragma once
+
+#include <limits>
+
+#include "visibility/view.h"
+
+namespace sonarsim {
+
+/// True for error goals that allow coarse patches.
+inline bool is_coarse(double relative_l1) {
+    return relative_l1 >= 0.02;
+}
+
+/// Limits on samples that keep a view's image within its error goal.
+struct PatchLimits {
+    float sag_m;       ///< largest deviation of a patch's range from the linear one
+    float excess_m;    ///< largest range by which its parallelogram exceeds the surface's
+    float shortest_m;  ///< no patch is cut shorter
+    /// Largest difference in range span between the two sides of a patch that joins two strips.
+    float most_wedge_m;
+    float range_max_m;  ///< greatest range of interest
+    /// Largest ratio of a patch's widths at its two ends, since a parallelogram is equally wide at
+    /// both.
+    float widest_ratio = std::numeric_limits<float>::infinity();
+};
+
+PatchLimits patch_limits(const View& view);
+
+}  // namespace sonarsim
