@@ -49,7 +49,8 @@ int preview(const PreviewArguments& arguments) {
     const std::filesystem::path out = arguments.out.empty()
                                           ? std::filesystem::path(mission.name + "_preview.png")
                                           : arguments.out;
-    write_picture(out, draw_preview(mission, assembly, pose));
+    const Picture picture = draw_preview(mission, assembly, pose);
+    write_picture(out, picture.pixels, picture.width);
     spdlog::info("{}: ping {} of {}", out.string(), pose, mission.name);
     return exit_done;
 }

@@ -1,7 +1,5 @@
 #include "format/png.h"
 
-#include <zlib.h>
-
 #include <algorithm>
 #include <iterator>
 #include <stdexcept>
@@ -74,11 +72,11 @@ std::string png_bytes(std::span<const std::uint16_t> pixels, int width, int heig
 double png_bytes_at_most(int width, int height, int bytes_per_pixel) {
     const double raw =
         static_cast<double>(height) * (1.0 + static_cast<double>(width) * bytes_per_pixel);
-    return 400.0 + 1.01 * raw;
+    return 1200.0 + 1.01 * raw;
 }
 
 std::string png_encoder() {
-    return std::string("sonarsim 1; of products zlib ") + ::zlibVersion();
+    return "sonarsim 2";
 }
 
 }  // namespace sonarsim

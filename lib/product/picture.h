@@ -1,19 +1,12 @@
 #pragma once
 
-#include <cstdint>
 #include <span>
 #include <string_view>
 #include <vector>
 
+#include "core/rgb.h"
+
 namespace sonarsim {
-
-struct Rgb {
-    std::uint8_t r = 0;
-    std::uint8_t g = 0;
-    std::uint8_t b = 0;
-
-    bool operator==(const Rgb&) const = default;
-};
 
 inline constexpr Rgb ink{235, 235, 235};          ///< of axes and labels
 inline constexpr Rgb paper{16, 16, 20};           ///< behind them

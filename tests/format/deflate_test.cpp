@@ -3,7 +3,11 @@
 #include <doctest/doctest.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <numeric>
+#include <random>
+#include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -56,6 +60,29 @@ TEST_SUITE("dataset") {
             check_round_trip(Bytes(count, 7));
             check_round_trip(Bytes(count, 255));  // the largest sums
         }
+    }
+
+    TEST_CASE("deflate: a stream of pieces has the bytes of the whole") {
+        std::mt19937 random(3);
+        for (const std::size_t count : {1, 5, 131072, 131073, 262144, 400000}) {
+            for (const int pixel_bytes : {1, 2, 3}) {
+                const Bytes bytes = noise(count, 2);
+                ZlibStream stream(pixel_bytes);
+                std::string packed;
+                for (std::size_t at = 0; at < count;) {
+                    const std::size_t piece = std::min<std::size_t>(random() % 9000, count - at);
+                    stream.add(std::span(bytes).subspan(at, piece));
+                    packed += stream.take();
+                    at += piece;
+                }
+                stream.finish();
+                packed += stream.take();
+                CHECK(packed == zlib_bytes(bytes, pixel_bytes, Packing::runs));
+            }
+        }
+        ZlibStream empty(1);
+        empty.finish();
+        CHECK(unpacked(empty.take(), 0).empty());
     }
 
     TEST_CASE("deflate: runs of every length, at every distance") {
