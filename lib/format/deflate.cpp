@@ -17,13 +17,13 @@ namespace {
 
 using Bytes = std::span<const std::uint8_t>;
 
-/// The bytes that share one code; more of them would share one that suits them less.
+/// Bytes of a block, which has one Huffman code. A longer block would fit its code less well.
 constexpr std::size_t block_bytes = std::size_t{1} << 17;
 constexpr std::size_t stored_bytes = 65535;
 
 constexpr int shortest_run = 4;
 constexpr int longest_run = 258;
-/// A token is a byte, or 256 and the length of a run.
+/// A token is a byte, or 256 plus the length of a run.
 constexpr int run_token = 256;
 constexpr std::size_t tokens_known = run_token + longest_run + 1;
 
@@ -45,7 +45,7 @@ RunLength run_length(int length) {
     if (length == longest_run) return {285, {}};
     const auto offset = static_cast<std::uint32_t>(length - 3);
     if (offset < 8) return {257 + offset, {}};
-    // Four symbols to each power of two.
+    // There are four symbols for each power of two.
     const int extra = std::bit_width(offset) - 3;
     const std::uint32_t step = (offset >> extra) - 4;
     return {257 + 4 + 4 * static_cast<std::size_t>(extra) + step,
@@ -67,7 +67,7 @@ void add_stored(std::string& out, Bytes bytes) {
     } while (!bytes.empty());
 }
 
-/// How many bytes from `at` on are those `back` before, up to `most`.
+/// The number of bytes from `at` on that equal the bytes `back` before them, at most `most`.
 int run_at(const std::uint8_t* at, std::ptrdiff_t back, int most) {
     int length = 0;
     while (length + 8 <= most) {
@@ -83,7 +83,7 @@ int run_at(const std::uint8_t* at, std::ptrdiff_t back, int most) {
     return length;
 }
 
-/// The tokens of a block, which begins at `begin`, and how often each occurs.
+/// The tokens of a block and how often each occurs.
 struct Tokens {
     std::vector<std::uint16_t> tokens;
     std::array<std::uint32_t, tokens_known> counts{};
@@ -121,7 +121,7 @@ Tokens tokens_of(Bytes all, std::size_t begin, std::size_t end, std::ptrdiff_t b
     return out;
 }
 
-/// The code lengths of a block, each in the code of their own that RFC 1951, 3.2.7 gives them.
+/// Writes the code lengths of a block in a Huffman code of their own (RFC 1951, 3.2.7).
 void put_lengths(BitWriter& writer, const std::vector<std::uint8_t>& lengths, int distances) {
     constexpr std::array<int, 19> order{16, 17, 18, 0, 8,  7, 9,  6, 10, 5,
                                         11, 4,  12, 3, 13, 2, 14, 1, 15};
@@ -154,7 +154,7 @@ void put_block(BitWriter& writer, const Tokens& block, int back, bool last) {
     for (int length = shortest_run; length <= longest_run; ++length) {
         const RunLength run = run_length(length);
         const int bits = lengths[run.symbol];
-        // One distance occurs, and its code is a zero bit.
+        // Only one distance occurs; its code is one zero bit.
         code_of[run_token + length] = {codes[run.symbol] | run.extra.value << bits,
                                        bits + run.extra.bits + 1};
     }
@@ -169,7 +169,7 @@ void put_block(BitWriter& writer, const Tokens& block, int back, bool last) {
     lengths.resize(symbols_known + static_cast<std::size_t>(back), 0);
     lengths.back() = 1;
     put_lengths(writer, lengths, back);
-    // In pairs, since every put waits for the one before it; a code has up to 21 bits.
+    // Codes have up to 21 bits. They are written in pairs, since each put() waits for the last one.
     const std::vector<std::uint16_t>& tokens = block.tokens;
     for (std::size_t k = 0; k + 1 < tokens.size(); k += 2) {
         const BitCode& first = code_of[tokens[k]];

@@ -10,9 +10,9 @@
 
 namespace sonarsim {
 
-// zlib streams (RFC 1950 and 1951), packed in one fixed way: the bytes are the same on every machine
-// and do not depend on the version of any library. `pixel_bytes`, 1 to 4, is the distance at which
-// repeated bytes are looked for.
+// zlib streams (RFC 1950 and 1951), packed in one fixed way: the bytes are the same on every
+// machine and do not depend on the version of any library. `pixel_bytes`, 1 to 4, is the distance
+// at which repeated bytes are looked for.
 //
 // Only runs of one pixel are looked for: images of noise have nothing else that repeats, and the
 // search for other repetitions takes most of the time of general packers.

@@ -6,13 +6,12 @@
 #include <vector>
 
 #include "format/deflate.h"
+#include "format/png_chunks.h"
 #include "format/png_file.h"
 
 namespace sonarsim {
 
 namespace {
-
-constexpr std::uint8_t filter_up = 2;
 
 /// [height, width] pixels as the zlib stream of a PNG: `write` puts a row of pixels into bytes, big
 /// endian.
@@ -22,15 +21,16 @@ std::string pack_pixels(std::span<const Pixel> pixels, int width, int height, Wr
     if (pixels.size() != columns * height) {
         throw std::logic_error("the number of pixels does not suit the size of the image");
     }
-    std::vector<std::uint8_t> above(columns * sizeof(Pixel), 0);
-    std::vector<std::uint8_t> own(above.size());
-    std::vector<std::uint8_t> rows(height * (above.size() + 1));
+    const std::size_t row_bytes = columns * sizeof(Pixel);
+    std::vector<std::uint8_t> above(row_bytes, 0);
+    std::vector<std::uint8_t> own(row_bytes);
+    std::vector<std::uint8_t> rows(height * (row_bytes + 1));
     std::uint8_t* to = rows.data();
-    for (int i = 0; i < height; ++i) {
+    for (int i = 0; i < height; ++i, to += row_bytes) {
         write(pixels.data() + static_cast<std::size_t>(i) * columns, columns, own.data());
-        *to++ = filter_up;
-        for (std::size_t k = 0; k < own.size(); ++k)
-            *to++ = static_cast<std::uint8_t>(own[k] - above[k]);
+        *to++ = png_filter_up;
+        for (std::size_t k = 0; k < row_bytes; ++k)
+            to[k] = static_cast<std::uint8_t>(own[k] - above[k]);
         std::swap(own, above);
     }
     return zlib_bytes(rows, 1, Packing::runs);
@@ -53,8 +53,8 @@ std::string palette_png_bytes(std::span<const std::uint8_t> indices, int width, 
                               std::span<const Rgb> table) {
     std::string colours;
     for (const Rgb& colour : table)
-        colours += {static_cast<char>(colour.r), static_cast<char>(colour.g),
-                    static_cast<char>(colour.b)};
+        colours +=
+            {static_cast<char>(colour.r), static_cast<char>(colour.g), static_cast<char>(colour.b)};
     const auto copy = [](const std::uint8_t* from, std::size_t count, std::uint8_t* to) {
         std::memcpy(to, from, count);
     };

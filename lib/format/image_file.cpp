@@ -10,10 +10,6 @@ namespace sonarsim {
 
 namespace {
 
-// Filters of a row (PNG, 9.2): none, and the difference of each byte from the pixel to the left.
-constexpr std::uint8_t filter_none = 0;
-constexpr std::uint8_t filter_left = 1;
-
 std::string chunk(std::string_view kind, std::string_view data) {
     std::string bytes;
     append_png_chunk(bytes, kind, data);
@@ -41,7 +37,7 @@ void ImageFile::check_width(std::size_t pixels) const {
 
 void ImageFile::row(std::span<const std::uint8_t> pixels) {
     check_width(pixels.size());
-    row_.assign(1, filter_none);
+    row_.assign(1, png_filter_none);
     row_.insert(row_.end(), pixels.begin(), pixels.end());
     stream_.add(row_);
     write_packed();
@@ -49,7 +45,7 @@ void ImageFile::row(std::span<const std::uint8_t> pixels) {
 
 void ImageFile::row(std::span<const std::uint16_t> pixels) {
     check_width(pixels.size());
-    row_.assign(1, filter_none);
+    row_.assign(1, png_filter_none);
     for (const std::uint16_t pixel : pixels) {
         row_.push_back(static_cast<std::uint8_t>(pixel >> 8));
         row_.push_back(static_cast<std::uint8_t>(pixel));
@@ -61,7 +57,7 @@ void ImageFile::row(std::span<const std::uint16_t> pixels) {
 void ImageFile::row(std::span<const Rgb> pixels) {
     check_width(pixels.size());
     row_.resize(1 + pixels.size_bytes());
-    row_[0] = filter_left;
+    row_[0] = png_filter_left;
     std::memcpy(row_.data() + 1, pixels.data(), pixels.size_bytes());
     for (std::size_t k = row_.size() - 1; k > sizeof(Rgb); --k)
         row_[k] = static_cast<std::uint8_t>(row_[k] - row_[k - sizeof(Rgb)]);

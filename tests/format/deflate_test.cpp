@@ -19,7 +19,7 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// What zlib itself reads in it.
+/// Unpacks a stream by zlib.
 Bytes unpacked(const std::string& stream, std::size_t size) {
     Bytes bytes(size + 1);
     uLongf length = bytes.size();
@@ -97,7 +97,7 @@ TEST_SUITE("dataset") {
     }
 
     TEST_CASE("deflate: counts that would make codes of more than 15 bits") {
-        // Of Fibonacci's numbers the tree is a chain: 24 symbols, the rarest 23 deep.
+        // Fibonacci's numbers make the tree a chain of 24 symbols; the rarest is 23 deep.
         Bytes bytes;
         int next = 1;
         for (int symbol = 0, count = 1; symbol < 24; ++symbol) {

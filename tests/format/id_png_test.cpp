@@ -65,8 +65,8 @@ TEST_SUITE("dataset") {
         REQUIRE(rgb.size() == 18);
         for (std::size_t k = 0; k < indices.size(); ++k) {
             for (std::size_t c = 0; c < 3; ++c)
-                CHECK(rgb[3 * k + c] == std::array{table[indices[k]].r, table[indices[k]].g,
-                                                   table[indices[k]].b}[c]);
+                CHECK(rgb[3 * k + c] ==
+                      std::array{table[indices[k]].r, table[indices[k]].g, table[indices[k]].b}[c]);
         }
     }
 }

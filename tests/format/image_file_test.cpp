@@ -14,7 +14,7 @@ using sonarsim::test::TemporaryFolder;
 
 namespace {
 
-/// What PNG stores of a row: numbers of 16 bits have the high byte first.
+/// The bytes of a row in PNG; values of 16 bits have the high byte first.
 std::vector<std::uint8_t> png_row(const std::vector<std::uint8_t>& row) {
     return row;
 }
@@ -33,7 +33,7 @@ std::vector<std::uint8_t> png_row(const std::vector<Rgb>& row) {
     return bytes;
 }
 
-/// A value that is often that of its neighbours.
+/// Draws values that often repeat.
 std::uint8_t draw(std::mt19937& random) {
     return random() % 4 == 0 ? static_cast<std::uint8_t>(random()) : 7;
 }
@@ -68,10 +68,9 @@ void check_round_trip(PixelKind kind, int width, int height) {
     image.finish();
     std::vector<std::uint8_t> read;
     std::ifstream file(path, std::ios::binary);
-    const PngShape shape = read_png(
-        file, [&](const PngShape&, std::span<const std::uint8_t> row) {
-            read.insert(read.end(), row.begin(), row.end());
-        });
+    const PngShape shape = read_png(file, [&](const PngShape&, std::span<const std::uint8_t> row) {
+        read.insert(read.end(), row.begin(), row.end());
+    });
     CHECK(shape.width == width);
     CHECK(shape.height == height);
     CHECK(read == written);
@@ -93,7 +92,8 @@ TEST_SUITE("dataset") {
         const std::filesystem::path path = folder.path / "a.png";
         std::vector<Rgb> pixels;
         for (int k = 0; k < 300 * 200; ++k)
-            pixels.push_back({static_cast<std::uint8_t>(k / 300), static_cast<std::uint8_t>(k % 300),
+            pixels.push_back({static_cast<std::uint8_t>(k / 300),
+                              static_cast<std::uint8_t>(k % 300),
                               static_cast<std::uint8_t>(k * k)});
         write_picture(path, pixels, 300);
         CHECK(sha256_of_file(path) ==
