@@ -13,8 +13,8 @@
 
     python3 sonarsim_data.py OUT               # says what is in a dataset
 
-What a sample holds is named as in docs/mission.md: 'polar', 'image', 'fan', 'meta', labels, and of
-sonars that are written as records their rows: 'waterfall', 'echogram', 'scan', 'soundings'.
+A sample has the names of docs/mission.md: 'polar', 'image', 'fan', 'meta' and labels; sonars that are
+written as records have their rows: 'waterfall', 'echogram', 'scan', 'soundings'.
 """
 import collections
 import collections.abc
@@ -29,7 +29,7 @@ import numpy as np
 
 FORMAT_VERSION = 3
 TAR_BLOCK = 512
-# Of packs, how many lists of members are kept.
+# Number of packs whose lists of members are kept.
 OPEN_PACKS = 8
 # Bits and colour type of the PNG files of pings: 0 is grey, 2 RGB, 3 a colour table.
 PNG_KINDS = ((8, 0), (16, 0), (8, 2), (16, 2), (8, 3))
@@ -119,7 +119,7 @@ class Sensor:
         return self._arrays[name]
 
     def axes(self, name):
-        """What the indices of records(name) count, as in ['range', 'ping']."""
+        """The axes of records(name), as in ['range', 'ping']."""
         return self._records[name]["axes"]
 
     def raw(self, index, name):
@@ -136,7 +136,7 @@ class Sensor:
             return file.read(size)
 
     def read(self, index, name):
-        """What a ping's file or record of this name holds: an array, of JSON a dict, of text a str."""
+        """The content of a ping's file or record of this name: an array, a dict for JSON, a str for text."""
         if name in self._records:
             records = self.records(name)
             return records[:, index] if self.axes(name)[-1] == "ping" else records[index]
@@ -190,7 +190,7 @@ class Sensor:
 
 
 class Sample(collections.abc.Mapping):
-    """A ping of a sensor. What it holds is read when asked for: sample['polar']."""
+    """A ping of a sensor. Its arrays are read when asked for: sample['polar']."""
 
     def __init__(self, sensor, index):
         self.sensor = sensor
@@ -243,8 +243,8 @@ def middles(edges):
 
 
 def tar_members(path):
-    """Of each file in an archive (name, (offset, bytes)); an archive that is still being written
-    ends where it is cut off."""
+    """Yields (name, (offset, bytes)) of each file in an archive; an archive that is still being
+    written ends where it is cut off."""
     with open(path, "rb") as file:
         while True:
             header = file.read(TAR_BLOCK)
