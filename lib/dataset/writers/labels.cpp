@@ -149,9 +149,8 @@ class LabelImageWriter final : public Writer {
         if (!file_.ids) {
             return {PingFile{file_.name, ".npy"}, 128.0 + 4.0 * view_.range_bins * view_.beams, {}};
         }
-        return {PingFile{file_.name, ".png"},
-                png_bytes_at_most(view_.beams, view_.range_bins, 2),
-                {}};
+        return {
+            PingFile{file_.name, ".png"}, png_bytes_at_most(view_.beams, view_.range_bins, 2), {}};
     }
 
     std::string encode(const FinishedPing& finished) const override {
