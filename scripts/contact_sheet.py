@@ -29,7 +29,7 @@ def folders_of(out):
 
 
 def picture_of(dataset, sensor_name, ping):
-    """(image [row, column], brightest) of a dataset; None where it holds nothing to show."""
+    """(image [row, column], brightest) of a dataset; None if it has no image."""
     for sensor in dataset.sensors.values():
         if sensor_name not in (None, sensor.name):
             continue
@@ -70,7 +70,7 @@ def main(out, sensor_name=None, ping=None):
         axis.imshow((image / white).clip(0, 1) ** 0.5, cmap="gray", vmin=0, vmax=1, aspect="auto"
                     if image.shape[0] > 2 * image.shape[1] else "equal")
         axis.set_title(name.replace(",", "\n"), fontsize=8)
-    # Without a stamp of the version, so that a sweep made again is the same.
+    # The file has no stamp of the version, so that a repeated sweep gives the same bytes.
     sheet = "contact_sheet" + (f"_{sensor_name}" if sensor_name else "") + ".png"
     figure.savefig(out / sheet, dpi=100, metadata={"Software": None})
 

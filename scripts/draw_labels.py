@@ -15,7 +15,7 @@ from PIL import Image, ImageDraw
 
 
 def colour_of(number):
-    """One of many that differ."""
+    """One of many different colours."""
     hue = number * 0.618034 % 1.0
     return tuple(int(255 * (0.55 + 0.45 * np.cos(2 * np.pi * (hue - k / 3)))) for k in range(3))
 
@@ -42,7 +42,7 @@ def mask_of(segmentation):
 
 
 def grey(values):
-    """For the eye: amplitudes, the brightest one in a thousand white."""
+    """Amplitudes for display; the brightest thousandth is white."""
     values = np.sqrt(np.maximum(np.asarray(values, float), 0))
     white = np.quantile(values[values > 0], 0.999) if (values > 0).any() else 1.0
     picture = (255 * np.clip(values / white, 0, 1)).astype(np.uint8)

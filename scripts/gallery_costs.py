@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""What the page of a large dataset costs: its size, the time to make it, to open it and to step.
+"""Measures the page of a large dataset: its size, the time to make it, to open it and to step.
 
     scripts/gallery_costs.py PROGRAM [--pings 10000]
 
 renders a small sonar in the tank, with a fan and its boxes for every ping, writes the gallery and opens it in
-a headless Chromium (Debian's chromium and chromium-driver). The times are those of the machine as it is.
+a headless Chromium (Debian's chromium and chromium-driver). The times depend on the machine's load.
 """
 import argparse
 import pathlib

@@ -47,8 +47,8 @@ def label_ticks(axes):
 def error_plot(report, sensor):
     """Relative L1 against ms per ping: a dot per setting, a ring around the mission's own, a line
     through those that no other setting beats in both."""
-    # `stages` holds the same settings as `rows`, in the same order. A logarithmic axis has no
-    # place for an error of 0.
+    # `stages` holds the same settings as `rows`, in the same order. A logarithmic axis cannot show an
+    # error of 0.
     settings = [{**row, **stage} for row, stage in zip(report["rows"], report["stages"])
                 if row["sensor"] == sensor and row["relative_l1"] > 0 and row["ms_per_ping"] > 0]
     figure, axes = new_plot(f"{report['mission']}, {sensor}",

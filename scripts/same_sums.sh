@@ -2,7 +2,7 @@
 # ./scripts/same_sums.sh [SONARSIM]: renders a small mission with labels in every way that must give
 # the same dataset, and prints the SHA-256 of SHA256SUMS for each: threads, shards merged in any order,
 # ten kills and a resumption, a Slurm array, GNU parallel, another folder, another user. Exit code 1
-# where one differs. What is not installed, or needs to be root, is left out with a word.
+# if one differs. Ways that need a missing program or root are skipped with a note.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 program=$(realpath "${1:-$root/build/sonarsim}")

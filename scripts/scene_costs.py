@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What a composed scene costs: tables in Markdown, for docs/performance.md.
+"""Measures what a composed scene costs: tables in Markdown, for docs/performance.md.
 
     ./scripts/scene_costs.py copies [--counts 1000 100000] [--sonarsim PROGRAM]
     ./scripts/scene_costs.py motion [--sonarsim PROGRAM]
@@ -8,12 +8,12 @@ The first scatters rings of 10,000 triangles over a plane, as many to the square
 and renders them as shared meshes. The second renders a hundred rocks once at rest and once on their
 way, with each kind of sonar and with rays, which alone see what moves.
 
-All on one thread, without files; rounds take turns, and the least of each counts, which other work on
-the machine disturbs least. What comes before the first ping is time of the processor, that of a run of
-two pings. A ping beside moving objects is, too: a run of many pings and one of few tell it. Beside a
-hundred thousand copies that difference would be lost in what comes before, so that pings there are
-timed by the clock. On a busy machine that shows more than the processor does, so one is never taken
-from the other.
+All runs use one thread and write no files. Rounds take turns and the least time counts, which other
+work on the machine disturbs least. The time before the first ping is the processor time of a run of two
+pings. The time of a ping beside moving objects is the difference of processor time between a run of many
+pings and one of few. With a hundred thousand copies that difference would be lost in the time before the
+first ping, so pings there are timed by the clock. Clock and processor time are never subtracted from
+each other, since they differ on a busy machine.
 """
 import argparse
 import json

@@ -13,8 +13,8 @@
 
     python3 sonarsim_data.py OUT               # says what is in a dataset
 
-What a sample holds is named as in docs/mission.md: 'polar', 'image', 'fan', 'meta', labels, and of
-sonars that are written as records their rows: 'waterfall', 'echogram', 'scan', 'soundings'.
+A sample has the names of docs/mission.md: 'polar', 'image', 'fan', 'meta' and labels; sonars that are
+written as records have their rows: 'waterfall', 'echogram', 'scan', 'soundings'.
 """
 import collections
 import collections.abc
@@ -31,14 +31,14 @@ import numpy as np
 
 FORMAT_VERSION = 3
 TAR_BLOCK = 512
-# What the names of a dataset's files are made of: a dataset may come from anybody.
+# The letters of the names of a dataset's files: a dataset may come from anybody.
 NAME = r"[A-Za-z0-9_+-][A-Za-z0-9_+.-]*"
 INNER_PATH = re.compile(f"{NAME}(/{NAME})*", re.ASCII)
 # The only number of a pattern stands in its last name.
 PATTERN = re.compile(rf"(?:{NAME}/)*(?:{NAME})?%0[1-9]d[A-Za-z0-9_+.-]*", re.ASCII)
-# The bytes that a byte of a PNG file unpacks to, at most.
+# A byte of a PNG file unpacks to at most this many bytes.
 MOST_INFLATED = 1032
-# Of packs, how many lists of members are kept.
+# Number of packs whose lists of members are kept.
 OPEN_PACKS = 8
 # Bits and colour type of the PNG files of pings: 0 is grey, 2 RGB, 3 a colour table.
 PNG_KINDS = ((8, 0), (16, 0), (8, 2), (16, 2), (8, 3))
@@ -158,7 +158,7 @@ class Sensor:
         return self._arrays[name]
 
     def axes(self, name):
-        """What the indices of records(name) count, as in ['range', 'ping']."""
+        """The axes of records(name), as in ['range', 'ping']."""
         return self._records[name]["axes"]
 
     def raw(self, index, name):
@@ -175,7 +175,7 @@ class Sensor:
             return file.read(size)      # no more than there is: tar_members() saw to it
 
     def read(self, index, name):
-        """What a ping's file or record of this name holds: an array, of JSON a dict, of text a str."""
+        """The content of a ping's file or record of this name: an array, a dict for JSON, a str for text."""
         if name in self._records:
             records = self.records(name)
             return records[:, index] if self.axes(name)[-1] == "ping" else records[index]
@@ -232,7 +232,7 @@ class Sensor:
 
 
 class Sample(collections.abc.Mapping):
-    """A ping of a sensor. What it holds is read when asked for: sample['polar']."""
+    """A ping of a sensor. Its arrays are read when asked for: sample['polar']."""
 
     def __init__(self, sensor, index):
         self.sensor = sensor
@@ -299,8 +299,8 @@ def whole(number, low, key):
 
 
 def tar_members(path):
-    """Of each file in an archive (name, (offset, bytes)); an archive that is still being written
-    ends where it is cut off. ValueError for a header that is none."""
+    """Yields (name, (offset, bytes)) of each file in an archive; an archive that is still being
+    written ends where it is cut off. ValueError for a damaged header."""
     with open(path, "rb") as file:
         end = file.seek(0, io.SEEK_END)
         at = 0

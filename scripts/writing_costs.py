@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What writing costs: tables in Markdown, for docs/performance.md and docs/mission.md.
+"""Measures what writing costs: tables in Markdown, for docs/performance.md and docs/mission.md.
 
     ./scripts/writing_costs.py [--sonarsim PROGRAM] [--out FOLDER]              per output, the tank
     ./scripts/writing_costs.py --labels [...]                                   per label, likewise
@@ -109,7 +109,7 @@ def per_label(program, out, rounds):
     for _ in range(rounds):
         for name, arguments in cases.items():
             for place, other in beside.items():
-                # These are of pictures, which are not there.
+                # These labels belong to pictures, which are not written here.
                 if "metadata" in place and ("`fan`" in name or "`coco`" in name):
                     continue
                 told, seconds, _, _, _ = run(program, out, [*LAP, "-j1", *arguments, *other])

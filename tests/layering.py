@@ -27,7 +27,7 @@ ALLOWED = {
                  "product", "sonar"},
     "survey": {"core", "mission", "scene", "trajectory", "visibility", "calibrated", "ping", "labels",
                "product", "sonar", "assembly"},
-    "format": {"core", "product"},
+    "format": {"core"},
 }
 for upper in ("dataset", "validation", "benchmark", "preview", "gallery"):
     ALLOWED[upper] = set(ALLOWED)

@@ -6,7 +6,7 @@ namespace sonarsim {
 
 namespace {
 
-/// CLI11 writes what may be named as "{this,that}" behind the type.
+/// CLI11 writes the choices as "{this,that}" after the type.
 std::vector<std::string> choices_in(const std::string& type) {
     const std::size_t begin = type.find('{');
     const std::size_t end = type.find('}');

@@ -6,11 +6,11 @@
 
 namespace sonarsim {
 
-/// An option or an argument of a command, as --help tells it.
+/// An option or an argument of a command, as in --help.
 struct OptionText {
-    std::string name;        ///< "--threads", or that of an argument
-    std::string short_name;  ///< "-j"; "" where there is none
-    std::string value;       ///< what follows it, "N"; "" for a flag
+    std::string name;        ///< "--threads", or the name of an argument
+    std::string short_name;  ///< "-j"; "": none
+    std::string value;       ///< name of its value, "N"; "" for a flag
     std::vector<std::string> choices;
     std::string meaning;
 };
@@ -20,13 +20,13 @@ struct CommandText {
     std::string meaning;
     std::vector<OptionText> arguments;
     std::vector<OptionText> options;
-    std::string examples;  ///< a line each
+    std::string examples;  ///< one line each
 };
 
-/// All that --help knows of the commands: the manual page and the completions are made of it.
+/// The commands as in --help, for the manual page and the completions.
 std::vector<CommandText> command_texts(const CLI::App& app);
 
-/// Gives each command and the program itself the examples that --help ends with.
+/// Adds the examples at the end of --help to each command and to the program.
 void add_examples(CLI::App& app);
 
 }  // namespace sonarsim

@@ -6,7 +6,7 @@
 
 namespace sonarsim {
 
-// Each adds one subcommand. What it runs leaves its exit code in `exit_code` and may throw.
+// Each function adds one subcommand, which stores its exit code in `exit_code` and may throw.
 
 void add_render(CLI::App& app, int& exit_code);
 void add_verify(CLI::App& app, int& exit_code);

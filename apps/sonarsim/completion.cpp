@@ -18,7 +18,7 @@ std::string replaced(std::string text, const std::string& what, const std::strin
     return text;
 }
 
-/// Within single quotes of bash and zsh.
+/// Quotes a text for bash and zsh.
 std::string single_quoted(const std::string& text) {
     return "'" + replaced(text, "'", "'\\''") + "'";
 }
@@ -80,9 +80,9 @@ std::string bash(const std::vector<CommandText>& commands) {
            "complete -F _sonarsim sonarsim\n";
 }
 
-/// What follows an option, for zsh: the values by name, or files.
+/// The completion of an option's value for zsh: choices, or files.
 std::string zsh_value(const OptionText& option) {
-    // A positional argument has no value of its own; zsh takes an empty message for something else.
+    // A positional argument has no value name, and an empty message has another meaning in zsh.
     const std::string& message = option.value.empty() ? option.name : option.value;
     if (!option.choices.empty()) return ":" + message + ":(" + joined(option.choices) + ")";
     return ":" + option.value + ":_files";
@@ -162,8 +162,8 @@ std::string fish(const std::vector<CommandText>& commands) {
 void add_completion(CLI::App& app, int& exit_code) {
     using Write = std::string (*)(const std::vector<CommandText>&);
     static const std::map<std::string, Write> shells{{"bash", bash}, {"fish", fish}, {"zsh", zsh}};
-    CLI::App& command =
-        *app.add_subcommand("completion", "Prints what completes command lines in a shell");
+    CLI::App& command = *app.add_subcommand(
+        "completion", "Prints the script that completes command lines in a shell");
     auto shell = std::make_shared<std::string>();
     command.add_option("shell", *shell, "The shell")
         ->required()

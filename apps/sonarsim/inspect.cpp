@@ -10,7 +10,7 @@
 #include "scene/gltf/load.h"
 #include "scene/materials.h"
 #include "scene/summary.h"
-#include "scene_doubts.h"
+#include "warn_about_scene.h"
 
 namespace sonarsim {
 
@@ -29,7 +29,7 @@ Json vector_json(const Eigen::Vector3d& v) {
     return {v.x(), v.y(), v.z()};
 }
 
-/// `names`, each with the number of triangles whose index in `owners` points at it.
+/// The names with the number of triangles whose index in `owners` refers to them.
 Json shares_json(const std::vector<std::string>& names, const std::vector<std::uint32_t>& owners) {
     std::vector<std::uint64_t> triangles(names.size());
     for (const std::uint32_t owner : owners)
@@ -58,7 +58,7 @@ Json scene_json(const Scene& scene) {
             {"instances", shares_json(scene.instances, scene.triangle_instance)}};
 }
 
-/// What the CSV says of each material of the scene; null for what it lacks.
+/// The acoustics of each material of the scene in the CSV; null for materials that it lacks.
 Json acoustics_json(const Scene& scene, const MaterialTable& table) {
     Json json = Json::object();
     for (const Material& material : scene.materials) {

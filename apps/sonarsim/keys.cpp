@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Numbers, flags and lists as they are, anything else as text.
+/// Parses numbers, flags and lists; any other value becomes text.
 Json value_json(const std::string& yaml) {
     Json value = Json::parse(yaml, nullptr, false);
     return value.is_discarded() ? Json(yaml) : value;
@@ -61,7 +61,7 @@ void add_keys(CLI::App& app, int& exit_code) {
     CLI::App& command = *app.add_subcommand(
         "keys", "Prints every key of a mission with its default, range and meaning");
     auto json = std::make_shared<bool>(false);
-    command.add_flag("--json", *json, "As JSON instead of Markdown");
+    command.add_flag("--json", *json, "Prints JSON instead of Markdown");
     command.callback([json, &exit_code] {
         const std::vector<SectionReference> sections = mission_reference(sonar_keys());
         fmt::print("{}",

@@ -19,7 +19,7 @@ namespace sonarsim {
 
 namespace {
 
-/// On a terminal a message takes the place of the progress line.
+/// On a terminal a message replaces the progress line.
 std::string start_of_line() {
     return ::isatty(STDERR_FILENO) == 1 ? "\r\x1b[K" : "";
 }
@@ -28,7 +28,7 @@ std::string_view view(const spdlog::string_view_t& text) {
     return {text.data(), text.size()};
 }
 
-/// A pattern, for messages that name what a file named: control characters are shown, not sent.
+/// A pattern that masks control characters, which messages may quote from files.
 class TextFormatter : public spdlog::formatter {
   public:
     explicit TextFormatter(std::string pattern) : pattern_(std::move(pattern)), line_(pattern_) {}
@@ -48,7 +48,7 @@ class TextFormatter : public spdlog::formatter {
     spdlog::pattern_formatter line_;
 };
 
-/// The place in a user's file that a message begins with, "file:line:column: ", as fields.
+/// Adds the place at the start of a message, "file:line:column: ", as fields.
 void add_place(nlohmann::ordered_json& line, std::string_view message) {
     static const std::regex place("([^:\\s][^:]*):([0-9]{1,9})(:([0-9]{1,9}))?: ");
     std::cmatch found;

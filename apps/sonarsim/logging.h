@@ -22,11 +22,10 @@ void add_log_options(CLI::App& command, LogOptions& options);
 /// Sends spdlog's default logger to stderr, as text or as JSON.
 void start_logging(const LogOptions& options);
 
-/// A warning as it would be logged, as a line of its own: for a signal handler, which cannot log.
-/// As JSON it lacks the time, which is not known yet.
+/// Formats a warning as a log line for a signal handler, which cannot log. As JSON it has no time.
 std::string warning_line(const LogOptions& options, const std::string& message);
 
-/// JSON on one line, with the line feed. What is no UTF-8 (a file name may be any bytes) becomes
+/// JSON on one line, with the line feed. Bytes that are not UTF-8, as in a file name, become
 /// U+FFFD.
 std::string json_line(const nlohmann::ordered_json& json);
 

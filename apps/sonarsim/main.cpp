@@ -24,14 +24,14 @@ namespace {
 
 using namespace sonarsim;
 
-// Also where there is none left for the stack of another thread.
+// Memory may also be missing for the stack of another thread.
 constexpr const char* out_of_memory =
     "out of memory: use fewer threads (-j), fewer bins or a smaller scene";
 
 /// Lets the C library keep freed memory. A ping allocates and frees a few megabytes; handing them
 /// back to the kernel each time and faulting them in again takes a third of the ping's time.
 void keep_freed_memory() {
-    constexpr int most = 32 << 20;  // what the C library takes
+    constexpr int most = 32 << 20;  // the C library's limit
     // NOLINTBEGIN(concurrency-mt-unsafe): there are no other threads yet
     mallopt(M_MMAP_THRESHOLD, most);
     mallopt(M_TRIM_THRESHOLD, 1 << 30);
@@ -74,7 +74,7 @@ int run(int argc, char** argv) {
     return exit_code;
 }
 
-/// What was printed may still wait in a buffer, for a disk that is full.
+/// Flushes the output, since a full disk may show only then.
 void finish_printing() {
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
         throw std::system_error(errno, std::generic_category(), "cannot write to standard output");
@@ -84,7 +84,7 @@ void finish_printing() {
 }  // namespace
 
 int main(int argc, char** argv) {
-    // A limit on the size of files (ulimit -f) shall be an error with a reason, not a sudden end.
+    // A file size limit (ulimit -f) then is an error with a reason instead of a signal.
     std::signal(SIGXFSZ, SIG_IGN);
     keep_freed_memory();
     start_logging({});

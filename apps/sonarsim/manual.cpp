@@ -11,7 +11,7 @@ namespace sonarsim {
 
 namespace {
 
-/// Text as troff prints it: a hyphen that can be copied, and nothing that it takes for a request.
+/// Escapes a text for troff: hyphens that can be copied, and no requests.
 std::string troff(const std::string& text) {
     std::string out;
     for (const char c : text) {

@@ -93,7 +93,9 @@ void add_merge(CLI::App& app, int& exit_code) {
     CLI::App& command = *app.add_subcommand(
         "merge", "Joins the shards of one mission that were rendered into folders of their own");
     auto arguments = std::make_shared<MergeArguments>();
-    command.add_option("folders", arguments->folders, "The parts, and at last the folder to write")
+    command
+        .add_option("folders", arguments->folders,
+                    "The folders of the parts, then the folder to write")
         ->required()
         ->expected(2, 1'000'000)
         ->type_name("PART... OUT");

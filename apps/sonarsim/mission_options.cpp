@@ -14,8 +14,8 @@ void add_mission_options(CLI::App& command, MissionOptions& options, MissionOutp
     command.add_option("mission", options.file, "The mission, a YAML file")->required();
     command
         .add_option("--set", options.settings,
-                    "Changes a key of the mission, as in sensors.fls.noise.add_sigma=0.2; "
-                    "may be given again and again")
+                    "Changes a key of the mission, as in sensors.fls.noise.add_sigma=0.2; may be "
+                    "given several times")
         ->allow_extra_args(false)
         ->type_name("KEY=VALUE");
     command.add_option("--seed", options.seed, "Short for --set seed=N")->type_name("N");
@@ -50,7 +50,7 @@ Mission load(const MissionOptions& options) {
                          "belongs to a dataset, and its paths start at the folder of the scene "
                          "file; say which that is with --paths-from FOLDER");
     }
-    // On the command line a path starts here, in the mission at the mission's folder.
+    // Relative paths on the command line start at the current folder.
     if (!options.out.empty()) mission.output.folder = std::filesystem::absolute(options.out);
     return mission;
 }

@@ -10,7 +10,7 @@
 #include "format/image_file.h"
 #include "logging.h"
 #include "mission_options.h"
-#include "scene_doubts.h"
+#include "warn_about_scene.h"
 
 namespace sonarsim {
 
@@ -23,7 +23,7 @@ struct PreviewArguments {
     LogOptions log;
 };
 
-/// Of a mission with variants the first one, which is the mission as it would be rendered.
+/// Loads the mission, or its first variant if it has variants.
 Mission load_one(const MissionOptions& options) {
     Mission mission = load(options);
     const std::vector<Mission> variants = load_variants(options, mission);
@@ -35,8 +35,8 @@ Mission load_one(const MissionOptions& options) {
 int preview(const PreviewArguments& arguments) {
     start_logging(arguments.log);
     Mission mission = load_one(arguments.mission);
-    // The brightness of a preview finds itself. To look for that of the dataset would take longer
-    // than all the rest.
+    // A preview derives its brightness from its own pings, since finding the dataset's full_scale
+    // takes longer than the whole preview.
     mission.output.full_scale = 1.0;
     const Assembly assembly = assemble(mission);
     warn_about(assembly.scene);
@@ -49,7 +49,8 @@ int preview(const PreviewArguments& arguments) {
     const std::filesystem::path out = arguments.out.empty()
                                           ? std::filesystem::path(mission.name + "_preview.png")
                                           : arguments.out;
-    write_picture(out, draw_preview(mission, assembly, pose));
+    const Picture picture = draw_preview(mission, assembly, pose);
+    write_picture(out, picture.pixels, picture.width);
     spdlog::info("{}: ping {} of {}", out.string(), pose, mission.name);
     return exit_done;
 }
@@ -63,7 +64,7 @@ void add_preview(CLI::App& app, int& exit_code) {
     add_mission_options(command, arguments->mission, MissionOutput::other);
     command
         .add_option("--ping", arguments->ping,
-                    "Number of the ping, that of its pose (default: in the middle)")
+                    "Number of the ping, which is that of its pose (default: the middle one)")
         ->type_name("N");
     command
         .add_option("--out", arguments->out,

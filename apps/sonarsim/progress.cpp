@@ -41,7 +41,7 @@ std::string bar_of(std::uint64_t done, std::uint64_t total) {
     return "[" + std::string(filled, '#') + std::string(bar_width - filled, '.') + "]";
 }
 
-/// A line that is longer than the terminal is wide would not be written over.
+/// The width of the terminal: a longer line would not be overwritten.
 std::size_t columns_of_terminal() {
     winsize size{};
     const bool known = ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;

@@ -12,20 +12,20 @@ namespace sonarsim {
 /// "12 s", "3 min 20 s", "2 h 5 min".
 std::string duration_text(double seconds);
 
-/// Where progress is shown.
+/// The place where progress is shown.
 enum class ProgressTo {
     nowhere,
-    terminal,  ///< one line, written anew
+    terminal,  ///< one line that is rewritten
     log,       ///< a message every minute
 };
 
-/// A terminal where stderr is one, else the log; nowhere where `quiet`.
+/// The terminal if stderr is one, else the log; nowhere with `quiet`.
 ProgressTo progress_of(bool quiet, bool json);
 
-/// A stage of the work and the seconds that it took so far.
+/// A stage of the work and its seconds so far.
 using StageSeconds = std::pair<std::string_view, double>;
 
-/// Tells how many of `what` ("pings") are done, how fast, and how long the rest takes.
+/// Shows how many of `what` ("pings") are done, the rate, and the time left.
 class ProgressLine {
   public:
     explicit ProgressLine(ProgressTo to, std::string what = "pings");
@@ -33,7 +33,7 @@ class ProgressLine {
     ProgressLine(const ProgressLine&) = delete;
     ProgressLine& operator=(const ProgressLine&) = delete;
 
-    /// `stages` are told by their shares, the largest first.
+    /// Shows the shares of `stages`, the largest first.
     void show(std::uint64_t done, std::uint64_t total, std::span<const StageSeconds> stages = {});
 
   private:

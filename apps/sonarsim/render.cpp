@@ -22,10 +22,10 @@
 #include "logging.h"
 #include "mission_options.h"
 #include "progress.h"
-#include "scene_doubts.h"
 #include "shard.h"
 #include "signals.h"
 #include "sonar/engine_settings.h"
+#include "warn_about_scene.h"
 
 namespace sonarsim {
 
@@ -34,7 +34,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* goes_on_from_there =
-    "what is written is whole, and the same command run again goes on from there";
+    "written files are whole, and the same command run again goes on from there";
 
 struct RenderArguments {
     MissionOptions mission;
@@ -107,7 +107,7 @@ void print_json(const RenderSummary& summary, const Mission& mission,
     fmt::print("{}", json_line(json));
 }
 
-/// What did not make it into the images, and why.
+/// Logs the counts of dropped echoes and the reasons.
 void log_dropped(const PingCounts& counts) {
     for (const auto& counter : ping_counters) {
         const std::uint64_t count = counts.*counter.member;
@@ -117,7 +117,7 @@ void log_dropped(const PingCounts& counts) {
         spdlog::info("multipath: {}", sentence(multipath_counters, counts.multipath));
 }
 
-/// What the table does not say. Returns how many warnings that took.
+/// Logs the outcome and the warnings. Returns the number of warnings.
 std::size_t comment(const RenderSummary& summary, const Mission& mission, bool files) {
     const std::string folder = mission.output.folder.string();
     if (files && summary.complete) {
@@ -127,7 +127,7 @@ std::size_t comment(const RenderSummary& summary, const Mission& mission, bool f
     }
     log_dropped(summary.counts);
     if (summary.unlocked) spdlog::warn("{}", no_locks_warning(mission.output.folder));
-    constexpr std::size_t most = 20;  // of many variants
+    constexpr std::size_t most = 20;  // warnings of all variants that are printed
     for (std::size_t i = 0; i < std::min(most, summary.warnings.size()); ++i)
         spdlog::warn("{}", summary.warnings[i]);
     if (summary.warnings.size() > most)
@@ -145,13 +145,13 @@ void spare_mission(const std::filesystem::path& file, const Mission& mission) {
                      "first, or choose another --out");
 }
 
-/// What may be wrong with a scene and the engine that sees it. Returns how many warnings that took.
+/// Logs warnings about the scene and the engine. Returns their number.
 std::size_t warn_before(const Mission& mission, const Assembly& assembly) {
     std::size_t warnings = warn_about(assembly.scene);
     for (const Sonar& sonar : assembly.sonars) {
         const std::string doubt = accuracy_warning(engine_settings(mission), sonar.settings.view,
                                                    sonar.settings.multipath.on,
-                                                   sonar.config.model == EchoModel::of_instrument);
+                                                   sonar.config.model == EchoModel::calibrated);
         if (doubt.empty()) continue;
         ++warnings;
         spdlog::warn("sensor '{}': {}", sonar.config.name, doubt);
@@ -161,11 +161,11 @@ std::size_t warn_before(const Mission& mission, const Assembly& assembly) {
     return warnings;
 }
 
-/// What a command came to.
+/// The result of a command.
 struct Outcome {
     RenderSummary summary;
-    std::vector<std::string> warnings;  ///< of the images
-    std::size_t warned_before = 0;      ///< how often, before the first ping
+    std::vector<std::string> warnings;  ///< warnings about the images
+    std::size_t warned_before = 0;      ///< number of warnings before the first ping
 };
 
 /// Renders the mission, or its variants.
@@ -179,7 +179,7 @@ Outcome render_all(const RenderArguments& arguments, const Mission& mission,
         const std::string few = too_few_variants_warning(mission.output.split, variants.size());
         if (!few.empty()) spdlog::warn("{}", few);
         ProgressLine line(progress, "variants");
-        // What is said of the first scene holds for most; of the others the log would be full.
+        // Warnings about the first scene hold for most others, which are not repeated.
         bool first = true;
         out.warned_before = few.empty() ? 0 : 1;
         const auto begin = [&](const Mission& variant, const Assembly& assembly) {
@@ -241,10 +241,10 @@ void add_render(CLI::App& app, int& exit_code) {
             "Renders the I-th of N parts, counted from 1 (default: the task of a Slurm array)")
         ->type_name("I/N");
     command.add_flag("--overwrite", arguments->render.overwrite,
-                     "Begins anew where the output folder holds another dataset");
+                     "Replaces another dataset in the output folder");
     command
         .add_option("--checkpoint", arguments->render.checkpoint_s,
-                    "Seconds between checkpoints: what a power cut costs at the most (default: 5)")
+                    "Seconds between checkpoints, the most that a power cut costs (default: 5)")
         ->check(CLI::Range(0.01, 3600.0))
         ->type_name("S");
     command.add_flag("--no-files", arguments->no_files, "Writes nothing, to measure the speed");

@@ -20,9 +20,9 @@
 #include "core/file.h"
 #include "logging.h"
 #include "mission_options.h"
-#include "scene_doubts.h"
 #include "validation/hard/cases.h"
 #include "validation/hard/orders.h"
+#include "warn_about_scene.h"
 
 namespace sonarsim {
 
@@ -67,7 +67,7 @@ int report_hard(const ReportArguments& arguments) {
     return all_hold ? exit_done : exit_failed;
 }
 
-/// What is measured: the engines that were asked for, of those that can see the mission's scene.
+/// The settings to measure: the requested engines that support the mission's scene.
 std::vector<Setting> settings_of(const ReportArguments& arguments, const Mission& mission,
                                  const Assembly& assembly) {
     std::vector<Setting> settings = make_settings(mission, arguments.quick);
@@ -149,12 +149,12 @@ void add_report(CLI::App& app, int& exit_code) {
         ->capture_default_str();
     command
         .add_option("--reference-rays", arguments->report.reference_rays,
-                    "Rays per image at which the reference gives up settling")
+                    "Largest number of rays per image of the reference")
         ->check(CLI::Range(std::uint64_t{1'000'000}, std::uint64_t{1'000'000'000'000}))
         ->capture_default_str();
     command
         .add_option("--engines", arguments->engines,
-                    "Measures only these, with commas between: rays, slices, octree, literal")
+                    "Engines to measure, separated by commas: rays, slices, octree, literal")
         ->delimiter(',')
         ->check(CLI::IsMember({"rays", "slices", "octree", "literal"}))
         ->type_name("NAMES");

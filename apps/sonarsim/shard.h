@@ -5,17 +5,17 @@
 
 namespace sonarsim {
 
-/// One of the parts of a mission, counted from 0.
+/// One part of a mission, counted from 0.
 struct Shard {
     int index = 0;
     int count = 1;
 };
 
-/// "2/4" of the command line, where shards count from 1. CLI::ValidationError when it is not so.
+/// Parses "2/4" of the command line, where shards count from 1. Throws CLI::ValidationError.
 Shard parse_shard(const std::string& text);
 
-/// The task of the Slurm array that this process runs in: the k-th of its n tasks is shard k/n.
-/// Nothing outside of one. InputError when the numbers of the tasks are not evenly spaced.
+/// The shard of this process in a Slurm array: the k-th of its n tasks is shard k/n. Nothing
+/// outside of an array. Throws InputError when the numbers of the tasks are not evenly spaced.
 std::optional<Shard> shard_of_slurm();
 
 }  // namespace sonarsim

@@ -12,7 +12,7 @@ namespace sonarsim {
 
 namespace {
 
-// The only global state of the program: a signal handler can reach nothing else.
+// The only global state of the program; a signal handler cannot reach any other.
 std::atomic<bool> stop_asked_for = false;
 std::atomic<int> received = 0;
 std::array<char, 512> last_text;
@@ -20,7 +20,7 @@ std::atomic<std::size_t> last_size = 0;
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free &&
               std::atomic<std::size_t>::is_always_lock_free);
 
-// A handler may call only what POSIX lists as safe there: signal, alarm, write and _exit are.
+// A handler may call only functions that POSIX lists as safe: signal, alarm, write and _exit are.
 
 extern "C" void on_signal(int number) {
     received = number;
@@ -30,9 +30,9 @@ extern "C" void on_signal(int number) {
     ::alarm(1);
 }
 
-/// The second is over. Files get their names when all of their bytes are written, and a ping counts
-/// once the journal names it, after that; so the program may end between any two instructions, as
-/// it may by a kill or a power cut, and the next run goes on from what is whole.
+/// Ends the program after the second. This is safe between any two instructions, as a kill or a
+/// power cut is: a file gets its name after all of its bytes are written, and the journal names a
+/// ping after that, so that the next run continues from the whole files.
 extern "C" void on_alarm(int) {
     const ssize_t written = ::write(STDERR_FILENO, last_text.data(), last_size);
     static_cast<void>(written);  // there is nobody left to tell
@@ -45,7 +45,7 @@ std::atomic<bool>& stop_on_signal(std::string_view last_words) {
     last_size = last_words.copy(last_text.data(), last_text.size());
     std::signal(SIGALRM, on_alarm);
     for (const int number : {SIGINT, SIGTERM}) {
-        // A shell starts background jobs with SIGINT ignored, so that Ctrl-C spares them.
+        // A shell ignores SIGINT for background jobs, so that Ctrl-C does not end them.
         if (std::signal(number, on_signal) == SIG_IGN) std::signal(number, SIG_IGN);
     }
     return stop_asked_for;

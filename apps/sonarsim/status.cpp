@@ -37,13 +37,13 @@ const char* state_of(const ShardStatus& shard) {
     return shard.pings.done == shard.pings.all ? "done" : "interrupted";
 }
 
-/// Seconds, at this rate; nothing where that is 0.
+/// The seconds left at this rate; nothing if the rate is 0.
 std::optional<double> time_left(const PingTally& pings, double pings_per_s) {
     if (pings_per_s <= 0.0) return std::nullopt;
     return static_cast<double>(pings.all - pings.done) / pings_per_s;
 }
 
-/// The shard that takes longest decides.
+/// The time left of the shard that takes longest.
 std::optional<double> time_left(const JobStatus& status) {
     std::optional<double> longest;
     for (const ShardStatus& shard : status.shards) {
@@ -147,7 +147,7 @@ int status(const StatusArguments& arguments) {
 
 void add_status(CLI::App& app, int& exit_code) {
     CLI::App& command = *app.add_subcommand(
-        "status", "Tells how far a job is that is running, was interrupted or is complete");
+        "status", "Prints the progress of a job that is running, was interrupted or is complete");
     auto arguments = std::make_shared<StatusArguments>();
     command
         .add_option("folders", arguments->folders,

@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Instances with their share of the surface that was seen, most first.
+/// Instances with their share of the visible surface, the largest first.
 std::vector<std::pair<std::string, double>> seen_most(const SonarSurvey& found,
                                                       const Scene& scene) {
     constexpr std::size_t most = 5;
@@ -42,7 +42,7 @@ Json json_of(const Interval& interval) {
     return {interval.low, interval.high};
 }
 
-/// To a tenth, without a minus before a zero.
+/// Rounds to a tenth; -0 becomes 0.
 double round_off(double value) {
     constexpr double tenths = 10.0;
     return std::round(tenths * value) / tenths + 0.0;

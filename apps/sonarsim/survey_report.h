@@ -10,10 +10,10 @@
 
 namespace sonarsim {
 
-/// What a sonar saw in a survey, as lines that begin with blanks.
+/// A sonar's survey as indented lines.
 std::string survey_text(const SonarSurvey& found, const Scene& scene);
 
-/// The same for programs.
+/// A sonar's survey as JSON.
 nlohmann::ordered_json survey_json(const SonarSurvey& found, const Scene& scene);
 
 nlohmann::ordered_json warnings_json(std::span<const Warning> warnings);

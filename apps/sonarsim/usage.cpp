@@ -8,7 +8,7 @@ namespace sonarsim {
 
 namespace {
 
-/// What stands on the command line and belongs nowhere.
+/// The message for an unknown word on the command line.
 std::string unknown(const CLI::App& app, const std::string& word) {
     const std::vector<CLI::App*> chosen = app.get_subcommands();
     std::vector<std::string> known;

@@ -24,11 +24,11 @@
 #include "logging.h"
 #include "mission_options.h"
 #include "progress.h"
-#include "scene_doubts.h"
 #include "survey/find_warnings.h"
 #include "survey/memory.h"
 #include "survey_report.h"
 #include "visibility/make_engine.h"
+#include "warn_about_scene.h"
 
 namespace sonarsim {
 
@@ -197,7 +197,7 @@ Findings find_out(const Mission& mission, const Assembly& assembly,
 /// Casts: looks at the mission through its sonars.
 void look_at(const Mission& mission, const Assembly& assembly, const std::vector<Writers>& writers,
              Findings& findings) {
-    for (const std::string& doubt : doubts_about(assembly.scene))
+    for (const std::string& doubt : warnings_about(assembly.scene))
         findings.warnings.push_back(make_warning(Doubt::reading, "scene", doubt));
     const double available = std::max(0.0, machine_memory() - resident_memory());
     for (Warning& warning :

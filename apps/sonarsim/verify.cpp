@@ -48,10 +48,10 @@ int verify(const VerifyArguments& arguments, const std::filesystem::path& folder
                          : verify_dataset(folder, arguments.threads, show, stop);
     }
     for (const std::string& name : check.strangers)
-        spdlog::warn("{}: is not the dataset's; it does no harm", name);
+        spdlog::warn("{}: is no file of the dataset; it does no harm", name);
     for (const std::string& fault : check.faults)
         spdlog::error("{}", fault);
-    if (check.more_faults > 0) spdlog::error("and more faults than are told here");
+    if (check.more_faults > 0) spdlog::error("and more faults, which are not listed");
     if (check.stopped) {
         spdlog::warn("stopped after {} files; nothing was changed", check.files);
         return exit_signal + signal_received();
@@ -63,7 +63,7 @@ int verify(const VerifyArguments& arguments, const std::filesystem::path& folder
     return whole ? exit_done : exit_failed;
 }
 
-/// The worst of the verdicts on what is in the folder: a dataset, or some side by side.
+/// The worst exit code of the folder's dataset, or of its datasets side by side.
 int verify_all(const VerifyArguments& arguments) {
     start_logging(arguments.log);
     const std::atomic<bool>& stop =

@@ -31,8 +31,8 @@ std::vector<InputFile> inputs_of(const Mission& mission) {
     return inputs;
 }
 
-/// Why the surface of the water changes no picture, or not all of them; "": it may.
-std::string doubt_about_surface(const Mission& mission, const Assembly& assembly) {
+/// The warning that the surface of the water has no effect on some or all pings; "": none.
+std::string surface_warning(const Mission& mission, const Assembly& assembly) {
     const WaterSurfaceConfig& config = *mission.scene.water_surface;
     std::size_t pings = 0;
     std::size_t above = 0;
@@ -49,22 +49,22 @@ std::string doubt_about_surface(const Mission& mission, const Assembly& assembly
     const std::string name = "scene.water_surface ";
     if (pings == 0) {
         return name +
-               "has no effect, for no sensor has multipath: set sensors.NAME.multipath.method";
+               "has no effect because no sensor has multipath: set sensors.NAME.multipath.method";
     }
     if (config.roughness == 1.0)
-        return name + "has no effect, for a roughness of 1 leaves nothing to mirror: lower it";
+        return name + "has no effect because a roughness of 1 reflects nothing: lower it";
     if (config.height_m <= assembly.scene.bounds_min.z()) {
         return name + fmt::format("at {:.4g} m lies below all of the scene: raise height_m",
                                   config.height_m);
     }
     if (above == 0) return "";
     return name + fmt::format(
-                      "at {:.4g} m lies below the sonar in {} of {} pings, which hear "
-                      "nothing of it: raise height_m or lower the trajectory",
+                      "at {:.4g} m lies below the sonar in {} of {} pings, which receive no echo "
+                      "of it: raise height_m or lower the trajectory",
                       config.height_m, above, pings);
 }
 
-/// Air above the water leaves nearly all of the sound in it; what the surface scatters is lost.
+/// The boundary to air reflects nearly all of the sound; the scattered share is lost.
 void add_water_surface(const Mission& mission, Assembly& assembly) {
     if (!mission.scene.water_surface) return;
     constexpr double air_kg_m3 = 1.2;
@@ -73,19 +73,19 @@ void add_water_surface(const Mission& mission, Assembly& assembly) {
     const Water water{mission.water.density_kg_m3, mission.water.sound_speed_m_s};
     const double mirrored = power_reflection(air_kg_m3, air_m_s, water) * (1.0 - config.roughness);
     assembly.scene.water_surface = {config.height_m, static_cast<float>(mirrored)};
-    const std::string doubt = doubt_about_surface(mission, assembly);
-    if (!doubt.empty()) assembly.scene.warnings.push_back(doubt);
+    const std::string warning = surface_warning(mission, assembly);
+    if (!warning.empty()) assembly.scene.warnings.push_back(warning);
 }
 
-void doubt_empty_scatter(const Mission& mission, Scene& scene) {
+void warn_of_empty_scatter(const Mission& mission, Scene& scene) {
     for (const ScatterConfig& scatter : mission.scene.scatter) {
         if (scatter.count[1] > 0.0) continue;
         scene.warnings.push_back("scene.scatter: of '" + printable(scatter.name) +
-                                 "' nothing is scattered, for its count is 0");
+                               "' no object is placed because its count is 0");
     }
 }
 
-/// The sonar, which the engine of the mission can see with and its labels can be told of.
+/// Makes a sonar. Throws InputError if the mission's engine or labels do not support it.
 Sonar checked_sonar(const Mission& mission, const SonarConfig& sensor,
                     const EngineSettings& settings) {
     Sonar sonar = make_sonar(sensor, mission.accuracy, mission.water);
@@ -94,16 +94,16 @@ Sonar checked_sonar(const Mission& mission, const SonarConfig& sensor,
     if (has_even_sines(sonar) && !mission.output.labels.empty()) {
         throw InputError(mission.output.labels_place.location,
                          "sensor '" + sensor.name +
-                             "': labels are of beams even in azimuth so far; leave out "
-                             "output.labels, or write instrument.beam.spread: angle");
+                             "': labels need beams of equal azimuth; leave out output.labels, or "
+                             "write instrument.beam.spread: angle");
     }
     return sonar;
 }
 
-/// InputError for the files of the scene that are no glTF.
+/// Throws InputError for the files of the scene that are no glTF.
 void read_scene_files(const Mission& mission, SceneFiles& models) {
     ErrorList errors;
-    const auto read = [&](const std::filesystem::path& file, const Place& place) {
+    const auto read = [&](const std::filesystem::path& file, const MissionPlace& place) {
         if (file.empty()) return;
         errors.attempt([&] { model_of({.file = file, .place = place.location}, models); });
     };
@@ -117,7 +117,8 @@ void read_scene_files(const Mission& mission, SceneFiles& models) {
     errors.raise();
 }
 
-/// For load_scene. A million triangles take 170 MB.
+/// The number of triangles beyond which load_scene() shares meshes. A million triangles take 170
+/// MB.
 std::size_t share_beyond(RepeatedFiles repeats, EngineType engine) {
     constexpr std::size_t many_triangles = 4'000'000;
     if (repeats == RepeatedFiles::shared) return 0;
@@ -154,7 +155,8 @@ Assembly assemble(const Mission& mission, SceneFiles& models) {
                              mission.scene.place.location);
         }
     });
-    // What moves is checked against the trajectory, and every surface against the materials.
+    // Checks of motions need the trajectory, checks of surfaces the materials: without these, only
+    // the files themselves are checked.
     if (errors.count() > 0) errors.attempt([&] { read_scene_files(mission, models); });
     errors.raise();
     SceneParts parts = place_scene(mission, assembly.trajectory, models);
@@ -164,7 +166,7 @@ Assembly assemble(const Mission& mission, SceneFiles& models) {
     assembly.motions = std::move(parts.motions);
     assembly.bottom = std::move(parts.bottom);
     add_water_surface(mission, assembly);
-    doubt_empty_scatter(mission, assembly.scene);
+    warn_of_empty_scatter(mission, assembly.scene);
     if (!mission.output.labels.empty() || !mission.classes.empty()) {
         std::vector<ClassRule> rules;
         for (const ClassConfig& rule : mission.classes)

@@ -15,36 +15,36 @@
 
 namespace sonarsim {
 
-/// A file that a mission names, as it was when it was read.
+/// A file that a mission names, and its sum when it was read.
 struct InputFile {
     std::filesystem::path path;
     std::string sha256;
 };
 
-/// All that a mission names, read, checked and ready to render.
+/// Everything that a mission names, read, checked and ready to render.
 struct Assembly {
     Scene scene;
-    SceneObjects objects;  ///< what labels tell apart in the scene
+    SceneObjects objects;  ///< objects of the scene for labels
     Trajectory trajectory;
-    std::vector<Trajectory> motions;       ///< of Scene::bodies; they last as long as `trajectory`
-    std::shared_ptr<const Bottom> bottom;  ///< that the label `height` counts from; null: none
+    std::vector<Trajectory> motions;       ///< motions of Scene::bodies, over all of `trajectory`
+    std::shared_ptr<const Bottom> bottom;  ///< reference of the label `height`; null: none
     std::vector<Sonar> sonars;             ///< in the order of Mission::sensors
-    std::vector<InputFile> inputs;         ///< all files that the mission names, each once
-    std::vector<double> full_scales;  ///< by sonar, the intensity that becomes white in pictures
+    std::vector<InputFile> inputs;         ///< the files that the mission names, each once
+    std::vector<double> full_scales;       ///< intensity that becomes white in pictures, by sonar
 };
 
-/// Reads the files of a mission and works out its poses. Writes nothing. InputError for whatever
-/// is wrong with them, and when the mission's engine cannot see what one of its sensors asks for.
+/// Reads the files of a mission and computes its poses. Writes nothing. Throws InputError for
+/// errors in them, and when the mission's engine does not support the view of a sensor.
 Assembly assemble(const Mission& mission);
 
-/// The same with glTF files that may have been read for another mission.
+/// The same with glTF files that may already be read for another mission.
 Assembly assemble(const Mission& mission, SceneFiles& models);
 
-/// Where the bodies of the scene are at a time of the trajectory, world.
+/// The poses of the scene's bodies at a time of the trajectory, world.
 std::vector<Pose> body_poses(const Assembly& assembly, double t_s);
 
-/// 32 hexadecimal digits that differ when the scene, its materials or the poses differ: a mission
-/// names its files, this stands for what was in them.
+/// 32 hexadecimal digits that differ when the scene, its materials or the poses differ: a hash of
+/// the contents of the files that a mission names.
 std::string inputs_hash(const Assembly& assembly);
 
 }  // namespace sonarsim

@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "assembly/engine_at.h"
-#include "assembly/spread_pings.h"
+#include "assembly/sample_pings.h"
 #include "sonar/setup.h"
 #include "sonar/sonar_at_pose.h"
 #include "visibility/make_engine.h"
@@ -17,17 +17,17 @@ namespace sonarsim {
 namespace {
 
 constexpr std::size_t most_pings_for_white = 8;  // per sonar
-constexpr std::size_t most_calibrated = 3;       // of the calibrated model, which takes long
-constexpr std::size_t most_bins = 1U << 24;      // of all of a sonar's probes
-constexpr double coarse_l1 = 0.1;                // brightness needs no fine sampling
-constexpr double share_below_white = 0.99;       // of the lit bins
-// Where a few glints are far above all else, as with the calibrated model, they burn out.
+constexpr std::size_t most_calibrated = 3;   // per sonar with the calibrated model, which is slow
+constexpr std::size_t most_bins = 1U << 24;  // in all probes of a sonar
+constexpr double coarse_l1 = 0.1;            // brightness needs no fine sampling
+constexpr double share_below_white = 0.99;   // quantile of the lit bins
+// A few glints far above all other echoes, as in the calibrated model, are allowed to saturate.
 constexpr double share_usual = 0.9;
 constexpr double most_above_usual = 10.0;
-constexpr double nothing_seen = 1.0;  // any value does
+constexpr double nothing_seen = 1.0;  // any value will do
 
-/// Rounded up to two digits. Multiplied and divided rather than by powers and logarithms, whose
-/// last bit depends on the library.
+/// Rounds up to two digits. It multiplies and divides, since the last bit of powers and logarithms
+/// depends on the library.
 double two_digits_up(double value) {
     double scale = 1.0;
     while (value * scale < 10.0)
@@ -38,14 +38,14 @@ double two_digits_up(double value) {
     return std::min(1e9, std::ceil(value * scale / unit) * unit / scale);
 }
 
-/// What this share of the values does not exceed. Moves them about.
+/// A quantile of the values, which are reordered.
 float quantile(std::vector<float>& values, double share) {
     const auto index = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
     std::ranges::nth_element(values, values.begin() + index);
     return values[static_cast<std::size_t>(index)];
 }
 
-/// The intensities of the bins that see surface.
+/// Appends the intensities of the bins that see surface.
 void append_lit(const Ping& clean, const Ping& ping, std::vector<float>& lit) {
     for (std::size_t i = 0; i < ping.intensity.size(); ++i) {
         if (clean.intensity[i] > 0.0F && ping.intensity[i] > 0.0F) lit.push_back(ping.intensity[i]);
@@ -61,7 +61,7 @@ double find_full_scale(const Mission& mission, const Scene& scene, const Traject
     const std::size_t most = sonar.settings.calibrated ? most_calibrated : most_pings_for_white;
     const std::size_t probes = std::clamp<std::size_t>(most_bins / bins, 1, most);
     std::vector<float> lit;
-    for (const std::uint32_t pose : spread_pings(trajectory.size(), sonar.config.every, probes)) {
+    for (const std::uint32_t pose : sample_pings(trajectory.size(), sonar.config.every, probes)) {
         const TimedPose& at = trajectory[pose];
         const SonarAtPose then(mission, sonar, pose);
         const TracedPing traced =
@@ -85,8 +85,7 @@ std::vector<double> find_full_scales(const Mission& mission, const Scene& scene,
     if (mission.output.full_scale > 0.0)
         return std::vector<double>(sonars.size(), mission.output.full_scale);
     std::vector<double> scales;
-    // In an arena of its own: where there is no memory for more threads, it says so before Embree,
-    // which would end the program.
+    // An own arena throws if there is no memory for more threads; Embree would end the program.
     tbb::task_arena arena;
     arena.execute([&] {
         const std::unique_ptr<VisibilityEngine> engine =

@@ -10,11 +10,11 @@
 
 namespace sonarsim {
 
-/// By sonar, the intensity that becomes white in pictures: output.full_scale, or where that is
-/// `auto` what 99 % of the lit bins of a few pings, spread over the trajectory, do not exceed,
-/// but at most ten times what 90 % do not, rounded up to two digits; 1 where these see nothing. The
-/// same for every part of the mission, any number of threads and any engine, for the probes are
-/// always seen with rays. `motions` are those of the scene's bodies.
+/// The intensity that becomes white in pictures, by sonar: output.full_scale, or for `auto` the 99
+/// % quantile of the lit bins of a few pings spread over the trajectory, at most ten times their 90
+/// % quantile, rounded up to two digits; 1 if these pings see nothing. It does not depend on the
+/// shard, the number of threads or the engine, since the probes always use rays. `motions` are
+/// those of the scene's bodies.
 std::vector<double> find_full_scales(const Mission& mission, const Scene& scene,
                                      const Trajectory& trajectory,
                                      std::span<const Trajectory> motions,

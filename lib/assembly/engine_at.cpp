@@ -6,7 +6,7 @@ namespace sonarsim {
 
 std::shared_ptr<const VisibilityEngine> engine_at(const VisibilityEngine& engine,
                                                   std::span<const Trajectory> motions, double t_s) {
-    // A pointer that owns nothing.
+    // This pointer owns nothing.
     if (motions.empty()) return {std::shared_ptr<const VisibilityEngine>(), &engine};
     return engine.at(poses_at(motions, t_s));
 }

@@ -8,8 +8,8 @@
 
 namespace sonarsim {
 
-/// What an engine sees at a time of the trajectory: the engine itself where nothing moves, else one
-/// with the bodies of the scene where `motions` take them. It must not outlive `engine`.
+/// The engine for a time of the trajectory: the engine itself if nothing moves, else one with the
+/// scene's bodies at their poses of that time. It must not outlive `engine`.
 std::shared_ptr<const VisibilityEngine> engine_at(const VisibilityEngine& engine,
                                                   std::span<const Trajectory> motions, double t_s);
 

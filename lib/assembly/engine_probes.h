@@ -6,8 +6,9 @@
 
 namespace sonarsim {
 
-/// The settings of a mission's engine. For `engine: auto` with views to choose by: every sonar of
-/// the mission at a few poses spread over its trajectory, whatever part of it is rendered.
+/// The settings of a mission's engine. For `engine: auto` they hold the views that the choice is
+/// based on: every sonar at a few poses spread over the whole trajectory, whichever part is
+/// rendered.
 EngineSettings engine_settings(const Mission& mission, const Assembly& assembly);
 
 }  // namespace sonarsim

@@ -8,13 +8,13 @@
 
 namespace sonarsim {
 
-/// Where bodies that move are at a time of their trajectories.
+/// The poses of moving bodies at a time of their trajectories.
 std::vector<Pose> poses_at(std::span<const Trajectory> motions, double t_s);
 
-/// The poses that a mission asks for. InputError for what is wrong with their file or numbers.
+/// The poses of a trajectory. Throws InputError for errors in its file or numbers.
 Trajectory poses_of(const TrajectoryConfig& config);
 
-/// The poses of a mission's vehicle: those that it asks for, with `vehicle`, whose numbers may be
+/// The poses of a mission's vehicle: its trajectory with the offset `vehicle`, whose numbers may be
 /// drawn for every ping.
 Trajectory vehicle_poses(const Mission& mission);
 

@@ -38,7 +38,8 @@ double metres(LengthUnit unit) {
     return 1.0;
 }
 
-PlacedFile file_of(const std::filesystem::path& path, const MeshConfig& mesh, const Place& place) {
+PlacedFile file_of(const std::filesystem::path& path, const MeshConfig& mesh,
+                   const MissionPlace& place) {
     return {.file = path,
             .unit_m = metres(mesh.units),
             .z_up = mesh.up == UpAxis::z,
@@ -65,12 +66,12 @@ std::string title_of(const ObjectConfig& object) {
            "'";
 }
 
-/// What objects rest on, made when the first asks for it.
+/// The bottom that objects rest on, made at its first use.
 class LazyBottom {
   public:
     LazyBottom(const SceneConfig& scene, SceneFiles& models) : scene_(scene), models_(models) {}
 
-    /// Whether it is an object, which then does not rest on itself.
+    /// Whether this object is the bottom.
     bool is(const ObjectConfig& object) const {
         return scene_.file.empty() && &object == &scene_.objects.front();
     }
@@ -82,7 +83,7 @@ class LazyBottom {
         return bottom_;
     }
 
-    /// Whether something stands still that objects may rest on.
+    /// Whether there is a bottom that does not move.
     bool exists() const { return !scene_.file.empty() || stands_still(scene_.objects.front()); }
 
     /// " from (x, y) to (x, y)", for messages.
@@ -121,7 +122,7 @@ class LazyBottom {
     std::shared_ptr<const Bottom> bottom_;
 };
 
-/// The surfaces of files that are read alike, each made once.
+/// The surfaces of files; files read with the same options share one.
 class Shapes {
   public:
     explicit Shapes(SceneFiles& models) : models_(models) {}
@@ -142,10 +143,10 @@ class Shapes {
     };
 
     SceneFiles& models_;
-    std::deque<Shape> shapes_;  // a deque, since what has been given away stays where it is
+    std::deque<Shape> shapes_;  // a deque, so that references stay valid
 };
 
-/// Where an object of the mission is.
+/// The transform of an object of the mission.
 Eigen::Affine3d transform_of(const ObjectConfig& object, const Surface& shape, LazyBottom& bottom) {
     const Eigen::Vector3d position(object.position_m.data());
     const Eigen::Quaterniond attitude = attitude_of(object.rpy_deg);
@@ -204,7 +205,7 @@ ScatterRule rule_of(const ScatterConfig& config) {
             .place = config.place.location};
 }
 
-/// Strews the objects of one rule and appends their files.
+/// Scatters the objects of one rule and appends their files.
 void scatter_files(const ScatterConfig& config, std::uint32_t index, std::uint64_t seed,
                    SceneFiles& models, LazyBottom& bottom, std::vector<Hull>& taken,
                    std::vector<PlacedFile>& files) {
@@ -273,7 +274,7 @@ SceneParts place_scene(const Mission& mission, const Trajectory& vehicle, SceneF
         scatter_files(scene.scatter[i], static_cast<std::uint32_t>(i), mission.seed, models, bottom,
                       taken, parts.files);
     }
-    // A pattern of `bottom` that fits no node is told even where nothing rests on it.
+    // Reports a pattern of `bottom` that matches no node, even if no object rests on it.
     if (!scene.bottom.empty()) bottom.get();
     const bool heights =
         std::ranges::find(mission.output.labels, Label::height) != mission.output.labels.end();

@@ -11,16 +11,16 @@
 
 namespace sonarsim {
 
-/// What a mission's scene is made of.
+/// The parts of a mission's scene.
 struct SceneParts {
-    std::vector<PlacedFile> files;    ///< scene.file, objects, and what is scattered, in this order
-    std::vector<Trajectory> motions;  ///< of those that move, in their order; world
-    /// What objects rest on, where the label `height` asks for it and there is one.
+    std::vector<PlacedFile> files;    ///< scene.file, objects and scattered objects, in this order
+    std::vector<Trajectory> motions;  ///< motions of the moving objects, in their order; world
+    /// The bottom that objects rest on, for the label `height`; null if not needed or not there.
     std::shared_ptr<const Bottom> bottom;
 };
 
-/// Places all objects of a mission: those on the bottom are lowered to it, those that are scattered
-/// are drawn. `vehicle` says when the sonars ping. InputError with the place in the mission for an
+/// Places all objects of a mission: lowers objects to the bottom and draws the scattered ones.
+/// `vehicle` gives the times of the pings. Throws InputError with the place in the mission for an
 /// object below or beside the bottom, for one that finds no room, and for a motion that does not
 /// last from the first to the last ping.
 SceneParts place_scene(const Mission& mission, const Trajectory& vehicle, SceneFiles& models);

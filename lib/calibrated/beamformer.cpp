@@ -20,10 +20,6 @@ constexpr int margin = 5;
 // What is left free behind the last column, so that an outer beam does not show at the other side.
 constexpr int gap = 12;
 
-double sinc_of(double t) {
-    return std::fabs(t) < 1e-9 ? 1.0 : sincos(pi * t).sin / (pi * t);
-}
-
 /// The share of [at - 1/2, at + 1/2] steps that lies within [-half, half] steps.
 double covered(double at, double half) {
     const double low = std::max(at - 0.5, -half);
@@ -147,7 +143,7 @@ Beamformer::Beamformer(const LineArray& array, const std::vector<double>& beam_s
     double noise = 0.0;
     for (int k = -reach; k <= reach; ++k) {
         // An echo between two columns is shared by both: the triangle's transform is undone.
-        const double triangle = sinc_of(static_cast<double>(k) / size);
+        const double triangle = sinc(static_cast<double>(k) / size);
         const std::complex<double> weight = weights[k + reach] / (triangle * triangle);
         const SinCos turn = sincos(-2.0 * pi * k * ahead / size);
         weights_.push_back({.re = static_cast<float>(weight.real()),
@@ -180,7 +176,7 @@ Beamformer::Beamformer(const LineArray& array, const std::vector<double>& beam_s
         for (int t = 0; t < taps_; ++t) {
             const double distance = first + t - at;
             taps.push_back(on_columns ? 1.0
-                                      : sinc_of(distance) * window(distance / (0.5 * most_taps)));
+                                      : sinc(distance) * window(distance / (0.5 * most_taps)));
             sum += taps.back();
         }
         for (const double tap : taps)

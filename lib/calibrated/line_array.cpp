@@ -4,16 +4,12 @@
 #include <cmath>
 
 #include "calibrated/decibel.h"
+#include "core/elementary.h"
 #include "core/units.h"
 
 namespace sonarsim {
 
 namespace {
-
-/// sin(pi t) / (pi t).
-double sinc(double t) {
-    return std::fabs(t) < 1e-9 ? 1.0 : sincos(pi * t).sin / (pi * t);
-}
 
 double pattern(double pedestal, double t) {
     const double cosine = 0.5 * (sinc(t) + 0.5 * (sinc(t + 1.0) + sinc(t - 1.0)));

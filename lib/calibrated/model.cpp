@@ -155,7 +155,7 @@ PointLimits point_limits(const BeamConfig& beam, const View& view,
         limits.sine = static_cast<float>(most_by_width * width);
         limits.elevation_sine =
             static_cast<float>(most_by_width * radians(beam.elevation_width_deg));
-    } else if (beam.aperture == Aperture::sides) {
+    } else if (beam.aperture == Aperture::port_starboard) {
         limits.sine = static_cast<float>(most_by_width * radians(beam.across_width_deg));
         limits.elevation_sine = static_cast<float>(most_by_width * width);
     } else {

@@ -57,6 +57,11 @@ inline SinCos sincos(double x) {
     }
 }
 
+/// sin(pi t) / (pi t).
+inline double sinc(double t) {
+    return std::fabs(t) < 1e-9 ? 1.0 : sincos(pi * t).sin / (pi * t);
+}
+
 /// The angle of the point (x, y), in [-pi, pi]; 0 at the origin. Absolute error below 1e-15.
 /// The argument is halved twice, tan(a/2) = t / (1 + sqrt(1 + t^2)), so that the Taylor series of
 /// the arctangent meets |t| <= tan(pi/16).

@@ -68,9 +68,10 @@ Json describe_label_ids(const Assembly& assembly) {
     }
     json["classes"] = Json::array();
     for (std::size_t k = 0; k < objects.classes.size(); ++k) {
+        const Rgb colour = colour_of(static_cast<std::uint32_t>(k + 1));
         json["classes"].push_back({{"id", k + 1},
                                    {"name", objects.classes[k]},
-                                   {"colour", colour_of(static_cast<std::uint32_t>(k + 1))}});
+                                   {"colour", {colour.r, colour.g, colour.b}}});
     }
     json["materials"] = Json::array();
     for (std::size_t k = 0; k < assembly.scene.materials.size(); ++k) {

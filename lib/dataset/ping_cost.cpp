@@ -4,7 +4,7 @@
 
 #include "assembly/engine_at.h"
 #include "assembly/engine_probes.h"
-#include "assembly/spread_pings.h"
+#include "assembly/sample_pings.h"
 #include "core/clock.h"
 #include "dataset/encode_ping.h"
 #include "sonar/sonar_at_pose.h"
@@ -26,7 +26,7 @@ std::vector<PingCost> measure_pings(const Mission& mission, const Assembly& asse
         const Sonar& sonar = assembly.sonars[i];
         const LabelPlan plan = plan_labels(mission, assembly, sonar);
         std::vector<std::uint32_t> poses =
-            spread_pings(assembly.trajectory.size(), sonar.config.every, most_pings);
+            sample_pings(assembly.trajectory.size(), sonar.config.every, most_pings);
         const auto counted = static_cast<double>(poses.size());
         // The first ping of an engine takes longer.
         poses.insert(poses.begin(), poses.front());

@@ -1,14 +1,14 @@
 #include "format/deflate.h"
 
-#include <immintrin.h>
-
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
 #include <cstring>
+#include <string_view>
 #include <vector>
 
+#include "format/adler.h"
 #include "format/huffman.h"
 
 namespace sonarsim {
@@ -17,13 +17,13 @@ namespace {
 
 using Bytes = std::span<const std::uint8_t>;
 
-/// The bytes that share one code; more of them would share one that suits them less.
+/// Bytes of a block, which has one Huffman code. A longer block would fit its code less well.
 constexpr std::size_t block_bytes = std::size_t{1} << 17;
 constexpr std::size_t stored_bytes = 65535;
 
 constexpr int shortest_run = 4;
 constexpr int longest_run = 258;
-/// A token is a byte, or 256 and the length of a run.
+/// A token is a byte, or 256 plus the length of a run.
 constexpr int run_token = 256;
 constexpr std::size_t tokens_known = run_token + longest_run + 1;
 
@@ -32,55 +32,25 @@ constexpr std::size_t symbols_known = 286;
 constexpr int longest_code = 15;
 constexpr int longest_length_code = 7;
 
-/// What stands in the stream for a token or a symbol.
-struct Code {
-    std::uint32_t value = 0;
-    int bits = 0;
-};
+/// Deflate with a window of 32 KiB, packed fast (RFC 1950, 2.2).
+constexpr std::string_view stream_start{"\x78\x01", 2};
 
 /// The symbol for the length of a run, and the bits that follow it (RFC 1951, 3.2.5).
 struct RunLength {
     std::size_t symbol;
-    Code extra;
+    BitCode extra;
 };
 
 RunLength run_length(int length) {
     if (length == longest_run) return {285, {}};
     const auto offset = static_cast<std::uint32_t>(length - 3);
     if (offset < 8) return {257 + offset, {}};
-    // Four symbols to each power of two.
+    // There are four symbols for each power of two.
     const int extra = std::bit_width(offset) - 3;
     const std::uint32_t step = (offset >> extra) - 4;
     return {257 + 4 + 4 * static_cast<std::size_t>(extra) + step,
             {offset & ((1U << extra) - 1), extra}};
 }
-
-/// Adds bits to a stream, lowest first.
-class BitWriter {
-  public:
-    explicit BitWriter(std::string& out) : out_(out), end_(out.size()) {}
-
-    /// Before `bits` further bits are put.
-    void reserve(std::uint64_t bits) { out_.resize(end_ + bits / 8 + 2 * sizeof(buffer_)); }
-    void put(const Code& code) { put(code.value, code.bits); }
-    /// Up to 56 bits.
-    void put(std::uint64_t value, int bits) {
-        buffer_ |= value << held_;
-        held_ += bits;
-        std::memcpy(out_.data() + end_, &buffer_, sizeof(buffer_));
-        end_ += static_cast<std::size_t>(held_ / 8);
-        buffer_ >>= held_ & ~7;
-        held_ &= 7;
-    }
-    /// The rest of the last byte is zero.
-    void finish() { out_.resize(end_ + (held_ > 0 ? 1 : 0)); }
-
-  private:
-    std::string& out_;
-    std::size_t end_;  ///< of the whole bytes
-    std::uint64_t buffer_ = 0;
-    int held_ = 0;
-};
 
 void add_stored(std::string& out, Bytes bytes) {
     do {
@@ -97,7 +67,7 @@ void add_stored(std::string& out, Bytes bytes) {
     } while (!bytes.empty());
 }
 
-/// How many bytes from `at` on are those `back` before, up to `most`.
+/// The number of bytes from `at` on that equal the bytes `back` before them, at most `most`.
 int run_at(const std::uint8_t* at, std::ptrdiff_t back, int most) {
     int length = 0;
     while (length + 8 <= most) {
@@ -113,7 +83,7 @@ int run_at(const std::uint8_t* at, std::ptrdiff_t back, int most) {
     return length;
 }
 
-/// The tokens of a block, which begins at `begin`, and how often each occurs.
+/// The tokens of a block and how often each occurs.
 struct Tokens {
     std::vector<std::uint16_t> tokens;
     std::array<std::uint32_t, tokens_known> counts{};
@@ -151,7 +121,7 @@ Tokens tokens_of(Bytes all, std::size_t begin, std::size_t end, std::ptrdiff_t b
     return out;
 }
 
-/// The code lengths of a block, each in the code of their own that RFC 1951, 3.2.7 gives them.
+/// Writes the code lengths of a block in a Huffman code of their own (RFC 1951, 3.2.7).
 void put_lengths(BitWriter& writer, const std::vector<std::uint8_t>& lengths, int distances) {
     constexpr std::array<int, 19> order{16, 17, 18, 0, 8,  7, 9,  6, 10, 5,
                                         11, 4,  12, 3, 13, 2, 14, 1, 15};
@@ -178,13 +148,13 @@ void put_block(BitWriter& writer, const Tokens& block, int back, bool last) {
     std::vector<std::uint8_t> lengths = huffman_lengths(counts, longest_code);
     const std::vector<std::uint16_t> codes = huffman_codes(lengths);
 
-    std::array<Code, tokens_known> code_of;
+    std::array<BitCode, tokens_known> code_of;
     for (int byte = 0; byte < run_token; ++byte)
         code_of[byte] = {codes[byte], lengths[byte]};
     for (int length = shortest_run; length <= longest_run; ++length) {
         const RunLength run = run_length(length);
         const int bits = lengths[run.symbol];
-        // One distance occurs, and its code is a zero bit.
+        // Only one distance occurs; its code is one zero bit.
         code_of[run_token + length] = {codes[run.symbol] | run.extra.value << bits,
                                        bits + run.extra.bits + 1};
     }
@@ -195,15 +165,15 @@ void put_block(BitWriter& writer, const Tokens& block, int back, bool last) {
     writer.reserve(bits);
 
     writer.put({last ? 0b101U : 0b100U, 3});
-    const Code end{codes[end_symbol], lengths[end_symbol]};
+    const BitCode end{codes[end_symbol], lengths[end_symbol]};
     lengths.resize(symbols_known + static_cast<std::size_t>(back), 0);
     lengths.back() = 1;
     put_lengths(writer, lengths, back);
-    // In pairs, since every put waits for the one before it; a code has up to 21 bits.
+    // Codes have up to 21 bits. They are written in pairs, since each put() waits for the last one.
     const std::vector<std::uint16_t>& tokens = block.tokens;
     for (std::size_t k = 0; k + 1 < tokens.size(); k += 2) {
-        const Code& first = code_of[tokens[k]];
-        const Code& second = code_of[tokens[k + 1]];
+        const BitCode& first = code_of[tokens[k]];
+        const BitCode& second = code_of[tokens[k + 1]];
         writer.put(first.value | std::uint64_t{second.value} << first.bits,
                    first.bits + second.bits);
     }
@@ -211,72 +181,53 @@ void put_block(BitWriter& writer, const Tokens& block, int back, bool last) {
     writer.put(end);
 }
 
-/// Eight lanes added up.
-std::uint32_t sum_of(__m256i lanes) {
-    std::array<std::uint32_t, 8> values;
-    std::memcpy(values.data(), &lanes, sizeof(lanes));
-    std::uint32_t sum = 0;
-    for (const std::uint32_t value : values)
-        sum += value;
-    return sum;
-}
-
-/// RFC 1950, 8.2: the sum of the bytes, from 1 on, and the sum of these sums, modulo 65521; 32
-/// bytes at a time.
-std::uint32_t adler_32(Bytes bytes) {
-    constexpr std::uint32_t base = 65521;
-    // So few blocks that no sum leaves 32 bits: 32 * (32 * 255) * (1 + ... + 159) is 3.3e9.
-    constexpr std::size_t most_blocks = 160;
-    const __m256i weights =
-        _mm256_setr_epi8(32, 31, 30, 29, 28, 27, 26, 25, 24, 23, 22, 21, 20, 19, 18, 17, 16, 15, 14,
-                         13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1);
-    std::uint32_t sum = 1;
-    std::uint32_t sums = 0;
-    while (bytes.size() >= 32) {
-        const std::size_t blocks = std::min(bytes.size() / 32, most_blocks);
-        __m256i own = _mm256_setzero_si256();       // of all bytes so far
-        __m256i before = _mm256_setzero_si256();    // of what `own` was before each block
-        __m256i weighted = _mm256_setzero_si256();  // of bytes by how often they count in a block
-        for (std::size_t k = 0; k < blocks; ++k) {
-            const __m256i block =
-                _mm256_loadu_si256(reinterpret_cast<const __m256i*>(bytes.data() + 32 * k));
-            before = _mm256_add_epi32(before, own);
-            own = _mm256_add_epi32(own, _mm256_sad_epu8(block, _mm256_setzero_si256()));
-            const __m256i pairs = _mm256_maddubs_epi16(block, weights);
-            weighted = _mm256_add_epi32(weighted, _mm256_madd_epi16(pairs, _mm256_set1_epi16(1)));
-        }
-        const auto count = static_cast<std::uint32_t>(32 * blocks);
-        sums = (sums + count * sum + 32 * sum_of(before) + sum_of(weighted)) % base;
-        sum = (sum + sum_of(own)) % base;
-        bytes = bytes.subspan(count);
-    }
-    for (const std::uint8_t byte : bytes) {
-        sum += byte;
-        sums += sum;
-    }
-    return sums % base << 16 | sum % base;
-}
-
 }  // namespace
 
 std::string zlib_bytes(Bytes bytes, int pixel_bytes, Packing packing) {
-    std::string out("\x78\x01", 2);
+    std::string out;
     if (packing == Packing::stored || bytes.empty()) {
         out.reserve(bytes.size() + 5 * (bytes.size() / stored_bytes + 1) + 6);
+        out += stream_start;
         add_stored(out, bytes);
     } else {
-        BitWriter writer(out);
+        BitWriter writer{std::string(stream_start)};
         for (std::size_t begin = 0; begin < bytes.size(); begin += block_bytes) {
             const std::size_t end = std::min(begin + block_bytes, bytes.size());
             put_block(writer, tokens_of(bytes, begin, end, pixel_bytes), pixel_bytes,
                       end == bytes.size());
         }
-        writer.finish();
+        writer.align();
+        out = writer.take();
     }
     const std::uint32_t sum = adler_32(bytes);
     for (int shift = 24; shift >= 0; shift -= 8)
         out += static_cast<char>(sum >> shift & 0xFF);
     return out;
+}
+
+ZlibStream::ZlibStream(int pixel_bytes)
+    : pixel_bytes_(pixel_bytes), writer_(std::string(stream_start)) {}
+
+void ZlibStream::add(Bytes bytes) {
+    adler_ = adler_32(bytes, adler_);
+    bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
+    // One more byte than a block, since the last block has to be known as such.
+    while (bytes_.size() - packed_ > block_bytes)
+        pack(block_bytes, false);
+}
+
+void ZlibStream::finish() {
+    pack(bytes_.size() - packed_, true);
+    writer_.align();
+    for (int shift = 24; shift >= 0; shift -= 8)
+        writer_.put(adler_ >> shift & 0xFF, 8);
+}
+
+void ZlibStream::pack(std::size_t count, bool last) {
+    const std::size_t end = packed_ + count;
+    put_block(writer_, tokens_of(bytes_, packed_, end, pixel_bytes_), pixel_bytes_, last);
+    packed_ = std::min<std::size_t>(end, static_cast<std::size_t>(pixel_bytes_));
+    bytes_.erase(bytes_.begin(), bytes_.begin() + static_cast<std::ptrdiff_t>(end - packed_));
 }
 
 }  // namespace sonarsim

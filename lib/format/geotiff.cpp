@@ -13,9 +13,10 @@ namespace sonarsim {
 
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "numbers are written as they lie");
+static_assert(std::endian::native == std::endian::little,
+              "numbers are written as they are in memory");
 
-/// The types of a tag's values, by their numbers in TIFF 6.0.
+/// The types of a tag's values, numbered as in TIFF 6.0.
 enum class TagType : std::uint16_t { ascii = 2, u16 = 3, u32 = 4, f64 = 12 };
 
 /// The bytes of a number or of an array of numbers.
@@ -24,8 +25,8 @@ std::string bytes_of(const T& value) {
     return {reinterpret_cast<const char*>(&value), sizeof value};
 }
 
-/// The header of a TIFF file, tag by tag in ascending order. What does not fit into the 12 bytes of
-/// a tag follows after the last.
+/// The header of a TIFF file, with tags in ascending order. Values that do not fit into the 12
+/// bytes of a tag follow after the last tag.
 class TiffHeader {
   public:
     explicit TiffHeader(std::uint16_t tags)
@@ -50,7 +51,7 @@ class TiffHeader {
   private:
     /// Little-endian, and the list of tags begins at byte 8.
     static constexpr std::string_view start{"II*\0\x08\0\0\0", 8};
-    /// The offset of a second list of tags.
+    /// Offset 0: there is no second list of tags.
     static constexpr std::string_view no_more{"\0\0\0\0", 4};
 
     std::size_t values_at_;
@@ -106,7 +107,7 @@ GeotiffShape geotiff_shape(std::string_view start) {
         std::memcpy(&width, &start[width_at], sizeof width);
         std::memcpy(&height, &start[height_at], sizeof height);
     }
-    // All but the pixels and the numbers in the tags is the same in every such file.
+    // Headers of such files differ only in the numbers in the tags.
     const std::size_t size = header(width, height, {}, 0).size();
     const std::string own = header(width, height, {}, static_cast<std::uint32_t>(size));
     constexpr std::size_t tags = 10 + 13 * 12;

@@ -8,30 +8,30 @@
 
 namespace sonarsim {
 
-/// Where the cells of a map lie in the world. Row 0 is north, column 0 west.
+/// The place of a map in the world. Row 0 is north, column 0 west.
 struct MapPlace {
     double west_m = 0.0;   ///< world x of the left edge
     double north_m = 0.0;  ///< world y of the upper edge
     double cell_m = 1.0;
 };
 
-/// Writes a map as a TIFF with the tags of GeoTIFF 1.1 (OGC 19-008r4), so that GDAL and QGIS put it
-/// in its place: float32 [rows, columns], not compressed, NaN where nothing is known, which is also
-/// the map's nodata value. The world's frame has no name on Earth, so no reference system is
-/// given. `values` has a whole number of rows of `columns`, at least one, and less than 4 GB.
+/// Writes a map as a TIFF with the tags of GeoTIFF 1.1 (OGC 19-008r4), which GDAL and QGIS read:
+/// float32 [rows, columns], not compressed; NaN marks unknown cells and is the nodata value. There
+/// is no reference system, since the world's frame has no name on Earth. `values` has one or more
+/// whole rows of `columns` and less than 4 GB.
 ///
-/// std::system_error when the disk does not take the file.
+/// Throws std::system_error when the disk does not take the file.
 void write_geotiff(const std::filesystem::path& path, std::span<const float> values, int columns,
                    const MapPlace& place);
 
 struct GeotiffShape {
     std::size_t rows = 0;
     std::size_t columns = 0;
-    std::uint64_t file_bytes = 0;  ///< that such a file has
+    std::uint64_t file_bytes = 0;  ///< size of such a file
 };
 
-/// What the start of a file, its header at least, tells of a map that write_geotiff() wrote.
-/// std::runtime_error where it is none.
+/// Reads the shape of a map that write_geotiff() wrote. `start` holds at least the header. Throws
+/// std::runtime_error when it is no such map.
 GeotiffShape geotiff_shape(std::string_view start);
 
 }  // namespace sonarsim

@@ -8,21 +8,22 @@ namespace sonarsim {
 
 namespace {
 
-/// A symbol, or two nodes joined.
+/// A symbol, or two joined nodes.
 struct Node {
     std::uint64_t count;
-    int left;   ///< -1: a symbol
-    int right;  ///< or the number of the symbol
+    int left;   ///< -1 in a symbol
+    int right;  ///< the number of a symbol
 };
 
-/// The nodes of the tree; a node comes after those below it.
+/// The nodes of the tree; each node comes after its children.
 std::vector<Node> tree_of(std::span<const std::uint32_t> counts) {
     std::vector<Node> nodes;
     for (std::size_t k = 0; k < counts.size(); ++k) {
         if (counts[k] > 0) nodes.push_back({counts[k], -1, static_cast<int>(k)});
     }
     std::ranges::stable_sort(nodes, {}, &Node::count);
-    // Joined nodes come out in ascending order, too: the next one is at the front of either queue.
+    // Joined nodes are created in ascending order, so that the rarest node is at the front of one
+    // of two queues: symbols and joined nodes.
     const std::size_t symbols = nodes.size();
     std::size_t symbol = 0;
     std::size_t joined = symbols;
@@ -56,7 +57,7 @@ std::vector<std::uint8_t> lengths_in(const std::vector<Node>& nodes, std::size_t
 }  // namespace
 
 std::vector<std::uint8_t> huffman_lengths(std::span<const std::uint32_t> counts, int longest) {
-    // Flatter counts make a flatter tree; that of equal counts is within every limit used here.
+    // Halved counts give a flatter tree; with equal counts it is within every limit used here.
     std::vector<std::uint32_t> flatter(counts.begin(), counts.end());
     std::vector<std::uint8_t> lengths = lengths_in(tree_of(flatter), flatter.size());
     while (*std::ranges::max_element(lengths) > longest) {

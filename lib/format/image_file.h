@@ -2,15 +2,12 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <memory>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "core/atomic_file.h"
-#include "product/picture.h"
-
-struct z_stream_s;  // zlib's
+#include "core/rgb.h"
+#include "format/deflate.h"
 
 namespace sonarsim {
 
@@ -20,9 +17,8 @@ enum class PixelKind {
     rgb8,
 };
 
-/// A PNG image that is written row by row and so may be longer than memory. The bytes depend on the
-/// pixels and the version of zlib alone: nothing is stamped. std::system_error when the disk does
-/// not take it.
+/// Writes a PNG image row by row, so that it may be longer than memory. The bytes depend on the
+/// pixels alone. Throws std::system_error when the disk does not take it.
 class ImageFile {
   public:
     ImageFile(const std::filesystem::path& path, int width, int height, PixelKind kind);
@@ -31,26 +27,20 @@ class ImageFile {
     void row(std::span<const std::uint8_t> pixels);
     void row(std::span<const std::uint16_t> pixels);
     void row(std::span<const Rgb> pixels);
-    /// After the last row.
+    /// To be called after the last row.
     void finish();
 
   private:
-    struct EndStream {
-        void operator()(z_stream_s* stream) const;
-    };
-
     void check_width(std::size_t pixels) const;
-    /// Packs what stands in row_, with its filter in front.
-    void pack(bool last);
+    void write_packed();
 
     StreamedFile file_;
     std::size_t width_;
-    std::unique_ptr<z_stream_s, EndStream> stream_;
-    std::vector<std::uint8_t> row_;
-    std::string packed_;  ///< room for a chunk
+    ZlibStream stream_;
+    std::vector<std::uint8_t> row_;  ///< its filter, then its bytes
 };
 
-/// A whole picture as a PNG file.
-void write_picture(const std::filesystem::path& path, Picture picture);
+/// Writes a whole picture of `width` pixels a row as a PNG file.
+void write_picture(const std::filesystem::path& path, std::span<const Rgb> pixels, int width);
 
 }  // namespace sonarsim

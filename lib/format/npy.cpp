@@ -16,13 +16,14 @@ namespace sonarsim {
 
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "the data are written as they lie");
+static_assert(std::endian::native == std::endian::little,
+              "the data are written as they are in memory");
 
 constexpr std::size_t alignment = 64;
 constexpr std::size_t preamble = 10;  // magic, version, length of the header
 constexpr std::size_t largest_file = std::size_t{1} << 30;
 
-/// The number that stands in `text` after `mark` and before the next `end`.
+/// The number in `text` between `mark` and the next `end`; 0 if there is none.
 std::size_t number_between(const std::string& text, const std::string& mark, char end) {
     const std::size_t at = text.find(mark);
     if (at == std::string::npos) return 0;
@@ -84,7 +85,7 @@ std::string npy_bytes_of_columns(std::span<const float> by_column, std::size_t r
     std::string bytes = npy_header({"<f4", {rows, columns}});
     const std::size_t head = bytes.size();
     bytes.resize(head + by_column.size_bytes());
-    // In tiles that fit the first cache; whole lines of it are written.
+    // Tiles fit the first-level cache, and whole cache lines are written.
     constexpr std::size_t tile = 16;
     std::array<float, tile> line;
     for (std::size_t i0 = 0; i0 < rows; i0 += tile) {

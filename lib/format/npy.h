@@ -16,29 +16,29 @@ struct Matrix {
     std::vector<float> values;  ///< [rows, columns]
 };
 
-/// What the data of a NumPy file are.
+/// The format of the data of a NumPy file.
 struct NpyFormat {
-    std::string type;                ///< "|u1", "<u2", "<f4", "<f8": its last digit is its bytes
+    std::string type;                ///< "|u1", "<u2", "<f4", "<f8"; the digit is the size in bytes
     std::vector<std::size_t> shape;  ///< two dimensions or more
-    bool fortran_order = false;      ///< the first index runs fastest
+    bool fortran_order = false;      ///< the first index varies fastest
 };
 
-/// What stands before the data, format 1.0; its length is a multiple of 64 bytes.
+/// The header of a NumPy file, format 1.0. Its length is a multiple of 64 bytes.
 std::string npy_header(const NpyFormat& format);
 
-/// The format that a file with this beginning has. std::runtime_error when that is not what
-/// npy_header() writes.
+/// Reads the format from the start of a file. Throws std::runtime_error when it is not as
+/// npy_header() writes it.
 NpyFormat npy_format(std::string_view start);
 
-/// A float32 matrix as a NumPy file, format 1.0, little endian, C order; the data begin at a
+/// A float32 matrix as a NumPy file, format 1.0, little endian, C order. The data begin at a
 /// multiple of 64 bytes.
 std::string npy_bytes(std::span<const float> values, std::size_t rows, std::size_t columns);
 
-/// The same of what is stored column after column.
+/// The same for a matrix that is stored column after column.
 std::string npy_bytes_of_columns(std::span<const float> by_column, std::size_t rows,
                                  std::size_t columns);
 
-/// Reads back what npy_bytes() writes; InputError for any other file.
+/// Reads a file that npy_bytes() wrote. Throws InputError for any other file.
 Matrix read_npy(const std::filesystem::path& path);
 
 }  // namespace sonarsim

@@ -21,10 +21,10 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t longest_header = 4096;
-/// Of an image, what is decoded at a time.
+/// Bytes that are read at a time.
 constexpr std::size_t strip_bytes = std::size_t{1} << 22;
 
-/// Of values of 16 bits.
+/// The largest of values of 16 bits.
 std::uint16_t largest_of(std::span<const std::byte> bytes) {
     std::uint16_t largest = 0;
     for (std::size_t k = 0; k + 2 <= bytes.size(); k += 2) {
@@ -35,8 +35,7 @@ std::uint16_t largest_of(std::span<const std::byte> bytes) {
     return largest;
 }
 
-/// Pictures may be longer than memory: they are decoded row by row and dropped. `bytes`: how long
-/// the file is.
+/// Decodes a picture row by row, since it may be longer than memory. `bytes` is the file's length.
 OpenedFile open_png(std::istream& file, std::uint64_t bytes) {
     std::uint16_t largest = 0;
     bool has_ids = false;
@@ -50,7 +49,7 @@ OpenedFile open_png(std::istream& file, std::uint64_t bytes) {
             has_ids ? std::optional(largest) : std::nullopt};
 }
 
-/// `bytes`: how long the file is.
+/// `bytes` is the size of the file.
 OpenedFile open_geotiff(std::istream& file, std::uint64_t bytes) {
     std::string start(longest_header, '\0');
     file.read(start.data(), static_cast<std::streamsize>(start.size()));
@@ -63,24 +62,24 @@ OpenedFile open_geotiff(std::istream& file, std::uint64_t bytes) {
     return {{shape.rows, shape.columns}};
 }
 
-/// `file` is at its begin and `bytes` long.
+/// `file` is at its start and has `bytes` bytes.
 OpenedFile open_npy(std::istream& file, std::uint64_t bytes) {
     std::string start(longest_header, '\0');
     file.read(start.data(), static_cast<std::streamsize>(start.size()));
     start.resize(static_cast<std::size_t>(file.gcount()));
     const NpyFormat format = npy_format(start);
-    std::uint64_t told = static_cast<std::uint64_t>(format.type.back() - '0');
+    std::uint64_t expected = static_cast<std::uint64_t>(format.type.back() - '0');
     for (const std::size_t length : format.shape) {
-        // The product of the lengths may not fit its type: then it could be any number.
-        if (length > 0 && told > std::numeric_limits<std::uint64_t>::max() / length)
-            throw std::runtime_error("tells more values than any file holds");
-        told *= length;
+        // The product of the lengths may overflow to any number.
+        if (length > 0 && expected > std::numeric_limits<std::uint64_t>::max() / length)
+            throw std::runtime_error("names more values than any file holds");
+        expected *= length;
     }
     const std::size_t header = npy_header(format).size();
-    told += header;
-    if (bytes != told) {
+    expected += header;
+    if (bytes != expected) {
         throw std::runtime_error("is " + std::to_string(bytes) + " bytes long instead of " +
-                                 std::to_string(told));
+                                 std::to_string(expected));
     }
     if (format.type != "<u2") return {format.shape};
     file.clear();

@@ -1,13 +1,12 @@
 #include "format/png.h"
 
-#include <zlib.h>
-
 #include <algorithm>
 #include <iterator>
 #include <stdexcept>
 #include <vector>
 
 #include "format/deflate.h"
+#include "format/png_chunks.h"
 #include "format/png_file.h"
 
 namespace sonarsim {
@@ -21,7 +20,7 @@ void check_size(std::size_t values, int width, int height, int channels) {
     throw std::logic_error("the number of pixels does not suit the size of the image");
 }
 
-/// `rows`: each with its filter in front.
+/// `rows` are rows of a PNG image, each after its filter byte.
 std::string encode(const PngRows& rows, int width, int height, int channels, int bits,
                    Packing packing) {
     // Measured for a noisy ping of 512 x 256 bins in 16 bits (256 KiB, stored) and its fan of
@@ -32,20 +31,17 @@ std::string encode(const PngRows& rows, int width, int height, int channels, int
                     zlib_bytes(rows, channels * bits / 8, packing));
 }
 
-constexpr std::uint8_t filter_none = 0;
-constexpr std::uint8_t filter_left = 1;
-
 }  // namespace
 
 std::string png_bytes(std::span<const std::uint8_t> pixels, int width, int height, int channels) {
     check_size(pixels.size(), width, height, channels);
-    // Neighbours in a fan resemble each other: what is packed is how they differ.
+    // Neighbours in a fan are similar, so that their differences pack well.
     const std::size_t row = static_cast<std::size_t>(width) * channels;
     PngRows rows(height * (row + 1));
     const std::uint8_t* from = pixels.data();
     std::uint8_t* to = rows.data();
     for (int y = 0; y < height; ++y, from += row) {
-        *to++ = filter_left;
+        *to++ = png_filter_left;
         to = std::copy_n(from, std::min<std::size_t>(channels, row), to);
         for (std::size_t x = channels; x < row; ++x)
             *to++ = static_cast<std::uint8_t>(from[x] - from[x - channels]);
@@ -55,14 +51,14 @@ std::string png_bytes(std::span<const std::uint8_t> pixels, int width, int heigh
 
 std::string png_bytes(std::span<const std::uint16_t> pixels, int width, int height) {
     check_size(pixels.size(), width, height, 1);
-    // 16 bits of noise are not worth packing, a mostly black image is.
+    // Noise of 16 bits hardly packs; a mostly black image does.
     const bool dark = 2 * std::ranges::count(pixels, 0) > std::ssize(pixels);
     const auto row = static_cast<std::size_t>(width);
     PngRows rows(height * (2 * row + 1));
     const std::uint16_t* from = pixels.data();
     std::uint8_t* to = rows.data();
     for (int y = 0; y < height; ++y, from += row, to += 2 * row) {
-        *to++ = filter_none;
+        *to++ = png_filter_none;
         for (std::size_t x = 0; x < row; ++x) {
             to[2 * x] = static_cast<std::uint8_t>(from[x] >> 8);
             to[2 * x + 1] = static_cast<std::uint8_t>(from[x]);
@@ -74,11 +70,11 @@ std::string png_bytes(std::span<const std::uint16_t> pixels, int width, int heig
 double png_bytes_at_most(int width, int height, int bytes_per_pixel) {
     const double raw =
         static_cast<double>(height) * (1.0 + static_cast<double>(width) * bytes_per_pixel);
-    return 400.0 + 1.01 * raw;
+    return 1200.0 + 1.01 * raw;
 }
 
 std::string png_encoder() {
-    return std::string("sonarsim 1; of products zlib ") + ::zlibVersion();
+    return "sonarsim 2";
 }
 
 }  // namespace sonarsim

@@ -8,7 +8,7 @@ namespace sonarsim {
 
 namespace {
 
-/// A number as PNG has it: the highest byte first.
+/// Appends a number with the highest byte first.
 void append_png_number(std::string& out, std::uint32_t value) {
     for (int shift = 24; shift >= 0; shift -= 8)
         out += static_cast<char>(value >> shift & 0xFF);

@@ -57,7 +57,7 @@ PngShape shape_of(const std::string& header, std::uint64_t file_bytes) {
     return shape;
 }
 
-/// Which of left, up and upper left is nearest to left + up - upper left.
+/// Returns the nearest of left, up and upper left to left + up - upper left.
 std::uint8_t paeth(int left, int up, int upper_left) {
     const int from_left = std::abs(up - upper_left);
     const int from_up = std::abs(left - upper_left);
@@ -66,7 +66,7 @@ std::uint8_t paeth(int left, int up, int upper_left) {
     return static_cast<std::uint8_t>(from_up <= from_both ? up : upper_left);
 }
 
-/// Turns a filtered row into its bytes. `above`: the row before, 0 for the first.
+/// Turns a filtered row into its bytes. `above` is the row before, zeros for the first row.
 void undo_filter(int filter, std::size_t pixel_bytes, const std::vector<std::uint8_t>& above,
                  std::span<std::uint8_t> row) {
     if (filter < 0 || filter > 4) refuse_png("has an unknown filter");
@@ -86,7 +86,7 @@ struct EndInflate {
     }
 };
 
-/// Unpacks the pixels, row by row as they come.
+/// Unpacks the pixels row by row.
 class RowUnpacker {
   public:
     explicit RowUnpacker(const PngShape& shape)
@@ -104,7 +104,7 @@ class RowUnpacker {
         stream_->avail_in = static_cast<uInt>(packed.size());
         if (ended_ && !packed.empty()) refuse_png("has bytes behind its pixels");
         while (!ended_) {
-            // Behind the last row there must be nothing but the end of the stream.
+            // Only the end of the stream may follow the last row.
             std::uint8_t beyond = 0;
             const bool all_rows = rows_ == shape_.height;
             if (all_rows) {
@@ -118,7 +118,7 @@ class RowUnpacker {
             const bool full = stream_->avail_out == 0;
             if (full && all_rows) refuse_png("has more rows than it says");
             if (full) end_row(visit);
-            // More than a row may wait in the stream.
+            // The stream may hold more than one row.
             if (!full && stream_->avail_in == 0) break;
         }
         if (stream_->avail_in > 0) refuse_png("has bytes behind its pixels");
@@ -150,12 +150,12 @@ class RowUnpacker {
     PngShape shape_;
     std::unique_ptr<z_stream, EndInflate> stream_;
     std::vector<std::uint8_t> above_;
-    std::vector<std::uint8_t> packed_row_;  ///< with its filter in front
+    std::vector<std::uint8_t> packed_row_;  ///< its filter, then its bytes
     int rows_ = 0;
     bool ended_ = false;
 };
 
-/// Hands the data of a chunk on, piece by piece, and checks their sum.
+/// Calls `visit` with the data of a chunk, piece by piece, and checks their sum.
 template <class Visit>
 void read_chunk(std::istream& file, std::string_view kind, std::uint32_t length,
                 const Visit& visit) {
@@ -168,9 +168,9 @@ void read_chunk(std::istream& file, std::string_view kind, std::uint32_t length,
         left -= static_cast<std::uint32_t>(piece.size());
         visit(piece);
     }
-    char told[4];
-    read_exactly(file, told, sizeof told);
-    if (number_at(told) != sum) refuse_png("has a wrong check sum");
+    char expected[4];
+    read_exactly(file, expected, sizeof expected);
+    if (number_at(expected) != sum) refuse_png("has a wrong check sum");
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t block = 512;
 using Block = std::array<char, block>;
 
-/// Where a field of a header lies. A number is in octal digits and ends in a zero byte.
+/// A field of a header. Numbers are octal digits that end in a zero byte.
 struct Field {
     std::size_t begin;
     std::size_t bytes;
@@ -47,7 +47,7 @@ std::string_view get(const Block& header, const Field& field) {
     return text.substr(0, text.find('\0'));
 }
 
-/// The sum of a header's bytes, those of the sum itself taken for blanks.
+/// The sum of a header's bytes; the bytes of the sum itself count as blanks.
 std::uint64_t sum_of(Block header) {
     std::fill_n(header.begin() + sum_field.begin, sum_field.bytes, ' ');
     return std::accumulate(

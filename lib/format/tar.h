@@ -8,21 +8,21 @@
 
 namespace sonarsim {
 
-// Archives in the format ustar (POSIX.1-1988) whose bytes follow from the names and bytes of their
-// files alone: no time, no owner, mode 0644. What opens tar files opens them.
+// Archives in the format ustar (POSIX.1-1988), which all tar programs open. Their bytes depend on
+// the names and bytes of their files alone: time and owner are 0, the mode is 0644.
 
-/// What ends an archive.
+/// Bytes at the end of an archive.
 inline constexpr std::uint64_t tar_end_bytes = 1024;
 
-/// The room that a file takes in an archive.
+/// The size of a file in an archive.
 std::uint64_t tar_bytes(std::uint64_t file_bytes);
 
-/// Adds a file to an archive in memory. std::logic_error when the name has more than 100 bytes or
-/// the file more than 8 GiB, which the format does not have.
+/// Adds a file to an archive in memory. Throws std::logic_error when the name has more than 100
+/// bytes or the file more than 8 GiB, the limits of the format.
 void append_to_tar(std::string& archive, std::string_view name, std::string_view bytes);
 
-/// Reads an archive that append_to_tar() made, file by file. std::runtime_error where it is none,
-/// or is cut off; std::system_error when the disk fails.
+/// Reads an archive that append_to_tar() made, file by file. Throws std::runtime_error when it is
+/// no such archive or is cut off, std::system_error when the disk fails.
 void for_each_in_tar(
     const std::filesystem::path& path,
     const std::function<void(const std::string& name, const std::string& bytes)>& visit);

@@ -14,18 +14,18 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "XTF is little-endian");
 
 constexpr std::size_t file_header_bytes = 1024;
-constexpr std::size_t channels_at = 256;  ///< in the file's header
+constexpr std::size_t channels_at = 256;  ///< offset in the file's header
 constexpr std::size_t channel_bytes = 128;
 constexpr std::size_t ping_header_bytes = 256;
 constexpr std::size_t channel_header_bytes = 64;
-constexpr std::size_t record_unit = 64;  ///< records are a multiple of it long
+constexpr std::size_t record_unit = 64;  ///< the size of a record is a multiple of it
 
 template <class T>
 void put(std::string& bytes, std::size_t at, T value) {
     std::memcpy(&bytes[at], &value, sizeof value);
 }
 
-/// With a zero behind it.
+/// Writes a text and a zero byte.
 void put_text(std::string& bytes, std::size_t at, std::string_view text, std::size_t room) {
     std::memcpy(&bytes[at], text.data(), std::min(text.size(), room - 1));
 }
@@ -44,7 +44,7 @@ void put_channel(std::string& header, std::uint8_t type, const XtfFile& file) {
     put<std::uint8_t>(header, at + 74, two_byte_integer);
 }
 
-/// The date and time of day, in the fields from byte 14 on.
+/// Writes the date and time of day to the fields from byte 14 on.
 void put_time(std::string& record, double t_s) {
     using namespace std::chrono;
     const auto hundredths = static_cast<std::int64_t>(std::floor(t_s * 100.0));
@@ -96,7 +96,7 @@ std::string xtf_record(const XtfPing& ping, std::span<const std::uint16_t> row) 
     put(record, 10, static_cast<std::uint32_t>(record.size()));
     put_time(record, ping.t_s);
     put(record, 28, ping.number);
-    put_float(record, 32, ping.sound_speed_m_s / 2.0);  // as Triton has it: there and back
+    put_float(record, 32, ping.sound_speed_m_s / 2.0);  // XTF has half the speed, for two-way time
     put_float(record, 72, ping.sound_speed_m_s);
     put_float(record, 124, ping.heading_deg);
     put(record, 128, ping.y_m);

@@ -104,11 +104,11 @@ class Builder : public YAML::EventHandler {
     void OnMapEnd() override { close(); }
 
   private:
-    /// A list or map whose end has not come yet.
+    /// A list or map that is still open.
     struct Open {
         YamlNode node;
-        std::set<std::string> keys;  ///< all so far
-        YamlNode key;                ///< the one whose value comes next
+        std::set<std::string> keys;  ///< all keys so far
+        YamlNode key;                ///< the key of the next value
         bool key_comes_next = false;
     };
 
@@ -133,7 +133,7 @@ class Builder : public YAML::EventHandler {
             fail(mark, "nested deeper than " + std::to_string(deepest) + " levels");
         }
         if (!open_.empty() && open_.back().key_comes_next) {
-            // The parser takes a bracket that is never closed for the start of a key.
+            // The parser reads an unclosed bracket as the start of a key.
             fail(mark, "a bracket is not closed, or a list or map stands where a key must");
         }
         Open& begun = open_.emplace_back();
@@ -241,7 +241,7 @@ std::string quoted_text(std::string_view text) {
 std::string flow_text(const YamlNode& node) {
     if (node.kind == YamlNode::Kind::empty) return "~";
     if (node.kind == YamlNode::Kind::scalar) {
-        // A number or a flag stands as it is; any other text is safe in quotes.
+        // Numbers and flags are written as they are, any other text in quotes.
         const bool bare = !node.quoted &&
                           (parse_number(node.text) || node.text == "true" || node.text == "false");
         return bare ? node.text : quoted_text(node.text);

@@ -9,7 +9,7 @@
 
 namespace sonarsim {
 
-/// Where a node was written. Nodes share the name of their source.
+/// The place of a node in its source. Nodes share the name of the source.
 struct YamlPlace {
     std::shared_ptr<const std::string> source;
     int line = 0;
@@ -18,25 +18,25 @@ struct YamlPlace {
     Location location() const { return {*source, line, column}; }
 };
 
-/// A piece of a YAML document: what was written, not yet what it means, and where.
+/// A node of a YAML document as it was written, without its meaning, and its place.
 struct YamlNode {
     enum class Kind { empty, scalar, list, map };
 
     Kind kind = Kind::empty;
-    bool quoted = false;   ///< a scalar in quotes, which is text and never a number
-    bool implied = false;  ///< a map that only the path of an override calls for
+    bool quoted = false;   ///< a quoted scalar is text, never a number
+    bool implied = false;  ///< a map that only the path of an override created
     YamlPlace place;
-    std::string text;             ///< of a scalar
-    std::vector<YamlNode> items;  ///< of a list or a map, in the order of the file
-    std::string key;              ///< of an item of a map
+    std::string text;             ///< value of a scalar
+    std::vector<YamlNode> items;  ///< items of a list or a map, in the order of the file
+    std::string key;              ///< key of an item of a map
     YamlPlace key_place;
 
-    /// The item of a map, or nullptr.
+    /// Returns the item of a map, or nullptr.
     const YamlNode* find(std::string_view wanted) const;
     YamlNode* find(std::string_view wanted);
 };
 
-/// Whether the nodes of a document remember their lines: those of a command line do not.
+/// Whether nodes remember their lines. Nodes of a command line do not.
 enum class Lines { counted, none };
 
 /// Reads one YAML document. It may hold maps, lists and scalars, at most 16 deep and 100,000 in

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint32_t most_tries = 1000;
 
-/// Two numbers in [0, 1).
+/// Draws two numbers in [0, 1).
 std::array<double, 2> unit_pair(PhiloxKey key, std::uint32_t attempt) {
     const PhiloxBlock block = philox({attempt, 0, 0, 0}, key);
     return {unit_double(block.x0, block.x1), unit_double(block.x2, block.x3)};
@@ -23,7 +23,7 @@ double part_of(const std::array<double, 2>& range, double share) {
     return range[0] + share * (range[1] - range[0]);
 }
 
-/// By Box and Muller.
+/// Draws a normal number by the method of Box and Muller.
 double standard_normal(const std::array<double, 2>& u) {
     constexpr double turn = 6.283185307179586;
     return std::sqrt(-2.0 * logarithm(1.0 - u[0])) * sincos(turn * u[1]).cos;
@@ -45,7 +45,7 @@ std::size_t one_of(double count, double share) {
     return static_cast<std::size_t>(std::min(std::floor(share * count), count - 1.0));
 }
 
-/// The share of a normal law that lies below x.
+/// The normal distribution function at x.
 double normal_below(double mean, double sigma, double x) {
     return 0.5 * std::erfc((mean - x) / (std::sqrt(2.0) * sigma));
 }

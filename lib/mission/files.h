@@ -8,7 +8,7 @@
 
 namespace sonarsim {
 
-/// Calls `visit` with every path that a mission reads: those of a const mission are const.
+/// Calls `visit` with every path that a mission reads; the paths of a const mission are const.
 template <class SomeMission, class Visit>
 void for_each_file(SomeMission& mission, const Visit& visit) {
     const auto poses_of = [&](auto& trajectory) {
@@ -34,8 +34,8 @@ inline std::vector<std::filesystem::path> files_of(const Mission& mission) {
     return files;
 }
 
-/// The folder that the paths of a dataset's own mission start from: that of the scene file, or of
-/// the materials where the scene has none.
+/// The folder at which the relative paths of a dataset's mission start: the folder of the scene
+/// file, or of the materials file if there is no scene file.
 inline std::filesystem::path home_of(const Mission& mission) {
     const SceneConfig& scene = mission.scene;
     return (scene.file.empty() ? scene.materials : scene.file).parent_path();

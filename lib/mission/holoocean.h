@@ -6,7 +6,7 @@
 
 namespace sonarsim {
 
-/// What a scenario does not say: its world is a level of the game engine.
+/// Paths that a scenario does not give: its world is a level of the game engine.
 struct HoloOceanWorld {
     std::string scene = "scene.glb";
     std::string materials = "materials.csv";
@@ -14,7 +14,7 @@ struct HoloOceanWorld {
 
 struct ImportedMission {
     std::string yaml;
-    std::vector<std::string> warnings;  ///< what has no counterpart, "file:line:column: ..."
+    std::vector<std::string> warnings;  ///< keys without a counterpart, "file:line:column: ..."
 };
 
 /// A mission from the sonars and the pose of the main agent of a HoloOcean scenario (JSON).

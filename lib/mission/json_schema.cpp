@@ -104,8 +104,8 @@ class SchemaBuilder {
         add(key, {{"anyOf", {{{"type", "boolean"}}, some}}}, meaning, Presence::optional, false);
     }
 
-    void place(const Place&) const {}
-    void place(const char*, const Place&) const {}
+    void place(const MissionPlace&) const {}
+    void place(const char*, const MissionPlace&) const {}
 
     const SonarKeys& sonar_kind(const char* key, const SonarConfig& value, const char* meaning) {
         const auto keys = std::ranges::find(sonars_, value.kind, &SonarKeys::kind);
@@ -118,7 +118,7 @@ class SchemaBuilder {
                  Presence presence = Presence::optional) {
         add(key, object_of(value), meaning, presence);
     }
-    /// A section that has several forms.
+    /// Describes a section that has several forms.
     template <class... T>
     void section(const char* key, std::variant<T...>& value, const char* meaning,
                  Presence presence = Presence::optional) {
@@ -148,7 +148,7 @@ class SchemaBuilder {
             meaning, required);
     }
 
-    /// Every form has a key of its own that it requires.
+    /// Each form requires a key of its own.
     template <class... T>
     void one_of(const std::variant<T...>&, const std::array<const char*, sizeof...(T)>&) {}
 
@@ -183,7 +183,7 @@ class SchemaBuilder {
         return inner.finish();
     }
 
-    /// What a sonar of this kind and model may say.
+    /// The keys of a sonar of this kind and model.
     SchemaJson sonar_of(const SonarKeys& kind, EchoModel model) const {
         SonarConfig sonar = kind.defaults;
         sonar.model = model;
@@ -191,12 +191,12 @@ class SchemaBuilder {
         const auto name = std::ranges::find(echo_models, model, &Choice<EchoModel>::value)->name;
         json["properties"]["model"]["enum"] = {name};
         json["properties"]["model"]["default"] = "paper";
-        if (model == EchoModel::of_instrument) json["required"].push_back("model");
+        if (model == EchoModel::calibrated) json["required"].push_back("model");
         return json;
     }
 
-    /// Adds to `all` the keys that it lacks, and likewise in the sections that both have: the beam
-    /// of a side-scan has other keys than that of an imaging sonar.
+    /// Adds the missing keys to `all`, and also to the sections that both have: the beam of a
+    /// side-scan sonar has other keys than the beam of an imaging sonar.
     static void add_missing_keys(const SchemaJson& own, SchemaJson& all) {
         for (const auto& [key, value] : own.items()) {
             const bool section = value.contains("properties");
@@ -210,16 +210,16 @@ class SchemaBuilder {
         }
     }
 
-    /// A sonar's keys depend on its kind and model, which its preset may give: with a preset all
-    /// keys of all kinds may stand.
+    /// A sonar's keys depend on its kind and model. A preset may give these, so that with a preset
+    /// all keys of all kinds are allowed.
     SchemaJson sonar_json() const {
         SchemaJson kinds = SchemaJson::array();
         SchemaJson all_keys = SchemaJson::object();
         SchemaJson rules = SchemaJson::array();
         for (const SonarKeys& kind : sonars_) {
             kinds.push_back(kind.name);
-            for (const EchoModel model : {EchoModel::of_paper, EchoModel::of_instrument}) {
-                const bool calibrated = model == EchoModel::of_instrument;
+            for (const EchoModel model : {EchoModel::paper, EchoModel::calibrated}) {
+                const bool calibrated = model == EchoModel::calibrated;
                 SchemaJson own = sonar_of(kind, model);
                 add_missing_keys(own["properties"], all_keys);
                 SchemaJson if_this{{"properties", {{"kind", {{"const", kind.name}}}}},

@@ -8,17 +8,17 @@
 
 namespace sonarsim {
 
-// The types of values, as JSON Schema has them.
+// The types of values in JSON Schema.
 
 using SchemaJson = nlohmann::ordered_json;
 
-/// A whole number as 5 and not as 5.0.
+/// Writes a whole number as 5, not as 5.0.
 SchemaJson number_json(double value);
 
 /// `type`: "number" or "integer".
 SchemaJson within_limits(const char* type, const Limits& limits);
 
-/// The reader takes any scalar for text, a number too.
+/// The reader accepts any scalar as text, even a number.
 SchemaJson text_json();
 
 SchemaJson list_json(SchemaJson items, std::size_t fewest);

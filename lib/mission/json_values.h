@@ -8,8 +8,8 @@
 
 namespace sonarsim {
 
-// Values of a JSON file that another program wrote, read as YAML. InputError at the place of the
-// value where it is not what it must be; `name` is what the message calls it.
+// Values of a JSON file of another program, read as YAML. Functions throw InputError at the place
+// of a wrong value; `name` is its name in the message.
 
 [[noreturn]] void refuse_at(const YamlNode& node, const std::string& what);
 

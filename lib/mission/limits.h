@@ -11,8 +11,8 @@ struct Limits {
     bool low_allowed = true;
 };
 
-/// Beyond anything in the sea. Squares and products of such numbers still are finite, and a count
-/// up to it fits an int.
+/// Larger than anything in the sea. Squares and products of such numbers are finite, and a count up
+/// to it fits an int.
 inline constexpr double largest_number = 1e9;
 
 constexpr Limits at_least(double low) {

@@ -16,13 +16,13 @@
 
 namespace sonarsim {
 
-// Every default of a mission stands here and in the headers above. Names carry the unit and are the
-// YAML keys, too.
+// The defaults of a mission are here and in the headers above. Names carry the unit and are the
+// YAML keys.
 
 struct WaterConfig {
     double density_kg_m3 = 997.0;
     double sound_speed_m_s = 1480.0;
-    // What the calibrated model works out the absorption with.
+    // The calibrated model computes absorption from these.
     double temperature_c = 10.0;
     double salinity_psu = 35.0;
     double depth_m = 10.0;
@@ -39,7 +39,7 @@ struct MountConfig {
     bool operator==(const MountConfig&) const = default;
 };
 
-/// The random terms of the sonar equations; zero switches a term off.
+/// Random terms of the paper's model; zero switches a term off.
 struct NoiseConfig {
     double range_lambda_m = 0.0;   ///< mean of the exponential range noise, Eq. 7
     double scatterer_m = 0.02;     ///< edge of the cells that share one draw of the range noise
@@ -47,20 +47,19 @@ struct NoiseConfig {
     double mult_sigma = 0.0;       ///< standard deviation of the multiplicative noise, Eq. 13
     bool scale_with_range = true;  ///< additive noise grows with r^2 and the lobe, Eq. 10
     double lobe_sigma_deg = 0.0;   ///< width of that lobe; 0 means azimuth_deg / 8
-    double gain = 0.0;             ///< m of Eq. 12; 0 means that of the kind, as the paper has it
+    double gain = 0.0;             ///< m of Eq. 12; 0 means the paper's value for the kind
 
     bool operator==(const NoiseConfig&) const = default;
 };
 
 enum class MultipathMethod { none, cluster, exact };
 
-/// Echoes by way of a second surface, Eq. 1-3. Off unless a mission asks: they take half as long
-/// again as the rest of a ping.
+/// Multipath via a second surface, Eq. 1-3. Off by default, since it adds half of a ping's time.
 struct MultipathConfig {
     MultipathMethod method = MultipathMethod::none;
     int epsilon_bins = 5;  ///< size of a cluster in range, beam and elevation
-    /// Between normals within a cluster. The paper's 15 miss more than 5 % of the bins on a rough
-    /// sea floor, 5 miss 2 %, for a tenth more rays.
+    /// Largest angle between normals within a cluster. The paper's 15 miss more than 5 % of the
+    /// bins on a rough sea floor; 5 miss 2 % and take a tenth more rays.
     double delta_deg = 5.0;
 
     bool operator==(const MultipathConfig&) const = default;
@@ -71,13 +70,13 @@ enum class StreakMode { none, add, reduce };
 /// Azimuth streaks, Eq. 14-15.
 struct StreaksConfig {
     StreakMode mode = StreakMode::none;
-    double threshold = 0.08;  ///< share of a range row's echoes, by area, at normal incidence
-    double angle_deg = 8.0;   ///< what counts as normal incidence
+    double threshold = 0.08;  ///< share of a range row's echo area at normal incidence
+    double angle_deg = 8.0;   ///< largest angle that counts as normal incidence
 
     bool operator==(const StreaksConfig&) const = default;
 };
 
-/// The kinds of sonar. What they are is told by the table in sonar/kinds.h.
+/// The kinds of sonar; the table in sonar/kinds.h defines them.
 enum class SonarKind {
     imaging,
     profiling,
@@ -90,12 +89,12 @@ struct SonarConfig {
     std::string name;  ///< the key below `sensors`
     SonarKind kind = SonarKind::imaging;
     MountConfig mount;
-    int every = 1;                ///< pings at every n-th pose
+    int every = 1;                ///< the sonar pings at every n-th pose
     double azimuth_deg = 120.0;   ///< full angle
     double elevation_deg = 20.0;  ///< full angle
-    double opening_deg = 30.0;    ///< full angle of a cone, which has no azimuth and elevation
-    double sector_deg = 360.0;    ///< that a turning head covers
-    double step_deg = 0.9;        ///< that it turns from ping to ping
+    double opening_deg = 30.0;    ///< full angle of a cone, in place of azimuth and elevation
+    double sector_deg = 360.0;    ///< full angle that a turning head covers
+    double step_deg = 0.9;        ///< angle that the head turns from ping to ping
     double range_min_m = 0.1;
     double range_max_m = 10.0;
     int range_bins = 512;
@@ -103,9 +102,9 @@ struct SonarConfig {
     MultipathConfig multipath;
     NoiseConfig noise;
     StreaksConfig streaks;
-    std::filesystem::path preset;  ///< empty once a mission is read: its keys are filled in
-    EchoModel model = EchoModel::of_paper;
-    InstrumentConfig instrument;  ///< of the calibrated model
+    std::filesystem::path preset;  ///< empty after reading: its keys are filled in
+    EchoModel model = EchoModel::paper;
+    InstrumentConfig instrument;  ///< for the calibrated model only
 
     bool operator==(const SonarConfig&) const = default;
 };
@@ -116,34 +115,34 @@ struct AccuracyConfig {
     bool operator==(const AccuracyConfig&) const = default;
 };
 
-/// What a sonar's view of the scene is found with.
+/// The method that finds the visible surface.
 enum class EngineKind { automatic, rays, octree, slices };
 
 struct SlicesConfig {
-    int per_beam = 0;  ///< slices to a beam; 0: what accuracy.relative_l1 calls for
+    int per_beam = 0;  ///< slices per beam; 0: derived from accuracy.relative_l1
 
     bool operator==(const SlicesConfig&) const = default;
 };
 
 struct OctreeConfig {
-    double leaf_m = 0.0;   ///< edge of the leaves; 0: what the bins of the sonar call for
-    int memory_mb = 512;   ///< above this, what has not been seen for longest is dropped
-    bool literal = false;  ///< the paper to the letter, as a baseline
+    double leaf_m = 0.0;   ///< edge of the leaves; 0: derived from accuracy.relative_l1
+    int memory_mb = 512;   ///< above it the nodes not seen for longest are dropped
+    bool literal = false;  ///< exactly as the paper prints it, as a baseline
 
     bool operator==(const OctreeConfig&) const = default;
 };
 
-/// The class of the nodes whose names fit a pattern.
+/// A class for all nodes whose names match a pattern.
 struct ClassConfig {
     std::string nodes;     ///< `*` stands for any text, `?` for any one byte
-    std::string name;      ///< of the class
-    std::string instance;  ///< of which all these nodes are parts; "": each is one of its own
-    Place place;
+    std::string name;      ///< the class
+    std::string instance;  ///< one instance of all these nodes; "": each is its own
+    MissionPlace place;
 
     bool operator==(const ClassConfig&) const = default;
 };
 
-/// What may be told of the bins of a ping besides its image.
+/// Labels that may be written with the image of a ping.
 enum class Label {
     instance,
     share,
@@ -165,29 +164,29 @@ enum class Label {
     yolo_polygons,
 };
 
-/// Shares of the trajectory to learn with, to choose by and to test with; all 0: it is not split.
+/// Shares of the trajectory for training, validation and testing; all 0: no split.
 struct SplitConfig {
     double train = 0.0;
     double val = 0.0;
     double test = 0.0;
-    int gap = 10;    ///< poses at each border that belong to no part
-    int rounds = 1;  ///< how often train, val and test follow each other along the trajectory
-    Place place;
+    int gap = 10;    ///< poses at each border of two parts that belong to neither
+    int rounds = 1;  ///< repetitions of train, val and test along the trajectory
+    MissionPlace place;
 
     bool is_on() const { return train > 0.0 || val > 0.0 || test > 0.0; }
     bool operator==(const SplitConfig&) const = default;
 };
 
-/// What the files of pings are put together in.
+/// Archives for the files of pings.
 enum class Pack { none, tar };
 
 enum class FanColours { grey, copper, amber, sea };
 
-/// How fans are drawn; as it stands here they are grey and bare.
+/// Style of fans; by default they are grey, without lines.
 struct FanStyleConfig {
     FanColours colours = FanColours::grey;
-    bool rings = false;     ///< of equal range, with their numbers
-    bool bearings = false;  ///< lines of equal azimuth, with theirs
+    bool rings = false;     ///< lines of equal range, with numbers
+    bool bearings = false;  ///< lines of equal azimuth, with numbers
 
     bool operator==(const FanStyleConfig&) const = default;
 };
@@ -198,26 +197,26 @@ struct OutputConfig {
     bool image = false;    ///< 16-bit polar PNG
     bool fan = true;       ///< 8-bit Cartesian PNG
     bool meta = true;      ///< JSON per ping
-    bool stages = false;   ///< 8-bit PNG of five fans, one term of the model after the other
+    bool stages = false;   ///< 8-bit PNG of five fans that add the model's terms one by one
     int fan_width_px = 0;  ///< 0: one pixel per range bin, at most 1024
     FanStyleConfig fan_style = {};
-    double full_scale = 0.0;         ///< intensity that becomes white; 0: found for each sonar
+    double full_scale = 0.0;         ///< intensity that becomes white; 0: automatic, by sonar
     std::vector<Label> labels = {};  ///< each at most once, in the order of the enumeration
-    Place labels_place = {};
+    MissionPlace labels_place = {};
     SplitConfig split = {};
     Pack pack = Pack::none;
-    double pack_size_mb = 256.0;  ///< at most; a megabyte is a million bytes
-    bool raw = true;              ///< of the calibrated model: PNG of what the instrument delivers
+    double pack_size_mb = 256.0;  ///< upper limit; a megabyte is a million bytes
+    bool raw = true;              ///< the instrument's output with the calibrated model
 
-    // What is made of all pings of a sonar together.
-    bool waterfall = true;           ///< of side-scan
-    bool echogram = true;            ///< of echosounders
-    bool soundings = true;           ///< of profiling sonars, and the map made of them
-    bool scan = true;                ///< of scanning sonars
-    double bathymetry_cell_m = 0.0;  ///< 0: by the number of soundings
-    bool xtf = false;                ///< of side-scan, for other programs
-    bool mosaic = false;             ///< of side-scan, on the ground
-    double mosaic_cell_m = 0.0;      ///< 0: by the distance of pings
+    // Products of all pings of a sonar.
+    bool waterfall = true;           ///< side-scan sonars
+    bool echogram = true;            ///< echosounders
+    bool soundings = true;           ///< profiling sonars: soundings and their map
+    bool scan = true;                ///< scanning sonars
+    double bathymetry_cell_m = 0.0;  ///< 0: from the number of soundings
+    bool xtf = false;                ///< side-scan sonars: the waterfall as XTF
+    bool mosaic = false;             ///< side-scan sonars: the waterfall georeferenced
+    double mosaic_cell_m = 0.0;      ///< 0: from the distance between pings
 
     bool operator==(const OutputConfig&) const = default;
 };
@@ -234,11 +233,11 @@ struct Mission {
     EngineKind engine = EngineKind::automatic;
     OctreeConfig octree;
     SlicesConfig slices;
-    std::vector<ClassConfig> classes;  ///< in the order of the file: the first that fits counts
+    std::vector<ClassConfig> classes;  ///< in the order of the file; the first match applies
     OutputConfig output;
-    int variants = 0;              ///< datasets to draw; 0: the mission as it stands
-    std::vector<VaryConfig> vary;  ///< what is drawn for each, in the order of the file
-    Variant variant;               ///< which of them this mission is
+    int variants = 0;              ///< number of datasets to draw; 0: the mission as it stands
+    std::vector<VaryConfig> vary;  ///< rules of what is drawn, in the order of the file
+    Variant variant;               ///< the variant that this mission is
 
     bool operator==(const Mission&) const = default;
 };

@@ -11,7 +11,7 @@ namespace sonarsim {
 
 namespace {
 
-/// What stands in the file, for "must be ..., not ...".
+/// Describes the node for "must be ..., not ...".
 std::string found(const YamlNode& node) {
     switch (node.kind) {
         case YamlNode::Kind::empty:

@@ -9,36 +9,36 @@
 
 namespace sonarsim {
 
-// The value of one key in a document. `key` is what messages call it; InputError with the place of
-// the value for whatever is not exactly right.
+// Readers of the value of one key. `key` is its name in messages. They throw InputError with the
+// place of a wrong value.
 
 [[noreturn]] void refuse(const YamlNode& node, const std::string& what);
 
-/// "'key' must be `wanted`, not what stands there".
+/// Throws "'key' must be WANTED, not FOUND".
 [[noreturn]] void refuse_type(const YamlNode& node, const std::string& key,
                               const std::string& wanted);
 
 void check_limits(const YamlNode& node, const char* key, double value, const Limits& limits);
 
-/// Whether it is a word or number without quotes.
+/// Whether the node is a word or number without quotes.
 bool is_plain(const YamlNode& node);
 
 double read_number(const YamlNode& node, const char* key, const Limits& limits);
 
-/// Not empty, and without control characters.
+/// Reads a text that is not empty and has no control characters.
 std::string read_text(const YamlNode& node, const char* key);
 
 /// "a, b, c".
 std::string listed(const std::vector<std::string>& names);
 
-/// Which of the names it is.
+/// Returns the index of the node's text in `names`.
 std::size_t index_of(const YamlNode& node, const char* key, const std::vector<std::string>& names);
 
-/// A list of exactly `count` numbers.
+/// Reads a list of exactly `count` numbers.
 void read_numbers(const YamlNode& node, const char* key, double* values, std::size_t count,
                   const Limits& limits);
 
-/// By name whether it is chosen: `true` for all, `false` for none, or a list of some.
+/// Returns for each name whether it is chosen: `true` chooses all, `false` none, a list some.
 std::vector<bool> chosen_of(const YamlNode& node, const char* key,
                             const std::vector<std::string>& names);
 

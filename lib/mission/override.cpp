@@ -29,7 +29,7 @@ std::vector<std::string> split_path(std::string_view path, const Location& where
     return keys;
 }
 
-/// The item of `node` that `key` names. In a map it is made when it is missing.
+/// The item of `node` that `key` names. A missing item of a map is created.
 YamlNode& descend(YamlNode& node, const std::string& key, const YamlPlace& place) {
     if (node.kind == YamlNode::Kind::list) {
         const std::optional<std::uint64_t> index = parse_unsigned(key);
@@ -59,7 +59,7 @@ YamlNode& descend(YamlNode& node, const std::string& key, const YamlPlace& place
     return made;
 }
 
-/// Replaces what the path leads to.
+/// Replaces the value at the path.
 void put(YamlNode& root, const std::vector<std::string>& path, YamlNode value) {
     YamlNode* node = &root;
     for (const std::string& key : path)
@@ -69,7 +69,7 @@ void put(YamlNode& root, const std::vector<std::string>& path, YamlNode value) {
     *node = std::move(value);
 }
 
-/// Lets a value, with all that is in it, stand at `place`.
+/// Sets the place of a value and of all its parts.
 void put_at(YamlNode& node, const YamlPlace& place) {
     node.place = place;
     node.key_place = place;

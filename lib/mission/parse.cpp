@@ -29,8 +29,8 @@ YamlNode document_of(std::string_view text, const std::string& file_name,
     return root;
 }
 
-/// Lets a list that a key goes into, "vehicle.offset_m.2", stand in the document: those of numbers
-/// that are drawn for pings are 0 where they are left out.
+/// Adds the list of a key such as "vehicle.offset_m.2" to the document if it is missing. Lists of
+/// numbers that may be drawn for pings default to zeros.
 void fill_in_list(YamlNode& root, std::string_view key) {
     const std::size_t dot = key.rfind('.');
     if (!parse_unsigned(key.substr(dot + 1))) return;
@@ -43,8 +43,8 @@ void fill_in_list(YamlNode& root, std::string_view key) {
     if (node == nullptr) set_text(root, key.substr(0, dot), "[0, 0, 0]", {});
 }
 
-/// InputError for what is wrong with the rules that are drawn for every ping: with every value that
-/// lies at an end of theirs the mission has to be sound.
+/// Checks the rules that are drawn for every ping: the mission must be valid with the extreme
+/// values of each rule. Throws InputError.
 void check_draws_of_pings(const Mission& mission, const YamlNode& root,
                           const std::string& file_name, const std::filesystem::path& base_folder,
                           SonarKeyTable sonars) {
@@ -75,7 +75,7 @@ bool is_within(std::string_view key, std::string_view section) {
     return key == section || (key.starts_with(section) && key[section.size()] == '.');
 }
 
-/// InputError for rules of `vary` whose draws would be lost.
+/// Throws InputError for rules of `vary` whose draws would be overwritten.
 void check_rules(const Mission& mission) {
     struct Reserved {
         std::string_view key;

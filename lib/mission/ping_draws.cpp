@@ -16,7 +16,7 @@ namespace {
 /// A number that may be drawn for every ping.
 template <class Section>
 struct Varying {
-    std::string_view key;  ///< below that of the section
+    std::string_view key;  ///< relative to the section
     double& (*of)(Section&);
 };
 
@@ -59,7 +59,7 @@ std::string section_of(std::string_view sensor) {
     return "sensors." + std::string(sensor) + ".";
 }
 
-/// The number of a section that a key names; null: none of those that may be drawn.
+/// The number of a section that a key names; null if it may not be drawn for pings.
 template <class Section, std::size_t N>
 const Varying<Section>* find_number(const std::array<Varying<Section>, N>& numbers,
                                     std::string_view key, std::string_view section) {

@@ -7,27 +7,27 @@
 
 #include "mission/mission.h"
 
-// What `vary` draws for every ping: numbers that neither the scene nor the view depends on. A draw
-// follows from the seed, the place of its rule among `vary` and the pose.
+// The numbers that `vary` draws for every ping; neither the scene nor the view depends on them. A
+// draw is a function of the seed, the index of its rule in `vary` and the pose.
 
 namespace sonarsim {
 
-/// InputError at the place of a rule whose key cannot be drawn for every ping.
+/// Throws InputError at the place of a rule whose key cannot be drawn for every ping.
 void check_key_of_pings(const Mission& mission, const VaryConfig& rule);
 
-/// The most that the draws of a rule reach to either side, or all that it chooses from, as YAML.
+/// The limits of a rule's draws, or all of its choices, as YAML.
 std::vector<std::string> extremes_of(const VaryConfig& rule);
 
-/// Whether anything of a sensor is drawn for every ping.
+/// Whether any key of a sensor is drawn for every ping.
 bool varies_by_ping(const Mission& mission, std::string_view sensor);
 
-/// Draws what varies of a sensor at a pose.
+/// Draws the varying keys of a sensor at a pose.
 void draw_for_ping(const Mission& mission, std::uint32_t pose, SonarConfig& sensor);
 
-/// How far the vehicle is off a pose.
+/// The vehicle's offset from a pose.
 VehicleConfig vehicle_at(const Mission& mission, std::uint32_t pose);
 
-/// What was drawn for a ping of a sensor, its vehicle included.
+/// The values drawn for a ping of a sensor, with those of the vehicle.
 DrawnValues drawn_for_ping(const Mission& mission, std::string_view sensor, std::uint32_t pose);
 
 }  // namespace sonarsim

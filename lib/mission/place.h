@@ -4,12 +4,12 @@
 
 namespace sonarsim {
 
-/// Where a piece of a mission stands, for messages. What two missions say is equal wherever it
-/// stands.
-struct Place {
+/// The place of a section in the mission file, for messages. All places compare equal, so that two
+/// missions with the same content are equal.
+struct MissionPlace {
     Location location;
 
-    bool operator==(const Place&) const { return true; }
+    bool operator==(const MissionPlace&) const { return true; }
 };
 
 }  // namespace sonarsim

@@ -26,8 +26,8 @@ void fill_in(YamlNode& section, const YamlNode& preset) {
     }
 }
 
-/// A preset that came with the program, "sensors/NAME.yaml": installed below share/, or in the
-/// checkout that holds the build folder. Empty where there is none.
+/// The path of a preset that comes with the program, "sensors/NAME.yaml": installed below share/,
+/// or in the checkout that holds the build folder. Empty if there is none.
 std::filesystem::path shipped_preset(const std::filesystem::path& name) {
     std::error_code unknown;
     const auto program = std::filesystem::read_symlink("/proc/self/exe", unknown);

@@ -34,7 +34,7 @@ const YamlNode* MissionReader::find(const char* key, Presence presence) {
     known_.emplace_back(key);
     const YamlNode* found_node = node_.find(key);
     if (found_node == nullptr && presence == Presence::required) {
-        // The key may be there, but misspelt.
+        // The key may be misspelt.
         for (const YamlNode& item : node_.items) {
             const std::vector<std::string> candidate{key};
             const std::string hint = did_you_mean(item.key, candidate);
@@ -269,7 +269,7 @@ void MissionReader::require(bool holds, std::initializer_list<const char*> keys,
     };
     if (std::ranges::any_of(keys, is_faulty)) return;
     const YamlNode* last = nullptr;
-    // An override, which has no line, was written after all of the file.
+    // An override has no line and counts as written after the file.
     const auto after = [](const YamlPlace& a, const YamlPlace& b) {
         if (a.line == 0 || b.line == 0) return a.line == 0;
         return std::pair(a.line, a.column) > std::pair(b.line, b.column);

@@ -21,38 +21,37 @@
 namespace sonarsim {
 
 /// The visitor that fills a section of a mission from YAML. A key that the document leaves out
-/// keeps its value. Whatever is not exactly right goes to `errors`, with the place of the fault;
-/// only where nothing more can be told of a section, its kind being unknown, an InputError is
-/// thrown.
+/// keeps its value. Errors are collected in `errors` with their place. An InputError is thrown
+/// only when the rest of a section cannot be checked because its kind is unknown.
 class MissionReader {
   public:
-    /// `name` is what messages call the section. Relative paths start at `base_folder`. InputError
-    /// when the node is no section.
+    /// `name` is the section's name in messages. Relative paths start at `base_folder`. Throws
+    /// InputError when the node is no section.
     MissionReader(const YamlNode& node, std::string name, const std::filesystem::path& base_folder,
                   SonarKeyTable sonars, ErrorList& errors);
 
     void number(const char* key, double& value, const Limits& limits, const char* meaning,
                 Presence presence = Presence::optional);
-    /// 0 stands for `auto`.
+    /// Reads `auto` as 0.
     void number_or_auto(const char* key, double& value, const Limits& limits, const char* meaning);
     void integer(const char* key, int& value, const Limits& limits, const char* meaning);
     void integer(const char* key, std::uint64_t& value, const char* meaning);
     void flag(const char* key, bool& value, const char* meaning);
     void text(const char* key, std::string& value, const char* meaning,
               Presence presence = Presence::optional);
-    /// A list of texts.
+    /// Reads a list of texts.
     void texts(const char* key, std::vector<std::string>& values, const char* meaning);
-    /// A map from texts to texts.
+    /// Reads a map from texts to texts.
     void renaming(const char* key, std::vector<std::pair<std::string, std::string>>& values,
                   const char* meaning);
-    /// A list of values of any kind, kept as YAML.
+    /// Reads a list of values of any kind, which are kept as YAML.
     void values(const char* key, std::vector<std::string>& values, const char* meaning);
-    /// A number, or a list of the least and the largest.
+    /// Reads a number, or a list of the least and the largest.
     void range(const char* key, std::array<double, 2>& value, const Limits& limits,
                const char* meaning);
     void path(const char* key, std::filesystem::path& value, const char* meaning,
               Presence presence = Presence::optional);
-    /// One path, or a list of one or more.
+    /// Reads one path, or a list of one or more.
     void paths(const char* key, std::vector<std::filesystem::path>& values, const char* meaning,
                Presence presence);
 
@@ -87,7 +86,7 @@ class MissionReader {
         });
     }
 
-    /// `true` for all of the choices, `false` for none, or a list of some of them.
+    /// Reads `true` for all of the choices, `false` for none, or a list of some of them.
     template <class T, std::size_t N>
     void subset(const char* key, std::vector<T>& values, const std::array<Choice<T>, N>& choices,
                 const char* /*meaning*/) {
@@ -106,14 +105,14 @@ class MissionReader {
         });
     }
 
-    /// Where the section stands.
-    void place(Place& value) const { value.location = node_.place.location(); }
-    /// Where the value of a key stands, if it does.
-    void place(const char* key, Place& value) const {
+    /// Sets `value` to the place of the section.
+    void place(MissionPlace& value) const { value.location = node_.place.location(); }
+    /// Sets `value` to the place of a key's value, if there is one.
+    void place(const char* key, MissionPlace& value) const {
         if (const YamlNode* node = node_.find(key)) value.location = node->place.location();
     }
 
-    /// Reads the kind of a sonar and fills in its defaults, all but the name.
+    /// Reads the kind of a sonar and fills in its defaults, except for the name.
     const SonarKeys& sonar_kind(const char* key, SonarConfig& value, const char* meaning);
 
     template <class T>
@@ -132,7 +131,7 @@ class MissionReader {
         });
     }
 
-    /// A list of sections, at least `fewest` of them; where that is 0 it may be left out.
+    /// Reads a list of at least `fewest` sections. If `fewest` is 0, the key is optional.
     template <class T>
     void list(const char* key, std::vector<T>& values, std::size_t fewest,
               const char* /*meaning*/) {
@@ -144,7 +143,7 @@ class MissionReader {
         });
     }
 
-    /// A map from names to sections, at least one of them. The elements keep their `name`.
+    /// Reads a map from names to at least one section. Elements get their `name`.
     template <class T>
     void named(const char* key, std::vector<T>& values, const char* /*meaning*/) {
         attempt(key, [&] {
@@ -156,7 +155,7 @@ class MissionReader {
         });
     }
 
-    /// Chooses the alternative of `value` by the one key of `keys` that is present.
+    /// Sets the alternative of `value` by the one key of `keys` that is present.
     template <class... T>
     void one_of(std::variant<T...>& value, const std::array<const char*, sizeof...(T)>& keys) {
         const std::size_t chosen = index_of_present({keys.begin(), keys.end()});
@@ -166,11 +165,11 @@ class MissionReader {
         (std::index_sequence_for<T...>{});
     }
 
-    /// A check across several keys. A failure is reported where the last-written of `keys` stands.
-    /// It waits until each of them is right by itself; when it fails, none of them is right.
+    /// Checks a condition on several keys. A failure is reported at the last of `keys` in the file.
+    /// The check is skipped if one of the keys is faulty; if it fails, all of them are faulty.
     void require(bool holds, std::initializer_list<const char*> keys, const char* message);
 
-    /// To be called when all keys are read: what then is left over is unknown.
+    /// To be called after all keys are read: reports the other keys as unknown.
     void finish();
 
   private:
@@ -183,7 +182,7 @@ class MissionReader {
         });
     }
 
-    /// Reads one key. When it is wrong its value is not to be used.
+    /// Reads one key. If it is faulty, its value must not be used.
     template <class Read>
     void attempt(const char* key, Read&& read_key) {
         const std::size_t before = errors_.count();
@@ -203,7 +202,7 @@ class MissionReader {
     SonarKeyTable sonars_;
     ErrorList& errors_;
     std::vector<std::string> known_;
-    std::vector<std::string> faulty_;  ///< keys with something wrong in them
+    std::vector<std::string> faulty_;  ///< keys with an error
 };
 
 }  // namespace sonarsim

@@ -31,7 +31,7 @@ std::string unit_of(std::string_view key) {
     return "";
 }
 
-/// The visitor that notes down what it is told of every key. It visits a sonar once for each kind
+/// The visitor that collects the documentation of every key. It visits a sonar once for each kind
 /// and a trajectory once for each form.
 class KeyCollector {
   public:
@@ -125,8 +125,8 @@ class KeyCollector {
         add(key, "true, false or a list", "false", meaning).choices = std::move(names);
     }
 
-    void place(const Place&) const {}
-    void place(const char*, const Place&) const {}
+    void place(const MissionPlace&) const {}
+    void place(const char*, const MissionPlace&) const {}
 
     const SonarKeys& sonar_kind(const char* key, const SonarConfig& value, const char* meaning) {
         std::vector<std::string> names;
@@ -149,12 +149,12 @@ class KeyCollector {
         T value;
         section(key, value, meaning);
     }
-    /// A trajectory has its tables where the vehicle's stands.
+    /// The tables of a trajectory are at the vehicle's trajectory.
     void optional_section(const char* key, std::optional<TrajectoryConfig>&, const char* meaning) {
         add(key, "section", "", meaning);
     }
 
-    /// A section that has several forms.
+    /// Visits a section that has several forms.
     template <class... T>
     void section(const char* key, std::variant<T...>& value, const char* meaning,
                  Presence presence = Presence::optional) {
@@ -178,7 +178,7 @@ class KeyCollector {
         add(key, "section per name", "", meaning, required);
         for (const SonarKeys& kind : sonars_) {
             kind_ = kind.name;
-            for (const EchoModel model : {EchoModel::of_paper, EchoModel::of_instrument}) {
+            for (const EchoModel model : {EchoModel::paper, EchoModel::calibrated}) {
                 SonarConfig sonar = kind.defaults;
                 sonar.model = model;
                 enter(path_below(key) + ".NAME", sonar);
@@ -199,13 +199,13 @@ class KeyCollector {
     }
 
   private:
-    /// The key's entry in the current section. What a kind of sonar met before told of it stays.
+    /// Returns the key's entry in the current section. Defaults of kinds visited before are kept.
     KeyReference& add(const char* key, std::string type, std::string value, const char* meaning,
                       Presence presence = Presence::optional) {
         std::vector<KeyReference>& keys = sections[current_].keys;
         auto row = std::ranges::find(keys, key, &KeyReference::name);
         if (row == keys.end()) {
-            // A key that only a later kind of sonar has belongs where that kind has it.
+            // A key that only a later kind of sonar has is inserted in the order of that kind.
             const auto before = std::ranges::find(keys, last_key_, &KeyReference::name);
             row = keys.insert(before == keys.end() ? before : std::next(before),
                               {.name = key,
@@ -218,7 +218,7 @@ class KeyCollector {
                                .meaning = meaning});
         }
         last_key_ = key;
-        // Either model of a kind has the same defaults; that of `model` itself is the paper's.
+        // Both models of a kind have the same defaults; the default of `model` is `paper`.
         const bool told = std::ranges::find(row->defaults, kind_, [](const auto& one) {
                               return std::string_view(one.first);
                           }) != row->defaults.end();
@@ -248,10 +248,10 @@ class KeyCollector {
         current_ = above;
     }
 
-    std::size_t current_ = 0;  ///< in `sections`
+    std::size_t current_ = 0;  ///< index in `sections`
     SonarKeyTable sonars_;
-    std::string kind_;      ///< of the sonar that is visited
-    std::string last_key_;  ///< that was visited
+    std::string kind_;      ///< kind of the visited sonar
+    std::string last_key_;  ///< last visited key
 };
 
 }  // namespace
@@ -260,7 +260,7 @@ std::vector<SectionReference> mission_reference(SonarKeyTable sonars) {
     KeyCollector collector(sonars);
     Mission mission;
     describe(collector, mission);
-    // A section with several forms has its keys in these.
+    // A section with several forms lists its keys by form.
     std::erase_if(collector.sections,
                   [](const SectionReference& section) { return section.keys.empty(); });
     return collector.sections;

@@ -10,7 +10,7 @@ namespace sonarsim {
 
 namespace {
 
-/// Without the plus and the zeros that C++ puts before an exponent: 1e9, not 1e+09.
+/// Writes 1e9 for the 1e+09 of C++.
 std::string short_text(double value) {
     std::string text = number_text(value);
     const std::size_t e = text.find('e');
@@ -33,7 +33,7 @@ std::string range_text(const KeyReference& key) {
     return text;
 }
 
-/// "120 (imaging, profiling), 170 (sidescan)", or the value alone where it holds for every kind.
+/// "120 (imaging, profiling), 170 (sidescan)", or one value if all kinds have it.
 std::string default_text(const KeyReference& key, std::size_t kinds) {
     if (key.required) return "required";
     if (key.defaults.empty()) return "";

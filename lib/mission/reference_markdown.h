@@ -7,7 +7,7 @@
 
 namespace sonarsim {
 
-/// A Markdown table per section: key, type and unit, default, range, meaning.
+/// Makes a Markdown table per section: key, type and unit, default, range, meaning.
 std::string reference_markdown(const std::vector<SectionReference>& sections);
 
 }  // namespace sonarsim

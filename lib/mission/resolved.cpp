@@ -9,7 +9,7 @@
 namespace sonarsim {
 
 std::string resolved_yaml(const Mission& mission, SonarKeyTable sonars) {
-    Mission copy = mission;  // a description may write, so it asks for more than const
+    Mission copy = mission;  // describe() takes no const mission
     MissionWriter writer(sonars);
     describe(writer, copy);
     return writer.yaml();

@@ -15,45 +15,45 @@ namespace sonarsim {
 enum class LengthUnit { m, mm, cm, km, inch, foot };
 enum class UpAxis { y, z };
 
-/// Names and what they are replaced by, in the order of the file.
+/// Pairs of a name and its replacement, in the order of the file.
 using Renaming = std::vector<std::pair<std::string, std::string>>;
 
-/// How a glTF file is read.
+/// Options for reading a glTF file.
 struct MeshConfig {
     LengthUnit units = LengthUnit::m;
     UpAxis up = UpAxis::y;
-    std::string material;              ///< of every triangle; "": the file's own
-    Renaming materials_map;            ///< from the names of the file to those of the CSV
-    std::vector<std::string> exclude;  ///< patterns of nodes that are left out
+    std::string material;              ///< for all triangles; "": the file's materials
+    Renaming materials_map;            ///< from names in the file to names in the CSV
+    std::vector<std::string> exclude;  ///< patterns of the nodes that are left out
 
     bool operator==(const MeshConfig&) const = default;
 };
 
 enum class ObjectPlace { free, on_bottom };
 
-/// A file that is put somewhere in the scene.
+/// A file that is placed in the scene.
 struct ObjectConfig {
-    std::string name;        ///< makes one instance of all nodes; "": each is its own
-    std::string class_name;  ///< "": as the file says
+    std::string name;        ///< the instance of all nodes; "": each is its own
+    std::string class_name;  ///< "": the class in the file
     std::filesystem::path file;
     MeshConfig mesh;
-    std::array<double, 3> position_m{};  ///< of the file's origin in the world
+    std::array<double, 3> position_m{};  ///< the file's origin in the world
     std::array<double, 3> rpy_deg{};
     double scale = 1.0;
     ObjectPlace place_on = ObjectPlace::free;
-    double bury_m = 0.0;  ///< how deep an object on the bottom sinks into it
-    bool align = false;   ///< an object on the bottom stands upright on its slope
+    double bury_m = 0.0;  ///< burial depth of an object on the bottom
+    bool align = false;   ///< upright on the bottom's slope
     std::optional<TrajectoryConfig> trajectory;
-    Place place;
+    MissionPlace place;
 
     bool operator==(const ObjectConfig&) const = default;
 };
 
-/// Objects that are strewn over the bottom. Pairs are ranges that are drawn from uniformly.
+/// Objects placed on the bottom at random. Pairs are limits of uniform draws.
 struct ScatterConfig {
-    std::string name;  ///< objects are NAME_1, NAME_2, ...
+    std::string name;  ///< the objects are NAME_1, NAME_2, ...
     std::string class_name;
-    std::vector<std::filesystem::path> files;  ///< each as likely as another
+    std::vector<std::filesystem::path> files;  ///< all equally likely
     MeshConfig mesh;
     std::array<double, 2> count{1, 1};
     std::array<double, 2> area_min_m{};  ///< x, y
@@ -65,19 +65,19 @@ struct ScatterConfig {
     std::array<double, 2> bury_m{};
     double spacing_m = 0.0;  ///< least distance between objects, seen from above
     bool align = false;
-    int tries = 1000;  ///< places that are tried for each object
-    Place place;
+    int tries = 1000;  ///< number of places tried for each object
+    MissionPlace place;
 
     bool operator==(const ScatterConfig&) const = default;
 };
 
-/// What becomes of a file that is put into the scene many times.
+/// Storage of a file that is placed in the scene many times.
 enum class RepeatedFiles { automatic, copied, shared };
 
-/// The surface of the water, a mirror for sound from below.
+/// The surface of the water, which reflects sound from below.
 struct WaterSurfaceConfig {
     double height_m = 0.0;
-    double roughness = 0.0;  ///< share of the sound that it scatters away
+    double roughness = 0.0;  ///< share of the sound that is scattered away
 
     bool operator==(const WaterSurfaceConfig&) const = default;
 };
@@ -85,14 +85,14 @@ struct WaterSurfaceConfig {
 struct SceneConfig {
     std::filesystem::path file;            ///< .gltf or .glb; "": objects alone make the scene
     std::filesystem::path materials;       ///< CSV
-    std::string material_default = {};     ///< for what the CSV lacks or has no name; "": an error
-    MeshConfig mesh = {};                  ///< of `file`
-    std::vector<std::string> bottom = {};  ///< patterns of nodes of `file` that objects rest on
+    std::string material_default = {};     ///< for surfaces without a known material; "": an error
+    MeshConfig mesh = {};                  ///< options for `file`
+    std::vector<std::string> bottom = {};  ///< patterns of the nodes of `file` that objects rest on
     std::vector<ObjectConfig> objects = {};
     std::vector<ScatterConfig> scatter = {};
     RepeatedFiles repeats = RepeatedFiles::automatic;
     std::optional<WaterSurfaceConfig> water_surface = {};
-    Place place = {};
+    MissionPlace place = {};
 
     bool operator==(const SceneConfig&) const = default;
 };

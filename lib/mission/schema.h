@@ -70,13 +70,14 @@ void describe(Visitor& v, WaterConfig& c) {
     v.number("density_kg_m3", c.density_kg_m3, between(least_medium, largest_medium),
              "density of the water");
     v.number_or_auto("sound_speed_m_s", c.sound_speed_m_s, between(least_medium, largest_medium),
-                     "speed of sound in the water; `auto`: by Mackenzie's formula of the four "
-                     "below");
-    v.number("temperature_c", c.temperature_c, between(-2, 40),
-             "temperature, for the absorption of the calibrated model");
-    v.number("salinity_psu", c.salinity_psu, between(0, 45), "salinity, likewise");
-    v.number("depth_m", c.depth_m, between(0, 12000), "depth below the surface, likewise");
-    v.number("ph", c.ph, between(6, 9), "acidity, likewise");
+                     "speed of sound in the water; `auto` computes it from temperature, salinity "
+                     "and depth by Mackenzie's formula");
+    v.number(
+        "temperature_c", c.temperature_c, between(-2, 40),
+        "temperature, for the absorption of the calibrated model and for sound_speed_m_s: auto");
+    v.number("salinity_psu", c.salinity_psu, between(0, 45), "salinity, for the same");
+    v.number("depth_m", c.depth_m, between(0, 12000), "depth below the surface, for the same");
+    v.number("ph", c.ph, between(6, 9), "acidity, for the absorption of the calibrated model");
 }
 
 template <class Visitor>
@@ -101,20 +102,19 @@ void describe(Visitor& v, NoiseConfig& c) {
              "standard deviation of the normal noise that multiplies every pixel; 0 is off");
     v.flag("scale_with_range", c.scale_with_range,
            "the added noise grows with range and towards the boresight");
-    v.number(
-        "lobe_sigma_deg", c.lobe_sigma_deg, between(0, 360),
-        "width of that growth towards the boresight; 0 means an eighth of the opening in azimuth");
+    v.number("lobe_sigma_deg", c.lobe_sigma_deg, between(0, 360),
+             "angular width of the added noise's growth towards the boresight; 0 means an eighth "
+             "of the full angle in azimuth");
     v.number("gain", c.gain, at_least(0),
-             "what every pixel is multiplied with, m of Eq. 12; 0 means the paper's: 0.5 for "
-             "imaging and profiling sonars, so that their images are half of what the model says "
-             "before noise, and 1 for others");
+             "factor m of Eq. 12 that multiplies every pixel; 0 means the paper's: 0.5 for imaging "
+             "and profiling sonars, which halves their images, and 1 for others");
 }
 
 template <class Visitor>
 void describe(Visitor& v, MultipathConfig& c) {
     v.choice("method", c.method, multipath_methods,
-             "echoes by way of a second surface: `cluster` traces clusters of samples to it, "
-             "`exact` every sample");
+             "multipath via a second surface: `cluster` traces one ray for a cluster of samples, "
+             "`exact` one for every sample");
     v.integer("epsilon_bins", c.epsilon_bins, between(0, 8192),
               "size of a cluster in range, azimuth and elevation bins");
     v.number("delta_deg", c.delta_deg, between(0, 180),
@@ -127,7 +127,7 @@ void describe(Visitor& v, StreaksConfig& c) {
              "azimuth streaks: `add` brightens a range row with too many echoes at normal "
              "incidence, `reduce` darkens it");
     v.number("threshold", c.threshold, between(0, 1),
-             "share of a row's echoes, by area, that is too many");
+             "share of a row's echo area at normal incidence from which on the row is a streak");
     v.number("angle_deg", c.angle_deg, between(0, 90),
              "largest angle of incidence that counts as normal");
 }
@@ -136,8 +136,8 @@ template <class Visitor>
 void describe(Visitor& v, SonarConfig& c) {
     const SonarKeys& keys = v.sonar_kind("kind", c, "the kind of sonar");
     v.path("preset", c.preset,
-           "YAML file with keys of this section, such as those of configs/sensors; a key that "
-           "stands here as well overrides the one there");
+           "YAML file with keys of this section, such as those of configs/sensors; keys given here "
+           "override those of the file");
     v.section("mount", c.mount, "where the sonar sits on the vehicle");
     v.integer("every", c.every, at_least(1), "the sonar pings at every n-th pose");
     if (keys.opening)
@@ -147,10 +147,12 @@ void describe(Visitor& v, SonarConfig& c) {
     if (keys.elevation)
         v.number("elevation_deg", c.elevation_deg, between(1e-3, 180), "full angle in elevation");
     if (keys.head) {
-        v.number("sector_deg", c.sector_deg, between(1e-2, 360),
-                 "full angle that the head covers: 360 round and round, less to and fro");
-        v.number("step_deg", c.step_deg, between(1e-2, 360),
-                 "angle that the head turns from ping to ping, rounded to divide the sector");
+        v.number(
+            "sector_deg", c.sector_deg, between(1e-2, 360),
+            "full angle that the head covers; at 360 it keeps turning, below it sweeps to and fro");
+        v.number(
+            "step_deg", c.step_deg, between(1e-2, 360),
+            "angle that the head turns from ping to ping, rounded so that it divides the sector");
         v.require(c.step_deg <= c.sector_deg, {"sector_deg", "step_deg"},
                   "step_deg must be at most sector_deg");
     }
@@ -158,13 +160,14 @@ void describe(Visitor& v, SonarConfig& c) {
     v.number("range_max_m", c.range_max_m, above(0), "farthest slant range, one way");
     // 8192 x 8192 bins are 2^26, the largest image that is rendered.
     v.integer("range_bins", c.range_bins, between(1, 8192),
-              "range bins of a ping; of a side-scan sonar to either side");
+              "number of range bins of a ping; for a side-scan sonar, of each side");
     if (keys.azimuth_bins)
-        v.integer("azimuth_bins", c.azimuth_bins, between(1, 8192), "beams of a ping");
-    v.section("multipath", c.multipath, "echoes by way of a second surface");
-    v.choice("model", c.model, echo_models,
-             "how an echo is worked out: as in the paper, or as the instrument measures it");
-    if (c.model == EchoModel::of_instrument) {
+        v.integer("azimuth_bins", c.azimuth_bins, between(1, 8192), "number of beams of a ping");
+    v.section("multipath", c.multipath, "multipath via a second surface");
+    v.choice(
+        "model", c.model, echo_models,
+        "echo model: the paper's, or the calibrated one, which gives what the instrument measures");
+    if (c.model == EchoModel::calibrated) {
         v.section("instrument", c.instrument, "the instrument of the calibrated model");
         const BeamConfig& beam = c.instrument.beam;
         const bool forward = beam.aperture == Aperture::line || beam.aperture == Aperture::head;
@@ -174,20 +177,19 @@ void describe(Visitor& v, SonarConfig& c) {
         v.require(beam.view_azimuth_deg == 0.0 || beam.view_azimuth_deg >= c.azimuth_deg,
                   {"azimuth_deg", "instrument"},
                   "instrument.beam.view_azimuth_deg must be 0 or at least azimuth_deg");
-        v.require(
-            beam.aperture != Aperture::head || c.azimuth_deg >= beam.width_deg,
-            {"azimuth_deg", "instrument"},
-            "a calibrated scanning sonar looks at what azimuth_deg lets it: it must be at "
-            "least instrument.beam.width_deg, two and a half times that to have the main lobe "
-            "and four times to have the first side lobes");
-        v.require(beam.aperture != Aperture::sides || c.elevation_deg >= beam.width_deg,
+        v.require(beam.aperture != Aperture::head || c.azimuth_deg >= beam.width_deg,
+                  {"azimuth_deg", "instrument"},
+                  "azimuth_deg limits what a calibrated scanning sonar insonifies: it must be at "
+                  "least instrument.beam.width_deg; 2.5 times the width holds the main lobe, 4 "
+                  "times the first side lobes");
+        v.require(beam.aperture != Aperture::port_starboard || c.elevation_deg >= beam.width_deg,
                   {"elevation_deg", "instrument"},
-                  "a calibrated side-scan sonar looks at what elevation_deg lets it: it must be at "
-                  "least instrument.beam.width_deg, and a few times that to have the side lobes");
+                  "elevation_deg limits what a calibrated side-scan sonar insonifies: it must be "
+                  "at least instrument.beam.width_deg; a few times the width holds the side lobes");
         v.require(beam.aperture != Aperture::piston || c.opening_deg >= beam.width_deg,
                   {"opening_deg", "instrument"},
-                  "a calibrated echosounder looks at what opening_deg lets it: it must be at least "
-                  "instrument.beam.width_deg, and three times that to have the main lobe");
+                  "opening_deg limits what a calibrated echosounder insonifies: it must be at "
+                  "least instrument.beam.width_deg; 3 times the width holds the main lobe");
     } else {
         v.section("noise", c.noise, "the random terms of the paper's model");
         v.section("streaks", c.streaks, "azimuth streaks of the paper's model");
@@ -210,25 +212,26 @@ template <class Visitor>
 void describe(Visitor& v, AccuracyConfig& c) {
     v.number("relative_l1", c.relative_l1, between(1e-4, 0.5),
              "error goal of the image without noise: the sum of its absolute errors over its sum. "
-             "Sampling follows from it");
+             "The sampling is derived from it");
 }
 
 template <class Visitor>
 void describe(Visitor& v, OctreeConfig& c) {
     // Leaves below a millimetre are finer than any sonar's bins.
     v.number_or_auto("leaf_m", c.leaf_m, between(1e-3, 1e3),
-                     "edge of the octree's leaves; `auto`: what accuracy.relative_l1 calls for");
-    v.integer("memory_mb", c.memory_mb, between(1, 1e6),
-              "above this the octree drops what has not been seen for longest");
-    v.flag("literal", c.literal, "the octree of the paper to the letter, as a baseline");
+                     "edge of the octree's leaves; `auto` derives it from accuracy.relative_l1");
+    v.integer(
+        "memory_mb", c.memory_mb, between(1, 1e6),
+        "memory limit; above it the octree drops the nodes that have not been seen for longest");
+    v.flag("literal", c.literal, "use the octree exactly as the paper prints it, as a baseline");
 }
 
 template <class Visitor>
 void describe(Visitor& v, SlicesConfig& c) {
     v.integer(
         "per_beam", c.per_beam, between(0, 64),
-        "slices to a beam, one of them on its border; 0 means what accuracy.relative_l1 calls "
-        "for. A wide beam, a side and a cone have more");
+        "slices per beam, one of them on its border; 0 derives the number from "
+        "accuracy.relative_l1. Wide beams, the sides of a side-scan sonar and cones have more");
 }
 
 template <class Visitor>
@@ -236,9 +239,10 @@ void describe(Visitor& v, ClassConfig& c) {
     v.place(c.place);
     v.text("nodes", c.nodes,
            "names of nodes of the scene; `*` stands for any text and `?` for any one byte");
-    v.text("class", c.name, "their class");
+    v.text("class", c.name, "class of these nodes");
     v.text("instance", c.instance,
-           "the one instance that all of them are parts of; each is one of its own where left out");
+           "name of the one instance that these nodes form; without it each node is an instance of "
+           "its own");
     v.require(!c.nodes.empty() && !c.name.empty(), {},
               "a rule for classes needs the keys 'nodes' and 'class'");
 }
@@ -246,22 +250,22 @@ void describe(Visitor& v, ClassConfig& c) {
 template <class Visitor>
 void describe(Visitor& v, SplitConfig& c) {
     v.place(c.place);
-    v.number("train", c.train, between(0, 1), "share of the trajectory to learn with");
-    v.number("val", c.val, between(0, 1), "share to choose a network by");
-    v.number("test", c.test, between(0, 1), "share to test it with");
+    v.number("train", c.train, between(0, 1), "share of the trajectory for training");
+    v.number("val", c.val, between(0, 1), "share for validation");
+    v.number("test", c.test, between(0, 1), "share for testing");
     const double sum = c.train + c.val + c.test;
     v.require(!c.is_on() || (sum > 1.0 - 1e-6 && sum < 1.0 + 1e-6), {"train", "val", "test"},
               "train, val and test must add up to 1");
     v.integer("gap", c.gap, between(0, 1e6),
-              "poses at each border of two parts that belong to none of them");
+              "poses at each border of two parts that belong to neither of them");
     v.integer("rounds", c.rounds, between(1, 1e6),
-              "how often train, val and test follow each other along the trajectory");
+              "number of times that train, val and test repeat along the trajectory");
 }
 
 template <class Visitor>
 void describe(Visitor& v, FanStyleConfig& c) {
     v.choice("colours", c.colours, fan_colours,
-             "what dark to bright become; `sea` goes from violet over green to yellow");
+             "colour map from dark to bright; `sea` goes from violet over green to yellow");
     v.flag("rings", c.rings, "draw rings of equal range, with their numbers");
     v.flag("bearings", c.bearings,
            "draw lines of equal azimuth, with their degrees to port (P) and starboard (S)");
@@ -269,15 +273,15 @@ void describe(Visitor& v, FanStyleConfig& c) {
 
 template <class Visitor>
 void describe(Visitor& v, OutputConfig& c) {
-    v.path("folder", c.folder,
-           "folder of the dataset; out/NAME in the current directory where left out");
+    v.path("folder", c.folder, "folder of the dataset; default: out/NAME in the current directory");
     v.flag("polar", c.polar, "write every ping of imaging and profiling sonars as float32");
     v.flag("image", c.image,
-           "write every ping of these sonars as a 16-bit PNG; it holds no more than `polar` does");
+           "write every ping of these sonars as a 16-bit PNG, which holds no more than `polar`");
     v.flag("raw", c.raw,
-           "with the calibrated model, write every ping as the instrument delivers it: of imaging "
-           "and profiling sonars a PNG, of others a record of raw.npy");
-    v.flag("fan", c.fan, "write every ping of these sonars as the 8-bit fan that an operator sees");
+           "with the calibrated model, write every ping as the instrument delivers it: a PNG for "
+           "imaging and profiling sonars, a record of raw.npy for others");
+    v.flag("fan", c.fan,
+           "write every ping of these sonars as an 8-bit fan, as an operator sees it");
     v.flag("meta", c.meta, "write a JSON file per ping");
     v.flag("stages", c.stages,
            "write five fans side by side: direct echoes, then with multipath, range noise, pixel "
@@ -285,71 +289,69 @@ void describe(Visitor& v, OutputConfig& c) {
     v.integer("fan_width_px", c.fan_width_px, between(0, 8192),
               "width of the fan; 0 means one pixel per range bin, at most 1024");
     v.section("fan_style", c.fan_style,
-              "how the fans and scans in PNG files are drawn: grey of one channel where nothing is "
-              "set, else RGB");
-    v.number_or_auto(
-        "full_scale", c.full_scale, above(0),
-        "intensity that becomes white in pictures; `auto`: found for each sonar from a few pings, "
-        "and told in dataset.json");
+              "style of the fans and scans in PNG files: one grey channel by default, RGB if any "
+              "key is set");
+    v.number_or_auto("full_scale", c.full_scale, above(0),
+                     "intensity that becomes white in pictures; `auto` finds it for each sonar "
+                     "from a few pings and writes it to dataset.json");
     v.subset("labels", c.labels, label_names,
-             "write what is in every bin: `true` for all, or a list of them");
+             "labels to write for every bin: `true` for all, or a list of them");
     v.place("labels", c.labels_place);
-    v.section("split", c.split,
-              "lists of poses to learn and to test with, by stretches of the trajectory");
+    v.section(
+        "split", c.split,
+        "lists of poses for training, validation and testing, by stretches of the trajectory");
     v.choice("pack", c.pack, packs,
-             "`tar`: the files of pings are written into a few archives, as WebDataset reads them, "
-             "instead of by themselves");
+             "`tar` writes the files of pings into a few archives that WebDataset reads; `none` "
+             "writes single files");
     v.number("pack_size_mb", c.pack_size_mb, between(1e-3, 1e6),
-             "the most that an archive may take; the pings in it are as many as surely fit");
+             "largest size of an archive; it holds as many pings as surely fit");
     v.flag("waterfall", c.waterfall, "write the waterfalls of side-scan sonars");
     v.flag("echogram", c.echogram, "write the echograms of echosounders");
     v.flag("soundings", c.soundings,
            "write the soundings of profiling sonars and the map made of them");
     v.flag("scan", c.scan, "write the scans of scanning sonars");
     v.number("bathymetry_cell_m", c.bathymetry_cell_m, at_least(0),
-             "cell of the map of soundings; 0 means four soundings to a cell or more on average");
+             "cell size of the map of soundings; 0 gives a cell four soundings or more on average");
     v.flag("xtf", c.xtf, "with `waterfall`, write it as XTF as well, for other programs");
-    v.flag("mosaic", c.mosaic,
-           "with `waterfall`, lay it on the ground: a map of echoes as GeoTIFF");
+    v.flag("mosaic", c.mosaic, "with `waterfall`, write a georeferenced mosaic of it as GeoTIFF");
     v.number("mosaic_cell_m", c.mosaic_cell_m, at_least(0),
-             "cell of the mosaic; 0 means as wide as pings lie apart");
+             "cell size of the mosaic; 0 means the distance between pings");
     v.require(c.waterfall || !(c.xtf || c.mosaic), {"waterfall", "xtf", "mosaic"},
               "xtf and mosaic are made of the waterfall: write waterfall: true");
 }
 
 template <class Visitor>
 void describe(Visitor& v, Mission& c) {
-    v.text("name", c.name, "name of the dataset; that of the mission's file where left out");
+    v.text("name", c.name, "name of the dataset; default: the name of the mission's file");
     v.require(is_folder_name(c.name), {"name"},
               "'name' names a folder: at most 200 bytes, without '/', not SHA256SUMS or "
               "collection.json");
-    v.integer("seed", c.seed, "every random draw follows from it; 0 is a seed like any other");
+    v.integer("seed", c.seed, "seed of all random draws; 0 is a seed like any other");
     v.section("water", c.water, "the water");
     v.section("scene", c.scene, "what the sonars look at", required);
     v.section("trajectory", c.trajectory, "where the vehicle goes; exactly one of the three forms",
               required);
-    v.section("vehicle", c.vehicle, "how far the vehicle is off its trajectory");
+    v.section("vehicle", c.vehicle, "offset of the vehicle from its trajectory");
     v.named("sensors", c.sensors, "one section per sonar; NAME is its folder in the dataset");
-    v.section("accuracy", c.accuracy, "how exact the images are");
-    v.choice(
-        "engine", c.engine, engine_kinds,
-        "what finds the visible surface; `auto` takes the slices, or the rays for a sonar with "
-        "multipath, for one for which they meet the error goal with less work, and where "
-        "objects move. The octree sees up to 160 degrees of elevation or opening");
+    v.section("accuracy", c.accuracy, "error goal of the images");
+    v.choice("engine", c.engine, engine_kinds,
+             "method that finds the visible surface. `auto` takes the slices; it takes the rays "
+             "for a sonar with multipath, where they meet the error goal with less work, and where "
+             "objects move. The octree sees up to 160 degrees of elevation or opening");
     v.section("octree", c.octree, "settings of the octree");
     v.section("slices", c.slices, "settings of the slices");
     v.list("classes", c.classes, 0,
-           "which nodes of the scene are a class of things, for labels; the first rule that fits a "
-           "node counts");
+           "rules that give nodes of the scene a class, for labels; the first rule that fits a "
+           "node applies");
     v.section("output", c.output, "what is written, and where");
     v.integer("variants", c.variants, between(0, 1e6),
-              "how many variants of the mission are drawn, each a dataset with a seed of its own; "
-              "0: the mission as it stands");
-    v.list("vary", c.vary, 0, "which keys are drawn at random");
+              "number of variants of the mission, each a dataset with a seed of its own; 0 renders "
+              "the mission as it stands");
+    v.list("vary", c.vary, 0, "keys that are drawn at random");
     const auto is_of_pings = [](const VaryConfig& rule) { return rule.per == VaryPer::ping; };
     v.require(c.variants > 0 || std::ranges::all_of(c.vary, is_of_pings), {"vary", "variants"},
-              "'vary' says what differs between variants: say how many with 'variants', or write "
-              "per: ping");
+              "'vary' needs 'variants', the number of variants to draw, or per: ping in each of "
+              "its rules");
 }
 
 }  // namespace sonarsim

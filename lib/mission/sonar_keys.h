@@ -7,14 +7,14 @@
 
 namespace sonarsim {
 
-/// What a mission says of one kind of sonar. The kinds themselves are in lib/sonar, which a mission
-/// knows nothing of: whoever reads or writes one hands their keys in.
+/// The keys of one kind of sonar in a mission. The kinds are defined in lib/sonar, above
+/// lib/mission: callers that read or write a mission pass their keys.
 struct SonarKeys {
     SonarKind kind;
     std::string_view name;
     SonarConfig defaults;
 
-    // The keys that not every kind has.
+    // Keys that only some kinds have.
     bool azimuth = true;        ///< azimuth_deg
     bool elevation = true;      ///< elevation_deg
     bool opening = false;       ///< opening_deg

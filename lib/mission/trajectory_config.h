@@ -7,7 +7,7 @@
 
 namespace sonarsim {
 
-/// Poses from a file, either taken as they are or interpolated at `rate_hz`.
+/// Poses from a file, either as they are or interpolated at `rate_hz`.
 struct FileTrajectoryConfig {
     std::filesystem::path file;  ///< .csv or TUM .txt/.tum
     double rate_hz = 0.0;        ///< 0: one ping per pose of the file
@@ -31,7 +31,7 @@ struct WaypointTrajectoryConfig {
     bool operator==(const WaypointTrajectoryConfig&) const = default;
 };
 
-/// Parallel lines over a rectangle, flown to and fro at constant height.
+/// Parallel lines over a rectangle at constant height, run to and fro.
 struct LawnmowerTrajectoryConfig {
     std::array<double, 2> area_min_m{};  ///< x, y
     std::array<double, 2> area_max_m{};
@@ -44,10 +44,10 @@ struct LawnmowerTrajectoryConfig {
     bool operator==(const LawnmowerTrajectoryConfig&) const = default;
 };
 
-/// How far a vehicle is off the poses of its trajectory.
+/// Offset of a vehicle from the poses of its trajectory.
 struct VehicleConfig {
-    std::array<double, 3> offset_m{};  ///< world
-    std::array<double, 3> turn_deg{};  ///< roll, pitch, yaw; on top of the attitude
+    std::array<double, 3> offset_m{};  ///< world frame
+    std::array<double, 3> turn_deg{};  ///< roll, pitch, yaw, vehicle frame
 
     bool operator==(const VehicleConfig&) const = default;
 };

@@ -25,7 +25,7 @@ void describe(Visitor& v, WaypointConfig& c) {
 template <class Visitor>
 void describe(Visitor& v, WaypointTrajectoryConfig& c) {
     v.list("waypoints", c.waypoints, 2,
-           "poses in the order in which they are visited, by straight legs");
+           "poses in the order of the trajectory, joined by straight legs");
     v.number("speed_m_s", c.speed_m_s, above(0), "speed along the legs");
     v.number("rate_hz", c.rate_hz, above(0), "poses per second");
 }
@@ -63,8 +63,7 @@ void describe(Visitor& v, VehicleConfig& c) {
     v.numbers("offset_m", c.offset_m, any_position_m,
               "added to the position of every pose: x, y, z in the world");
     v.numbers("turn_deg", c.turn_deg, any_angle_deg,
-              "roll, pitch and yaw by which the vehicle is turned out of every pose, in its own "
-              "frame");
+              "roll, pitch and yaw that are added to every pose, in the vehicle's own frame");
 }
 
 }  // namespace sonarsim

@@ -19,7 +19,7 @@ std::uint64_t seed_of(std::uint64_t seed, std::uint32_t variant) {
     return (std::uint64_t{key.k1} << 32) | key.k0;
 }
 
-/// Leaves the rules that are drawn for every ping, if there are any.
+/// Keeps only the rules that are drawn for every ping.
 void keep_rules_of_pings(YamlNode& root, const std::vector<VaryConfig>& rules) {
     YamlNode* list = root.find("vary");
     if (list == nullptr) return;
@@ -62,7 +62,7 @@ std::vector<Mission> draw_variants(const Mission& mission, const MissionSource& 
         Mission& drawn = variants.emplace_back(
             parse_mission(root, source.file.string(), source.base_folder, sonars));
         drawn.output.folder = mission.output.folder / variant_folder(i);
-        drawn.output.split = {};  // which parts whole variants
+        drawn.output.split = {};  // a split applies to whole variants
         drawn.variant = std::move(variant);
     }
     return variants;

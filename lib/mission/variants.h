@@ -12,19 +12,19 @@
 
 namespace sonarsim {
 
-/// What a mission is read from, as in load_mission.
+/// The source of a mission, as in load_mission().
 struct MissionSource {
     std::filesystem::path file;
     std::filesystem::path base_folder;
     std::vector<std::string> overrides;
 };
 
-/// The variants of a mission: missions with the keys that `vary` names drawn, all but those that
-/// are drawn for every ping, whose rules stay. The seed of each follows from that of the mission
-/// and its index, and every draw from the seed, the place of its rule in `vary` and the index; so a
-/// variant does not depend on how many there are. Each holds what was drawn as Mission::variant and
-/// has a folder of its own in the mission's output folder. InputError at the place in `vary` for a
-/// key or a value that the mission does not take.
+/// Draws the variants of a mission: missions with the keys of `vary` drawn. Rules that are drawn
+/// for every ping are kept. The seed of a variant is a function of the mission's seed and the
+/// variant's index, a draw one of the seed, the index of its rule in `vary` and the variant's
+/// index; so a variant does not depend on their number. Mission::variant holds the drawn values.
+/// Each variant has a folder of its own in the mission's output folder. Throws InputError at the
+/// place in `vary` for a key or a value that the mission does not accept.
 std::vector<Mission> draw_variants(const Mission& mission, const MissionSource& source,
                                    SonarKeyTable sonars);
 

@@ -23,16 +23,17 @@ void describe(Visitor& v, VaryConfig& c) {
            "scene.objects.0.position_m.2",
            required);
     v.choice("per", c.per, vary_pers,
-             "drawn for every variant, once for all of them, or for every ping: of a sensor its "
-             "mount, the numbers of its noise and of its streaks, and the offset of the vehicle");
+             "when the key is drawn: for every variant, once for all variants (`dataset`), or for "
+             "every ping. Keys that may vary per ping are a sensor's mount, the numbers of its "
+             "noise and streaks, and the offset of the vehicle");
     v.optional_numbers("uniform", c.uniform, any, "the least and the largest number");
     v.optional_numbers("log_uniform", c.log_uniform, any,
-                       "the same, and each decade as likely as another");
+                       "the least and the largest number; each decade is equally likely");
     v.optional_numbers("whole", c.whole, any, "the least and the largest whole number");
     v.optional_numbers("normal", c.normal, any, "mean and standard deviation");
     v.optional_numbers("within", c.within, any,
-                       "the least and the largest number that a normal draw may be");
-    v.values("choice", c.choice, "values of any kind, each as likely as another");
+                       "limits of a normal draw; a draw outside them is repeated");
+    v.values("choice", c.choice, "values of any kind, each equally likely");
     const auto rises = [](const auto& pair) { return !pair || (*pair)[0] <= (*pair)[1]; };
     v.require(
         c.uniform.has_value() + c.log_uniform.has_value() + c.whole.has_value() +
@@ -46,10 +47,9 @@ void describe(Visitor& v, VaryConfig& c) {
               "'log_uniform' takes numbers above 0");
     v.require(!c.normal || (*c.normal)[1] >= 0.0, {"normal"},
               "the standard deviation must not be negative");
-    v.require(!c.within || c.normal, {"within"}, "'within' belongs to 'normal'");
+    v.require(!c.within || c.normal, {"within"}, "'within' needs 'normal'");
     v.require(c.per != VaryPer::ping || !c.normal || c.within, {"normal", "per"},
-              "a normal draw for every ping needs 'within', the least and the largest that it may "
-              "be");
+              "a normal draw for every ping needs 'within', the limits of the draw");
 }
 
 }  // namespace sonarsim

@@ -35,7 +35,7 @@ void MissionWriter::flag(const char* key, bool value, const char* /*meaning*/) {
     line(key, value ? "true" : "false");
 }
 
-// Text stands in quotes always: a sensor named "null" stays one.
+// Text is always quoted, so that a sensor named "null" stays text.
 
 void MissionWriter::text(const char* key, std::string_view value, const char* /*meaning*/,
                          Presence) {

@@ -18,7 +18,7 @@
 
 namespace sonarsim {
 
-/// The visitor that turns a mission into YAML, every value of it. It checks nothing.
+/// The visitor that writes a mission as YAML, with all values. It checks nothing.
 class MissionWriter {
   public:
     explicit MissionWriter(SonarKeyTable sonars) : sonars_(sonars) {}
@@ -75,8 +75,8 @@ class MissionWriter {
         line(key, list.empty() ? "false" : list + "]");
     }
 
-    void place(const Place&) const {}
-    void place(const char*, const Place&) const {}
+    void place(const MissionPlace&) const {}
+    void place(const char*, const MissionPlace&) const {}
 
     const SonarKeys& sonar_kind(const char* key, const SonarConfig& value, const char* meaning);
 

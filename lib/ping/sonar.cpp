@@ -11,8 +11,8 @@ double head_angle_rad(const Sonar& sonar, std::uint32_t pose) {
 }
 
 bool has_even_sines(const Sonar& sonar) {
-    return sonar.config.model == EchoModel::of_instrument &&
-           sonar.config.instrument.beam.spread == BeamSpread::sine;
+    return sonar.config.model == EchoModel::calibrated &&
+           sonar.config.instrument.beam.spread == BeamSpacing::equal_sine;
 }
 
 double column_at(const Sonar& sonar, double azimuth_rad) {

@@ -21,7 +21,7 @@ struct Sonar {
     std::vector<double> head_angles_rad;
     /// Of a sonar that makes soundings: what range noise adds to a range, m, by the length in bins
     /// of the run that shows the surface. Empty: nothing.
-    std::vector<double> run_offsets_m;
+    std::vector<double> range_bias_m;
 };
 
 /// The angle of the head at the pose with this index on the trajectory; 0 for a fixed sonar.

@@ -9,7 +9,7 @@ namespace sonarsim {
 
 namespace {
 
-constexpr int edge_steps = 48;  // along each side, or around a cone
+constexpr int edge_steps = 48;  // rays along each side, or around a cone
 
 Ray ray_along(const Eigen::Vector3d& direction) {
     return {Eigen::Vector3f::Zero(), direction.cast<float>().normalized()};

@@ -9,11 +9,11 @@
 
 namespace sonarsim {
 
-/// The edge of what a sonar looks at: where rays along it end, on a surface or at the greatest
-/// range.
+/// The outline of a sonar's view: the end points of rays along its edge, on a surface or at the
+/// largest range.
 struct BeamOutline {
-    Eigen::Vector3d origin;             ///< the sonar, world
-    std::vector<Eigen::Vector3d> ends;  ///< once around, world
+    Eigen::Vector3d origin;             ///< position of the sonar, world
+    std::vector<Eigen::Vector3d> ends;  ///< end points once around, world
     Rgb colour;
 };
 

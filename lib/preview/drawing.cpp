@@ -23,7 +23,7 @@ void tint(Picture& picture, int x, int y, Rgb colour, float share) {
 
 void draw_line(Picture& picture, Eigen::Vector2d from, Eigen::Vector2d to, Rgb colour,
                float share) {
-    // What is far outside is cut off first (Liang and Barsky), so that the steps are few.
+    // Clipping the line first (Liang and Barsky) keeps the number of steps small.
     const Eigen::Vector2d way = to - from;
     double begin = 0.0;
     double end = 1.0;
@@ -84,7 +84,7 @@ PlaneFrame plane_frame(int width, int height, const Eigen::Vector2d& low,
     PlaneFrame frame;
     frame.width = width;
     frame.height = height;
-    // Room for the longest number of the vertical axis.
+    // The margin holds the longest number of the vertical axis.
     const double furthest = std::max(std::fabs(low.y()), std::fabs(high.y()));
     const std::string longest = "-" + std::to_string(std::llround(furthest)) + ".5 m";
     frame.left = std::max(least_left_margin, text_width(longest) + 12);

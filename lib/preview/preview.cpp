@@ -54,7 +54,7 @@ std::string significant(double value) {
     return {text.data(), end.ptr};
 }
 
-/// The font's only small letter is that of the metre, which a name shall not have.
+/// The font draws a small m as the sign of the metre, which a name must not contain.
 std::string capitals(std::string text) {
     for (char& letter : text) {
         if (letter == 'm') letter = 'M';
@@ -82,15 +82,15 @@ std::string title_of(const Sonar& sonar, std::uint32_t pose, double white) {
            " bins   white = " + significant(white);
 }
 
-/// Where the mission leaves the engine open, rays: to try which one does less work takes longer
-/// than the few pings of a preview.
+/// `engine: auto` becomes the rays, since trying the engines takes longer than the few pings of a
+/// preview.
 EngineSettings settings_of_preview(const Mission& mission) {
     EngineSettings settings = engine_settings(mission);
     if (settings.type == EngineType::automatic) settings.type = EngineType::rays;
     return settings;
 }
 
-/// Sampled no finer than the picture can show.
+/// Limits the sampling to what the picture can show.
 Sonar coarse(Sonar sonar) {
     constexpr double coarse_l1 = 0.1;
     View& view = sonar.settings.view;
@@ -98,7 +98,7 @@ Sonar coarse(Sonar sonar) {
     return sonar;
 }
 
-/// Rows of as many tiles as look well.
+/// The number of tiles in each row.
 Picture arrange(const std::string& head, const std::vector<Tile>& tiles) {
     const int columns = tiles.size() > 6 ? 3 : 2;
     const int rows = (static_cast<int>(tiles.size()) + columns - 1) / columns;

@@ -16,8 +16,8 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Corners = std::array<Vector3d, 3>;
 
-/// The triangles of the scene as they are at that pose, world; of copies those whose box is wanted.
-/// Of very many of these every n-th is visited.
+/// Visits the triangles of the scene at a pose, world. Of the copies it visits those whose box is
+/// wanted, and only every n-th if there are very many.
 template <class Wanted, class Visit>
 void for_each_triangle(const Assembly& assembly, std::uint32_t pose, const Wanted& wanted,
                        const Visit& visit) {
@@ -36,7 +36,7 @@ void for_each_triangle(const Assembly& assembly, std::uint32_t pose, const Wante
         for (const auto& [a, b, c] : body.triangles)
             visit({moved(a), moved(b), moved(c)});
     }
-    constexpr std::size_t most_of_copies = 3'000'000;  // so that preview stays quick
+    constexpr std::size_t most_of_copies = 3'000'000;  // keeps the preview quick
     const std::vector<Eigen::AlignedBox3d> boxes = boxes_of_copies(scene);
     std::size_t count = 0;
     for (std::size_t k = 0; k < boxes.size(); ++k) {
@@ -57,10 +57,10 @@ void for_each_triangle(const Assembly& assembly, std::uint32_t pose, const Wante
     }
 }
 
-/// What is kept of the surface in each pixel.
+/// Keeps the height of the highest surface in each pixel.
 struct HeightRaster {
     const PlaneFrame& frame;
-    double ceiling;  ///< what is higher is left out
+    double ceiling;  ///< higher surface is left out
     std::vector<float> z;
 
     void put(int column, int row, double height) {
@@ -71,17 +71,17 @@ struct HeightRaster {
         if (!(here >= height)) here = static_cast<float>(height);
     }
 
-    /// In pixels of the plot.
+    /// Coordinates in pixels of the plot.
     Vector2d place(const Vector3d& p) const {
         return frame.pixel(p.head<2>()) - Vector2d(frame.left, frame.top);
     }
 
-    /// So that what is thinner than a pixel, or upright, is seen, too. Of what is upright there is
-    /// a part below the ceiling wherever there is one above.
+    /// Draws the edges of triangles, so that thin and upright ones are visible, too. An upright
+    /// triangle has a part below the ceiling wherever it has one above.
     void put_edge(const Vector3d& a, const Vector3d& b, bool upright) {
         const Vector2d from = place(a);
         const Vector2d way = place(b) - from;
-        // The part of it that lies in the plot: an edge may be a million times as long.
+        // Only the part in the plot is stepped along: an edge may be a million times as long.
         double begin = 0.0;
         double end = 1.0;
         for (const auto& [start, change, last] :
@@ -111,7 +111,7 @@ struct HeightRaster {
         if (std::fabs(area) < 1e-9) return;
         const Vector2d low = a + ab.cwiseMin(ac).cwiseMin(0.0);
         const Vector2d high = a + ab.cwiseMax(ac).cwiseMax(0.0);
-        // A corner may be further off than an int can tell.
+        // The coordinates of a corner may exceed an int.
         const Vector2d size(frame.plot_width, frame.plot_height);
         const Eigen::Vector2i first = low.cwiseMax(0.0).cwiseMin(size).cast<int>();
         const Eigen::Vector2i last =

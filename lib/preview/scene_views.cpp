@@ -25,14 +25,14 @@ struct Box2 {
         low = low.cwiseMin(at);
         high = high.cwiseMax(at);
     }
-    /// Larger by a share of its longer side on all sides, and at least a metre.
+    /// Enlarges the area on all sides by a share of its longer side, at least by a metre.
     Box2 padded(double share) const {
         const double by = std::max(0.5, share * (high - low).maxCoeff());
         return {low.array() - by, high.array() + by};
     }
 };
 
-/// Lines from the sonar to the edge of its view, faint, and the edge itself.
+/// Draws faint lines from the sonar to the edge of its view, and the edge.
 template <class Project>
 void draw_beam(Picture& tile, const PlaneFrame& frame, const BeamOutline& beam,
                const Project& project) {
@@ -46,7 +46,7 @@ void draw_beam(Picture& tile, const PlaneFrame& frame, const BeamOutline& beam,
     }
 }
 
-/// The heights in colours, less bright than what is drawn over them, lit from the north-west.
+/// Draws the heights in dim colours with light from the north-west.
 void draw_heights(Picture& tile, const PlaneFrame& frame, const std::vector<float>& heights) {
     std::vector<float> known;
     std::ranges::copy_if(heights, std::back_inserter(known),
@@ -76,7 +76,7 @@ void draw_heights(Picture& tile, const PlaneFrame& frame, const std::vector<floa
 
 Vector2d heading_of(const Pose& T_world_vehicle) {
     const Vector3d bow = T_world_vehicle.rotation * Vector3d::UnitX();
-    // Straight up or down there is none: any will do.
+    // A vehicle that points straight up or down has no heading; any axis will do.
     return bow.head<2>().norm() < 1e-6 ? Vector2d(1.0, 0.0) : Vector2d(bow.head<2>().normalized());
 }
 
@@ -93,7 +93,7 @@ Picture draw_plan(const Moment& moment, int width, int height) {
             box.add(flat(end));
     }
     box = box.padded(0.1);
-    // All of the scene where it is not much larger.
+    // The plan shows all of the scene if it is not much larger.
     const Scene& scene = moment.assembly.scene;
     const Vector2d scene_low = flat(scene.bounds_min);
     const Vector2d scene_high = flat(scene.bounds_max);
@@ -122,7 +122,7 @@ Picture draw_plan(const Moment& moment, int width, int height) {
 Picture draw_section(const Moment& moment, bool across, int width, int height) {
     const Pose& now = moment.assembly.trajectory[moment.pose].T_world_vehicle;
     const Vector2d ahead = heading_of(now);
-    // To starboard where it runs across, so that port is on the left as seen from astern.
+    // The axis across points to starboard, so that port is on the left as seen from astern.
     const Vector2d axis = across ? Vector2d(ahead.y(), -ahead.x()) : ahead;
     const auto project = [&](const Vector3d& p) -> Vector2d {
         return {axis.dot(p.head<2>() - now.translation.head<2>()), p.z()};

@@ -16,12 +16,12 @@ namespace sonarsim {
 
 namespace {
 
-constexpr std::size_t series_pings = 120;  // of a waterfall or an echogram
+constexpr std::size_t series_pings = 120;  // pings of a waterfall or an echogram
 constexpr FanStyleConfig fan_style{FanColours::amber, true, true};
-constexpr int axis_px = 20;    // below a waterfall
-constexpr int number_px = 52;  // beside an echogram
+constexpr int axis_px = 20;    // height of the axis below a waterfall
+constexpr int number_px = 52;  // width of the numbers beside an echogram
 
-/// The poses of `count` pings of a sonar that end with `last`, fewer at the beginning.
+/// The poses of `count` pings of a sonar up to `last`; fewer at the start of the trajectory.
 std::vector<std::uint32_t> poses_until(const Sonar& sonar, std::uint32_t last, std::size_t count) {
     const auto every = static_cast<std::uint32_t>(sonar.config.every);
     std::vector<std::uint32_t> poses;
@@ -39,7 +39,7 @@ std::vector<Ping> render_all(const std::vector<std::uint32_t>& poses, const Rend
     return pings;
 }
 
-/// The fan, as large as fits.
+/// Draws the largest fan that fits.
 SonarPanel draw_fan(const Sonar& sonar, const Ping& ping, int width, int height) {
     const FanFrame full = fan_frame(sonar, width);
     const int fits = full.height <= height
@@ -65,14 +65,14 @@ SonarPanel draw_scan(const Sonar& sonar, std::uint32_t pose, const RenderPing& r
     return draw_fan(whole_scan(sonar), display.image(), width, height);
 }
 
-/// Values [rows, columns] that a picture is made of.
+/// The values of a picture, [rows, columns].
 struct Values {
     std::size_t rows;
     std::size_t columns;
     std::vector<float> value;
 };
 
-/// A pixel shows the mean of the values that it covers, at least one.
+/// Draws values; a pixel shows the mean of the values that it covers, at least one.
 void draw_values(Picture& picture, int left, int width, int height, const Values& values,
                  double white, std::span<const Rgb> stops) {
     const auto span_of = [](int pixel, int pixels, std::size_t count) {
@@ -96,7 +96,7 @@ void draw_values(Picture& picture, int left, int width, int height, const Values
     }
 }
 
-/// The pings around one, and which of them it is.
+/// The pings around a ping, and its index among them.
 struct Series {
     std::vector<Ping> pings;
     std::size_t here;

@@ -9,22 +9,22 @@
 
 namespace sonarsim {
 
-/// What a sonar shows around a ping.
+/// A sonar's picture around a ping.
 struct SonarPanel {
     Picture picture;
-    double white;  ///< the intensity that is shown brightest
+    double white;  ///< intensity of the brightest colour
 };
 
-/// Renders a ping of the sonar by the index of its pose; called from several threads at a time.
+/// Renders a ping of the sonar by the index of its pose. It is called from several threads at once.
 using RenderPing = std::function<Ping(std::uint32_t pose)>;
 
 /// The last pose at or before `pose` at which the sonar pings.
 std::uint32_t ping_at(const Sonar& sonar, std::uint32_t pose);
 
-/// At most `width` by `height` pixels. Of an imaging or profiling sonar the fan with rings and
-/// bearings; of a scanning one the scan as it stands then; of a side-scan sonar the waterfall and
-/// of an echosounder the echogram of the pings around, with two marks at the ping itself. The
-/// brightness finds itself.
+/// Draws at most `width` by `height` pixels: the fan of an imaging or profiling sonar with rings
+/// and bearings, the display of a scanning sonar at that ping, the waterfall of a side-scan sonar
+/// or the echogram of an echosounder around the ping, with two marks at the ping. The brightness is
+/// derived from the shown pings.
 SonarPanel draw_sonar(const Sonar& sonar, std::uint32_t pose, std::size_t poses,
                       const RenderPing& render, int width, int height);
 

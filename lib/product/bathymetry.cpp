@@ -9,7 +9,7 @@ namespace sonarsim {
 namespace {
 
 constexpr double soundings_per_cell = 4.0;
-constexpr double finest_cell_m = 1e-6;  // as fine as range bins may be
+constexpr double finest_cell_m = 1e-6;  // the limit of range bins
 
 }  // namespace
 
@@ -45,7 +45,7 @@ Bathymetry make_bathymetry(const SoundingBounds& bounds, double cell_m) {
     const double area = std::max(size.x(), 1e-3) * std::max(size.y(), 1e-3);
     const double wanted = soundings_per_cell * area / static_cast<double>(bounds.count);
     grid.cell_m = std::max(cell_m > 0.0 ? cell_m : round_up_125(std::sqrt(wanted)), finest_cell_m);
-    // A cell more on either side for where the grid begins.
+    // The grid begins at a multiple of the cell size, which may add a cell on either side.
     while ((size.x() / grid.cell_m + 2.0) * (size.y() / grid.cell_m + 2.0) > most_map_cells)
         grid.cell_m = round_up_125(1.001 * grid.cell_m);
     const double first_column = std::floor(bounds.min.x() / grid.cell_m);

@@ -8,10 +8,10 @@
 
 namespace sonarsim {
 
-/// Soundings of less quality do not enter a map.
+/// The least quality of a sounding in a map.
 inline constexpr double map_quality = 0.5;
 
-/// The most cells that a map has.
+/// The largest number of cells of a map.
 inline constexpr double most_map_cells = 1 << 24;
 
 /// The ground that the soundings of a map cover.
@@ -31,22 +31,21 @@ struct Bathymetry {
     double north_m = 0.0;  ///< world y of the upper edge
     int columns = 0;
     int rows = 0;
-    std::vector<double> sum;           ///< [rows, columns], of world z
+    std::vector<double> sum;           ///< [rows, columns], sums of world z
     std::vector<std::uint32_t> count;  ///< [rows, columns]
 
     void add(const Eigen::Vector3d& position);
-    /// [rows, columns], m; NaN where no sounding fell.
+    /// The mean heights [rows, columns], m; NaN in cells without soundings.
     std::vector<float> mean_z() const;
 };
 
-/// An empty grid over the bounds. `cell_m` 0 chooses the size of a cell: 1, 2 or 5 times a power of
-/// ten, with four soundings to a cell on average, were they evenly spread. A grid has at most 2^24
-/// cells; cells are larger than asked for where it takes that.
+/// An empty grid over the bounds. With `cell_m` 0 the cell size is 1, 2 or 5
+/// times a power of ten, chosen so that a cell has four evenly spread soundings on average. Cells
+/// are larger than asked for if the grid would exceed 2^24 cells.
 Bathymetry make_bathymetry(const SoundingBounds& bounds, double cell_m);
 
-/// The map as a picture: colour by depth, relief (stretched)
-/// shaded by light from the north-west, a scale bar
-/// and the depths of the colours. What was not seen is dark. At most 4,096 pixels a side.
+/// Draws the map: colours by depth, exaggerated relief shaded by light from the north-west, a scale
+/// bar and a legend. Cells without soundings are dark. At most 4,096 pixels a side.
 Picture draw_bathymetry(const Bathymetry& bathymetry);
 
 }  // namespace sonarsim

@@ -9,13 +9,13 @@ namespace sonarsim {
 
 namespace {
 
-constexpr int map_px = 900;        // the longer side of a map of few cells
-constexpr int most_map_px = 4000;  // and of one of many
+constexpr int map_px = 900;        // longer side of a map of few cells
+constexpr int most_map_px = 4000;  // longer side of a map of many cells
 constexpr int margin = 10;
 constexpr int legend_width = 80;
 constexpr int bar_height = 30;
 
-// From deep to shallow.
+// The colours of depths, the deepest first.
 constexpr Rgb depth_colours[] = {{58, 30, 110},  {40, 80, 160},  {30, 135, 165}, {50, 175, 130},
                                  {150, 205, 85}, {235, 220, 90}, {230, 140, 60}, {190, 60, 50}};
 
@@ -24,8 +24,8 @@ struct HeightRange {
     float high;
 };
 
-/// What all but one in a hundred cells at either end lie within, so that a stray one does not wash
-/// out the rest. At least a millimetre, and at least eight steps of float where those are coarser.
+/// The range of heights without the lowest and the highest hundredth of cells, so that outliers do
+/// not wash out the colours. At least a millimetre wide, and at least eight steps of float.
 HeightRange height_range(const std::vector<float>& z) {
     std::vector<float> known;
     std::ranges::copy_if(z, std::back_inserter(known), [](float v) { return !std::isnan(v); });
@@ -42,7 +42,7 @@ struct Slope {
     float north;
 };
 
-/// The slope at a cell, from its neighbours as far as they are known.
+/// The slope at a cell, from its known neighbours.
 Slope slope_at(const Bathymetry& grid, const std::vector<float>& z, int row, int column) {
     const float here = z[static_cast<std::size_t>(row) * grid.columns + column];
     const auto at = [&](int r, int c) {
@@ -55,8 +55,8 @@ Slope slope_at(const Bathymetry& grid, const std::vector<float>& z, int row, int
             (at(row - 1, column) - at(row + 1, column)) / run};
 }
 
-/// By how much heights are stretched for the shading: so that the typical slope is as good as 20
-/// degrees, for a sea floor is mostly flat.
+/// The vertical exaggeration of the shading, chosen so that the RMS slope looks like 20 degrees: a
+/// sea floor is mostly flat.
 float stretch(const Bathymetry& grid, const std::vector<float>& z) {
     constexpr double typical = 0.36;
     double square = 0.0;
@@ -74,7 +74,7 @@ float stretch(const Bathymetry& grid, const std::vector<float>& z) {
     return static_cast<float>(std::max(1.0, typical / std::sqrt(square / known)));
 }
 
-/// Brightness of a slope lit from the north-west, 45 degrees up; 1 where the ground is level.
+/// Brightness of a slope under light from the north-west, 45 degrees up; 1 for level ground.
 float relief(const Slope& slope, float stretched) {
     const float east = stretched * slope.east;
     const float north = stretched * slope.north;
@@ -91,7 +91,7 @@ Rgb scaled(Rgb colour, float by) {
 }
 
 void draw_scale_bar(Picture& picture, int y, double pixels_per_m) {
-    // The longest of 1, 2, 5, 10, ... metres within a third of the map.
+    // The largest of 1, 2, 5, 10, ... metres that fits a third of the map.
     const double room_m = (picture.width - legend_width) / (3.0 * pixels_per_m);
     const double length = round_down_125(room_m);
     const int width = std::max(1, static_cast<int>(std::lround(length * pixels_per_m)));
@@ -121,8 +121,8 @@ Picture draw_bathymetry(const Bathymetry& grid) {
     const HeightRange range = height_range(z);
     const float stretched = stretch(grid, z);
     const int longer = std::max({grid.columns, grid.rows, 1});
-    const int zoom = std::max(1, map_px / longer);              // pixels to a cell
-    const int step = (longer + most_map_px - 1) / most_map_px;  // or cells to a pixel
+    const int zoom = std::max(1, map_px / longer);              // pixels per cell
+    const int step = (longer + most_map_px - 1) / most_map_px;  // cells per pixel
     const int width = grid.columns / step * zoom;
     const int height = grid.rows / step * zoom;
     Picture picture(std::max(width, 200) + 2 * margin + legend_width,

@@ -21,7 +21,7 @@ std::optional<int> first_return(std::span<const float> column, double brighter) 
     int i = 0;
     while (mean[i] < half)
         ++i;
-    // The window of the mean sees the edge one bin early where the echo is short.
+    // The running mean sees the edge of a short echo one bin early.
     int edge = std::max(i - 1, 0);
     while (at(edge) < half)
         ++edge;

@@ -8,8 +8,7 @@
 
 namespace sonarsim {
 
-/// The stops of a colour map from dark to bright, equally spaced, for blend(). The brightness grows
-/// along each of them.
+/// The equally spaced stops of a colour map, for blend(). Brightness grows from stop to stop.
 std::span<const Rgb> stops_of(FanColours colours);
 
 /// The colours of the 256 grey values.

@@ -12,7 +12,7 @@ namespace sonarsim {
 
 namespace {
 
-constexpr int least_width = 600;  // px, where a whole number of pixels per bin gives it
+constexpr int least_width = 600;  // px; met by a whole number of pixels per ping
 constexpr int least_height = 400;
 constexpr Rgb echo_colours[] = {{8, 10, 40},    {20, 50, 130},  {20, 120, 190}, {60, 190, 150},
                                 {230, 220, 80}, {240, 130, 40}, {190, 20, 30}};

@@ -14,8 +14,7 @@ std::array<double, 3> three_weights(double u) {
     return {0.5 * (s - u), 1.0 - s, 0.5 * (s + u)};
 }
 
-/// Rounds weights that add up to 1 to multiples of 1/256 that still do: what is rounded is the sum
-/// so far.
+/// Rounds weights to multiples of 1/256 that still add up to 1, by rounding the cumulative sums.
 void round_weights(std::span<const double> exact, float* rounded) {
     double sum = 0.0;
     double before = 0.0;
@@ -32,12 +31,13 @@ void round_weights(std::span<const double> exact, float* rounded) {
 KernelTable make_kernel(double extent, int unit) {
     const double window = std::max(0.0, extent - 1.0);
     const int points = 1 + static_cast<int>(std::ceil(16.0 * window));
-    const int bins = 3 + static_cast<int>(std::ceil(window));  // that can have a weight at once
+    const int bins =
+        3 + static_cast<int>(std::ceil(window));  // bins that can have a weight at once
     KernelTable table;
     table.taps = (bins + unit - 1) / unit * unit;
     table.weights.assign(static_cast<std::size_t>(KernelTable::phases) * table.taps, 0.0F);
     for (int phase = 0; phase < KernelTable::phases; ++phase) {
-        // Bins have their centres at whole numbers here, and the pixel's bin is 0.
+        // The centres of bins are at whole numbers here; the pixel's bin is 0.
         const double centre = (phase + 0.5) / KernelTable::phases - 0.5;
         const int first = static_cast<int>(std::floor(centre - 0.5 * window + 0.5)) - 1;
         std::vector<double> weights(bins);

@@ -16,18 +16,18 @@ namespace sonarsim {
 
 namespace {
 
-/// A pixel takes the mean of no more bins than this in range or in azimuth. Only next to the apex
-/// does it cover more, and there the mean hardly changes any more.
+/// The largest number of bins in range or in azimuth that a pixel averages. Only pixels next to the
+/// apex cover more, and their mean hardly changes.
 constexpr double most_bins = 128.0;
 
-/// From one ring to the next a pixel covers this many times as many beams.
+/// The ratio of the beams that a pixel covers in successive rings.
 constexpr double ring_step = 1.125;
 
-/// Points at which it is counted how much of a pixel lies inside the sector.
+/// Number of points that sample the share of a pixel inside the sector.
 constexpr int cover_points = 64;
 
-/// How many of a pixel's points lie inside the sector: a rank-1 lattice, whose projections on
-/// either axis (and so on an edge) do not coincide.
+/// The number of a pixel's points inside the sector. The points form a rank-1 lattice, whose
+/// projections on either axis do not coincide.
 int covered_points(const View& view, const FanFrame& frame, int column, int row) {
     constexpr int count = cover_points;
     constexpr int step = 19;
@@ -73,7 +73,7 @@ FanMap::Pixel pixel_at(const FanMap& map, const FanMap::Ring& ring, int beams,
             .covered = static_cast<std::uint8_t>(covered)};
 }
 
-/// Adds a pixel to a ring, whose pixels come in the order of the picture.
+/// Adds a pixel to a ring. Pixels are added in the order of the picture.
 void add_pixel(FanMap::Ring& ring, const FanMap::Pixel& pixel, int index) {
     ring.pixels.push_back(pixel);
     const bool goes_on =
@@ -87,7 +87,7 @@ struct PaddedImage {
     std::unique_ptr<float[]> values;
 };
 
-/// The image with its edges repeated outwards, or joined where the sonar looks all around.
+/// Pads the image by repeating its edges, or by wrapping the beams of a full turn.
 PaddedImage padded(const FanMap& map, const Ping& ping) {
     const int beams = ping.beams;
     const int width = beams + 2 * map.beam_padding;
@@ -98,7 +98,7 @@ PaddedImage padded(const FanMap& map, const Ping& ping) {
         const int bin = std::clamp(i - map.range_padding, 0, ping.range_bins - 1);
         const float* const from = ping.intensity.data() + static_cast<std::size_t>(bin) * beams;
         float* const to = out.values.get() + static_cast<std::size_t>(i) * width + map.beam_padding;
-        // An infinite intensity under a weight of 0 would not be nothing.
+        // Infinity times a weight of 0 would be NaN.
         for (int j = 0; j < beams; ++j)
             to[j] = std::min(from[j], std::numeric_limits<float>::max());
         for (int j = 0; j < map.beam_padding; ++j) {
@@ -109,13 +109,13 @@ PaddedImage padded(const FanMap& map, const Ping& ping) {
     return out;
 }
 
-/// A number of taps that is known when the program is compiled.
+/// A number of taps that is known at compile time.
 template <int count>
 using Taps = std::integral_constant<int, count>;
 
 constexpr std::size_t block = 256;
 
-/// Puts the values of a ring's pixels, which come one after the other, where they belong.
+/// Writes the values of a ring's pixels, given in order, to their places in the picture.
 class RunWriter {
   public:
     RunWriter(const FanMap::Ring& ring, std::vector<std::uint8_t>& picture)
@@ -136,12 +136,12 @@ class RunWriter {
 
   private:
     std::vector<FanMap::Run>::const_iterator run_;
-    std::size_t done_ = 0;  ///< of its pixels
+    std::size_t done_ = 0;  ///< pixels of the run that are written
     std::vector<std::uint8_t>& picture_;
 };
 
-/// The means of at most `block` pixels. The numbers of taps are ints or Taps; that of the beams is
-/// a multiple of 4.
+/// Computes the means of at most `block` pixels. The numbers of taps are ints or Taps; the number
+/// of beam taps is a multiple of 4.
 template <class RangeTaps, class BeamTaps>
 void take_means(const FanMap& map, RangeTaps range_taps, const KernelTable& beam_kernel,
                 BeamTaps beam_taps, std::span<const FanMap::Pixel> pixels, const PaddedImage& bins,
@@ -221,7 +221,7 @@ FanMap make_fan_map(const Sonar& sonar, int width_px) {
                                     ? covered_points(view, map.frame, column, row)
                                     : (is_inside_sector(view, place) ? cover_points : 0);
             if (covered == 0) continue;
-            // The centre of a pixel on the edge may lie outside.
+            // The centre of a pixel on the edge may lie outside the sector.
             const double bins = (place.range_m - view.range_min_m) / view.bin_m();
             const double beams = column_at(sonar, place.azimuth_rad);
             FanMap::Ring& ring = map.rings[ring_of(beams_across(place.range_m))];

@@ -12,7 +12,7 @@ std::int32_t bin_at(const View& view, const FanPlace& place) {
     if (!is_inside_sector(view, place)) return -1;
     const double bins = (place.range_m - view.range_min_m) / view.bin_m();
     const double beams = (place.azimuth_rad / view.azimuth_rad + 0.5) * view.beams;
-    // On the last edge, or where rounding reaches it, the bin before it is meant.
+    // A point on the last edge, exactly or by rounding, belongs to the bin before it.
     const int i = std::clamp(static_cast<int>(bins), 0, view.range_bins - 1);
     const int j = std::clamp(static_cast<int>(beams), 0, view.beams - 1);
     return j * view.range_bins + i;

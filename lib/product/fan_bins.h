@@ -8,19 +8,19 @@
 
 namespace sonarsim {
 
-/// Which bin the centre of each pixel of a fan lies in: for ids, of which there is no mean. An
-/// index into [beams, range bins], beam after beam; -1 outside the sector.
+/// The bin at the centre of each pixel of a fan, for ids, which have no mean. An index into
+/// [beams, range bins], beam after beam; -1 outside the sector.
 struct FanBins {
     FanFrame frame;
     std::vector<std::int32_t> by_row;     ///< [height, width]
     std::vector<std::int32_t> by_column;  ///< [width, height]
 };
 
-/// Of the fan that make_fan_map() makes.
+/// Makes the bins for the same fan as make_fan_map().
 FanBins make_fan_bins(const Sonar& sonar, int width_px);
 
-/// What `by_beam` [beams, range bins] holds at the bins of a fan's pixels, in their order; `blank`
-/// outside.
+/// The values of `by_beam` [beams, range bins] at the bins of a fan's pixels; `blank` outside the
+/// sector.
 template <class T>
 std::vector<T> fan_values(std::span<const std::int32_t> bins, const std::vector<T>& by_beam,
                           T blank) {

@@ -16,7 +16,7 @@ constexpr float line_share = 0.45F;
 constexpr float halo_share = 0.6F;
 constexpr int least_px = 160;  // a smaller fan has no room for numbers
 
-/// How far apart lines of equal azimuth are, degrees: at most ten of them.
+/// The step between lines of equal azimuth, degrees, for at most ten lines.
 double bearing_step_deg(double azimuth_deg) {
     for (const double step : {1.0, 2.0, 5.0, 10.0, 15.0, 30.0}) {
         if (azimuth_deg <= 9.0 * step) return step;
@@ -37,12 +37,12 @@ std::vector<double> bearings_deg(const View& view) {
     std::vector<double> bearings;
     for (double k = -last; k <= last; ++k)
         bearings.push_back(k * step + 0.0);
-    // All the way round, astern is one line.
+    // In a full turn the first and the last line are both astern.
     if (azimuth_deg >= 360.0 && bearings.size() > 1) bearings.erase(bearings.begin());
     return bearings;
 }
 
-/// A line of one pixel, smooth, whose middle is `pixels` away.
+/// The weight of a smooth line of one pixel whose middle is `pixels` away.
 float cover(double pixels) {
     return line_share * static_cast<float>(std::max(0.0, 1.0 - std::fabs(pixels)));
 }
@@ -81,7 +81,7 @@ Pixel pixel_of(const FanFrame& frame, const View& view, double range_m, double a
             static_cast<int>(std::floor((view.range_max_m - range_m * at.cos) / frame.pixel_m))};
 }
 
-/// Writes within the picture; `x` is the left end.
+/// Writes a number within the picture; `x` is the left end.
 void write_inside(Picture& text, int x, int y, const std::string& number) {
     x = std::clamp(x, 1, std::max(1, text.width - text_width(number) - 1));
     y = std::clamp(y, 1, std::max(1, text.height - 8));
@@ -104,7 +104,7 @@ void write_bearing(Picture& text, const FanFrame& frame, const View& view, doubl
     write_inside(text, at.x - text_width(number) / 2, at.y - 3, number);
 }
 
-/// The text, and around it a dark seam so that it can be read on any picture.
+/// Marks the text and a dark seam around it, so that it is legible on any picture.
 void mark_text(FanStyle& style, const Picture& text) {
     const auto is_set = [&](int x, int y) {
         return x >= 0 && y >= 0 && x < text.width && y < text.height &&
@@ -131,7 +131,7 @@ void mark_numbers(FanStyle& style, const View& view, const FanStyleConfig& confi
     Picture text(frame.width, frame.height, paper);
     if (config.rings) {
         for (const double range : ring_ranges(view)) {
-            // Where the outermost bearing has its number.
+            // The outermost bearing has its number there.
             const bool taken = config.bearings && range > 0.97 * view.range_max_m;
             if (!taken) write_range(text, frame, view, range);
         }

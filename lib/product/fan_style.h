@@ -12,12 +12,12 @@
 
 namespace sonarsim {
 
-/// How the fans of a sonar are drawn, worked out once: a colour map, and rings of equal range and
-/// lines of equal azimuth over it. Their numbers stand beside the starboard edge of the sector (of
-/// one wider than 180 degrees beside the boresight) and below the outermost range; "P" is port,
-/// "S" starboard. Nothing of the frame changes, so that boxes in the fan still fit.
+/// The style of a sonar's fans, made once: a colour map, rings of equal range and lines of equal
+/// azimuth. Ranges are written beside the starboard edge of the sector, or beside the boresight if
+/// it is wider than 180 degrees; bearings below the largest range, "P" for port and "S" for
+/// starboard. The frame is that of the plain fan, so that boxes still fit.
 struct FanStyle {
-    /// A pixel that is drawn over, `share` of it.
+    /// A colour that is blended over a pixel with the weight `share`.
     struct Mark {
         std::int32_t index;
         Rgb colour;
@@ -31,7 +31,7 @@ struct FanStyle {
 
 FanStyle make_fan_style(const Sonar& sonar, const FanFrame& frame, const FanStyleConfig& config);
 
-/// The grey values of render_fan() as a picture.
+/// Draws the grey values of render_fan() in this style.
 Picture styled_fan(const FanStyle& style, std::span<const std::uint8_t> grey);
 
 }  // namespace sonarsim

@@ -8,8 +8,8 @@ namespace sonarsim {
 
 namespace {
 
-// The leading bits of a positive float, its exponent and five bits more, grow with it: they number
-// the cells of a histogram whose cells are 3 % wide or less.
+// The leading bits of a positive float (its exponent and five more) grow with it. They index a
+// histogram whose cells are at most 3 % wide.
 constexpr int dropped_bits = 18;
 constexpr std::size_t cells = 0x80000000U >> dropped_bits;
 

@@ -6,19 +6,19 @@
 
 namespace sonarsim {
 
-/// Finds how bright a picture for the eye should be, from all of its intensities.
+/// Finds the brightness of a picture from all of its intensities.
 class Gain {
   public:
     Gain();
     void add(std::span<const float> intensity);
-    /// The intensity that one in a hundred of those above 0 exceeds, to 3 %; 1 when there are none.
+    /// The 99 % quantile of the intensities above 0, to 3 %; 1 when there are none.
     double white() const;
 
   private:
-    std::vector<std::uint64_t> counts_;  ///< by the leading bits of the number
+    std::vector<std::uint64_t> counts_;  ///< histogram over the leading bits of the intensity
 };
 
-/// Intensity is power, a display shows amplitude: sqrt(intensity / white), at most 1.
+/// The shown amplitude of an intensity, which is power: sqrt(intensity / white), at most 1.
 float shade(float intensity, float white);
 
 }  // namespace sonarsim

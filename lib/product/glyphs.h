@@ -9,12 +9,12 @@ namespace sonarsim {
 
 inline constexpr int glyph_columns = 5;
 inline constexpr int glyph_rows = 7;
-inline constexpr int glyph_step = 6;  ///< from one letter to the next, pixels
+inline constexpr int glyph_step = 6;  ///< distance between letters, pixels
 
-/// Rows from top to bottom; of each, bit 4 is the leftmost pixel.
+/// Rows from top to bottom; bit 4 of a row is the leftmost pixel.
 using Glyph = std::array<std::uint8_t, glyph_rows>;
 
-/// Blank for what the font lacks; small letters are capitals.
+/// The glyph of a letter; blank if the font lacks it. Small letters are drawn as capitals.
 const Glyph& glyph_of(char letter);
 
 }  // namespace sonarsim

@@ -7,7 +7,7 @@ namespace sonarsim {
 
 namespace {
 
-enum Heading { right, down, left, up };  // a turn to the right adds 1
+enum Heading { right, down, left, up };  // a right turn adds 1
 
 constexpr Corner step_of[] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
 // The pixels ahead of a corner, as offsets from the pixel whose upper left corner it is.
@@ -56,7 +56,7 @@ class BoxPixels {
     std::vector<std::uint8_t> walked_;
 };
 
-/// The outline that runs up the left side of a pixel, with the mask on its right.
+/// Follows the outline that runs up the left side of a pixel, with the mask on its right.
 std::vector<Corner> outline_from(BoxPixels& pixels, int x, int y) {
     std::vector<Corner> corners;
     const Corner start{x, y + 1};
@@ -79,7 +79,7 @@ std::vector<Corner> outline_from(BoxPixels& pixels, int x, int y) {
     return corners;
 }
 
-/// Twice the area, positive for an outline that runs clockwise.
+/// Twice the area; positive for a clockwise outline.
 std::int64_t doubled_area(const std::vector<Corner>& corners) {
     std::int64_t sum = 0;
     for (std::size_t k = 0; k < corners.size(); ++k) {
@@ -112,7 +112,7 @@ std::vector<Corner> joined_outline(const std::vector<std::vector<Corner>>& parts
         all.insert(all.end(), part.begin(), part.end());
         if (parts.size() > 1) all.push_back(part.front());
     }
-    // The way back from the last part to the first; the polygon closes there.
+    // Go back from the last part to the first, where the polygon closes.
     for (std::size_t k = parts.size(); k-- > 2;)
         all.push_back(parts[k - 1].front());
     return all;

@@ -11,7 +11,7 @@ namespace sonarsim {
 
 namespace {
 
-/// As in first_returns().
+/// The same as in first_returns().
 constexpr double level_brighter_share = 0.1;
 
 /// The echo at a slant range, 0 beyond the row. `side`: 1 is port, -1 starboard.
@@ -58,8 +58,8 @@ void add_bounds(const Swath& swath, SoundingBounds& bounds) {
     }
 }
 
-void lay_down(const Swath& swath, double bin_m, std::span<const float> row, Bathymetry& map) {
-    // Two points to a cell leave no cell out that the line crosses by more than a corner.
+void rasterize(const Swath& swath, double bin_m, std::span<const float> row, Bathymetry& map) {
+    // With two points per cell the line misses a cell only at its corners.
     const double step = 0.5 * map.cell_m;
     for (const int side : {1, -1}) {
         for (double ground = 0.5 * step; ground < swath.reach_m; ground += step) {

@@ -7,10 +7,10 @@ namespace sonarsim {
 
 namespace {
 
-/// A mask on its way from the first pixel to the last.
+/// A mask while its runs are appended.
 struct GrowingMask {
     ObjectMask mask;
-    std::size_t end = 0;  ///< where its last run ends
+    std::size_t end = 0;  ///< end of its last run
 
     void add(std::size_t from, std::size_t to, int height) {
         const auto h = static_cast<std::size_t>(height);

@@ -43,7 +43,7 @@ std::vector<float> levels_by_beam(const Ping& ping) {
     return levels;
 }
 
-/// The mean level around an object; nothing where all bins there are its own.
+/// The mean level around an object; nothing if all bins there are its own.
 std::optional<double> level_around(const SeenObject& seen, const PingLabels& labels,
                                    const std::vector<float>& levels) {
     const auto margin_of = [](int first, int last) { return std::max(2, (last - first + 1) / 2); };
@@ -64,7 +64,7 @@ std::optional<double> level_around(const SeenObject& seen, const PingLabels& lab
     return sum / static_cast<double>(bins);
 }
 
-/// Around the footprints of what is seen of each object.
+/// The bounding box of each object's visible footprints.
 std::vector<Eigen::AlignedBox3f> seen_boxes(const SceneObjects& objects, const TracedPing& traced) {
     std::vector<Eigen::AlignedBox3f> boxes(objects.objects.size());
     for (const Sample& sample : traced.samples.items) {

@@ -9,7 +9,7 @@ namespace sonarsim {
 
 namespace {
 
-/// The font has capitals only, but a metre is no "M".
+/// The small m of the metre, the font's only small letter.
 constexpr Glyph metre{0x00, 0x00, 0x1a, 0x15, 0x15, 0x15, 0x15};
 
 }  // namespace
@@ -62,7 +62,7 @@ void write(Picture& picture, int x, int y, std::string_view text, Align align, R
 
 namespace {
 
-/// The largest power of ten that is not above `value`.
+/// The largest power of ten that is at most `value`.
 double power_of_ten_in(double value) {
     double power = 1.0;
     while (power > value)
@@ -94,10 +94,10 @@ std::vector<double> axis_marks(double low, double high, double wanted) {
     std::vector<double> marks;
     if (!(low < high)) return marks;
     const double step = round_up_125((high - low) / wanted);
-    // Whole numbers per metre, so that the marks are the doubles nearest to their decimals.
+    // Dividing by a whole number gives the doubles nearest to the decimals.
     const double per_step = std::round(1.0 / step);
     const double first = std::ceil(low / step);
-    // So far from 0 that neighbouring marks are the same number there is no axis to mark.
+    // Far from 0 neighbouring marks may be the same double; then there are no marks.
     if (first + 1.0 == first) return marks;
     for (double k = first; k * step <= high; ++k)
         marks.push_back((step < 1.0 ? k / per_step : k * step) + 0.0);

@@ -1,23 +1,16 @@
 #pragma once
 
-#include <cstdint>
 #include <span>
 #include <string_view>
 #include <vector>
 
+#include "core/rgb.h"
+
 namespace sonarsim {
 
-struct Rgb {
-    std::uint8_t r = 0;
-    std::uint8_t g = 0;
-    std::uint8_t b = 0;
-
-    bool operator==(const Rgb&) const = default;
-};
-
-inline constexpr Rgb ink{235, 235, 235};          ///< of axes and labels
-inline constexpr Rgb paper{16, 16, 20};           ///< behind them
-inline constexpr Rgb mark_colour{120, 205, 235};  ///< of rings, bearings and marks in a picture
+inline constexpr Rgb ink{235, 235, 235};          ///< axes and labels
+inline constexpr Rgb paper{16, 16, 20};           ///< background
+inline constexpr Rgb mark_colour{120, 205, 235};  ///< rings, bearings and marks in a picture
 
 /// The colour at `share` (0 to 1, clamped) of the way through equally spaced stops.
 Rgb blend(std::span<const Rgb> stops, float share);
@@ -32,7 +25,7 @@ struct Picture {
     Rgb* row(int y) { return pixels.data() + static_cast<std::size_t>(y) * width; }
 };
 
-/// Fills a rectangle; what lies outside the picture is left out.
+/// Fills a rectangle, clipped to the picture.
 void fill(Picture& picture, int x, int y, int width, int height, Rgb colour);
 
 enum class Align { left, middle, right };
@@ -41,18 +34,18 @@ enum class Align { left, middle, right };
 /// the named end of the text at x.
 void write(Picture& picture, int x, int y, std::string_view text, Align align, Rgb colour);
 
-/// Its width in pixels.
+/// The width of a text in pixels.
 int text_width(std::string_view text);
 
 /// The marks of an axis over [low, high]: about `wanted` multiples of 1, 2 or 5 times a power of
 /// ten.
 std::vector<double> axis_marks(double low, double high, double wanted);
 
-/// The least of the numbers 1, 2, 5, 10, 20, ... (and 0.5, 0.2, ...) that is not below `value`,
-/// which must be positive.
+/// The least of the numbers ..., 0.2, 0.5, 1, 2, 5, 10, ... that is at least `value`, which must be
+/// positive.
 double round_up_125(double value);
 
-/// The greatest of those numbers that is not above `value`, which must be positive.
+/// The greatest of those numbers that is at most `value`, which must be positive.
 double round_down_125(double value);
 
 }  // namespace sonarsim

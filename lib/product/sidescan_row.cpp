@@ -11,7 +11,7 @@ namespace {
 constexpr int starboard = 0;  // the beams of a side-scan ping
 constexpr int port = 1;
 
-/// Strong targets on a tenth of a side leave the level of its bottom alone.
+/// Strong targets on up to a tenth of a side do not change the level of its bottom.
 constexpr double brighter_share = 0.1;
 
 std::optional<double> first_return_m(const Sonar& sonar, const Ping& ping, int beam) {

@@ -9,17 +9,17 @@
 namespace sonarsim {
 
 // A row of a side-scan waterfall runs from port at range_max over nadir to starboard at range_max,
-// in columns as wide as a range bin. So that slant range is linear in the column on both sides, the
-// columns between nadir and range_min, where the sonar does not listen, are there too; they are 0.
+// in columns as wide as a range bin. It has blank columns between nadir and range_min, where the
+// sonar does not listen, so that slant range is linear in the column on both sides.
 
-/// Columns between nadir and range_min, on either side: range_min in bins, rounded.
+/// The number of columns between nadir and range_min on each side: range_min in bins, rounded.
 int blank_columns(const SonarConfig& config);
 
-/// Columns of the whole row.
+/// The number of columns of the whole row.
 int waterfall_columns(const SonarConfig& config);
 
-/// Values of a side-scan ping, [range bins, 2] as Ping::intensity, as a row of the waterfall;
-/// `blank` where the sonar does not listen.
+/// Arranges the values of a side-scan ping, [range bins, 2] like Ping::intensity, as a row of the
+/// waterfall; `blank` fills the columns where the sonar does not listen.
 template <class T>
 std::vector<T> sidescan_row(const SonarConfig& config, const std::vector<T>& values, T blank) {
     const int before = blank_columns(config);
@@ -35,8 +35,8 @@ std::vector<T> sidescan_row(const SonarConfig& config, const std::vector<T>& val
 /// A side-scan ping as a row of the waterfall.
 std::vector<float> sidescan_row(const SonarConfig& config, const Ping& ping);
 
-/// Slant range of the first bottom return on either side, m: the middle of its bin
-/// (first_return() in product/bottom.h). Nothing where a side is dark.
+/// Slant range of the first bottom return on each side, m: the middle of its bin (first_return() in
+/// product/bottom.h). Nothing if the side is dark.
 struct FirstReturns {
     std::optional<double> port_m;
     std::optional<double> starboard_m;

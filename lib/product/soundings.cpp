@@ -5,7 +5,7 @@
 #include <span>
 
 #include "core/elementary.h"
-#include "product/strongest_run.h"
+#include "product/detect_return.h"
 
 namespace sonarsim {
 
@@ -14,12 +14,12 @@ namespace {
 /// Range and quality of one beam.
 Sounding sound(const Sonar& sonar, std::span<const double> beam) {
     if (std::ranges::none_of(beam, [](double value) { return value > 0.0; })) return {};
-    StrongRun run = strongest_run(beam);
+    DetectedReturn run = detect_return(beam);
     if (run.begin == run.end) run = {0, static_cast<int>(beam.size()), 1.0, 1.0};  // all alike
     Sounding sounding;
     sounding.range_m = 0.5 * (sonar.range_edges_m[run.begin] + sonar.range_edges_m[run.end]);
-    if (!sonar.run_offsets_m.empty()) {
-        sounding.range_m -= sonar.run_offsets_m[run.end - run.begin];
+    if (!sonar.range_bias_m.empty()) {
+        sounding.range_m -= sonar.range_bias_m[run.end - run.begin];
     }
     const double rival = run.rival / run.contrast;
     sounding.quality = std::max(0.0, 1.0 - rival * rival);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/text.h"
+#include "product/colour_map.h"
 #include "product/gain.h"
 #include "product/sidescan_row.h"
 
@@ -11,13 +12,12 @@ namespace sonarsim {
 namespace {
 
 constexpr int axis_height = 22;
-constexpr Rgb copper[] = {{0, 0, 0}, {107, 67, 42}, {204, 127, 81}, {255, 199, 127}};
 constexpr Rgb nadir_colour{150, 190, 220};
 
 }  // namespace
 
 Picture waterfall_axis(const SonarConfig& config) {
-    const int nadir = waterfall_columns(config) / 2;  // the column of the line
+    const int nadir = waterfall_columns(config) / 2;  // column of the nadir line
     Picture axis(2 * nadir + 1, axis_height, paper);
     fill(axis, 0, axis_height - 1, axis.width, 1, ink);
     const double columns_per_m = nadir / config.range_max_m;
@@ -29,7 +29,7 @@ Picture waterfall_axis(const SonarConfig& config) {
         const std::string text = number_text(range) + " m";
         for (const int x : {nadir - 1 - column, nadir + 1 + column}) {
             fill(axis, x, axis_height - 6, 1, 6, ink);
-            // A label beyond the edge or on nadir's would say less than none.
+            // Labels must not be cut off or overlap the label of nadir.
             const int half = text_width(text) / 2 + 2;
             const bool beside_nadir = std::abs(x - nadir) > half + text_width("nadir") / 2 + 2;
             if (x >= half && x + half < axis.width && beside_nadir) {
@@ -42,6 +42,7 @@ Picture waterfall_axis(const SonarConfig& config) {
 }
 
 void waterfall_row(std::span<const float> row, double white, std::span<Rgb> pixels) {
+    const std::span<const Rgb> copper = stops_of(FanColours::copper);
     const auto full = static_cast<float>(white);
     const std::size_t nadir = row.size() / 2;
     for (std::size_t i = 0; i < row.size(); ++i)

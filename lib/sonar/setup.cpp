@@ -133,7 +133,7 @@ void add_instrument(Sonar& sonar, const WaterConfig& water) {
     std::vector<double> sines;
     if (instrument.beam.aperture == Aperture::line) {
         const double half = 0.5 * view.azimuth_rad;
-        const bool even_sines = instrument.beam.spread == BeamSpread::sine;
+        const bool even_sines = instrument.beam.spread == BeamSpacing::equal_sine;
         for (int j = 0; j < view.beams; ++j) {
             const double share = (2.0 * j + 1.0) / view.beams - 1.0;
             sines.push_back(even_sines ? share * sincos(half).sin : sincos(share * half).sin);

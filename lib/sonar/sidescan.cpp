@@ -25,7 +25,7 @@ KindOfSonar sidescan_kind() {
     defaults.range_min_m = 0.5;
     defaults.range_max_m = 35.0;
     defaults.range_bins = 690;
-    defaults.instrument.beam.aperture = Aperture::sides;
+    defaults.instrument.beam.aperture = Aperture::port_starboard;
     defaults.instrument.beam.width_deg = 0.25;
     return {.keys = {.kind = SonarKind::sidescan,
                      .name = "sidescan",

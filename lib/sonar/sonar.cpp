@@ -13,7 +13,7 @@ Sonar make_sonar(const SonarConfig& config, const AccuracyConfig& accuracy,
     const KindOfSonar& kind = kind_of(config.kind);
     Sonar sonar = common_sonar(config, accuracy, kind);
     if (kind.finish) kind.finish(sonar);
-    if (config.model == EchoModel::of_instrument) add_instrument(sonar, water);
+    if (config.model == EchoModel::calibrated) add_instrument(sonar, water);
     return sonar;
 }
 

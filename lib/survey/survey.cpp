@@ -5,7 +5,7 @@
 #include <span>
 
 #include "assembly/engine_at.h"
-#include "assembly/spread_pings.h"
+#include "assembly/sample_pings.h"
 #include "calibrated/model.h"
 #include "core/pose.h"
 #include "core/units.h"
@@ -235,7 +235,7 @@ SonarSurvey survey_sonar(const Mission& mission, const Assembly& assembly, Sonar
     const std::size_t most = sonar.settings.calibrated ? most_calibrated : most_pings;
     BinSums sums;
     for (const std::uint32_t pose :
-         spread_pings(assembly.trajectory.size(), sonar.config.every,
+         sample_pings(assembly.trajectory.size(), sonar.config.every,
                       std::clamp<std::size_t>(most_bins / bins, 3, most))) {
         const TimedPose& at = assembly.trajectory[pose];
         const SonarAtPose then(mission, sonar, pose);

@@ -11,7 +11,7 @@ FLOC_M = 0.0008
 
 
 def step_at(y):
-    """Where the bottom steps up, aslant, behind the pebbles: it makes the second arc."""
+    """The oblique step of the bottom behind the pebbles, which makes the second arc."""
     return 1.42 - 0.35 * y
 
 

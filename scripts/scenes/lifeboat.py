@@ -8,7 +8,7 @@ LENGTH, BEAM, DEPTH = 7.5, 2.6, 1.5
 
 
 def half_breadth(u, v):
-    """Of the hull at u along it (-1 stern, 1 bow) and v up it (0 keel, 1 gunwale), in metres."""
+    """A point of the hull at u along it (-1 stern, 1 bow) and v up it (0 keel, 1 gunwale), in metres."""
     return BEAM / 2 * max(0.0, 1 - abs(u) ** 2.6) ** 0.75 * v ** 0.45
 
 

@@ -7,7 +7,7 @@ from .glb import Part
 from .noise import Relief, noise3
 from .shapes import add_box, add_cylinder, add_grid, add_sphere, add_torus, circle
 
-HALF = 20.0  # of the bottom
+HALF = 20.0  # half of the side of the bottom
 
 
 def bottom():

@@ -56,7 +56,7 @@ def sphere():
 
 
 def ladder():
-    """Of pipe, 10 cm before the far wall."""
+    """Made of pipe, 10 cm in front of the far wall."""
     part = Part("ladder", "pvc")
     x = HALF_X - 0.1
     for y in (1.6, 2.0):

@@ -6,10 +6,10 @@ from .glb import Part
 from .noise import Relief, noise3
 from .shapes import add_cylinder, add_grid
 
-HALF = 30.0                             # of the bottom
-LENGTH, BEAM, DEPTH = 34.0, 8.0, 4.5    # of the hull
-LIST = math.radians(18)                 # how far it lies over
-SUNK = 0.8                              # of the keel below z = 0
+HALF = 30.0                             # half of the side of the bottom
+LENGTH, BEAM, DEPTH = 34.0, 8.0, 4.5    # the hull
+LIST = math.radians(18)                 # to port
+SUNK = 0.8                              # depth of the keel below z = 0
 
 
 def bottom(relief):
@@ -20,13 +20,13 @@ def bottom(relief):
 
 
 def half_breadth(u, v):
-    """Of the hull at u along it (-1 stern, 1 bow) and v up it (0 keel, 1 deck), in metres."""
+    """A point of the hull at u along it (-1 stern, 1 bow) and v up it (0 keel, 1 deck), in metres."""
     along = max(0.0, 1 - abs(u) ** (3.5 if u < 0 else 2.2))
     return BEAM / 2 * along * min(1.0, v) ** (0.35 + 0.35 * abs(u))
 
 
 def hull_point(u, v, side, inset=0.0):
-    """In the world, the hull lying over to port."""
+    """The point in the world; the hull has a list to port."""
     y = side * max(0.0, half_breadth(u, v) - inset)
     z = DEPTH * v + 1.2 * v * max(0.0, u) ** 3
     return (LENGTH / 2 * u, y * math.cos(LIST) - z * math.sin(LIST),

@@ -117,13 +117,13 @@ TEST_SUITE("assembly") {
             return disk.load("{file: poses.csv}", std::span(settings).first(count));
         };
         CHECK_NOTHROW(assemble(load(2)));
-        CHECK_THROWS_WITH_AS(assemble(load(3)),
-                             "--set output.labels=[instance]: sensor 'fls': labels are of beams "
-                             "even in azimuth so far; leave out output.labels, or write "
-                             "instrument.beam.spread: angle",
-                             InputError);
+        CHECK_THROWS_WITH_AS(
+            assemble(load(3)),
+            "--set output.labels=[instance]: sensor 'fls': labels need beams of equal azimuth; "
+            "leave out output.labels, or write instrument.beam.spread: angle",
+            InputError);
         Mission even_angles = load(3);
-        even_angles.sensors[0].instrument.beam.spread = BeamSpread::angle;
+        even_angles.sensors[0].instrument.beam.spread = BeamSpacing::equal_angle;
         CHECK_NOTHROW(assemble(even_angles));
     }
 

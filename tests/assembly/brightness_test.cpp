@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "assembly/spread_pings.h"
+#include "assembly/sample_pings.h"
 #include "support/small_mission.h"
 
 using namespace sonarsim;
@@ -23,11 +23,11 @@ std::vector<double> scales_of(const Mission& mission) {
 TEST_SUITE("assembly") {
     TEST_CASE("spread pings: in the middle of equal parts, on poses with a ping") {
         using Poses = std::vector<std::uint32_t>;
-        CHECK(spread_pings(12, 1, 3) == Poses{2, 6, 10});
+        CHECK(sample_pings(12, 1, 3) == Poses{2, 6, 10});
         // Poses 0, 3, 6 and 9 have pings: the halves are {0, 3} and {6, 9}.
-        CHECK(spread_pings(12, 3, 2) == Poses{3, 9});
-        CHECK(spread_pings(2, 1, 5) == Poses{0, 1});
-        CHECK(spread_pings(0, 1, 5).empty());
+        CHECK(sample_pings(12, 3, 2) == Poses{3, 9});
+        CHECK(sample_pings(2, 1, 5) == Poses{0, 1});
+        CHECK(sample_pings(0, 1, 5).empty());
     }
 
     TEST_CASE("brightness: a number of the mission is taken as it stands") {

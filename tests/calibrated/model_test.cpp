@@ -204,7 +204,7 @@ TEST_SUITE("calibrated") {
 
     TEST_CASE("calibrated: scatterers stay, and turn with the sonar as the beams do") {
         InstrumentConfig config = instrument();
-        config.beam.spread = BeamSpread::angle;
+        config.beam.spread = BeamSpacing::equal_angle;
         config.speckle.mode = SpeckleMode::none;
         const Pose here;
         const Samples samples = floor_below(here);

@@ -89,8 +89,9 @@ struct Patch {
     double beam_sine(int j) const {
         const double share = (2.0 * j + 1.0) / beams() - 1.0;
         const double half = radians(0.5 * fan_deg);
-        return sonar.config.instrument.beam.spread == BeamSpread::sine ? share * std::sin(half)
-                                                                       : std::sin(share * half);
+        return sonar.config.instrument.beam.spread == BeamSpacing::equal_sine
+                   ? share * std::sin(half)
+                   : std::sin(share * half);
     }
 
     /// Powers by their expectation of the inner part: beams from `first` on, `count` of them.

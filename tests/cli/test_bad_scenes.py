@@ -97,7 +97,7 @@ class BadObjects(Composed):
     def test_a_count_of_zero(self):
         self.scene("  file: floor.gltf\n  materials: materials.csv\n" +
                    SCATTER.replace("count: 5", "count: 0"))
-        self.warned("of 'mine' nothing is scattered, for its count is 0")
+        self.warned("of 'mine' no object is placed because its count is 0")
 
     def test_not_in_metres(self):
         self.write("crate.gltf", gltf([{"name": "crate", "mesh": 0}], [box_mesh(6000.0)]))

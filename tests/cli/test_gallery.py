@@ -112,7 +112,7 @@ class Gallery(Sandbox):
         self.write("out/index.html", "<p>mine</p>")
         self.assert_refused(self.run_sonarsim("gallery", "out"), "is not of sonarsim's making")
         self.assertEqual((self.out / "index.html").read_text(), "<p>mine</p>")
-        self.assertIn("index.html: is not the dataset's",
+        self.assertIn("index.html: is no file of the dataset",
                       self.run_sonarsim("verify", "out").stderr)
 
     @unittest.skipUnless(browser.available(), "Debian's chromium and chromium-driver are not here")

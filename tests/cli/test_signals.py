@@ -74,7 +74,7 @@ class Signals(Sandbox):
         process.send_signal(number)
         _, stderr = process.communicate(timeout=120)
         self.assertEqual(process.returncode, 128 + number, stderr)
-        self.assertIn("warning: stopped at once; what is written is whole, and the same command "
+        self.assertIn("warning: stopped at once; written files are whole, and the same command "
                       "run again goes on from there", stderr)
 
     def test_while_a_scene_is_loaded(self):

@@ -195,7 +195,7 @@ class Variants(Sandbox):
 
     def test_vary_without_variants(self):
         self.edit("mission.yaml", "variants: 6\n", "")
-        self.refused("mission.yaml:", "'vary' says what differs between variants")
+        self.refused("mission.yaml:", "'vary' needs 'variants'")
 
     def test_report_takes_one_scene(self):
         self.assert_refused(self.run_sonarsim("report", "mission.yaml", "--quick"),

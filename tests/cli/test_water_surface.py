@@ -29,7 +29,7 @@ class WaterSurface(Sandbox):
         for surface, doubt in (
                 ("{height_m: -1}", "at -1 m lies below the sonar in 6 of 6 pings"),
                 ("{height_m: -3}", "at -3 m lies below all of the scene: raise height_m"),
-                ("{height_m: 1, roughness: 1}", "has no effect, for a roughness of 1")):
+                ("{height_m: 1, roughness: 1}", "has no effect because a roughness of 1")):
             result = self.run_sonarsim("validate", "mission.yaml", *multipath,
                                        f"scene.water_surface={surface}")
             self.assertEqual(result.returncode, 0, result.stderr)

@@ -3,7 +3,11 @@
 #include <doctest/doctest.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <numeric>
+#include <random>
+#include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -15,7 +19,7 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// What zlib itself reads in it.
+/// Unpacks a stream by zlib.
 Bytes unpacked(const std::string& stream, std::size_t size) {
     Bytes bytes(size + 1);
     uLongf length = bytes.size();
@@ -58,6 +62,29 @@ TEST_SUITE("dataset") {
         }
     }
 
+    TEST_CASE("deflate: a stream of pieces has the bytes of the whole") {
+        std::mt19937 random(3);
+        for (const std::size_t count : {1, 5, 131072, 131073, 262144, 400000}) {
+            for (const int pixel_bytes : {1, 2, 3}) {
+                const Bytes bytes = noise(count, 2);
+                ZlibStream stream(pixel_bytes);
+                std::string packed;
+                for (std::size_t at = 0; at < count;) {
+                    const std::size_t piece = std::min<std::size_t>(random() % 9000, count - at);
+                    stream.add(std::span(bytes).subspan(at, piece));
+                    packed += stream.take();
+                    at += piece;
+                }
+                stream.finish();
+                packed += stream.take();
+                CHECK(packed == zlib_bytes(bytes, pixel_bytes, Packing::runs));
+            }
+        }
+        ZlibStream empty(1);
+        empty.finish();
+        CHECK(unpacked(empty.take(), 0).empty());
+    }
+
     TEST_CASE("deflate: runs of every length, at every distance") {
         Bytes bytes = noise(16, 8);
         for (int length = 1; length < 600; ++length) {
@@ -70,7 +97,7 @@ TEST_SUITE("dataset") {
     }
 
     TEST_CASE("deflate: counts that would make codes of more than 15 bits") {
-        // Of Fibonacci's numbers the tree is a chain: 24 symbols, the rarest 23 deep.
+        // Fibonacci's numbers make the tree a chain of 24 symbols; the rarest is 23 deep.
         Bytes bytes;
         int next = 1;
         for (int symbol = 0, count = 1; symbol < 24; ++symbol) {

@@ -3,10 +3,12 @@
 #include <OpenImageIO/imageio.h>
 #include <doctest/doctest.h>
 
+#include <array>
 #include <random>
 #include <vector>
 
 #include "core/file.h"
+#include "format/png.h"
 #include "support/temporary_folder.h"
 
 using namespace sonarsim;
@@ -42,7 +44,7 @@ TEST_SUITE("dataset") {
                     if (kind == 3) ids[k] = random() % 50 == 0 ? 65535 : 144;
                 }
                 const std::string bytes = id_png_bytes(ids, width, height);
-                CHECK(static_cast<double>(bytes.size()) <= id_png_bytes_at_most(width, height, 2));
+                CHECK(static_cast<double>(bytes.size()) <= png_bytes_at_most(width, height, 2));
                 CHECK(decoded<std::uint16_t>(bytes, OIIO::TypeDesc::UINT16) == ids);
             }
         }
@@ -51,19 +53,20 @@ TEST_SUITE("dataset") {
     }
 
     TEST_CASE("PNG with a colour table") {
-        const std::vector<Colour> table{colour_of(0), colour_of(1), colour_of(2), colour_of(3)};
-        CHECK(table[0] == Colour{0, 0, 0});
-        CHECK(table[1] == Colour{128, 0, 0});  // the first of PASCAL VOC's
-        CHECK(table[2] == Colour{0, 128, 0});
-        CHECK(table[3] == Colour{128, 128, 0});
-        CHECK(colour_of(8) == Colour{64, 0, 0});
+        const std::vector<Rgb> table{colour_of(0), colour_of(1), colour_of(2), colour_of(3)};
+        CHECK(table[0] == Rgb{0, 0, 0});
+        CHECK(table[1] == Rgb{128, 0, 0});  // the first of PASCAL VOC's
+        CHECK(table[2] == Rgb{0, 128, 0});
+        CHECK(table[3] == Rgb{128, 128, 0});
+        CHECK(colour_of(8) == Rgb{64, 0, 0});
         const std::vector<std::uint8_t> indices{0, 1, 2, 3, 3, 2};
         const auto rgb =
             decoded<std::uint8_t>(palette_png_bytes(indices, 3, 2, table), OIIO::TypeDesc::UINT8);
         REQUIRE(rgb.size() == 18);
         for (std::size_t k = 0; k < indices.size(); ++k) {
             for (std::size_t c = 0; c < 3; ++c)
-                CHECK(rgb[3 * k + c] == table[indices[k]][c]);
+                CHECK(rgb[3 * k + c] ==
+                      std::array{table[indices[k]].r, table[indices[k]].g, table[indices[k]].b}[c]);
         }
     }
 }

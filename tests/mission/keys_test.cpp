@@ -108,7 +108,7 @@ TEST_CASE("the engine and its octree") {
     CHECK(parse(smallest_mission + "octree: {leaf_m: 0.02}\n").octree.leaf_m == 0.02);
     CHECK(refusal(smallest_mission + "octree: {leaf_m: fine}\n") ==
           "m.yaml:6:18: 'leaf_m' must be auto or a number, not 'fine'");
-    // As JSON writes them.
+    // JSON writes them so.
     CHECK(parse(smallest_mission + "engine: \"rays\"\n").engine == EngineKind::rays);
     CHECK(parse(smallest_mission + "octree: {leaf_m: \"auto\"}\n").octree == OctreeConfig{});
     CHECK(refusal(smallest_mission + "octree: {leaf_m: \"0.02\"}\n") ==

@@ -56,7 +56,7 @@ TEST_CASE("every key has a meaning, and a default unless it is required or free 
             CAPTURE(section.path);
             CAPTURE(key.name);
             CHECK(!key.meaning.empty());
-            // Of the distributions of a key that varies one is given, and the others are not there.
+            // A key that varies has one distribution; the others are absent.
             const bool free = key.type == "text" || key.type == "path" || key.type == "section" ||
                               section.path == "vary.0";
             CHECK((key.required || free || !key.defaults.empty()));
@@ -68,8 +68,7 @@ TEST_CASE("defaults of the reference are what a mission without these keys has")
     const Mission mission = parse(smallest_mission, {"output.folder=/o"});
     std::vector<std::string> settings{"output.folder=/o"};
     for (const SectionReference& section : mission_reference(sonar_keys())) {
-        // What is there only when it is written has no place in the smallest mission, nor has what
-        // the calibrated model alone reads.
+        // The smallest mission has no optional sections and no keys of the calibrated model.
         if (section.path.starts_with("trajectory") || section.path.ends_with(".0") ||
             section.path == "scene.water_surface" ||
             section.path.starts_with("sensors.NAME.instrument"))

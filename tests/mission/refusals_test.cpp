@@ -72,7 +72,7 @@ TEST_CASE("every fault is told, each where it stands") {
           "m.yaml:6:5: unknown key 'azimut_deg' (did you mean 'azimuth_deg'?)\n"
           "m.yaml:9:15: 'fan' must be true or false, not 'yes'\n"
           "m.yaml:9:20: unknown key 'polr' (did you mean 'polar'?)");
-    // Of a section whose kind is not known nothing else can be told; the others are read.
+    // A section of unknown kind is not checked further; the other sections are.
     CHECK(faults("scene: {file: a}\nsensors: {s: {kind: imagin, every: 0}}\n") ==
           "m.yaml:1:8: 'scene' lacks the key 'materials'\n"
           "m.yaml:1:1: 'mission' lacks the key 'trajectory'\n"

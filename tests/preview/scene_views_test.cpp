@@ -103,7 +103,7 @@ TEST_SUITE("preview") {
         CHECK(height_at(above, 5.5, -3.0) == 0.0F);
         CHECK(height_at(above, 3.0, 5.5) == 0.0F);
         CHECK(std::isnan(height_at(above, 25.0, 0.0)));
-        // From a height of 2 m the top is no longer seen, the walls up to there are.
+        // At a height of 2 m the vehicle no longer sees the top, only the walls below it.
         const std::vector<float> beside = heights_below(box_on_a_floor(2.0, 0.0), 0, frame);
         CHECK(height_at(beside, 5.5, 3.0) == 0.0F);
         CHECK(height_at(beside, 5.0, 3.0) == 2.0F);

@@ -50,7 +50,7 @@ Polar polar(const FanFrame& frame, std::size_t index) {
     return {std::hypot(ahead, left), std::atan2(left, ahead)};
 }
 
-/// How far inside the sector (positive) or outside of it (negative) a pixel's centre lies, in px.
+/// The distance of a pixel's centre from the edge of the sector, px; positive inside.
 double depth(const Sonar& sonar, const FanFrame& frame, std::size_t index) {
     const Polar p = polar(frame, index);
     const double aside = 0.5 * radians(sonar.config.azimuth_deg) - std::fabs(p.azimuth_rad);

@@ -18,7 +18,7 @@ inline InstrumentConfig bare(InstrumentConfig instrument) {
 }
 
 inline SonarConfig calibrated(SonarConfig config, double frequency_hz) {
-    config.model = EchoModel::of_instrument;
+    config.model = EchoModel::calibrated;
     config.instrument.frequency_hz = frequency_hz;
     return config;
 }

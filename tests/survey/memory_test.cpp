@@ -12,7 +12,7 @@ namespace {
 SonarConfig line_array() {
     SonarConfig config = default_sonar(SonarKind::imaging);
     config.name = "fls";
-    config.model = EchoModel::of_instrument;
+    config.model = EchoModel::calibrated;
     config.azimuth_deg = 30.0;
     config.azimuth_bins = 64;
     config.range_bins = 128;

@@ -9,6 +9,7 @@
 #include "dataset/writers/semantic.h"
 #include "dataset/writers/yolo.h"
 #include "format/id_png.h"
+#include "format/png.h"
 #include "product/sidescan_row.h"
 
 namespace sonarsim {
@@ -148,9 +149,8 @@ class LabelImageWriter final : public Writer {
         if (!file_.ids) {
             return {PingFile{file_.name, ".npy"}, 128.0 + 4.0 * view_.range_bins * view_.beams, {}};
         }
-        return {PingFile{file_.name, ".png"},
-                id_png_bytes_at_most(view_.beams, view_.range_bins, 2),
-                {}};
+        return {
+            PingFile{file_.name, ".png"}, png_bytes_at_most(view_.beams, view_.range_bins, 2), {}};
     }
 
     std::string encode(const FinishedPing& finished) const override {
@@ -179,7 +179,7 @@ class LabelFanWriter final : public Writer {
 
     WriterOutputs outputs() const override {
         return {PingFile{std::string("fan_") + file_.name, ".png"},
-                id_png_bytes_at_most(frame_.width, frame_.height, 2),
+                png_bytes_at_most(frame_.width, frame_.height, 2),
                 {}};
     }
 

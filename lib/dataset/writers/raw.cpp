@@ -37,7 +37,7 @@ class RawWriter final : public Writer {
 
 std::unique_ptr<Writer> make_raw_writer(const WriterContext& context) {
     if (!context.mission.output.raw || !context.kind().has_images) return nullptr;
-    if (context.sonar().config.model != EchoModel::of_instrument) return nullptr;
+    if (context.sonar().config.model != EchoModel::calibrated) return nullptr;
     return std::make_unique<RawWriter>(context);
 }
 

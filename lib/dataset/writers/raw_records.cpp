@@ -159,7 +159,7 @@ class RawRecordsWriter final : public Writer {
 
 std::unique_ptr<Writer> make_raw_records_writer(const WriterContext& context) {
     if (!context.mission.output.raw || context.kind().has_images) return nullptr;
-    if (context.sonar().config.model != EchoModel::of_instrument) return nullptr;
+    if (context.sonar().config.model != EchoModel::calibrated) return nullptr;
     return std::make_unique<RawRecordsWriter>(context);
 }
 

@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "format/id_png.h"
+#include "format/png.h"
 
 namespace sonarsim {
 
@@ -24,7 +25,7 @@ class SemanticWriter final : public Writer {
 
     WriterOutputs outputs() const override {
         return {PingFile{of_fan_ ? "fan_semantic" : "semantic", ".png"},
-                id_png_bytes_at_most(width_, height_, 1),
+                png_bytes_at_most(width_, height_, 1),
                 {}};
     }
 
@@ -61,7 +62,7 @@ class SemanticWriter final : public Writer {
     bool of_fan_;
     int width_;
     int height_;
-    std::vector<Colour> colours_;
+    std::vector<Rgb> colours_;
 };
 
 }  // namespace

@@ -142,7 +142,8 @@ void write_bathymetry(const SoundingSource& source, double cell_m,
                   {grid.west_m, grid.north_m, grid.cell_m > 0.0 ? grid.cell_m : 1.0});
     write_file(folder / "bathymetry.json",
                json_text(georeference(grid, cell_m, bounds.count, left_out)));
-    write_picture(folder / "bathymetry.png", draw_bathymetry(grid));
+    const Picture picture = draw_bathymetry(grid);
+    write_picture(folder / "bathymetry.png", picture.pixels, picture.width);
 }
 
 /// soundings.npy: float64 [ping, beam, 5]: range, x, y, z, quality, NaN for none; soundings.csv and

@@ -104,7 +104,7 @@ void write_mosaic(const WriterContext& context, const RecordFile& rows,
     Bathymetry map = make_bathymetry(bounds, asked_m > 0.0 ? asked_m : own_cell_m(context));
     const double bin_m = context.sonar().settings.view.bin_m();
     for_each_row(context, rows, [&](const RecordedRow& row) {
-        if (row.swath) lay_down(*row.swath, bin_m, row.values, map);
+        if (row.swath) rasterize(*row.swath, bin_m, row.values, map);
     });
     // A TIFF has a pixel at least; where no ping shows the bottom it is NaN.
     std::vector<float> echoes = map.mean_z();

@@ -1,4 +1,4 @@
-#include "product/strongest_run.h"
+#include "product/detect_return.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@ namespace sonarsim {
 
 namespace {
 
-/// Sums of a beam about its mean, up to each bin.
+/// Cumulative sums of a beam about its mean.
 class Contrast {
   public:
     explicit Contrast(std::span<const double> beam) : sums_(beam.size() + 1) {
@@ -22,16 +22,16 @@ class Contrast {
 
     int bins() const { return static_cast<int>(sums_.size()) - 1; }
 
-    /// 0 for what is no run of the beam.
+    /// The contrast of the run [begin, end); 0 if it is not within the beam.
     double of(int begin, int end) const {
         if (begin < 0 || end > bins() || begin >= end) return 0.0;
         return (sums_[end] - sums_[begin]) / std::sqrt(static_cast<double>(end - begin));
     }
 
-    /// The strongest of the runs of 1, 2, 4, ... bins that overlap by half and lie within
+    /// The run of the greatest contrast among half-overlapping runs of 1, 2, 4, ... bins within
     /// [from, to).
-    StrongRun coarse(int from, int to) const {
-        StrongRun best;
+    DetectedReturn coarse(int from, int to) const {
+        DetectedReturn best;
         for (int length = 1; from + length <= to; length *= 2) {
             const int step = std::max(length / 2, 1);
             double most = 0.0;
@@ -53,8 +53,9 @@ class Contrast {
     std::vector<double> sums_;
 };
 
-/// Moves either end, by half of the run and less and less, as long as that gains contrast.
-void refine(const Contrast& contrast, StrongRun& run) {
+/// Moves the ends of a run as long as its contrast grows, first by half of its length, then by
+/// less.
+void refine(const Contrast& contrast, DetectedReturn& run) {
     for (int step = std::max((run.end - run.begin) / 2, 1); step >= 1; step /= 2) {
         for (bool moved = true; moved;) {
             moved = false;
@@ -71,13 +72,13 @@ void refine(const Contrast& contrast, StrongRun& run) {
 
 }  // namespace
 
-StrongRun strongest_run(std::span<const double> beam) {
+DetectedReturn detect_return(std::span<const double> beam) {
     if (beam.empty()) return {};
     const Contrast contrast(beam);
-    StrongRun run = contrast.coarse(0, contrast.bins());
+    DetectedReturn run = contrast.coarse(0, contrast.bins());
     if (run.begin == run.end) return run;
     refine(contrast, run);
-    // What lies close belongs to the same surface: its faint end, or a gap in its speckle.
+    // Close runs belong to the same surface, as its faint end or behind a gap in its speckle.
     const int apart = (run.end - run.begin) / 2 + 2;
     run.rival = std::max(contrast.coarse(0, run.begin - apart).contrast,
                          contrast.coarse(run.end + apart, contrast.bins()).contrast);

@@ -7,9 +7,9 @@
 
 namespace sonarsim {
 
-/// The poses of at most `most` pings of a sonar that pings at every n-th of `poses`: those in the
-/// middle of equal parts of its way, whatever part of it is rendered.
-inline std::vector<std::uint32_t> spread_pings(std::size_t poses, int every, std::size_t most) {
+/// The poses of at most `most` pings of a sonar that pings at every `every`-th of `poses` poses:
+/// the middles of equal parts of the whole trajectory, whichever part is rendered.
+inline std::vector<std::uint32_t> sample_pings(std::size_t poses, int every, std::size_t most) {
     const auto step = static_cast<std::size_t>(every);
     const std::size_t pings = (poses + step - 1) / step;
     const std::size_t count = std::min(pings, most);

@@ -1,4 +1,4 @@
-#include "product/strongest_run.h"
+#include "product/detect_return.h"
 
 #include <doctest/doctest.h>
 
@@ -7,13 +7,13 @@
 #include <random>
 #include <vector>
 
-#include "product/run_offsets.h"
+#include "product/range_bias.h"
 
 using namespace sonarsim;
 
 TEST_SUITE_BEGIN("product");
 
-TEST_CASE("strongest run: a bright stretch of any place and length is found exactly") {
+TEST_CASE("detect return: a bright stretch of any place and length is found exactly") {
     // A run that is one bin longer or shorter than a stretch of n bins of brightness b over m bins
     // of 0 in all has the contrast b n (1 - n / m) / sqrt(n) times sqrt(n / (n + 1)), or times
     // sqrt((n - 1) / n) and less: the stretch itself is the best.
@@ -21,7 +21,7 @@ TEST_CASE("strongest run: a bright stretch of any place and length is found exac
         for (int begin = 0; begin + length <= 100; begin += 7) {
             std::vector<double> beam(100, 0.25);
             std::fill_n(beam.begin() + begin, length, 0.75);
-            const StrongRun run = strongest_run(beam);
+            const DetectedReturn run = detect_return(beam);
             CAPTURE(length);
             CAPTURE(begin);
             CHECK(run.begin == begin);
@@ -33,33 +33,33 @@ TEST_CASE("strongest run: a bright stretch of any place and length is found exac
     }
 }
 
-TEST_CASE("strongest run: a second surface is its rival") {
+TEST_CASE("detect return: a second surface is its rival") {
     // Contrasts about the mean 0.11: (4 x 2 - 4 x 0.11) / 2 = 3.78, (3 - 0.11) / 1 = 2.89.
     std::vector<double> beam(100, 0.0);
     std::fill_n(beam.begin() + 20, 4, 2.0);
     beam[70] = 3.0;
-    const StrongRun run = strongest_run(beam);
+    const DetectedReturn run = detect_return(beam);
     CHECK(run.begin == 20);
     CHECK(run.end == 24);
     CHECK(run.contrast == doctest::Approx(3.78));
     CHECK(run.rival == doctest::Approx(2.89));
 }
 
-TEST_CASE("strongest run: nothing stands out of a level beam, or of none") {
-    CHECK(strongest_run({}).end == 0);
-    CHECK(strongest_run(std::vector<double>(50, 0.0)).end == 0);
-    CHECK(strongest_run(std::vector<double>(1, 3.0)).end == 0);
+TEST_CASE("detect return: nothing stands out of a level beam, or of none") {
+    CHECK(detect_return({}).end == 0);
+    CHECK(detect_return(std::vector<double>(50, 0.0)).end == 0);
+    CHECK(detect_return(std::vector<double>(1, 3.0)).end == 0);
 }
 
 TEST_CASE("run offsets: beams of many delayed echoes have no bias after them") {
-    CHECK(run_offsets_m(0.0, 0.04, 300).empty());
-    CHECK(run_offsets_m(1e6, 0.04, 300).empty());
-    CHECK(run_offsets_m(11.0, 0.04, 300).size() == 301);
+    CHECK(range_bias_m(0.0, 0.04, 300).empty());
+    CHECK(range_bias_m(1e6, 0.04, 300).empty());
+    CHECK(range_bias_m(11.0, 0.04, 300).size() == 301);
     std::mt19937 random(7);
     std::uniform_real_distribution<double> unit(1e-12, 1.0);
     constexpr double bin_m = 0.04;
     for (const double lambda_m : {0.01, 0.04, 0.12}) {
-        const std::vector<double> offsets = run_offsets_m(lambda_m, bin_m, 300);
+        const std::vector<double> offsets = range_bias_m(lambda_m, bin_m, 300);
         for (const double length_m : {0.0, 0.06, 0.2, 0.7}) {
             double bias = 0.0;
             constexpr int trials = 60;
@@ -77,7 +77,7 @@ TEST_CASE("run offsets: beams of many delayed echoes have no bias after them") {
                 }
                 for (std::size_t i = 0; i < sum.size(); ++i)
                     sum[i] = count[i] > 0.0 ? sum[i] / count[i] : 0.0;
-                const StrongRun run = strongest_run(sum);
+                const DetectedReturn run = detect_return(sum);
                 const auto bins = static_cast<std::size_t>(run.end - run.begin);
                 bias += 0.5 * (run.begin + run.end) * bin_m - (begin_m + 0.5 * length_m) -
                         offsets[bins];
