@@ -5,8 +5,7 @@
 
 A program may be a command of several words. Without --mission it is tests/four_sonars.yaml, once
 with each engine. In dataset.json, and so in the line of SHA256SUMS on it, `build` may differ: it says
-how the program was built. With --pixels PNG files count as alike when their pixels are (needs
-python3-pil), and journal.txt and SHA256SUMS, which hold their sizes and sums, are left out. Exit code 0: all alike; 1: not.
+how the program was built. Exit code 0: all alike; 1: not.
 """
 import argparse
 import hashlib
@@ -22,13 +21,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 MISSIONS = [f"{ROOT}/tests/four_sonars.yaml,engine={engine}" for engine in ("rays", "octree", "slices")]
 
 
-def content(path, pixels):
-    if pixels and path.suffix == ".png":
-        from PIL import Image
-        with Image.open(path) as image:
-            return repr((image.mode, image.size)).encode() + image.tobytes()
-    if pixels and path.name in ("journal.txt", "SHA256SUMS"):
-        return b""
+def content(path):
     if path.name == "SHA256SUMS":
         return b"".join(line for line in path.read_bytes().splitlines(True)
                         if not line.endswith(b"  dataset.json\n"))
@@ -39,13 +32,13 @@ def content(path, pixels):
     return json.dumps(description).encode()
 
 
-def render(program, mission, folder, pixels):
+def render(program, mission, folder):
     """SHA-256 of every file that the program makes of the mission, by name within the dataset."""
     file, *settings = mission.split(",")
     arguments = [word for setting in settings for word in ("--set", setting)]
     subprocess.run([*shlex.split(program), "render", file, "--quiet", *arguments,
                     "--set", f"output.folder={folder}"], check=True)
-    files = {str(path.relative_to(folder)): hashlib.sha256(content(path, pixels)).hexdigest()
+    files = {str(path.relative_to(folder)): hashlib.sha256(content(path)).hexdigest()
              for path in sorted(folder.rglob("*")) if path.is_file()}
     shutil.rmtree(folder)
     return files
@@ -55,16 +48,15 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
     parser.add_argument("--mission", action="append", metavar="FILE[,KEY=VALUE...]")
     parser.add_argument("--folder", type=pathlib.Path, help="where to render, for a moment")
-    parser.add_argument("--pixels", action="store_true", help="compare PNG files by their pixels")
     parser.add_argument("programs", nargs="+", metavar="PROGRAM")
     options = parser.parse_args()
     failed = False
     with tempfile.TemporaryDirectory(prefix="same_bytes-", dir=options.folder) as temporary:
         folder = pathlib.Path(temporary) / "dataset"
         for mission in options.mission or MISSIONS:
-            expected = render(options.programs[0], mission, folder, options.pixels)
+            expected = render(options.programs[0], mission, folder)
             for program in options.programs[1:]:
-                found = render(program, mission, folder, options.pixels)
+                found = render(program, mission, folder)
                 differing = sorted(name for name in expected.keys() | found.keys()
                                    if expected.get(name) != found.get(name))
                 failed |= bool(differing)

@@ -4,9 +4,9 @@
 
 namespace sonarsim {
 
-/// Whether arrays and objects of a JSON text stand in one another more than `levels` deep. A tree
-/// of JSON is copied, compared and written by functions that call themselves, so a deep one takes
-/// all of the stack. The text need not be sound JSON.
+/// True if arrays and objects of a JSON text are nested more than `levels` deep. Recursive functions
+/// copy, compare and write a JSON tree, so a deep one exhausts the stack. The text need not be valid
+/// JSON.
 bool is_nested_deeper(std::string_view text, int levels);
 
 }  // namespace sonarsim

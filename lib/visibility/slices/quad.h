@@ -17,7 +17,7 @@ struct QuadSide {
 struct QuadPoints {
     Eigen::Array4f X, U, W;
     Eigen::Array4f range;
-    Eigen::Array4f u, w;  ///< of the directions to them
+    Eigen::Array4f u, w;  ///< directions to the points
 
     Eigen::Vector3f at(int k) const { return {X[k], U[k], W[k]}; }
     Eigen::Vector3f middle(int i, int k) const { return 0.5F * (at(i) + at(k)); }

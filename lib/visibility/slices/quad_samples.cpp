@@ -21,15 +21,14 @@ constexpr float least_width_share = 0.05F;
 // extend from one range to at most this many times that range.
 constexpr float longest_ratio = 1.5F;
 
-// What floats leave of the area of a quadrilateral that is narrow in the picture.
+// Rounding margin for the area of a quadrilateral that is narrow in the picture.
 constexpr float area_rounding = 1.01F;
 
 /// The area of a quadrilateral on a plane at most, m^2. On a plane dA = X^3 du dw / h.
 /// QuadPoints lie within the range of their triangle. Where the quadrilateral reaches beyond its
-/// triangle, this moves corners off the plane. Of a surface seen nearly along its plane, between
-/// two nearly equal u, the four corners then span an area along the line of sight that does not
-/// exist: it was up to hundreds of times that of the whole triangle, and a bin's mean showed
-/// nothing else.
+/// triangle, this moves corners off the plane. If the surface is nearly edge-on and two u are nearly
+/// equal, the four corners span an area along the line of sight that does not exist. It was up to
+/// hundreds of times the area of the triangle, and dominated the mean of a bin.
 float most_area(const QuadPoints& p, float height_m) {
     const float picture =
         std::fabs((p.u[2] - p.u[0]) * (p.w[3] - p.w[1]) - (p.u[3] - p.u[1]) * (p.w[2] - p.w[0]));
