@@ -15,7 +15,12 @@ class ViewVolume {
     ViewVolume(const View& view, const Pose& T_local_sensor);
 
     /// Where the ball lies. `outside` and `inside` are certain.
-    Containment containment(const Eigen::Vector3f& centre, float radius) const;
+    Containment containment(const Eigen::Vector3f& centre, float radius) const {
+        return of_sensor_frame(R_sensor_local_ * centre, radius);
+    }
+
+    /// The same, `centre` in the frame of the sensor.
+    Containment of_sensor_frame(const Eigen::Vector3f& centre, float radius) const;
 
     /// More than the error of a place within the range: four roundings of 6e-8 of the range.
     float rounding_m() const { return 1e-6F * reach_m_; }
