@@ -79,6 +79,22 @@ float half_extent(const SightLine& line, const Sample& sample, float range_m,
     return half < most ? half : most;
 }
 
+/// Gives each 0 the value that stands nearest to it; of two the lower one. False: all are 0.
+bool fill_gaps(std::span<std::uint16_t> ids) {
+    const auto count = static_cast<int>(ids.size());
+    int before = -1;
+    for (int i = 0; i <= count; ++i) {
+        if (i < count && ids[i] == 0) continue;
+        if (i == count && before < 0) return false;
+        for (int k = before + 1; k < i; ++k) {
+            const bool lower = before >= 0 && (i == count || k - before <= i - k);
+            ids[k] = ids[lower ? before : i];
+        }
+        before = i;
+    }
+    return true;
+}
+
 }  // namespace
 
 ShadowFinder::ShadowFinder(const TracedPing& traced, const View& view, const SceneObjects& objects,
@@ -125,6 +141,8 @@ ShadowFinder::ShadowFinder(const TracedPing& traced, const View& view, const Sce
         lines.resize(going_on);
     }
     sort_into_beams(view.beams);
+    owners_.resize(view.beams);
+    covered_ = engine.covered_bins(view, traced.T_world_sensor);
 }
 
 void ShadowFinder::sort_into_beams(int beams) {
@@ -147,8 +165,16 @@ std::vector<float> ShadowFinder::visible_shares() const {
     return shares;
 }
 
-void ShadowFinder::find(int j, std::span<const std::uint8_t> lit, std::span<std::uint16_t> shadow) {
-    std::ranges::fill(shadow, 0);
+std::vector<std::uint16_t>& ShadowFinder::owners(int j) {
+    std::vector<std::uint16_t>& owners = owners_[j];
+    if (owners.empty()) {
+        owners.resize(bins_.count);
+        find_owners(j, owners);
+    }
+    return owners;
+}
+
+void ShadowFinder::find_owners(int j, std::span<std::uint16_t> owners) {
     const auto own =
         std::span(places_).subspan(beam_begin_[j], beam_begin_[j + 1] - beam_begin_[j]);
     if (own.empty()) return;
@@ -169,9 +195,34 @@ void ShadowFinder::find(int j, std::span<const std::uint8_t> lit, std::span<std:
     }
     finder_.find(
         shares_, Ranks::first, [](std::uint32_t object) { return object; }, strongest_);
-    for (int i = strongest_.first; i < strongest_.last; ++i) {
-        if (lit[i] != 0) continue;
-        shadow[i] = static_cast<std::uint16_t>(strongest_.key[i]);
+    for (int i = strongest_.first; i < strongest_.last; ++i)
+        owners[i] = static_cast<std::uint16_t>(strongest_.key[i]);
+}
+
+std::span<const std::uint16_t> ShadowFinder::nearest_owners(int j) {
+    const auto beams = static_cast<int>(owners_.size());
+    for (int away = 0; away < beams; ++away) {
+        for (const int beam : {j - away, j + away}) {
+            if (beam < 0 || beam >= beams) continue;
+            if (fill_gaps(owners(beam))) return owners(beam);
+        }
+    }
+    return owners(j);
+}
+
+void ShadowFinder::find(int j, std::span<const std::uint8_t> lit, std::span<std::uint16_t> shadow) {
+    std::ranges::fill(shadow, 0);
+    const std::uint8_t* covered = &covered_[static_cast<std::size_t>(j) * bins_.count];
+    bool dark = false;
+    for (int i = 0; i < bins_.count; ++i)
+        dark |= covered[i] > lit[i];
+    if (!dark || hidden_.empty()) return;
+    std::span<const std::uint16_t> owner = owners(j);
+    for (int i = 0; i < bins_.count; ++i) {
+        if (covered[i] <= lit[i]) continue;
+        if (owner[i] == 0) owner = nearest_owners(j);
+        if (owner[i] == 0) return;  // no line ends anywhere
+        shadow[i] = owner[i];
     }
 }
 

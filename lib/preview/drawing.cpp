@@ -100,10 +100,10 @@ PlaneFrame plane_frame(int width, int height, const Eigen::Vector2d& low,
 
 void draw_axes(Picture& tile, const PlaneFrame& frame) {
     const int bottom = frame.top + frame.plot_height;
-    fill(tile, 0, 0, frame.left, frame.height, paper);
-    fill(tile, 0, bottom, frame.width, frame.height - bottom, paper);
+    fill(tile, 0, 0, frame.left, frame.height, backdrop);
+    fill(tile, 0, bottom, frame.width, frame.height - bottom, backdrop);
     const int right = frame.left + frame.plot_width;
-    fill(tile, right, 0, frame.width - right, frame.height, paper);
+    fill(tile, right, 0, frame.width - right, frame.height, backdrop);
     fill(tile, frame.left - 1, frame.top, 1, frame.plot_height, ink);
     fill(tile, frame.left - 1, bottom, frame.plot_width + 1, 1, ink);
     const Eigen::Vector2d high =

@@ -68,7 +68,7 @@ void draw_heights(Picture& tile, const PlaneFrame& frame, const std::vector<floa
                            static_cast<float>(frame.pixel_m);
         const float light = std::clamp(0.55F + 0.25F * rise, 0.3F, 0.8F);
         const Rgb full = blend(stops, (heights[k] - low) / (high - low));
-        const Rgb ends[] = {paper, full};
+        const Rgb ends[] = {backdrop, full};
         tile.row(frame.top + static_cast<int>(k / width))[frame.left + k % width] =
             blend(ends, light);
     }
@@ -102,7 +102,7 @@ Picture draw_plan(const Moment& moment, int width, int height) {
         box.add(scene_high);
     }
     const PlaneFrame frame = plane_frame(width, height, box.low, box.high);
-    Picture tile(width, height, paper);
+    Picture tile(width, height, backdrop);
     const Pose& now = trajectory[moment.pose].T_world_vehicle;
     draw_heights(tile, frame, heights_below(moment.assembly, moment.pose, frame));
     for (std::size_t k = 1; k < trajectory.size(); ++k) {
@@ -135,7 +135,7 @@ Picture draw_section(const Moment& moment, bool across, int width, int height) {
     }
     box = box.padded(0.15);
     const PlaneFrame frame = plane_frame(width, height, box.low, box.high);
-    Picture tile(width, height, paper);
+    Picture tile(width, height, backdrop);
     for (const BeamOutline& beam : moment.beams)
         draw_beam(tile, frame, beam, project);
     for_each_cut(moment.assembly, moment.pose, now.translation, axis,

@@ -126,7 +126,7 @@ SonarPanel draw_waterfall(const Sonar& sonar, const Series& series, int width, i
         const std::vector<float> row = sidescan_row(config, ping);
         values.value.insert(values.value.end(), row.begin(), row.end());
     }
-    Picture picture(width, height, paper);
+    Picture picture(width, height, backdrop);
     const int bottom = height - axis_px;
     draw_values(picture, 0, width, bottom, values, series.white, stops_of(FanColours::copper));
     const double px_per_m = 0.5 * width / config.range_max_m;
@@ -155,7 +155,7 @@ SonarPanel draw_echogram(const Sonar& sonar, const Series& series, int width, in
         for (const Ping& ping : series.pings)
             values.value.push_back(ping.at(bin, 0));
     }
-    Picture picture(width, height, paper);
+    Picture picture(width, height, backdrop);
     const int left = number_px;
     draw_values(picture, left, width - left, height, values, series.white,
                 stops_of(FanColours::sea));

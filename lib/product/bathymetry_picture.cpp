@@ -126,7 +126,7 @@ Picture draw_bathymetry(const Bathymetry& grid) {
     const int width = grid.columns / step * zoom;
     const int height = grid.rows / step * zoom;
     Picture picture(std::max(width, 200) + 2 * margin + legend_width,
-                    std::max(height, 100) + 2 * margin + bar_height, paper);
+                    std::max(height, 100) + 2 * margin + bar_height, backdrop);
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
             const int row = y / zoom * step;

@@ -40,7 +40,7 @@ EchogramFrame echogram_frame(const SonarConfig& config, int pings) {
 }
 
 Picture echogram_axis(const SonarConfig& config, const EchogramFrame& frame) {
-    Picture axis(frame.axis_width, frame.height, paper);
+    Picture axis(frame.axis_width, frame.height, backdrop);
     const int right = frame.axis_width - 1;
     fill(axis, right, 0, 1, frame.height, ink);
     const double pixels_per_m = frame.height / (config.range_max_m - config.range_min_m);

@@ -120,7 +120,7 @@ void mark_text(FanStyle& style, const Picture& text) {
             if (!near) continue;
             const int index = y * text.width + x;
             is_set(x, y) ? style.marks.push_back({index, mark_colour, 1.0F})
-                         : style.marks.push_back({index, paper, halo_share});
+                         : style.marks.push_back({index, backdrop, halo_share});
         }
     }
 }
@@ -128,7 +128,7 @@ void mark_text(FanStyle& style, const Picture& text) {
 void mark_numbers(FanStyle& style, const View& view, const FanStyleConfig& config) {
     const FanFrame& frame = style.frame;
     if (std::min(frame.width, frame.height) < least_px) return;
-    Picture text(frame.width, frame.height, paper);
+    Picture text(frame.width, frame.height, backdrop);
     if (config.rings) {
         for (const double range : ring_ranges(view)) {
             // The outermost bearing has its number there.
@@ -153,7 +153,7 @@ FanStyle make_fan_style(const Sonar& sonar, const FanFrame& frame, const FanStyl
 }
 
 Picture styled_fan(const FanStyle& style, std::span<const std::uint8_t> grey) {
-    Picture picture(style.frame.width, style.frame.height, paper);
+    Picture picture(style.frame.width, style.frame.height, backdrop);
     for (std::size_t k = 0; k < grey.size(); ++k)
         picture.pixels[k] = style.colours[grey[k]];
     for (const FanStyle::Mark& mark : style.marks) {

@@ -9,7 +9,7 @@
 namespace sonarsim {
 
 inline constexpr Rgb ink{235, 235, 235};          ///< axes and labels
-inline constexpr Rgb paper{16, 16, 20};           ///< background
+inline constexpr Rgb backdrop{16, 16, 20};
 inline constexpr Rgb mark_colour{120, 205, 235};  ///< rings, bearings and marks in a picture
 
 /// The colour at `share` (0 to 1, clamped) of the way through equally spaced stops.

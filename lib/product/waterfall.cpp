@@ -18,7 +18,7 @@ constexpr Rgb nadir_colour{150, 190, 220};
 
 Picture waterfall_axis(const SonarConfig& config) {
     const int nadir = waterfall_columns(config) / 2;  // column of the nadir line
-    Picture axis(2 * nadir + 1, axis_height, paper);
+    Picture axis(2 * nadir + 1, axis_height, backdrop);
     fill(axis, 0, axis_height - 1, axis.width, 1, ink);
     const double columns_per_m = nadir / config.range_max_m;
     const int label_px = text_width("000.0 m") + 12;

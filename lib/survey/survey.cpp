@@ -191,14 +191,14 @@ struct BinSums {
 void add_bins(const Sonar& sonar, double full_scale, const Ping& clean, const Ping& ping,
               BinSums& sums, SonarSurvey& out) {
     const PixelNoise& noise = sonar.settings.pixel_noise;
-    const bool paper = !sonar.settings.calibrated;
+    const bool by_paper = !sonar.settings.calibrated;
     for (std::size_t i = 0; i < ping.intensity.size(); ++i) {
         const float value = ping.intensity[i];
         out.brightest = std::max(out.brightest, value);
         if (clean.intensity[i] <= 0.0F) continue;
         ++sums.lit;
         sums.white += value > full_scale;
-        if (!paper) {
+        if (!by_paper) {
             sums.signal += clean.intensity[i];
             sums.noise += std::fabs(value - clean.intensity[i]);
             continue;

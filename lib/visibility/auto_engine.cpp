@@ -97,6 +97,11 @@ class AutoEngine final : public VisibilityEngine {
         slices_->intersect(T_world_sensor, rays, intersections);
     }
 
+    std::vector<std::uint8_t> covered_bins(const View& view,
+                                           const Pose& T_world_sensor) const override {
+        return slices_->covered_bins(view, T_world_sensor);
+    }
+
   private:
     std::unique_ptr<VisibilityEngine> slices_;
     std::unique_ptr<VisibilityEngine> rays_;

@@ -68,9 +68,11 @@ void check_round_trip(PixelKind kind, int width, int height) {
     image.finish();
     std::vector<std::uint8_t> read;
     std::ifstream file(path, std::ios::binary);
-    const PngShape shape = read_png(file, [&](const PngShape&, std::span<const std::uint8_t> row) {
-        read.insert(read.end(), row.begin(), row.end());
-    });
+    const PngShape shape =
+        read_png(file, std::filesystem::file_size(path),
+                 [&](const PngShape&, std::span<const std::uint8_t> row) {
+                     read.insert(read.end(), row.begin(), row.end());
+                 });
     CHECK(shape.width == width);
     CHECK(shape.height == height);
     CHECK(read == written);

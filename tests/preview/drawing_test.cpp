@@ -65,9 +65,9 @@ TEST_SUITE("preview") {
         const int bottom = frame.top + frame.plot_height;
         const Vector2d zero = frame.pixel({0.0, 0.0});
         CHECK(tile.row(bottom + 2)[static_cast<int>(zero.x())] == ink);
-        CHECK(tile.row(bottom + 2)[static_cast<int>(zero.x()) + 1] == paper);
+        CHECK(tile.row(bottom + 2)[static_cast<int>(zero.x()) + 1] == backdrop);
         CHECK(tile.row(static_cast<int>(zero.y()))[frame.left - 3] == ink);
-        CHECK(tile.row(static_cast<int>(zero.y()) + 1)[frame.left - 3] == paper);
+        CHECK(tile.row(static_cast<int>(zero.y()) + 1)[frame.left - 3] == backdrop);
         // The plot itself is left alone, and nothing else.
         CHECK(painted(tile, red).size() ==
               static_cast<std::size_t>(frame.plot_width) * frame.plot_height);
@@ -75,14 +75,14 @@ TEST_SUITE("preview") {
 
     TEST_CASE("lines: what lies outside is cut off, however far away it ends") {
         for (const double far : {100.0, 1e6, 1e12}) {
-            Picture picture(10, 6, paper);
+            Picture picture(10, 6, backdrop);
             draw_line(picture, {-far, 2.5}, {far, 2.5}, red);
             std::vector<int> row;
             for (int x = 0; x < 10; ++x)
                 row.push_back(x + 2000);
             CHECK(painted(picture, red) == row);
         }
-        Picture picture(10, 6, paper);
+        Picture picture(10, 6, backdrop);
         draw_line(picture, {-5.0, -1.0}, {15.0, -1.0}, red);
         draw_line(picture, {4.0, 6.0}, {4.0, 9.0}, red);
         CHECK(painted(picture, red).empty());
@@ -98,11 +98,11 @@ TEST_SUITE("preview") {
     }
 
     TEST_CASE("dots: a square around the pixel of the point, none where there is no point") {
-        Picture picture(9, 9, paper);
+        Picture picture(9, 9, backdrop);
         draw_dot(picture, {4.9, 2.1}, 1, red);
         CHECK(painted(picture, red) ==
               std::vector<int>{1003, 1004, 1005, 2003, 2004, 2005, 3003, 3004, 3005});
-        Picture empty(9, 9, paper);
+        Picture empty(9, 9, backdrop);
         draw_dot(empty, {std::numeric_limits<double>::quiet_NaN(), 4.0}, 1, red);
         draw_dot(empty, {1e300, 4.0}, 1, red);
         CHECK(painted(empty, red).empty());

@@ -114,7 +114,7 @@ TEST_SUITE("product") {
         CHECK(blend(stops, 0.25F) == Rgb{100, 50, 0});
         CHECK(blend(stops, 1.0F) == stops[2]);
         CHECK(blend(stops, 9.0F) == stops[2]);
-        Picture picture(10, 8, paper);
+        Picture picture(10, 8, backdrop);
         fill(picture, -5, -5, 100, 6, ink);
         write(picture, 9, 4, "8", Align::left, ink);
         CHECK(std::ranges::count(picture.pixels, ink) == 10 + 2);  // a row, and the 8's left edge
@@ -128,7 +128,7 @@ TEST_SUITE("product") {
         // 10 m to starboard is bin 100, pixel 301 + 100, after the line; to port 299 - 100.
         CHECK(ticks[401] == ink);
         CHECK(ticks[199] == ink);
-        CHECK(ticks[450] == paper);
+        CHECK(ticks[450] == backdrop);
         std::vector<float> row(600, 0.0F);
         row[10] = 0.5F;
         row[20] = 0.125F;
@@ -156,7 +156,7 @@ TEST_SUITE("product") {
         Picture axis = echogram_axis(config, frame);
         // 4 m is at row 160; marks are 2 m apart.
         CHECK(axis.row(160)[frame.axis_width - 4] == ink);
-        CHECK(axis.row(120)[frame.axis_width - 4] == paper);
+        CHECK(axis.row(120)[frame.axis_width - 4] == backdrop);
         std::vector<Rgb> pixels(12);
         echogram_row(std::vector<float>{0.0F, 1.0F}, 1.0, 6, pixels);
         CHECK(pixels[5].b > pixels[5].r);

@@ -4,7 +4,7 @@
 #include "visibility/engine.h"
 #include "visibility/octree/leaf_size.h"
 #include "visibility/octree/tree.h"
-#include "visibility/octree/view_volume.h"
+#include "visibility/view_volume.h"
 
 namespace sonarsim {
 

@@ -6,6 +6,7 @@
 
 #include "core/text.h"
 #include "visibility/caster.h"
+#include "visibility/coverage.h"
 #include "visibility/image_change.h"
 #include "visibility/intersect.h"
 #include "visibility/octree/goal_check.h"
@@ -25,7 +26,11 @@ constexpr double error_per_change = 0.7;
 class LazyOctreeEngine final : public OctreeEngine {
   public:
     LazyOctreeEngine(const Scene& scene, const OctreeOptions& options)
-        : scene_(&scene), options_(options), caster_(scene), tree_(scene, caster_, options) {}
+        : scene_(&scene),
+          options_(options),
+          caster_(scene),
+          surface_(scene),
+          tree_(scene, caster_, options) {}
 
     Samples visible_surface(const View& view, const Pose& T_world_sensor) const override {
         const Pose T_local_sensor{T_world_sensor.rotation,
@@ -49,6 +54,11 @@ class LazyOctreeEngine final : public OctreeEngine {
         intersect_rays(caster_, scene_->origin, T_world_sensor, rays, intersections);
     }
 
+    std::vector<std::uint8_t> covered_bins(const View& view,
+                                           const Pose& T_world_sensor) const override {
+        return sonarsim::covered_bins(surface_, view, T_world_sensor);
+    }
+
     std::vector<std::string> warnings() const override {
         std::vector<std::string> all = goal_check_.warnings(options_.leaf_m);
         const double needed_mb = std::ceil(static_cast<double>(tree_.statistics().ping_bytes) /
@@ -68,6 +78,7 @@ class LazyOctreeEngine final : public OctreeEngine {
     const Scene* scene_;
     OctreeOptions options_;
     Caster caster_;
+    TriangleRuns surface_;
     mutable Octree tree_;           ///< grows with the pings; has its own locks
     mutable GoalCheck goal_check_;  ///< has its own lock
 };

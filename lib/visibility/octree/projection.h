@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "visibility/octree/search.h"
-#include "visibility/octree/view_volume.h"
 #include "visibility/view.h"
+#include "visibility/view_volume.h"
 
 namespace sonarsim {
 

@@ -1,9 +1,11 @@
 #include "visibility/rays/rays_engine.h"
 
+#include <memory>
 #include <utility>
 #include <vector>
 
 #include "visibility/caster.h"
+#include "visibility/coverage.h"
 #include "visibility/intersect.h"
 #include "visibility/local_pose.h"
 #include "visibility/rays/column_samples.h"
@@ -15,8 +17,12 @@ namespace {
 
 class RaysEngine final : public VisibilityEngine {
   public:
-    RaysEngine(const Eigen::Vector3d& origin, Caster caster)
-        : origin_(origin), caster_(std::move(caster)) {}
+    RaysEngine(const Eigen::Vector3d& origin, Caster caster,
+               std::shared_ptr<const TriangleRuns> surface, std::span<const Pose> T_world_body)
+        : origin_(origin),
+          caster_(std::move(caster)),
+          surface_(std::move(surface)),
+          T_world_body_(T_world_body.begin(), T_world_body.end()) {}
 
     Samples visible_surface(const View& view, const Pose& T_world_sensor) const override {
         const Sampling sampling = sampling_for(view);
@@ -30,22 +36,32 @@ class RaysEngine final : public VisibilityEngine {
         intersect_rays(caster_, origin_, T_world_sensor, rays, intersections);
     }
 
+    std::vector<std::uint8_t> covered_bins(const View& view,
+                                           const Pose& T_world_sensor) const override {
+        return sonarsim::covered_bins(*surface_, view, T_world_sensor, T_world_body_);
+    }
+
     std::unique_ptr<VisibilityEngine> at(std::span<const Pose> T_world_body) const override {
         std::vector<Pose> T_local_body(T_world_body.begin(), T_world_body.end());
         for (Pose& pose : T_local_body)
             pose.translation -= origin_;
-        return std::make_unique<RaysEngine>(origin_, caster_.moved(T_local_body));
+        return std::make_unique<RaysEngine>(origin_, caster_.moved(T_local_body), surface_,
+                                            T_world_body);
     }
 
   private:
     Eigen::Vector3d origin_;
     Caster caster_;
+    std::shared_ptr<const TriangleRuns> surface_;
+    std::vector<Pose> T_world_body_;
 };
 
 }  // namespace
 
 std::unique_ptr<VisibilityEngine> make_rays_engine(const Scene& scene) {
-    return std::make_unique<RaysEngine>(scene.origin, Caster(scene));
+    return std::make_unique<RaysEngine>(scene.origin, Caster(scene),
+                                        std::make_shared<const TriangleRuns>(scene),
+                                        std::span<const Pose>());
 }
 
 }  // namespace sonarsim

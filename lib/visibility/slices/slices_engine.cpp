@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "visibility/caster.h"
+#include "visibility/coverage.h"
 #include "visibility/intersect.h"
 #include "visibility/local_pose.h"
 #include "visibility/slices/adaptive_slices.h"
@@ -100,7 +101,11 @@ class BeamCutter {
 class SlicesEngine final : public VisibilityEngine {
   public:
     SlicesEngine(const Scene& scene, const SlicesOptions& options)
-        : scene_(&scene), options_(options), caster_(scene), mesh_(make_clusters(scene)) {}
+        : scene_(&scene),
+          options_(options),
+          caster_(scene),
+          surface_(scene),
+          mesh_(make_clusters(scene)) {}
 
     Samples visible_surface(const View& view, const Pose& T_world_sensor) const override {
         const int per_beam =
@@ -120,6 +125,11 @@ class SlicesEngine final : public VisibilityEngine {
     void intersect(const Pose& T_world_sensor, std::span<const Ray> rays,
                    std::span<Intersection> intersections) const override {
         intersect_rays(caster_, scene_->origin, T_world_sensor, rays, intersections);
+    }
+
+    std::vector<std::uint8_t> covered_bins(const View& view,
+                                           const Pose& T_world_sensor) const override {
+        return sonarsim::covered_bins(surface_, view, T_world_sensor);
     }
 
   private:
@@ -147,6 +157,7 @@ class SlicesEngine final : public VisibilityEngine {
     const Scene* scene_;
     SlicesOptions options_;
     Caster caster_;
+    TriangleRuns surface_;
     ClusterMesh mesh_;
 };
 

@@ -15,7 +15,12 @@ class ViewVolume {
     ViewVolume(const View& view, const Pose& T_local_sensor);
 
     /// Position of the ball relative to the volume. `outside` and `inside` are certain.
-    Containment containment(const Eigen::Vector3f& centre, float radius) const;
+    Containment containment(const Eigen::Vector3f& centre, float radius) const {
+        return of_sensor_frame(R_sensor_local_ * centre, radius);
+    }
+
+    /// The same with `centre` in the sensor frame.
+    Containment of_sensor_frame(const Eigen::Vector3f& centre, float radius) const;
 
     /// More than the error of a position within the range: four roundings of 6e-8 of the range.
     float rounding_m() const { return 1e-6F * reach_m_; }

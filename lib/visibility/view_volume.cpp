@@ -1,4 +1,4 @@
-#include "visibility/octree/view_volume.h"
+#include "visibility/view_volume.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,8 +19,7 @@ ViewVolume::ViewVolume(const View& view, const Pose& T_local_sensor)
     cos_elevation_ = static_cast<float>(elevation.cos);
 }
 
-Containment ViewVolume::containment(const Eigen::Vector3f& centre, float radius) const {
-    const Eigen::Vector3f p = R_sensor_local_ * centre;
+Containment ViewVolume::of_sensor_frame(const Eigen::Vector3f& p, float radius) const {
     const float beyond_reach = p.norm() - reach_m_;
     // Distances from the half plane of the outermost azimuth and from the cone of the outermost
     // elevation, positive outside; symmetry reduces both to one side.

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/pose.h"
+#include "visibility/triangle_runs.h"
+#include "visibility/view.h"
+
+namespace sonarsim {
+
+/// 1 for the bins of a view that some surface falls into, seen or hidden, else 0: [beams, range
+/// bins], beam after beam. Surface nearer to a bin's border than a thousandth of the bin may count
+/// on either side.
+std::vector<std::uint8_t> covered_bins(const TriangleRuns& surface, const View& view,
+                                       const Pose& T_world_sensor,
+                                       std::span<const Pose> T_world_body = {});
+
+}  // namespace sonarsim

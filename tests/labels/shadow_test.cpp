@@ -1,0 +1,215 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "sonar/kinds.h"
+#include "support/labelled.h"
+#include "support/sanitized.h"
+#include "support/scenes.h"
+#include "visibility/angles.h"
+
+using namespace sonarsim;
+using namespace sonarsim::test;
+
+namespace {
+
+/// Uniform numbers; std::uniform_real_distribution differs between libraries.
+class Draw {
+  public:
+    explicit Draw(std::uint32_t seed) : bits_(seed) {}
+
+    float between(double low, double high) {
+        return static_cast<float>(low + (high - low) * (bits_() / 4294967296.0));
+    }
+
+  private:
+    std::mt19937 bits_;
+};
+
+SonarConfig imaging_128() {
+    SonarConfig config = small_imaging();
+    config.range_bins = 512;
+    config.azimuth_bins = 128;
+    return config;
+}
+
+/// Rays that cover a view: `across` columns to a fan's beam, evenly spread over either side.
+struct RayGrid {
+    int across, up;
+};
+
+/// The bins that hold surface behind other surface, [beams, range bins], by rays alone: each goes
+/// on through all that it meets, and each hit behind the first falls into one bin.
+std::vector<bool> hidden_by_rays(const Scene& scene, const Sonar& sonar, const Pose& pose,
+                                 const RayGrid& grid) {
+    constexpr float step = 1e-5F;
+    const View& view = sonar.settings.view;
+    const auto engine = make_engine(scene, {});
+    std::vector<bool> hidden(static_cast<std::size_t>(view.beams) * view.range_bins);
+    const int columns = view.beams * grid.across;
+    for (int n = 0; n < columns; ++n) {
+        const double azimuth = ((n + 0.5) / columns - 0.5) * view.azimuth_rad;
+        std::vector<Ray> rays;
+        for (int k = 0; k < grid.up; ++k) {
+            const double elevation = ((k + 0.5) / grid.up - 0.5) * view.elevation_rad;
+            rays.push_back(
+                {Eigen::Vector3f::Zero(), direction_of(azimuth, elevation).cast<float>()});
+        }
+        std::vector<Intersection> met;
+        for (int layer = 0; !rays.empty() && layer < 16; ++layer) {
+            met.resize(rays.size());
+            engine->intersect(pose * sonar.T_vehicle_sensor, rays, met);
+            std::size_t going_on = 0;
+            for (std::size_t k = 0; k < rays.size(); ++k) {
+                const float range = rays[k].origin.norm() + met[k].distance_m;
+                if (!(range < view.range_max_m)) continue;
+                if (layer > 0 && range >= view.range_min_m) {
+                    hidden[static_cast<std::size_t>(n / grid.across) * view.range_bins +
+                           bin_at(sonar, range)] = true;
+                }
+                rays[going_on++] = {rays[k].direction * (range * (1.0F + step)), rays[k].direction};
+            }
+            rays.resize(going_on);
+        }
+    }
+    return hidden;
+}
+
+struct Score {
+    double shadow = 0.0, true_shadow = 0.0, both = 0.0;
+
+    double precision() const { return both / shadow; }
+    double recall() const { return both / true_shadow; }
+};
+
+/// Counts the bins in shadow, those that show no surface and hold some that rays find hidden, and
+/// those that are both.
+void add_score(const Scene& scene, const Sonar& sonar, const Pose& pose, const RayGrid& grid,
+               Score& score) {
+    const std::vector<bool> hidden = hidden_by_rays(scene, sonar, pose, grid);
+    const Labelled out = label(scene, sonar, pose, EngineType::slices);
+    for (std::size_t k = 0; k < hidden.size(); ++k) {
+        const bool is = out.labels.shadow[k] > 0;
+        const bool should = hidden[k] && out.labels.object[k] == 0;
+        score.shadow += is ? 1.0 : 0.0;
+        score.true_shadow += should ? 1.0 : 0.0;
+        score.both += is && should ? 1.0 : 0.0;
+    }
+}
+
+void check(const Score& score) {
+    MESSAGE("precision " << score.precision() << ", recall " << score.recall() << ", shadow "
+                         << score.shadow);
+    CHECK(score.shadow > 1000.0);
+    CHECK(score.precision() > 0.98);
+    CHECK(score.recall() > 0.98);
+}
+
+/// A floor of ripples whose heights are drawn, with rocks.
+Scene rippled_floor(Draw& draw) {
+    Scene scene = empty_scene();
+    const std::uint32_t sand = add_material(scene, 0.2F);
+    const std::uint32_t rock = add_material(scene, 0.7F);
+    constexpr int cells = 60;
+    constexpr float cell_m = 0.2F;
+    std::vector<float> heights((cells + 1) * (cells + 1));
+    for (float& height : heights)
+        height = draw.between(-0.06, 0.06);
+    const auto at = [&](int i, int k) {
+        return Eigen::Vector3f(static_cast<float>(i) * cell_m - 2.0F,
+                               static_cast<float>(k - cells / 2) * cell_m,
+                               heights[i * (cells + 1) + k]);
+    };
+    for (int i = 0; i < cells; ++i) {
+        for (int k = 0; k < cells; ++k)
+            add_quad(scene, at(i, k), at(i + 1, k), at(i + 1, k + 1), at(i, k + 1), sand);
+    }
+    for (int n = 0; n < 12; ++n) {
+        add_sphere(scene, {draw.between(1.0, 9.0), draw.between(-4.0, 4.0), 0.0F},
+                   draw.between(0.1, 0.5), rock, 24);
+    }
+    return scene;
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("ping");
+
+TEST_CASE("labels: the shadows of a tank are those that rays through all surfaces find" *
+          doctest::skip(sanitized)) {
+    Draw draw(1);
+    const Sonar sonar = noise_free(imaging_128());
+    Score score;
+    for (int n = 0; n < 5; ++n) {
+        Scene scene = tank();
+        const std::uint32_t steel = add_material(scene, 0.8F);
+        for (int pole = 0; pole < 6; ++pole) {
+            add_pole(scene, {draw.between(-2, 2), draw.between(-2, 2), 0.0F},
+                     draw.between(0.02, 0.1), 2.5F, steel);
+        }
+        const double from = draw.between(-pi, pi);  // looks from near a wall into the tank
+        const double yaw = from + draw.between(pi - 0.4, pi + 0.4);
+        const Pose pose{rotation_from_rpy(draw.between(-0.1, 0.1), draw.between(0.1, 0.3), yaw),
+                        {3.0 * std::cos(from), 2.0 * std::sin(from), draw.between(1.0, 2.0)}};
+        add_score(scene, sonar, pose, {10, 1600}, score);
+    }
+    check(score);
+}
+
+TEST_CASE("labels: the shadows of a sea floor are those that rays through all surfaces find" *
+          doctest::skip(sanitized)) {
+    Draw draw(2);
+    const Sonar sonar = noise_free(imaging_128());
+    Score score;
+    for (int n = 0; n < 2; ++n) {
+        const Scene scene = rippled_floor(draw);
+        const Pose pose{rotation_from_rpy(draw.between(-0.1, 0.1), draw.between(0.1, 0.4),
+                                          draw.between(-0.4, 0.4)),
+                        {-1.0, draw.between(-2, 2), draw.between(0.8, 1.8)}};
+        add_score(scene, sonar, pose, {6, 1600}, score);
+    }
+    check(score);
+}
+
+TEST_CASE("labels: the shadows of a lattice are those that rays through all surfaces find" *
+          doctest::skip(sanitized)) {
+    Draw draw(3);
+    Scene scene = empty_scene();
+    const std::uint32_t steel = add_material(scene, 0.8F);
+    add_floor(scene, 15.0F, 0.0F, steel, 4);
+    for (int n = 0; n < 30; ++n) {
+        const bool upright = n % 2 == 0;
+        const Eigen::Vector3f low(draw.between(2, 8), draw.between(-3, 3),
+                                  upright ? 0.0F : draw.between(0.1, 1.5));
+        const Eigen::Vector3f length(0.08F, upright ? 0.06F : 1.5F, upright ? 2.5F : 0.06F);
+        add_box(scene, low, low + length, steel);
+    }
+    Score score;
+    const Pose pose{rotation_from_rpy(0.05, 0.25, 0.0), {-0.5, 0.0, 1.5}};
+    add_score(scene, noise_free(imaging_128()), pose, {16, 2400}, score);
+    check(score);
+}
+
+TEST_CASE("labels: the shadows of a side-scan are those that rays through all surfaces find" *
+          doctest::skip(sanitized)) {
+    Draw draw(4);
+    SonarConfig config = default_sonar(SonarKind::sidescan);
+    config.azimuth_deg = 160.0;
+    config.elevation_deg = 0.5;
+    config.range_min_m = 0.5;
+    config.range_max_m = 8.0;
+    config.range_bins = 512;
+    const Sonar sonar = noise_free(config);
+    Score score;
+    for (int n = 0; n < 12; ++n) {
+        const Scene scene = rippled_floor(draw);
+        const Pose pose{Eigen::Quaterniond::Identity(), {draw.between(2, 8), 0.0, 1.2}};
+        add_score(scene, sonar, pose, {16000, 8}, score);
+    }
+    check(score);
+}
+
+TEST_SUITE_END();
