@@ -104,7 +104,7 @@ Picture arrange(const std::string& head, const std::vector<Tile>& tiles) {
     const int rows = (static_cast<int>(tiles.size()) + columns - 1) / columns;
     const int step_x = tile_width + gap;
     const int step_y = title_height + tile_height + gap;
-    Picture picture(gap + columns * step_x, head_height + rows * step_y, paper);
+    Picture picture(gap + columns * step_x, head_height + rows * step_y, backdrop);
     write(picture, gap, 12, head, Align::left, ink);
     for (std::size_t k = 0; k < tiles.size(); ++k) {
         const Tile& tile = tiles[k];

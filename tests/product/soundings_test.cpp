@@ -142,7 +142,7 @@ TEST_SUITE("product") {
         const auto at = [&](int column, int row) {
             return picture.row(10 + 30 * row + 15)[10 + 30 * column + 15];
         };
-        CHECK(at(15, 5) == paper);         // not seen
+        CHECK(at(15, 5) == backdrop);         // not seen
         CHECK(at(1, 5).b > at(1, 5).r);    // deep: blue
         CHECK(at(28, 5).r > at(28, 5).b);  // shallow: red
         CHECK(draw_bathymetry({}).width > 0);
