@@ -1,9 +1,9 @@
 #include "assembly/engine_probes.h"
 
 #include "assembly/spread_pings.h"
-#include "ping/heard_surface.h"
 #include "ping/sonar.h"
 #include "sonar/engine_settings.h"
+#include "trace/visible_surface.h"
 
 namespace sonarsim {
 

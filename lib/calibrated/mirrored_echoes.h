@@ -5,8 +5,8 @@
 
 #include "calibrated/directed_beams.h"
 #include "calibrated/fan_beams.h"
-#include "calibrated/mirrored_pieces.h"
 #include "calibrated/sonar_equation.h"
+#include "trace/mirrored_pieces.h"
 
 namespace sonarsim {
 

@@ -7,12 +7,12 @@
 
 #include "calibrated/directed_beams.h"
 #include "calibrated/fan_beams.h"
-#include "calibrated/mirrored_pieces.h"
 #include "calibrated/scatterers.h"
 #include "calibrated/sonar_equation.h"
 #include "core/pose.h"
 #include "mission/mission.h"
 #include "scene/scene.h"
+#include "trace/mirrored_pieces.h"
 #include "visibility/engine.h"
 
 namespace sonarsim {

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "core/elementary.h"
-#include "ping/range_path.h"
+#include "paper/range_path.h"
 
 namespace sonarsim {
 

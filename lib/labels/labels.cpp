@@ -8,7 +8,7 @@
 #include "labels/height.h"
 #include "labels/shadow.h"
 #include "labels/shares.h"
-#include "ping/multipath_echoes.h"
+#include "paper/multipath_echoes.h"
 
 namespace sonarsim {
 

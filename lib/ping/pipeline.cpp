@@ -5,10 +5,10 @@
 
 #include "calibrated/model.h"
 #include "core/clock.h"
-#include "ping/accumulate.h"
-#include "ping/echoes.h"
-#include "ping/heard_surface.h"
-#include "ping/multipath_echoes.h"
+#include "paper/accumulate.h"
+#include "paper/echoes.h"
+#include "paper/multipath_echoes.h"
+#include "trace/visible_surface.h"
 
 namespace sonarsim {
 

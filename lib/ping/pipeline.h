@@ -5,13 +5,13 @@
 #include <vector>
 
 #include "core/pose.h"
-#include "ping/multipath.h"
-#include "ping/ping.h"
-#include "ping/pixel_noise.h"
-#include "ping/range_noise.h"
-#include "ping/streaks.h"
+#include "paper/pixel_noise.h"
+#include "paper/range_noise.h"
+#include "paper/streaks.h"
 #include "ping/terms.h"
 #include "scene/scene.h"
+#include "trace/multipath.h"
+#include "trace/ping.h"
 #include "visibility/engine.h"
 
 namespace sonarsim {

@@ -2,7 +2,7 @@
 
 #include <Eigen/Geometry>
 
-#include "ping/heard_surface.h"
+#include "trace/visible_surface.h"
 #include "validation/reference_cast.h"
 #include "visibility/local_pose.h"
 

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "core/pose.h"
-#include "ping/multipath.h"
 #include "scene/scene.h"
+#include "trace/multipath.h"
 
 namespace sonarsim::test {
 

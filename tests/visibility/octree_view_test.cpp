@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/units.h"
-#include "ping/accumulate.h"
+#include "paper/accumulate.h"
 #include "sonar/sonar.h"
 #include "support/sanitized.h"
 #include "support/scenes.h"
