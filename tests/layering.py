@@ -21,7 +21,7 @@ ALLOWED = {
     "trace": {"core", "scene", "visibility"},
     "paper": {"core", "mission", "scene", "visibility", "trace"},
     "calibrated": {"core", "mission", "scene", "visibility", "trace"},
-    "ping": {"core", "mission", "scene", "visibility", "trace", "paper", "calibrated"},
+    "ping": {"core", "mission", "scene", "visibility", "trace"},
     "labels": {"core", "scene", "visibility", "trace", "paper", "ping"},
     "product": {"core", "mission", "trace", "paper", "ping", "labels"},
     "sonar": {"core", "mission", "scene", "visibility", "trace", "paper", "calibrated", "ping", "labels", "product"},

@@ -148,7 +148,7 @@ std::size_t warn_before(const Mission& mission, const Assembly& assembly) {
     for (const Sonar& sonar : assembly.sonars) {
         const std::string doubt =
             doubt_about(engine_settings(mission), sonar.settings.view, sonar.settings.multipath.on,
-                        sonar.config.model == EchoModel::of_instrument);
+                        sonar.settings.model->energies_add());
         if (doubt.empty()) continue;
         ++warnings;
         spdlog::warn("sensor '{}': {}", sonar.config.name, doubt);

@@ -11,22 +11,14 @@ namespace {
 
 constexpr std::size_t most_probes = 3;  // per sonar
 
-// The narrow beam of a side-scan sees least of what its view is wide: with energies that add,
-// images by rays come out three times as far off as the paper's means, those by slices 14 to 18 %
-// at any goal (a sea floor with boulders against brute force).
-constexpr double share_along_track = 1.0 / 3.0;
-
 /// The error goal at which a sonar's surface has to be seen by rays; 0: slices will do.
 double rays_goal(const Sonar& sonar) {
     const View& view = sonar.settings.view;
-    if (sonar.settings.calibrated && view.shape == ViewShape::sides)
-        return share_along_track * view.relative_l1;
+    const double of_model = sonar.settings.model->rays_goal(view);
+    if (of_model > 0.0) return of_model;
     // With multipath sound goes on from the middle of each sample, and a sample of the slices may
-    // be as long as a beam is high. In a cone where energies add the slices come out up to 1 % off,
-    // which their estimate does not tell, and rays, which are as fast there, a third of that.
-    const bool by_rays = sonar.config.multipath.method != MultipathMethod::none ||
-                         (sonar.settings.calibrated && view.shape == ViewShape::cone);
-    return by_rays ? view.relative_l1 : 0.0;
+    // be as long as a beam is high.
+    return sonar.config.multipath.method != MultipathMethod::none ? view.relative_l1 : 0.0;
 }
 
 }  // namespace
@@ -38,7 +30,7 @@ EngineSettings engine_settings(const Mission& mission, const Assembly& assembly)
         for (const std::uint32_t pose :
              spread_pings(assembly.trajectory.size(), sonar.config.every, most_probes)) {
             settings.probes.push_back(
-                {heard_view(sonar.settings.view, sonar.settings.beams_beside),
+                {widened_view(sonar.settings.view, sonar.settings.guard_beams),
                  sensor_pose(sonar, assembly.trajectory[pose].T_world_vehicle, pose),
                  rays_goal(sonar)});
         }

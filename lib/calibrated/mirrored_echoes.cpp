@@ -21,7 +21,7 @@ struct MirroredBlock {
     PieceBlock::Array<float> power{}, row{};
 };
 
-void put_place(Ends& ends, int k, const MirroredPiece::Place& place, float s, float t) {
+void put_place(Ends& ends, int k, const SpecularPath::Place& place, float s, float t) {
     const Eigen::Vector3f p = place.at + s * place.u + t * place.v;
     ends.places.x[k] = p.x();
     ends.places.y[k] = p.y();
@@ -76,10 +76,10 @@ std::uint64_t add_block(const Beams& beams, const SonarEquation& equation, Mirro
 }
 
 /// Into how many pieces an edge is cut, of which each is a point both directly and in the mirror.
-int pieces_of_both(const MirroredPiece& piece, const Eigen::Vector3f MirroredPiece::Place::*edge,
+int pieces_of_both(const SpecularPath& piece, const Eigen::Vector3f SpecularPath::Place::*edge,
                    const PointLimits& limits) {
     int most = 1;
-    for (const MirroredPiece::Place* place : {&piece.point, &piece.image}) {
+    for (const SpecularPath::Place* place : {&piece.point, &piece.image_source}) {
         const float range = place->at.norm();
         most = std::max(most, pieces_along(place->*edge, place->at / range, range, limits));
     }
@@ -89,15 +89,15 @@ int pieces_of_both(const MirroredPiece& piece, const Eigen::Vector3f MirroredPie
 }  // namespace
 
 template <class Beams>
-std::uint64_t add_mirrored_powers(const Beams& beams, std::span<const MirroredPiece> pieces,
+std::uint64_t add_mirrored_powers(const Beams& beams, std::span<const SpecularPath> pieces,
                                   std::span<const Backscatter> materials,
                                   const SonarEquation& equation, const PointLimits& limits,
                                   EchoGrid& grid) {
     MirroredBlock block;
     std::uint64_t outside = 0;
-    for (const MirroredPiece& piece : pieces) {
-        const int rows = pieces_of_both(piece, &MirroredPiece::Place::u, limits);
-        const int columns = pieces_of_both(piece, &MirroredPiece::Place::v, limits);
+    for (const SpecularPath& piece : pieces) {
+        const int rows = pieces_of_both(piece, &SpecularPath::Place::u, limits);
+        const int columns = pieces_of_both(piece, &SpecularPath::Place::v, limits);
         const float power = materials[piece.material].between(
                                 piece.sine_of_point, piece.sine_of_image, piece.sine_between) *
                             piece.reflection * piece.area_m2 / static_cast<float>(rows * columns);
@@ -107,7 +107,7 @@ std::uint64_t add_mirrored_powers(const Beams& beams, std::span<const MirroredPi
                 const float t =
                     (2.0F * static_cast<float>(j) + 1.0F) / static_cast<float>(columns) - 1.0F;
                 put_place(block.points, block.count, piece.point, s, t);
-                put_place(block.images, block.count, piece.image, s, t);
+                put_place(block.images, block.count, piece.image_source, s, t);
                 block.power[block.count] = power;
                 if (++block.count == PieceBlock::most)
                     outside += add_block(beams, equation, block, grid);
@@ -117,10 +117,10 @@ std::uint64_t add_mirrored_powers(const Beams& beams, std::span<const MirroredPi
     return outside + add_block(beams, equation, block, grid);
 }
 
-template std::uint64_t add_mirrored_powers(const DirectedBeams&, std::span<const MirroredPiece>,
+template std::uint64_t add_mirrored_powers(const DirectedBeams&, std::span<const SpecularPath>,
                                            std::span<const Backscatter>, const SonarEquation&,
                                            const PointLimits&, EchoGrid&);
-template std::uint64_t add_mirrored_powers(const FanBeams&, std::span<const MirroredPiece>,
+template std::uint64_t add_mirrored_powers(const FanBeams&, std::span<const SpecularPath>,
                                            std::span<const Backscatter>, const SonarEquation&,
                                            const PointLimits&, EchoGrid&);
 

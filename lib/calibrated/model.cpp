@@ -83,7 +83,7 @@ CalibratedCounts form_image_of(const Beams& beams, const CalibratedModel& model,
     const bool speckled = terms.speckle && model.speckle != SpeckleMode::none;
     const bool of_scene = speckled && model.speckle == SpeckleMode::scene;
     const std::vector<Backscatter> materials = scattering_of(scene);
-    const std::array<std::span<const Sample>, 2> surfaces{seen.samples.items, seen.beside};
+    const std::array<std::span<const Sample>, 2> surfaces{seen.samples.items, seen.outside_sector};
     CalibratedCounts counts;
     EchoGrid grid(model.equation.rows, columns_of(beams));
     PointEchoes echoes;
@@ -141,6 +141,14 @@ CalibratedCounts form_image_of(const Beams& beams, const CalibratedModel& model,
     return counts;
 }
 
+/// The guard beams of a line array: whole beams, and rounding of degrees to radians must not cost
+/// one.
+int guard_beams_of(const BeamConfig& beam, const View& view) {
+    const double half = 0.5 * view.azimuth_rad;
+    const double outside = 0.5 * (radians(beam.view_azimuth_deg) / (2.0 * half) - 1.0);
+    return static_cast<int>(std::max(0.0, std::floor(outside * view.beams + 1e-6)));
+}
+
 /// How small the pieces have to be, for beams of either kind, to be points to them.
 PointLimits point_limits(const BeamConfig& beam, const View& view,
                          const std::variant<DirectedBeams, FanBeams>& beams) {
@@ -176,6 +184,7 @@ CalibratedModel calibrated_model(const InstrumentConfig& instrument, const Water
     const BeamConfig& beam = instrument.beam;
     const ReceiverConfig& receiver = instrument.receiver;
     CalibratedModel model;
+    model.instrument = instrument;
     model.clutter = gamma_clutter(instrument.speckle.clutter_shape, instrument.speckle.clutter_m);
     model.amplitude_taps = range_taps(resolution_bins, side_lobe_db, false);
     model.power_taps = range_taps(resolution_bins, side_lobe_db, true);
@@ -192,6 +201,7 @@ CalibratedModel calibrated_model(const InstrumentConfig& instrument, const Water
         receiver.common_mode_db > no_common_mode_db ? relative(receiver.common_mode_db) : 0.0;
     if (beam.aperture == Aperture::line) {
         model.beams = fan_beams(beam, beam_sines, noise, common_mode);
+        model.guard = guard_beams_of(beam, view);
     } else {
         model.beams = directed_beams(beam, view, model.wavelength_m, noise + common_mode);
     }

@@ -6,9 +6,9 @@ namespace sonarsim {
 
 // The instrument that `model: calibrated` simulates, with its defaults. Names are the YAML keys.
 
-/// Which of the two models makes an image of what a sonar saw, docs/model.md and
+/// The echo model of a sonar: the paper's, docs/model.md, or the calibrated one,
 /// docs/calibrated.md.
-enum class EchoModel { of_paper, of_instrument };
+enum class ModelKind { paper, calibrated };
 
 /// What sound is sent and heard with. No key: it follows from the kind of sonar.
 enum class Aperture {

@@ -9,8 +9,8 @@
 
 namespace sonarsim {
 
-inline constexpr std::array echo_models{Choice<EchoModel>{"paper", EchoModel::of_paper},
-                                        Choice<EchoModel>{"calibrated", EchoModel::of_instrument}};
+inline constexpr std::array echo_models{Choice<ModelKind>{"paper", ModelKind::paper},
+                                        Choice<ModelKind>{"calibrated", ModelKind::calibrated}};
 inline constexpr std::array beam_spreads{Choice<BeamSpread>{"angle", BeamSpread::angle},
                                          Choice<BeamSpread>{"sine", BeamSpread::sine}};
 inline constexpr std::array speckle_modes{Choice<SpeckleMode>{"scene", SpeckleMode::scene},

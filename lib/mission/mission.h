@@ -104,7 +104,7 @@ struct SonarConfig {
     NoiseConfig noise;
     StreaksConfig streaks;
     std::filesystem::path preset;  ///< empty once a mission is read: its keys are filled in
-    EchoModel model = EchoModel::of_paper;
+    ModelKind model = ModelKind::paper;
     InstrumentConfig instrument;  ///< of the calibrated model
 
     bool operator==(const SonarConfig&) const = default;

@@ -33,7 +33,7 @@ struct Cut {
 };
 
 /// How a bounce is cut: no piece wider than a beam nor, with range noise, than a scatterer cell.
-Cut cut(const Bounce& b, const Sample& sample, float bin_m, const ScattererLattice& lattice) {
+Cut cut(const BouncePath& b, const Sample& sample, float bin_m, const ScattererLattice& lattice) {
     Pieces wanted{.u = 2.0F * std::fabs(b.beam_u), .v = 2.0F * std::fabs(b.beam_v)};
     if (lattice.exists()) {
         const float bins = (2.0F + 2.0F * (std::fabs(b.range_u) + std::fabs(b.range_v)) / bin_m) *
@@ -49,7 +49,7 @@ Cut cut(const Bounce& b, const Sample& sample, float bin_m, const ScattererLatti
 }
 
 /// Adds the pieces of a bounce to `out`, without those outside the field of view.
-void add_pieces(const Bounce& b, const Sample& sample, const View& view,
+void add_pieces(const BouncePath& b, const Sample& sample, const View& view,
                 const ScattererLattice& lattice, const CellFrame& cells, std::vector<Piece>& out) {
     const auto beams = static_cast<float>(view.beams);
     const auto [n_u, n_v] = cut(b, sample, static_cast<float>(view.bin_m()), lattice);
@@ -109,13 +109,13 @@ MultipathEchoes sorted_by_beam(const std::vector<Piece>& pieces, int beams, bool
 
 }  // namespace
 
-MultipathEchoes multipath_echoes(std::span<const Bounce> bounces, const Samples& samples,
+MultipathEchoes multipath_echoes(std::span<const BouncePath> bounces, const Samples& samples,
                                  const View& view, const ScattererLattice& lattice) {
     std::vector<Piece> pieces;
     pieces.reserve(16 * bounces.size());
     const CellFrame cells(lattice);
-    for (const Bounce& b : bounces)
-        add_pieces(b, samples.items[b.sample], view, lattice, cells, pieces);
+    for (const BouncePath& b : bounces)
+        if (!b.scattered) add_pieces(b, samples.items[b.sample], view, lattice, cells, pieces);
     return sorted_by_beam(pieces, view.beams, lattice.exists());
 }
 

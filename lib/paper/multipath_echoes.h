@@ -15,9 +15,10 @@ struct MultipathEchoes {
     std::vector<std::uint32_t> beam_begin;  ///< beams + 1 offsets into `echoes`
 };
 
-/// Turns bounces into echoes with the weight and the scatterer cells of their samples. A footprint
-/// that spans several beams, or cells where there is range noise, is cut into pieces.
-MultipathEchoes multipath_echoes(std::span<const Bounce> bounces, const Samples& samples,
+/// Turns the paths that are not scattered into echoes with the weight and the scatterer cells of
+/// their samples. A footprint that spans several beams, or cells where there is range noise, is cut
+/// into pieces.
+MultipathEchoes multipath_echoes(std::span<const BouncePath> bounces, const Samples& samples,
                                  const View& view, const ScattererLattice& lattice);
 
 }  // namespace sonarsim

@@ -15,8 +15,8 @@ void measure_soundings(const PingView& view, nlohmann::ordered_json& json) {
 void add_azimuth_and_offsets(Sonar& sonar) {
     add_azimuth(sonar);
     const View& view = sonar.settings.view;
-    sonar.run_offsets_m =
-        run_offsets_m(sonar.settings.range_noise.lambda_m, view.bin_m(), view.range_bins);
+    sonar.run_offsets_m = run_offsets_m(static_cast<float>(sonar.config.noise.range_lambda_m),
+                                        view.bin_m(), view.range_bins);
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ std::vector<Warning> find_warnings(const Mission& mission, const Assembly& assem
         append(sonar_warnings(mission.output, sonar, assembly.full_scales[i], sonars[i]));
         const std::string doubt =
             doubt_about(engine_settings(mission), sonar.settings.view, sonar.settings.multipath.on,
-                        sonar.config.model == EchoModel::of_instrument);
+                        sonar.settings.model->energies_add());
         if (!doubt.empty())
             out.push_back(make_warning(Doubt::engine, about_sensor(sonar.config.name), doubt));
     }

@@ -26,9 +26,9 @@ bool hit_its_start(const Ray& ray, const Intersection& hit) {
 
 /// Follows those of the rays that meet the water's surface before anything else (`hits`), and
 /// appends the mirror images of what they hit.
-void look_into_mirror(const SecondLegs& context, std::span<const Ray> rays,
-                      std::span<const Intersection> hits, std::vector<SecondHit>& second_hits,
-                      MultipathCounts& counts) {
+void trace_surface_reflection(const BounceTracer& context, std::span<const Ray> rays,
+                              std::span<const Intersection> hits,
+                              std::vector<BounceHit>& second_hits, MultipathCounts& counts) {
     const WaterMirror& mirror = *context.mirror;
     std::vector<Ray> mirrored_rays;
     std::vector<std::size_t> second_of;
@@ -37,8 +37,8 @@ void look_into_mirror(const SecondLegs& context, std::span<const Ray> rays,
         const float distance = mirror.distance(rays[k]);
         if (!(distance < hits[k].distance_m)) continue;
         second_of.push_back(second_hits.size() - 1);
-        mirrored_rays.push_back(
-            {rays[k].origin + distance * rays[k].direction, mirror.turn(rays[k].direction)});
+        mirrored_rays.push_back({rays[k].origin + distance * rays[k].direction,
+                                 mirror.reflect_direction(rays[k].direction)});
     }
     std::vector<Intersection> behind(mirrored_rays.size());
     context.engine.intersect(context.T_world_sensor, mirrored_rays, behind);
@@ -47,20 +47,20 @@ void look_into_mirror(const SecondLegs& context, std::span<const Ray> rays,
         if (!std::isfinite(behind[k].distance_m)) continue;
         const Ray& ray = mirrored_rays[k];
         second_hits[second_of[k]] = {
-            .point = mirror.fold(ray.origin + behind[k].distance_m * ray.direction),
-            .normal = mirror.turn(behind[k].normal),
+            .point = mirror.reflect_point(ray.origin + behind[k].distance_m * ray.direction),
+            .normal = mirror.reflect_direction(behind[k].normal),
             .rounding_m = behind[k].rounding_m,
             .reflection = mirror.reflection * context.materials[behind[k].material].reflection,
             .material = behind[k].material,
-            .mirrored = mirror.reflection,
+            .water_reflection = mirror.reflection,
             .exists = true};
     }
 }
 
 }  // namespace
 
-void trace_second_legs(const SecondLegs& context, std::span<const std::uint32_t> sources,
-                       std::vector<SecondHit>& second_hits, MultipathCounts& counts) {
+void trace_bounces(const BounceTracer& context, std::span<const std::uint32_t> sources,
+                   std::vector<BounceHit>& second_hits, MultipathCounts& counts) {
     std::vector<Ray> rays;
     rays.reserve(sources.size());
     for (const std::uint32_t i : sources)
@@ -75,11 +75,11 @@ void trace_second_legs(const SecondLegs& context, std::span<const std::uint32_t>
         ++counts.rays;
     }
     if (context.is_mirrored()) {
-        look_into_mirror(context, rays, hits, second_hits, counts);
+        trace_surface_reflection(context, rays, hits, second_hits, counts);
         return;
     }
     for (std::size_t k = 0; k < rays.size(); ++k) {
-        SecondHit second;
+        BounceHit second;
         const float at_surface = context.mirror ? context.mirror->distance(rays[k])
                                                 : std::numeric_limits<float>::infinity();
         if (at_surface < hits[k].distance_m) {

@@ -6,36 +6,34 @@
 #include <vector>
 
 #include "scene/scene.h"
-#include "trace/ping.h"
+#include "trace/bounce_path.h"
+#include "trace/counters.h"
 #include "trace/water_mirror.h"
 #include "visibility/engine.h"
 #include "visibility/view.h"
 
 namespace sonarsim {
 
-inline constexpr std::uint32_t no_material = 0xFFFFFFFFU;
-
 /// What a traced ray hit: the second surface h.
-struct SecondHit {
+struct BounceHit {
     Eigen::Vector3f point;    ///< p_h, sensor frame, m
     Eigen::Vector3f normal;   ///< n_h
     float rounding_m = 0.0F;  ///< as in Intersection
     float reflection = 0.0F;  ///< R_h
-    /// What it is of, an index into Scene::materials, and R of the water's surface where the sound
-    /// was mirrored by it on the way, else 1. The surface itself is of no material.
-    std::uint32_t material = no_material;
-    float mirrored = 1.0F;
+    std::uint32_t material =
+        no_material;                ///< index into Scene::materials; none: the water's surface
+    float water_reflection = 1.0F;  ///< R of the water's surface where it mirrors the sound, else 1
     bool exists = false;
 };
 
 /// What becomes of rays that meet the water's surface.
-enum class AtSurface {
-    ends,     ///< the surface is what they hit
-    mirrors,  ///< they go on, and what they hit is seen in the mirror; no other rays hit anything
+enum class SurfaceRole {
+    target,     ///< the rays hit the water's surface
+    reflector,  ///< the water's surface mirrors the rays to what they hit; other rays hit nothing
 };
 
-/// What is needed to follow sound from the samples on.
-struct SecondLegs {
+/// Follows sound from the samples on.
+struct BounceTracer {
     const View& view;
     const Samples& samples;
     std::span<const Material> materials;
@@ -44,19 +42,20 @@ struct SecondLegs {
     float bin_m;
     BeamLocator field;
     const WaterMirror* mirror;  ///< null: the water has no surface
-    AtSurface at_surface = AtSurface::ends;
+    bool scattered = false;     ///< as in Multipath
+    SurfaceRole surface_role = SurfaceRole::target;
 
-    bool is_mirrored() const { return mirror && at_surface == AtSurface::mirrors; }
+    bool is_mirrored() const { return mirror && surface_role == SurfaceRole::reflector; }
     /// Where the sonar is for the last leg of the sound.
     Eigen::Vector3f sonar() const {
         return is_mirrored() ? mirror->image : Eigen::Vector3f(Eigen::Vector3f::Zero());
     }
     /// The point of the world that a second point stands for.
     Eigen::Vector3f seen(const Eigen::Vector3f& p) const {
-        return is_mirrored() ? mirror->fold(p) : p;
+        return is_mirrored() ? mirror->reflect_point(p) : p;
     }
     Eigen::Vector3f seen_change(const Eigen::Vector3f& of_p) const {
-        return is_mirrored() ? mirror->turn(of_p) : of_p;
+        return is_mirrored() ? mirror->reflect_direction(of_p) : of_p;
     }
 };
 
@@ -68,7 +67,7 @@ inline Eigen::Vector3f mirrored(const Eigen::Vector3f& direction, const Eigen::V
 /// Traces the samples and appends what their rays hit to `second_hits`. Far from the scene's
 /// origin, or on a large triangle, rounding may put the start of a ray below its surface; such a
 /// ray is traced once more from above the rounding.
-void trace_second_legs(const SecondLegs& context, std::span<const std::uint32_t> sources,
-                       std::vector<SecondHit>& second_hits, MultipathCounts& counts);
+void trace_bounces(const BounceTracer& context, std::span<const std::uint32_t> sources,
+                   std::vector<BounceHit>& second_hits, MultipathCounts& counts);
 
 }  // namespace sonarsim

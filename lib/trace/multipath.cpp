@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "trace/bounce_tracer.h"
-#include "trace/mirrored_footprint.h"
 
 namespace sonarsim {
 
@@ -23,7 +22,7 @@ constexpr float same_plane_bins = 0.5F;
 
 /// The plane of the second surface of a cluster, and the disc of it that was hit.
 struct Plane {
-    const SecondHit* hit;
+    const BounceHit* hit;
     Eigen::Vector3f middle;
     float radius_m;
 };
@@ -33,7 +32,7 @@ using Outcome = std::uint64_t MultipathCounts::*;
 constexpr Outcome off_the_disc = nullptr;  ///< to be traced by itself
 
 /// Whether two rays hit one plane, or both nothing.
-bool same_plane(const SecondHit& a, const SecondHit& b, float slack_m) {
+bool same_plane(const BounceHit& a, const BounceHit& b, float slack_m) {
     if (!a.exists || !b.exists) return a.exists == b.exists;
     const Eigen::Vector3f apart = b.point - a.point;
     return a.reflection == b.reflection && a.normal.dot(b.normal) >= same_normal_cosine &&
@@ -44,8 +43,9 @@ bool same_plane(const SecondHit& a, const SecondHit& b, float slack_m) {
 /// from there, Eq. 3. The mirror image of the sonar in the sample's plane, s, makes the path to p
 /// one straight line: p lies on the ray from s through p_i, and |p - s| is the length of the path.
 /// When p_i moves along an edge of its footprint, s stays where it is.
-Outcome reflect(const SecondLegs& context, const Sample& sample, const Plane& plane, Bounce& out) {
-    const SecondHit& second = *plane.hit;
+Outcome reflect(const BounceTracer& context, const Sample& sample, const Plane& plane,
+                BouncePath& out) {
+    const BounceHit& second = *plane.hit;
     if (!second.exists) return &MultipathCounts::missed;
     // The sound hit the far side of what the sonar faces.
     const Eigen::Vector3f sonar = context.sonar();
@@ -88,41 +88,47 @@ Outcome reflect(const SecondLegs& context, const Sample& sample, const Plane& pl
     return &MultipathCounts::bounces;
 }
 
-/// What comes back, and what the second surface mirrors away from the sonar: of that only sample
-/// and second surface are known.
+/// The paths that come back, and those that the second surface mirrors away from the sonar.
 struct Followed {
-    std::vector<Bounce> bounces, turned_away;
+    std::vector<BouncePath> bounces, turned_away;
 };
 
 /// Reflects one sample off the plane, and keeps what comes back. Returns whether the sample has to
 /// be traced by itself.
-bool follow(const SecondLegs& context, std::uint32_t sample, std::uint32_t second,
+bool follow(const BounceTracer& context, std::uint32_t sample, std::uint32_t ray,
             const Plane& plane, Followed& followed, MultipathCounts& counts) {
     const Sample& source = context.samples.items[sample];
-    Bounce b{};
+    BouncePath b{};
     b.sample = sample;
-    b.second = second;
+    b.ray = ray;
     const Outcome outcome = reflect(context, source, plane, b);
     if (outcome == off_the_disc) return true;
     ++(counts.*outcome);
+    const BounceHit& second = *plane.hit;
+    b.point = second.point;
+    b.normal = second.normal;
+    b.material = second.material;
+    b.water_reflection = second.water_reflection;
+    b.by_water_surface = context.is_mirrored();
     if (outcome == &MultipathCounts::bounces) {
         b.intensity *= context.materials[source.material].reflection;
         followed.bounces.push_back(b);
-    } else if (outcome == &MultipathCounts::turned_away) {
+    } else if (outcome == &MultipathCounts::turned_away && context.scattered) {
+        b.scattered = true;
         followed.turned_away.push_back(b);
     }
     return false;
 }
 
 /// Traces the samples and reflects each off what its own ray hit.
-void follow_traced(const SecondLegs& context, std::span<const std::uint32_t> sources,
-                   std::vector<SecondHit>& second_hits, Followed& followed,
+void follow_traced(const BounceTracer& context, std::span<const std::uint32_t> sources,
+                   std::vector<BounceHit>& second_hits, Followed& followed,
                    MultipathCounts& counts) {
     const std::size_t first = second_hits.size();
-    trace_second_legs(context, sources, second_hits, counts);
+    trace_bounces(context, sources, second_hits, counts);
     constexpr float unbounded = std::numeric_limits<float>::infinity();
     for (std::size_t k = 0; k < sources.size(); ++k) {
-        const SecondHit& own = second_hits[first + k];
+        const BounceHit& own = second_hits[first + k];
         follow(context, sources[k], static_cast<std::uint32_t>(first + k),
                {&own, own.point, unbounded}, followed, counts);
     }
@@ -131,7 +137,7 @@ void follow_traced(const SecondLegs& context, std::span<const std::uint32_t> sou
 /// Whether `hit`, of a ray from the sonar towards p_h, lies before p_h and hides it. Where both are
 /// one surface, two ranges of one point are compared. Each is off by its rounding across the
 /// surface, which along the ray is longer by 1 / cos(incidence).
-bool hides(const Intersection& hit, const SecondHit& second, float range_m, const Ray& ray) {
+bool hides(const Intersection& hit, const BounceHit& second, float range_m, const Ray& ray) {
     if (std::isinf(hit.distance_m)) return false;
     const auto along_ray = [&](float rounding_m, const Eigen::Vector3f& normal) {
         return rounding_m / std::fabs(normal.dot(ray.direction));
@@ -142,40 +148,30 @@ bool hides(const Intersection& hit, const SecondHit& second, float range_m, cons
 }
 
 /// Takes out the bounces whose second point the sonar does not see.
-void drop_hidden(const SecondLegs& context, const std::vector<SecondHit>& second_hits,
-                 std::vector<Bounce>& bounces, MultipathCounts& counts) {
+void drop_hidden(const BounceTracer& context, const std::vector<BounceHit>& second_hits,
+                 std::vector<BouncePath>& bounces, MultipathCounts& counts) {
     constexpr std::uint32_t no_ray = 0xFFFFFFFFU;
     std::vector<std::uint32_t> ray_of(second_hits.size(), no_ray);
     std::vector<Ray> rays;
-    for (const Bounce& b : bounces) {
-        if (ray_of[b.second] != no_ray) continue;
-        ray_of[b.second] = static_cast<std::uint32_t>(rays.size());
+    for (const BouncePath& b : bounces) {
+        if (ray_of[b.ray] != no_ray) continue;
+        ray_of[b.ray] = static_cast<std::uint32_t>(rays.size());
         rays.push_back(
-            {Eigen::Vector3f::Zero(), context.seen(second_hits[b.second].point).normalized()});
+            {Eigen::Vector3f::Zero(), context.seen(second_hits[b.ray].point).normalized()});
     }
     std::vector<Intersection> hits(rays.size());
     context.engine.intersect(context.T_world_sensor, rays, hits);
     counts.rays += rays.size();
-    counts.hidden += std::erase_if(bounces, [&](const Bounce& b) {
-        const std::uint32_t ray = ray_of[b.second];
-        const SecondHit& second = second_hits[b.second];
+    counts.hidden += std::erase_if(bounces, [&](const BouncePath& b) {
+        const std::uint32_t ray = ray_of[b.ray];
+        const BounceHit& second = second_hits[b.ray];
         return hides(hits[ray], second, context.seen(second.point).norm(), rays[ray]);
     });
 }
 
-/// Appends what the calibrated model makes of these ways.
-void append_mirrored(const SecondLegs& context, const std::vector<SecondHit>& second_hits,
-                     const std::vector<Bounce>& ways, std::vector<MirroredPiece>& mirrored) {
-    for (const Bounce& way : ways) {
-        const SecondHit& second = second_hits[way.second];
-        if (second.material == no_material) continue;
-        mirrored.push_back(mirrored_footprint(context, context.samples.items[way.sample], second));
-    }
-}
-
 /// Follows the sound of all samples to what `context` says of second surfaces.
-std::vector<Bounce> follow_all(const SecondLegs& context, const Clusters& clusters,
-                               MultipathCounts& counts, std::vector<MirroredPiece>* mirrored) {
+std::vector<BouncePath> follow_all(const BounceTracer& context, const Clusters& clusters,
+                                   MultipathCounts& counts) {
     // The first and the last member of every cluster are traced.
     std::vector<std::uint32_t> sources;
     for (std::size_t c = 0; c < clusters.size(); ++c) {
@@ -183,7 +179,7 @@ std::vector<Bounce> follow_all(const SecondLegs& context, const Clusters& cluste
         sources.push_back(members.front());
         if (members.size() > 1) sources.push_back(members.back());
     }
-    std::vector<SecondHit> second_hits;
+    std::vector<BounceHit> second_hits;
     Followed followed;
     follow_traced(context, sources, second_hits, followed, counts);
 
@@ -196,8 +192,8 @@ std::vector<Bounce> follow_all(const SecondLegs& context, const Clusters& cluste
         const std::uint32_t first = end;
         end += members.size() > 1 ? 2 : 1;
         if (members.size() < 3) continue;
-        const SecondHit& a = second_hits[first];
-        const SecondHit& b = second_hits[end - 1];
+        const BounceHit& a = second_hits[first];
+        const BounceHit& b = second_hits[end - 1];
         const bool flat = same_plane(a, b, same_plane_bins * context.bin_m);
         const Plane plane{.hit = &a,
                           .middle = 0.5F * (a.point + b.point),
@@ -208,47 +204,45 @@ std::vector<Bounce> follow_all(const SecondLegs& context, const Clusters& cluste
     }
     follow_traced(context, sources, second_hits, followed, counts);
     drop_hidden(context, second_hits, followed.bounces, counts);
-    if (mirrored) {
+    if (context.scattered) {
         MultipathCounts counted;
         drop_hidden(context, second_hits, followed.turned_away, counted);
         counts.rays += counted.rays;
-        append_mirrored(context, second_hits, followed.bounces, *mirrored);
-        append_mirrored(context, second_hits, followed.turned_away, *mirrored);
+        followed.bounces.insert(followed.bounces.end(), followed.turned_away.begin(),
+                                followed.turned_away.end());
     }
     return std::move(followed.bounces);
 }
 
 }  // namespace
 
-std::vector<Bounce> find_bounces(const Multipath& multipath, const View& view,
-                                 const Samples& samples, std::span<const Material> materials,
-                                 const VisibilityEngine& engine, const Pose& T_world_sensor,
-                                 MultipathCounts& counts,
-                                 const std::optional<WaterSurface>& surface,
-                                 std::vector<MirroredPiece>* mirrored) {
-    const std::optional<WaterMirror> mirror = mirror_of(surface, T_world_sensor);
-    SecondLegs context{.view = view,
-                       .samples = samples,
-                       .materials = materials,
-                       .engine = engine,
-                       .T_world_sensor = T_world_sensor,
-                       .bin_m = static_cast<float>(view.bin_m()),
-                       .field = BeamLocator(view),
-                       .mirror = mirror ? &*mirror : nullptr};
-    const Clusters clusters = cluster_samples(view, samples, multipath.cluster);
+std::vector<BouncePath> find_bounces(const Multipath& multipath, const TraceContext& trace,
+                                     const Samples& samples, MultipathCounts& counts) {
+    const std::optional<WaterMirror> mirror =
+        mirror_of(trace.scene.water_surface, trace.T_world_sensor);
+    BounceTracer context{.view = trace.view,
+                         .samples = samples,
+                         .materials = trace.scene.materials,
+                         .engine = trace.engine,
+                         .T_world_sensor = trace.T_world_sensor,
+                         .bin_m = static_cast<float>(trace.view.bin_m()),
+                         .field = BeamLocator(trace.view),
+                         .mirror = mirror ? &*mirror : nullptr,
+                         .scattered = multipath.scattered};
+    const Clusters clusters = cluster_samples(trace.view, samples, multipath.cluster);
     counts.samples = clusters.members.size();
     counts.clusters = clusters.size();
 
-    std::vector<Bounce> bounces = follow_all(context, clusters, counts, mirrored);
+    std::vector<BouncePath> bounces = follow_all(context, clusters, counts);
     if (mirror) {
         // What becomes of a sample is counted once, on its way without the mirror.
         MultipathCounts mirrored_counts;
-        context.at_surface = AtSurface::mirrors;
-        const std::vector<Bounce> more = follow_all(context, clusters, mirrored_counts, mirrored);
+        context.surface_role = SurfaceRole::reflector;
+        const std::vector<BouncePath> more = follow_all(context, clusters, mirrored_counts);
         bounces.insert(bounces.end(), more.begin(), more.end());
         counts.rays += mirrored_counts.rays;
     }
-    counts.bounces = bounces.size();
+    counts.bounces = std::ranges::count(bounces, false, &BouncePath::scattered);
     return bounces;
 }
 

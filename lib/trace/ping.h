@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
+#include "core/random.h"
 #include "trace/counters.h"
 
 namespace sonarsim {
@@ -21,6 +23,17 @@ struct Ping {
     float at(int range_bin, int beam) const {
         return intensity[static_cast<std::size_t>(range_bin) * beams + beam];
     }
+};
+
+/// The random draws of one ping of one sonar.
+struct PingDraws {
+    std::uint64_t seed = 0;
+    std::uint32_t sensor = 0;  ///< names the sonar
+    std::uint32_t ping = 0;    ///< index of the pose on the trajectory
+
+    PhiloxKey of(Stream stream) const { return stream_key(seed, sensor, ping, stream); }
+    /// Draws that belong to the scene: the same for all sonars and pings.
+    PhiloxKey of_scene(Stream stream) const { return stream_key(seed, 0, 0, stream); }
 };
 
 }  // namespace sonarsim

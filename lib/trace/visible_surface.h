@@ -7,22 +7,22 @@
 
 namespace sonarsim {
 
-/// The visible surface that a sonar hears.
-struct HeardSurface {
-    Samples samples;             ///< within its view
-    std::vector<Sample> beside;  ///< beside it, where the cones of a line array's beams reach
+/// The surface that a sonar sees.
+struct VisibleSurface {
+    Samples samples;  ///< within its view
+    /// Within the guard beams, where the cones of a line array's beams reach.
+    std::vector<Sample> outside_sector;
 };
 
-/// The view in which surface is looked for: with so many beams more to either side.
-View heard_view(const View& view, int beams_beside);
+/// The view in which surface is traced: the sonar's view with guard beams on either side.
+View widened_view(const View& view, int guard_beams);
 
-/// Whether the cones of a fan's beams reach a point beside it: where its y / r is no more than that
-/// of the view's borders on the horizontal plane. `position` in the sensor frame.
+/// Whether the cones of a fan's beams reach a point in its guard beams: its y / r is no more than
+/// that of the view's borders on the horizontal plane. `position` is in the sensor frame, m.
 bool is_reached(const View& view, const Eigen::Vector3f& position);
 
-/// What an engine sees within the view and, in `beams_beside` beams to either side of it, where its
-/// beams reach.
-HeardSurface heard_surface(const View& view, int beams_beside, const VisibilityEngine& engine,
-                           const Pose& T_world_sensor);
+/// The surface within the view and, in the guard beams, that which the cones of its beams reach.
+VisibleSurface visible_surface(const View& view, int guard_beams, const VisibilityEngine& engine,
+                               const Pose& T_world_sensor);
 
 }  // namespace sonarsim

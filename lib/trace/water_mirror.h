@@ -18,10 +18,12 @@ struct WaterMirror {
     float reflection;
     Eigen::Vector3f image;
 
-    Eigen::Vector3f turn(const Eigen::Vector3f& direction) const {
+    Eigen::Vector3f reflect_direction(const Eigen::Vector3f& direction) const {
         return direction - 2.0F * up.dot(direction) * up;
     }
-    Eigen::Vector3f fold(const Eigen::Vector3f& p) const { return turn(p) + image; }
+    Eigen::Vector3f reflect_point(const Eigen::Vector3f& p) const {
+        return reflect_direction(p) + image;
+    }
     /// How far along a ray from below the surface lies; infinite for one that does not rise.
     float distance(const Ray& ray) const {
         const float rise = up.dot(ray.direction);

@@ -44,8 +44,8 @@ TEST_SUITE("calibrated") {
         const double same = arcsin(sincos(azimuth).sin * sincos(elevation).cos);
         const Sonar narrow = line_array_sonar(0.0);
         const Sonar wide = line_array_sonar(180.0);
-        CHECK(narrow.settings.beams_beside == 0);
-        CHECK(wide.settings.beams_beside == 64);
+        CHECK(narrow.settings.guard_beams == 0);
+        CHECK(wide.settings.guard_beams == 64);
         const std::vector<float> ahead = image_of_ball(narrow, same, 0.0);
         CHECK(std::ranges::max(ahead) > 0.0F);
         CHECK(std::ranges::max(image_of_ball(narrow, azimuth, elevation)) == 0.0F);

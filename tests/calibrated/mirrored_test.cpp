@@ -21,7 +21,7 @@ using namespace sonarsim::test;
 
 namespace {
 
-constexpr Terms mean_of_all{.range_noise = false, .pixel_noise = false};
+constexpr Terms mean_of_all = without_random_terms;
 
 /// A bare sonar that hears all multipath.
 SonarConfig with_mirrors(const SonarConfig& kept) {
@@ -52,7 +52,7 @@ double sum_of(std::span<const float> image) {
 }
 
 double loss_per_m(const Sonar& sonar) {
-    return 0.2 * std::log(10.0) * sonar.settings.calibrated->absorption_db_per_m;
+    return 0.2 * std::log(10.0) * calibrated_model_of(sonar).absorption_db_per_m;
 }
 
 /// All that comes back without the mirrors, and by way of them.
@@ -93,20 +93,19 @@ TEST_SUITE("calibrated") {
                               .area_m2 = 1e-4F,
                               .material = 0,
                               .instance = 0}};
-            const MirroredPiece::Place both{place, samples.items[0].edge_u,
-                                            samples.items[0].edge_v};
-            const MirroredPiece mirrored{.point = both,
-                                         .image = both,
-                                         .area_m2 = 1e-4F,
-                                         .sine_of_point = 0.8F,
-                                         .sine_of_image = 0.8F,
-                                         .sine_between = 0.8F,
-                                         .reflection = 1.0F,
-                                         .material = 0};
+            const SpecularPath::Place both{place, samples.items[0].edge_u, samples.items[0].edge_v};
+            const SpecularPath mirrored{.point = both,
+                                        .image_source = both,
+                                        .area_m2 = 1e-4F,
+                                        .sine_of_point = 0.8F,
+                                        .sine_of_image = 0.8F,
+                                        .sine_between = 0.8F,
+                                        .reflection = 1.0F,
+                                        .material = 0};
             const auto image_of = [&](const CalibratedTerms& terms) {
                 std::vector<float> image(static_cast<std::size_t>(sonar.settings.view.range_bins) *
                                          sonar.settings.view.beams);
-                form_calibrated(*sonar.settings.calibrated, {samples, {&mirrored, 1}},
+                form_calibrated(calibrated_model_of(sonar), {samples, {&mirrored, 1}},
                                 scene_of_rock(), {}, {}, terms, image);
                 return image;
             };
@@ -231,7 +230,7 @@ TEST_SUITE("calibrated") {
             config.instrument.speckle.mode = SpeckleMode::none;
             const Sonar sonar = make_sonar(config, {0.03});
             const TracedPing traced = trace(sonar, scene, *engine, pose, 0);
-            REQUIRE(traced.mirrored.size() >= traced.bounces.size());
+            REQUIRE(std::ranges::count(traced.bounces, true, &BouncePath::scattered) > 0);
             const auto image_of = [&](const Sonar& of, const Terms& terms, std::uint32_t ping) {
                 return form_image(traced, of.settings, scene, {1, ping}, terms).intensity;
             };
@@ -270,7 +269,7 @@ TEST_SUITE("calibrated") {
                 config.instrument.speckle.mode = mode;
                 const Sonar speckled = make_sonar(config, {0.03});
                 Terms terms = multipath_alone;
-                terms.range_noise = true;  // speckle
+                terms.random = 1;  // speckle
                 double mean = 0.0;
                 constexpr int pings = 12;
                 for (std::uint32_t ping = 0; ping < pings; ++ping)

@@ -73,7 +73,7 @@ inline std::vector<float> quiet_image(const Sonar& sonar, const Samples& samples
                                       const Pose& pose = {}, std::uint32_t seed = 1) {
     const View& view = sonar.settings.view;
     std::vector<float> image(static_cast<std::size_t>(view.range_bins) * view.beams);
-    form_calibrated(*sonar.settings.calibrated, {samples}, scene_of_rock(), pose,
+    form_calibrated(calibrated_model_of(sonar), {samples}, scene_of_rock(), pose,
                     {.scene = stream_key(seed, 0, 0, Stream::scatterers),
                      .ping = stream_key(seed, 1, 0, Stream::speckle),
                      .noise = {}},

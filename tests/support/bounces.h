@@ -16,7 +16,7 @@ Multipath clusters_of(int epsilon, double delta_deg = 15.0);
 
 struct Found {
     Samples samples;
-    std::vector<Bounce> bounces;
+    std::vector<BouncePath> bounces;
     MultipathCounts counts;
 };
 

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "calibrated/model.h"
 #include "sonar/kinds.h"
 #include "sonar/sonar.h"
 #include "visibility/make_engine.h"
@@ -19,9 +20,14 @@ inline InstrumentConfig bare(InstrumentConfig instrument) {
 }
 
 inline SonarConfig calibrated(SonarConfig config, double frequency_hz) {
-    config.model = EchoModel::of_instrument;
+    config.model = ModelKind::calibrated;
     config.instrument.frequency_hz = frequency_hz;
     return config;
+}
+
+/// The model of a calibrated sonar.
+inline const CalibratedModel& calibrated_model_of(const Sonar& sonar) {
+    return dynamic_cast<const CalibratedModel&>(*sonar.settings.model);
 }
 
 /// The expected image from the origin, without speckle and noise, by an engine.

@@ -63,8 +63,11 @@ TEST_CASE("what hides the second point hides it however near it is") {
     std::fill(samples.beam_begin.begin() + beam + 1, samples.beam_begin.end(), 1U);
     const auto hidden = [&] {
         MultipathCounts counts;
-        find_bounces(clusters_of(0), view, samples, scene.materials, *make_rays_engine(scene),
-                     Pose{}, counts);
+        const Pose here;
+        const auto engine = make_rays_engine(scene);
+        find_bounces(clusters_of(0),
+                     {.view = view, .scene = scene, .engine = *engine, .T_world_sensor = here},
+                     samples, counts);
         CHECK(counts.bounces + counts.hidden == 1);
         return counts.hidden == 1;
     };

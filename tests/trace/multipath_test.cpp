@@ -40,7 +40,7 @@ double beam_of_azimuth(const View& view, double azimuth) {
 /// Each bounce lies where the geometry says, and so do points nearby on its footprint.
 void check_against(const Found& found, const View& view,
                    const std::function<Expected(const Eigen::Vector3d&)>& geometry) {
-    for (const Bounce& b : found.bounces) {
+    for (const BouncePath& b : found.bounces) {
         const Sample& sample = found.samples.items[b.sample];
         const Eigen::Vector3d at = sample.position.cast<double>();
         const Expected truth = geometry(at);
@@ -130,7 +130,7 @@ TEST_CASE("multipath between two parallel walls") {
         return expected({0, 2 * side, 0}, p, {at.x(), side, at.z()}, 0.36);
     });
     CHECK(found.bounces.size() > 100);
-    for (const Bounce& b : found.bounces) {
+    for (const BouncePath& b : found.bounces) {
         const Eigen::Vector3f& at = found.samples.items[b.sample].position;
         CHECK(3.0F * (at.x() * at.x() + at.z() * at.z()) < at.y() * at.y());
     }
@@ -175,7 +175,7 @@ TEST_CASE("the second surface hidden from the sonar, or met on its back, gives n
         const Found screened = find(scene, view, clusters_of(epsilon));
         CHECK(screened.counts.hidden > 0);
         CHECK(screened.bounces.size() < open);
-        for (const Bounce& b : screened.bounces) {
+        for (const BouncePath& b : screened.bounces) {
             // Behind the screen lies azimuth -45 to 16.7 degrees.
             const double azimuth = (b.beam / view.beams - 0.5) * view.azimuth_rad;
             if (b.range_m > 3.0F) CHECK((azimuth > 0.25 || azimuth < -0.7));
@@ -199,8 +199,8 @@ TEST_CASE("the exact method is the paper's equations, sample by sample") {
     const View view = fan(60.0, 12.0);
     const Found found = find(scene, view, clusters_of(0), tank_poses()[1]);
     const auto engine = make_rays_engine(scene);
-    std::vector<const Bounce*> bounce_of(found.samples.items.size(), nullptr);
-    for (const Bounce& b : found.bounces)
+    std::vector<const BouncePath*> bounce_of(found.samples.items.size(), nullptr);
+    for (const BouncePath& b : found.bounces)
         bounce_of[b.sample] = &b;
     int differ = 0;
     for (std::size_t i = 0; i < bounce_of.size(); ++i) {
@@ -265,7 +265,14 @@ TEST_CASE("a footprint wider than a beam lights every beam that it covers") {
     sample.area_m2 = 2.0F;
     samples.items.push_back(sample);
     View view = fan(60.0, 12.0);
-    const std::vector<Bounce> bounces{{0, 0, 5.0F, 0.1F, 0.02F, 20.5F, 3.4F, 0.0F, 0.7F}};
+    const std::vector<BouncePath> bounces{{.sample = 0,
+                                           .range_m = 5.0F,
+                                           .range_u = 0.1F,
+                                           .range_v = 0.02F,
+                                           .beam = 20.5F,
+                                           .beam_u = 3.4F,
+                                           .beam_v = 0.0F,
+                                           .intensity = 0.7F}};
     const MultipathEchoes out = multipath_echoes(bounces, samples, view, {});
     float weight = 0.0F;
     for (int j = 0; j < view.beams; ++j) {

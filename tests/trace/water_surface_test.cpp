@@ -15,7 +15,7 @@ using namespace sonarsim::test;
 namespace {
 
 struct BelowSurface {
-    std::vector<Bounce> bounces;
+    std::vector<BouncePath> bounces;
     Samples samples;
 };
 
@@ -25,8 +25,9 @@ BelowSurface echoes_below(const Scene& scene, const View& view, const Multipath&
     BelowSurface out;
     out.samples = engine->visible_surface(view, pose);
     MultipathCounts counts;
-    out.bounces = find_bounces(multipath, view, out.samples, scene.materials, *engine, pose, counts,
-                               scene.water_surface);
+    out.bounces = find_bounces(
+        multipath, {.view = view, .scene = scene, .engine = *engine, .T_world_sensor = pose},
+        out.samples, counts);
     CHECK(counts.bounces == out.bounces.size());
     return out;
 }
@@ -59,7 +60,7 @@ TEST_SUITE("ping") {
             const auto found = echoes_below(scene, view, clusters_of(epsilon), down);
             REQUIRE(found.bounces.size() > 10);
             float nearest = 1e9F;
-            for (const Bounce& b : found.bounces) {
+            for (const BouncePath& b : found.bounces) {
                 const Eigen::Vector3d p = found.samples.items[b.sample].position.cast<double>();
                 // x along the boresight is down: the angle off nadir is that off x.
                 const double tangent = std::hypot(p.y(), p.z()) / p.x();
@@ -95,7 +96,7 @@ TEST_SUITE("ping") {
         }();
         const auto found = echoes_below(scene, view, clusters_of(0), {});
         int ghosts = 0;
-        for (const Bounce& b : found.bounces) {
+        for (const BouncePath& b : found.bounces) {
             const Eigen::Vector3d p_i = found.samples.items[b.sample].position.cast<double>();
             const Eigen::Vector3d image(12, 0, 0);
             const Eigen::Vector3d r = p_i - image;

@@ -40,7 +40,7 @@ TEST_CASE("where energies add the reference is what the engines come to" *
     const Caster caster(scene);
     Sonar hears_more = coarse_sonar(SonarKind::imaging);
     hears_more.settings.view.elevation_rad = radians(120.0);
-    hears_more.settings.beams_beside = hears_more.settings.view.beams / 2;
+    hears_more.settings.guard_beams = hears_more.settings.view.beams / 2;
     for (const Sonar& sonar :
          {coarse_sonar(SonarKind::imaging), hears_more, coarse_sonar(SonarKind::sidescan),
           coarse_sonar(SonarKind::echosounder)}) {
@@ -57,7 +57,7 @@ TEST_CASE("where energies add the reference is what the engines come to" *
                                       {}, direct_echoes_alone);
         const ImageError error = image_error(ping.intensity, reference.intensity);
         CAPTURE(name_of(kind));
-        CAPTURE(sonar.settings.beams_beside);
+        CAPTURE(sonar.settings.guard_beams);
         CAPTURE(reference.moved);
         CHECK(error.relative_l1 < 0.02 + reference.moved);
         CHECK(reference.apart < 0.03);
