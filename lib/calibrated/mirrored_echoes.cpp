@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "trace/arrivals.h"
+
 namespace sonarsim {
 
 namespace {
@@ -26,7 +28,7 @@ void put_place(Ends& ends, int k, const SpecularPath::Place& place, float s, flo
     ends.places.x[k] = p.x();
     ends.places.y[k] = p.y();
     ends.places.z[k] = p.z();
-    ends.echoes.range_m[k] = p.norm();
+    ends.echoes.range_m[k] = arrival_range(p);
 }
 
 /// Finds the power that is sent towards the ends.
@@ -61,7 +63,7 @@ std::uint64_t add_block(const Beams& beams, const SonarEquation& equation, Mirro
     for (int k = 0; k < block.count; ++k) {
         const float r = block.points.echoes.range_m[k];
         const float s = block.images.echoes.range_m[k];
-        const float range = 0.5F * (r + s);
+        const float range = arrival_range(r, s);
         const float row = (range - equation.range_min_m) / equation.bin_m - 0.5F;
         const bool inside = row > -0.5F && row < rows - 0.5F;
         const float lost = fading(equation.loss_per_m * range) / (r * r * s * s);
@@ -80,8 +82,9 @@ int pieces_of_both(const SpecularPath& piece, const Eigen::Vector3f SpecularPath
                    const PointLimits& limits) {
     int most = 1;
     for (const SpecularPath::Place* place : {&piece.point, &piece.image_source}) {
-        const float range = place->at.norm();
-        most = std::max(most, pieces_along(place->*edge, place->at / range, range, limits));
+        const Arrival arrival = arrival_of(place->at);
+        most =
+            std::max(most, pieces_along(place->*edge, arrival.direction, arrival.range_m, limits));
     }
     return most;
 }

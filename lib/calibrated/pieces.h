@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 
+#include "trace/arrivals.h"
 #include "visibility/engine.h"
 
 namespace sonarsim {
@@ -56,9 +57,8 @@ void cut_into_pieces(std::span<const Sample> samples, const PointLimits& limits,
                      Use use) {
     pieces.count = 0;
     for (const Sample& sample : samples) {
-        const float range = sample.position.norm();
+        const auto [range, departure, direction] = arrival_of(sample.position);
         if (!(range > 0.0F)) continue;
-        const Eigen::Vector3f direction = sample.position / range;
         const int rows = pieces_along(sample.edge_u, direction, range, limits);
         const int columns = pieces_along(sample.edge_v, direction, range, limits);
         const float area = sample.area_m2 / static_cast<float>(rows * columns);

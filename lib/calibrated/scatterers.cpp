@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "trace/arrivals.h"
+
 namespace sonarsim {
 
 namespace {
@@ -81,7 +83,7 @@ void find_phases(const Scatterers& block, int count, const SonarInScene& sonar, 
         const double x = way_along(0);
         const double y = way_along(1);
         const double z = way_along(2);
-        const double way = turns_per_m * std::sqrt(std::fma(x, x, std::fma(y, y, z * z)));
+        const double way = turns_per_m * piece_range(x, y, z);
         turns[k] = static_cast<float>(way - std::floor(way));
     }
 }

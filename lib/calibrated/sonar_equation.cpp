@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "calibrated/line_array.h"
+#include "trace/arrivals.h"
 
 namespace sonarsim {
 
@@ -151,8 +152,7 @@ std::uint64_t find_echoes(const PieceBlock& pieces, std::span<const Backscatter>
         const __m256 x = read(pieces.x);
         const __m256 y = read(pieces.y);
         const __m256 z = read(pieces.z);
-        const __m256 range =
-            _mm256_sqrt_ps(_mm256_fmadd_ps(x, x, _mm256_fmadd_ps(y, y, product(z, z))));
+        const __m256 range = piece_range(x, y, z);
         const __m256 inverse = _mm256_div_ps(all(1.0F), range);
         const __m256 spreading = product(inverse, inverse);
         const __m256 sine = _mm256_min_ps(product(read(pieces.height_m), inverse), all(1.0F));

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "trace/arrivals.h"
 #include "trace/water_mirror.h"
 
 namespace sonarsim {
@@ -21,8 +22,8 @@ SpecularPath specular_path(const BouncePath& path, const Sample& sample, const W
     const Eigen::Vector3f p = from + t * through;
     const Eigen::Vector3f sonar = water ? water->image : Eigen::Vector3f(Eigen::Vector3f::Zero());
     const Eigen::Vector3f back = p - sonar;
-    const float first_leg = sample.position.norm();
-    const float last_leg = back.norm();
+    const float first_leg = arrival_range(sample.position);
+    const float last_leg = arrival_range(back);
 
     SpecularPath out;
     out.point.at = water ? water->reflect_point(p) : p;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "paper/footprint.h"
+#include "trace/arrivals.h"
 
 namespace sonarsim {
 
@@ -67,7 +68,7 @@ void write_pieces(const Footprints& f, std::size_t k, int count, const Target& t
             const float x = along(f.position, f.edge_u, f.edge_v, 0, k, s[lane], t[lane]);
             const float y = along(f.position, f.edge_u, f.edge_v, 1, k, s[lane], t[lane]);
             const float z = along(f.position, f.edge_u, f.edge_v, 2, k, s[lane], t[lane]);
-            const float r = std::sqrt(std::fma(x, x, std::fma(y, y, z * z)));
+            const float r = piece_range(x, y, z);
             range_m[lane] = r + shift;
             intensity[lane] = reflection * std::min(height / r, 1.0F);
         }

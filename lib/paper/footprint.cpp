@@ -1,5 +1,7 @@
 #include "paper/footprint.h"
 
+#include "trace/arrivals.h"
+
 namespace sonarsim {
 
 namespace {
@@ -52,11 +54,8 @@ void transform(const Eigen::Matrix3f& M, const Eigen::Vector3f& base, int count,
 void find_depths(Footprints& f) {
     const int count = f.count;
     for (int k = 0; k < count; ++k) {
-        const float range =
-            std::sqrt(squared(f.position[0][k], f.position[1][k], f.position[2][k]));
-        const float x = f.position[0][k] / range;
-        const float y = f.position[1][k] / range;
-        const float z = f.position[2][k] / range;
+        const auto [range, x, y, z] =
+            arrival_at(f.position[0][k], f.position[1][k], f.position[2][k]);
         f.range_m[k] = range;
         f.depth_u_m[k] = std::fabs(x * f.edge_u[0][k] + (y * f.edge_u[1][k] + z * f.edge_u[2][k]));
         f.depth_v_m[k] = std::fabs(x * f.edge_v[0][k] + (y * f.edge_v[1][k] + z * f.edge_v[2][k]));

@@ -1,12 +1,12 @@
 #include "paper/range_path.h"
 
 #include "paper/footprint.h"
+#include "trace/arrivals.h"
 
 namespace sonarsim {
 
 RangePath range_path(const Sample& sample, const Eigen::Vector3f& axis) {
-    const float range = sample.position.norm();
-    const Eigen::Vector3f d = sample.position / range;
+    const auto [range, departure, d] = arrival_of(sample.position);
     const float u = d.dot(sample.edge_u);
     const float v = d.dot(sample.edge_v);
     const RangeExtent along_u = extent_of(sample.edge_u.squaredNorm(), std::fabs(u), range);

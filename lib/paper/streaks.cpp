@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "trace/arrivals.h"
+
 namespace sonarsim {
 
 RowAreas::RowAreas(int rows) : all(rows, 0.0F) {
@@ -16,8 +18,9 @@ void RowAreas::add(const BinSums& beam) {
 
 std::vector<Sample> at_normal_incidence(std::span<const Sample> samples, float least_cosine) {
     std::vector<Sample> out;
-    std::copy_if(samples.begin(), samples.end(), std::back_inserter(out),
-                 [&](const Sample& s) { return s.height_m > least_cosine * s.position.norm(); });
+    std::copy_if(samples.begin(), samples.end(), std::back_inserter(out), [&](const Sample& s) {
+        return s.height_m > least_cosine * arrival_range(s.position);
+    });
     return out;
 }
 

@@ -11,6 +11,7 @@
 #include "scene/copies.h"
 #include "sonar/sonar_at_pose.h"
 #include "survey/directions.h"
+#include "trace/arrivals.h"
 #include "visibility/view.h"
 
 namespace sonarsim {
@@ -165,7 +166,7 @@ void take_altitude(const VisibilityEngine& engine, const Pose& T_world_sensor, S
 void take_samples(const View& view, const Samples& samples, SonarSurvey& out) {
     Interval echoes;
     for (const Sample& sample : samples.items) {
-        const double range = sample.position.norm();
+        const double range = arrival_range(sample.position);
         if (range < view.range_min_m || range >= view.range_max_m) continue;
         echoes.take(range);
         out.seen_m2[sample.instance] += sample.area_m2;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "trace/arrivals.h"
+
 namespace sonarsim {
 
 namespace {
@@ -11,11 +13,10 @@ namespace {
 /// The ray that leaves a sample. On a curved surface the sample may lie a little below the facets
 /// that it stands for; the ray starts above them.
 Ray mirrored_ray(const Sample& sample, float bin_m) {
-    const float range = sample.position.norm();
+    const Arrival arrival = arrival_of(sample.position);
     const float size = sample.edge_u.norm() + sample.edge_v.norm();
-    const float lift = 1e-4F * range + std::min(0.05F * size, 0.5F * bin_m);
-    return {sample.position + lift * sample.normal,
-            mirrored(sample.position / range, sample.normal)};
+    const float lift = 1e-4F * arrival.range_m + std::min(0.05F * size, 0.5F * bin_m);
+    return {sample.position + lift * sample.normal, mirrored(arrival.departure, sample.normal)};
 }
 
 /// Whether a ray may have hit the surface that it started from: its start lies in the plane of what

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/groups.h"
+#include "trace/arrivals.h"
 
 namespace sonarsim {
 
@@ -102,7 +103,7 @@ Clusters cluster_samples(const View& view, const Samples& samples, const Cluster
     Clusters clusters;
     if (limits.epsilon_bins == 0) {
         for (std::uint32_t i = 0; i < samples.items.size(); ++i) {
-            const float range = samples.items[i].position.norm();
+            const float range = arrival_range(samples.items[i].position);
             if (range > 0.0F && range < range_max) clusters.members.push_back(i);
         }
         clusters.begin.resize(clusters.members.size() + 1);
@@ -116,7 +117,7 @@ Clusters cluster_samples(const View& view, const Samples& samples, const Cluster
     for (int j = 0; j < view.beams; ++j) {
         for (std::uint32_t i = samples.beam_begin[j]; i < samples.beam_begin[j + 1]; ++i) {
             const Sample& sample = samples.items[i];
-            const float range = sample.position.norm();
+            const float range = arrival_range(sample.position);
             // Beyond the range, the path by way of a second surface is longer still.
             if (!(range > 0.0F && range < range_max)) continue;
             cluster[i] = table.cluster_of(tiling.of(sample, range, j), sample.normal);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "trace/arrivals.h"
 #include "trace/bounce_tracer.h"
 
 namespace sonarsim {
@@ -52,7 +53,7 @@ Outcome reflect(const BounceTracer& context, const Sample& sample, const Plane& 
     if (!(second.normal.dot(second.point - sonar) < 0.0F)) return &MultipathCounts::hidden;
     const Eigen::Vector3f image = 2.0F * sample.normal.dot(sample.position) * sample.normal;
     const Eigen::Vector3f through = sample.position - image;  // |p_i| r_i
-    const float first_leg = sample.position.norm();
+    const float first_leg = arrival_range(sample.position);
     const float along = through.dot(second.normal);
     if (!(std::fabs(along) >= least_cosine * first_leg)) return &MultipathCounts::edge_on;
     // In units of |p_i|, from the mirror image: 1 is the sample itself.
@@ -61,8 +62,8 @@ Outcome reflect(const BounceTracer& context, const Sample& sample, const Plane& 
     const Eigen::Vector3f p = image + t * through;
     if ((p - plane.middle).squaredNorm() > plane.radius_m * plane.radius_m) return off_the_disc;
     const Eigen::Vector3f back = p - sonar;
-    const float last_leg = back.norm();
-    const float range = 0.5F * (t * first_leg + last_leg);
+    const float last_leg = arrival_range(back);
+    const float range = arrival_range(t * first_leg, last_leg);
     const Eigen::Vector3f seen = context.seen(p);
     const float beam = context.field.beam(seen, last_leg);
     const Eigen::Vector3f q = mirrored(through, second.normal);
@@ -165,7 +166,7 @@ void drop_hidden(const BounceTracer& context, const std::vector<BounceHit>& seco
     counts.hidden += std::erase_if(bounces, [&](const BouncePath& b) {
         const std::uint32_t ray = ray_of[b.ray];
         const BounceHit& second = second_hits[b.ray];
-        return hides(hits[ray], second, context.seen(second.point).norm(), rays[ray]);
+        return hides(hits[ray], second, arrival_range(context.seen(second.point)), rays[ray]);
     });
 }
 

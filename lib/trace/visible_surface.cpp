@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/elementary.h"
+#include "trace/arrivals.h"
 
 namespace sonarsim {
 
@@ -18,7 +19,7 @@ View widened_view(const View& view, int guard_beams) {
 
 bool is_reached(const View& view, const Eigen::Vector3f& position) {
     const auto widest = static_cast<float>(sincos(0.5 * view.azimuth_rad).sin);
-    return std::fabs(position.y()) <= widest * position.norm();
+    return std::fabs(position.y()) <= widest * arrival_range(position);
 }
 
 VisibleSurface visible_surface(const View& view, int guard_beams, const VisibilityEngine& engine,
