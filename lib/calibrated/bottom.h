@@ -37,7 +37,7 @@ Backscatter backscatter(double lambert_db, double reflection, double slope_rms);
 
 /// e^-x for x >= 0, relative error below 3e-6 down to 1e-19, 0 below and for NaN: as exact as
 /// facets need it, and without branches.
-inline float fading(float x) {
+inline float exp_neg(float x) {
     constexpr float longest = 43.0F;
     const float turns = std::min(longest, x) * 1.44269504F;
     const float whole = std::floor(turns);
@@ -52,13 +52,13 @@ inline float fading(float x) {
 inline float Backscatter::between(float sine_in, float sine_out, float half) const {
     const float near = std::max(1e-6F, half * half);
     return lambert * sine_in * sine_out +
-           facet / (near * near) * fading(inverse_slope2 * (1.0F - near) / near);
+           facet / (near * near) * exp_neg(inverse_slope2 * (1.0F - near) / near);
 }
 
 inline float Backscatter::at(float sine) const {
     const float s2 = sine * sine;
     const float near = std::max(1e-6F, s2);
-    return lambert * s2 + facet / (near * near) * fading(inverse_slope2 * (1.0F - near) / near);
+    return lambert * s2 + facet / (near * near) * exp_neg(inverse_slope2 * (1.0F - near) / near);
 }
 
 }  // namespace sonarsim

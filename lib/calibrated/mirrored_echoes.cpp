@@ -11,16 +11,16 @@ namespace {
 
 /// The ends of a block of ways that sound takes: the pieces, or their images.
 struct Ends {
-    PieceBlock places;
+    PatchBlock places;
     PointEchoes echoes;                  ///< ranges of the places; the rest is filled by add_block
-    PieceBlock::Array<float> sent = {};  ///< share of the power that is sent towards them
+    PatchBlock::Array<float> sent = {};  ///< share of the power that is sent towards them
 };
 
 /// A block of pieces that are small enough to be points.
 struct MirroredBlock {
     int count = 0;
     Ends points, images;
-    PieceBlock::Array<float> power{}, row{};
+    PatchBlock::Array<float> power{}, row{};
 };
 
 void put_place(Ends& ends, int k, const SpecularPath::Place& place, float s, float t) {
@@ -42,14 +42,14 @@ void direct_ends(Ends& ends, int count, const ElevationPattern& pattern) {
 
 /// The echoes that go out to some ends and come back from the others.
 template <class Beams>
-std::uint64_t add_one_way_round(const Beams& beams, const MirroredBlock& block, const Ends& out,
-                                Ends& back, EchoGrid& grid) {
+std::uint64_t add_reciprocal_path(const Beams& beams, const MirroredBlock& block, const Ends& out,
+                                  Ends& back, EchoGrid& grid) {
     for (int k = 0; k < block.count; ++k) {
         back.echoes.power[k] = block.power[k] * out.sent[k];
         back.echoes.row[k] = block.row[k];
     }
     const std::uint64_t outside = find_columns(beams, back.places, back.echoes);
-    add_returned_powers(beams, {out.places, out.echoes}, {back.places, back.echoes}, grid);
+    add_bistatic_powers(beams, {out.places, out.echoes}, {back.places, back.echoes}, grid);
     return outside;
 }
 
@@ -66,13 +66,13 @@ std::uint64_t add_block(const Beams& beams, const SonarEquation& equation, Mirro
         const float range = arrival_range(r, s);
         const float row = (range - equation.range_min_m) / equation.bin_m - 0.5F;
         const bool inside = row > -0.5F && row < rows - 0.5F;
-        const float lost = fading(equation.loss_per_m * range) / (r * r * s * s);
+        const float lost = exp_neg(equation.loss_per_m * range) / (r * r * s * s);
         block.power[k] = inside ? block.power[k] * lost : 0.0F;
         block.row[k] = inside ? row : 0.0F;
         outside += inside ? 0 : 2;
     }
-    outside += add_one_way_round(beams, block, block.images, block.points, grid);
-    outside += add_one_way_round(beams, block, block.points, block.images, grid);
+    outside += add_reciprocal_path(beams, block, block.images, block.points, grid);
+    outside += add_reciprocal_path(beams, block, block.points, block.images, grid);
     block.count = 0;
     return outside;
 }
@@ -84,7 +84,7 @@ int pieces_of_both(const SpecularPath& piece, const Eigen::Vector3f SpecularPath
     for (const SpecularPath::Place* place : {&piece.point, &piece.image_source}) {
         const Arrival arrival = arrival_of(place->at);
         most =
-            std::max(most, pieces_along(place->*edge, arrival.direction, arrival.range_m, limits));
+            std::max(most, patches_along(place->*edge, arrival.direction, arrival.range_m, limits));
     }
     return most;
 }
@@ -112,7 +112,7 @@ std::uint64_t add_mirrored_powers(const Beams& beams, std::span<const SpecularPa
                 put_place(block.points, block.count, piece.point, s, t);
                 put_place(block.images, block.count, piece.image_source, s, t);
                 block.power[block.count] = power;
-                if (++block.count == PieceBlock::most)
+                if (++block.count == PatchBlock::most)
                     outside += add_block(beams, equation, block, grid);
             }
         }
@@ -120,10 +120,10 @@ std::uint64_t add_mirrored_powers(const Beams& beams, std::span<const SpecularPa
     return outside + add_block(beams, equation, block, grid);
 }
 
-template std::uint64_t add_mirrored_powers(const DirectedBeams&, std::span<const SpecularPath>,
+template std::uint64_t add_mirrored_powers(const TransducerBeams&, std::span<const SpecularPath>,
                                            std::span<const Backscatter>, const SonarEquation&,
                                            const PointLimits&, EchoGrid&);
-template std::uint64_t add_mirrored_powers(const FanBeams&, std::span<const SpecularPath>,
+template std::uint64_t add_mirrored_powers(const ArrayBeams&, std::span<const SpecularPath>,
                                            std::span<const Backscatter>, const SonarEquation&,
                                            const PointLimits&, EchoGrid&);
 

@@ -3,10 +3,10 @@
 #include <cstdint>
 #include <span>
 
-#include "calibrated/directed_beams.h"
-#include "calibrated/fan_beams.h"
+#include "calibrated/array_beams.h"
 #include "calibrated/sonar_equation.h"
 #include "calibrated/specular_path.h"
+#include "calibrated/transducer_beams.h"
 
 namespace sonarsim {
 
@@ -28,12 +28,12 @@ std::uint64_t add_mirrored_powers(const Beams& beams, std::span<const SpecularPa
                                   const SonarEquation& equation, const PointLimits& limits,
                                   EchoGrid& grid);
 
-extern template std::uint64_t add_mirrored_powers(const DirectedBeams&,
+extern template std::uint64_t add_mirrored_powers(const TransducerBeams&,
                                                   std::span<const SpecularPath>,
                                                   std::span<const Backscatter>,
                                                   const SonarEquation&, const PointLimits&,
                                                   EchoGrid&);
-extern template std::uint64_t add_mirrored_powers(const FanBeams&, std::span<const SpecularPath>,
+extern template std::uint64_t add_mirrored_powers(const ArrayBeams&, std::span<const SpecularPath>,
                                                   std::span<const Backscatter>,
                                                   const SonarEquation&, const PointLimits&,
                                                   EchoGrid&);

@@ -5,11 +5,11 @@
 #include <variant>
 #include <vector>
 
-#include "calibrated/directed_beams.h"
-#include "calibrated/fan_beams.h"
+#include "calibrated/array_beams.h"
 #include "calibrated/scatterers.h"
 #include "calibrated/sonar_equation.h"
 #include "calibrated/specular_path.h"
+#include "calibrated/transducer_beams.h"
 #include "core/pose.h"
 #include "mission/mission.h"
 #include "scene/scene.h"
@@ -27,7 +27,7 @@ struct CalibratedModel final : EchoModel {
     ScattererCells cells;
     Clutter clutter;
     RangeTaps amplitude_taps, power_taps;
-    std::variant<DirectedBeams, FanBeams> beams;
+    std::variant<TransducerBeams, ArrayBeams> beams;
     /// By range bin, factor from the power of an echo to the value of the image.
     std::vector<float> row_gain;
     int guard = 0;  ///< guard beams on either side of the view
@@ -73,7 +73,7 @@ struct CalibratedDraws {
 struct CalibratedCounts {
     std::uint64_t echoes = 0;
     std::uint64_t out_of_range = 0;
-    std::uint64_t lit_places = 0;  ///< of the grid, before the point spread
+    std::uint64_t occupied_cells = 0;  ///< of the grid, before the pulse
 };
 
 /// What a sonar has seen: surface in its view, surface in its guard beams, and surface by way of a

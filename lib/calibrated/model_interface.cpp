@@ -5,7 +5,6 @@
 
 #include "calibrated/companding.h"
 #include "calibrated/model.h"
-#include "core/clock.h"
 
 namespace sonarsim {
 
@@ -20,28 +19,6 @@ constexpr std::array<std::string_view, 2> calibrated_terms{"speckle", "receiver_
 constexpr double share_along_track = 1.0 / 3.0;
 
 }  // namespace
-
-void CalibratedModel::form(const TracedPing& traced, const FormContext& context, Ping& ping) const {
-    Stopwatch watch;
-    const Terms& terms = context.terms;
-    std::vector<SpecularPath> mirrored;
-    if (terms.multipath) mirrored = specular_paths(traced, context.scene);
-    const CalibratedCounts counts =
-        form_calibrated(*this, {traced.samples, mirrored, traced.outside_sector}, context.scene,
-                        traced.T_world_sensor,
-                        {.scene = context.draws.of_scene(Stream::scatterers),
-                         .ping = context.draws.of(Stream::speckle),
-                         .noise = context.draws.of(Stream::receiver_noise)},
-                        {.echoes = terms.direct,
-                         .mirrored = terms.multipath,
-                         .speckle = terms.random > 0,
-                         .noise = terms.random > 1},
-                        ping.intensity);
-    ping.counts.echoes = counts.echoes;
-    ping.counts.out_of_range = counts.out_of_range;
-    ping.counts.occupied_bins = counts.lit_places;
-    ping.seconds.accumulate = watch.lap();
-}
 
 std::span<const std::string_view> CalibratedModel::random_terms() const {
     return calibrated_terms;

@@ -1,4 +1,4 @@
-#include "calibrated/fan_beams.h"
+#include "calibrated/array_beams.h"
 
 #include <immintrin.h>
 
@@ -30,8 +30,8 @@ void add_two(float* to, __m128 values) {
 /// Where the echoes of a block go: their places in the grid, and their shares in the next bin and
 /// the next column.
 struct Targets {
-    PieceBlock::Array<std::int32_t> place;
-    PieceBlock::Array<float> next_row, next_column;
+    PatchBlock::Array<std::int32_t> place;
+    PatchBlock::Array<float> next_row, next_column;
 
     Targets(const PointEchoes& echoes, const EchoGrid& grid) {
         const auto stride = static_cast<std::int32_t>(grid.stride());
@@ -90,19 +90,19 @@ void form_beams(const Beamformer& former, const EchoGrid* grid, const ElementNoi
 
 }  // namespace
 
-FanBeams fan_beams(const BeamConfig& beam, const std::vector<double>& beam_sines, double noise,
-                   double common_mode) {
+ArrayBeams array_beams(const BeamConfig& beam, const std::vector<double>& beam_sines, double noise,
+                       double common_mode) {
     const LineArray array = receiving_array(beam);
-    FanBeams out{.amplitudes = Beamformer(array, beam_sines, false),
-                 .powers = Beamformer(array, beam_sines, true),
-                 .noise = {}};
+    ArrayBeams out{.amplitudes = Beamformer(array, beam_sines, false),
+                   .powers = Beamformer(array, beam_sines, true),
+                   .noise = {}};
     out.noise.element_sigma =
         static_cast<float>(std::sqrt(noise)) * out.amplitudes.element_sigma_of_unit();
     out.noise.common_mode_sigma = static_cast<float>(std::sqrt(0.5 * common_mode));
     return out;
 }
 
-std::uint64_t find_columns(const FanBeams& beams, const PieceBlock& pieces, PointEchoes& echoes) {
+std::uint64_t find_columns(const ArrayBeams& beams, const PatchBlock& pieces, PointEchoes& echoes) {
     const SineGrid& grid = beams.amplitudes.grid();
     const auto per_step = static_cast<float>(1.0 / grid.step);
     const auto first_sine = static_cast<float>(grid.first);
@@ -119,8 +119,8 @@ std::uint64_t find_columns(const FanBeams& beams, const PieceBlock& pieces, Poin
     return outside;
 }
 
-void add_powers(const FanBeams& /*beams*/, const PieceBlock& /*pieces*/, const PointEchoes& echoes,
-                EchoGrid& grid) {
+void add_powers(const ArrayBeams& /*beams*/, const PatchBlock& /*pieces*/,
+                const PointEchoes& echoes, EchoGrid& grid) {
     const Targets targets(echoes, grid);
     float* const first = grid.column(0);
     const std::size_t stride = grid.stride();
@@ -128,7 +128,7 @@ void add_powers(const FanBeams& /*beams*/, const PieceBlock& /*pieces*/, const P
         targets.add_shared(k, alternating(echoes.power[k], 0.0F), first, stride);
 }
 
-void add_amplitudes(const FanBeams& /*beams*/, const PieceBlock& /*pieces*/,
+void add_amplitudes(const ArrayBeams& /*beams*/, const PatchBlock& /*pieces*/,
                     const PointEchoes& echoes, const Amplitudes& amplitudes, EchoGrid& grid) {
     const Targets targets(echoes, grid);
     float* const first = grid.column(0);
@@ -137,8 +137,8 @@ void add_amplitudes(const FanBeams& /*beams*/, const PieceBlock& /*pieces*/,
         targets.add_shared(k, alternating(amplitudes.re[k], amplitudes.im[k]), first, stride);
 }
 
-void receive(const FanBeams& beams, const EchoGrid& grid, bool powers, bool noisy, PhiloxKey key,
-             std::span<const float> row_gain, std::span<float> image) {
+void beamform(const ArrayBeams& beams, const EchoGrid& grid, bool powers, bool noisy, PhiloxKey key,
+              std::span<const float> row_gain, std::span<float> image) {
     const ElementNoise noise = noisy ? beams.noise : ElementNoise{};
     if (!powers) {
         form_beams(beams.amplitudes, &grid, noise, key, row_gain, image, false);

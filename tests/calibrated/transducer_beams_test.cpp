@@ -1,4 +1,4 @@
-#include "calibrated/directed_beams.h"
+#include "calibrated/transducer_beams.h"
 
 #include <doctest/doctest.h>
 

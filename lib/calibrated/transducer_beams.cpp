@@ -1,4 +1,4 @@
-#include "calibrated/directed_beams.h"
+#include "calibrated/transducer_beams.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,7 +24,7 @@ SineTable sine_table(double from, double to, Function value) {
 }
 
 /// The complex amplitudes of one beam, there and back, for every piece.
-void find_weights(const DirectedBeams& beams, int beam, const PieceBlock& pieces,
+void find_weights(const TransducerBeams& beams, int beam, const PatchBlock& pieces,
                   const PointEchoes& echoes, Amplitudes& out) {
     for (int k = 0; k < pieces.count; ++k) {
         const float x = pieces.x[k];
@@ -38,7 +38,7 @@ void find_weights(const DirectedBeams& beams, int beam, const PieceBlock& pieces
             out.im[k] = 0.0F;
             continue;
         }
-        const DirectedBeams::Axis axis = beams.sides[beam];
+        const TransducerBeams::Axis axis = beams.sides[beam];
         const bool ahead = std::fma(x, axis.x, y * axis.y) > 0.0F;
         const float across = (y * axis.x - x * axis.y) * inverse;
         const std::complex<float> along = beams.along.at(z * inverse, echoes.range_m[k]);
@@ -69,9 +69,9 @@ float SineTable::at(float sine) const {
     return std::fma(where - whole, entry[1] - entry[0], entry[0]);
 }
 
-DirectedBeams directed_beams(const BeamConfig& beam, const View& view, double wavelength_m,
-                             double noise) {
-    DirectedBeams out;
+TransducerBeams transducer_beams(const BeamConfig& beam, const View& view, double wavelength_m,
+                                 double noise) {
+    TransducerBeams out;
     out.aperture = beam.aperture;
     out.noise_sigma = static_cast<float>(std::sqrt(0.5 * noise));
     if (beam.aperture == Aperture::piston) {
@@ -105,7 +105,7 @@ DirectedBeams directed_beams(const BeamConfig& beam, const View& view, double wa
     return out;
 }
 
-void add_powers(const DirectedBeams& beams, const PieceBlock& pieces, const PointEchoes& echoes,
+void add_powers(const TransducerBeams& beams, const PatchBlock& pieces, const PointEchoes& echoes,
                 EchoGrid& grid) {
     Amplitudes weights;
     for (int beam = 0; beam < beams.beams(); ++beam) {
@@ -119,8 +119,8 @@ void add_powers(const DirectedBeams& beams, const PieceBlock& pieces, const Poin
     }
 }
 
-void add_amplitudes(const DirectedBeams& beams, const PieceBlock& pieces, const PointEchoes& echoes,
-                    const Amplitudes& amplitudes, EchoGrid& grid) {
+void add_amplitudes(const TransducerBeams& beams, const PatchBlock& pieces,
+                    const PointEchoes& echoes, const Amplitudes& amplitudes, EchoGrid& grid) {
     Amplitudes weights;
     for (int beam = 0; beam < beams.beams(); ++beam) {
         find_weights(beams, beam, pieces, echoes, weights);
@@ -137,8 +137,8 @@ void add_amplitudes(const DirectedBeams& beams, const PieceBlock& pieces, const 
     }
 }
 
-void add_returned_powers(const DirectedBeams& beams, const WayEnds& out, const WayEnds& back,
-                         EchoGrid& grid) {
+void add_bistatic_powers(const TransducerBeams& beams, const PathEndpoint& out,
+                         const PathEndpoint& back, EchoGrid& grid) {
     Amplitudes sent, heard;
     const auto power_of = [](const Amplitudes& of, int k) {
         return std::fma(of.re[k], of.re[k], of.im[k] * of.im[k]);
@@ -155,8 +155,8 @@ void add_returned_powers(const DirectedBeams& beams, const WayEnds& out, const W
     }
 }
 
-void receive(const DirectedBeams& beams, const EchoGrid& grid, bool powers, bool noisy,
-             PhiloxKey key, std::span<const float> row_gain, std::span<float> image) {
+void beamform(const TransducerBeams& beams, const EchoGrid& grid, bool powers, bool noisy,
+              PhiloxKey key, std::span<const float> row_gain, std::span<float> image) {
     const int count = beams.beams();
     const float sigma = noisy ? beams.noise_sigma : 0.0F;
     std::array<std::uint32_t, lanes_at_once> a, b;

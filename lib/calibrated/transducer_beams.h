@@ -25,7 +25,7 @@ struct SineTable {
 /// Transducers that both send and hear, and form no beams: the two sides of a side-scan sonar, the
 /// disc of an echosounder, the head of a scanning sonar. A side hears all of the surface, by its
 /// pattern.
-struct DirectedBeams {
+struct TransducerBeams {
     struct Axis {
         float x, y;  ///< unit, sensor frame
     };
@@ -40,36 +40,36 @@ struct DirectedBeams {
 };
 
 /// `noise` is the power of the noise in a beam.
-DirectedBeams directed_beams(const BeamConfig& beam, const View& view, double wavelength_m,
-                             double noise);
+TransducerBeams transducer_beams(const BeamConfig& beam, const View& view, double wavelength_m,
+                                 double noise);
 
-inline int columns_of(const DirectedBeams& beams) {
+inline int columns_of(const TransducerBeams& beams) {
     return beams.beams();
 }
 /// A beam has a column of the grid to itself.
-inline float fill_of(const DirectedBeams& /*beams*/) {
+inline float scalloping_gain(const TransducerBeams& /*beams*/) {
     return 1.0F;
 }
-inline std::uint64_t find_columns(const DirectedBeams& /*beams*/, const PieceBlock& /*pieces*/,
+inline std::uint64_t find_columns(const TransducerBeams& /*beams*/, const PatchBlock& /*pieces*/,
                                   PointEchoes& /*echoes*/) {
     return 0;
 }
 
 /// Adds the powers of echoes to the real parts of the grid, shared between two bins.
-void add_powers(const DirectedBeams& beams, const PieceBlock& pieces, const PointEchoes& echoes,
+void add_powers(const TransducerBeams& beams, const PatchBlock& pieces, const PointEchoes& echoes,
                 EchoGrid& grid);
 /// Adds complex amplitudes likewise.
-void add_amplitudes(const DirectedBeams& beams, const PieceBlock& pieces, const PointEchoes& echoes,
-                    const Amplitudes& amplitudes, EchoGrid& grid);
+void add_amplitudes(const TransducerBeams& beams, const PatchBlock& pieces,
+                    const PointEchoes& echoes, const Amplitudes& amplitudes, EchoGrid& grid);
 
 /// Adds the powers of echoes that come back from other places than they were sent to: each beam
 /// hears what it has sent itself. The powers and bins are those of `back`.
-void add_returned_powers(const DirectedBeams& beams, const WayEnds& out, const WayEnds& back,
-                         EchoGrid& grid);
+void add_bistatic_powers(const TransducerBeams& beams, const PathEndpoint& out,
+                         const PathEndpoint& back, EchoGrid& grid);
 
 /// Fills the image [bins, beams] with the power in the grid, of `powers` or of amplitudes, and the
 /// noise. Noise belongs to the bin, the beam and the key.
-void receive(const DirectedBeams& beams, const EchoGrid& grid, bool powers, bool noisy,
-             PhiloxKey key, std::span<const float> row_gain, std::span<float> image);
+void beamform(const TransducerBeams& beams, const EchoGrid& grid, bool powers, bool noisy,
+              PhiloxKey key, std::span<const float> row_gain, std::span<float> image);
 
 }  // namespace sonarsim

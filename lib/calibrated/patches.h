@@ -12,7 +12,7 @@
 namespace sonarsim {
 
 /// A block of pieces of surface, each small enough to be a point. Arrays, so that loops vectorise.
-struct PieceBlock {
+struct PatchBlock {
     static constexpr int most = 256;
     static constexpr int spare = 8;  ///< whole vectors are written
     template <class T>
@@ -33,8 +33,8 @@ struct PointLimits {
 };
 
 /// Into how many pieces a half edge is cut.
-inline int pieces_along(const Eigen::Vector3f& half_edge, const Eigen::Vector3f& direction,
-                        float range_m, const PointLimits& limits) {
+inline int patches_along(const Eigen::Vector3f& half_edge, const Eigen::Vector3f& direction,
+                         float range_m, const PointLimits& limits) {
     constexpr float most = 256.0F;
     const float depth = half_edge.dot(direction);
     float wanted = 1.0F;
@@ -53,28 +53,28 @@ inline int pieces_along(const Eigen::Vector3f& half_edge, const Eigen::Vector3f&
 
 /// Cuts samples into pieces and hands these to `use`, a block at a time.
 template <class Use>
-void cut_into_pieces(std::span<const Sample> samples, const PointLimits& limits, PieceBlock& pieces,
-                     Use use) {
+void subdivide(std::span<const Sample> samples, const PointLimits& limits, PatchBlock& pieces,
+               Use use) {
     pieces.count = 0;
     for (const Sample& sample : samples) {
         const auto [range, departure, direction] = arrival_of(sample.position);
         if (!(range > 0.0F)) continue;
-        const int rows = pieces_along(sample.edge_u, direction, range, limits);
-        const int columns = pieces_along(sample.edge_v, direction, range, limits);
+        const int rows = patches_along(sample.edge_u, direction, range, limits);
+        const int columns = patches_along(sample.edge_v, direction, range, limits);
         const float area = sample.area_m2 / static_cast<float>(rows * columns);
         const Eigen::Vector3f step_u = 2.0F / static_cast<float>(rows) * sample.edge_u;
         const Eigen::Vector3f step_v = 2.0F / static_cast<float>(columns) * sample.edge_v;
         for (int i = 0; i < rows; ++i) {
             const Eigen::Vector3f row = sample.position + (static_cast<float>(i) + 0.5F) * step_u -
                                         sample.edge_u - sample.edge_v;
-            for (int first = 0; first < columns; first += PieceBlock::spare) {
-                if (pieces.count > PieceBlock::most - PieceBlock::spare) {
+            for (int first = 0; first < columns; first += PatchBlock::spare) {
+                if (pieces.count > PatchBlock::most - PatchBlock::spare) {
                     use(pieces);
                     pieces.count = 0;
                 }
                 const int at = pieces.count;
-                const auto along_row = [&](PieceBlock::Array<float>& to, float start, float step) {
-                    for (int lane = 0; lane < PieceBlock::spare; ++lane) {
+                const auto along_row = [&](PatchBlock::Array<float>& to, float start, float step) {
+                    for (int lane = 0; lane < PatchBlock::spare; ++lane) {
                         const float t = static_cast<float>(first + lane) + 0.5F;
                         to[at + lane] = std::fma(t, step, start);
                     }
@@ -82,10 +82,10 @@ void cut_into_pieces(std::span<const Sample> samples, const PointLimits& limits,
                 along_row(pieces.x, row.x(), step_v.x());
                 along_row(pieces.y, row.y(), step_v.y());
                 along_row(pieces.z, row.z(), step_v.z());
-                std::fill_n(pieces.area_m2.data() + at, PieceBlock::spare, area);
-                std::fill_n(pieces.height_m.data() + at, PieceBlock::spare, sample.height_m);
-                std::fill_n(pieces.material.data() + at, PieceBlock::spare, sample.material);
-                pieces.count += std::min(columns - first, PieceBlock::spare);
+                std::fill_n(pieces.area_m2.data() + at, PatchBlock::spare, area);
+                std::fill_n(pieces.height_m.data() + at, PatchBlock::spare, sample.height_m);
+                std::fill_n(pieces.material.data() + at, PatchBlock::spare, sample.material);
+                pieces.count += std::min(columns - first, PatchBlock::spare);
             }
         }
     }
