@@ -26,147 +26,119 @@ std::vector<Backscatter> scattering_of(const Scene& scene) {
     return out;
 }
 
-/// What the steps of an image share, for beams of either kind.
+/// The steps of an image, for beams of either kind, and what they share.
 template <class Beams>
-struct ImageFormer {
-    const CalibratedModel& model;
-    const Beams& beams;
-    SonarInScene sonar;
-    std::vector<Backscatter> materials;
-    const CalibratedDraws& draws;
-    SpeckleMode speckle;
-    float speckle_gain;  ///< keeps the mean power where speckle is drawn per cell of the grid
-    CalibratedCounts counts = {};
-    PointEchoes echoes = {};
+class ImageFormer {
+  public:
+    ImageFormer(const CalibratedModel& model, const Beams& beams, const TracedPing& traced,
+                const FormContext& context, Ping& ping)
+        : model_(model),
+          beams_(beams),
+          context_(context),
+          scene_draws_(context.draws.of_scene(Stream::scatterers)),
+          ping_draws_(context.draws.of(Stream::speckle)),
+          sonar_{traced.T_world_sensor.rotation.toRotationMatrix().cast<float>(),
+                 traced.T_world_sensor.translation - context.scene.origin},
+          materials_(scattering_of(context.scene)),
+          speckle_(context.terms.random > 0 ? model.speckle : SpeckleMode::none),
+          speckle_gain_(model.amplitude_taps.scalloping_gain * scalloping_gain(beams)),
+          ping_(ping) {}
 
+    /// Fills the image. The numbers are the sections of docs/calibrated.md.
+    void form(const TracedPing& traced) {
+        EchoGrid grid(model_.equation.rows, columns_of(beams_));
+        const bool of_powers = speckle_ == SpeckleMode::none;
+
+        // 1. Sonar equation: surface in view, surface in the guard beams, multipath.
+        if (context_.terms.direct) {
+            add_surface(traced.samples.items, grid);
+            add_surface(traced.outside_sector, grid);
+        }
+        if (context_.terms.multipath) add_multipath(specular_paths(traced, context_.scene), grid);
+
+        // 2. Speckle. That of the scene is in the amplitudes of its scatterers.
+        if (speckle_ == SpeckleMode::ping) draw_speckle(grid, speckle_gain_, ping_draws_);
+
+        // 3. Pulse.
+        ping_.counts.occupied_bins =
+            grid.convolve_pulse(of_powers ? model_.power_taps : model_.amplitude_taps);
+
+        // 3, 4. Beams, the receiver's noise and its gain.
+        beamform(beams_, grid, of_powers, context_.terms.random > 1,
+                 context_.draws.of(Stream::receiver_noise), model_.row_gain, ping_.intensity);
+    }
+
+  private:
     /// Finds the echoes of a block of patches, and their places in the grid.
     void find(const PatchBlock& patches) {
-        counts.echoes += patches.count;
-        counts.out_of_range += apply_sonar_equation(patches, materials, model.equation, echoes);
-        counts.out_of_range += find_columns(beams, patches, echoes);
-        if (speckle != SpeckleMode::none)
-            add_clutter(patches, model.clutter, sonar, draws.scene, echoes);
+        ping_.counts.echoes += patches.count;
+        ping_.counts.out_of_range +=
+            apply_sonar_equation(patches, materials_, model_.equation, echoes_);
+        ping_.counts.out_of_range += find_columns(beams_, patches, echoes_);
+        if (speckle_ != SpeckleMode::none)
+            add_clutter(patches, model_.clutter, sonar_, scene_draws_, echoes_);
     }
 
-    /// Adds the amplitudes of the scatterers of a surface.
-    void add_scatterers(std::span<const Sample> surface, EchoGrid& grid) {
-        Scatterers block;
-        Amplitudes amplitudes;
-        find_scatterers(
-            surface, model.cells, sonar, draws.scene, block, [&](const Scatterers& found) {
-                find(found.pieces);
-                draw_amplitudes(found, echoes, model.cells, sonar, draws.scene, amplitudes);
-                add_amplitudes(beams, found.pieces, echoes, amplitudes, grid);
-            });
-    }
-
-    /// Adds the powers of a surface.
-    void add_patches(std::span<const Sample> surface, EchoGrid& grid) {
+    /// Adds amplitudes of the scene's scatterers or, where speckle is not the scene's, powers.
+    void add_surface(std::span<const Sample> surface, EchoGrid& grid) {
+        if (speckle_ == SpeckleMode::scene) {
+            Scatterers block;
+            Amplitudes amplitudes;
+            find_scatterers(
+                surface, model_.cells, sonar_, scene_draws_, block, [&](const Scatterers& found) {
+                    find(found.pieces);
+                    draw_amplitudes(found, echoes_, model_.cells, sonar_, scene_draws_, amplitudes);
+                    add_amplitudes(beams_, found.pieces, echoes_, amplitudes, grid);
+                });
+            return;
+        }
         PatchBlock block;
-        PointLimits limits = model.limits;
-        if (speckle == SpeckleMode::ping) limits.depth_m *= deeper_patches;
+        PointLimits limits = model_.limits;
+        if (speckle_ == SpeckleMode::ping) limits.depth_m *= deeper_patches;
         subdivide(surface, limits, block, [&](const PatchBlock& patches) {
             find(patches);
-            add_powers(beams, patches, echoes, grid);
+            add_powers(beams_, patches, echoes_, grid);
         });
     }
 
-    void add_surface(std::span<const Sample> surface, EchoGrid& grid) {
-        if (speckle == SpeckleMode::scene) {
-            add_scatterers(surface, grid);
-        } else {
-            add_patches(surface, grid);
-        }
-    }
-
-    /// Adds what is seen by way of a mirror: powers or, where the scene has speckle, amplitudes.
-    /// Their phase follows the shape of the mirror to a fraction of a wavelength, which no mesh
-    /// has, so that they are drawn for the ping.
-    void add_multipath(std::span<const SpecularPath> paths, EchoGrid& grid) {
+    /// Adds what is seen by way of a mirror. Where speckle is the scene's, its amplitudes are drawn
+    /// for the ping: their phase follows the shape of the mirror to a fraction of a wavelength,
+    /// which no mesh has.
+    void add_multipath(const std::vector<SpecularPath>& paths, EchoGrid& grid) {
         if (paths.empty()) return;
-        counts.echoes += 2 * paths.size();
+        ping_.counts.echoes += 2 * paths.size();
         const auto add_to = [&](EchoGrid& powers) {
-            counts.out_of_range +=
-                add_mirrored_powers(beams, paths, materials, model.equation, model.limits, powers);
+            ping_.counts.out_of_range += add_mirrored_powers(
+                beams_, paths, materials_, model_.equation, model_.limits, powers);
         };
-        if (speckle != SpeckleMode::scene) return add_to(grid);
+        if (speckle_ != SpeckleMode::scene) return add_to(grid);
         EchoGrid mirrored(grid.rows(), grid.columns());
         add_to(mirrored);
-        draw_speckle(mirrored, speckle_gain, draws.ping);
+        draw_speckle(mirrored, speckle_gain_, ping_draws_);
         grid.add(mirrored);
     }
+
+    const CalibratedModel& model_;
+    const Beams& beams_;
+    const FormContext& context_;
+    PhiloxKey scene_draws_, ping_draws_;
+    SonarInScene sonar_;
+    std::vector<Backscatter> materials_;
+    SpeckleMode speckle_;
+    float speckle_gain_;  ///< keeps the mean power where speckle is drawn per cell of the grid
+    PointEchoes echoes_;
+    Ping& ping_;
 };
-
-/// The image by beams of either kind. The numbers are the sections of docs/calibrated.md.
-template <class Beams>
-CalibratedCounts form_with(ImageFormer<Beams> former, const SeenSurface& seen,
-                           const CalibratedTerms& terms, std::span<float> image) {
-    const CalibratedModel& model = former.model;
-    const bool of_powers = former.speckle == SpeckleMode::none;
-    EchoGrid grid(model.equation.rows, columns_of(former.beams));
-
-    // 1. Sonar equation: surface in view, surface in the guard beams, multipath.
-    if (terms.echoes) {
-        former.add_surface(seen.samples.items, grid);
-        former.add_surface(seen.outside_sector, grid);
-    }
-    if (terms.mirrored) former.add_multipath(seen.mirrored, grid);
-
-    // 2. Speckle. That of the scene is in the amplitudes of its scatterers.
-    if (former.speckle == SpeckleMode::ping)
-        draw_speckle(grid, former.speckle_gain, former.draws.ping);
-
-    // 3. Pulse.
-    former.counts.occupied_cells =
-        grid.convolve_pulse(of_powers ? model.power_taps : model.amplitude_taps);
-
-    // 3, 4. Beams, the receiver's noise and its gain.
-    beamform(former.beams, grid, of_powers, terms.noise, former.draws.noise, model.row_gain, image);
-    return former.counts;
-}
 
 }  // namespace
 
-CalibratedCounts form_calibrated(const CalibratedModel& model, const SeenSurface& seen,
-                                 const Scene& scene, const Pose& T_world_sensor,
-                                 const CalibratedDraws& draws, const CalibratedTerms& terms,
-                                 std::span<float> image) {
-    return std::visit(
-        [&]<class Beams>(const Beams& beams) {
-            return form_with(
-                ImageFormer<Beams>{
-                    .model = model,
-                    .beams = beams,
-                    .sonar = {T_world_sensor.rotation.toRotationMatrix().cast<float>(),
-                              T_world_sensor.translation - scene.origin},
-                    .materials = scattering_of(scene),
-                    .draws = draws,
-                    .speckle = terms.speckle ? model.speckle : SpeckleMode::none,
-                    .speckle_gain = model.amplitude_taps.scalloping_gain * scalloping_gain(beams)},
-                seen, terms, image);
-        },
-        model.beams);
-}
-
 void CalibratedModel::form(const TracedPing& traced, const FormContext& context, Ping& ping) const {
     Stopwatch watch;
-    const Terms& terms = context.terms;
-    std::vector<SpecularPath> mirrored;
-    if (terms.multipath) mirrored = specular_paths(traced, context.scene);
-    const CalibratedCounts counts =
-        form_calibrated(*this, {traced.samples, mirrored, traced.outside_sector}, context.scene,
-                        traced.T_world_sensor,
-                        {.scene = context.draws.of_scene(Stream::scatterers),
-                         .ping = context.draws.of(Stream::speckle),
-                         .noise = context.draws.of(Stream::receiver_noise)},
-                        {.echoes = terms.direct,
-                         .mirrored = terms.multipath,
-                         .speckle = terms.random > 0,
-                         .noise = terms.random > 1},
-                        ping.intensity);
-    ping.counts.echoes = counts.echoes;
-    ping.counts.out_of_range = counts.out_of_range;
-    ping.counts.occupied_bins = counts.occupied_cells;
+    std::visit(
+        [&]<class Beams>(const Beams& of_model) {
+            ImageFormer<Beams>(*this, of_model, traced, context, ping).form(traced);
+        },
+        beams);
     ping.seconds.accumulate = watch.lap();
 }
 

@@ -55,40 +55,4 @@ struct CalibratedModel final : EchoModel {
 CalibratedModel calibrated_model(const InstrumentConfig& instrument, const WaterConfig& water,
                                  const View& view, const std::vector<double>& beam_sines);
 
-/// Which of the model's terms are in an image.
-struct CalibratedTerms {
-    bool echoes = true;    ///< of the surface that is seen directly
-    bool mirrored = true;  ///< of what is seen by way of another surface
-    bool speckle = true;
-    bool noise = true;
-};
-
-/// The keys of the draws.
-struct CalibratedDraws {
-    PhiloxKey scene{};  ///< the same for all pings
-    PhiloxKey ping{};
-    PhiloxKey noise{};
-};
-
-struct CalibratedCounts {
-    std::uint64_t echoes = 0;
-    std::uint64_t out_of_range = 0;
-    std::uint64_t occupied_cells = 0;  ///< of the grid, before the pulse
-};
-
-/// What a sonar has seen: surface in its view, surface in its guard beams, and surface by way of a
-/// mirror.
-struct SeenSurface {
-    const Samples& samples;
-    std::span<const SpecularPath> mirrored = {};
-    std::span<const Sample> outside_sector = {};
-};
-
-/// The power of every bin, [range bins, beams], by full scale: 1 is the highest that the receiver
-/// does not clip. A pure function of its arguments.
-CalibratedCounts form_calibrated(const CalibratedModel& model, const SeenSurface& seen,
-                                 const Scene& scene, const Pose& T_world_sensor,
-                                 const CalibratedDraws& draws, const CalibratedTerms& terms,
-                                 std::span<float> image);
-
 }  // namespace sonarsim

@@ -39,9 +39,7 @@ CalibratedModel sounder(double width_deg, double resolution_m = 0.05) {
 std::vector<float> image_of(const CalibratedModel& model, const std::vector<Sample>& surface) {
     Samples samples;
     samples.items = surface;
-    std::vector<float> image(sounder_bins);
-    form_calibrated(model, {samples}, scene_of_rock(), {}, {}, {}, image);
-    return image;
+    return image_of_samples(model, {.range_bins = sounder_bins, .beams = 1}, samples, {});
 }
 
 double energy_of(const CalibratedModel& model, const std::vector<Sample>& surface) {
