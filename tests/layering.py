@@ -2,9 +2,10 @@
 
     python3 tests/layering.py <root of the repository>
 
-Three rules: a folder of lib/ includes only the folders below it, a part of a folder only the parts
-below it, and no files include each other in a circle; x.h and x.cpp count as one. Each rule is first
-tried on made-up files that break it.
+Four rules: a folder of lib/ includes only the folders below it, a part of a folder only the parts
+below it, no files include each other in a circle, and what comes after the trace takes ranges from
+lib/trace/arrivals.h; x.h and x.cpp count as one. Each rule is first tried on made-up files that break
+it.
 """
 import pathlib
 import re
@@ -18,15 +19,17 @@ ALLOWED = {
     "scene": {"core"},
     "trajectory": {"core"},
     "visibility": {"core", "scene"},
-    "calibrated": {"core", "mission", "scene", "visibility"},
-    "ping": {"core", "mission", "scene", "visibility", "calibrated"},
-    "labels": {"core", "mission", "scene", "visibility", "calibrated", "ping"},
-    "product": {"core", "mission", "calibrated", "ping", "labels"},
-    "sonar": {"core", "mission", "scene", "visibility", "calibrated", "ping", "labels", "product"},
-    "assembly": {"core", "mission", "scene", "trajectory", "visibility", "calibrated", "ping", "labels",
-                 "product", "sonar"},
-    "survey": {"core", "mission", "scene", "trajectory", "visibility", "calibrated", "ping", "labels",
-               "product", "sonar", "assembly"},
+    "trace": {"core", "scene", "visibility"},
+    "paper": {"core", "mission", "scene", "visibility", "trace"},
+    "calibrated": {"core", "mission", "scene", "visibility", "trace"},
+    "ping": {"core", "mission", "scene", "visibility", "trace"},
+    "labels": {"core", "scene", "visibility", "trace", "paper", "ping"},
+    "product": {"core", "mission", "trace", "paper", "ping", "labels"},
+    "sonar": {"core", "mission", "scene", "visibility", "trace", "paper", "calibrated", "ping", "labels", "product"},
+    "assembly": {"core", "mission", "scene", "trajectory", "visibility", "trace", "paper", "calibrated", "ping",
+                 "labels", "product", "sonar"},
+    "survey": {"core", "mission", "scene", "trajectory", "visibility", "trace", "paper", "calibrated", "ping",
+               "labels", "product", "sonar", "assembly"},
     "format": {"core"},
 }
 for upper in ("dataset", "validation", "benchmark", "preview", "gallery"):
@@ -44,6 +47,9 @@ PARTS = {
     "validation": [["*"], ["hard/"]],
     "visibility": [["*"], ["octree/", "rays/", "slices/"], ["auto_engine"], ["make_engine"]],
 }
+# These folders work with what was traced, and take its ranges from arrivals.
+AFTER_THE_TRACE = {"paper", "calibrated", "ping", "labels", "product", "sonar", "assembly", "survey", "dataset"}
+RANGE_OF_POSITION = re.compile(r"\bposition\.norm\(\)|\bposition / range\b|arctan2\w*\([^)]*position")
 # Which folder alone may use a library.
 OWNERS = {
     "yaml-cpp/": "mission",
@@ -120,6 +126,8 @@ def faults_in_code(root: pathlib.Path) -> tuple[int, list[str]]:
         if here != "apps" and not part_of(unit):
             faults.append(f"{relative}: PARTS does not say where {here}/{unit.split('/')[1]}/ lies")
         for number, line in enumerate(path.read_text().splitlines(), 1):
+            if here in AFTER_THE_TRACE and RANGE_OF_POSITION.search(line):
+                faults.append(f"{relative}:{number}: take ranges and directions from trace/arrivals.h")
             match = re.match(r'\s*#\s*include\s*([<"])([^">]+)[">]', line)
             if not match:
                 continue
@@ -176,6 +184,7 @@ def try_the_rules():
              "a circle: visibility/engine -> visibility/view -> visibility/engine"),
             ("lib/visibility/lamps/lamp.h", "", "does not say where visibility/lamps/ lies"),
             ("lib/lamps/lamp.h", "", "no folder lamps"),
+            ("lib/paper/file.h", "float r = sample.position.norm();", "from trace/arrivals.h"),
             ("lib/core/file.h", '#include "text.h"', 'write "folder/file.h"'),
             ("lib/core/file.h", "#include <yaml-cpp/yaml.h>", "belongs to mission alone"),
     ):

@@ -149,9 +149,9 @@ void spare_mission(const std::filesystem::path& file, const Mission& mission) {
 std::size_t warn_before(const Mission& mission, const Assembly& assembly) {
     std::size_t warnings = warn_about(assembly.scene);
     for (const Sonar& sonar : assembly.sonars) {
-        const std::string doubt = accuracy_warning(engine_settings(mission), sonar.settings.view,
-                                                   sonar.settings.multipath.on,
-                                                   sonar.config.model == EchoModel::calibrated);
+        const std::string doubt =
+            accuracy_warning(engine_settings(mission), sonar.settings.view,
+                             sonar.settings.multipath.on, sonar.settings.model->energies_add());
         if (doubt.empty()) continue;
         ++warnings;
         spdlog::warn("sensor '{}': {}", sonar.config.name, doubt);

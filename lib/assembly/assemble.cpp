@@ -91,7 +91,7 @@ Sonar checked_sonar(const Mission& mission, const SonarConfig& sensor,
     Sonar sonar = make_sonar(sensor, mission.accuracy, mission.water);
     const std::string refusal = unsupported(settings, sonar.settings.view);
     if (!refusal.empty()) throw InputError("sensor '" + sensor.name + "': " + refusal);
-    if (has_even_sines(sonar) && !mission.output.labels.empty()) {
+    if (sonar.equal_sine && !mission.output.labels.empty()) {
         throw InputError(mission.output.labels_place.location,
                          "sensor '" + sensor.name +
                              "': labels need beams of equal azimuth; leave out output.labels, or "

@@ -99,10 +99,11 @@ std::vector<Reference> cast_references(const Comparison& comparison, const Sonar
         const Pose T_world_sensor =
             sensor_pose(*pings.at_pose(sonar, p), pings.poses[p], pings.indices[p]);
         const ReferenceGoal goal{options.reference_moved, 64.0, options.reference_rays};
-        references[p] = settings.calibrated ? cast_energy_reference(comparison.caster, pings.scene,
-                                                                    settings, T_world_sensor, goal)
-                                            : cast_reference(comparison.caster, pings.scene,
-                                                             settings.view, T_world_sensor, goal);
+        references[p] = settings.model->energies_add()
+                            ? cast_energy_reference(comparison.caster, pings.scene, settings,
+                                                    T_world_sensor, goal)
+                            : cast_reference(comparison.caster, pings.scene, settings.view,
+                                             T_world_sensor, goal);
     });
     return references;
 }

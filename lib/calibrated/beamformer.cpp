@@ -149,14 +149,14 @@ Beamformer::Beamformer(const LineArray& array, const std::vector<double>& beam_s
         weights_.push_back({.re = static_cast<float>(weight.real()),
                             .im = static_cast<float>(weight.imag()),
                             .index = (k + size) % size,
-                            .hearing = static_cast<float>(triangle * triangle),
+                            .noise_scale = static_cast<float>(triangle * triangle),
                             .ahead_re = static_cast<float>(turn.cos),
                             .ahead_im = static_cast<float>(turn.sin)});
         noise += std::norm(weights[k + reach]);
         in_columns += std::norm(weight);
         between += std::norm(weight) * (2.0 + sincos(2.0 * pi * k / size).cos) / 3.0;
     }
-    fill_ = static_cast<float>(between / in_columns);
+    scalloping_gain_ = static_cast<float>(between / in_columns);
     // The power of noise in a beam is the sum over elements of both parts.
     unit_sigma_ = static_cast<float>(std::sqrt(0.5 / noise));
 
@@ -210,7 +210,7 @@ void Beamformer::add_noise(const ElementNoise& noise, int row, PhiloxKey key,
         complex_normals(words.data() + static_cast<std::ptrdiff_t>(e % pairs) * lanes_at_once, re,
                         im);
         ComplexLanes z = scratch.data[weights_[e].index];
-        const float sigma = noise.element_sigma * weights_[e].hearing;
+        const float sigma = noise.element_sigma * weights_[e].noise_scale;
         for (int lane = 0; lane < lanes_at_once; ++lane) {
             z.re[lane] = std::fma(sigma, re[lane], z.re[lane]);
             z.im[lane] = std::fma(sigma, im[lane], z.im[lane]);
@@ -227,8 +227,8 @@ void Beamformer::add_noise(const ElementNoise& noise, int row, PhiloxKey key,
     complex_normals(a.data(), re, im);
     for (const Weight& w : weights_) {
         ComplexLanes z = scratch.data[w.index];
-        const float ahead_re = noise.common_mode_sigma * w.hearing * w.ahead_re;
-        const float ahead_im = noise.common_mode_sigma * w.hearing * w.ahead_im;
+        const float ahead_re = noise.common_mode_sigma * w.noise_scale * w.ahead_re;
+        const float ahead_im = noise.common_mode_sigma * w.noise_scale * w.ahead_im;
         for (int lane = 0; lane < lanes_at_once; ++lane) {
             z.re[lane] += re[lane] * ahead_re - im[lane] * ahead_im;
             z.im[lane] += re[lane] * ahead_im + im[lane] * ahead_re;

@@ -27,9 +27,8 @@ class Beamformer {
     const SineGrid& grid() const { return grid_; }
     int beams() const { return static_cast<int>(first_tap_.size()); }
     int elements() const { return static_cast<int>(weights_.size()); }
-    /// Mean power of the pattern over where between two columns an echo lies, per power with echoes
-    /// in the columns: what turns independent columns into independent points.
-    float fill() const { return fill_; }
+    /// Scalloping correction: mean power over positions between two columns / power in a column.
+    float scalloping_gain() const { return scalloping_gain_; }
     /// The sigma of the elements that makes a noise of power 1 in a beam.
     float element_sigma_of_unit() const { return unit_sigma_; }
 
@@ -47,8 +46,9 @@ class Beamformer {
     static constexpr int most_taps = 8;
     struct Weight {
         float re, im;
-        int index;      ///< of the transform
-        float hearing;  ///< what undoes, for noise, that the weight makes up for shared echoes
+        int index;          ///< of the transform
+        float noise_scale;  ///< cancels, for noise, the interpolation correction, which applies to
+                            ///< echoes only
         float ahead_re, ahead_im;  ///< what a source straight ahead is there
     };
 
@@ -61,7 +61,7 @@ class Beamformer {
     int taps_ = 1;
     std::vector<int> first_tap_;  ///< by beam
     std::vector<float> tap_;      ///< [beams, taps]
-    float fill_ = 1.0F;
+    float scalloping_gain_ = 1.0F;
     float unit_sigma_ = 0.0F;
 };
 

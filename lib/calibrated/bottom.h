@@ -35,14 +35,14 @@ struct Backscatter {
 /// slope s; s = 0 has no facets.
 Backscatter backscatter(double lambert_db, double reflection, double slope_rms);
 
-/// Where `fading` is 0 from, as exact as facets need it: 1e-19 of a power.
+/// Where `exp_neg` is 0 from, as exact as facets need it: 1e-19 of a power.
 inline constexpr float fades_at = 43.0F;
 /// The same for absorption, of which a gain may make up: the least power that floats hold.
 inline constexpr float least_loss = 87.0F;
 
 /// e^-x for x >= -88, relative error below 3e-6; 0 from x = `longest` on and for NaN. Without
 /// branches.
-inline float fading(float x, float longest = fades_at) {
+inline float exp_neg(float x, float longest = fades_at) {
     const float turns = std::min(longest, x) * 1.44269504F;
     const float whole = std::floor(turns);
     const float rest = (turns - whole) * 0.69314718F;
@@ -56,13 +56,13 @@ inline float fading(float x, float longest = fades_at) {
 inline float Backscatter::between(float sine_in, float sine_out, float half) const {
     const float near = std::max(1e-6F, half * half);
     return lambert * sine_in * sine_out +
-           facet / (near * near) * fading(inverse_slope2 * (1.0F - near) / near);
+           facet / (near * near) * exp_neg(inverse_slope2 * (1.0F - near) / near);
 }
 
 inline float Backscatter::at(float sine) const {
     const float s2 = sine * sine;
     const float near = std::max(1e-6F, s2);
-    return lambert * s2 + facet / (near * near) * fading(inverse_slope2 * (1.0F - near) / near);
+    return lambert * s2 + facet / (near * near) * exp_neg(inverse_slope2 * (1.0F - near) / near);
 }
 
 }  // namespace sonarsim

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "trace/arrivals.h"
+
 namespace sonarsim {
 
 namespace {
@@ -55,8 +57,7 @@ struct Surfaces {
             area[k] = sample.area_m2;
         }
         for (int k = 0; k < count; ++k) {
-            range[k] = std::sqrt(std::fma(
-                place.x[k], place.x[k], std::fma(place.y[k], place.y[k], place.z[k] * place.z[k])));
+            range[k] = piece_range(place.x[k], place.y[k], place.z[k]);
         }
         place.turn(R_world_sensor, count);
         u.turn(R_world_sensor, count);

@@ -41,7 +41,7 @@ std::vector<std::uint16_t> companded(std::span<const float> powers,
         const float power = std::min(std::max(powers[i], least_power), 1.0F);
         const float logarithm_of_power = std::min(natural_log(power), 0.0F);
         const float value = law.logarithmic ? std::max(1.0F + law.factor * logarithm_of_power, 0.0F)
-                                            : fading(-law.factor * logarithm_of_power);
+                                            : exp_neg(-law.factor * logarithm_of_power);
         out[i] = static_cast<std::uint16_t>(static_cast<std::int32_t>(greatest * value + 0.5F));
     }
     return out;

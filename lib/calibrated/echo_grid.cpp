@@ -26,7 +26,16 @@ EchoGrid::EchoGrid(int rows, int columns)
       stride_(stride_of(rows, front)),
       values_(stride_ * columns + floats_per_line) {}
 
-std::size_t EchoGrid::smear(const RangeTaps& taps) {
+void EchoGrid::add(const EchoGrid& more) {
+    for (int c = 0; c < columns_; ++c) {
+        const float* const __restrict from = more.column(c);
+        float* const __restrict to = column(c);
+        for (int i = 0; i < 2 * rows_; ++i)
+            to[i] += from[i];
+    }
+}
+
+std::size_t EchoGrid::convolve_pulse(const RangeTaps& taps) {
     const std::size_t length = 2 * static_cast<std::size_t>(rows_);
     const std::size_t beside = 2 * static_cast<std::size_t>(taps.reach);
     // Whole lines are written, as far as a column has room.

@@ -30,8 +30,10 @@ class EchoGrid {
     const float* column(int c) const { return values_.data() + c * stride_ + front; }
     std::size_t stride() const { return stride_; }
 
-    /// Smears every column by the pulse. Returns how many places held an echo before.
-    std::size_t smear(const RangeTaps& taps);
+    /// Adds a grid of the same shape.
+    void add(const EchoGrid& more);
+    /// Convolves every column with the pulse. Returns how many cells held an echo before.
+    std::size_t convolve_pulse(const RangeTaps& taps);
 
   private:
     // One bin before the first takes what lies between the two; seven more fill the cache line.

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "calibrated/levels.h"
+#include "trace/arrivals.h"
 
 namespace sonarsim {
 
@@ -12,24 +13,24 @@ namespace {
 
 /// The ends of a block of ways that sound takes: the pieces, or their images.
 struct Ends {
-    PieceBlock places;
+    PatchBlock places;
     PointEchoes echoes;                  ///< ranges of the places; the rest is filled by add_block
-    PieceBlock::Array<float> sent = {};  ///< share of the power that is sent towards them
+    PatchBlock::Array<float> sent = {};  ///< share of the power that is sent towards them
 };
 
 /// A block of pieces that are small enough to be points.
 struct MirroredBlock {
     int count = 0;
     Ends points, images;
-    PieceBlock::Array<float> power{}, row{};
+    PatchBlock::Array<float> power{}, row{};
 };
 
-void put_place(Ends& ends, int k, const MirroredPiece::Place& place, float s, float t) {
+void put_place(Ends& ends, int k, const SpecularPath::Place& place, float s, float t) {
     const Eigen::Vector3f p = place.at + s * place.u + t * place.v;
     ends.places.x[k] = p.x();
     ends.places.y[k] = p.y();
     ends.places.z[k] = p.z();
-    ends.echoes.range_m[k] = p.norm();
+    ends.echoes.range_m[k] = arrival_range(p);
 }
 
 /// Finds the power that is sent towards the ends.
@@ -43,14 +44,14 @@ void direct_ends(Ends& ends, int count, const ElevationPattern& pattern) {
 
 /// The echoes that go out to some ends and come back from the others.
 template <class Beams>
-std::uint64_t add_one_way_round(const Beams& beams, const MirroredBlock& block, const Ends& out,
-                                Ends& back, EchoGrid& grid) {
+std::uint64_t add_reciprocal_path(const Beams& beams, const MirroredBlock& block, const Ends& out,
+                                  Ends& back, EchoGrid& grid) {
     for (int k = 0; k < block.count; ++k) {
         back.echoes.power[k] = block.power[k] * out.sent[k];
         back.echoes.row[k] = block.row[k];
     }
     const std::uint64_t outside = find_columns(beams, back.places, back.echoes);
-    add_returned_powers(beams, {out.places, out.echoes}, {back.places, back.echoes}, grid);
+    add_bistatic_powers(beams, {out.places, out.echoes}, {back.places, back.echoes}, grid);
     return outside;
 }
 
@@ -64,29 +65,30 @@ std::uint64_t add_block(const Beams& beams, const SonarEquation& equation, Mirro
     for (int k = 0; k < block.count; ++k) {
         const float r = block.points.echoes.range_m[k];
         const float s = block.images.echoes.range_m[k];
-        const float range = 0.5F * (r + s);
+        const float range = arrival_range(r, s);
         const float row = (range - equation.range_min_m) / equation.bin_m - 0.5F;
         const bool inside = row > -0.5F && row < rows - 0.5F;
         const float faded =
-            fading(std::fma(equation.loss_per_m, range, -equation.raised), least_loss);
+            exp_neg(std::fma(equation.loss_per_m, range, -equation.raised), least_loss);
         const float lost = std::min(faded / (r * r * s * s), std::numeric_limits<float>::max());
         block.power[k] = inside ? std::min(block.power[k] * lost, most_echo) : 0.0F;
         block.row[k] = inside ? row : 0.0F;
         outside += inside ? 0 : 2;
     }
-    outside += add_one_way_round(beams, block, block.images, block.points, grid);
-    outside += add_one_way_round(beams, block, block.points, block.images, grid);
+    outside += add_reciprocal_path(beams, block, block.images, block.points, grid);
+    outside += add_reciprocal_path(beams, block, block.points, block.images, grid);
     block.count = 0;
     return outside;
 }
 
 /// Into how many pieces an edge is cut, of which each is a point both directly and in the mirror.
-int pieces_of_both(const MirroredPiece& piece, const Eigen::Vector3f MirroredPiece::Place::*edge,
+int pieces_of_both(const SpecularPath& piece, const Eigen::Vector3f SpecularPath::Place::*edge,
                    const PointLimits& limits) {
     int most = 1;
-    for (const MirroredPiece::Place* place : {&piece.point, &piece.image}) {
-        const float range = place->at.norm();
-        most = std::max(most, pieces_along(place->*edge, place->at / range, range, limits));
+    for (const SpecularPath::Place* place : {&piece.point, &piece.image_source}) {
+        const Arrival arrival = arrival_of(place->at);
+        most =
+            std::max(most, patches_along(place->*edge, arrival.direction, arrival.range_m, limits));
     }
     return most;
 }
@@ -94,15 +96,15 @@ int pieces_of_both(const MirroredPiece& piece, const Eigen::Vector3f MirroredPie
 }  // namespace
 
 template <class Beams>
-std::uint64_t add_mirrored_powers(const Beams& beams, std::span<const MirroredPiece> pieces,
+std::uint64_t add_mirrored_powers(const Beams& beams, std::span<const SpecularPath> pieces,
                                   std::span<const Backscatter> materials,
                                   const SonarEquation& equation, const PointLimits& limits,
                                   EchoGrid& grid) {
     MirroredBlock block;
     std::uint64_t outside = 0;
-    for (const MirroredPiece& piece : pieces) {
-        const int rows = pieces_of_both(piece, &MirroredPiece::Place::u, limits);
-        const int columns = pieces_of_both(piece, &MirroredPiece::Place::v, limits);
+    for (const SpecularPath& piece : pieces) {
+        const int rows = pieces_of_both(piece, &SpecularPath::Place::u, limits);
+        const int columns = pieces_of_both(piece, &SpecularPath::Place::v, limits);
         const float power = materials[piece.material].between(
                                 piece.sine_of_point, piece.sine_of_image, piece.sine_between) *
                             piece.reflection * piece.area_m2 / static_cast<float>(rows * columns);
@@ -112,9 +114,9 @@ std::uint64_t add_mirrored_powers(const Beams& beams, std::span<const MirroredPi
                 const float t =
                     (2.0F * static_cast<float>(j) + 1.0F) / static_cast<float>(columns) - 1.0F;
                 put_place(block.points, block.count, piece.point, s, t);
-                put_place(block.images, block.count, piece.image, s, t);
+                put_place(block.images, block.count, piece.image_source, s, t);
                 block.power[block.count] = power;
-                if (++block.count == PieceBlock::most)
+                if (++block.count == PatchBlock::most)
                     outside += add_block(beams, equation, block, grid);
             }
         }
@@ -122,10 +124,10 @@ std::uint64_t add_mirrored_powers(const Beams& beams, std::span<const MirroredPi
     return outside + add_block(beams, equation, block, grid);
 }
 
-template std::uint64_t add_mirrored_powers(const DirectedBeams&, std::span<const MirroredPiece>,
+template std::uint64_t add_mirrored_powers(const TransducerBeams&, std::span<const SpecularPath>,
                                            std::span<const Backscatter>, const SonarEquation&,
                                            const PointLimits&, EchoGrid&);
-template std::uint64_t add_mirrored_powers(const FanBeams&, std::span<const MirroredPiece>,
+template std::uint64_t add_mirrored_powers(const ArrayBeams&, std::span<const SpecularPath>,
                                            std::span<const Backscatter>, const SonarEquation&,
                                            const PointLimits&, EchoGrid&);
 

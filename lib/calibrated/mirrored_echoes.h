@@ -3,10 +3,10 @@
 #include <cstdint>
 #include <span>
 
-#include "calibrated/directed_beams.h"
-#include "calibrated/fan_beams.h"
-#include "calibrated/mirrored_pieces.h"
+#include "calibrated/array_beams.h"
 #include "calibrated/sonar_equation.h"
+#include "calibrated/specular_path.h"
+#include "calibrated/transducer_beams.h"
 
 namespace sonarsim {
 
@@ -23,17 +23,17 @@ namespace sonarsim {
 ///
 /// Returns how many of these echoes lie outside the range or the beams.
 template <class Beams>
-std::uint64_t add_mirrored_powers(const Beams& beams, std::span<const MirroredPiece> pieces,
+std::uint64_t add_mirrored_powers(const Beams& beams, std::span<const SpecularPath> pieces,
                                   std::span<const Backscatter> materials,
                                   const SonarEquation& equation, const PointLimits& limits,
                                   EchoGrid& grid);
 
-extern template std::uint64_t add_mirrored_powers(const DirectedBeams&,
-                                                  std::span<const MirroredPiece>,
+extern template std::uint64_t add_mirrored_powers(const TransducerBeams&,
+                                                  std::span<const SpecularPath>,
                                                   std::span<const Backscatter>,
                                                   const SonarEquation&, const PointLimits&,
                                                   EchoGrid&);
-extern template std::uint64_t add_mirrored_powers(const FanBeams&, std::span<const MirroredPiece>,
+extern template std::uint64_t add_mirrored_powers(const ArrayBeams&, std::span<const SpecularPath>,
                                                   std::span<const Backscatter>,
                                                   const SonarEquation&, const PointLimits&,
                                                   EchoGrid&);

@@ -5,74 +5,55 @@
 #include <variant>
 #include <vector>
 
-#include "calibrated/directed_beams.h"
-#include "calibrated/fan_beams.h"
-#include "calibrated/mirrored_pieces.h"
+#include "calibrated/array_beams.h"
 #include "calibrated/scatterers.h"
 #include "calibrated/sonar_equation.h"
+#include "calibrated/specular_path.h"
+#include "calibrated/transducer_beams.h"
 #include "core/pose.h"
 #include "mission/mission.h"
 #include "scene/scene.h"
+#include "trace/echo_model.h"
 #include "visibility/engine.h"
 
 namespace sonarsim {
 
-/// The second model of the echo, docs/calibrated.md: an instrument, ready to turn what it saw into
-/// the echo levels that it measures.
-struct CalibratedModel {
+/// The calibrated echo model, docs/calibrated.md: an instrument, ready to turn what a sonar saw
+/// into the echo levels that it measures.
+struct CalibratedModel final : EchoModel {
+    InstrumentConfig instrument;
     SonarEquation equation;
     PointLimits limits;  ///< of pieces that are not scatterers of the scene
     ScattererCells cells;
     Clutter clutter;
     RangeTaps amplitude_taps, power_taps;
-    std::variant<DirectedBeams, FanBeams> beams;
-    std::vector<float>
-        row_gain;  ///< factor from the power of an echo to the value of the image, by bin
+    std::variant<TransducerBeams, ArrayBeams> beams;
+    /// By range bin, factor from the power of an echo to the value of the image.
+    std::vector<float> row_gain;
+    GuardBeams guard;
     SpeckleMode speckle = SpeckleMode::scene;
     double sound_speed_m_s = 0.0;
     double absorption_db_per_m = 0.0;
     double wavelength_m = 0.0;
+
+    void form(const TracedPing& traced, const FormContext& context, Ping& ping) const override;
+    std::span<const std::string_view> random_terms() const override;
+    GuardBeams guard_beams() const override { return guard; }
+    bool needs_scattered_paths() const override { return true; }
+    double rays_goal(const View& view) const override;
+    bool energies_add() const override { return true; }
+    bool is_slow() const override { return true; }
+    double working_bytes(bool multipath) const override;
+    SignalAndNoise signal_and_noise(float clean, float noisy, int range_bin,
+                                    int beam) const override;
+    void describe(nlohmann::ordered_json& sensor) const override;
+    int raw_bits() const override { return instrument.receiver.bits; }
+    std::vector<std::uint16_t> raw(const Ping& ping) const override;
 };
 
 /// Sets up the instrument of a sonar with this view; `beam_sines` are the sines of the azimuths
 /// that the beams of a fan look at.
 CalibratedModel calibrated_model(const InstrumentConfig& instrument, const WaterConfig& water,
                                  const View& view, const std::vector<double>& beam_sines);
-
-/// Which of the model's terms are in an image.
-struct CalibratedTerms {
-    bool echoes = true;    ///< of the surface that is seen directly
-    bool mirrored = true;  ///< of what is seen by way of another surface
-    bool speckle = true;
-    bool noise = true;
-};
-
-/// The keys of the draws.
-struct CalibratedDraws {
-    PhiloxKey scene{};  ///< the same for all pings
-    PhiloxKey ping{};
-    PhiloxKey noise{};
-};
-
-struct CalibratedCounts {
-    std::uint64_t echoes = 0;
-    std::uint64_t out_of_range = 0;
-    std::uint64_t lit_places = 0;  ///< of the grid, before the point spread
-};
-
-/// What a sonar has seen: surface, in its view and beside it, and what shows by way of another
-/// surface.
-struct SeenSurface {
-    const Samples& samples;
-    std::span<const MirroredPiece> mirrored = {};
-    std::span<const Sample> beside = {};
-};
-
-/// The power of every bin, [range bins, beams], by full scale: 1 is the highest that the receiver
-/// does not clip. A pure function of its arguments.
-CalibratedCounts form_calibrated(const CalibratedModel& model, const SeenSurface& seen,
-                                 const Scene& scene, const Pose& T_world_sensor,
-                                 const CalibratedDraws& draws, const CalibratedTerms& terms,
-                                 std::span<float> image);
 
 }  // namespace sonarsim

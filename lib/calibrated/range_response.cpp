@@ -66,7 +66,7 @@ RangeTaps range_taps(double resolution_bins, double side_lobe_db, bool squared) 
     const double scale = squared ? energy / of_spline : std::sqrt(energy / of_spline);
     for (const double tap : taps)
         out.taps.push_back(static_cast<float>(scale * tap));
-    out.fill = static_cast<float>((2.0 / 3.0 * power + 1.0 / 3.0 * neighbours) / power);
+    out.scalloping_gain = static_cast<float>((2.0 / 3.0 * power + 1.0 / 3.0 * neighbours) / power);
     return out;
 }
 

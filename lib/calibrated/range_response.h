@@ -12,9 +12,8 @@ namespace sonarsim {
 struct RangeTaps {
     int reach = 0;
     std::vector<float> taps;  ///< 2 reach + 1
-    /// Mean power of the spline over where in a bin the echo lies, per power of the taps: what
-    /// turns independent bins into independent points.
-    float fill = 1.0F;
+    /// Scalloping correction: mean power over positions within a bin / power at the bin's centre.
+    float scalloping_gain = 1.0F;
 };
 
 /// The pulse after compression, of half-power width `resolution_bins`; a band with a taper has the

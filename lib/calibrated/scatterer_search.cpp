@@ -64,8 +64,8 @@ class Search {
     // Of the scatterers of the block: where they lie on their sample, in half edges; the size and
     // the numbers of their cells, from the base of the sample's footprint; and where in these they
     // are, as bits.
-    PieceBlock::Array<float> s_{}, t_{}, size_{};
-    PieceBlock::Array<std::int32_t> column_{}, row_{}, within_{};
+    PatchBlock::Array<float> s_{}, t_{}, size_{};
+    PatchBlock::Array<std::int32_t> column_{}, row_{}, within_{};
     std::array<Run, CellFootprints::most> runs_{};  ///< that are to be filled
     int runs_count_ = 0;
     int filled_ = 0;  ///< so many scatterers of the block are complete
@@ -86,12 +86,12 @@ void Search::add(std::span<const Sample> samples, const ScattererCells& cells,
 
 /// Makes sure that the block has room for scatterers of sample k, and tells for how many.
 int Search::room(int k) {
-    if (block_.pieces.count > PieceBlock::most - search_lanes) {
+    if (block_.pieces.count > PatchBlock::most - search_lanes) {
         runs_[runs_count_++] = {k, block_.pieces.count};
         fill();
         flush();
     }
-    return PieceBlock::most - block_.pieces.count;
+    return PatchBlock::most - block_.pieces.count;
 }
 
 void Search::look_at_whole(int k) {
@@ -180,7 +180,7 @@ void Search::fill() {
 /// Completes the scatterers that were found on a sample. Whole vectors are written: what lies
 /// beyond the last scatterer is written again.
 void Search::fill(const Run& run) {
-    PieceBlock& pieces = block_.pieces;
+    PatchBlock& pieces = block_.pieces;
     const CellFootprints& p = footprints_;
     const Sample& sample = samples_[run.sample];
     const Eigen::Vector3f& position = sample.position;

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "trace/arrivals.h"
+
 namespace sonarsim {
 
 namespace {
 
-using Floats = PieceBlock::Array<float>;
-using Words = PieceBlock::Array<std::uint32_t>;
+using Floats = PatchBlock::Array<float>;
+using Words = PatchBlock::Array<std::uint32_t>;
 
 // Cells no longer than this share of the resolution in range: the scatterer's phase holds for all
 // of the cell, which would otherwise show as speckle that is longer than the pulse.
@@ -30,7 +32,7 @@ struct WorldPlaces {
     Floats x, y, z;  ///< relative to Scene::origin, m
 };
 
-void find_places(const PieceBlock& pieces, int count, const SonarInScene& sonar, WorldPlaces& out) {
+void find_places(const PatchBlock& pieces, int count, const SonarInScene& sonar, WorldPlaces& out) {
     const Eigen::Matrix3f& R = sonar.R_world_sensor;
     const Eigen::Vector3f s = sonar.sensor.cast<float>();
     const auto place = [&](int axis, Floats& to) {
@@ -81,7 +83,7 @@ void find_phases(const Scatterers& block, int count, const SonarInScene& sonar, 
         const double x = way_along(0);
         const double y = way_along(1);
         const double z = way_along(2);
-        const double way = turns_per_m * std::sqrt(std::fma(x, x, std::fma(y, y, z * z)));
+        const double way = turns_per_m * piece_range(x, y, z);
         turns[k] = static_cast<float>(way - std::floor(way));
     }
 }
@@ -109,7 +111,7 @@ ScattererCells scatterer_cells(double per_cell, double resolution_m, double widt
     return out;
 }
 
-void add_clutter(const PieceBlock& pieces, const Clutter& clutter, const SonarInScene& sonar,
+void add_clutter(const PatchBlock& pieces, const Clutter& clutter, const SonarInScene& sonar,
                  PhiloxKey key, PointEchoes& echoes) {
     if (clutter.strength.empty()) return;
     WorldPlaces places;

@@ -39,10 +39,10 @@ struct SonarInScene {
 /// A block of scatterers: pieces of surface of the size of their cells, the cells' numbers, and the
 /// scatterers' places within them, in edges; along x, y and z of the world.
 struct Scatterers {
-    PieceBlock pieces;
-    PieceBlock::Array<float> edge_m{};
-    std::array<PieceBlock::Array<std::int32_t>, 3> cell{};
-    std::array<PieceBlock::Array<float>, 3> within{};
+    PatchBlock pieces;
+    PatchBlock::Array<float> edge_m{};
+    std::array<PatchBlock::Array<std::int32_t>, 3> cell{};
+    std::array<PatchBlock::Array<float>, 3> within{};
 };
 
 /// The complex amplitudes of a block's echoes.
@@ -51,7 +51,7 @@ void draw_amplitudes(const Scatterers& block, const PointEchoes& echoes,
                      Amplitudes& out);
 
 /// Multiplies the powers of echoes by the strength of the clutter where they come from.
-void add_clutter(const PieceBlock& pieces, const Clutter& clutter, const SonarInScene& sonar,
+void add_clutter(const PatchBlock& pieces, const Clutter& clutter, const SonarInScene& sonar,
                  PhiloxKey key, PointEchoes& echoes);
 
 }  // namespace sonarsim

@@ -6,6 +6,7 @@
 
 #include "calibrated/levels.h"
 #include "calibrated/line_array.h"
+#include "trace/arrivals.h"
 
 namespace sonarsim {
 
@@ -13,7 +14,7 @@ namespace {
 
 constexpr int vector_lanes = 8;
 
-using Floats = PieceBlock::Array<float>;
+using Floats = PatchBlock::Array<float>;
 
 __m256 all(float value) {
     return _mm256_set1_ps(value);
@@ -23,8 +24,8 @@ __m256 product(__m256 a, __m256 b) {
     return _mm256_mul_ps(a, b);
 }
 
-/// `fading` of bottom.h, 8 at a time: what a compiler makes of a loop over it takes twice as long.
-__m256 fading(__m256 x, float end = fades_at) {
+/// `exp_neg` of bottom.h, 8 at a time: what a compiler makes of a loop over it takes twice as long.
+__m256 exp_neg(__m256 x, float end = fades_at) {
     const __m256 longest = all(end);
     const __m256 turns = product(_mm256_min_ps(x, longest), all(1.44269504F));
     const __m256 whole = _mm256_floor_ps(turns);
@@ -80,7 +81,7 @@ class BackscatterTable {
         const __m256 steepness =
             product(inverse_slope2_.at(numbers), _mm256_sub_ps(inverse, all(1.0F)));
         const __m256 facets =
-            product(product(facet_.at(numbers), product(inverse, inverse)), fading(steepness));
+            product(product(facet_.at(numbers), product(inverse, inverse)), exp_neg(steepness));
         return _mm256_fmadd_ps(lambert_.at(numbers), s2, facets);
     }
 
@@ -107,7 +108,7 @@ ElevationPattern elevation_pattern(double width_rad, double side_lobe_db) {
     return out;
 }
 
-void weigh_by_elevation(const ElevationPattern& pattern, const PieceBlock& pieces, int count,
+void weigh_by_elevation(const ElevationPattern& pattern, const PatchBlock& pieces, int count,
                         PointEchoes& echoes) {
     if (pattern.power.empty()) return;
     const float* const table = pattern.power.data();
@@ -138,8 +139,8 @@ void weigh_by_elevation(const ElevationPattern& pattern, const PieceBlock& piece
     }
 }
 
-std::uint64_t find_echoes(const PieceBlock& pieces, std::span<const Backscatter> materials,
-                          const SonarEquation& equation, PointEchoes& echoes) {
+std::uint64_t apply_sonar_equation(const PatchBlock& pieces, std::span<const Backscatter> materials,
+                                   const SonarEquation& equation, PointEchoes& echoes) {
     const int count = (pieces.count + vector_lanes - 1) / vector_lanes * vector_lanes;
     echoes.count = count;
     const float per_bin = 1.0F / equation.bin_m;
@@ -152,13 +153,12 @@ std::uint64_t find_echoes(const PieceBlock& pieces, std::span<const Backscatter>
         const __m256 x = read(pieces.x);
         const __m256 y = read(pieces.y);
         const __m256 z = read(pieces.z);
-        const __m256 range =
-            _mm256_sqrt_ps(_mm256_fmadd_ps(x, x, _mm256_fmadd_ps(y, y, product(z, z))));
+        const __m256 range = piece_range(x, y, z);
         const __m256 inverse = _mm256_div_ps(all(1.0F), range);
         const __m256 spreading = product(inverse, inverse);
         const __m256 sine = _mm256_min_ps(product(read(pieces.height_m), inverse), all(1.0F));
         const __m256 received = product(read(pieces.area_m2), product(spreading, spreading));
-        const __m256 loss = fading(
+        const __m256 loss = exp_neg(
             _mm256_fmsub_ps(all(equation.loss_per_m), range, all(equation.raised)), least_loss);
         write(echoes.range_m, range);
         const __m256 power =

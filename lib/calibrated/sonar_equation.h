@@ -6,7 +6,7 @@
 
 #include "calibrated/bottom.h"
 #include "calibrated/echo_grid.h"
-#include "calibrated/pieces.h"
+#include "calibrated/patches.h"
 #include "scene/scene.h"
 
 namespace sonarsim {
@@ -38,30 +38,30 @@ struct SonarEquation {
 /// The echoes of a block of pieces.
 struct PointEchoes {
     int count = 0;  ///< of pieces, rounded up to whole vectors; echoes beyond have no power
-    PieceBlock::Array<float> range_m;
-    PieceBlock::Array<float> power;
-    PieceBlock::Array<float> row;     ///< in bins from the middle of the first one, -1 to rows
-    PieceBlock::Array<float> column;  ///< of the grid, where one is formed into beams
+    PatchBlock::Array<float> range_m;
+    PatchBlock::Array<float> power;
+    PatchBlock::Array<float> row;     ///< in bins from the middle of the first one, -1 to rows
+    PatchBlock::Array<float> column;  ///< of the grid, where one is formed into beams
 };
 
 /// One end of the ways that sound takes by way of a mirror: it is sent there or comes from there.
-struct WayEnds {
-    const PieceBlock& places;
+struct PathEndpoint {
+    const PatchBlock& places;
     const PointEchoes& echoes;
 };
 
 /// Complex numbers, one for each piece of a block.
 struct Amplitudes {
-    PieceBlock::Array<float> re, im;
+    PatchBlock::Array<float> re, im;
 };
 
 /// Multiplies the powers of the first `count` pieces by the pattern towards them, at `range_m`.
-void weigh_by_elevation(const ElevationPattern& pattern, const PieceBlock& pieces, int count,
+void weigh_by_elevation(const ElevationPattern& pattern, const PatchBlock& pieces, int count,
                         PointEchoes& echoes);
 
 /// Fills all of `echoes` but their columns. What lies outside the range has power 0; returns how
 /// many do.
-std::uint64_t find_echoes(const PieceBlock& pieces, std::span<const Backscatter> materials,
-                          const SonarEquation& equation, PointEchoes& echoes);
+std::uint64_t apply_sonar_equation(const PatchBlock& pieces, std::span<const Backscatter> materials,
+                                   const SonarEquation& equation, PointEchoes& echoes);
 
 }  // namespace sonarsim

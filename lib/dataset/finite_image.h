@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "ping/ping.h"
+#include "trace/ping.h"
 
 namespace sonarsim {
 

@@ -9,7 +9,7 @@
 #include "assembly/assemble.h"
 #include "dataset/sensor_summary.h"
 #include "mission/mission.h"
-#include "ping/ping.h"
+#include "trace/ping.h"
 
 namespace sonarsim {
 

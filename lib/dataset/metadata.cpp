@@ -1,6 +1,5 @@
 #include "dataset/metadata.h"
 
-#include "calibrated/model.h"
 #include "core/build_info.h"
 #include "dataset/label_description.h"
 #include "dataset/ping_metadata.h"
@@ -50,24 +49,6 @@ Json describe_build() {
             {"png_encoder", png_encoder()}};
 }
 
-/// What the numbers of the calibrated model mean.
-Json describe_instrument(const Sonar& sonar) {
-    const CalibratedModel& model = *sonar.settings.calibrated;
-    const InstrumentConfig& instrument = sonar.config.instrument;
-    const bool absolute = instrument.source_level_db != 0.0;
-    return {
-        {"echo_level",
-         std::string("full_scale_db + 10 log10(polar) - tvg_log log10(range_m)") +
-             (instrument.receiver.tvg_absorption ? " - 2 absorption_db_per_m range_m" : "")},
-        {"echo_level_unit", absolute ? "dB re 1 uPa" : "dB re the source level, per uPa at 1 m"},
-        {"full_scale_db", instrument.receiver.full_scale_db},
-        {"tvg_log", instrument.receiver.tvg_log},
-        {"absorption_db_per_m", model.absorption_db_per_m},
-        {"tvg_makes_up_for_absorption", instrument.receiver.tvg_absorption},
-        {"sound_speed_m_s", model.sound_speed_m_s},
-        {"wavelength_m", model.wavelength_m}};
-}
-
 Json describe_sensor(const Sonar& sonar, double full_scale, const Layout& layout,
                      const SensorLayout& own, const Writers& writers) {
     const SonarConfig& config = sonar.config;
@@ -79,7 +60,7 @@ Json describe_sensor(const Sonar& sonar, double full_scale, const Layout& layout
                  {"pings", own.pings},
                  {"T_vehicle_sensor", describe_pose(sonar.T_vehicle_sensor)},
                  {"full_scale", full_scale}};
-    if (sonar.settings.calibrated) json["instrument"] = describe_instrument(sonar);
+    sonar.settings.model->describe(json);
     json["files"] = Json::object();
     const std::string number = "%0" + std::to_string(layout.digits) + "d";
     if (own.pings_per_pack > 0) {

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "ping/ping.h"
+#include "trace/ping.h"
 
 namespace sonarsim {
 

@@ -12,7 +12,7 @@
 #include "dataset/record_file.h"
 #include "format/npy.h"
 #include "mission/mission.h"
-#include "ping/pipeline.h"
+#include "ping/form_image.h"
 #include "sonar/kinds.h"
 
 namespace sonarsim {

@@ -6,16 +6,16 @@
 #include <limits>
 
 #include "core/elementary.h"
-#include "ping/range_path.h"
+#include "paper/range_path.h"
+#include "trace/arrivals.h"
 
 namespace sonarsim {
 
 namespace {
 
 /// The variance of sin(theta) in a footprint at one range.
-double spread_at_one_range(const Sample& sample, double range_m) {
-    const auto range = static_cast<float>(range_m);
-    const Eigen::Vector3f d = sample.position / range;
+double spread_at_one_range(const Sample& sample) {
+    const auto [range, departure, d] = arrival_of(sample.position);
     const float u = d.dot(sample.edge_u);
     const float v = d.dot(sample.edge_v);
     // Over the parallelogram, (s, t) in [-1, 1]^2, sin(theta) = z / r changes by
@@ -34,7 +34,7 @@ void ElevationFinder::add(const Sample& sample) {
     const RangePath path = range_path(sample, Eigen::Vector3f::UnitZ());
     const double echo = echo_of(sample, path.range_m, materials_[sample.material]);
     if (!(echo > 0.0)) return;
-    const double besides = spread_at_one_range(sample, path.range_m);
+    const double besides = spread_at_one_range(sample);
     const auto sine_at = [&](double r) { return std::clamp(rise_at(path, r) / r, -1.0, 1.0); };
     for_each_covered(path, bins_, sine_at, [&](const CoveredBins& covered) {
         first_bin_ = std::min(first_bin_, covered.first);

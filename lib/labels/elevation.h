@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "ping/accumulate.h"
+#include "paper/accumulate.h"
 #include "scene/scene.h"
 #include "visibility/engine.h"
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "ping/range_path.h"
+#include "paper/range_path.h"
 
 namespace sonarsim {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/pose.h"
-#include "ping/accumulate.h"
+#include "paper/accumulate.h"
 #include "scene/placing/bottom.h"
 #include "scene/scene.h"
 #include "visibility/engine.h"

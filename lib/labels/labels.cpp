@@ -8,7 +8,7 @@
 #include "labels/height.h"
 #include "labels/shadow.h"
 #include "labels/shares.h"
-#include "ping/multipath_echoes.h"
+#include "paper/multipath_echoes.h"
 
 namespace sonarsim {
 
@@ -55,10 +55,11 @@ struct BouncedSurface {
 
 std::vector<BouncedSurface> bounced_surfaces(const TracedPing& traced, const View& view,
                                              const SceneObjects& objects) {
-    const auto surface_of_bounce = [&](const Bounce& b) {
+    const auto surface_of_bounce = [&](const BouncePath& b) {
         return surface_of(traced.samples.items[b.sample], objects);
     };
-    std::vector<Bounce> bounces = traced.bounces;
+    std::vector<BouncePath> bounces = traced.bounces;
+    std::erase_if(bounces, [](const BouncePath& b) { return b.scattered; });
     std::ranges::stable_sort(bounces, {}, surface_of_bounce);
     std::vector<BouncedSurface> out;
     for (std::size_t a = 0, b = 0; a < bounces.size(); a = b) {

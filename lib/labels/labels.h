@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "ping/pipeline.h"
+#include "ping/form_image.h"
 #include "scene/objects.h"
 #include "scene/placing/bottom.h"
 

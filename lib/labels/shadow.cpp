@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "trace/arrivals.h"
+
 namespace sonarsim {
 
 namespace {
@@ -48,9 +50,9 @@ std::vector<SightLine> sight_lines(const Samples& samples, int beams) {
     for (int j = 0; j < beams; ++j) {
         for (std::uint32_t k = samples.beam_begin[j]; k < samples.beam_begin[j + 1]; ++k) {
             const Sample& sample = samples.items[k];
-            const float range = sample.position.norm();
+            const auto [range, departure, direction] = arrival_of(sample.position);
             lines.push_back(
-                {.direction = sample.position / range,
+                {.direction = departure,
                  .before_m = range,
                  .range_m = range,
                  .solid_angle = sample.area_m2 * sample.height_m / (range * range * range),

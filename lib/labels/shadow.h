@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "labels/shares.h"
-#include "ping/pipeline.h"
+#include "ping/form_image.h"
 #include "scene/objects.h"
 
 namespace sonarsim {

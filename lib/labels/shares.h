@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "ping/accumulate.h"
+#include "paper/accumulate.h"
 
 namespace sonarsim {
 

@@ -9,8 +9,8 @@
 
 namespace sonarsim {
 
-inline constexpr std::array echo_models{Choice<EchoModel>{"paper", EchoModel::paper},
-                                        Choice<EchoModel>{"calibrated", EchoModel::calibrated}};
+inline constexpr std::array echo_models{Choice<ModelKind>{"paper", ModelKind::paper},
+                                        Choice<ModelKind>{"calibrated", ModelKind::calibrated}};
 inline constexpr std::array beam_spacings{Choice<BeamSpacing>{"angle", BeamSpacing::equal_angle},
                                           Choice<BeamSpacing>{"sine", BeamSpacing::equal_sine}};
 inline constexpr std::array speckle_modes{Choice<SpeckleMode>{"scene", SpeckleMode::scene},

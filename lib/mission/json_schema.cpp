@@ -184,14 +184,14 @@ class SchemaBuilder {
     }
 
     /// The keys of a sonar of this kind and model.
-    SchemaJson sonar_of(const SonarKeys& kind, EchoModel model) const {
+    SchemaJson sonar_of(const SonarKeys& kind, ModelKind model) const {
         SonarConfig sonar = kind.defaults;
         sonar.model = model;
         SchemaJson json = object_of(sonar);
-        const auto name = std::ranges::find(echo_models, model, &Choice<EchoModel>::value)->name;
+        const auto name = std::ranges::find(echo_models, model, &Choice<ModelKind>::value)->name;
         json["properties"]["model"]["enum"] = {name};
         json["properties"]["model"]["default"] = "paper";
-        if (model == EchoModel::calibrated) json["required"].push_back("model");
+        if (model == ModelKind::calibrated) json["required"].push_back("model");
         return json;
     }
 
@@ -218,8 +218,8 @@ class SchemaBuilder {
         SchemaJson rules = SchemaJson::array();
         for (const SonarKeys& kind : sonars_) {
             kinds.push_back(kind.name);
-            for (const EchoModel model : {EchoModel::paper, EchoModel::calibrated}) {
-                const bool calibrated = model == EchoModel::calibrated;
+            for (const ModelKind model : {ModelKind::paper, ModelKind::calibrated}) {
+                const bool calibrated = model == ModelKind::calibrated;
                 SchemaJson own = sonar_of(kind, model);
                 add_missing_keys(own["properties"], all_keys);
                 SchemaJson if_this{{"properties", {{"kind", {{"const", kind.name}}}}},

@@ -103,7 +103,7 @@ struct SonarConfig {
     NoiseConfig noise;
     StreaksConfig streaks;
     std::filesystem::path preset;  ///< empty after reading: its keys are filled in
-    EchoModel model = EchoModel::paper;
+    ModelKind model = ModelKind::paper;
     InstrumentConfig instrument;  ///< for the calibrated model only
 
     bool operator==(const SonarConfig&) const = default;

@@ -167,7 +167,7 @@ void describe(Visitor& v, SonarConfig& c) {
     v.choice(
         "model", c.model, echo_models,
         "echo model: the paper's, or the calibrated one, which gives what the instrument measures");
-    if (c.model == EchoModel::calibrated) {
+    if (c.model == ModelKind::calibrated) {
         v.section("instrument", c.instrument, "the instrument of the calibrated model");
         const BeamConfig& beam = c.instrument.beam;
         const bool forward = beam.aperture == Aperture::line || beam.aperture == Aperture::head;
@@ -284,8 +284,8 @@ void describe(Visitor& v, OutputConfig& c) {
            "write every ping of these sonars as an 8-bit fan, as an operator sees it");
     v.flag("meta", c.meta, "write a JSON file per ping");
     v.flag("stages", c.stages,
-           "write five fans side by side: direct echoes, then with multipath, range noise, pixel "
-           "noise and streaks");
+           "write a fan for each stage of the echo model side by side: direct echoes, then with "
+           "multipath, then with one random term after the other");
     v.integer("fan_width_px", c.fan_width_px, between(0, 8192),
               "width of the fan; 0 means one pixel per range bin, at most 1024");
     v.section("fan_style", c.fan_style,

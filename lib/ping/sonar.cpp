@@ -10,16 +10,11 @@ double head_angle_rad(const Sonar& sonar, std::uint32_t pose) {
     return sonar.head_angles_rad[ping % sonar.head_angles_rad.size()];
 }
 
-bool has_even_sines(const Sonar& sonar) {
-    return sonar.config.model == EchoModel::calibrated &&
-           sonar.config.instrument.beam.spread == BeamSpacing::equal_sine;
-}
-
 double column_at(const Sonar& sonar, double azimuth_rad) {
     const View& view = sonar.settings.view;
     const double half = 0.5 * view.azimuth_rad;
     const double share =
-        has_even_sines(sonar) ? sincos(azimuth_rad).sin / sincos(half).sin : azimuth_rad / half;
+        sonar.equal_sine ? sincos(azimuth_rad).sin / sincos(half).sin : azimuth_rad / half;
     return 0.5 * (1.0 + share) * view.beams;
 }
 

@@ -5,7 +5,7 @@
 
 #include "core/pose.h"
 #include "mission/mission.h"
-#include "ping/pipeline.h"
+#include "ping/form_image.h"
 
 namespace sonarsim {
 
@@ -16,6 +16,8 @@ struct Sonar {
     PingSettings settings;
     std::vector<double> range_edges_m;      ///< range_bins + 1
     std::vector<double> azimuth_edges_rad;  ///< of a fan: beams + 1, from starboard (-) to port (+)
+    bool equal_sine = false;  ///< the columns of a fan's image are equal in the sine of azimuth
+    std::vector<float> noise_growth;  ///< by range bin: (r / range_max)^2 of Eq. 10, or 1
     /// Of a head that turns from ping to ping, about the sensor's z axis, positive to port: its
     /// angles, over and over again. Empty for a sonar that is fixed.
     std::vector<double> head_angles_rad;
@@ -26,10 +28,6 @@ struct Sonar {
 
 /// The angle of the head at the pose with this index on the trajectory; 0 for a fixed sonar.
 double head_angle_rad(const Sonar& sonar, std::uint32_t pose);
-
-/// Whether the columns of the image are even in the sine of azimuth, as those of a line array may
-/// be.
-bool has_even_sines(const Sonar& sonar);
 
 /// Where an azimuth within the fan lies among the columns of the image, 0 to the number of them.
 double column_at(const Sonar& sonar, double azimuth_rad);

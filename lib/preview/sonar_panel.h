@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "assembly/assemble.h"
-#include "ping/ping.h"
 #include "product/picture.h"
+#include "trace/ping.h"
 
 namespace sonarsim {
 

@@ -4,9 +4,9 @@
 #include <span>
 
 #include "mission/mission.h"
-#include "ping/ping.h"
 #include "ping/sonar.h"
 #include "product/picture.h"
+#include "trace/ping.h"
 
 namespace sonarsim {
 

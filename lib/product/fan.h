@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "ping/ping.h"
 #include "ping/sonar.h"
 #include "product/even_kernel.h"
+#include "trace/ping.h"
 
 namespace sonarsim {
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "labels/labels.h"
-#include "ping/ping.h"
 #include "ping/sonar.h"
+#include "trace/ping.h"
 
 namespace sonarsim {
 

@@ -3,8 +3,8 @@
 #include <optional>
 #include <vector>
 
-#include "ping/ping.h"
 #include "ping/sonar.h"
+#include "trace/ping.h"
 
 namespace sonarsim {
 

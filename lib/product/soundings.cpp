@@ -40,7 +40,7 @@ int lit_beams(const Ping& ping) {
 std::vector<Sounding> find_soundings(const Sonar& sonar, const Pose& T_world_vehicle,
                                      const Ping& ping) {
     const Pose T_world_sensor = T_world_vehicle * sonar.T_vehicle_sensor;
-    const std::vector<float>& growth = sonar.settings.pixel_noise.range_scale;
+    const std::vector<float>& growth = sonar.noise_growth;
     std::vector<Sounding> soundings(ping.beams);
     std::vector<double> beam(ping.range_bins);
     for (int j = 0; j < ping.beams; ++j) {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/pose.h"
-#include "ping/ping.h"
 #include "ping/sonar.h"
+#include "trace/ping.h"
 
 namespace sonarsim {
 

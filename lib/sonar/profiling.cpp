@@ -15,8 +15,8 @@ void measure_soundings(const PingView& view, nlohmann::ordered_json& json) {
 void add_azimuth_and_offsets(Sonar& sonar) {
     add_azimuth(sonar);
     const View& view = sonar.settings.view;
-    sonar.range_bias_m =
-        range_bias_m(sonar.settings.range_noise.lambda_m, view.bin_m(), view.range_bins);
+    sonar.range_bias_m = range_bias_m(static_cast<float>(sonar.config.noise.range_lambda_m),
+                                      view.bin_m(), view.range_bins);
 }
 
 }  // namespace

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <memory>
 
-#include "calibrated/beamformer.h"
 #include "calibrated/model.h"
 #include "core/elementary.h"
 #include "core/units.h"
+#include "paper/paper_model.h"
 
 namespace sonarsim {
 
@@ -15,20 +15,6 @@ namespace {
 
 float cosine_of(double angle_deg) {
     return static_cast<float>(sincos(radians(angle_deg)).cos);
-}
-
-/// Beams that reach from the view to the borders of what is heard, `heard_rad` wide. They are as
-/// wide as the bins or, where that is wider, as `array_step_rad`, which the array cannot resolve.
-BeamsBeside beams_beside(const View& view, double heard_rad, double array_step_rad) {
-    const double side_rad = 0.5 * (heard_rad - view.azimuth_rad);
-    const double bin_rad = view.azimuth_rad / view.beams;
-    if (array_step_rad < 2.0 * bin_rad) {
-        // Whole beams; rounding of degrees to radians must not cost one.
-        return {.count = static_cast<int>(std::max(0.0, std::floor(side_rad / bin_rad + 1e-6)))};
-    }
-    if (side_rad <= 0.0) return {};
-    const double count = std::max(1.0, std::floor(side_rad / array_step_rad));
-    return {.count = static_cast<int>(count), .beam_rad = side_rad / count};
 }
 
 }  // namespace
@@ -60,27 +46,32 @@ void set_mount(Sonar& sonar, const KindOfSonar& kind) {
     sonar.T_vehicle_sensor = mounted(sonar.config.mount, kind.looks_down ? looking_down() : Pose{});
 }
 
-void set_noise(Sonar& sonar, const KindOfSonar& kind) {
+std::shared_ptr<const EchoModel> paper_model(const Sonar& sonar, const KindOfSonar& kind) {
     const SonarConfig& config = sonar.config;
     const NoiseConfig& noise = config.noise;
-    PingSettings& settings = sonar.settings;
-    settings.streaks = {.mode = config.streaks.mode,
-                        .threshold = static_cast<float>(config.streaks.threshold),
-                        .least_cosine = cosine_of(config.streaks.angle_deg)};
-    settings.range_noise = {.lambda_m = static_cast<float>(noise.range_lambda_m),
-                            .scatterer_m = static_cast<float>(noise.scatterer_m),
-                            .fades = kind.range_noise_fades};
-    settings.pixel_noise = {.gain = static_cast<float>(noise.gain > 0.0 ? noise.gain : kind.gain),
-                            .add_sigma = static_cast<float>(noise.add_sigma),
-                            .mult_sigma = static_cast<float>(noise.mult_sigma),
-                            .range_scale = std::vector<float>(config.range_bins, 1.0F),
-                            .lobe_scale = std::vector<float>(settings.view.beams, 1.0F)};
-    if (!noise.scale_with_range) return;
-    for (int i = 0; i < config.range_bins; ++i) {
-        const double middle = 0.5 * (sonar.range_edges_m[i] + sonar.range_edges_m[i + 1]);
-        const double r = middle / config.range_max_m;
-        settings.pixel_noise.range_scale[i] = static_cast<float>(r * r);
+    auto model = std::make_shared<PaperModel>();
+    model->streaks = {.mode = config.streaks.mode,
+                      .threshold = static_cast<float>(config.streaks.threshold),
+                      .least_cosine = cosine_of(config.streaks.angle_deg)};
+    model->range_noise = {.lambda_m = static_cast<float>(noise.range_lambda_m),
+                          .scatterer_m = static_cast<float>(noise.scatterer_m),
+                          .fades = kind.range_noise_fades};
+    model->pixel_noise = {.gain = static_cast<float>(noise.gain > 0.0 ? noise.gain : kind.gain),
+                          .add_sigma = static_cast<float>(noise.add_sigma),
+                          .mult_sigma = static_cast<float>(noise.mult_sigma),
+                          .range_scale = sonar.noise_growth,
+                          .lobe_scale = std::vector<float>(sonar.settings.view.beams, 1.0F)};
+    if (!noise.scale_with_range || !kind.keys.azimuth_bins) return model;
+    const double sigma =
+        radians(noise.lobe_sigma_deg > 0.0 ? noise.lobe_sigma_deg : config.azimuth_deg / 8.0);
+    for (int j = 0; j < sonar.settings.view.beams; ++j) {
+        const double phi = 0.5 * (sonar.azimuth_edges_rad[j] + sonar.azimuth_edges_rad[j + 1]);
+        // The narrowest lobes that a mission can ask for have no width left in radians.
+        const double sigmas = phi == 0.0 ? 0.0 : phi / sigma;
+        model->pixel_noise.lobe_scale[j] =
+            static_cast<float>(1.0 + 0.5 * exponential(-0.5 * sigmas * sigmas));
     }
+    return model;
 }
 
 Sonar common_sonar(const SonarConfig& config, const AccuracyConfig& accuracy,
@@ -107,48 +98,36 @@ Sonar common_sonar(const SonarConfig& config, const AccuracyConfig& accuracy,
     settings.multipath = {.on = multipath.method != MultipathMethod::none,
                           .cluster = {.epsilon_bins = exact ? 0 : multipath.epsilon_bins,
                                       .delta_cosine = cosine_of(multipath.delta_deg)}};
-    set_noise(sonar, kind);
+    sonar.noise_growth.assign(config.range_bins, 1.0F);
+    for (int i = 0; config.noise.scale_with_range && i < config.range_bins; ++i) {
+        const double middle = 0.5 * (sonar.range_edges_m[i] + sonar.range_edges_m[i + 1]);
+        const double r = middle / config.range_max_m;
+        sonar.noise_growth[i] = static_cast<float>(r * r);
+    }
     return sonar;
 }
 
 void add_azimuth(Sonar& sonar) {
-    const SonarConfig& config = sonar.config;
     const double half = 0.5 * sonar.settings.view.azimuth_rad;
     sonar.azimuth_edges_rad = edges(-half, half, sonar.settings.view.beams);
-    if (!config.noise.scale_with_range) return;
-    const double sigma = radians(config.noise.lobe_sigma_deg > 0.0 ? config.noise.lobe_sigma_deg
-                                                                   : config.azimuth_deg / 8.0);
-    for (int j = 0; j < sonar.settings.view.beams; ++j) {
-        const double phi = 0.5 * (sonar.azimuth_edges_rad[j] + sonar.azimuth_edges_rad[j + 1]);
-        // The narrowest lobes that a mission can ask for have no width left in radians.
-        const double sigmas = phi == 0.0 ? 0.0 : phi / sigma;
-        sonar.settings.pixel_noise.lobe_scale[j] =
-            static_cast<float>(1.0 + 0.5 * exponential(-0.5 * sigmas * sigmas));
-    }
 }
 
-void add_instrument(Sonar& sonar, const WaterConfig& water) {
+std::shared_ptr<const EchoModel> instrument_model(Sonar& sonar, const WaterConfig& water) {
     const InstrumentConfig& instrument = sonar.config.instrument;
     const View& view = sonar.settings.view;
     std::vector<double> sines;
     if (instrument.beam.aperture == Aperture::line) {
         const double half = 0.5 * view.azimuth_rad;
-        const bool even_sines = instrument.beam.spread == BeamSpacing::equal_sine;
+        sonar.equal_sine = instrument.beam.spread == BeamSpacing::equal_sine;
         for (int j = 0; j < view.beams; ++j) {
             const double share = (2.0 * j + 1.0) / view.beams - 1.0;
-            sines.push_back(even_sines ? share * sincos(half).sin : sincos(share * half).sin);
+            sines.push_back(sonar.equal_sine ? share * sincos(half).sin : sincos(share * half).sin);
         }
-        for (int j = 0; even_sines && j <= view.beams; ++j)
+        for (int j = 0; sonar.equal_sine && j <= view.beams; ++j)
             sonar.azimuth_edges_rad[j] = arcsin((2.0 * j / view.beams - 1.0) * sincos(half).sin);
-        const double array_step = arcsin(
-            sine_grid(line_array(radians(instrument.beam.width_deg), instrument.beam.side_lobe_db),
-                      {0.0})
-                .step);
-        sonar.settings.beside =
-            beams_beside(view, radians(instrument.beam.view_azimuth_deg), array_step);
     }
-    sonar.settings.calibrated =
-        std::make_shared<const CalibratedModel>(calibrated_model(instrument, water, view, sines));
+    return std::make_shared<const CalibratedModel>(
+        calibrated_model(instrument, water, view, sines));
 }
 
 Pose looking_down() {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string_view>
@@ -28,20 +29,21 @@ std::uint32_t stream_of(std::string_view sensor_name);
 /// T_vehicle_sensor by the configuration of the sonar.
 void set_mount(Sonar& sonar, const KindOfSonar& kind);
 
-/// The noise and the streaks by the configuration of the sonar. Lobe factors are 1.
-void set_noise(Sonar& sonar, const KindOfSonar& kind);
-
-/// The mount, the view, the noise and the range edges of a sonar, by its configuration and its
-/// kind. Lobe factors are 1.
+/// The mount, the view and the range edges of a sonar, by its configuration and its kind.
 Sonar common_sonar(const SonarConfig& config, const AccuracyConfig& accuracy,
                    const KindOfSonar& kind);
 
-/// The lobe of Eq. 10 over the beams of a fan, 1 + 0.5 exp(-phi^2 / (2 sigma^2)), if the mission
-/// wants it, and the azimuth edges.
+/// The azimuth edges of a fan of equal beams.
 void add_azimuth(Sonar& sonar);
 
-/// The instrument of the calibrated model.
-void add_instrument(Sonar& sonar, const WaterConfig& water);
+/// The paper's model with the noise and the streaks of the sonar's configuration. Over the beams of
+/// a fan the noise has the lobe of Eq. 10, 1 + 0.5 exp(-phi^2 / (2 sigma^2)), if the mission wants
+/// it.
+std::shared_ptr<const EchoModel> paper_model(const Sonar& sonar, const KindOfSonar& kind);
+
+/// The calibrated model with the instrument of the sonar's configuration; sets the azimuth edges
+/// where beams are spaced by sine.
+std::shared_ptr<const EchoModel> instrument_model(Sonar& sonar, const WaterConfig& water);
 
 /// The mount of the sonars that look down: x along the vehicle's -z, z along its x, so that
 /// azimuth runs from starboard (-) to port (+).

@@ -1,7 +1,5 @@
 #include "sonar/sonar.h"
 
-#include <algorithm>
-
 #include "mission/ping_draws.h"
 #include "sonar/kinds.h"
 #include "sonar/setup.h"
@@ -13,7 +11,11 @@ Sonar make_sonar(const SonarConfig& config, const AccuracyConfig& accuracy,
     const KindOfSonar& kind = kind_of(config.kind);
     Sonar sonar = common_sonar(config, accuracy, kind);
     if (kind.finish) kind.finish(sonar);
-    if (config.model == EchoModel::calibrated) add_instrument(sonar, water);
+    PingSettings& settings = sonar.settings;
+    settings.model = config.model == ModelKind::paper ? paper_model(sonar, kind)
+                                                      : instrument_model(sonar, water);
+    settings.guard_beams = settings.model->guard_beams();
+    settings.multipath.scattered = settings.model->needs_scattered_paths();
     return sonar;
 }
 
@@ -25,8 +27,9 @@ std::optional<Sonar> drawn_sonar(const Mission& mission, const Sonar& sonar, std
     set_mount(drawn, kind);
     if (drawn.config.noise == sonar.config.noise && drawn.config.streaks == sonar.config.streaks)
         return drawn;
-    set_noise(drawn, kind);
+    if (drawn.config.model != ModelKind::paper) return drawn;
     if (kind.finish) kind.finish(drawn);
+    drawn.settings.model = paper_model(drawn, kind);
     return drawn;
 }
 
@@ -42,12 +45,15 @@ Ping render_ping(const Sonar& sonar, const Scene& scene, const VisibilityEngine&
                       scene, key, terms);
 }
 
-std::array<Ping, 5> form_stages(const TracedPing& traced, const Sonar& sonar, const Scene& scene,
-                                const PingKey& key) {
-    std::array<Ping, 5> stages;
-    std::ranges::transform(term_by_term, stages.begin(), [&](const Terms& terms) {
-        return form_image(traced, sonar.settings, scene, key, terms);
-    });
+std::size_t stage_count(const Sonar& sonar) {
+    return 2 + sonar.settings.model->random_terms().size();
+}
+
+std::vector<Ping> form_stages(const TracedPing& traced, const Sonar& sonar, const Scene& scene,
+                              const PingKey& key) {
+    std::vector<Ping> stages;
+    for (std::size_t k = 0; k < stage_count(sonar); ++k)
+        stages.push_back(form_image(traced, sonar.settings, scene, key, terms_at_stage(k)));
     return stages;
 }
 

@@ -1,8 +1,9 @@
 #pragma once
 
-#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "core/pose.h"
 #include "mission/mission.h"
@@ -28,9 +29,12 @@ TracedPing trace(const Sonar& sonar, const Scene& scene, const VisibilityEngine&
 Ping render_ping(const Sonar& sonar, const Scene& scene, const VisibilityEngine& engine,
                  const Pose& T_world_vehicle, const PingKey& key, const Terms& terms = {});
 
-/// A traced ping with one term of the model after the other, `term_by_term`. The last is the ping
+/// The stages of the sonar's echo model, see terms_at_stage().
+std::size_t stage_count(const Sonar& sonar);
+
+/// The images of a traced ping at the stages of the sonar's echo model. The last is the ping
 /// itself. A term that the sonar does not use changes nothing.
-std::array<Ping, 5> form_stages(const TracedPing& traced, const Sonar& sonar, const Scene& scene,
-                                const PingKey& key);
+std::vector<Ping> form_stages(const TracedPing& traced, const Sonar& sonar, const Scene& scene,
+                              const PingKey& key);
 
 }  // namespace sonarsim

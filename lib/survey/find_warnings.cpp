@@ -23,9 +23,9 @@ std::vector<Warning> find_warnings(const Mission& mission, const Assembly& assem
     for (std::size_t i = 0; i < sonars.size(); ++i) {
         const Sonar& sonar = assembly.sonars[i];
         append(sonar_warnings(mission.output, sonar, assembly.full_scales[i], sonars[i]));
-        const std::string doubt = accuracy_warning(engine_settings(mission), sonar.settings.view,
-                                                   sonar.settings.multipath.on,
-                                                   sonar.config.model == EchoModel::calibrated);
+        const std::string doubt =
+            accuracy_warning(engine_settings(mission), sonar.settings.view,
+                             sonar.settings.multipath.on, sonar.settings.model->energies_add());
         if (!doubt.empty())
             out.push_back(make_warning(Doubt::engine, about_sensor(sonar.config.name), doubt));
     }

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "calibrated/model.h"
-
 namespace sonarsim {
 
 namespace {
@@ -13,15 +11,6 @@ constexpr double samples_per_bin = 4.0;
 // An estimate too: the image, all labels and the encoded files.
 constexpr double bytes_per_bin = 64.0;
 
-/// Of the calibrated model: the grid of echoes, of which multipath has its own.
-double grid_bytes(const Sonar& sonar) {
-    if (!sonar.settings.calibrated) return 0.0;
-    const auto columns = std::visit([](const auto& beams) { return columns_of(beams); },
-                                    sonar.settings.calibrated->beams);
-    const double grids = sonar.settings.multipath.on ? 2.0 : 1.0;
-    return grids * columns * sonar.settings.view.range_bins * sizeof(float) * 2.0;
-}
-
 }  // namespace
 
 PingMemory ping_memory(const Sonar& sonar) {
@@ -29,12 +18,12 @@ PingMemory ping_memory(const Sonar& sonar) {
     const double bins = view.range_bins;
     const double seen_per_beam = bins * samples_per_bin * sizeof(Sample);
     const double image = view.beams * (seen_per_beam + bins * bytes_per_bin);
-    const double beside = 2.0 * sonar.settings.beside.count * seen_per_beam;
-    const double grid = grid_bytes(sonar);
-    PingMemory out{.bytes = image + beside + grid, .key = "range_bins"};
-    if (beside > std::max(image, grid))
+    const double guards = 2.0 * sonar.settings.guard_beams.count * seen_per_beam;
+    const double working = sonar.settings.model->working_bytes(sonar.settings.multipath.on);
+    PingMemory out{.bytes = image + guards + working, .key = "range_bins"};
+    if (guards > std::max(image, working))
         out.key = "instrument.beam.view_azimuth_deg";
-    else if (image > grid && view.beams > view.range_bins)
+    else if (image > working && view.beams > view.range_bins)
         out.key = "azimuth_bins";
     return out;
 }

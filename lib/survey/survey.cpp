@@ -6,12 +6,12 @@
 
 #include "assembly/engine_at.h"
 #include "assembly/sample_pings.h"
-#include "calibrated/model.h"
 #include "core/pose.h"
 #include "core/units.h"
 #include "scene/copies.h"
 #include "sonar/sonar_at_pose.h"
 #include "survey/directions.h"
+#include "trace/arrivals.h"
 #include "visibility/view.h"
 
 namespace sonarsim {
@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::size_t most_pings = 36;       // per sonar
 constexpr std::size_t most_bins = 1U << 25;  // of all of them
-constexpr std::size_t most_calibrated = 9;   // pings of the calibrated model, which take long
+constexpr std::size_t most_slow = 9;         // pings of a slow echo model
 constexpr double coarse_l1 = 0.2;
 
 /// What stands around a sonar.
@@ -166,7 +166,7 @@ void take_altitude(const VisibilityEngine& engine, const Pose& T_world_sensor, S
 void take_samples(const View& view, const Samples& samples, SonarSurvey& out) {
     Interval echoes;
     for (const Sample& sample : samples.items) {
-        const double range = sample.position.norm();
+        const double range = arrival_range(sample.position);
         if (range < view.range_min_m || range >= view.range_max_m) continue;
         echoes.take(range);
         out.seen_m2[sample.instance] += sample.area_m2;
@@ -186,29 +186,20 @@ struct BinSums {
     double noise = 0.0;
 };
 
-/// `clean` is without pixel noise. The paper's noise is known by its deviation, that of a receiver
-/// by what it changes.
+/// `clean` is without the noise of pixels.
 void add_bins(const Sonar& sonar, double full_scale, const Ping& clean, const Ping& ping,
               BinSums& sums, SonarSurvey& out) {
-    const PixelNoise& noise = sonar.settings.pixel_noise;
-    const bool by_paper = !sonar.settings.calibrated;
     for (std::size_t i = 0; i < ping.intensity.size(); ++i) {
         const float value = ping.intensity[i];
         out.brightest = std::max(out.brightest, value);
         if (clean.intensity[i] <= 0.0F) continue;
         ++sums.lit;
         sums.white += value > full_scale;
-        if (!by_paper) {
-            sums.signal += clean.intensity[i];
-            sums.noise += std::fabs(value - clean.intensity[i]);
-            continue;
-        }
-        const std::size_t row = i / static_cast<std::size_t>(ping.beams);
-        const std::size_t column = i % static_cast<std::size_t>(ping.beams);
-        constexpr double spread_of_rayleigh = 0.6551363775620335;  // sqrt(2 - pi / 2)
-        sums.signal += noise.gain * clean.intensity[i];
-        sums.noise += spread_of_rayleigh * noise.add_sigma * noise.range_scale[row] *
-                      noise.lobe_scale[column];
+        const auto [signal, noise] = sonar.settings.model->signal_and_noise(
+            clean.intensity[i], value, static_cast<int>(i) / ping.beams,
+            static_cast<int>(i) % ping.beams);
+        sums.signal += signal;
+        sums.noise += noise;
     }
     sums.bins += ping.intensity.size();
     sums.occupied += ping.counts.occupied_bins;
@@ -232,7 +223,7 @@ SonarSurvey survey_sonar(const Mission& mission, const Assembly& assembly, Sonar
     View& view = sonar.settings.view;
     view.relative_l1 = std::max(view.relative_l1, coarse_l1);
     const auto bins = static_cast<std::size_t>(view.range_bins) * view.beams;
-    const std::size_t most = sonar.settings.calibrated ? most_calibrated : most_pings;
+    const std::size_t most = sonar.settings.model->is_slow() ? most_slow : most_pings;
     BinSums sums;
     for (const std::uint32_t pose :
          sample_pings(assembly.trajectory.size(), sonar.config.every,
@@ -256,9 +247,8 @@ SonarSurvey survey_sonar(const Mission& mission, const Assembly& assembly, Sonar
             explain(view, around, distance_to(assembly.scene, T_world_sensor.translation), out.why);
         }
         add_bins(sonar, full_scale,
-                 form_image(traced, then->settings, assembly.scene, key,
-                            {.pixel_noise = false, .streaks = false}),
-                 ping, sums, out);
+                 form_image(traced, then->settings, assembly.scene, key, {.random = 1}), ping, sums,
+                 out);
     }
     finish(sums, out);
     return out;

@@ -9,6 +9,7 @@
 #include "core/units.h"
 #include "scene/copies.h"
 #include "sonar/sonar.h"
+#include "trace/arrivals.h"
 #include "visibility/angles.h"
 #include "visibility/view.h"
 
@@ -131,7 +132,7 @@ bool sees(const Assembly& assembly, const Sonar& sonar, const std::vector<PoseIn
             trace(sonar, assembly.scene, *engine_at(rays, assembly.motions, at.t_s),
                   at.T_world_vehicle, pose);
         const auto is_it = [&](const Sample& sample) {
-            const double range = sample.position.norm();
+            const double range = arrival_range(sample.position);
             return sample.instance == instance && range >= sonar.settings.view.range_min_m &&
                    range < sonar.settings.view.range_max_m;
         };

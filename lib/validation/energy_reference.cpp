@@ -2,7 +2,7 @@
 
 #include <Eigen/Geometry>
 
-#include "ping/heard_surface.h"
+#include "trace/visible_surface.h"
 #include "validation/reference_cast.h"
 #include "visibility/local_pose.h"
 
@@ -24,7 +24,7 @@ class EnergyImage {
     void add(const SurfacePoint& point) {
         const auto range = static_cast<float>(point.range_m);
         const Eigen::Vector3f position = range * (R_sensor_local_ * point.direction);
-        if (settings_.beside.count > 0 && !is_reached(settings_.view, position)) return;
+        if (settings_.guard_beams.count > 0 && !is_reached(settings_.view, position)) return;
         Sample& sample = traced_.samples.items.emplace_back();
         sample.position = position;
         sample.edge_u.setZero();
@@ -76,7 +76,7 @@ class EnergyImage {
 Reference cast_energy_reference(const Caster& caster, const Scene& scene,
                                 const PingSettings& settings, const Pose& T_world_sensor,
                                 const ReferenceGoal& goal) {
-    const View view = heard_view(settings.view, settings.beside);
+    const View view = widened_view(settings.view, settings.guard_beams);
     const LocalPose pose = local_pose(T_world_sensor, scene.origin);
     const std::vector<SurfaceShare> shares = surface_shares(scene, view, pose);
     const ReferenceView looking{caster, scene, view, pose, shares};

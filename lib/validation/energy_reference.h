@@ -1,6 +1,6 @@
 #pragma once
 
-#include "ping/pipeline.h"
+#include "ping/form_image.h"
 #include "validation/reference.h"
 
 namespace sonarsim {

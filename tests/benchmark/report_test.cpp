@@ -187,7 +187,7 @@ TEST_CASE("a report pings as the mission does: with the draws of each ping, and 
     SUBCASE("the calibrated model") {
         // Compared with the calibrated reference; compared with the paper's, its levels would be
         // far off.
-        mission.sensors[0].model = EchoModel::calibrated;
+        mission.sensors[0].model = ModelKind::calibrated;
         mission.sensors[0].instrument.frequency_hz = 9e5;
         const ReportRow row = report_of_rays(mission, small_assembly(mission, 4)).rows[0];
         CHECK(row.relative_l1.max < 0.1);

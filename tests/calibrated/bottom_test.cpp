@@ -32,9 +32,9 @@ TEST_SUITE("calibrated") {
         CHECK(std::fabs(sum / (0.36 / 4.0) - 1.0) < 0.03);
     }
 
-    TEST_CASE("bottom: fading is e^-x") {
+    TEST_CASE("bottom: exp_neg is e^-x") {
         for (float x = 0.0F; x < 40.0F; x += 0.037F)
-            CHECK(std::fabs(fading(x) / std::exp(-static_cast<double>(x)) - 1.0) < 1e-5);
+            CHECK(std::fabs(exp_neg(x) / std::exp(-static_cast<double>(x)) - 1.0) < 1e-5);
     }
 
     TEST_CASE("bottom: along one direction the two are one, and facets send on what they meet") {

@@ -44,11 +44,9 @@ Samples plate_at(float range_m) {
 
 std::vector<float> image_of(const SonarConfig& config, const Samples& samples, bool noise) {
     const Sonar sonar = make_sonar(config, {});
-    const View& view = sonar.settings.view;
-    std::vector<float> image(static_cast<std::size_t>(view.range_bins) * view.beams);
-    form_calibrated(*sonar.settings.calibrated, {samples}, scene_of_rock(), {}, {},
-                    {.noise = noise}, image);
-    return image;
+    const std::size_t random_terms = noise ? 2 : 1;  // speckle, then the receiver's noise
+    return image_of_samples(calibrated_model_of(sonar), sonar.settings.view, samples,
+                            {.random = random_terms});
 }
 
 double mean_of(const std::vector<float>& image) {
@@ -101,7 +99,7 @@ TEST_SUITE("calibrated") {
         config.instrument.frequency_hz = 1e7;
         config.instrument.speckle.mode = SpeckleMode::none;
         const Sonar sonar = make_sonar(config, {});
-        CHECK(2.0 * 4.5 * sonar.settings.calibrated->absorption_db_per_m > 190.0);  // 10 lg e^43.7
+        CHECK(2.0 * 4.5 * calibrated_model_of(sonar).absorption_db_per_m > 190.0);  // 10 lg e^43.7
         // Nearer than 2 m the plate is cut into points of several columns of the grid.
         const double near = mean_of(image_of(config, plate_at(2.0F), false));
         const double far = mean_of(image_of(config, plate_at(4.5F), false));
@@ -109,7 +107,7 @@ TEST_SUITE("calibrated") {
         // The gain is that of a bin's middle. An echo at a bin's edge is off by 2 alpha dr / 2.
         const View& view = sonar.settings.view;
         const double bin_m = (view.range_max_m - view.range_min_m) / view.range_bins;
-        const double edge_db = sonar.settings.calibrated->absorption_db_per_m * bin_m;
+        const double edge_db = calibrated_model_of(sonar).absorption_db_per_m * bin_m;
         CHECK(std::fabs(db_of_power(far / near)) < edge_db);
     }
 

@@ -71,14 +71,10 @@ inline Samples patches(const Eigen::Vector3d& centre, const Eigen::Vector3d& alo
 /// The image [range bins, beams] of what is seen from a pose, without the receiver's noise.
 inline std::vector<float> quiet_image(const Sonar& sonar, const Samples& samples, bool speckle,
                                       const Pose& pose = {}, std::uint32_t seed = 1) {
-    const View& view = sonar.settings.view;
-    std::vector<float> image(static_cast<std::size_t>(view.range_bins) * view.beams);
-    form_calibrated(*sonar.settings.calibrated, {samples}, scene_of_rock(), pose,
-                    {.scene = stream_key(seed, 0, 0, Stream::scatterers),
-                     .ping = stream_key(seed, 1, 0, Stream::speckle),
-                     .noise = {}},
-                    {.echoes = true, .speckle = speckle, .noise = false}, image);
-    return image;
+    Terms terms;
+    terms.random = speckle ? 1 : 0;
+    return image_of_samples(calibrated_model_of(sonar), sonar.settings.view, samples, terms, pose,
+                            {seed, 1, 0});
 }
 
 }  // namespace sonarsim::test

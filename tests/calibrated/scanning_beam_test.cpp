@@ -93,7 +93,7 @@ TEST_SUITE("calibrated") {
         std::vector<double> levels;
         for (std::uint32_t ping = 0; ping < steps; ++ping) {
             const TracedPing traced = trace(sonar, scene, *engine, {}, ping);
-            const Terms terms{.range_noise = false, .pixel_noise = false};
+            const Terms terms = without_random_terms;
             levels.push_back(
                 energy_db(form_image(traced, sonar.settings, scene, {1, ping}, terms).intensity));
         }

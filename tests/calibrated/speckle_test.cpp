@@ -84,7 +84,7 @@ struct Patch {
                        1.1 * half_m / c, 0.2 * range_m, 0.004 * range_m, pose);
     }
 
-    double wavelength_m() const { return sonar.settings.calibrated->wavelength_m; }
+    double wavelength_m() const { return calibrated_model_of(sonar).wavelength_m; }
     int beams() const { return sonar.settings.view.beams; }
     double beam_sine(int j) const {
         const double share = (2.0 * j + 1.0) / beams() - 1.0;

@@ -7,6 +7,7 @@
 
 #include "dataset/job.h"
 #include "support/small_mission.h"
+#include "support/sonars.h"
 #include "support/temporary_folder.h"
 
 using namespace sonarsim;
@@ -53,7 +54,9 @@ TEST_SUITE("dataset") {
         const TemporaryFolder temporary;
         const Mission mission = small_mission(temporary.path / "out");
         Assembly assembly = small_assembly(mission, 1);
-        assembly.sonars[1].settings.pixel_noise.lobe_scale[3] = std::nanf("");
+        change_paper_model(assembly.sonars[1], [](PaperModel& model) {
+            model.pixel_noise.lobe_scale[3] = std::nanf("");
+        });
         CHECK_THROWS_WITH_AS(run_job(mission, assembly, {.threads = 1}, {}, {false}),
                              doctest::Contains("sensor 'left', ping at pose 0: 48 of 1536"),
                              std::runtime_error);

@@ -6,7 +6,7 @@
 
 #include "core/random.h"
 #include "core/units.h"
-#include "ping/accumulate.h"
+#include "paper/accumulate.h"
 #include "sonar/setup.h"
 #include "visibility/view.h"
 

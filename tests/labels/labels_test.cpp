@@ -161,7 +161,7 @@ TEST_CASE("labels: lit bins are those of the clean image, multipath bins those o
     for (const Pose& pose : tank_poses()) {
         const TracedPing traced = the_tank.see(pose);
         const PingLabels labels = the_tank.label(traced, everything);
-        const Ping clean = the_tank.image(traced, term_by_term[1]);
+        const Ping clean = the_tank.image(traced, without_random_terms);
         const Ping direct = the_tank.image(traced, direct_echoes_alone);
         for (int j = 0; j < clean.beams; ++j) {
             for (int i = 0; i < clean.range_bins; ++i) {

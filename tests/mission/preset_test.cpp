@@ -41,7 +41,7 @@ TEST_CASE("a preset fills in keys, and the mission overrides it key by key") {
         folder.path, "{preset: p.yaml, range_max_m: 20, instrument: {beam: {width_deg: 2}}}",
         {"sensors.fls.instrument.receiver.bits=12"});
     const SonarConfig& sonar = mission.sensors[0];
-    CHECK(sonar.model == EchoModel::calibrated);
+    CHECK(sonar.model == ModelKind::calibrated);
     CHECK(sonar.range_max_m == 20.0);
     CHECK(sonar.instrument.frequency_hz == 7e5);
     CHECK(sonar.instrument.beam.width_deg == 2.0);

@@ -1,9 +1,10 @@
-#include "ping/terms.h"
+#include "trace/terms.h"
 
 #include <doctest/doctest.h>
 
 #include "sonar/sonar.h"
 #include "support/scenes.h"
+#include "support/sonars.h"
 #include "visibility/rays/rays_engine.h"
 
 using namespace sonarsim;
@@ -42,19 +43,28 @@ TEST_CASE("a term left out of an image is a term that the sonar's settings do no
 
     // From the whole ping downwards, one setting after the other is taken out and the ping traced
     // anew.
-    PingSettings& settings = sonar.settings;
+    REQUIRE(stages.size() == 5);
     CHECK(stages[4].intensity == all.render(sonar).intensity);
-    settings.streaks.mode = StreakMode::none;
+    change_paper_model(sonar, [](PaperModel& model) { model.streaks.mode = StreakMode::none; });
     CHECK(stages[3].intensity == all.render(sonar).intensity);
-    settings.pixel_noise.gain = 1.0F;
-    settings.pixel_noise.add_sigma = settings.pixel_noise.mult_sigma = 0.0F;
+    change_paper_model(sonar, [](PaperModel& model) {
+        model.pixel_noise.gain = 1.0F;
+        model.pixel_noise.add_sigma = model.pixel_noise.mult_sigma = 0.0F;
+    });
     CHECK(stages[2].intensity == all.render(sonar).intensity);
-    settings.range_noise.lambda_m = 0.0F;
+    change_paper_model(sonar, [](PaperModel& model) { model.range_noise.lambda_m = 0.0F; });
     CHECK(stages[1].intensity == all.render(sonar).intensity);
-    settings.multipath.on = false;
+    sonar.settings.multipath.on = false;
     CHECK(stages[0].intensity == all.render(sonar).intensity);
     for (int k = 0; k < 4; ++k)
         CHECK(stages[k].intensity != stages[k + 1].intensity);
+}
+
+TEST_CASE("an echo model has a stage for each of its terms") {
+    SonarConfig config = Everything().config;
+    CHECK(stage_count(make_sonar(config, {})) == 5);
+    config.model = ModelKind::calibrated;
+    CHECK(stage_count(make_sonar(config, {})) == 4);
 }
 
 TEST_CASE("an image counts what is in it") {
@@ -106,7 +116,7 @@ TEST_CASE("where the surface echoes nothing, an image is that of the multipath a
     };
     const Ping direct = form(direct_echoes_alone);
     const Ping multipath = form(multipath_alone);
-    const Ping both = form(term_by_term[1]);
+    const Ping both = form(without_random_terms);
     int alone = 0;
     for (std::size_t k = 0; k < both.intensity.size(); ++k) {
         if (direct.intensity[k] > 0.0F) continue;

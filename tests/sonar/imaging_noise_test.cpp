@@ -13,6 +13,16 @@
 using namespace sonarsim;
 using namespace sonarsim::test;
 
+namespace {
+
+/// The lobe of the noise over the beams of a sonar.
+std::vector<float> lobe_of(const SonarConfig& config) {
+    const Sonar sonar = make_sonar(config, {});
+    return dynamic_cast<const PaperModel&>(*sonar.settings.model).pixel_noise.lobe_scale;
+}
+
+}  // namespace
+
 TEST_SUITE_BEGIN("sonar");
 
 TEST_CASE("noise is a function of seed, sensor and ping; without it the seed does not matter") {
@@ -84,12 +94,12 @@ TEST_CASE("the narrowest lobe that a mission can ask for leaves finite scales") 
     for (const double sigma_deg : {0.5, 0.1, 1e-3, 1e-12, 1e-300, 5e-324}) {
         config.noise.lobe_sigma_deg = sigma_deg;
         config.azimuth_bins = 512;
-        for (const float scale : make_sonar(config, {}).settings.pixel_noise.lobe_scale) {
+        for (const float scale : lobe_of(config)) {
             CHECK(scale >= 1.0F);
             CHECK(scale < 1.5F);
         }
         config.azimuth_bins = 1;  // along the boresight, where the lobe has its peak
-        CHECK(make_sonar(config, {}).settings.pixel_noise.lobe_scale[0] == 1.5F);
+        CHECK(lobe_of(config)[0] == 1.5F);
     }
 }
 

@@ -27,8 +27,9 @@ Found find(const Scene& scene, const View& view, const Multipath& multipath, con
     const auto engine = make_rays_engine(scene);
     Found found;
     found.samples = engine->visible_surface(view, pose);
-    found.bounces =
-        find_bounces(multipath, view, found.samples, scene.materials, *engine, pose, found.counts);
+    found.bounces = find_bounces(
+        multipath, {.view = view, .scene = scene, .engine = *engine, .T_world_sensor = pose},
+        found.samples, found.counts);
     return found;
 }
 

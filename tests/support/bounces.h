@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "core/pose.h"
-#include "ping/multipath.h"
 #include "scene/scene.h"
+#include "trace/multipath.h"
 
 namespace sonarsim::test {
 
@@ -16,7 +16,7 @@ Multipath clusters_of(int epsilon, double delta_deg = 15.0);
 
 struct Found {
     Samples samples;
-    std::vector<Bounce> bounces;
+    std::vector<BouncePath> bounces;
     MultipathCounts counts;
 };
 

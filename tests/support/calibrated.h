@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "calibrated/model.h"
 #include "sonar/kinds.h"
 #include "sonar/sonar.h"
 #include "visibility/make_engine.h"
@@ -18,9 +19,43 @@ inline InstrumentConfig bare(InstrumentConfig instrument) {
 }
 
 inline SonarConfig calibrated(SonarConfig config, double frequency_hz) {
-    config.model = EchoModel::calibrated;
+    config.model = ModelKind::calibrated;
     config.instrument.frequency_hz = frequency_hz;
     return config;
+}
+
+/// The model of a calibrated sonar.
+inline const CalibratedModel& calibrated_model_of(const Sonar& sonar) {
+    return dynamic_cast<const CalibratedModel&>(*sonar.settings.model);
+}
+
+/// A scene without surface, for samples of its only material.
+inline Scene scene_of_rock() {
+    Scene scene;
+    scene.materials.push_back({.name = "rock", .reflection = 0.4F});
+    return scene;
+}
+
+/// The image [range bins, beams] that a model makes of what was traced of `scene_of_rock()`.
+inline std::vector<float> image_of_traced(const CalibratedModel& model, const View& view,
+                                          const TracedPing& traced, const Terms& terms,
+                                          const PingDraws& draws = {1, 2, 0}) {
+    Ping ping;
+    ping.intensity.resize(static_cast<std::size_t>(view.range_bins) * view.beams);
+    const Scene scene = scene_of_rock();
+    model.form(traced, {.view = view, .scene = scene, .draws = draws, .terms = terms}, ping);
+    return ping.intensity;
+}
+
+/// The image [range bins, beams] that a model makes of samples of `scene_of_rock()`.
+inline std::vector<float> image_of_samples(const CalibratedModel& model, const View& view,
+                                           const Samples& samples, const Terms& terms,
+                                           const Pose& pose = {},
+                                           const PingDraws& draws = {1, 2, 0}) {
+    TracedPing traced;
+    traced.T_world_sensor = pose;
+    traced.samples = samples;
+    return image_of_traced(model, view, traced, terms, draws);
 }
 
 /// The expected image of an engine from the origin, without speckle and noise.
@@ -31,13 +66,6 @@ inline std::vector<float> expected_image(const Sonar& sonar, const Scene& scene,
     const Pose here;
     return render_ping(sonar, scene, *engine, here, {.seed = 1, .ping = 0}, direct_echoes_alone)
         .intensity;
-}
-
-/// A scene without surface, for samples of its only material.
-inline Scene scene_of_rock() {
-    Scene scene;
-    scene.materials.push_back({.name = "rock", .reflection = 0.4F});
-    return scene;
 }
 
 }  // namespace sonarsim::test

@@ -34,7 +34,7 @@ inline Labelled label(const Scene& scene, const Sonar& sonar, const Pose& pose, 
     Labelled out;
     out.objects = group_objects(scene, {});
     out.labels = label_ping(traced, sonar.settings, scene, out.objects, *engine, everything);
-    out.clean = form_image(traced, sonar.settings, scene, {}, term_by_term[1]);
+    out.clean = form_image(traced, sonar.settings, scene, {}, without_random_terms);
     return out;
 }
 

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <memory>
+#include <utility>
+
+#include "paper/paper_model.h"
 #include "sonar/sonar.h"
 
 namespace sonarsim::test {
@@ -19,9 +23,27 @@ inline SonarConfig small_imaging() {
 
 /// A sonar whose images are the truth, Eq. 9, without the gain of one half of Eq. 12.
 inline Sonar noise_free(const SonarConfig& config, double relative_l1 = 0.03) {
-    Sonar sonar = make_sonar(config, {relative_l1});
-    sonar.settings.pixel_noise.gain = 1.0F;
-    return sonar;
+    SonarConfig with_gain_1 = config;
+    with_gain_1.noise.gain = 1.0;
+    return make_sonar(with_gain_1, {relative_l1});
+}
+
+/// Changes a copy of the sonar's model, which is the paper's.
+template <class Change>
+void change_paper_model(Sonar& sonar, Change change) {
+    auto model =
+        std::make_shared<PaperModel>(dynamic_cast<const PaperModel&>(*sonar.settings.model));
+    change(*model);
+    sonar.settings.model = std::move(model);
+}
+
+/// For a sonar whose view was replaced.
+inline void fit_noise_to_view(Sonar& sonar) {
+    const View& view = sonar.settings.view;
+    change_paper_model(sonar, [&](PaperModel& model) {
+        model.pixel_noise.lobe_scale.assign(view.beams, 1.0F);
+        model.pixel_noise.range_scale.assign(view.range_bins, 1.0F);
+    });
 }
 
 }  // namespace sonarsim::test

@@ -12,7 +12,7 @@ namespace {
 SonarConfig line_array() {
     SonarConfig config = default_sonar(SonarKind::imaging);
     config.name = "fls";
-    config.model = EchoModel::calibrated;
+    config.model = ModelKind::calibrated;
     config.azimuth_deg = 30.0;
     config.azimuth_bins = 64;
     config.range_bins = 128;
@@ -39,8 +39,8 @@ TEST_SUITE("survey") {
         config.instrument.beam.view_azimuth_deg = 179.0;
         // Of a degree the array has 2.7 columns: 2 x 237 beams, not 91,136.
         const Sonar sonar = make_sonar(config, {});
-        CHECK(sonar.settings.beside.count > 200);
-        CHECK(sonar.settings.beside.count < 280);
+        CHECK(sonar.settings.guard_beams.count > 200);
+        CHECK(sonar.settings.guard_beams.count < 280);
         CHECK(ping_memory(sonar).bytes < 1e8);
     }
 

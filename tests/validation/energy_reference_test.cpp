@@ -39,7 +39,7 @@ TEST_CASE("the calibrated reference agrees with the engines" * doctest::skip(tes
     const Caster caster(scene);
     Sonar hears_more = coarse_sonar(SonarKind::imaging);
     hears_more.settings.view.elevation_rad = radians(120.0);
-    hears_more.settings.beside.count = hears_more.settings.view.beams / 2;
+    hears_more.settings.guard_beams.count = hears_more.settings.view.beams / 2;
     for (const Sonar& sonar :
          {coarse_sonar(SonarKind::imaging), hears_more, coarse_sonar(SonarKind::sidescan),
           coarse_sonar(SonarKind::echosounder)}) {
@@ -56,7 +56,7 @@ TEST_CASE("the calibrated reference agrees with the engines" * doctest::skip(tes
                                       {}, direct_echoes_alone);
         const ImageError error = image_error(ping.intensity, reference.intensity);
         CAPTURE(name_of(kind));
-        CAPTURE(sonar.settings.beside.count);
+        CAPTURE(sonar.settings.guard_beams.count);
         CAPTURE(reference.moved);
         CHECK(error.relative_l1 < 0.02 + reference.moved);
         CHECK(reference.apart < 0.03);

@@ -132,8 +132,7 @@ TEST_CASE("octree image: a side-scan and an echosounder over a floor with a box 
     View& view = trial.sonar.settings.view;
     const Caster caster(scene);
     const auto retry = [&] {
-        trial.sonar.settings.pixel_noise.lobe_scale.assign(view.beams, 1.0F);
-        trial.sonar.settings.pixel_noise.range_scale.assign(view.range_bins, 1.0F);
+        test::fit_noise_to_view(trial.sonar);
         trial.truth = cast_reference(caster, scene, view, trial.pose, {0.004, 64.0, 40'000'000});
     };
     view = {radians(170.0), radians(0.5), 0.5, 10.0, 190, 2, 0.03, ViewShape::port_starboard};

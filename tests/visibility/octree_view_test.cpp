@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/units.h"
-#include "ping/accumulate.h"
+#include "paper/accumulate.h"
 #include "sonar/sonar.h"
 #include "support/sanitized.h"
 #include "support/scenes.h"
@@ -37,8 +37,7 @@ View cone(double opening_deg, double range_max_m, int bins) {
 Ping octree_ping(const Scene& scene, const View& view, const Pose& pose) {
     Sonar sonar = test::noise_free(test::small_imaging());
     sonar.settings.view = view;
-    sonar.settings.pixel_noise.lobe_scale.assign(view.beams, 1.0F);
-    sonar.settings.pixel_noise.range_scale.assign(view.range_bins, 1.0F);
+    test::fit_noise_to_view(sonar);
     return render_ping(sonar, scene, *make_octree_engine(scene, {}), pose, {1, 0});
 }
 

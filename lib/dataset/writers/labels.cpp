@@ -127,7 +127,7 @@ constexpr LabelFile label_files[] = {
     float_file(Label::height, "height", floats<&PingLabels::height_m>),
     id_file(Label::shadow, "shadow", ids<&PingLabels::shadow>),
     id_file(Label::multipath, "multipath", shares<&PingLabels::multipath>),
-    image_file(Label::clean, "clean", term_by_term[1]),
+    image_file(Label::clean, "clean", without_random_terms),
     image_file(Label::direct_only, "direct_only", direct_echoes_alone),
     image_file(Label::multipath_only, "multipath_only", multipath_alone),
 };

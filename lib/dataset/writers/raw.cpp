@@ -1,4 +1,3 @@
-#include "calibrated/companding.h"
 #include "dataset/writers/formats.h"
 #include "dataset/writers/raw_values.h"
 #include "format/png.h"
@@ -13,31 +12,32 @@ class RawWriter final : public Writer {
   public:
     explicit RawWriter(const WriterContext& context)
         : view_(context.sonar().settings.view),
-          receiver_(context.sonar().config.instrument.receiver) {}
+          model_(*context.sonar().settings.model),
+          bytes_(raw_bytes(model_.raw_bits())) {}
 
     WriterOutputs outputs() const override {
-        return {PingFile{"raw", ".png"},
-                png_bytes_at_most(view_.beams, view_.range_bins, raw_bytes(receiver_)),
-                {}};
+        return {
+            PingFile{"raw", ".png"}, png_bytes_at_most(view_.beams, view_.range_bins, bytes_), {}};
     }
 
     std::string encode(const FinishedPing& finished) const override {
         const Ping& ping = finished.ping;
-        const std::vector<std::uint16_t> values = companded(ping.intensity, receiver_);
-        if (raw_bytes(receiver_) == 2) return png_bytes(values, ping.beams, ping.range_bins);
+        const std::vector<std::uint16_t> values = model_.raw(ping);
+        if (bytes_ == 2) return png_bytes(values, ping.beams, ping.range_bins);
         return png_bytes(as_bytes(values), ping.beams, ping.range_bins);
     }
 
   private:
     const View& view_;
-    const ReceiverConfig& receiver_;
+    const EchoModel& model_;
+    int bytes_;
 };
 
 }  // namespace
 
 std::unique_ptr<Writer> make_raw_writer(const WriterContext& context) {
     if (!context.mission.output.raw || !context.kind().has_images) return nullptr;
-    if (context.sonar().config.model != EchoModel::calibrated) return nullptr;
+    if (context.sonar().settings.model->raw_bits() == 0) return nullptr;
     return std::make_unique<RawWriter>(context);
 }
 

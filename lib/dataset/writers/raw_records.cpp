@@ -2,7 +2,6 @@
 #include <cstring>
 #include <limits>
 
-#include "calibrated/companding.h"
 #include "dataset/folded_records.h"
 #include "dataset/writers/formats.h"
 #include "dataset/writers/raw_values.h"
@@ -26,9 +25,10 @@ class RawRecordsWriter final : public Writer {
   public:
     explicit RawRecordsWriter(const WriterContext& context)
         : config_(context.sonar().config),
+          model_(*context.sonar().settings.model),
           record_(context.kind().record),
           pings_(context.pings),
-          bytes_(raw_bytes(config_.instrument.receiver)),
+          bytes_(raw_bytes(model_.raw_bits())),
           values_(record_ == RecordKind::waterfall ? waterfall_columns(config_)
                                                    : config_.range_bins) {}
 
@@ -59,8 +59,7 @@ class RawRecordsWriter final : public Writer {
     }
 
     std::string encode(const FinishedPing& finished) const override {
-        const std::vector<std::uint16_t> values =
-            companded(finished.ping.intensity, config_.instrument.receiver);
+        const std::vector<std::uint16_t> values = model_.raw(finished.ping);
         if (record_ != RecordKind::waterfall) return packed(values);
         return packed(sidescan_row<std::uint16_t>(config_, values, 0));
     }
@@ -149,6 +148,7 @@ class RawRecordsWriter final : public Writer {
     }
 
     const SonarConfig& config_;
+    const EchoModel& model_;
     RecordKind record_;
     std::size_t pings_;
     int bytes_;
@@ -159,7 +159,7 @@ class RawRecordsWriter final : public Writer {
 
 std::unique_ptr<Writer> make_raw_records_writer(const WriterContext& context) {
     if (!context.mission.output.raw || context.kind().has_images) return nullptr;
-    if (context.sonar().config.model != EchoModel::calibrated) return nullptr;
+    if (context.sonar().settings.model->raw_bits() == 0) return nullptr;
     return std::make_unique<RawRecordsWriter>(context);
 }
 

@@ -4,13 +4,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "mission/instrument.h"
-
 namespace sonarsim {
 
-/// The bytes that a number of the instrument takes in a file.
-inline int raw_bytes(const ReceiverConfig& receiver) {
-    return receiver.bits > 8 ? 2 : 1;
+/// The bytes that a number of an instrument with these bits takes in a file.
+inline int raw_bytes(int bits) {
+    return bits > 8 ? 2 : 1;
 }
 
 /// Numbers of at most 8 bits in bytes.

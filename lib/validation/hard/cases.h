@@ -6,9 +6,9 @@
 
 #include "core/pose.h"
 #include "mission/mission.h"
-#include "ping/ping.h"
 #include "scene/scene.h"
 #include "sonar/sonar.h"
+#include "trace/ping.h"
 
 namespace sonarsim {
 

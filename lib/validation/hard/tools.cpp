@@ -37,9 +37,9 @@ SonarConfig hard_sonar(SonarKind kind) {
 }
 
 Sonar without_gain(const SonarConfig& config) {
-    Sonar sonar = make_sonar(config, {});
-    sonar.settings.pixel_noise.gain = 1.0F;
-    return sonar;
+    SonarConfig with_gain_1 = config;
+    with_gain_1.noise.gain = 1.0;
+    return make_sonar(with_gain_1, {});
 }
 
 HardTrial over_floor(SonarKind kind, const ConfigChange& change) {

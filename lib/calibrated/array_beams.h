@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "calibrated/beamformer.h"
+#include "calibrated/sonar_equation.h"
+#include "mission/instrument.h"
+
+namespace sonarsim {
+
+/// The beams that a line array forms of what it hears. Its point spread is that of the far field at
+/// every range: the instrument is taken to focus.
+struct ArrayBeams {
+    Beamformer amplitudes, powers;
+    ElementNoise noise;
+};
+
+/// `beam_sines`: of the azimuths that the beams look at. `noise`: its power in a beam;
+/// `common_mode`: of what all elements share, in the beam straight ahead.
+ArrayBeams array_beams(const BeamConfig& beam, const std::vector<double>& beam_sines, double noise,
+                       double common_mode);
+
+inline int columns_of(const ArrayBeams& beams) {
+    return beams.amplitudes.grid().columns;
+}
+/// What turns independent columns into independent points.
+inline float scalloping_gain(const ArrayBeams& beams) {
+    return beams.amplitudes.scalloping_gain();
+}
+
+/// Finds the columns of echoes. What lies outside the grid loses its power; returns how many do.
+std::uint64_t find_columns(const ArrayBeams& beams, const PatchBlock& pieces, PointEchoes& echoes);
+
+/// Adds powers to the real parts of the grid, shared between the four places around each echo.
+void add_powers(const ArrayBeams& beams, const PatchBlock& pieces, const PointEchoes& echoes,
+                EchoGrid& grid);
+/// Adds complex amplitudes likewise.
+void add_amplitudes(const ArrayBeams& beams, const PatchBlock& pieces, const PointEchoes& echoes,
+                    const Amplitudes& amplitudes, EchoGrid& grid);
+
+/// Adds the powers of echoes that come back from other places than they were sent to. The columns
+/// and powers are those of `back`.
+inline void add_bistatic_powers(const ArrayBeams& beams, const PathEndpoint& /*out*/,
+                                const PathEndpoint& back, EchoGrid& grid) {
+    add_powers(beams, back.places, back.echoes, grid);
+}
+
+/// Fills the image [bins, beams] with the powers of the beams. The grid holds powers or amplitudes;
+/// the noise of the elements belongs to the bin, the element and the key.
+void beamform(const ArrayBeams& beams, const EchoGrid& grid, bool powers, bool noisy, PhiloxKey key,
+              std::span<const float> row_gain, std::span<float> image);
+
+}  // namespace sonarsim

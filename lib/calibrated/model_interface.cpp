@@ -1,0 +1,65 @@
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "calibrated/companding.h"
+#include "calibrated/model.h"
+
+namespace sonarsim {
+
+namespace {
+
+// In the order in which they enter an image.
+constexpr std::array<std::string_view, 2> calibrated_terms{"speckle", "receiver_noise"};
+
+// The beam of a side-scan sonar is narrow within its view. With added energies, images by rays have
+// three times the error of the paper's means, images by slices 14 to 18 % at any goal (a sea floor
+// with boulders against brute force).
+constexpr double share_along_track = 1.0 / 3.0;
+
+}  // namespace
+
+std::span<const std::string_view> CalibratedModel::random_terms() const {
+    return calibrated_terms;
+}
+
+double CalibratedModel::rays_goal(const View& view) const {
+    if (view.shape == ViewShape::port_starboard) return share_along_track * view.relative_l1;
+    // In a cone slices are off by up to 1 %, which their estimate does not show; rays are as fast
+    // there and have a third of that error.
+    return view.shape == ViewShape::cone ? view.relative_l1 : 0.0;
+}
+
+double CalibratedModel::working_bytes(bool multipath) const {
+    const auto columns =
+        std::visit([](const auto& of_model) { return columns_of(of_model); }, beams);
+    const double grids = multipath ? 2.0 : 1.0;  // multipath has a grid of its own
+    return grids * columns * equation.rows * sizeof(float) * 2.0;
+}
+
+EchoModel::SignalAndNoise CalibratedModel::signal_and_noise(float clean, float noisy,
+                                                            int /*range_bin*/, int /*beam*/) const {
+    return {clean, std::fabs(noisy - clean)};
+}
+
+void CalibratedModel::describe(nlohmann::ordered_json& sensor) const {
+    const ReceiverConfig& receiver = instrument.receiver;
+    const bool absolute = instrument.source_level_db != 0.0;
+    sensor["instrument"] = {
+        {"echo_level", std::string("full_scale_db + 10 log10(polar) - tvg_log log10(range_m)") +
+                           (receiver.tvg_absorption ? " - 2 absorption_db_per_m range_m" : "")},
+        {"echo_level_unit", absolute ? "dB re 1 uPa" : "dB re the source level, per uPa at 1 m"},
+        {"full_scale_db", receiver.full_scale_db},
+        {"tvg_log", receiver.tvg_log},
+        {"absorption_db_per_m", absorption_db_per_m},
+        {"tvg_makes_up_for_absorption", receiver.tvg_absorption},
+        {"sound_speed_m_s", sound_speed_m_s},
+        {"wavelength_m", wavelength_m}};
+}
+
+std::vector<std::uint16_t> CalibratedModel::raw(const Ping& ping) const {
+    return companded(ping.intensity, instrument.receiver);
+}
+
+}  // namespace sonarsim

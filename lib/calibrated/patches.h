@@ -1,0 +1,95 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <span>
+
+#include "trace/arrivals.h"
+#include "visibility/engine.h"
+
+namespace sonarsim {
+
+/// A block of pieces of surface, each small enough to be a point. Arrays, so that loops vectorise.
+struct PatchBlock {
+    static constexpr int most = 256;
+    static constexpr int spare = 8;  ///< whole vectors are written
+    template <class T>
+    using Array = std::array<T, most + spare>;
+
+    int count = 0;
+    Array<float> x{}, y{}, z{};  ///< m, sensor frame
+    Array<float> area_m2{};
+    Array<float> height_m{};  ///< of the sonar above the piece's plane
+    Array<std::uint32_t> material{};
+};
+
+/// How large a piece may be. In every direction the least of these holds.
+struct PointLimits {
+    float depth_m = 0.0F;         ///< in range; 0: any
+    float sine = 0.0F;            ///< across the beams, of y / range; 0: any
+    float elevation_sine = 0.0F;  ///< of z / range; 0: any
+};
+
+/// Into how many pieces a half edge is cut.
+inline int patches_along(const Eigen::Vector3f& half_edge, const Eigen::Vector3f& direction,
+                         float range_m, const PointLimits& limits) {
+    constexpr float most = 256.0F;
+    const float depth = half_edge.dot(direction);
+    float wanted = 1.0F;
+    const float per_range = 2.0F / range_m;
+    if (limits.depth_m > 0.0F) wanted = std::max(wanted, 2.0F * std::fabs(depth) / limits.depth_m);
+    if (limits.sine > 0.0F) {
+        const float across = std::fabs(half_edge.y() - depth * direction.y());
+        wanted = std::max(wanted, across * per_range / limits.sine);
+    }
+    if (limits.elevation_sine > 0.0F) {
+        const float up = std::fabs(half_edge.z() - depth * direction.z());
+        wanted = std::max(wanted, up * per_range / limits.elevation_sine);
+    }
+    return static_cast<int>(std::ceil(std::min(wanted, most)));
+}
+
+/// Cuts samples into pieces and hands these to `use`, a block at a time.
+template <class Use>
+void subdivide(std::span<const Sample> samples, const PointLimits& limits, PatchBlock& pieces,
+               Use use) {
+    pieces.count = 0;
+    for (const Sample& sample : samples) {
+        const auto [range, departure, direction] = arrival_of(sample.position);
+        if (!(range > 0.0F)) continue;
+        const int rows = patches_along(sample.edge_u, direction, range, limits);
+        const int columns = patches_along(sample.edge_v, direction, range, limits);
+        const float area = sample.area_m2 / static_cast<float>(rows * columns);
+        const Eigen::Vector3f step_u = 2.0F / static_cast<float>(rows) * sample.edge_u;
+        const Eigen::Vector3f step_v = 2.0F / static_cast<float>(columns) * sample.edge_v;
+        for (int i = 0; i < rows; ++i) {
+            const Eigen::Vector3f row = sample.position + (static_cast<float>(i) + 0.5F) * step_u -
+                                        sample.edge_u - sample.edge_v;
+            for (int first = 0; first < columns; first += PatchBlock::spare) {
+                if (pieces.count > PatchBlock::most - PatchBlock::spare) {
+                    use(pieces);
+                    pieces.count = 0;
+                }
+                const int at = pieces.count;
+                const auto along_row = [&](PatchBlock::Array<float>& to, float start, float step) {
+                    for (int lane = 0; lane < PatchBlock::spare; ++lane) {
+                        const float t = static_cast<float>(first + lane) + 0.5F;
+                        to[at + lane] = std::fma(t, step, start);
+                    }
+                };
+                along_row(pieces.x, row.x(), step_v.x());
+                along_row(pieces.y, row.y(), step_v.y());
+                along_row(pieces.z, row.z(), step_v.z());
+                std::fill_n(pieces.area_m2.data() + at, PatchBlock::spare, area);
+                std::fill_n(pieces.height_m.data() + at, PatchBlock::spare, sample.height_m);
+                std::fill_n(pieces.material.data() + at, PatchBlock::spare, sample.material);
+                pieces.count += std::min(columns - first, PatchBlock::spare);
+            }
+        }
+    }
+    if (pieces.count > 0) use(pieces);
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,187 @@
+#include "calibrated/transducer_beams.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "calibrated/levels.h"
+#include "calibrated/normals.h"
+#include "calibrated/piston.h"
+#include "core/units.h"
+
+namespace sonarsim {
+
+namespace {
+
+constexpr int table_steps = 2048;
+
+template <class Function>
+SineTable sine_table(double from, double to, Function value) {
+    SineTable out{.from = static_cast<float>(from),
+                  .per_unit = static_cast<float>(table_steps / (to - from)),
+                  .values = {}};
+    for (int k = 0; k <= table_steps + 1; ++k)
+        out.values.push_back(static_cast<float>(value(from + (to - from) * k / table_steps)));
+    return out;
+}
+
+/// The complex amplitudes of one beam, there and back, for every piece.
+void find_weights(const TransducerBeams& beams, int beam, const PatchBlock& pieces,
+                  const PointEchoes& echoes, Amplitudes& out) {
+    for (int k = 0; k < pieces.count; ++k) {
+        const float x = pieces.x[k];
+        const float y = pieces.y[k];
+        const float z = pieces.z[k];
+        const float inverse = 1.0F / echoes.range_m[k];
+        if (beams.sides.empty()) {
+            const bool disc = beams.aperture == Aperture::piston;
+            const float off = disc ? std::sqrt(std::fma(y, y, z * z)) : y;
+            out.re[k] = beams.pattern.at(off * inverse);
+            out.im[k] = 0.0F;
+            continue;
+        }
+        const TransducerBeams::Axis axis = beams.sides[beam];
+        const bool ahead = std::fma(x, axis.x, y * axis.y) > 0.0F;
+        const float across = (y * axis.x - x * axis.y) * inverse;
+        const std::complex<float> along = beams.along.at(z * inverse, echoes.range_m[k]);
+        const float weight = ahead ? beams.pattern.at(across) : 0.0F;
+        out.re[k] = weight * along.real();
+        out.im[k] = weight * along.imag();
+    }
+}
+
+void add_between_bins(float* column, float row, float re, float im) {
+    const float whole = std::floor(row);
+    const float next = row - whole;
+    float* const place = column + static_cast<std::ptrdiff_t>(2) * static_cast<int>(whole);
+    place[0] = std::fma(1.0F - next, re, place[0]);
+    place[1] = std::fma(1.0F - next, im, place[1]);
+    place[2] = std::fma(next, re, place[2]);
+    place[3] = std::fma(next, im, place[3]);
+}
+
+}  // namespace
+
+float SineTable::at(float sine) const {
+    const float most = static_cast<float>(values.size() - 2);
+    // In this order what is no number becomes 0.
+    const float where = std::min(most, std::max(0.0F, (sine - from) * per_unit));
+    const float whole = std::floor(where);
+    const float* const entry = values.data() + static_cast<int>(whole);
+    return std::fma(where - whole, entry[1] - entry[0], entry[0]);
+}
+
+TransducerBeams transducer_beams(const BeamConfig& beam, const View& view, double wavelength_m,
+                                 double noise) {
+    TransducerBeams out;
+    out.aperture = beam.aperture;
+    out.noise_sigma = static_cast<float>(std::sqrt(0.5 * noise));
+    if (beam.aperture == Aperture::piston) {
+        const double scale = piston_scale(radians(beam.width_deg));
+        out.pattern = sine_table(0.0, sincos(0.5 * view.elevation_rad).sin, [&](double sine) {
+            const double one_way = piston_pattern(scale * sine);
+            return one_way * one_way;
+        });
+        return out;
+    }
+    if (beam.aperture == Aperture::head) {
+        const LineArray across = line_array(radians(beam.width_deg), beam.side_lobe_db);
+        const double end = sincos(0.5 * view.azimuth_rad).sin;
+        out.pattern = sine_table(-end, end, [&](double sine) {
+            const double one_way = line_pattern(across, sine);
+            return one_way * one_way;
+        });
+        return out;
+    }
+    const SinCos tilt = sincos(radians(beam.tilt_deg));
+    const auto down = static_cast<float>(tilt.sin);
+    const auto out_to_port = static_cast<float>(tilt.cos);
+    out.sides = {{down, -out_to_port}, {down, out_to_port}};
+    out.along = unfocused_beam(line_array(radians(beam.width_deg), beam.side_lobe_db), wavelength_m,
+                               view.range_min_m, sincos(0.5 * view.elevation_rad).sin);
+    const LineArray across = line_array(radians(beam.across_width_deg), 0.0);
+    out.pattern = sine_table(-1.0, 1.0, [&](double sine) {
+        const double one_way = line_pattern(across, sine);
+        return one_way * one_way;
+    });
+    return out;
+}
+
+void add_powers(const TransducerBeams& beams, const PatchBlock& pieces, const PointEchoes& echoes,
+                EchoGrid& grid) {
+    Amplitudes weights;
+    for (int beam = 0; beam < beams.beams(); ++beam) {
+        find_weights(beams, beam, pieces, echoes, weights);
+        for (int k = 0; k < pieces.count; ++k) {
+            const float re = weights.re[k];
+            const float im = weights.im[k];
+            const float power = echoes.power[k] * std::fma(re, re, im * im);
+            add_between_bins(grid.column(beam), echoes.row[k], power, 0.0F);
+        }
+    }
+}
+
+void add_amplitudes(const TransducerBeams& beams, const PatchBlock& pieces,
+                    const PointEchoes& echoes, const Amplitudes& amplitudes, EchoGrid& grid) {
+    Amplitudes weights;
+    for (int beam = 0; beam < beams.beams(); ++beam) {
+        find_weights(beams, beam, pieces, echoes, weights);
+        for (int k = 0; k < pieces.count; ++k) {
+            const float a = amplitudes.re[k];
+            const float b = amplitudes.im[k];
+            const float re = weights.re[k];
+            const float im = weights.im[k];
+            // Spelled out: GCC contracts the two products that stand side by side even where that
+            // is switched off, and other compilers do not.
+            add_between_bins(grid.column(beam), echoes.row[k], std::fma(a, re, -(b * im)),
+                             std::fma(a, im, b * re));
+        }
+    }
+}
+
+void add_bistatic_powers(const TransducerBeams& beams, const PathEndpoint& out,
+                         const PathEndpoint& back, EchoGrid& grid) {
+    Amplitudes sent, heard;
+    const auto power_of = [](const Amplitudes& of, int k) {
+        return std::fma(of.re[k], of.re[k], of.im[k] * of.im[k]);
+    };
+    for (int beam = 0; beam < beams.beams(); ++beam) {
+        find_weights(beams, beam, out.places, out.echoes, sent);
+        find_weights(beams, beam, back.places, back.echoes, heard);
+        for (int k = 0; k < back.places.count; ++k) {
+            // Weights are there and back, the square of one way.
+            const float weight = std::sqrt(power_of(sent, k) * power_of(heard, k));
+            add_between_bins(grid.column(beam), back.echoes.row[k], back.echoes.power[k] * weight,
+                             0.0F);
+        }
+    }
+}
+
+void beamform(const TransducerBeams& beams, const EchoGrid& grid, bool powers, bool noisy,
+              PhiloxKey key, std::span<const float> row_gain, std::span<float> image) {
+    const int count = beams.beams();
+    const float sigma = noisy ? beams.noise_sigma : 0.0F;
+    std::array<std::uint32_t, lanes_at_once> a, b;
+    Lanes re, im;
+    for (int beam = 0; beam < count; ++beam) {
+        const float* const column = grid.column(beam);
+        for (int row = 0; row < grid.rows(); row += lanes_at_once) {
+            for (int lane = 0; lane < lanes_at_once; ++lane)
+                a[lane] = static_cast<std::uint32_t>(row + lane);
+            b.fill(static_cast<std::uint32_t>(beam));
+            philox_pairs(a.data(), b.data(), lanes_at_once, key);
+            complex_normals(a.data(), re, im);
+            const int lanes = std::min(lanes_at_once, grid.rows() - row);
+            for (int lane = 0; lane < lanes; ++lane) {
+                const float* const place = column + static_cast<std::ptrdiff_t>(2) * (row + lane);
+                // Without speckle the energies of echo and noise add.
+                const float x = sigma * re[lane] + (powers ? 0.0F : place[0]);
+                const float y = sigma * im[lane] + (powers ? 0.0F : place[1]);
+                const float echo = powers ? std::max(place[0], 0.0F) : 0.0F;
+                image[static_cast<std::size_t>(row + lane) * count + beam] =
+                    value_of(row_gain[row + lane], echo + std::fma(x, x, y * y));
+            }
+        }
+    }
+}
+
+}  // namespace sonarsim

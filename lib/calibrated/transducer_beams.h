@@ -1,0 +1,75 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "calibrated/near_field.h"
+#include "calibrated/sonar_equation.h"
+#include "core/random.h"
+#include "mission/instrument.h"
+#include "visibility/view.h"
+
+namespace sonarsim {
+
+/// A function of a sine, by a table.
+struct SineTable {
+    float from = 0.0F;      ///< the sine of the first entry
+    float per_unit = 0.0F;  ///< entries per unit of sine
+    std::vector<float> values;
+
+    float at(float sine) const;
+};
+
+/// Transducers that both send and hear, and form no beams: the two sides of a side-scan sonar, the
+/// disc of an echosounder, the head of a scanning sonar. A side hears all of the surface, by its
+/// pattern.
+struct TransducerBeams {
+    struct Axis {
+        float x, y;  ///< unit, sensor frame
+    };
+    Aperture aperture = Aperture::piston;
+    std::vector<Axis> sides;  ///< starboard and port; empty: one beam, along the boresight
+    UnfocusedBeam along;      ///< of a side, along the sensor's z axis, there and back
+    /// Amplitude there and back: of a side across, of a disc off its axis, of a head in azimuth.
+    SineTable pattern;
+    float noise_sigma = 0.0F;  ///< of either part
+
+    int beams() const { return sides.empty() ? 1 : static_cast<int>(sides.size()); }
+};
+
+/// `noise` is the power of the noise in a beam.
+TransducerBeams transducer_beams(const BeamConfig& beam, const View& view, double wavelength_m,
+                                 double noise);
+
+inline int columns_of(const TransducerBeams& beams) {
+    return beams.beams();
+}
+/// A beam has a column of the grid to itself.
+inline float scalloping_gain(const TransducerBeams& /*beams*/) {
+    return 1.0F;
+}
+inline std::uint64_t find_columns(const TransducerBeams& /*beams*/, const PatchBlock& /*pieces*/,
+                                  PointEchoes& /*echoes*/) {
+    return 0;
+}
+
+/// Adds the powers of echoes to the real parts of the grid, shared between two bins.
+void add_powers(const TransducerBeams& beams, const PatchBlock& pieces, const PointEchoes& echoes,
+                EchoGrid& grid);
+/// Adds complex amplitudes likewise.
+void add_amplitudes(const TransducerBeams& beams, const PatchBlock& pieces,
+                    const PointEchoes& echoes, const Amplitudes& amplitudes, EchoGrid& grid);
+
+/// Adds the powers of echoes that come back from other places than they were sent to: each beam
+/// hears what it has sent itself. The powers and bins are those of `back`.
+void add_bistatic_powers(const TransducerBeams& beams, const PathEndpoint& out,
+                         const PathEndpoint& back, EchoGrid& grid);
+
+/// Fills the image [bins, beams] with the power in the grid, of `powers` or of amplitudes, and the
+/// noise. Noise belongs to the bin, the beam and the key.
+void beamform(const TransducerBeams& beams, const EchoGrid& grid, bool powers, bool noisy,
+              PhiloxKey key, std::span<const float> row_gain, std::span<float> image);
+
+}  // namespace sonarsim

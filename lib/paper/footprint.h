@@ -1,0 +1,53 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+
+#include "paper/scatterers.h"
+#include "scene/scene.h"
+#include "visibility/engine.h"
+#include "visibility/range_extent.h"
+
+namespace sonarsim {
+
+/// Pieces wanted along either edge of a footprint; at least 1, not yet whole.
+struct Pieces {
+    float u = 1.0F;
+    float v = 1.0F;
+};
+
+/// One piece per scatterer cell of edge `cell_m` that a footprint with half edges of length `u_m`
+/// and `v_m` spans. Where this makes more than `most` pieces in all, fewer along both edges.
+inline Pieces one_piece_per_cell(float u_m, float v_m, float cell_m, float most) {
+    const float u = std::max(2.0F * u_m / cell_m, 1.0F);
+    const float v = std::max(2.0F * v_m / cell_m, 1.0F);
+    const float shrink = 1.0F / std::sqrt(std::max(u * v / most, 1.0F));
+    return {.u = std::max(u * shrink, 1.0F), .v = std::max(v * shrink, 1.0F)};
+}
+
+/// A block of samples, and how they are cut into pieces. Arrays, so that loops vectorise.
+struct Footprints {
+    static constexpr int most = 64;
+    using Floats = std::array<float, most>;
+    using Vectors = std::array<Floats, 3>;  ///< x, y, z
+
+    int count = 0;  ///< of samples, rounded up to whole vectors; the last sample fills them
+    Vectors position, edge_u, edge_v;  ///< m, sensor frame
+    Floats height_m, area_m2, reflection;
+    Vectors cell, cell_u, cell_v;  ///< the first three in scatterer cells, when there is noise
+
+    Floats range_m, depth_u_m, depth_v_m;  ///< of the centre; spanned by either half edge
+    Floats u, v;                           ///< whole numbers: pieces along either edge
+    Floats half_m;                         ///< half the extent of a piece in range
+    Floats shift_m;                        ///< of the middle of that extent from the piece's centre
+    Floats weight;                         ///< of a piece, m^2
+};
+
+/// Makes the footprints of at most `Footprints::most` samples and cuts them: into one piece per
+/// scatterer cell or, where there are none, so that no piece is deeper than the bins can tell.
+void cut_footprints(std::span<const Sample> samples, std::span<const Material> materials,
+                    float bin_m, const ScattererLattice& lattice, Footprints& footprints);
+
+}  // namespace sonarsim

@@ -1,0 +1,24 @@
+#include "ping/form_image.h"
+
+namespace sonarsim {
+
+Ping form_image(const TracedPing& traced, const PingSettings& settings, const Scene& scene,
+                const PingKey& key, const Terms& terms) {
+    Ping ping;
+    ping.range_bins = settings.view.range_bins;
+    ping.beams = settings.view.beams;
+    ping.intensity.resize(static_cast<std::size_t>(ping.range_bins) * ping.beams);
+    ping.estimated_l1 = traced.samples.estimated_l1;
+    ping.counts = traced.counts;
+    ping.seconds = traced.seconds;
+    if (!terms.multipath) ping.counts.multipath = {};
+    settings.model->form(traced,
+                         {.view = settings.view,
+                          .scene = scene,
+                          .draws = {key.seed, settings.stream, key.ping},
+                          .terms = terms},
+                         ping);
+    return ping;
+}
+
+}  // namespace sonarsim

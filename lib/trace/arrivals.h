@@ -1,0 +1,58 @@
+#pragma once
+
+#include <immintrin.h>
+
+#include <Eigen/Core>
+#include <cmath>
+
+// Arrivals: what the clock and the array of a sonar measure of sound from a point. Everything after
+// the trace takes ranges and directions from here, and nothing else derives them from positions.
+// The water is still and of one sound speed: sound goes straight, and comes back the way it went.
+
+namespace sonarsim {
+
+/// The arrival of the sound that a point sends back.
+struct Arrival {
+    float range_m;  ///< one-way equivalent slant range, m: half of the way there and back
+    Eigen::Vector3f departure;  ///< unit, sensor frame: where the sound leaves to
+    Eigen::Vector3f direction;  ///< unit, sensor frame: where the sound comes from
+};
+
+/// The range of a point in the sensor frame, m.
+inline float arrival_range(const Eigen::Vector3f& point) {
+    return point.norm();
+}
+
+inline Arrival arrival_of(const Eigen::Vector3f& point) {
+    const float range = arrival_range(point);
+    const Eigen::Vector3f direction = point / range;
+    return {range, direction, direction};
+}
+
+/// The range of a path whose legs to and from the second surface are in all so long, m.
+inline float arrival_range(float out_m, float back_m) {
+    return 0.5F * (out_m + back_m);
+}
+
+/// An arrival in a loop over arrays: the same numbers as arrival_of().
+struct ArrivalLane {
+    float range_m, x, y, z;
+};
+inline ArrivalLane arrival_at(float x, float y, float z) {
+    const float range = std::sqrt(x * x + (y * y + z * z));
+    return {range, x / range, y / range, z / range};
+}
+
+// Ranges of the pieces that footprints are cut into, in fused arithmetic: within a last bit or two
+// of arrival_range().
+inline float piece_range(float x, float y, float z) {
+    return std::sqrt(std::fma(x, x, std::fma(y, y, z * z)));
+}
+inline double piece_range(double x, double y, double z) {
+    return std::sqrt(std::fma(x, x, std::fma(y, y, z * z)));
+}
+inline __m256 piece_range(__m256 x, __m256 y, __m256 z) {
+    return _mm256_sqrt_ps(_mm256_fmadd_ps(x, x, _mm256_fmadd_ps(y, y, _mm256_mul_ps(z, z))));
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,104 @@
+#include "trace/bounce_tracer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "trace/arrivals.h"
+
+namespace sonarsim {
+
+namespace {
+
+/// The ray that leaves a sample. On a curved surface the sample may lie a little below the facets
+/// that it stands for; the ray starts above them.
+Ray mirrored_ray(const Sample& sample, float bin_m) {
+    const Arrival arrival = arrival_of(sample.position);
+    const float size = sample.edge_u.norm() + sample.edge_v.norm();
+    const float lift = 1e-4F * arrival.range_m + std::min(0.05F * size, 0.5F * bin_m);
+    return {sample.position + lift * sample.normal, mirrored(arrival.departure, sample.normal)};
+}
+
+/// Whether a ray may have hit the surface that it started from: its start lies in the plane of what
+/// it hit, to within rounding.
+bool hit_its_start(const Ray& ray, const Intersection& hit) {
+    return std::fabs(hit.distance_m * hit.normal.dot(ray.direction)) <= hit.rounding_m;
+}
+
+/// Follows those of the rays that meet the water's surface before anything else (`hits`), and
+/// appends the mirror images of what they hit.
+void trace_surface_reflection(const BounceTracer& context, std::span<const Ray> rays,
+                              std::span<const Intersection> hits,
+                              std::vector<BounceHit>& second_hits, MultipathCounts& counts) {
+    const WaterMirror& mirror = *context.mirror;
+    std::vector<Ray> mirrored_rays;
+    std::vector<std::size_t> second_of;
+    for (std::size_t k = 0; k < rays.size(); ++k) {
+        second_hits.emplace_back();
+        const float distance = mirror.distance(rays[k]);
+        if (!(distance < hits[k].distance_m)) continue;
+        second_of.push_back(second_hits.size() - 1);
+        mirrored_rays.push_back({rays[k].origin + distance * rays[k].direction,
+                                 mirror.reflect_direction(rays[k].direction)});
+    }
+    std::vector<Intersection> behind(mirrored_rays.size());
+    context.engine.intersect(context.T_world_sensor, mirrored_rays, behind);
+    counts.rays += mirrored_rays.size();
+    for (std::size_t k = 0; k < behind.size(); ++k) {
+        if (!std::isfinite(behind[k].distance_m)) continue;
+        const Ray& ray = mirrored_rays[k];
+        second_hits[second_of[k]] = {
+            .point = mirror.reflect_point(ray.origin + behind[k].distance_m * ray.direction),
+            .normal = mirror.reflect_direction(behind[k].normal),
+            .rounding_m = behind[k].rounding_m,
+            .reflection = mirror.reflection * context.materials[behind[k].material].reflection,
+            .material = behind[k].material,
+            .water_reflection = mirror.reflection,
+            .exists = true};
+    }
+}
+
+}  // namespace
+
+void trace_bounces(const BounceTracer& context, std::span<const std::uint32_t> sources,
+                   std::vector<BounceHit>& second_hits, MultipathCounts& counts) {
+    std::vector<Ray> rays;
+    rays.reserve(sources.size());
+    for (const std::uint32_t i : sources)
+        rays.push_back(mirrored_ray(context.samples.items[i], context.bin_m));
+    std::vector<Intersection> hits(rays.size());
+    context.engine.intersect(context.T_world_sensor, rays, hits);
+    counts.rays += rays.size();
+    for (std::size_t k = 0; k < rays.size(); ++k) {
+        if (!hit_its_start(rays[k], hits[k])) continue;
+        rays[k].origin += 2.0F * hits[k].rounding_m * context.samples.items[sources[k]].normal;
+        context.engine.intersect(context.T_world_sensor, {&rays[k], 1}, {&hits[k], 1});
+        ++counts.rays;
+    }
+    if (context.is_mirrored()) {
+        trace_surface_reflection(context, rays, hits, second_hits, counts);
+        return;
+    }
+    for (std::size_t k = 0; k < rays.size(); ++k) {
+        BounceHit second;
+        const float at_surface = context.mirror ? context.mirror->distance(rays[k])
+                                                : std::numeric_limits<float>::infinity();
+        if (at_surface < hits[k].distance_m) {
+            second = {.point = rays[k].origin + at_surface * rays[k].direction,
+                      .normal = -context.mirror->up,
+                      .rounding_m = hits[k].rounding_m,
+                      .reflection = context.mirror->reflection,
+                      .exists = true};
+        } else if (std::isfinite(hits[k].distance_m)) {
+            second = {.point = rays[k].origin + hits[k].distance_m * rays[k].direction,
+                      .normal = hits[k].normal,
+                      .rounding_m = hits[k].rounding_m,
+                      .reflection = context.materials[hits[k].material].reflection,
+                      .material = hits[k].material,
+                      .exists = true};
+        }
+        second_hits.push_back(second);
+    }
+}
+
+}  // namespace sonarsim

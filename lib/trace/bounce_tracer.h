@@ -1,0 +1,73 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "scene/scene.h"
+#include "trace/bounce_path.h"
+#include "trace/counters.h"
+#include "trace/water_mirror.h"
+#include "visibility/engine.h"
+#include "visibility/view.h"
+
+namespace sonarsim {
+
+/// What a traced ray hit: the second surface h.
+struct BounceHit {
+    Eigen::Vector3f point;    ///< p_h, sensor frame, m
+    Eigen::Vector3f normal;   ///< n_h
+    float rounding_m = 0.0F;  ///< as in Intersection
+    float reflection = 0.0F;  ///< R_h
+    std::uint32_t material =
+        no_material;                ///< index into Scene::materials; none: the water's surface
+    float water_reflection = 1.0F;  ///< R of the water's surface where it mirrors the sound, else 1
+    bool exists = false;
+};
+
+/// What becomes of rays that meet the water's surface.
+enum class SurfaceRole {
+    target,     ///< the rays hit the water's surface
+    reflector,  ///< the water's surface mirrors the rays to what they hit; other rays hit nothing
+};
+
+/// Follows sound from the samples on.
+struct BounceTracer {
+    const View& view;
+    const Samples& samples;
+    std::span<const Material> materials;
+    const VisibilityEngine& engine;
+    const Pose& T_world_sensor;
+    float bin_m;
+    BeamLocator field;
+    const WaterMirror* mirror;  ///< null: the water has no surface
+    bool scattered = false;     ///< as in Multipath
+    SurfaceRole surface_role = SurfaceRole::target;
+
+    bool is_mirrored() const { return mirror && surface_role == SurfaceRole::reflector; }
+    /// Where the sonar is for the last leg of the sound.
+    Eigen::Vector3f sonar() const {
+        return is_mirrored() ? mirror->image : Eigen::Vector3f(Eigen::Vector3f::Zero());
+    }
+    /// The point of the world that a second point stands for.
+    Eigen::Vector3f seen(const Eigen::Vector3f& p) const {
+        return is_mirrored() ? mirror->reflect_point(p) : p;
+    }
+    Eigen::Vector3f seen_change(const Eigen::Vector3f& of_p) const {
+        return is_mirrored() ? mirror->reflect_direction(of_p) : of_p;
+    }
+};
+
+/// The direction in which a mirror sends on what comes along `direction`: r of Eq. 1.
+inline Eigen::Vector3f mirrored(const Eigen::Vector3f& direction, const Eigen::Vector3f& normal) {
+    return direction - 2.0F * normal.dot(direction) * normal;
+}
+
+/// Traces the samples and appends what their rays hit to `second_hits`. Far from the scene's
+/// origin, or on a large triangle, rounding may put the start of a ray below its surface; such a
+/// ray is traced once more from above the rounding.
+void trace_bounces(const BounceTracer& context, std::span<const std::uint32_t> sources,
+                   std::vector<BounceHit>& second_hits, MultipathCounts& counts);
+
+}  // namespace sonarsim

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <vector>
+
+#include "core/pose.h"
+#include "scene/scene.h"
+#include "trace/bounce_path.h"
+#include "trace/clusters.h"
+#include "trace/counters.h"
+#include "visibility/engine.h"
+
+namespace sonarsim {
+
+/// How a sonar finds multipath, Eq. 1-3 and Algorithm 1.
+struct Multipath {
+    bool on = false;
+    ClusterLimits cluster;  ///< epsilon 0 is the exact method: every sample is traced by itself
+    /// Whether paths are kept that the second surface mirrors away from the sonar.
+    bool scattered = false;
+};
+
+/// What paths are traced in.
+struct TraceContext {
+    const View& view;
+    const Scene& scene;
+    const VisibilityEngine& engine;
+    const Pose& T_world_sensor;
+};
+
+/// Follows the sound that `samples` mirror to a second surface h and from there to the sonar. The
+/// first and the last sample of a cluster are traced. Where both hit one plane, the others are
+/// reflected off it (Eq. 2); where they do not, the others are traced as well. An echo has the
+/// azimuth of the second point p, the range (|p_i| + |p - p_i| + |p|) / 2 (Eq. 3, whose print ends
+/// in |p_i|) and the intensity R_i R_h max(0, q . v_p). For a traced sample a ray finds out whether
+/// the sonar sees p; the others of its cluster inherit the answer. Samples without an echo are
+/// counted by what became of them. For a sonar below the water's surface, that is a second surface,
+/// too; and the sound that it mirrors is followed to the next one, as if that lay in the mirror:
+/// with a flat bottom that is the second bottom echo.
+std::vector<BouncePath> find_bounces(const Multipath& multipath, const TraceContext& context,
+                                     const Samples& samples, MultipathCounts& counts);
+
+}  // namespace sonarsim

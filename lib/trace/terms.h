@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstddef>
+#include <limits>
+
+namespace sonarsim {
+
+/// The terms of an echo model that an image is made of. A term that the sonar's settings do not use
+/// adds nothing, asked for or not.
+struct Terms {
+    static constexpr std::size_t all = std::numeric_limits<std::size_t>::max();
+
+    bool direct = true;        ///< echoes of the visible surface
+    bool multipath = true;     ///< echoes by way of a second surface
+    std::size_t random = all;  ///< the first so many of EchoModel::random_terms()
+};
+
+inline constexpr Terms direct_echoes_alone{.multipath = false, .random = 0};
+inline constexpr Terms multipath_alone{.direct = false, .random = 0};
+inline constexpr Terms without_random_terms{.random = 0};
+
+/// The image at a stage of the model: 0 is direct echoes alone, 1 adds multipath, and each stage
+/// more adds one of the random terms, as in the paper's Fig. 5(d).
+inline constexpr Terms terms_at_stage(std::size_t stage) {
+    return {.multipath = stage > 0, .random = stage > 0 ? stage - 1 : 0};
+}
+
+}  // namespace sonarsim

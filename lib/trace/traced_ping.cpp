@@ -1,0 +1,46 @@
+#include "trace/traced_ping.h"
+
+#include <utility>
+
+#include "core/clock.h"
+
+namespace sonarsim {
+
+TracedPing trace_ping(const TraceSettings& settings, const Scene& scene,
+                      const VisibilityEngine& engine, const Pose& T_world_sensor,
+                      const Terms& terms) {
+    TracedPing traced;
+    traced.T_world_sensor = T_world_sensor;
+    Stopwatch watch;
+
+    // 1. The visible surface.
+    VisibleSurface surface =
+        visible_surface(settings.view, settings.guard_beams, engine, T_world_sensor);
+    traced.samples = std::move(surface.samples);
+    traced.outside_sector = std::move(surface.outside_sector);
+    traced.counts.samples = traced.samples.items.size() + traced.outside_sector.size();
+    traced.counts.dropped_samples = traced.samples.dropped;
+    traced.seconds.trace = watch.lap();
+
+    // 2. Multipath, Eq. 1-3.
+    if (terms.multipath) trace_multipath(settings, scene, engine, traced);
+    return traced;
+}
+
+void trace_multipath(const TraceSettings& settings, const Scene& scene,
+                     const VisibilityEngine& engine, TracedPing& traced) {
+    Stopwatch watch;
+    traced.counts.multipath = {};
+    traced.bounces.clear();
+    if (settings.multipath.on) {
+        traced.bounces = find_bounces(settings.multipath,
+                                      {.view = settings.view,
+                                       .scene = scene,
+                                       .engine = engine,
+                                       .T_world_sensor = traced.T_world_sensor},
+                                      traced.samples, traced.counts.multipath);
+    }
+    traced.seconds.multipath = watch.lap();
+}
+
+}  // namespace sonarsim

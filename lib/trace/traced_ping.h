@@ -1,0 +1,42 @@
+#pragma once
+
+#include <vector>
+
+#include "core/pose.h"
+#include "scene/scene.h"
+#include "trace/counters.h"
+#include "trace/multipath.h"
+#include "trace/terms.h"
+#include "trace/visible_surface.h"
+#include "visibility/engine.h"
+
+namespace sonarsim {
+
+/// What is traced for a ping.
+struct TraceSettings {
+    View view;
+    GuardBeams guard_beams;
+    Multipath multipath;
+};
+
+/// What a sonar saw from one pose. It holds no noise: any number of images may be formed from it.
+struct TracedPing {
+    Pose T_world_sensor;
+    Samples samples;                     ///< the visible surface
+    std::vector<Sample> outside_sector;  ///< the visible surface in the guard beams
+    std::vector<BouncePath> bounces;     ///< multipath paths by way of `samples`
+    PingCounts counts;
+    PingSeconds seconds;
+};
+
+/// Finds the surface that a sonar sees and, if its settings and the terms have it, the multipath:
+/// steps 1 and 2 of docs/model.md.
+TracedPing trace_ping(const TraceSettings& settings, const Scene& scene,
+                      const VisibilityEngine& engine, const Pose& T_world_sensor,
+                      const Terms& terms = {});
+
+/// Finds the multipath of a traced ping anew, as `settings` have it.
+void trace_multipath(const TraceSettings& settings, const Scene& scene,
+                     const VisibilityEngine& engine, TracedPing& traced);
+
+}  // namespace sonarsim

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <vector>
+
+#include "core/pose.h"
+#include "visibility/engine.h"
+
+namespace sonarsim {
+
+/// The surface that a sonar sees.
+struct VisibleSurface {
+    Samples samples;  ///< within its view
+    /// Within the guard beams, where the cones of a line array's beams reach.
+    std::vector<Sample> outside_sector;
+};
+
+/// Beams on either side of a fan's view in which surface is traced as well.
+struct GuardBeams {
+    int count = 0;        ///< on either side
+    double beam_rad = 0;  ///< width of each; 0: as wide as the beams of the view
+};
+
+/// The view in which surface is traced: the sonar's view with guard beams on either side.
+View widened_view(const View& view, const GuardBeams& guard_beams);
+
+/// Whether the cones of a fan's beams reach a point in its guard beams: its y / r is no more than
+/// that of the view's borders on the horizontal plane. `position` is in the sensor frame, m.
+bool is_reached(const View& view, const Eigen::Vector3f& position);
+
+/// The surface within the view and, in the guard beams, that which the cones of its beams reach.
+VisibleSurface visible_surface(const View& view, const GuardBeams& guard_beams,
+                               const VisibilityEngine& engine, const Pose& T_world_sensor);
+
+}  // namespace sonarsim

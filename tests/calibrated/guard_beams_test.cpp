@@ -1,0 +1,74 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/units.h"
+#include "support/calibrated.h"
+#include "support/scenes.h"
+#include "trace/visible_surface.h"
+#include "validation/image_error.h"
+#include "visibility/angles.h"
+
+using namespace sonarsim;
+using namespace sonarsim::test;
+
+namespace {
+
+/// A line array that hears all elevations alike in beams of 60 degrees of azimuth.
+Sonar line_array_sonar(double view_azimuth_deg) {
+    SonarConfig config = calibrated(default_sonar(SonarKind::imaging), 1e6);
+    config.azimuth_deg = 60.0;
+    config.elevation_deg = 178.0;
+    config.range_min_m = 1.0;
+    config.range_max_m = 3.0;
+    config.range_bins = 100;
+    config.azimuth_bins = 64;
+    config.instrument.beam.view_azimuth_deg = view_azimuth_deg;
+    return make_sonar(config, {0.005});
+}
+
+/// The expected image of a ball 2 m off in this direction.
+std::vector<float> image_of_ball(const Sonar& sonar, double azimuth_rad, double elevation_rad) {
+    Scene scene = empty_scene();
+    const Eigen::Vector3d centre = 2.0 * direction_of(azimuth_rad, elevation_rad);
+    add_sphere(scene, centre.cast<float>(), 0.1F, add_material(scene, 0.4F));
+    return expected_image(sonar, scene, EngineType::rays);
+}
+
+}  // namespace
+
+TEST_SUITE("calibrated") {
+    TEST_CASE("beams are cones: a ball high up and far aside sounds as one at the same y / r") {
+        // y / r = sin(azimuth) cos(elevation) is 0.3214 in both places.
+        const double azimuth = radians(70.0);
+        const double elevation = radians(70.0);
+        const double same = arcsin(sincos(azimuth).sin * sincos(elevation).cos);
+        const Sonar narrow = line_array_sonar(0.0);
+        const Sonar wide = line_array_sonar(180.0);
+        CHECK(narrow.settings.guard_beams.count == 0);
+        CHECK(wide.settings.guard_beams.count == 64);
+        const std::vector<float> ahead = image_of_ball(narrow, same, 0.0);
+        CHECK(std::ranges::max(ahead) > 0.0F);
+        CHECK(std::ranges::max(image_of_ball(narrow, azimuth, elevation)) == 0.0F);
+        CHECK(image_error(image_of_ball(wide, azimuth, elevation), ahead).relative_l1 < 0.03);
+        CHECK(image_error(image_of_ball(wide, same, 0.0), ahead).relative_l1 < 0.03);
+    }
+
+    TEST_CASE("guard beams may be wider than the bins of the view: the ball sounds the same") {
+        const double azimuth = radians(70.0);
+        const double elevation = radians(70.0);
+        const Sonar by_bins = line_array_sonar(180.0);
+        Sonar wide = by_bins;
+        // As wide as two bins, in the same 60 degrees to either side.
+        wide.settings.guard_beams = {.count = 32, .beam_rad = radians(60.0) / 32};
+        const View widened = widened_view(wide.settings.view, wide.settings.guard_beams);
+        CHECK(std::fabs(widened.azimuth_rad - radians(180.0)) < 1e-9);
+        for (const double side : {-1.0, 1.0}) {
+            const std::vector<float> narrow = image_of_ball(by_bins, side * azimuth, elevation);
+            const std::vector<float> coarse = image_of_ball(wide, side * azimuth, elevation);
+            CHECK(std::ranges::max(narrow) > 0.0F);
+            CHECK(image_error(coarse, narrow).relative_l1 < 0.02);
+        }
+    }
+}

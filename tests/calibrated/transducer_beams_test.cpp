@@ -1,0 +1,267 @@
+#include "calibrated/transducer_beams.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <vector>
+
+#include "calibrated/model.h"
+#include "calibrated/near_field.h"
+#include "calibrated/piston.h"
+#include "core/elementary.h"
+#include "core/units.h"
+#include "support/calibrated.h"
+
+using namespace sonarsim;
+using namespace sonarsim::test;
+
+namespace {
+
+constexpr int sounder_bins = 190;
+
+/// An echosounder with bins of 5 cm from 0.5 to 10 m; no noise, no absorption made up for.
+CalibratedModel sounder(double width_deg, double resolution_m = 0.05) {
+    InstrumentConfig config = bare({});
+    config.frequency_hz = 2e5;
+    config.beam.aperture = Aperture::piston;
+    config.beam.width_deg = width_deg;
+    config.pulse.resolution_m = resolution_m;
+    const View view{.azimuth_rad = 1.2,
+                    .elevation_rad = 1.2,
+                    .range_min_m = 0.5,
+                    .range_max_m = 10.0,
+                    .range_bins = sounder_bins,
+                    .beams = 1};
+    return calibrated_model(config, {}, view, {});
+}
+
+std::vector<float> image_of(const CalibratedModel& model, const std::vector<Sample>& surface) {
+    Samples samples;
+    samples.items = surface;
+    return image_of_samples(model, {.range_bins = sounder_bins, .beams = 1}, samples, {});
+}
+
+double energy_of(const CalibratedModel& model, const std::vector<Sample>& surface) {
+    double sum = 0.0;
+    for (const float value : image_of(model, surface))
+        sum += value;
+    return sum;
+}
+
+/// sigma of that rock by the sine of the grazing angle, docs/calibrated.md: Lambert's rule of -27
+/// dB and facets whose slopes are those of 10 degrees.
+double strength_of_rock(double sine) {
+    const double s2 = std::pow(std::tan(radians(10.0)), 2.0);
+    const double tan2 = sine * sine / (1.0 - sine * sine + 1e-300);
+    return std::pow(10.0, -2.7) * sine * sine +
+           0.4 / (8.0 * pi * s2 * std::pow(sine, 4.0)) * std::exp(-1.0 / (2.0 * s2 * tan2));
+}
+
+/// The power of the pulse, by range bins off its middle. Its band has the shape of the pattern of
+/// a line array, here of one that is 1 mrad wide; the pulse is 1 bin wide between half powers.
+double pulse_power(double bins) {
+    static const LineArray band = line_array(1e-3, -30.0);
+    return std::pow(line_pattern(band, bins * 1e-3), 2.0);
+}
+
+/// What a plane bottom, `depth_m` below an echosounder with bins of 5 cm, sends back by range.
+double bottom_echo(const CalibratedModel& model, double width_deg, double depth_m, double range_m) {
+    const double cosine = depth_m / range_m;
+    const double sine = std::sqrt(1.0 - cosine * cosine);
+    const double pattern = piston_pattern(piston_scale(radians(width_deg)) * sine);
+    return strength_of_rock(cosine) * 2.0 * pi * std::pow(range_m, -3.0) * std::pow(pattern, 4.0) *
+           std::pow(10.0, -0.2 * model.absorption_db_per_m * range_m);
+}
+
+Sample patch_at(double x, double y, double z, double side_m) {
+    const auto half = static_cast<float>(0.5 * side_m);
+    const auto range = static_cast<float>(std::sqrt(x * x + y * y + z * z));
+    return {.position = {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)},
+            .edge_u = {0.0F, half, 0.0F},
+            .edge_v = {0.0F, 0.0F, half},
+            .normal = {-1.0F, 0.0F, 0.0F},
+            .height_m = range,
+            .area_m2 = 4.0F * half * half,
+            .material = 0,
+            .instance = 0};
+}
+
+}  // namespace
+
+TEST_SUITE("calibrated") {
+    TEST_CASE("piston: axis, half power, first null, first side lobe") {
+        CHECK(std::fabs(piston_pattern(0.0) - 1.0) < 1e-12);
+        const double width = radians(7.0);
+        const double half = piston_pattern(piston_scale(width) * std::sin(0.5 * width));
+        CHECK(std::fabs(half * half - 0.5) < 1e-8);
+        // J1 is 0 at 3.8317059702; 2 J1(x) / x is least at 5.1356223018, where it is -0.132280.
+        CHECK(std::fabs(piston_pattern(3.8317059702)) < 1e-9);
+        CHECK(std::fabs(piston_pattern(5.1356223018) + 0.132280) < 1e-6);
+        // A long way off: J1(40) = 0.126038318.
+        CHECK(std::fabs(piston_pattern(40.0) - 2.0 * 0.126038318 / 40.0) < 1e-8);
+    }
+
+    TEST_CASE("near field: on the axis of an array without taper, Fresnel's integral") {
+        // 100 wavelengths of 1 mm: L = 0.1 m, L^2 / lambda = 10 m. At r the amplitude on the axis
+        // is (C(w) - i S(w)) / w, w = L / sqrt(2 lambda r), with sign by the sense of the phase.
+        LineArray array;
+        array.wavelengths = 100.0;
+        const double wavelength = 1e-3;
+        // r = L^2 / (2 lambda) = 5 m: w = 1, C(1) = 0.7798934, S(1) = 0.4382591.
+        const double near = std::abs(unfocused_pattern(array, 0.0, wavelength, 1.0 / 5.0));
+        CHECK(std::fabs(near / std::hypot(0.7798934, 0.4382591) - 1.0) < 2e-3);
+        // Far away nothing of it is left.
+        CHECK(std::fabs(std::abs(unfocused_pattern(array, 0.0, wavelength, 0.0)) - 1.0) < 1e-9);
+    }
+
+    TEST_CASE("near field: the beam is as wide as the array is long") {
+        LineArray array;
+        array.wavelengths = 200.0;
+        const double wavelength = 1e-3;  // 0.2 m; the far field begins beyond 40 m
+        const UnfocusedBeam beam = unfocused_beam(array, wavelength, 4.0, 0.05);
+        const double axis = std::abs(beam.at(0.0F, 4.0F));
+        // 0.07 m and 0.17 m off the axis, 4 m away, in front of the array and beyond its end.
+        CHECK(std::abs(beam.at(0.07F / 4.0F, 4.0F)) > 0.5 * axis);
+        CHECK(std::abs(beam.at(0.17F / 4.0F, 4.0F)) < 0.1 * axis);
+    }
+
+    TEST_CASE("near field: the table is the pattern") {
+        const LineArray array = line_array(radians(0.5), -20.0);
+        const double wavelength = 2e-3;
+        const UnfocusedBeam beam = unfocused_beam(array, wavelength, 2.0, 0.03);
+        const double peak = std::norm(unfocused_pattern(array, 0.0, wavelength, 1.0 / 20.0));
+        for (const double u : {-0.021, -0.004, 0.0013, 0.0077}) {
+            const std::complex<double> one_way =
+                unfocused_pattern(array, u, wavelength, 1.0 / 20.0);
+            const std::complex<double> entry = beam.at(static_cast<float>(u), 20.0F);
+            CHECK(std::abs(entry - one_way * one_way) < 0.02 * peak);
+        }
+    }
+
+    TEST_CASE("echosounder: a small plate off the axis is weighed by the disc's pattern") {
+        const CalibratedModel model = sounder(10.0);
+        const double on_axis = energy_of(model, {patch_at(5.0, 0.0, 0.0, 0.01)});
+        REQUIRE(on_axis > 0.0);
+        // In y or in z at half of the width, the power is a quarter there and back. The same angle
+        // of grazing takes a plate on an arc; let it face the sonar.
+        const double angle = radians(5.0);
+        for (const bool up : {false, true}) {
+            const double across = 5.0 * std::sin(angle);
+            Sample off =
+                patch_at(5.0 * std::cos(angle), up ? 0.0 : across, up ? across : 0.0, 0.01);
+            off.normal = -off.position.normalized();
+            const double ratio = energy_of(model, {off}) / on_axis;
+            CHECK(std::fabs(ratio / 0.25 - 1.0) < 0.02);
+        }
+    }
+
+    TEST_CASE("echosounder: a small plate on the axis sends back the energy of the equation") {
+        // Over all bins the echo has the power of the sonar equation times the integral of the
+        // pulse's power. That is more than its width between half powers: by 4.2 % (0.18 dB) for
+        // a taper of -30 dB, within three widths. The spline that stands for a pulse of one bin
+        // swings below 0, where powers are cut off: another 1.2 %, of echoes that stand alone.
+        double pulse_widths = 0.0;
+        for (double widths = -3.0; widths < 3.0; widths += 0.01)
+            pulse_widths += 0.01 * pulse_power(widths + 0.005);
+        CHECK(std::fabs(pulse_widths - 1.042) < 1e-3);
+        for (const double bins : {1.0, 2.0, 3.0}) {
+            const CalibratedModel model = sounder(10.0, 0.05 * bins);
+            for (const double range : {2.0, 5.0, 8.01}) {
+                const double power = strength_of_rock(1.0) * 1e-4 * std::pow(range, -4.0) *
+                                     std::pow(10.0, -0.2 * model.absorption_db_per_m * range);
+                const double energy = energy_of(model, {patch_at(range, 0.0, 0.0, 0.01)});
+                const double ratio = energy / (power * pulse_widths * bins);
+                MESSAGE("bins ", bins, ": ", ratio);
+                CHECK(std::fabs(ratio - 1.0) < (bins < 2.0 ? 0.015 : 0.005));
+            }
+        }
+    }
+
+    TEST_CASE("echosounder: the echo of a plane bottom, its shape and how it dies away") {
+        // At depth h the bottom at range r is a ring of area 2 pi r dr (its radius is the root of
+        // r^2 - h^2) that is seen at a grazing angle of sine h / r, as far off the axis as its
+        // cosine says. Its echo by range, bottom_echo() dr, is smeared by the power of the pulse.
+        constexpr double depth = 5.0;
+        constexpr double width_deg = 40.0;
+        constexpr double patch = 0.04;
+        const CalibratedModel model = sounder(width_deg);
+        std::vector<Sample> bottom;
+        for (double y = -3.5; y < 3.5; y += patch) {
+            for (double z = -3.5; z < 3.5; z += patch) {
+                bottom.push_back(patch_at(depth, y + 0.5 * patch, z + 0.5 * patch, patch));
+                bottom.back().height_m = static_cast<float>(depth);
+            }
+        }
+        const std::vector<float> image = image_of(model, bottom);
+        constexpr double bin_m = 0.05;
+        constexpr int steps = 200;  // of a bin
+        double energy = 0.0;
+        double of_equation = 0.0;
+        for (int row = 85; row < 106; ++row) {  // 4.75 to 5.8 m
+            const double middle = 0.5 + bin_m * (row + 0.5);
+            double expected = 0.0;
+            for (int k = -3 * steps; k < 3 * steps; ++k) {
+                const double off = (k + 0.5) / steps;
+                const double range = middle + bin_m * off;
+                if (range < depth) continue;
+                expected +=
+                    bottom_echo(model, width_deg, depth, range) * pulse_power(off) * bin_m / steps;
+            }
+            energy += image[row];
+            of_equation += expected;
+            // Two bins behind the front, where the spline that stands for a pulse of one bin is
+            // as good as the pulse.
+            if (row >= 92) CHECK(std::fabs(image[row] / expected - 1.0) < 0.03);
+        }
+        MESSAGE("energy by that of the equation: ", energy / of_equation);
+        CHECK(std::fabs(energy / of_equation - 1.0) < 0.01);
+        // No echo above the bottom but for the pulse's side lobes.
+        CHECK(image[84] < 1e-3F * image[90]);
+        CHECK(image[90] > 3.0F * image[100]);
+    }
+
+    TEST_CASE("near field: the table of a long array, quick to make, is the pattern") {
+        // 0.1 degrees at 900 kHz, 0.83 m long: the far field begins beyond 400 m.
+        const LineArray array = line_array(radians(0.1), -13.3);
+        const double wavelength = 1480.0 / 9e5;
+        const UnfocusedBeam beam = unfocused_beam(array, wavelength, 0.5, 0.035);
+        for (const double range : {1.0, 3.0, 10.0, 200.0}) {
+            double peak = 0.0;
+            double worst = 0.0;
+            for (double u = -0.03; u < 0.03; u += 0.00137) {
+                const std::complex<double> one_way =
+                    unfocused_pattern(array, u, wavelength, 1.0 / range);
+                const std::complex<double> entry =
+                    beam.at(static_cast<float>(u), static_cast<float>(range));
+                peak = std::max(peak, std::norm(one_way));
+                worst = std::max(worst, std::abs(entry - one_way * one_way));
+            }
+            CHECK(worst < 0.05 * peak);
+        }
+    }
+
+    TEST_CASE("near field: so is the table that transforms fill") {
+        // 0.1 degrees seen to 80 degrees off the axis: sums would take a minute.
+        const LineArray array = line_array(radians(0.1), -20.0);
+        const double wavelength = 1480.0 / 1e6;
+        const UnfocusedBeam beam =
+            unfocused_beam(array, wavelength, 0.5, sincos(radians(80.0)).sin);
+        for (const double range : {1.0, 3.0, 10.0, 200.0}) {
+            double peak = 0.0;
+            double worst = 0.0;
+            for (double u = -0.98; u < 0.98; u += 0.0337) {
+                for (const double at : {u, 0.03 * u}) {
+                    const std::complex<double> one_way =
+                        unfocused_pattern(array, at, wavelength, 1.0 / range);
+                    const std::complex<double> entry =
+                        beam.at(static_cast<float>(at), static_cast<float>(range));
+                    peak = std::max(peak, std::norm(one_way));
+                    worst = std::max(worst, std::abs(entry - one_way * one_way));
+                }
+            }
+            CHECK(worst < 0.05 * peak);
+        }
+    }
+}

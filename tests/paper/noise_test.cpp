@@ -1,0 +1,217 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "paper/pixel_noise.h"
+#include "paper/range_noise.h"
+#include "support/sanitized.h"
+#include "support/statistics.h"
+
+using namespace sonarsim;
+using namespace sonarsim::test;
+
+namespace {
+
+constexpr int tests = 11;  // p-values in this file, for Sidak's correction
+
+double normal_cdf(double x) {
+    return 0.5 * std::erfc(-x / std::sqrt(2.0));
+}
+
+/// One echo of intensity 1 at 5 m in each of n cells of a row.
+Echoes row_of_cells(int n) {
+    Echoes echoes;
+    echoes.resize(n, true);
+    for (int k = 0; k < n; ++k) {
+        echoes.range_m[k] = 5.0F;
+        echoes.half_m[k] = 0.0F;
+        echoes.weight[k] = 1.0F;
+        echoes.intensity[k] = 1.0F;
+        const CellName name = cell_name(k - n / 2, 3, -1);
+        echoes.cell_low[k] = name.low;
+        echoes.cell_high[k] = name.high;
+    }
+    return echoes;
+}
+
+std::vector<float> noisy(float value, int rows, int columns, float add, float mult,
+                         std::uint32_t ping) {
+    std::vector<float> image(static_cast<std::size_t>(rows) * columns, value);
+    const PixelNoise noise{0.5F, add, mult, std::vector<float>(rows, 1.0F),
+                           std::vector<float>(columns, 1.0F)};
+    add_pixel_noise(image, noise, stream_key(5, 2, ping, Stream::pixel_noise));
+    return image;
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("ping");
+
+TEST_CASE("range noise is exponential of the stated mean and fades as exp(-w / lambda)") {
+    constexpr float lambda = 0.1F;
+    Echoes echoes = row_of_cells(100000);
+    add_range_noise(echoes, {.lambda_m = lambda, .fades = true},
+                    stream_key(1, 2, 3, Stream::range_noise));
+    std::vector<double> w;
+    for (std::size_t k = 0; k < echoes.size(); ++k) {
+        const double late = echoes.range_m[k] - 5.0;
+        CHECK(late >= 0.0);
+        // Ranges near 5 m are floats 5e-7 apart: w is known to 1e-6, its exponential to 1e-5.
+        // The ratio: of small numbers doctest::Approx allows the epsilon itself.
+        CHECK(echoes.intensity[k] / std::exp(-late / lambda) == doctest::Approx(1.0).epsilon(2e-4));
+        w.push_back(-lambda * std::log(static_cast<double>(echoes.intensity[k])));
+    }
+    CHECK(ks_p_value(w, [](double x) { return 1.0 - std::exp(-x / lambda); }) > sidak(tests));
+    CHECK(mean(w) / lambda == doctest::Approx(1.0).epsilon(0.02));
+}
+
+TEST_CASE("range noise that does not fade keeps the intensity") {
+    Echoes echoes = row_of_cells(1000);
+    add_range_noise(echoes, {.lambda_m = 0.1F, .fades = false},
+                    stream_key(1, 2, 3, Stream::range_noise));
+    for (std::size_t k = 0; k < echoes.size(); ++k)
+        CHECK(echoes.intensity[k] == 1.0F);
+}
+
+TEST_CASE("one cell has one draw, whatever the order and number of its echoes") {
+    const PhiloxKey key = stream_key(9, 0, 0, Stream::range_noise);
+    Echoes forward = row_of_cells(500);
+    Echoes backward = row_of_cells(500);
+    std::reverse(backward.cell_low.begin(), backward.cell_low.end());
+    std::reverse(backward.cell_high.begin(), backward.cell_high.end());
+    add_range_noise(forward, {.lambda_m = 0.2F, .fades = true}, key);
+    add_range_noise(backward, {.lambda_m = 0.2F, .fades = true}, key);
+    for (int k = 0; k < 500; ++k)
+        CHECK(forward.range_m[k] == backward.range_m[499 - k]);
+}
+
+TEST_CASE("cells have names of their own") {
+    constexpr std::int32_t far = 1 << 20;
+    std::set<std::pair<std::uint32_t, std::uint32_t>> names;
+    for (const std::int32_t x : {-far, -1, 0, 1, far - 1}) {
+        for (const std::int32_t y : {-far, -1, 0, 1, far - 1}) {
+            for (const std::int32_t z : {-far, -1, 0, 1, far - 1}) {
+                const CellName name = cell_name(x, y, z);
+                names.insert({name.low, name.high});
+            }
+        }
+    }
+    CHECK(names.size() == 125);
+}
+
+TEST_CASE("neighbouring cells and successive pings are uncorrelated") {
+    constexpr int n = 100000;
+    std::vector<double> now, next;
+    Echoes a = row_of_cells(n);
+    Echoes b = row_of_cells(n);
+    add_range_noise(a, {.lambda_m = 1.0F, .fades = true}, stream_key(1, 2, 3, Stream::range_noise));
+    add_range_noise(b, {.lambda_m = 1.0F, .fades = true}, stream_key(1, 2, 4, Stream::range_noise));
+    double neighbours = 0.0;
+    double pings = 0.0;
+    for (int k = 0; k + 1 < n; ++k) {
+        // Centred uniforms have variance 1/12; a correlation of independent ones has a standard
+        // deviation of 1 / sqrt(n).
+        neighbours += 12.0 * (a.intensity[k] - 0.5) * (a.intensity[k + 1] - 0.5) / n;
+        pings += 12.0 * (a.intensity[k] - 0.5) * (b.intensity[k] - 0.5) / n;
+    }
+    CHECK(std::fabs(neighbours) < 4.5 / std::sqrt(n));
+    CHECK(std::fabs(pings) < 4.5 / std::sqrt(n));
+}
+
+TEST_CASE("additive noise is Rayleigh") {
+    const std::vector<float> image = noisy(0.0F, 300, 257, 0.2F, 0.0F, 0);
+    const std::vector<double> draws(image.begin(), image.end());
+    CHECK(ks_p_value(draws, [](double x) { return 1.0 - std::exp(-0.5 * x * x / 0.04); }) >
+          sidak(tests));
+}
+
+TEST_CASE("multiplicative noise is Gaussian about one half") {
+    const std::vector<float> image = noisy(1.0F, 300, 257, 0.0F, 0.1F, 0);
+    const std::vector<double> draws(image.begin(), image.end());
+    CHECK(ks_p_value(draws, [](double x) { return normal_cdf((x - 0.5) / 0.1); }) > sidak(tests));
+}
+
+TEST_CASE("each quarter of a block of pixels follows the laws by itself" *
+          doctest::skip(test::sanitized)) {
+    // Pixels share counters of Philox: normal draws in fours, 32 pixels apart, Rayleigh draws in
+    // twos, 64 apart.
+    constexpr int blocks = 800;
+    const std::vector<float> normal = noisy(1.0F, blocks, 128, 0.0F, 0.1F, 1);
+    const std::vector<float> rayleigh = noisy(0.0F, blocks, 128, 0.2F, 0.0F, 1);
+    const auto quarter_of = [](const std::vector<float>& image, int quarter) {
+        std::vector<double> draws;
+        for (int k = 0; k < blocks * 32; ++k)
+            draws.push_back(image[k / 32 * 128 + quarter * 32 + k % 32]);
+        return draws;
+    };
+    const auto correlation = [](const std::vector<double>& a, const std::vector<double>& b) {
+        double sum = 0.0;
+        for (std::size_t k = 0; k < a.size(); ++k)
+            sum += (a[k] - mean(a)) * (b[k] - mean(b));
+        const double n = static_cast<double>(a.size());
+        return sum / (n * n * standard_error(a) * standard_error(b));
+    };
+    std::vector<std::vector<double>> normals, rayleighs;
+    for (int quarter = 0; quarter < 4; ++quarter) {
+        normals.push_back(quarter_of(normal, quarter));
+        rayleighs.push_back(quarter_of(rayleigh, quarter));
+        CHECK(ks_p_value(normals.back(), [](double x) { return normal_cdf((x - 0.5) / 0.1); }) >
+              sidak(tests));
+        CHECK(ks_p_value(rayleighs.back(), [](double x) {
+                  return 1.0 - std::exp(-0.5 * x * x / 0.04);
+              }) > sidak(tests));
+    }
+    for (int a = 0; a < 4; ++a) {
+        for (int b = 0; b < a; ++b) {
+            CHECK(std::fabs(correlation(normals[a], normals[b])) < 4.5 / std::sqrt(blocks * 32.0));
+            CHECK(std::fabs(correlation(rayleighs[a], rayleighs[b])) <
+                  4.5 / std::sqrt(blocks * 32.0));
+        }
+    }
+}
+
+TEST_CASE("what lights a pixel does not change what the others draw") {
+    // Where a block of pixels is dark, nothing is drawn for the multiplicative noise.
+    std::vector<float> dark(3 * 128, 0.0F);
+    std::vector<float> lit = dark;
+    lit[130] = 1.0F;
+    const PixelNoise noise{0.5F, 0.2F, 0.3F, std::vector<float>(3, 1.0F),
+                           std::vector<float>(128, 1.0F)};
+    add_pixel_noise(dark, noise, {7, 8});
+    add_pixel_noise(lit, noise, {7, 8});
+    for (std::size_t k = 0; k < dark.size(); ++k)
+        CHECK((dark[k] == lit[k]) == (k != 130));
+}
+
+TEST_CASE("the additive noise grows with the row's and the column's scale") {
+    std::vector<float> image(2 * 4000, 0.0F);
+    std::vector<float> lobe(4000, 1.0F);
+    std::fill(lobe.begin() + 2000, lobe.end(), 1.5F);
+    add_pixel_noise(image, {0.5F, 0.1F, 0.0F, {0.25F, 1.0F}, lobe}, {1, 2});
+    const double expected = 0.1 * std::sqrt(std::acos(-1.0) / 2.0);  // mean of a Rayleigh
+    const double scales[] = {0.25, 0.375, 1.0, 1.5};
+    for (int block = 0; block < 4; ++block) {
+        const std::vector<double> draws(image.begin() + block * 2000,
+                                        image.begin() + (block + 1) * 2000);
+        CHECK(std::fabs(mean(draws) - scales[block] * expected) < 4.5 * standard_error(draws));
+    }
+}
+
+TEST_CASE("negative pixels become zero and are counted") {
+    std::vector<float> image(10000, 1.0F);
+    const std::uint64_t negative = add_pixel_noise(
+        image, {0.5F, 0.0F, 1.0F, std::vector<float>(100, 1.0F), std::vector<float>(100, 1.0F)},
+        {3, 4});
+    std::uint64_t zeros = 0;
+    for (const float x : image) {
+        CHECK(x >= 0.0F);
+        zeros += x == 0.0F;
+    }
+    CHECK(zeros == negative);
+    // P(0.5 + N(0, 1) < 0) = Phi(-0.5) = 0.3085, standard deviation 0.0046 over 10,000.
+    CHECK(static_cast<double>(negative) / 3085.0 == doctest::Approx(1.0).epsilon(0.07));
+}
+
+TEST_SUITE_END();

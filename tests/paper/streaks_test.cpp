@@ -1,0 +1,63 @@
+#include "paper/streaks.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "sonar/sonar.h"
+#include "support/scenes.h"
+#include "visibility/rays/rays_engine.h"
+
+using namespace sonarsim;
+using namespace sonarsim::test;
+
+TEST_SUITE_BEGIN("ping");
+
+TEST_CASE("a row becomes a streak when its share at normal incidence reaches the threshold") {
+    RowAreas areas(4);
+    areas.all = {1.0F, 1.0F, 1.0F, 0.0F};
+    const std::vector<float> normal{0.5F, 0.25F, 0.125F, 0.0F};
+    for (std::size_t i = 0; i < normal.size(); ++i)
+        areas.normal.begins[i + 1].weight = normal[i];
+    const std::vector<float> image{0.5F, 1.5F, 0.2F, -0.5F, 0.3F, 2.0F, 0.4F, 0.4F};
+    std::vector<float> added = image;
+    CHECK(add_streaks(added, areas, {StreakMode::add, 0.25F, 0.99F}) == 2);
+    // 1 - (1 - I)^2 of I in [0, 1]: 0.75, 1 (1.5 clamped), 0.36, 0 (-0.5 clamped).
+    const std::vector<float> expected{0.75F, 1.0F, 0.36F, 0.0F, 0.3F, 2.0F, 0.4F, 0.4F};
+    for (std::size_t k = 0; k < image.size(); ++k)
+        CHECK(std::fabs(added[k] - expected[k]) < 1e-6);
+    std::vector<float> reduced = image;
+    CHECK(add_streaks(reduced, areas, {StreakMode::reduce, 0.25F, 0.99F}) == 2);
+    CHECK(reduced[0] == 0.25F);
+    CHECK(reduced[1] == 1.0F);
+    CHECK(reduced[5] == 2.0F);
+}
+
+TEST_CASE("streaks come from walls seen face on") {
+    SonarConfig config;
+    config.name = "fls";
+    config.azimuth_deg = 60.0;
+    config.elevation_deg = 12.0;
+    config.range_bins = 100;
+    config.azimuth_bins = 64;
+    config.streaks.mode = StreakMode::add;
+    const auto rows = [&](float tilt) {
+        // x = 5 + tilt y: incidence is arctan(tilt) off the normal on the boresight.
+        Scene scene = empty_scene();
+        const std::uint32_t m = add_material(scene, 0.5F);
+        add_quad(scene, {5 - 9 * tilt, -9, -9}, {5 + 9 * tilt, 9, -9}, {5 + 9 * tilt, 9, 9},
+                 {5 - 9 * tilt, -9, 9}, m);
+        return render_ping(make_sonar(config, {}), scene, *make_rays_engine(scene), Pose{}, {})
+            .counts.streak_rows;
+    };
+    // Face on, the normal is in view. Of a wall at distance D, ranges below D / cos 8 degrees are
+    // within 8 degrees of it: 5 to 5.049 m, less than a bin of 0.099 m: one row, or two.
+    CHECK(rows(0.0F) >= 1);
+    CHECK(rows(0.0F) <= 2);
+    // At 45 degrees the nearest to normal that is seen is 45 - 30 degrees.
+    CHECK(rows(1.0F) == 0);
+    config.streaks.mode = StreakMode::none;
+    CHECK(rows(0.0F) == 0);
+}
+
+TEST_SUITE_END();

@@ -1,0 +1,79 @@
+#include "trace/arrivals.h"
+
+#include <doctest/doctest.h>
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <random>
+
+using namespace sonarsim;
+
+namespace {
+
+bool same_bits(float a, float b) {
+    return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b);
+}
+
+/// Points from a micrometre to a thousand kilometres off, in all directions and on the axes.
+template <class Visit>
+void for_each_point(Visit visit) {
+    std::mt19937 random(20);
+    std::uniform_real_distribution<float> side(-1.0F, 1.0F);
+    std::uniform_real_distribution<float> exponent(-6.0F, 6.0F);
+    for (int k = 0; k < 100'000; ++k) {
+        Eigen::Vector3f point(side(random), side(random), side(random));
+        if (k % 7 == 0) point[k % 3] = 0.0F;
+        if (k % 11 == 0) point = Eigen::Vector3f::Unit(k % 3);
+        visit(Eigen::Vector3f(point * std::pow(10.0F, exponent(random))));
+    }
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("trace");
+
+TEST_CASE("arrivals: in still water they are the geometry, to the last bit") {
+    for_each_point([](const Eigen::Vector3f& point) {
+        const float range = point.norm();
+        const Arrival arrival = arrival_of(point);
+        REQUIRE(same_bits(arrival.range_m, range));
+        REQUIRE(same_bits(arrival_range(point), range));
+        const ArrivalLane lane = arrival_at(point.x(), point.y(), point.z());
+        REQUIRE(same_bits(lane.range_m, range));
+        const std::array<float, 3> lane_direction{lane.x, lane.y, lane.z};
+        for (int axis = 0; axis < 3; ++axis) {
+            const float expected = point[axis] / range;
+            REQUIRE(same_bits(arrival.direction[axis], expected));
+            REQUIRE(same_bits(arrival.departure[axis], expected));
+            REQUIRE(same_bits(lane_direction[axis], expected));
+        }
+    });
+}
+
+TEST_CASE("arrivals: pieces have the range that double precision gives them") {
+    // A relative error of 2^-24 each of a product, two fused sums and a root, of which the first
+    // three are halved by the root: 2.5 in all. In double the expected value is off as well.
+    for_each_point([](const Eigen::Vector3f& point) {
+        const double x = point.x();
+        const double y = point.y();
+        const double z = point.z();
+        const double exact = std::sqrt(x * x + y * y + z * z);
+        const float range = piece_range(point.x(), point.y(), point.z());
+        REQUIRE(std::fabs(range - exact) <= 2.5 * 0x1p-24 * exact);
+        alignas(32) std::array<float, 8> lanes;
+        _mm256_store_ps(lanes.data(),
+                        piece_range(_mm256_set1_ps(point.x()), _mm256_set1_ps(point.y()),
+                                    _mm256_set1_ps(point.z())));
+        for (const float lane : lanes)
+            REQUIRE(same_bits(lane, range));
+        REQUIRE(std::fabs(piece_range(x, y, z) - exact) <= 5.0 * 0x1p-53 * exact);
+    });
+}
+
+TEST_CASE("arrivals: a path's range is half its length") {
+    CHECK(arrival_range(3.0F, 4.5F) == 3.75F);
+    CHECK(arrival_range(2.0F, 2.0F) == 2.0F);
+}
+
+TEST_SUITE_END();

@@ -1,0 +1,290 @@
+#include "trace/multipath.h"
+
+#include <doctest/doctest.h>
+
+#include <array>
+#include <cmath>
+#include <functional>
+
+#include "core/units.h"
+#include "paper/multipath_echoes.h"
+#include "sonar/sonar.h"
+#include "support/bounces.h"
+#include "support/scenes.h"
+#include "visibility/rays/rays_engine.h"
+
+using namespace sonarsim;
+using namespace sonarsim::test;
+
+namespace {
+
+/// What the geometry of a scene says of a sample at p_i: range, azimuth and intensity, or no echo
+/// where the intensity is not positive.
+struct Expected {
+    double range;
+    double azimuth;
+    double intensity;
+};
+
+/// From the mirror image s of the sonar, the second point p and the direction q that leaves it.
+Expected expected(const Eigen::Vector3d& s, const Eigen::Vector3d& p, const Eigen::Vector3d& q,
+                  double reflections) {
+    return {0.5 * ((p - s).norm() + p.norm()), std::atan2(p.y(), p.x()),
+            -reflections * q.normalized().dot(p.normalized())};
+}
+
+double beam_of_azimuth(const View& view, double azimuth) {
+    return (azimuth / view.azimuth_rad + 0.5) * view.beams;
+}
+
+/// Each bounce lies where the geometry says, and so do points nearby on its footprint.
+void check_against(const Found& found, const View& view,
+                   const std::function<Expected(const Eigen::Vector3d&)>& geometry) {
+    for (const BouncePath& b : found.bounces) {
+        const Sample& sample = found.samples.items[b.sample];
+        const Eigen::Vector3d at = sample.position.cast<double>();
+        const Expected truth = geometry(at);
+        CHECK(std::fabs(b.range_m - truth.range) < 1e-4);
+        CHECK(std::fabs(b.beam - beam_of_azimuth(view, truth.azimuth)) < 1e-2);
+        CHECK(std::fabs(b.intensity - truth.intensity) < 1e-4);
+        constexpr double step = 1e-3;
+        const auto edge = [&](const Eigen::Vector3f& half, float of_range, float of_beam) {
+            // Beside an edge of the scene a footprint may stick out of the plane a little.
+            if (std::fabs(half.dot(sample.normal)) > 1e-5F) return;
+            const Expected ahead = geometry(at + step * half.cast<double>());
+            const Expected behind = geometry(at - step * half.cast<double>());
+            CHECK(std::fabs(of_range - (ahead.range - behind.range) / (2.0 * step)) < 1e-4);
+            CHECK(std::fabs(of_beam - (beam_of_azimuth(view, ahead.azimuth) -
+                                       beam_of_azimuth(view, behind.azimuth)) /
+                                          (2.0 * step)) < 1e-3);
+        };
+        edge(sample.edge_u, b.range_u, b.beam_u);
+        edge(sample.edge_v, b.range_v, b.beam_v);
+    }
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("ping");
+
+TEST_CASE("multipath between two perpendicular walls") {
+    // Walls y = a and x = b. Mirrored in the first, the sonar is at s = (0, 2a, 0); the line from
+    // there through p_i = (x, a, z) meets x = b at p = s + (b / x) (p_i - s), which turns the x of
+    // its direction. The other way round the same with x and y exchanged.
+    constexpr double a = 2.0;
+    constexpr double b = 5.0;
+    Scene scene = empty_scene();
+    const std::uint32_t port = add_material(scene, 0.5F);
+    const std::uint32_t front = add_material(scene, 0.8F);
+    add_quad(scene, {0, a, -3}, {b, a, -3}, {b, a, 3}, {0, a, 3}, port);
+    add_quad(scene, {b, -9, -3}, {b, a, -3}, {b, a, 3}, {b, -9, 3}, front);
+    const View view = fan(100.0, 12.0);
+    const auto geometry = [](const Eigen::Vector3d& at) {
+        const bool on_port = at.x() < b - 1e-3;
+        const Eigen::Vector3d s =
+            on_port ? Eigen::Vector3d(0, 2 * a, 0) : Eigen::Vector3d(2 * b, 0, 0);
+        const Eigen::Vector3d out = at - s;
+        const double t = on_port ? b / at.x() : a / at.y();
+        const double turn = on_port ? -1.0 : 1.0;
+        return expected(s, s + t * out, {turn * out.x(), -turn * out.y(), out.z()}, 0.5 * 0.8);
+    };
+    for (const int epsilon : {0, 5}) {
+        const Found found = find(scene, view, clusters_of(epsilon));
+        check_against(found, view, geometry);
+        // Every sample whose path geometry closes has come back, except next to an edge.
+        std::size_t closed = 0;
+        for (const Sample& sample : found.samples.items) {
+            const Eigen::Vector3d at = sample.position.cast<double>();
+            const bool on_port = at.x() < b - 1e-3;
+            const double t = on_port ? b / at.x() : a / at.y();
+            const Eigen::Vector3d s =
+                on_port ? Eigen::Vector3d(0, 2 * a, 0) : Eigen::Vector3d(2 * b, 0, 0);
+            const Eigen::Vector3d p = s + t * (at - s);
+            const bool on_wall = t > 1.0 && std::fabs(p.z()) < 3.0 &&
+                                 (on_port ? p.y() > -9.0 && p.y() < a : p.x() > 0.0 && p.x() < b);
+            const Expected e = geometry(at);
+            const bool seen = std::fabs(std::asin(p.z() / p.norm())) < 0.5 * view.elevation_rad &&
+                              std::fabs(e.azimuth) < 0.5 * view.azimuth_rad;
+            closed += on_wall && seen && e.intensity > 0.0 && e.range < view.range_max_m;
+        }
+        REQUIRE(closed > 300);
+        CHECK(static_cast<double>(found.bounces.size()) ==
+              doctest::Approx(static_cast<double>(closed)).epsilon(0.02));
+    }
+}
+
+TEST_CASE("multipath between two parallel walls") {
+    // Walls y = a and y = -a. From p_i = (x, a, z), s = (0, 2a, 0), three times p_i - s leads to
+    // p = (3x, -a, 3z). What leaves there, (x, a, z), comes back when
+    // (x, a, z) . (-3x, a, -3z) = a^2 - 3 (x^2 + z^2) > 0.
+    constexpr double a = 1.5;
+    Scene scene = empty_scene();
+    const std::uint32_t m = add_material(scene, 0.6F);
+    for (const float y : {-1.5F, 1.5F})
+        add_quad(scene, {-1, y, -9}, {20, y, -9}, {20, y, 9}, {-1, y, 9}, m);
+    const View view = fan(170.0, 20.0);
+    const Found found = find(scene, view, clusters_of(5));
+    check_against(found, view, [](const Eigen::Vector3d& at) {
+        const double side = at.y() > 0.0 ? a : -a;
+        const Eigen::Vector3d p(3 * at.x(), -side, 3 * at.z());
+        return expected({0, 2 * side, 0}, p, {at.x(), side, at.z()}, 0.36);
+    });
+    CHECK(found.bounces.size() > 100);
+    for (const BouncePath& b : found.bounces) {
+        const Eigen::Vector3f& at = found.samples.items[b.sample].position;
+        CHECK(3.0F * (at.x() * at.x() + at.z() * at.z()) < at.y() * at.y());
+    }
+}
+
+TEST_CASE("a wall behind the field of view contributes nothing") {
+    Scene scene = empty_scene();
+    const std::uint32_t m = add_material(scene, 0.6F);
+    add_quad(scene, {4, -9, -9}, {4, 9, -9}, {4, 9, 9}, {4, -9, 9}, m);
+    add_quad(scene, {-2, -90, -90}, {-2, 90, -90}, {-2, 90, 90}, {-2, -90, 90}, m);
+    const Found found = find(scene, fan(60.0, 12.0), clusters_of(5));
+    CHECK(found.bounces.empty());
+    CHECK(found.counts.outside == found.counts.samples);
+}
+
+TEST_CASE("a convex body has no multipath") {
+    for (const int body : {0, 1, 2}) {
+        Scene scene = empty_scene();
+        const std::uint32_t m = add_material(scene, 0.6F);
+        if (body == 0) add_sphere(scene, {4, 0.3F, 0.1F}, 0.8F, m, 64);
+        if (body == 1) add_pole(scene, {3, 0.2F, -2}, 0.3F, 4.0F, m, 24);
+        if (body == 2) add_box(scene, {3, -0.5F, -0.6F}, {4, 0.7F, 0.4F}, m);
+        for (const int epsilon : {0, 5}) {
+            const Found found = find(scene, fan(60.0, 20.0), clusters_of(epsilon));
+            CHECK(found.bounces.empty());
+            CHECK(found.counts.samples > 100);
+        }
+    }
+}
+
+TEST_CASE("the second surface hidden from the sonar, or met on its back, gives no echo") {
+    // The corner of the first test, with a screen in front of where the port wall's sound meets
+    // the front wall.
+    Scene scene = empty_scene();
+    const std::uint32_t m = add_material(scene, 0.6F);
+    add_quad(scene, {0, 2, -3}, {5, 2, -3}, {5, 2, 3}, {0, 2, 3}, m);
+    add_quad(scene, {5, -9, -3}, {5, 2, -3}, {5, 2, 3}, {5, -9, 3}, m);
+    const View view = fan(100.0, 12.0);
+    const std::size_t open = find(scene, view, clusters_of(0)).bounces.size();
+    add_quad(scene, {1, -1, -1}, {1, 0.3F, -1}, {1, 0.3F, 1}, {1, -1, 1}, m);
+    for (const int epsilon : {0, 5}) {
+        const Found screened = find(scene, view, clusters_of(epsilon));
+        CHECK(screened.counts.hidden > 0);
+        CHECK(screened.bounces.size() < open);
+        for (const BouncePath& b : screened.bounces) {
+            // Behind the screen lies azimuth -45 to 16.7 degrees.
+            const double azimuth = (b.beam / view.beams - 0.5) * view.azimuth_rad;
+            if (b.range_m > 3.0F) CHECK((azimuth > 0.25 || azimuth < -0.7));
+        }
+    }
+}
+
+TEST_CASE("every sample is counted once") {
+    const Scene scene = tank();
+    for (const int epsilon : {0, 1, 5, 9}) {
+        const MultipathCounts n =
+            find(scene, fan(60.0, 12.0), clusters_of(epsilon), tank_poses()[0]).counts;
+        CHECK(n.samples ==
+              n.bounces + n.missed + n.edge_on + n.behind + n.outside + n.turned_away + n.hidden);
+        CHECK(n.clusters <= n.samples);
+    }
+}
+
+TEST_CASE("the exact method is the paper's equations, sample by sample") {
+    const Scene scene = tank();
+    const View view = fan(60.0, 12.0);
+    const Found found = find(scene, view, clusters_of(0), tank_poses()[1]);
+    const auto engine = make_rays_engine(scene);
+    std::vector<const BouncePath*> bounce_of(found.samples.items.size(), nullptr);
+    for (const BouncePath& b : found.bounces)
+        bounce_of[b.sample] = &b;
+    int differ = 0;
+    for (std::size_t i = 0; i < bounce_of.size(); ++i) {
+        const Sample& sample = found.samples.items[i];
+        const Eigen::Vector3f v = -sample.position.normalized();
+        const Eigen::Vector3f r = -v + 2.0F * sample.normal.dot(v) * sample.normal;  // Eq. 1
+        const std::array<Ray, 1> ray{Ray{sample.position + 2e-3F * sample.normal, r}};
+        std::array<Intersection, 1> hit;
+        engine->intersect(tank_poses()[1], ray, hit);
+        bool comes_back = std::isfinite(hit[0].distance_m);
+        if (comes_back) {
+            const Eigen::Vector3f p = ray[0].origin + hit[0].distance_m * r;
+            const Eigen::Vector3f n = hit[0].normal;
+            const Eigen::Vector3f q = r - 2.0F * n.dot(r) * n;
+            const float d =
+                0.5F * (sample.position.norm() + (p - sample.position).norm() + p.norm());
+            const float cosine = -q.dot(p) / p.norm();
+            const std::array<Ray, 1> look{Ray{Eigen::Vector3f::Zero(), p.normalized()}};
+            std::array<Intersection, 1> seen;
+            engine->intersect(tank_poses()[1], look, seen);
+            comes_back = beam_of(view, p) >= 0 && d < view.range_max_m && cosine > 0.0F &&
+                         n.dot(p) < 0.0F && seen[0].distance_m > 0.999F * p.norm() - 1e-3F;
+            if (comes_back && bounce_of[i]) {
+                const float reflections = scene.materials[sample.material].reflection *
+                                          scene.materials[hit[0].material].reflection;
+                // Both start a little off the surface, at different heights.
+                CHECK(std::fabs(bounce_of[i]->range_m - d) < 5e-3);
+                CHECK(std::fabs(bounce_of[i]->intensity - reflections * cosine) < 5e-3);
+            }
+        }
+        differ += comes_back != (bounce_of[i] != nullptr);
+    }
+    CHECK(found.bounces.size() > 200);
+    // Where the second point is within millimetres of an edge the two may see different sides.
+    CHECK(differ < 0.02 * static_cast<double>(found.bounces.size()));
+}
+
+TEST_CASE("multipath off is without cost and without trace") {
+    const Scene scene = tank();
+    SonarConfig config;
+    config.name = "fls";
+    const auto engine = make_rays_engine(scene);
+    const Ping off = render_ping(make_sonar(config, {}), scene, *engine, tank_poses()[0], {});
+    CHECK(off.counts.multipath.rays == 0);
+    CHECK(off.counts.streak_rows == 0);
+    // In a scene without multipath, on and off are the same bytes.
+    Scene sphere = empty_scene();
+    add_sphere(sphere, {4, 0, 0}, 0.8F, add_material(sphere, 0.6F), 64);
+    const auto round = make_rays_engine(sphere);
+    config.noise.range_lambda_m = 0.05;
+    const Ping without = render_ping(make_sonar(config, {}), sphere, *round, Pose{}, {});
+    config.multipath.method = MultipathMethod::cluster;
+    CHECK(render_ping(make_sonar(config, {}), sphere, *round, Pose{}, {}).intensity ==
+          without.intensity);
+}
+
+TEST_CASE("a footprint wider than a beam lights every beam that it covers") {
+    Samples samples;
+    Sample sample{};
+    sample.position = sample.normal = Eigen::Vector3f::UnitX();
+    sample.edge_u = sample.edge_v = Eigen::Vector3f::Zero();
+    sample.area_m2 = 2.0F;
+    samples.items.push_back(sample);
+    View view = fan(60.0, 12.0);
+    const std::vector<BouncePath> bounces{{.sample = 0,
+                                           .range_m = 5.0F,
+                                           .range_u = 0.1F,
+                                           .range_v = 0.02F,
+                                           .beam = 20.5F,
+                                           .beam_u = 3.4F,
+                                           .beam_v = 0.0F,
+                                           .intensity = 0.7F}};
+    const MultipathEchoes out = multipath_echoes(bounces, samples, view, {});
+    float weight = 0.0F;
+    for (int j = 0; j < view.beams; ++j) {
+        // Its beams: 20.5 - 3.4 to 20.5 + 3.4.
+        CHECK((out.beam_begin[j + 1] > out.beam_begin[j]) == (j >= 17 && j <= 23));
+        for (std::uint32_t k = out.beam_begin[j]; k < out.beam_begin[j + 1]; ++k) {
+            weight += out.echoes.weight[k];
+            CHECK(out.echoes.range_m[k] ==
+                  doctest::Approx(5.0 + 0.1 * (j - 20) / 3.4).epsilon(0.002));
+        }
+    }
+    CHECK(weight == doctest::Approx(2.0));
+}
+
+TEST_SUITE_END();
