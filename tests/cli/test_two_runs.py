@@ -172,6 +172,8 @@ class HeldFolder(TwoRuns):
             self.assertLess(time.monotonic(), deadline)
             time.sleep(0.005)
         process.send_signal(signal.SIGSTOP)
+        # The signal is delivered later; this returns when every thread has stopped.
+        os.waitid(os.P_PID, process.pid, os.WSTOPPED | os.WNOWAIT)
         return process
 
     def go_on(self, process):
