@@ -54,12 +54,17 @@ void describe(Visitor& v, BeamConfig& c) {
         "two-way half-power beamwidth in elevation; 0 means a constant pattern over elevation_deg");
     v.number("elevation_side_lobe_db", c.elevation_side_lobe_db, side_lobes_db,
              "highest two-way side lobe in elevation");
+    v.require(c.elevation_width_deg == 0.0 || c.elevation_width_deg >= 0.01, {"elevation_width_deg"},
+              "elevation_width_deg is 0, for a constant pattern, or at least 0.01");
 }
 
 template <class Visitor>
 void describe(Visitor& v, PulseConfig& c) {
     v.number("resolution_m", c.resolution_m, between(0, 1000),
              "half-power width in range of a point target's echo; 0 means one range bin");
+    // Speckle cells have this length. Much shorter ones overflow their number.
+    v.require(c.resolution_m == 0.0 || c.resolution_m >= 1e-6, {"resolution_m"},
+              "resolution_m is 0, for one range bin, or at least 1e-6");
     v.number("side_lobe_db", c.side_lobe_db, side_lobes_db,
              "highest range side lobe of the compressed pulse");
 }
@@ -72,6 +77,9 @@ void describe(Visitor& v, SpeckleConfig& c) {
     v.number("per_cell", c.per_cell, between(1, 30), "number of scatterers in a resolution cell");
     v.number("clutter_shape", c.clutter_shape, between(0, 100),
              "shape nu of K-distributed clutter; 0 means Rayleigh");
+    // Published sonar clutter has shapes above 0.1. At 1e-3 nearly all cells draw a power of 0.
+    v.require(c.clutter_shape == 0.0 || c.clutter_shape >= 0.05, {"clutter_shape"},
+              "clutter_shape is 0, for Rayleigh, or at least 0.05");
     v.number("clutter_m", c.clutter_m, between(1e-3, 1e3),
              "edge of the cells of the scene that share one clutter strength");
 }

@@ -93,7 +93,7 @@ TEST_SUITE("dataset") {
         const TemporaryFolder folder;
         const std::filesystem::path path = folder.path / "a.png";
         std::vector<Rgb> pixels;
-        for (int k = 0; k < 300 * 200; ++k)
+        for (std::uint32_t k = 0; k < 300 * 200; ++k)
             pixels.push_back({static_cast<std::uint8_t>(k / 300),
                               static_cast<std::uint8_t>(k % 300),
                               static_cast<std::uint8_t>(k * k)});
