@@ -77,7 +77,7 @@ void describe(Visitor& v, SpeckleConfig& c) {
     v.number("per_cell", c.per_cell, between(1, 30), "number of scatterers in a resolution cell");
     v.number("clutter_shape", c.clutter_shape, between(0, 100),
              "shape nu of K-distributed clutter; 0 means Rayleigh");
-    // Published sonar clutter has shapes above 0.1. At 1e-3 nearly all cells draw a power of 0.
+    // At much smaller shapes nearly all cells draw a power of 0.
     v.require(c.clutter_shape == 0.0 || c.clutter_shape >= 0.05, {"clutter_shape"},
               "clutter_shape is 0, for Rayleigh, or at least 0.05");
     v.number("clutter_m", c.clutter_m, between(1e-3, 1e3),

@@ -139,7 +139,8 @@ class Hostile(Sandbox):
     def test_files_that_tell_more_than_they_hold(self):
         """verify says so, and takes no memory for it."""
         def limit():
-            resource.setrlimit(resource.RLIMIT_AS, (1 << 31, 1 << 31))
+            if os.environ["SANITIZED"] != "1":  # a sanitizer reserves more memory than that
+                resource.setrlimit(resource.RLIMIT_AS, (1 << 31, 1 << 31))
         sums = (self.out / "SHA256SUMS").read_text()
         for name, data in (("fls/image/000000.png", png_header(1 << 30, 1)),
                            ("fls/image/000000.png", png_header(1 << 20, 1 << 20)),
