@@ -269,6 +269,7 @@ class Disks(Sandbox):
         self.assertIn("Read-only file system", result.stderr)
 
 
+@unittest.skipIf(os.environ["SANITIZED"] == "1", "takes minutes under a sanitizer")
 class ManySensors(Sandbox):
     def test_files_that_are_open_at_the_same_time(self):
         """2,000 sensors with a file of records and a pack each, and 256 files at most."""
