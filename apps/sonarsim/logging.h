@@ -11,7 +11,7 @@ struct LogOptions {
     bool quiet = false;  ///< warnings and errors only
     bool json = false;   ///< one JSON object per line
 
-    /// Whether the command prints its result. --quiet silences what people read; who asks for JSON
+    /// True if the command prints its result. --quiet silences what people read; who asks for JSON
     /// wants the result.
     bool prints_result() const { return json || !quiet; }
 };

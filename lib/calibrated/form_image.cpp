@@ -101,7 +101,7 @@ class ImageFormer {
         });
     }
 
-    /// Adds what is seen by way of a mirror. Where speckle is the scene's, its amplitudes are drawn
+    /// Adds the specular paths. Where speckle is the scene's, its amplitudes are drawn
     /// for the ping: their phase follows the shape of the mirror to a fraction of a wavelength,
     /// which no mesh has.
     void add_multipath(const std::vector<SpecularPath>& paths, EchoGrid& grid) {

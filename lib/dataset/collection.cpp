@@ -144,7 +144,7 @@ std::vector<std::string> seeds_shared_by(const std::vector<Member>& members) {
     return warnings;
 }
 
-/// What is written through a link does not become part of the collection.
+/// Refuses symbolic links below `out`: a collection is written into folders of its own.
 void require_no_links(const fs::path& out, const std::vector<Member>& members) {
     const auto require = [](const fs::path& path) {
         if (!fs::is_symlink(path)) return;
