@@ -68,6 +68,7 @@ Member read_member(const fs::path& from) {
 /// In an order of their own, each with a folder. InputError when a dataset is there twice.
 std::vector<Member> read_members(const std::vector<fs::path>& parts) {
     std::vector<Member> members;
+    members.reserve(parts.size());
     for (const fs::path& part : parts)
         members.push_back(read_member(part));
     const auto key = [](const Member& member) {
