@@ -28,27 +28,25 @@ ALLOWED = {
     "sonar": {"core", "mission", "scene", "visibility", "trace", "paper", "calibrated", "ping", "labels", "product"},
     "assembly": {"core", "mission", "scene", "trajectory", "visibility", "trace", "paper", "calibrated", "ping",
                  "labels", "product", "sonar"},
-    "survey": {"core", "mission", "scene", "trajectory", "visibility", "trace", "paper", "calibrated", "ping",
-               "labels", "product", "sonar", "assembly"},
     "format": {"core"},
 }
-for upper in ("dataset", "validation", "benchmark", "preview", "gallery"):
+for upper in ("dataset", "checks", "job", "validation", "benchmark", "preview", "gallery"):
     ALLOWED[upper] = set(ALLOWED)
 
 # The parts of the folders that have subfolders, from the bottom up; those in one row do not know
 # each other. "x/" is a subfolder, "x" the files x.h and x.cpp, "*" every other file of the folder.
 PARTS = {
-    "dataset": [["*"], ["writers/"], ["writers"],
-                ["layout"], ["folder_lock"], ["journal", "metadata"], ["dataset_file"],
-                ["collection_file", "description", "checksums", "ping_file_reader"], ["listed_files"],
-                ["folder", "coco/"], ["resume"], ["encode_ping", "ping_files"], ["ping_cost", "shared_files"], ["completion"],
-                ["collection", "job", "merge", "verify"], ["variants"], ["status", "variants_check"]],
+    "dataset": [["*"], ["writers/"], ["writers"], ["layout"], ["metadata"], ["dataset_file"],
+                ["description", "ping_file_reader"], ["coco/"], ["encode_ping"], ["shared_files"]],
+    "job": [["*"], ["folder_lock"], ["journal"], ["collection_file", "checksums"], ["listed_files"],
+            ["folder"], ["resume"], ["ping_files"], ["ping_cost"], ["completion"],
+            ["collection", "run_job", "merge", "verify"], ["variants"], ["status", "variants_check"]],
     "scene": [["*"], ["gltf/", "placing/"]],
     "validation": [["*"], ["hard/"]],
     "visibility": [["*"], ["octree/", "rays/", "slices/"], ["auto_engine"], ["make_engine"]],
 }
 # These folders work with what was traced, and take its ranges from arrivals.
-AFTER_THE_TRACE = {"paper", "calibrated", "ping", "labels", "product", "sonar", "assembly", "survey", "dataset"}
+AFTER_THE_TRACE = {"paper", "calibrated", "ping", "labels", "product", "sonar", "assembly", "dataset", "checks", "job"}
 RANGE_OF_POSITION = re.compile(r"\bposition\.norm\(\)|\bposition / range\b|arctan2\w*\([^)]*position")
 # Which folder alone may use a library.
 OWNERS = {

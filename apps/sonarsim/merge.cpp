@@ -1,4 +1,4 @@
-#include "dataset/merge.h"
+#include "job/merge.h"
 
 #include <spdlog/spdlog.h>
 
@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "commands.h"
-#include "dataset/collection.h"
-#include "dataset/folder_lock.h"
-#include "dataset/variants.h"
+#include "job/collection.h"
+#include "job/folder_lock.h"
+#include "job/variants.h"
 #include "logging.h"
 #include "progress.h"
 #include "signals.h"

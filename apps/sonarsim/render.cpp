@@ -11,14 +11,14 @@
 #include <utility>
 #include <vector>
 
+#include "checks/image_warnings.h"
 #include "commands.h"
 #include "core/error.h"
-#include "dataset/folder_lock.h"
-#include "dataset/image_warnings.h"
-#include "dataset/job.h"
 #include "dataset/layout.h"
 #include "dataset/split.h"
-#include "dataset/variants.h"
+#include "job/folder_lock.h"
+#include "job/run_job.h"
+#include "job/variants.h"
 #include "logging.h"
 #include "mission_options.h"
 #include "progress.h"

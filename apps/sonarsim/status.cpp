@@ -1,4 +1,4 @@
-#include "dataset/status.h"
+#include "job/status.h"
 
 #include <spdlog/fmt/fmt.h>
 
@@ -10,7 +10,7 @@
 
 #include "commands.h"
 #include "core/text.h"
-#include "dataset/variants.h"
+#include "job/variants.h"
 #include "logging.h"
 #include "progress.h"
 

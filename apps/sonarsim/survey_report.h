@@ -5,8 +5,8 @@
 #include <string>
 
 #include "assembly/assemble.h"
-#include "survey/survey.h"
-#include "survey/warning.h"
+#include "checks/survey.h"
+#include "checks/warning.h"
 
 namespace sonarsim {
 

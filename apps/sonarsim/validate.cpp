@@ -14,18 +14,18 @@
 #include <utility>
 #include <variant>
 
+#include "checks/find_warnings.h"
+#include "checks/memory.h"
 #include "commands.h"
 #include "core/machine_memory.h"
 #include "core/text.h"
-#include "dataset/folder.h"
 #include "dataset/metadata.h"
-#include "dataset/ping_cost.h"
 #include "dataset/split.h"
+#include "job/folder.h"
+#include "job/ping_cost.h"
 #include "logging.h"
 #include "mission_options.h"
 #include "progress.h"
-#include "survey/find_warnings.h"
-#include "survey/memory.h"
 #include "survey_report.h"
 #include "visibility/make_engine.h"
 #include "warn_about_scene.h"

@@ -1,4 +1,4 @@
-#include "dataset/verify.h"
+#include "job/verify.h"
 
 #include <spdlog/spdlog.h>
 
@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
-#include "dataset/collection.h"
-#include "dataset/variants.h"
+#include "job/collection.h"
+#include "job/variants.h"
 #include "logging.h"
 #include "progress.h"
 #include "signals.h"

@@ -17,7 +17,7 @@
 //     OUT/SHA256SUMS                  of every other file, once all of them are there
 //     OUT/trajectory.tum              the pose of every ping number
 //     OUT/journal.txt                 the size and hash of every file of a ping, see
-//     dataset/journal.h; while
+//     job/journal.h; while
 //                                     the mission runs, parts of it lie in OUT/journal.d/
 //     OUT/<sensor>/<format>/NNNNNN.*  a file per ping, or with output.pack
 //     OUT/<sensor>/pack/NNNNNN.tar    the files of as many pings as fit, one after the other, each

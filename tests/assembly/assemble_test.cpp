@@ -11,7 +11,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/units.h"
-#include "dataset/job.h"
+#include "job/run_job.h"
 #include "mission/parse.h"
 #include "sonar/kinds.h"
 #include "support/small_mission.h"

@@ -7,15 +7,15 @@
 
 #include "core/error.h"
 #include "dataset/checked_json.h"
-#include "dataset/collection.h"
 #include "dataset/description.h"
 #include "dataset/file_names.h"
-#include "dataset/merge.h"
 #include "dataset/ping_metadata.h"
-#include "dataset/small_job.h"
-#include "dataset/status.h"
-#include "dataset/verify.h"
 #include "gallery/gallery.h"
+#include "job/collection.h"
+#include "job/merge.h"
+#include "job/small_job.h"
+#include "job/status.h"
+#include "job/verify.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

@@ -5,7 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "dataset/job.h"
+#include "job/run_job.h"
 #include "support/small_mission.h"
 #include "support/sonars.h"
 #include "support/temporary_folder.h"

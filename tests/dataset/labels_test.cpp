@@ -6,9 +6,9 @@
 
 #include "assembly/engine_probes.h"
 #include "core/file.h"
-#include "dataset/job.h"
 #include "dataset/labelled_ping.h"
 #include "format/npy.h"
+#include "job/run_job.h"
 #include "product/sidescan_row.h"
 #include "sonar/kinds.h"
 #include "support/npy_data.h"

@@ -1,0 +1,170 @@
+#include "checks/scene_warnings.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "checks/doubled_triangles.h"
+#include "core/text.h"
+#include "scene/copies.h"
+
+namespace sonarsim {
+
+namespace {
+
+// docs/mission.md says why: "Why it warns from there on".
+constexpr double huge_m = 10e3;
+constexpr double tiny_m = 0.1;
+constexpr double tiny_of_range = 0.01;
+constexpr double out_of_scale = 20.0;
+// Of the scene's surface, in percent.
+constexpr double upright_of_an_edge = 50.0;
+constexpr double flat_of_an_edge = 10.0;
+
+double farthest_range_m(const Mission& mission) {
+    double range = 0.0;
+    for (const SonarConfig& sensor : mission.sensors)
+        range = std::max(range, sensor.range_max_m);
+    return range;
+}
+
+double way_m(const Trajectory& trajectory) {
+    Eigen::AlignedBox3d box;
+    for (const TimedPose& pose : trajectory)
+        box.extend(pose.T_world_vehicle.translation);
+    return box.diagonal().norm();
+}
+
+void judge_extent(const Mission& mission, const Assembly& assembly,
+                  std::span<const SonarSurvey> sonars, std::vector<Warning>& out) {
+    const Eigen::Vector3d extent = assembly.scene.bounds_max - assembly.scene.bounds_min;
+    const double length = extent.maxCoeff();
+    const double range = farthest_range_m(mission);
+    std::size_t pings = 0;
+    std::size_t blind = 0;
+    for (const SonarSurvey& sonar : sonars) {
+        pings += sonar.pings;
+        blind += sonar.blind;
+    }
+    const double ratio = length / (way_m(assembly.trajectory) + 2.0 * range);
+    if (length > huge_m) {
+        out.push_back(make_warning(Doubt::scene_huge, "scene", extent.x(), extent.y(), extent.z()));
+    } else if (length < tiny_m || length < tiny_of_range * range) {
+        out.push_back(
+            make_warning(Doubt::scene_tiny, "scene", extent.x(), extent.y(), extent.z(), range));
+    } else if (ratio > out_of_scale && 2 * blind > pings) {
+        out.push_back(
+            make_warning(Doubt::scene_out_of_scale, "scene", length, ratio, blind, pings));
+    }
+}
+
+/// Surface, and how much of it has its normal along each axis of the world, in twice m^2.
+struct Facing {
+    double all = 0.0;
+    std::array<double, 3> along{};
+
+    /// `normal` is as long as the surface is large.
+    void add(const Eigen::Vector3d& normal) {
+        const double area = normal.norm();
+        all += area;
+        for (int axis = 0; axis < 3; ++axis) {
+            if (std::fabs(normal[axis]) > 0.9 * area) along[axis] += area;
+        }
+    }
+};
+
+/// The normal of a triangle, as long as its two sides span.
+template <class Mesh>
+Eigen::Vector3d normal_of(const Mesh& mesh, std::size_t triangle) {
+    const auto& [a, b, c] = mesh.triangles[triangle];
+    const Eigen::Vector3f& corner = mesh.vertices[a];
+    return (mesh.vertices[b] - corner).cross(mesh.vertices[c] - corner).template cast<double>();
+}
+
+/// The share of the surface whose normal lies along each axis of the world, in percent. Of copies
+/// every n-th triangle stands for n: a few million of them tell enough.
+std::array<double, 3> facing(const Scene& scene) {
+    constexpr std::size_t most_of_copies = 2'000'000;
+    Facing facing;
+    for (std::size_t t = 0; t < scene.triangles.size(); ++t)
+        facing.add(normal_of(scene, t));
+    const std::size_t step = 1 + triangles_of_copies(scene) / most_of_copies;
+    for (const MeshCopy& copy : scene.copies) {
+        const SharedMesh& mesh = scene.shared_meshes[copy.mesh];
+        // It scales alike along all axes: areas grow by the square.
+        const Eigen::Matrix3d turned = copy.T_world_mesh.linear();
+        const double grown = turned.col(0).norm() * static_cast<double>(step);
+        for (std::size_t t = 0; t < mesh.triangles.size(); t += step)
+            facing.add(grown * turned * normal_of(mesh, t));
+    }
+    for (double& area : facing.along)
+        area *= facing.all > 0.0 ? 100.0 / facing.all : 0.0;
+    return facing.along;
+}
+
+/// A sea floor of a file that was taken for y up has its normals along the world's y.
+void judge_axes(const Scene& scene, std::vector<Warning>& out) {
+    const std::array<double, 3> share = facing(scene);
+    const Eigen::Vector3d extent = scene.bounds_max - scene.bounds_min;
+    const bool thin = extent.y() < 0.5 * extent.x() && extent.y() < 0.5 * extent.z();
+    if (!thin || share[1] < upright_of_an_edge || share[2] > flat_of_an_edge) return;
+    out.push_back(make_warning(Doubt::scene_on_edge, "scene", share[1], share[2]));
+}
+
+/// Two bodies that touch may share a few triangles; a part that was written twice shares all.
+void judge_doubles(const Scene& scene, std::vector<Warning>& out) {
+    constexpr std::size_t share = 100;
+    const DoubledTriangles doubled = find_doubled(scene);
+    if (doubled.count * share <= scene.triangles.size()) return;
+    out.push_back(make_warning(Doubt::doubled_triangles, "scene",
+                               printable(scene.instances[doubled.one]),
+                               printable(scene.instances[doubled.other]), doubled.between_them,
+                               doubled.count, scene.triangles.size()));
+}
+
+void judge_water(const WaterConfig& water, std::vector<Warning>& out) {
+    if (water.density_kg_m3 < 950.0 || water.density_kg_m3 > 1200.0)
+        out.push_back(make_warning(Doubt::water_density, "water", water.density_kg_m3));
+    if (water.sound_speed_m_s < 1350.0 || water.sound_speed_m_s > 1700.0)
+        out.push_back(make_warning(Doubt::water_speed, "water", water.sound_speed_m_s));
+}
+
+void judge_materials(const WaterConfig& water, const Scene& scene, std::vector<Warning>& out) {
+    constexpr double densest = 25e3;          // kg/m^3; osmium has 22,600
+    constexpr double fastest = 20e3;          // m/s; diamond has 18,000
+    constexpr float faintest = 1.0F / 65535;  // of the power: impedances within 0.8 %
+    for (const Material& material : scene.materials) {
+        const std::string about = "material '" + printable(material.name) + "'";
+        if (material.density_kg_m3 > densest) {
+            out.push_back(
+                make_warning(Doubt::material_units, about, "density", material.density_kg_m3));
+        }
+        if (material.sound_speed_m_s > fastest) {
+            out.push_back(make_warning(Doubt::material_units, about, "speed of sound",
+                                       material.sound_speed_m_s));
+        }
+        if (material.reflection < faintest) {
+            out.push_back(make_warning(Doubt::material_silent, about, material.density_kg_m3,
+                                       material.sound_speed_m_s, material.reflection,
+                                       water.density_kg_m3, water.sound_speed_m_s));
+        }
+    }
+}
+
+}  // namespace
+
+std::vector<Warning> scene_warnings(const Mission& mission, const Assembly& assembly,
+                                    std::span<const SonarSurvey> sonars) {
+    std::vector<Warning> out;
+    if (!assembly.scene.triangles.empty() || !assembly.scene.copies.empty()) {
+        judge_extent(mission, assembly, sonars, out);
+        judge_axes(assembly.scene, out);
+        judge_doubles(assembly.scene, out);
+    }
+    judge_water(mission.water, out);
+    judge_materials(mission.water, assembly.scene, out);
+    return out;
+}
+
+}  // namespace sonarsim

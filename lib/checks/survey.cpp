@@ -1,0 +1,270 @@
+#include "checks/survey.h"
+
+#include <cmath>
+#include <memory>
+#include <span>
+
+#include "assembly/engine_at.h"
+#include "assembly/sample_pings.h"
+#include "checks/directions.h"
+#include "core/pose.h"
+#include "core/units.h"
+#include "scene/copies.h"
+#include "sonar/sonar_at_pose.h"
+#include "trace/arrivals.h"
+#include "visibility/view.h"
+
+namespace sonarsim {
+
+namespace {
+
+constexpr std::size_t most_pings = 36;       // per sonar
+constexpr std::size_t most_bins = 1U << 25;  // of all of them
+constexpr std::size_t most_slow = 9;         // pings of a slow echo model
+constexpr double coarse_l1 = 0.2;
+
+/// What stands around a sonar.
+struct Surroundings {
+    std::vector<Eigen::Vector3f> directions;
+    std::vector<Intersection> met;  ///< by direction
+};
+
+Surroundings look(const View& view, const VisibilityEngine& engine, const Pose& T_world_sensor) {
+    Surroundings around{look_around(view), {}};
+    std::vector<Ray> rays;
+    for (const Eigen::Vector3f& direction : around.directions)
+        rays.push_back({Eigen::Vector3f::Zero(), direction});
+    around.met.resize(rays.size());
+    engine.intersect(T_world_sensor, rays, around.met);
+    return around;
+}
+
+double elevation_deg(const Eigen::Vector3f& direction) {
+    return degrees(std::asin(std::clamp(static_cast<double>(direction.z()), -1.0, 1.0)));
+}
+
+/// Finds out why a ping saw nothing.
+void explain(const View& view, const Surroundings& around, double to_scene_m, Blindness& why) {
+    Interval in_view;
+    bool somewhere = false;
+    double flattest = std::numeric_limits<double>::infinity();  // off the view's middle, in degrees
+    for (std::size_t i = 0; i < around.directions.size(); ++i) {
+        const Eigen::Vector3f& direction = around.directions[i];
+        const double distance = around.met[i].distance_m;
+        if (!std::isfinite(distance)) continue;
+        const bool within = distance >= view.range_min_m && distance < view.range_max_m;
+        somewhere = somewhere || within;
+        if (beam_of(view, direction) >= 0) {
+            in_view.take(distance);
+        } else if (within && is_in_azimuth(view, direction)) {
+            const double off = elevation_deg(direction);
+            if (std::fabs(off) < std::fabs(flattest)) flattest = off;
+        }
+    }
+    if (!in_view.empty() && in_view.low >= view.range_max_m) {
+        ++why.too_far;
+        why.in_view_m.take(in_view.low);
+    } else if (!in_view.empty() && in_view.high < view.range_min_m) {
+        ++why.too_near;
+        why.ends_m.take(in_view.high);
+    } else if (std::isfinite(flattest)) {
+        ++why.too_flat;
+        why.elevation_deg.take(flattest);
+    } else if (somewhere) {
+        ++why.elsewhere;
+    } else {
+        ++why.nothing;
+        if (std::isfinite(to_scene_m)) why.nearest_m.take(to_scene_m);
+    }
+}
+
+/// From a point to the box around the scene; infinite when there is no scene.
+double distance_to(const Scene& scene, const Eigen::Vector3d& point) {
+    if (scene.instances.empty()) return std::numeric_limits<double>::infinity();
+    return Eigen::AlignedBox3d(scene.bounds_min, scene.bounds_max).exteriorDistance(point);
+}
+
+/// Boxes around the instances, of what does not move.
+std::vector<Eigen::AlignedBox3f> boxes_of(const Scene& scene) {
+    std::vector<Eigen::AlignedBox3f> boxes(scene.instances.size());
+    for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
+        for (const std::uint32_t corner : scene.triangles[t])
+            boxes[scene.triangle_instance[t]].extend(scene.vertices[corner]);
+    }
+    const std::vector<Eigen::AlignedBox3d> copies = boxes_of_copies(scene);
+    for (std::size_t k = 0; k < copies.size(); ++k) {
+        if (copies[k].isEmpty()) continue;
+        boxes[scene.copies[k].instance].extend(copies[k].translated(-scene.origin).cast<float>());
+    }
+    return boxes;
+}
+
+/// A basin around the whole scene is no object that a sonar is in by mistake.
+bool holds_all(const Eigen::AlignedBox3f& box, const Scene& scene) {
+    const Eigen::Vector3d extent = scene.bounds_max - scene.bounds_min;
+    return !box.isEmpty() && (box.sizes().cast<double>().array() >= 0.9 * extent.array()).all();
+}
+
+/// Whether the scene's surface lies open upwards, as a sea floor does. Of a closed body what faces
+/// up and what faces down are equal.
+bool faces_up(const Scene& scene) {
+    double up = 0.0;
+    double either = 0.0;
+    for (const std::array<std::uint32_t, 3>& corners : scene.triangles) {
+        const Eigen::Vector3d a = scene.vertices[corners[0]].cast<double>();
+        const Eigen::Vector3d b = scene.vertices[corners[1]].cast<double>();
+        const Eigen::Vector3d c = scene.vertices[corners[2]].cast<double>();
+        const double area = (b - a).cross(c - a).z();
+        up += area;
+        either += std::fabs(area);
+    }
+    return up > 0.1 * either;
+}
+
+/// Whether the sonar is where no vehicle can be. docs/mission.md says why these figures: "Why it
+/// warns from there on".
+void judge_place(const Scene& scene, bool open_upwards, std::span<const Eigen::AlignedBox3f> boxes,
+                 const Pose& T_world_sensor, const Surroundings& around, SonarSurvey& out) {
+    std::size_t above = 0;
+    std::size_t below = 0;
+    std::size_t met_above = 0;
+    std::size_t met_below = 0;
+    std::vector<std::size_t> met(scene.instances.size());
+    for (std::size_t i = 0; i < around.directions.size(); ++i) {
+        const bool up = (T_world_sensor.rotation * around.directions[i].cast<double>()).z() > 0.0;
+        const bool meets = std::isfinite(around.met[i].distance_m);
+        (up ? above : below) += 1;
+        (up ? met_above : met_below) += meets;
+        if (meets) ++met[around.met[i].instance];
+    }
+    // Beneath a sea floor there is surface all above and none below. Under a hull as well.
+    out.below_surface += open_upwards && 2 * met_above > above && 50 * met_below <= below;
+    const auto most = std::ranges::max_element(met);
+    if (scene.instances.size() < 2 || 100 * *most < 98 * around.directions.size()) return;
+    const auto instance = static_cast<std::size_t>(most - met.begin());
+    if (boxes[instance].isEmpty() || holds_all(boxes[instance], scene)) return;
+    ++out.enclosed;
+    out.enclosed_by = scene.instances[instance];
+}
+
+void take_attitude(const Eigen::Quaterniond& rotation, SonarSurvey& out) {
+    const Rpy attitude = rpy_from_rotation(rotation);
+    out.roll_deg.take(degrees(attitude.roll));
+    out.pitch_deg.take(degrees(attitude.pitch));
+}
+
+void take_altitude(const VisibilityEngine& engine, const Pose& T_world_sensor, SonarSurvey& out) {
+    const Eigen::Vector3d down =
+        T_world_sensor.rotation.conjugate() * Eigen::Vector3d(0.0, 0.0, -1.0);
+    const Ray ray{Eigen::Vector3f::Zero(), down.cast<float>()};
+    Intersection bottom{};
+    engine.intersect(T_world_sensor, {&ray, 1}, {&bottom, 1});
+    if (std::isfinite(bottom.distance_m)) out.altitude_m.take(bottom.distance_m);
+}
+
+/// What surface a ping saw, and how far away.
+void take_samples(const View& view, const Samples& samples, SonarSurvey& out) {
+    Interval echoes;
+    for (const Sample& sample : samples.items) {
+        const double range = arrival_range(sample.position);
+        if (range < view.range_min_m || range >= view.range_max_m) continue;
+        echoes.take(range);
+        out.seen_m2[sample.instance] += sample.area_m2;
+    }
+    if (echoes.empty()) return;
+    out.first_echo_m.take(echoes.low);
+    out.last_echo_m.take(echoes.high);
+}
+
+/// Sums over the bins of a sonar's pings.
+struct BinSums {
+    std::size_t bins = 0;
+    std::size_t lit = 0;
+    std::size_t white = 0;
+    std::size_t occupied = 0;
+    double signal = 0.0;
+    double noise = 0.0;
+};
+
+/// `clean` is without the noise of pixels.
+void add_bins(const Sonar& sonar, double full_scale, const Ping& clean, const Ping& ping,
+              BinSums& sums, SonarSurvey& out) {
+    for (std::size_t i = 0; i < ping.intensity.size(); ++i) {
+        const float value = ping.intensity[i];
+        out.brightest = std::max(out.brightest, value);
+        if (clean.intensity[i] <= 0.0F) continue;
+        ++sums.lit;
+        sums.white += value > full_scale;
+        const auto [signal, noise] = sonar.settings.model->signal_and_noise(
+            clean.intensity[i], value, static_cast<int>(i) / ping.beams,
+            static_cast<int>(i) % ping.beams);
+        sums.signal += signal;
+        sums.noise += noise;
+    }
+    sums.bins += ping.intensity.size();
+    sums.occupied += ping.counts.occupied_bins;
+}
+
+void finish(const BinSums& sums, SonarSurvey& out) {
+    if (sums.bins == 0 || sums.lit == 0) return;
+    const auto lit = static_cast<double>(sums.lit);
+    out.lit_share = static_cast<double>(sums.occupied) / static_cast<double>(sums.bins);
+    out.white_share = static_cast<double>(sums.white) / lit;
+    out.noise = sums.noise / lit;
+    out.signal = sums.signal / lit;
+}
+
+SonarSurvey survey_sonar(const Mission& mission, const Assembly& assembly, Sonar sonar,
+                         double full_scale, std::span<const Eigen::AlignedBox3f> boxes,
+                         const VisibilityEngine& rays) {
+    SonarSurvey out;
+    out.seen_m2.resize(assembly.scene.instances.size());
+    const bool open_upwards = faces_up(assembly.scene);
+    View& view = sonar.settings.view;
+    view.relative_l1 = std::max(view.relative_l1, coarse_l1);
+    const auto bins = static_cast<std::size_t>(view.range_bins) * view.beams;
+    const std::size_t most = sonar.settings.model->is_slow() ? most_slow : most_pings;
+    BinSums sums;
+    for (const std::uint32_t pose :
+         sample_pings(assembly.trajectory.size(), sonar.config.every,
+                      std::clamp<std::size_t>(most_bins / bins, 3, most))) {
+        const TimedPose& at = assembly.trajectory[pose];
+        const SonarAtPose then(mission, sonar, pose);
+        const Pose T_world_sensor = sensor_pose(*then, at.T_world_vehicle, pose);
+        const std::shared_ptr<const VisibilityEngine> now =
+            engine_at(rays, assembly.motions, at.t_s);
+        const TracedPing traced = trace(*then, assembly.scene, *now, at.T_world_vehicle, pose);
+        const PingKey key{mission.seed, pose};
+        const Ping ping = form_image(traced, then->settings, assembly.scene, key);
+        const Surroundings around = look(view, *now, T_world_sensor);
+        ++out.pings;
+        take_attitude(at.T_world_vehicle.rotation, out);
+        take_altitude(*now, T_world_sensor, out);
+        take_samples(view, traced.samples, out);
+        judge_place(assembly.scene, open_upwards, boxes, T_world_sensor, around, out);
+        if (ping.counts.occupied_bins == 0) {
+            ++out.blind;
+            explain(view, around, distance_to(assembly.scene, T_world_sensor.translation), out.why);
+        }
+        add_bins(sonar, full_scale,
+                 form_image(traced, then->settings, assembly.scene, key, {.random = 1}), ping, sums,
+                 out);
+    }
+    finish(sums, out);
+    return out;
+}
+
+}  // namespace
+
+std::vector<SonarSurvey> survey(const Mission& mission, const Assembly& assembly,
+                                const VisibilityEngine& rays) {
+    const std::vector<Eigen::AlignedBox3f> boxes = boxes_of(assembly.scene);
+    std::vector<SonarSurvey> out;
+    for (std::size_t i = 0; i < assembly.sonars.size(); ++i) {
+        out.push_back(survey_sonar(mission, assembly, assembly.sonars[i], assembly.full_scales[i],
+                                   boxes, rays));
+    }
+    return out;
+}
+
+}  // namespace sonarsim

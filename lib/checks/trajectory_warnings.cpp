@@ -1,0 +1,114 @@
+#include "checks/trajectory_warnings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <string>
+#include <variant>
+
+#include "core/pose.h"
+#include "core/units.h"
+
+namespace sonarsim {
+
+namespace {
+
+constexpr double full_turn_rad = 2.0 * pi;
+
+double turn_deg(double from, double to) {
+    return std::fabs(std::remainder(to - from, 360.0));
+}
+
+/// How far headings are off the way that the vehicle goes, in the mean over that way, degrees. As
+/// they stand, and with their numbers taken for radians.
+struct HeadingErrors {
+    double as_degrees = 0.0;
+    double as_radians = 0.0;
+};
+
+HeadingErrors heading_errors(const Trajectory& trajectory) {
+    HeadingErrors errors;
+    double way = 0.0;
+    for (std::size_t i = 1; i < trajectory.size(); ++i) {
+        const Eigen::Vector3d step = trajectory[i].T_world_vehicle.translation -
+                                     trajectory[i - 1].T_world_vehicle.translation;
+        const double length = step.head<2>().norm();
+        const double track = degrees(std::atan2(step.y(), step.x()));
+        const double yaw = degrees(rpy_from_rotation(trajectory[i].T_world_vehicle.rotation).yaw);
+        errors.as_degrees += length * turn_deg(track, yaw);
+        errors.as_radians += length * turn_deg(track, degrees(yaw));
+        way += length;
+    }
+    if (way > 0.0) {
+        errors.as_degrees /= way;
+        errors.as_radians /= way;
+    }
+    return errors;
+}
+
+/// Angles that people type in radians: whole quarters of a turn.
+bool is_quarter_turn_rad(double value) {
+    const double quarters = value / (0.5 * pi);
+    return quarters > 0.5 && std::fabs(quarters - std::round(quarters)) < 1e-3;
+}
+
+void judge_radians(const Trajectory& trajectory, std::vector<Warning>& out) {
+    double largest = 0.0;
+    for (const TimedPose& pose : trajectory) {
+        const Rpy attitude = rpy_from_rotation(pose.T_world_vehicle.rotation);
+        for (const double angle : {attitude.roll, attitude.pitch, attitude.yaw})
+            largest = std::max(largest, std::fabs(degrees(angle)));
+    }
+    if (largest == 0.0 || largest > 1.001 * full_turn_rad) return;
+    const HeadingErrors errors = heading_errors(trajectory);
+    // docs/mission.md says why these figures: "Why it warns from there on".
+    if (errors.as_degrees > 30.0 && errors.as_radians < 15.0) {
+        out.push_back(
+            make_warning(Doubt::radians, "trajectory", largest,
+                         fmt::format("headings are {:.0f} degrees off the way, as radians {:.0f}",
+                                     errors.as_degrees, errors.as_radians)));
+    } else if (is_quarter_turn_rad(largest)) {
+        out.push_back(make_warning(Doubt::radians, "trajectory", largest,
+                                   fmt::format("{:.5g} is a multiple of a quarter turn", largest)));
+    }
+}
+
+/// Whether the vehicle lies on its side or on its back.
+bool is_toppled(const Eigen::Quaterniond& rotation) {
+    constexpr double half_right_angle_cosine = 0.7071;
+    return rotation.toRotationMatrix()(2, 2) < half_right_angle_cosine;
+}
+
+/// Whether a trajectory's file has roll, pitch and yaw instead of quaternions.
+bool has_angles(const std::filesystem::path& file) {
+    std::ifstream text(file);
+    std::string header;
+    return file.extension() == ".csv" && std::getline(text, header) &&
+           header.find("roll_deg") != std::string::npos;
+}
+
+void judge_order(const Trajectory& trajectory, std::vector<Warning>& out) {
+    std::size_t toppled = 0;
+    std::size_t upright_else = 0;
+    for (const TimedPose& pose : trajectory) {
+        const Eigen::Quaterniond& q = pose.T_world_vehicle.rotation;
+        toppled += is_toppled(q);
+        upright_else += !is_toppled(Eigen::Quaterniond(q.x(), q.y(), q.z(), q.w()));
+    }
+    if (2 * toppled < trajectory.size() || 10 * upright_else < 9 * trajectory.size()) return;
+    out.push_back(make_warning(Doubt::quaternion_order, "trajectory", toppled, trajectory.size(),
+                               upright_else));
+}
+
+}  // namespace
+
+std::vector<Warning> trajectory_warnings(const TrajectoryConfig& config,
+                                         const Trajectory& trajectory) {
+    std::vector<Warning> out;
+    if (!std::holds_alternative<LawnmowerTrajectoryConfig>(config)) judge_radians(trajectory, out);
+    const auto* const poses = std::get_if<FileTrajectoryConfig>(&config);
+    if (poses && !has_angles(poses->file)) judge_order(trajectory, out);
+    return out;
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,112 @@
+#include "job/checksums.h"
+
+#include <algorithm>
+#include <sstream>
+#include <stdexcept>
+
+#include "core/atomic_file.h"
+#include "core/error.h"
+#include "core/in_parallel.h"
+#include "core/sha256.h"
+
+namespace sonarsim {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t digits_of_sum = 64;
+
+void add_sum(StreamedFile& file, const std::string& sum, const std::string& name) {
+    file.append(sum + "  " + name + '\n');
+}
+
+/// The files that a ping has for itself, in the order of the writers.
+void add_loose(StreamedFile& sums, const Layout& layout, std::uint32_t sensor,
+               const JournalEntries& entries) {
+    const SensorLayout& own = layout.sensors[sensor];
+    for (std::size_t k = 0; k < own.per_ping.size(); ++k) {
+        const auto* file = std::get_if<PingFile>(&own.per_ping[k]);
+        if (!file) continue;
+        for (std::uint32_t ping = 0; ping < own.pings; ++ping) {
+            const PingId id{ping * own.every, sensor};
+            const auto told = entries.pings.find(id);
+            const auto entry = told && k < told->size() ? parse_entry(told->at(k)) : std::nullopt;
+            const fs::path path = layout.file(id, *file);
+            if (!entry) throw std::runtime_error("the journal does not tell of " + path.string());
+            add_sum(sums, entry->sha256, path.lexically_relative(layout.folder).string());
+        }
+    }
+}
+
+/// They are read, several at a time.
+void add_packs(StreamedFile& file, const Layout& layout, std::uint32_t sensor) {
+    const SensorLayout& own = layout.sensors[sensor];
+    std::vector<std::string> sums(layout.packs(sensor));
+    const auto pack = [&](std::size_t k) {
+        return layout.pack_file(
+            {static_cast<std::uint32_t>(k * own.pings_per_pack) * own.every, sensor});
+    };
+    in_parallel(sums.size(), [&](std::size_t k) { sums[k] = sha256_of_file(pack(k)); });
+    for (std::size_t k = 0; k < sums.size(); ++k)
+        add_sum(file, sums[k], pack(k).lexically_relative(layout.folder).string());
+}
+
+bool stays_below(const fs::path& name) {
+    return !name.empty() && name.is_relative() &&
+           std::ranges::none_of(name, [](const fs::path& step) { return step == ".."; });
+}
+
+}  // namespace
+
+void write_checksums(const Layout& layout, const JournalEntries& entries,
+                     const std::string& description) {
+    StreamedFile sums(layout.folder / checksums_name);
+    const auto add_file = [&](const std::string& name) {
+        add_sum(sums, sha256_of_file(layout.folder / name), name);
+    };
+    add_sum(sums, sha256(description), description_name);
+    for (const char* name : {mission_name, trajectory_name, journal_name})
+        add_file(name);
+    for (std::uint32_t i = 0; i < layout.sensors.size(); ++i) {
+        const SensorLayout& sensor = layout.sensors[i];
+        sensor.pings_per_pack > 0 ? add_packs(sums, layout, i)
+                                  : add_loose(sums, layout, i, entries);
+        for (const auto& part : sensor.per_ping) {
+            if (const auto* record = std::get_if<PingRecord>(&part))
+                add_file(sensor.name + "/" + record->file);
+        }
+        for (const std::string& product : sensor.products)
+            add_file(sensor.name + "/" + product);
+    }
+    for (const std::string& product : layout.products)
+        add_file(product);
+    sums.finish();
+}
+
+std::map<std::string, std::string> parse_checksums(const std::string& text,
+                                                   const std::string& file) {
+    std::map<std::string, std::string> sums;
+    std::istringstream lines(text);
+    int number = 0;
+    for (std::string line; std::getline(lines, line);) {
+        ++number;
+        const std::string sum = line.substr(0, digits_of_sum);
+        const std::string blanks = line.substr(sum.size(), 2);
+        const std::string name = line.substr(sum.size() + blanks.size());
+        const bool sound = sum.size() == digits_of_sum &&
+                           sum.find_first_not_of("0123456789abcdef") == std::string::npos &&
+                           // Each line ends; the last one of a file that was cut off does not.
+                           blanks == "  " && stays_below(name) && !lines.eof();
+        if (!sound) {
+            throw InputError({file, number},
+                             "is not a SHA-256 sum, two blanks and the name of a file of the "
+                             "dataset; remove SHA256SUMS, and the render command that made the "
+                             "dataset writes it again");
+        }
+        sums[name] = sum;
+    }
+    return sums;
+}
+
+}  // namespace sonarsim

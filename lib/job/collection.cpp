@@ -1,0 +1,298 @@
+#include "job/collection.h"
+
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <tuple>
+
+#include "core/atomic_file.h"
+#include "core/error.h"
+#include "core/file.h"
+#include "core/ordered_pipeline.h"
+#include "core/sha256.h"
+#include "core/text.h"
+#include "dataset/dataset_file.h"
+#include "dataset/layout.h"
+#include "dataset/ping_metadata.h"
+#include "job/checksums.h"
+#include "job/collection_file.h"
+#include "job/folder_lock.h"
+
+namespace sonarsim {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t largest_text = std::size_t{1} << 32;
+
+/// A dataset that is to be collected.
+struct Member {
+    fs::path from;
+    DatasetFile description;
+    std::map<std::string, std::string> sums;  ///< by file
+    std::string folder;                       ///< in the collection
+};
+
+/// The name of the mission becomes that of a folder, which stands in lines of SHA256SUMS.
+void require_printable(const fs::path& from, const std::string& mission) {
+    if (printable(mission) == mission) return;
+    throw InputError({(from / description_name).string()},
+                     "'mission' is \"" + printable(mission) +
+                         "\" and must be plain text to be the name of a folder");
+}
+
+Member read_member(const fs::path& from) {
+    const fs::path sums = from / checksums_name;
+    DatasetFile description = require_dataset(from);
+    require_printable(from, description.mission);
+    if (!description.complete || !fs::is_regular_file(sums)) {
+        throw InputError({from.string()},
+                         "is not complete, and only whole datasets can stand side by side; render "
+                         "what is missing, or merge its shards first");
+    }
+    Member member{from,
+                  std::move(description),
+                  parse_checksums(read_file(sums, largest_text), sums.string()),
+                  {}};
+    member.sums[checksums_name] = sha256_of_file(sums);
+    return member;
+}
+
+/// In an order of their own, each with a folder. InputError when a dataset is there twice.
+std::vector<Member> read_members(const std::vector<fs::path>& parts) {
+    std::vector<Member> members;
+    members.reserve(parts.size());
+    for (const fs::path& part : parts)
+        members.push_back(read_member(part));
+    const auto key = [](const Member& member) {
+        const DatasetFile& d = member.description;
+        return std::tuple(d.mission, d.mission_hash, d.inputs_hash);
+    };
+    std::ranges::stable_sort(members, {}, key);
+    std::set<std::string> taken{collection_name, checksums_name};
+    for (std::size_t k = 0; k < members.size(); ++k) {
+        Member& member = members[k];
+        if (k > 0 && key(members[k - 1]) == key(member)) {
+            throw InputError({member.from.string()}, "is the same dataset as " +
+                                                         members[k - 1].from.string() +
+                                                         "; name each of them once");
+        }
+        const std::string name = std::get<0>(key(member));
+        member.folder = name;
+        for (int other = 2; !taken.insert(member.folder).second; ++other)
+            member.folder = name + "-" + std::to_string(other);
+    }
+    return members;
+}
+
+Json describe(const std::vector<Member>& members) {
+    std::set<std::string> class_names;
+    for (const Member& member : members) {
+        const std::vector<std::string>& classes = member.description.labels.classes;
+        class_names.insert(classes.begin(), classes.end());
+    }
+    Json json = {{"format", collection_format},
+                 {"format_version", collection_format_version},
+                 {"complete", false}};
+    std::map<std::string, std::uint64_t> class_ids;
+    json["classes"] = Json::array();
+    for (const std::string& name : class_names) {
+        const std::uint64_t id = class_ids.size() + 1;
+        class_ids.emplace(name, id);
+        json["classes"].push_back({{"id", id}, {"name", name}});
+    }
+    std::uint64_t offset = 0;
+    json["datasets"] = Json::array();
+    for (const Member& member : members) {
+        Json classes = Json::object();
+        const DescribedLabels& labels = member.description.labels;
+        for (std::size_t k = 0; k < labels.classes.size(); ++k)
+            classes[std::to_string(k + 1)] = class_ids.at(labels.classes[k]);
+        json["datasets"].push_back({{"folder", member.folder},
+                                    {"mission", member.description.mission},
+                                    {"mission_hash", member.description.mission_hash},
+                                    {"seed", member.description.seed},
+                                    {"sha256sums", member.sums.at(checksums_name)},
+                                    {"instance_id_offset", offset},
+                                    {"class_ids", std::move(classes)}});
+        offset += labels.instances.size();
+    }
+    return json;
+}
+
+std::vector<std::string> seeds_shared_by(const std::vector<Member>& members) {
+    std::map<std::string, std::vector<std::string>> by_seed;
+    for (const Member& member : members)
+        by_seed[std::to_string(member.description.seed)].push_back(member.folder);
+    std::vector<std::string> warnings;
+    for (const auto& [seed, folders] : by_seed) {
+        if (folders.size() < 2) continue;
+        std::string names;
+        for (const std::string& folder : folders)
+            names += (names.empty() ? "" : ", ") + folder;
+        warnings.push_back("the datasets of seed " + seed + " (" + names +
+                           ") have the same noise, bit for bit, in every bin that nothing lights: "
+                           "to train with one and test with another is a leak; render each with a "
+                           "seed of its own, or keep them on the same side");
+    }
+    return warnings;
+}
+
+/// Refuses symbolic links below `out`: a collection is written into folders of its own.
+void require_no_links(const fs::path& out, const std::vector<Member>& members) {
+    const auto require = [](const fs::path& path) {
+        if (!fs::is_symlink(path)) return;
+        throw InputError({path.string()},
+                         "is a symbolic link, and a collection is written into folders of its own; "
+                         "remove the link or choose another folder");
+    };
+    for (const Member& member : members) {
+        std::set<fs::path> folders;
+        for (const auto& [name, sum] : member.sums) {
+            for (fs::path above = fs::path(name).parent_path(); !above.empty();
+                 above = above.parent_path())
+                folders.insert(above);
+        }
+        require(out / member.folder);
+        for (const fs::path& folder : folders)
+            require(out / member.folder / folder);
+    }
+}
+
+/// Makes the folder ready, or finds it so, and locks it.
+FolderLock begin_collection(const fs::path& out, const Json& description) {
+    FolderLock lock = lock_alone(out);
+    if (std::optional<CollectionFile> found = read_collection(out)) {
+        found->json["complete"] = false;
+        if (found->json == description) return lock;
+        throw InputError({out.string()},
+                         "holds a collection of other datasets; choose another folder");
+    }
+    if (!fs::is_empty(out)) throw InputError({out.string()}, "is not empty; choose another folder");
+    write_file_durably(out / collection_name, json_text(description));
+    return lock;
+}
+
+/// Returns false when the file was there already.
+bool copy_whole(const fs::path& from, const fs::path& to, const std::string& sum) {
+    if (fs::is_regular_file(to) && sha256_of_file(to) == sum) return false;
+    fs::create_directories(to.parent_path());
+    AtomicFile copy(to);
+    fs::copy_file(from, copy.part());
+    if (sha256_of_file(copy.part()) != sum) {
+        throw InputError({from.string()},
+                         "is not what its SHA256SUMS tells; sonarsim verify says what to do");
+    }
+    copy.commit();
+    return true;
+}
+
+}  // namespace
+
+CollectionSummary collect_datasets(
+    const std::vector<fs::path>& parts, const fs::path& out, int threads,
+    const std::function<void(std::uint64_t, std::uint64_t)>& progress,
+    const std::atomic<bool>& stop) {
+    const std::vector<Member> members = read_members(parts);
+    Json description = describe(members);
+    const FolderLock lock = begin_collection(out, description);
+    require_no_links(out, members);
+    struct Copy {
+        const Member* member;
+        const std::string* name;
+        const std::string* sum;
+    };
+    std::vector<Copy> copies;
+    std::string sums;
+    for (const Member& member : members) {
+        for (const auto& [name, sum] : member.sums) {
+            copies.push_back({&member, &name, &sum});
+            sums.append(sum).append("  ").append(member.folder).append("/").append(name) += '\n';
+        }
+    }
+    CollectionSummary summary{.warnings = seeds_shared_by(members)};
+    if (!lock.works()) summary.warnings.push_back(no_locks_warning(out));
+    if (threads <= 0) threads = tbb::info::default_concurrency();
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    tbb::task_arena arena(threads);
+    arena.execute([&] {
+        ordered_pipeline(
+            copies.size(), 2 * static_cast<std::size_t>(threads), stop,
+            [&](std::size_t i) {
+                const Copy& copy = copies[i];
+                return copy_whole(copy.member->from / *copy.name,
+                                  out / copy.member->folder / *copy.name, *copy.sum);
+            },
+            [&](bool copied) {
+                ++(copied ? summary.files : summary.skipped);
+                if (progress) progress(summary.files + summary.skipped, copies.size());
+            });
+    });
+    if (summary.files + summary.skipped < copies.size()) return summary;
+    description["complete"] = true;
+    const std::string text = json_text(description);
+    sums += sha256(text) + "  " + collection_name + '\n';
+    sync_file_system(out);
+    write_file_durably(out / checksums_name, sums);
+    write_file_durably(out / collection_name, text);
+    summary.complete = true;
+    return summary;
+}
+
+std::vector<fs::path> collected_folders(const fs::path& folder) {
+    std::vector<fs::path> folders;
+    if (const std::optional<CollectionFile> collection = read_collection(folder)) {
+        for (const std::string& name : collection->folders)
+            folders.push_back(folder / name);
+    }
+    return folders;
+}
+
+std::vector<std::string> collection_faults(const fs::path& folder) {
+    const std::optional<CollectionFile> collection = read_collection(folder);
+    std::vector<std::string> faults;
+    if (!collection || !collection->complete) {
+        faults.push_back(std::string(collection_name) +
+                         ": is not complete; the merge command that made it, run again, goes on");
+        return faults;
+    }
+    const std::string cure =
+        "; the merge command that made the collection, run into an empty "
+        "folder, makes it anew";
+    const fs::path sums_file = folder / checksums_name;
+    if (!fs::is_regular_file(sums_file))
+        return {std::string(checksums_name) + ": is missing" + cure};
+    auto sums = parse_checksums(read_file(sums_file, largest_text), sums_file.string());
+    const auto check = [&](const std::string& name, const std::string& sum) {
+        const auto told = sums.extract(name);
+        if (told.empty()) {
+            faults.push_back(name + ": SHA256SUMS of the collection does not list it" + cure);
+        } else if (told.mapped() != sum) {
+            faults.push_back(name + ": is not what SHA256SUMS of the collection tells" + cure);
+        }
+    };
+    check(collection_name, sha256_of_file(folder / collection_name));
+    for (const fs::path& dataset : collected_folders(folder)) {
+        const std::string prefix = dataset.filename().string() + "/";
+        const fs::path own = dataset / checksums_name;
+        // What is wrong with a dataset is told of that dataset.
+        if (!fs::is_regular_file(own)) continue;
+        check(prefix + checksums_name, sha256_of_file(own));
+        for (const auto& [name, sum] : parse_checksums(read_file(own, largest_text), own.string()))
+            check(prefix + name, sum);
+    }
+    for (const auto& [name, sum] : sums) {
+        if (fs::is_regular_file(folder / name)) continue;
+        faults.push_back(name + ": is missing, and SHA256SUMS of the collection lists it" + cure);
+    }
+    return faults;
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,28 @@
+#include "job/completion.h"
+
+#include "dataset/shared_files.h"
+
+namespace sonarsim {
+
+void complete_dataset(const Layout& layout, const Mission& mission,
+                      const std::vector<Writers>& writers, RecordFiles& records,
+                      const CommonFiles& common) {
+    const auto for_each_record = [&](const auto& visit) {
+        for (std::size_t i = 0; i < writers.size(); ++i) {
+            for (std::size_t k = 0; k < writers[i].size(); ++k) {
+                if (records[i][k]) visit(i, k);
+            }
+        }
+    };
+    for_each_record([&](std::size_t i, std::size_t k) {
+        writers[i][k]->write_products(*records[i][k], layout.sensor_folder(i));
+    });
+    require_records(records);
+    for_each_record([&](std::size_t i, std::size_t k) { records[i][k]->close(); });
+    write_shared_products(layout, mission, common.description);
+    JournalEntries entries = read_journal(layout.folder);
+    entries.products = require_products(layout);
+    finish_dataset(layout, common.description, entries);
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,199 @@
+#include "job/folder.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "core/text.h"
+#include "dataset/description.h"
+#include "dataset/ping_metadata.h"
+#include "job/checksums.h"
+#include "job/listed_files.h"
+#include "mission/files.h"
+
+namespace sonarsim {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+/// The number at the start of a ping's file name, when the rest of it is `ending`.
+std::optional<std::uint32_t> ping_number(std::string_view name, std::string_view ending) {
+    if (!name.ends_with(ending)) return std::nullopt;
+    name.remove_suffix(ending.size());
+    const auto number = parse_unsigned(name);
+    if (!number || *number > UINT32_MAX) return std::nullopt;
+    return static_cast<std::uint32_t>(*number);
+}
+
+/// The files in a folder that are not whole yet.
+std::vector<fs::path> temporary_files(const fs::path& folder) {
+    std::vector<fs::path> found;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+        const bool regular = entry.symlink_status().type() == fs::file_type::regular;
+        if (regular && is_temporary_name(entry.path().filename().string()))
+            found.push_back(entry.path());
+    }
+    return found;
+}
+
+void require_folder(const fs::path& path) {
+    if (!fs::is_directory(path)) throw InputError({path.string()}, "is not a folder");
+}
+
+[[noreturn]] void refuse(const fs::path& folder, const std::string& what, const char* cure) {
+    throw InputError({folder.string()}, what + "; choose another output.folder" + cure);
+}
+
+constexpr const char* or_overwrite = ", or replace it with --overwrite";
+constexpr const char* or_nothing = "";
+
+Json own_description(const fs::path& folder) {
+    if (auto json = read_description(folder)) return *std::move(json);
+    refuse(folder, "holds a dataset.json that is not sonarsim's", or_nothing);
+}
+
+/// Whether there is nothing in the folder but what a run that was killed at its beginning left.
+bool is_unused(const fs::path& folder) {
+    return std::all_of(
+        fs::directory_iterator(folder), fs::directory_iterator(),
+        [](const auto& entry) { return is_temporary_name(entry.path().filename().string()); });
+}
+
+/// Whether the path is the folder or lies below it, links resolved.
+bool is_within(const fs::path& path, const fs::path& folder) {
+    const fs::path inner = fs::weakly_canonical(path);
+    const fs::path outer = fs::weakly_canonical(folder);
+    return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first ==
+           outer.end();
+}
+
+}  // namespace
+
+FolderState inspect_folder(const Layout& layout, const Json& description) {
+    const fs::path& folder = layout.folder;
+    if (!fs::exists(folder)) return FolderState::fresh;
+    require_folder(folder);
+    // Another shard may be starting. It writes dataset.json before anything else, so whoever finds
+    // something and only then looks for dataset.json sees it.
+    const bool unused = is_unused(folder);
+    if (!fs::exists(folder / description_name)) {
+        if (unused) return FolderState::fresh;
+        refuse(folder, "holds files that are no sonarsim dataset", or_nothing);
+    }
+    const Json found = own_description(folder);
+    const std::string difference = difference_between(found, description);
+    if (!difference.empty()) refuse(folder, "holds a dataset " + difference, or_overwrite);
+    const DatasetFile dataset = check_description(found, (folder / description_name).string());
+    return dataset.complete ? FolderState::complete : FolderState::unfinished;
+}
+
+void protect_inputs(const Layout& layout, const Mission& mission) {
+    std::vector<fs::path> own = layout.folders();
+    for (const fs::path& folder : own) {
+        if (fs::is_symlink(folder)) {
+            throw InputError({folder.string()},
+                             "is a symbolic link, and a dataset is written into folders of its "
+                             "own; remove the link or choose another output.folder");
+        }
+    }
+    for (const char* name :
+         {description_name, mission_name, trajectory_name, journal_name, checksums_name})
+        own.push_back(layout.folder / name);
+    for (const fs::path& input : files_of(mission)) {
+        if (input.empty()) continue;
+        for (const fs::path& path : own) {
+            if (!is_within(input, path)) continue;
+            throw InputError({layout.folder.string()}, "the dataset would replace '" +
+                                                           input.string() +
+                                                           "', which the mission reads; choose "
+                                                           "another output.folder");
+        }
+    }
+}
+
+void remove_dataset(const Layout& layout, const Mission& mission) {
+    const fs::path& folder = layout.folder;
+    if (!fs::exists(folder)) return;
+    require_folder(folder);
+    if (!fs::exists(folder / description_name)) {
+        if (is_unused(folder)) return;
+        refuse(folder, "holds files that are no sonarsim dataset", or_nothing);
+    }
+    remove_listed_files(folder, own_description(folder), files_of(mission));
+    sync_file_system(folder);
+}
+
+void begin_dataset(const Layout& layout, const CommonFiles& files) {
+    fs::create_directories(layout.folder);
+    // First and durably: a folder without it that holds anything else is not ours to write into.
+    write_file_durably(layout.folder / description_name, json_text(files.description));
+    // What it promises holds again at the end only.
+    fs::remove(layout.folder / checksums_name);
+    write_file(layout.folder / mission_name, files.mission);
+    write_file(layout.folder / trajectory_name, files.trajectory);
+    for (const fs::path& folder : layout.folders())
+        fs::create_directories(folder);
+}
+
+bool has_common_files(const Layout& layout) {
+    std::error_code absent;
+    return std::ranges::all_of(std::array{mission_name, trajectory_name, checksums_name},
+                               [&](const char* name) {
+                                   return fs::symlink_status(layout.folder / name, absent).type() ==
+                                          fs::file_type::regular;
+                               });
+}
+
+void remove_leftovers(const Layout& layout, const std::vector<PingId>& todo, bool alone) {
+    const auto remove_all = [](const fs::path& folder) {
+        for (const fs::path& file : temporary_files(folder))
+            fs::remove(file);
+    };
+    if (alone) {
+        remove_all(layout.folder);
+        for (const std::string& product : layout.products)
+            remove_all((layout.folder / product).parent_path());
+    }
+    for (std::uint32_t sensor = 0; sensor < layout.sensors.size(); ++sensor) {
+        if (alone) remove_all(layout.sensor_folder(sensor));
+        if (layout.sensors[sensor].pings_per_pack > 0) continue;  // packs have no temporary names
+        for (const auto& part : layout.sensors[sensor].per_ping) {
+            const auto* kind = std::get_if<PingFile>(&part);
+            if (!kind) continue;
+            for (const fs::path& file :
+                 temporary_files(layout.sensor_folder(sensor) / kind->name)) {
+                const std::string name = final_name(file.filename().string());
+                const auto pose = ping_number(name, kind->extension);
+                if (pose && std::ranges::binary_search(todo, PingId{*pose, sensor}))
+                    fs::remove(file);
+            }
+        }
+    }
+}
+
+void remove_journal_parts(const Layout& layout) {
+    const fs::path folder = layout.folder / journal_folder_name;
+    std::error_code ignored;  // another run may be removing them, too
+    for (fs::directory_iterator part(folder, ignored), end; part != end; part.increment(ignored)) {
+        if (is_journal_part(part->path().filename().string())) fs::remove(part->path(), ignored);
+    }
+    fs::remove(folder, ignored);  // where nothing else is in it
+}
+
+void finish_dataset(const Layout& layout, const Json& description, const JournalEntries& entries) {
+    write_journal(layout.folder / journal_name, entries);
+    sync_file_system(layout.folder);
+    Json finished = description;
+    finished["complete"] = true;
+    const std::string text = json_text(finished);
+    write_checksums(layout, entries, text);
+    sync_file_system(layout.folder);
+    write_file_durably(layout.folder / description_name, text);
+    remove_journal_parts(layout);
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,295 @@
+#include "job/merge.h"
+
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "assembly/assemble.h"
+#include "core/error.h"
+#include "core/file.h"
+#include "core/ordered_pipeline.h"
+#include "core/text.h"
+#include "dataset/checked_json.h"
+#include "dataset/description.h"
+#include "dataset/metadata.h"
+#include "job/completion.h"
+#include "job/folder.h"
+#include "job/folder_lock.h"
+#include "job/ping_files.h"
+#include "job/resume.h"
+#include "mission/resolved.h"
+#include "sonar/kinds.h"
+#include "sonar/sonar.h"
+#include "trajectory/files.h"
+
+namespace sonarsim {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t largest_common_file = std::size_t{1} << 32;
+
+/// Beside the pings, what a part holds. `complete` is set to false, as at the beginning of a run.
+CommonFiles read_common(const fs::path& folder) {
+    Json description = require_dataset(folder).json;
+    description["complete"] = false;
+    return {std::move(description), read_file(folder / mission_name, largest_common_file),
+            read_file(folder / trajectory_name, largest_common_file)};
+}
+
+void require_same(const fs::path& part, const CommonFiles& found, const fs::path& first,
+                  const CommonFiles& expected) {
+    std::string difference = difference_between(found.description, expected.description);
+    if (difference.empty() &&
+        (found.mission != expected.mission || found.trajectory != expected.trajectory))
+        difference = "of this mission whose inputs or poses were changed since";
+    if (difference.empty()) {
+        const auto key = first_difference(found.description, expected.description);
+        if (!key) return;
+        difference = "whose dataset.json differs in '" + printable(*key) + "'";
+    }
+    throw InputError({part.string()},
+                     "holds a dataset " + difference + ", seen from " + first.string() +
+                         "; only parts of one mission become one dataset; whole datasets "
+                         "of different missions stand side by side with "
+                         "--different");
+}
+
+/// What the products of a dataset are made with: all that the mission names but the scene.
+struct MergeContext {
+    Mission mission;
+    Assembly assembly;
+};
+
+/// The white of each sensor's pictures, which the scene was needed to find.
+std::vector<double> full_scales_of(const DatasetFile& dataset, const std::string& file) {
+    std::vector<double> scales;
+    for (const DescribedSensor& sensor : dataset.sensors) {
+        if (sensor.full_scale <= 0.0)
+            throw InputError({file}, "sensor '" + sensor.name + "' has no full_scale above 0");
+        scales.push_back(sensor.full_scale);
+    }
+    return scales;
+}
+
+MergeContext read_context(const fs::path& part, const CommonFiles& common, const fs::path& out) {
+    MergeContext context;
+    const std::string file = (part / mission_name).string();
+    context.mission = parse_resolved(common.mission, file, sonar_keys());
+    const DatasetFile dataset =
+        check_description(common.description, (part / description_name).string());
+    if (mission_hash(context.mission, sonar_keys()) != dataset.mission_hash) {
+        throw InputError({file},
+                         "is not the mission that dataset.json was made of, or not by this version "
+                         "of sonarsim; copy the part again, or merge with the version that "
+                         "rendered it");
+    }
+    context.mission.output.folder = fs::absolute(out).lexically_normal();
+    context.assembly.trajectory = parse_tum(common.trajectory, (part / trajectory_name).string());
+    for (const SonarConfig& sensor : context.mission.sensors)
+        context.assembly.sonars.push_back(
+            make_sonar(sensor, context.mission.accuracy, context.mission.water));
+    context.assembly.full_scales = full_scales_of(dataset, (part / description_name).string());
+    if (context.assembly.full_scales.size() != context.assembly.sonars.size())
+        throw InputError({(part / description_name).string()}, "lists other sensors");
+    return context;
+}
+
+/// How many pings fit a pack depends on the scene, which is not needed here: the parts tell. Of a
+/// sensor that the mission does not pack, the packs are a fault that is found later.
+void adopt_packs(Layout& layout, const DatasetFile& dataset) {
+    for (std::size_t i = 0; i < layout.sensors.size(); ++i) {
+        std::size_t& own = layout.sensors[i].pings_per_pack;
+        if (own > 0 && dataset.sensors[i].packs) own = dataset.sensors[i].packs->pings;
+    }
+}
+
+/// Compares what dataset.json says with what the mission gives: a key that was changed would be
+/// copied into the whole.
+void require_as_made(const Json& told, const fs::path& part, const MergeContext& context,
+                     const Layout& layout, const std::vector<Writers>& writers) {
+    const Mission& mission = context.mission;
+    Json made = {{"mission", mission.name},
+                 {"seed", mission.seed},
+                 {"poses", context.assembly.trajectory.size()},
+                 {"sensors", describe_sensors(context.assembly, layout, writers)}};
+    if (!layout.products.empty()) made["products"] = layout.products;
+    for (const auto& [key, value] : made.items()) {
+        const auto way = first_difference(told.value(key, Json()), value, key);
+        if (!way) continue;
+        throw InputError({(part / description_name).string()},
+                         "'" + printable(*way) +
+                             "' is not what its mission.resolved.yaml gives; copy the part again, "
+                             "or render it anew");
+    }
+}
+
+/// A folder that pings are taken from.
+struct Part {
+    /// `datasets` are open at the same time.
+    Part(Layout of, const fs::path& folder, std::size_t datasets) : layout(std::move(of)) {
+        layout.folder = folder;
+        records = open_records(layout, RecordAccess::read, datasets);
+        finished = std::make_unique<FinishedPings>(layout, records);
+    }
+
+    Layout layout;
+    RecordFiles records;
+    std::unique_ptr<FinishedPings> finished;  ///< refers to the two above
+};
+
+/// A ping that is to be copied, and where from.
+struct Copy {
+    PingId id;
+    const Part* from;
+};
+
+/// "shards 2/3, 3/3" of the pings that are missing, where the parts' journals tell of shards.
+std::string missing_shards(const std::vector<PingId>& all,
+                           const std::vector<std::unique_ptr<Part>>& parts,
+                           const std::vector<std::size_t>& missing) {
+    std::optional<std::uint64_t> shards;
+    for (const auto& part : parts) {
+        const fs::path folder = part->layout.folder / journal_folder_name;
+        if (!fs::is_directory(folder)) continue;
+        for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+            const std::string name = entry.path().stem().string();
+            const std::size_t of = name.find("-of-");
+            if (is_journal_part(entry.path().filename().string()))
+                shards = parse_unsigned(std::string_view(name).substr(of + 4));
+        }
+    }
+    if (!shards || *shards < 2) return {};
+    std::set<int> which;
+    for (const std::size_t ping : missing)
+        which.insert(1 + shard_of(parts[0]->layout, all[ping], ping, static_cast<int>(*shards)));
+    std::string text;
+    for (const std::uint64_t shard : which)
+        text += (text.empty() ? "" : ", ") + std::to_string(shard) + "/" + std::to_string(*shards);
+    return " (--shard " + text + ")";
+}
+
+std::vector<Copy> plan_copies(const std::vector<PingId>& all,
+                              const std::vector<std::unique_ptr<Part>>& parts,
+                              const FinishedPings& there) {
+    std::vector<Copy> copies;
+    std::vector<std::size_t> missing;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        if (there(all[i])) continue;
+        const auto part =
+            std::ranges::find_if(parts, [&](const auto& p) { return (*p->finished)(all[i]); });
+        part != parts.end() ? copies.push_back({all[i], part->get()}) : missing.push_back(i);
+    }
+    if (missing.empty()) return copies;
+    throw InputError(std::to_string(missing.size()) + " of " + std::to_string(all.size()) +
+                     " pings are in none of the parts" + missing_shards(all, parts, missing) +
+                     ": the first is ping " + std::to_string(all[missing[0]].pose) +
+                     " of sensor '" + parts[0]->layout.sensors[all[missing[0]].sensor].name +
+                     "'; render what is missing, or name its folder, too");
+}
+
+/// The bytes of a ping, which are those that the journal of its part tells.
+EncodedPing sound_ping(const Copy& copy) {
+    const Part& from = *copy.from;
+    EncodedPing encoded = read_ping(from.layout, from.records, *from.finished, copy.id);
+    const SensorLayout& sensor = from.layout.sensors[copy.id.sensor];
+    const std::vector<std::string> found = journal_words(sensor, encoded);
+    const std::vector<std::string> told = from.finished->words_of(copy.id);
+    const auto differs = std::ranges::mismatch(found, told).in1;
+    if (differs == found.end()) return encoded;
+    const auto* file = std::get_if<PingFile>(&sensor.per_ping[differs - found.begin()]);
+    const fs::path path = !file                       ? from.layout.sensor_folder(copy.id.sensor)
+                          : sensor.pings_per_pack > 0 ? from.layout.pack_file(copy.id)
+                                                      : from.layout.file(copy.id, *file);
+    throw InputError({path.string()},
+                     "is not what the journal of its part tells; copy the part again, or remove "
+                     "the file and render that shard again");
+}
+
+/// `out` may hold an unfinished merge, and none of the parts.
+void require_apart(const std::vector<fs::path>& parts, const fs::path& out) {
+    for (const fs::path& part : parts) {
+        std::error_code absent;
+        if (fs::equivalent(part, out, absent)) {
+            throw InputError({out.string()},
+                             "is one of the parts; name another folder to write to");
+        }
+    }
+}
+
+}  // namespace
+
+MergeSummary merge_datasets(const std::vector<fs::path>& folders, const fs::path& out, int threads,
+                            const std::function<void(std::uint64_t, std::uint64_t)>& progress,
+                            const std::atomic<bool>& stop) {
+    require_apart(folders, out);
+    const CommonFiles common = read_common(folders.at(0));
+    for (const fs::path& folder : folders)
+        require_same(folder, read_common(folder), folders[0], common);
+    const MergeContext context = read_context(folders[0], common, out);
+    const std::size_t poses = context.assembly.trajectory.size();
+    const std::vector<Writers> writers = make_writers(context.mission, context.assembly);
+    Layout layout = make_layout(context.mission, writers, poses);
+    adopt_packs(layout, check_description(common.description, folders[0].string()));
+    require_as_made(common.description, folders[0], context, layout, writers);
+    std::vector<std::unique_ptr<Part>> parts;
+    for (const fs::path& folder : folders)
+        parts.push_back(std::make_unique<Part>(layout, folder, folders.size() + 1));
+
+    protect_inputs(layout, context.mission);
+    const std::vector<PingId> all = list_pings(context.mission, poses);
+    // What is missing is told before anything is written.
+    if (inspect_folder(layout, common.description) == FolderState::fresh)
+        plan_copies(all, parts, *parts[0]->finished);
+    const FolderLock lock = lock_alone(layout.folder);
+    MergeSummary summary{.unlocked = !lock.works()};
+    if (inspect_folder(layout, common.description) == FolderState::complete &&
+        has_all(layout, all)) {
+        summary.skipped = all.size();
+        summary.complete = true;
+        return summary;
+    }
+    begin_dataset(layout, common);
+    RecordFiles records = open_records(layout, RecordAccess::write, folders.size() + 1);
+    const FinishedPings there(layout, records);
+    const std::vector<Copy> copies = plan_copies(all, parts, there);
+    summary.skipped = all.size() - copies.size();
+
+    if (threads <= 0) threads = tbb::info::default_concurrency();
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    tbb::task_arena arena(threads);
+    constexpr double checkpoint_s = 5.0;
+    Journal journal(layout.folder, journal_part(1, 1), checkpoint_s);
+    PingFiles files(layout, records, there);
+    arena.execute([&] {
+        ordered_pipeline(
+            copies.size(), 2 * static_cast<std::size_t>(threads), stop,
+            [&](std::size_t i) {
+                EncodedPing encoded = sound_ping(copies[i]);
+                files.write(copies[i].id, encoded);
+                return encoded;
+            },
+            [&](const EncodedPing& encoded) {
+                const Copy& copy = copies[summary.pings];
+                files.pack(copy.id, encoded);
+                journal.add(copy.id, copy.from->finished->words_of(copy.id));
+                ++summary.pings;
+                if (progress) progress(summary.pings, copies.size());
+            });
+    });
+    journal.finish();
+    if (summary.pings < copies.size()) return summary;
+    complete_dataset(layout, context.mission, writers, records, common);
+    summary.complete = true;
+    return summary;
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,189 @@
+#include "job/resume.h"
+
+#include <algorithm>
+#include <optional>
+#include <stdexcept>
+#include <variant>
+
+#include "format/tar.h"
+#include "job/folder.h"
+
+namespace sonarsim {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Of a regular file; nothing for anything else.
+std::optional<std::uint64_t> size_of(const fs::path& path) {
+    std::error_code absent;
+    if (fs::symlink_status(path, absent).type() != fs::file_type::regular) return std::nullopt;
+    const std::uint64_t size = fs::file_size(path, absent);
+    return absent ? std::nullopt : std::optional(size);
+}
+
+/// Those of the dataset as of a sensor after the last one.
+template <class Visit>
+void for_each_product(const Layout& layout, const Visit& visit) {
+    for (std::uint32_t i = 0; i < layout.sensors.size(); ++i) {
+        for (const std::string& name : layout.sensors[i].products)
+            visit(i, name);
+    }
+    for (const std::string& name : layout.products)
+        visit(static_cast<std::uint32_t>(layout.sensors.size()), name);
+}
+
+}  // namespace
+
+RecordFiles open_records(const Layout& layout, RecordAccess access, std::size_t datasets) {
+    std::size_t records = 0;
+    for (const SensorLayout& sensor : layout.sensors)
+        records += std::ranges::count_if(sensor.per_ping, [](const auto& part) {
+            return std::holds_alternative<PingRecord>(part);
+        });
+    const KeepOpen keep = records * datasets <= most_files_kept_open ? KeepOpen::yes : KeepOpen::no;
+    RecordFiles files(layout.sensors.size());
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        const SensorLayout& sensor = layout.sensors[i];
+        for (const auto& part : sensor.per_ping) {
+            const auto* record = std::get_if<PingRecord>(&part);
+            files[i].push_back(
+                record ? std::make_unique<RecordFile>(layout.sensor_folder(i) / record->file,
+                                                      record->format, sensor.pings, access, keep)
+                       : nullptr);
+        }
+    }
+    return files;
+}
+
+FinishedPings::FinishedPings(const Layout& layout, const RecordFiles& records)
+    : layout_(layout),
+      records_(records),
+      entries_(read_journal(layout.folder)),
+      ends_(layout.sensors.size()) {
+    for (std::uint32_t sensor = 0; sensor < layout.sensors.size(); ++sensor) {
+        if (layout.sensors[sensor].pings_per_pack > 0) find_packed(sensor);
+    }
+}
+
+void FinishedPings::find_packed(std::uint32_t sensor) {
+    const SensorLayout& own = layout_.sensors[sensor];
+    ends_[sensor].assign(own.pings, 0);
+    std::uint64_t size = 0;  // of the pack's file
+    for (std::uint32_t i = 0; i < own.pings; ++i) {
+        const PingId ping{i * own.every, sensor};
+        const bool first = i % own.pings_per_pack == 0;
+        if (first) size = size_of(layout_.pack_file(ping)).value_or(0);
+        if (!first && ends_[sensor][i - 1] == 0) continue;
+        if (size == 0 || !is_told(ping)) continue;
+        std::uint64_t end = begin_in_pack(ping);
+        for (std::size_t k = 0; k < own.per_ping.size(); ++k) {
+            if (std::holds_alternative<PingFile>(own.per_ping[k]))
+                end += tar_bytes(bytes_of(ping, k));
+        }
+        // A pack that goes on is not finished yet, or was cut off: what it holds is told by its
+        // journal.
+        const bool whole =
+            layout_.is_last_in_pack(ping) ? size == end + tar_end_bytes : size >= end;
+        if (whole) ends_[sensor][i] = end;
+    }
+}
+
+std::uint64_t FinishedPings::begin_in_pack(const PingId& ping) const {
+    const std::size_t record = layout_.record_of(ping);
+    const bool first = record % layout_.sensors[ping.sensor].pings_per_pack == 0;
+    return first ? 0 : ends_[ping.sensor][record - 1];
+}
+
+std::uint64_t FinishedPings::bytes_of(const PingId& ping, std::size_t k) const {
+    return parse_entry(words_of(ping).at(k)).value_or(FileEntry{}).bytes;
+}
+
+std::vector<std::string> FinishedPings::words_of(const PingId& ping) const {
+    return entries_.pings.find(ping).value();
+}
+
+bool FinishedPings::operator()(const PingId& ping) const {
+    const bool packed = layout_.sensors[ping.sensor].pings_per_pack > 0;
+    return packed ? ends_[ping.sensor][layout_.record_of(ping)] > 0 : is_told(ping);
+}
+
+bool FinishedPings::is_told(const PingId& ping) const {
+    const auto words = entries_.pings.find(ping);
+    const SensorLayout& sensor = layout_.sensors[ping.sensor];
+    const auto& parts = sensor.per_ping;
+    if (!words || words->size() != parts.size()) return false;
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+        const std::string& expected = (*words)[k];
+        if (const auto* file = std::get_if<PingFile>(&parts[k])) {
+            const auto told = parse_entry(expected);
+            if (!told) return false;
+            const bool loose = sensor.pings_per_pack == 0;
+            if (loose && size_of(layout_.file(ping, *file)) != told->bytes) return false;
+        } else if (records_[ping.sensor][k]->hash(layout_.record_of(ping)) != expected) {
+            return false;
+        }
+    }
+    return true;
+}
+
+void require_records(const RecordFiles& records) {
+    for (const auto& sensor : records) {
+        for (const auto& file : sensor) {
+            if (file) file->require_in_place();
+        }
+    }
+}
+
+void require_files(const Layout& layout, const std::vector<PingId>& written,
+                   const FinishedPings& finished) {
+    for (const PingId& ping : written) {
+        if (finished(ping)) continue;
+        throw std::runtime_error("files of ping " + std::to_string(ping.pose) + " in " +
+                                 layout.sensor_folder(ping.sensor).string() +
+                                 " were changed or removed during the run; the same command run "
+                                 "again renders what is missing");
+    }
+}
+
+ProductSizes require_products(const Layout& layout) {
+    ProductSizes sizes;
+    for_each_product(layout, [&](std::uint32_t sensor, const std::string& name) {
+        const fs::path path = layout.product_file(sensor, name);
+        const auto size = size_of(path);
+        if (!size)
+            throw std::runtime_error(path.string() +
+                                     " was removed during the run; the same "
+                                     "command run again makes it anew");
+        sizes[{sensor, name}] = *size;
+    });
+    return sizes;
+}
+
+namespace {
+
+/// Whether every product is there with the size that the journal tells.
+bool has_products(const Layout& layout) {
+    const ProductSizes expected = read_journal(layout.folder).products;
+    bool all = true;
+    for_each_product(layout, [&](std::uint32_t sensor, const std::string& name) {
+        const auto entry = expected.find({sensor, name});
+        all = all && entry != expected.end() &&
+              size_of(layout.product_file(sensor, name)) == entry->second;
+    });
+    return all;
+}
+
+}  // namespace
+
+bool has_all(const Layout& layout, const std::vector<PingId>& pings) {
+    if (!has_common_files(layout) || !has_products(layout)) return false;
+    try {
+        const RecordFiles records = open_records(layout, RecordAccess::read);
+        return std::ranges::all_of(pings, FinishedPings(layout, records));
+    } catch (const std::runtime_error&) {
+        return false;  // a file of records is missing or damaged
+    }
+}
+
+}  // namespace sonarsim

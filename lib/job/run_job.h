@@ -1,0 +1,70 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "assembly/assemble.h"
+#include "dataset/sensor_summary.h"
+#include "mission/mission.h"
+#include "trace/ping.h"
+
+namespace sonarsim {
+
+struct RenderOptions {
+    int threads = 0;            ///< 0: one per core
+    int shard = 0;              ///< renders the pings whose index i has i % shards == shard
+    int shards = 1;             ///< 1: all of them
+    bool overwrite = false;     ///< begins anew where the folder holds another dataset
+    bool files = true;          ///< false: renders and throws away, to measure
+    double checkpoint_s = 5.0;  ///< between checkpoints; what a power cut costs at the most
+};
+
+struct RenderSummary {
+    std::uint64_t pings = 0;    ///< rendered by this run
+    std::uint64_t skipped = 0;  ///< not rendered: their files were there already
+    bool complete = false;      ///< the folder now holds every ping of every shard
+    bool stopped = false;       ///< ended early on request
+    bool unlocked = false;      ///< the disk has no locks that would keep a second run away
+    double seconds = 0.0;       ///< wall clock from the first ping to the last
+    PingSeconds stages;         ///< summed over the pings, and so over threads
+    double encode_seconds = 0.0;
+    double write_seconds = 0.0;
+    PingCounts counts;                   ///< summed over the pings
+    std::vector<std::string> warnings;   ///< of the engine
+    std::uint64_t clipped_pixels = 0;    ///< intensities above full_scale, where files were written
+    std::vector<SensorSummary> sensors;  ///< in the order of Mission::sensors
+};
+
+/// Called after each ping with how many are done and how many this run has to do; from any
+/// thread, but never twice at a time, and in ascending order.
+using ProgressCallback = std::function<void(std::uint64_t done, std::uint64_t total)>;
+
+/// The same of a job, with what its pings came to so far.
+using JobCallback = std::function<void(const RenderSummary& so_far, std::uint64_t total)>;
+
+/// Renders a mission into its output folder.
+///
+/// A folder with an unfinished dataset of the same mission, inputs and program version is resumed:
+/// pings that its journal lists, and whose files are there with the sizes that it tells, are not
+/// rendered again, and the bytes come out the same. If nothing is missing, nothing is done. Shards
+/// may run at the same time, in one folder or in folders that are merged later (job/merge.h);
+/// whichever run finds that no ping is missing makes the products and marks the dataset as
+/// complete. The folder is locked for the time of the run, and so is each shard's part of the
+/// journal (job/folder_lock.h).
+///
+/// When `stop` becomes true, pings in flight are finished and the rest is left for a later run.
+/// InputError when the folder holds something else and `overwrite` is off, when another run writes
+/// there, or when the dataset would replace a file that the mission reads; std::system_error when
+/// the disk does not take a file; std::runtime_error when files vanish while the run is under way.
+RenderSummary run_job(const Mission& mission, const Assembly& assembly,
+                      const RenderOptions& options, const JobCallback& progress,
+                      const std::atomic<bool>& stop);
+
+/// The same, with the assembly made on the way.
+RenderSummary run_job(const Mission& mission, const RenderOptions& options,
+                      const JobCallback& progress, const std::atomic<bool>& stop);
+
+}  // namespace sonarsim

@@ -1,0 +1,169 @@
+#include "job/status.h"
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "dataset/description.h"
+#include "dataset/layout.h"
+#include "job/folder_lock.h"
+#include "job/journal.h"
+#include "job/variants.h"
+
+namespace sonarsim {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+/// As much of the layout as tells which ping is in which shard.
+Layout layout_of(const fs::path& folder, const DatasetFile& dataset) {
+    Layout layout;
+    layout.folder = folder;
+    layout.poses = dataset.poses;
+    for (const DescribedSensor& sensor : dataset.sensors) {
+        SensorLayout own;
+        own.name = sensor.name;
+        own.every = static_cast<std::uint32_t>(sensor.every);
+        own.pings = sensor.pings;
+        if (sensor.packs) own.pings_per_pack = sensor.packs->pings;
+        layout.sensors.push_back(std::move(own));
+    }
+    return layout;
+}
+
+/// Calls `visit` with every ping of the dataset and its index, as list_pings() has them. A list of
+/// them could take more memory than there is: dataset.json alone tells how many they are.
+template <class Visit>
+void for_each_ping(const Layout& layout, const Visit& visit) {
+    std::size_t index = 0;
+    for (std::uint32_t pose = 0; pose < layout.poses; ++pose) {
+        for (std::uint32_t sensor = 0; sensor < layout.sensors.size(); ++sensor) {
+            if (pose % layout.sensors[sensor].every == 0) visit(PingId{pose, sensor}, index++);
+        }
+    }
+}
+
+/// The shards that a name of the form journal_part() stands for.
+std::pair<int, int> shard_of_part(const std::string& name) {
+    const std::size_t of = name.find("-of-");
+    const auto shard = parse_integer(name.substr(0, of));
+    const auto shards = parse_integer(name.substr(of + 4, name.size() - of - 8));
+    return {static_cast<int>(shard.value_or(1)), static_cast<int>(shards.value_or(1))};
+}
+
+/// The parts of the journals in the folders, by the shard that writes them.
+std::map<std::pair<int, int>, fs::path> parts_in(const std::vector<fs::path>& folders) {
+    std::map<std::pair<int, int>, fs::path> parts;
+    for (const fs::path& folder : folders) {
+        const fs::path own = folder / journal_folder_name;
+        if (!fs::is_directory(own)) continue;
+        for (const fs::directory_entry& part : fs::directory_iterator(own)) {
+            const std::string name = part.path().filename().string();
+            if (is_journal_part(name)) parts.try_emplace(shard_of_part(name), part.path());
+        }
+    }
+    return parts;
+}
+
+ShardStatus status_of(const fs::path& part, double now_s) {
+    ShardStatus status;
+    status.begun = true;
+    const JournalRun run = read_journal_run(part);
+    status.running = is_locked(part);
+    const double seconds = run.last_s - run.first_s;
+    if (seconds > 0.0) status.pings_per_s = static_cast<double>(run.pings) / seconds;
+    if (run.last_s > 0.0) status.age_s = std::max(0.0, now_s - run.last_s);
+    return status;
+}
+
+/// Adds the shards of one division of the job that nobody has begun.
+std::vector<ShardStatus> with_missing(const std::vector<ShardStatus>& begun) {
+    std::vector<ShardStatus> all = begun;
+    std::set<int> divisions;
+    for (const ShardStatus& one : begun)
+        divisions.insert(one.shards);
+    if (divisions.size() != 1) return all;
+    for (int shard = 1; shard <= *divisions.begin(); ++shard) {
+        const auto is_it = [&](const ShardStatus& one) { return one.shard == shard; };
+        if (std::ranges::none_of(begun, is_it))
+            all.push_back({.shard = shard, .shards = *divisions.begin(), .pings = {}});
+    }
+    std::ranges::sort(all, {}, &ShardStatus::shard);
+    return all;
+}
+
+}  // namespace
+
+bool JobStatus::running() const {
+    return std::ranges::any_of(shards, &ShardStatus::running);
+}
+
+double JobStatus::pings_per_s() const {
+    double sum = 0.0;
+    for (const ShardStatus& shard : shards)
+        sum += shard.running ? shard.pings_per_s : 0.0;
+    return sum;
+}
+
+JobStatus read_status(const std::vector<fs::path>& folders, double now_s) {
+    const DatasetFile dataset = require_dataset(folders.at(0));
+    const Layout layout = layout_of(folders[0], dataset);
+    JobStatus status;
+    status.mission = dataset.mission;
+    status.complete = dataset.complete;
+    for (const SensorLayout& sensor : layout.sensors)
+        status.sensors.push_back({sensor.name, {0, sensor.pings}});
+    std::set<PingId> done;
+    for (const fs::path& folder : folders) {
+        const std::string difference =
+            difference_between(require_dataset(folder).json, dataset.json);
+        if (!difference.empty())
+            throw InputError({folder.string()}, "holds a dataset " + difference);
+        read_journal(folder).pings.for_each(
+            [&](const PingId& ping, const std::vector<std::string>&) { done.insert(ping); });
+    }
+    for (const auto& [shard, part] : parts_in(folders)) {
+        ShardStatus one = status_of(part, now_s);
+        one.shard = shard.first;
+        one.shards = shard.second;
+        status.shards.push_back(one);
+    }
+    status.shards = status.complete ? std::vector<ShardStatus>() : with_missing(status.shards);
+    for_each_ping(layout, [&](const PingId& ping, std::size_t index) {
+        const bool is_done = status.complete || done.contains(ping);
+        ++status.pings.all;
+        status.pings.done += is_done;
+        status.sensors[ping.sensor].second.done += is_done;
+        for (ShardStatus& shard : status.shards) {
+            if (shard_of(layout, ping, index, shard.shards) + 1 != shard.shard) continue;
+            ++shard.pings.all;
+            shard.pings.done += is_done;
+        }
+    });
+    return status;
+}
+
+VariantsStatus read_variants_status(const fs::path& folder, double now_s) {
+    VariantsStatus status;
+    const std::optional<Json> json = read_variants(folder);
+    if (!json) throw InputError({folder.string()}, "holds no variants of a sonarsim mission");
+    for (const fs::path& variant : folders_of_variants(folder, *json)) {
+        ++status.variants;
+        if (!fs::exists(variant / description_name)) continue;
+        JobStatus one = read_status({variant}, now_s);
+        if (one.complete) {
+            ++status.complete;
+        } else {
+            status.under_way.emplace_back(variant.filename().string(), std::move(one));
+        }
+    }
+    return status;
+}
+
+}  // namespace sonarsim

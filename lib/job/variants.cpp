@@ -1,0 +1,289 @@
+#include "job/variants.h"
+
+#include <algorithm>
+
+#include "checks/image_warnings.h"
+#include "core/clock.h"
+#include "core/error.h"
+#include "core/file.h"
+#include "core/sha256.h"
+#include "core/text.h"
+#include "dataset/checked_json.h"
+#include "dataset/description.h"
+#include "dataset/layout.h"
+#include "dataset/metadata.h"
+#include "dataset/ping_metadata.h"
+#include "dataset/split.h"
+#include "job/folder.h"
+#include "job/folder_lock.h"
+#include "mission/resolved.h"
+#include "mission/variants.h"
+#include "scene/gltf/scene_files.h"
+#include "sonar/kinds.h"
+
+namespace sonarsim {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* variants_format = "sonarsim variants";
+constexpr std::size_t largest_index = std::size_t{1} << 30;
+
+[[noreturn]] void refuse_folder(const fs::path& folder, const std::string& what) {
+    throw InputError({folder.string()},
+                     what + "; choose another output.folder, or --overwrite to begin anew");
+}
+
+bool holds_something(const fs::path& folder) {
+    return fs::exists(folder) &&
+           !std::all_of(fs::directory_iterator(folder), fs::directory_iterator(),
+                        [](const auto& entry) {
+                            return is_temporary_name(entry.path().filename().string());
+                        });
+}
+
+/// Removes what lies in the folder of a variant, which belongs to it alone.
+void remove_variant(const fs::path& folder, const Mission& mission) {
+    if (!fs::is_directory(folder)) return;
+    const FolderLock lock = lock_alone(folder);
+    Layout layout;
+    layout.folder = folder;
+    remove_dataset(layout, mission);
+    if (fs::is_empty(folder)) fs::remove(folder);
+}
+
+/// Removes what lies beside the variants, but not variants.json, by which the folder is known.
+void remove_files_beside(const fs::path& folder) {
+    fs::remove(folder / checksums_name);
+    for (const std::string_view part : split_part_names)
+        fs::remove(folder / split_file_of(part));
+    std::error_code not_empty;
+    fs::remove(folder / split_folder_name, not_empty);
+}
+
+/// Writes a file that is not there as it should be: the disk of a complete dataset may be
+/// read-only.
+void keep_or_write(const fs::path& file, const std::string& text) {
+    if (fs::is_regular_file(file) && read_file(file, largest_index) == text) return;
+    fs::create_directories(file.parent_path());
+    write_file_durably(file, text);
+}
+
+/// Writes variants.json, the lists of its parts and the sums of both.
+void write_files_beside(const fs::path& folder, const Json& json) {
+    std::string sums;
+    const auto write = [&](const std::string& name, const std::string& text) {
+        keep_or_write(folder / name, text);
+        sums += sha256(text) + "  " + name + '\n';
+    };
+    write(variants_name, json_text(json));
+    for (const auto& [name, lines] : split_lists(json))
+        write(name, lines);
+    keep_or_write(folder / checksums_name, sums);
+}
+
+/// Locks the folder of all variants for a run and makes it ready: alone, or with other shards,
+/// which wait while one of them does.
+FolderLock enter(const fs::path& folder, const Json& json, std::span<const Mission> variants,
+                 const RenderOptions& options) {
+    constexpr double longest_s = 10.0;
+    const bool alone = options.shards == 1;
+    const auto waits = [&, watch = Stopwatch(), waited_s = 0.0]() mutable {
+        return !alone && (waited_s += watch.lap()) < longest_s;
+    };
+    FolderLock lock(folder);
+    const bool entered = alone ? lock.take_alone(waits) : lock.take_alone_or_share(waits);
+    if (!entered) refuse_second_run(folder);
+    begin_variants(folder, json, variants, options.overwrite);
+    // Another run may come in between, and then the folder may hold other variants.
+    if (!alone && (!lock.share(waits) || read_variants(folder) != json)) refuse_second_run(folder);
+    return lock;
+}
+
+/// What can be refused of a mission that is about to be rendered.
+void check(const Mission& mission, const Assembly& assembly) {
+    const std::vector<Writers> writers = make_writers(mission, assembly);
+    protect_inputs(make_layout(mission, writers, assembly.trajectory.size()), mission);
+}
+
+void add(RenderSummary& all, const RenderSummary& one) {
+    all.pings += one.pings;
+    all.skipped += one.skipped;
+    all.complete = all.complete && one.complete;
+    all.unlocked = all.unlocked || one.unlocked;
+    all.seconds += one.seconds;
+    all.stages += one.stages;
+    all.encode_seconds += one.encode_seconds;
+    all.write_seconds += one.write_seconds;
+    all.counts += one.counts;
+    all.clipped_pixels += one.clipped_pixels;
+    all.sensors.resize(std::max(all.sensors.size(), one.sensors.size()));
+    for (std::size_t i = 0; i < one.sensors.size(); ++i) {
+        SensorSummary& sensor = all.sensors[i];
+        sensor.pings += one.sensors[i].pings;
+        sensor.dark_pings += one.sensors[i].dark_pings;
+        sensor.counts += one.sensors[i].counts;
+        sensor.clipped_pixels += one.sensors[i].clipped_pixels;
+        sensor.missed_goals += one.sensors[i].missed_goals;
+        sensor.worst_l1 = std::max(sensor.worst_l1, one.sensors[i].worst_l1);
+        sensor.brightest = std::max(sensor.brightest, one.sensors[i].brightest);
+    }
+}
+
+/// What is read of variants.json. The keys that are compared alone may be anything.
+void check_variants(const Json& json, const std::string& file) {
+    int index = 0;
+    for (const CheckedJson& variant : CheckedJson(json, file).at("variants").items()) {
+        const std::string name = variant_folder(index++);
+        if (variant.at("folder").text() != name) variant.at("folder").refuse("\"" + name + '"');
+        const std::optional<CheckedJson> split = variant.find("split");
+        const bool known =
+            !split || std::ranges::find(split_part_names, split->text()) != split_part_names.end();
+        if (!known && split->text() != "none") split->refuse("train, val or test");
+    }
+}
+
+/// Nothing is written or removed through a link: what it leads to is not of this folder.
+void require_no_links(const fs::path& folder, const Json& json) {
+    std::vector<fs::path> folders = folders_of_variants(folder, json);
+    folders.push_back(folder / "split");
+    for (const fs::path& one : folders) {
+        if (!fs::is_symlink(one)) continue;
+        throw InputError({one.string()},
+                         "is a symbolic link, and variants are written into folders of their own; "
+                         "remove the link or choose another output.folder");
+    }
+}
+
+}  // namespace
+
+Json describe_variants(const Mission& mission, std::span<const Mission> variants) {
+    Json json = {{"format", variants_format},
+                 {"format_version", dataset_format_version},
+                 {"program_version", SONARSIM_VERSION},
+                 {"mission", mission.name},
+                 {"mission_hash", mission_hash(mission, sonar_keys())},
+                 {"seed", mission.seed}};
+    json["variants"] = Json::array();
+    for (const Mission& variant : variants) {
+        json["variants"].push_back({{"folder", variant_folder(variant.variant.index)},
+                                    {"seed", variant.seed},
+                                    {"drawn", describe_drawn(variant.variant.drawn)}});
+    }
+    if (mission.output.split.is_on()) {
+        const std::vector<SplitPart> parts = split_variants(mission.output.split, variants.size());
+        for (std::size_t i = 0; i < parts.size(); ++i)
+            json["variants"][i]["split"] = split_part_names[static_cast<std::size_t>(parts[i])];
+    }
+    return json;
+}
+
+std::optional<Json> read_variants(const fs::path& folder) {
+    const fs::path file = folder / variants_name;
+    if (!fs::exists(file)) return std::nullopt;
+    Json json = read_json(file, largest_index);
+    if (!json.is_object() || json.value("format", Json()) != variants_format)
+        throw InputError({file.string()}, "is not sonarsim's, or damaged");
+    check_variants(json, file.string());
+    return json;
+}
+
+std::vector<fs::path> folders_of_variants(const fs::path& folder, const Json& json) {
+    std::vector<fs::path> folders;
+    const Json variants = json.value("variants", Json::array());
+    // Names are not taken from the file: whatever it says, nothing outside the folder is meant.
+    for (std::size_t i = 0; i < variants.size(); ++i)
+        folders.push_back(folder / variant_folder(static_cast<int>(i)));
+    return folders;
+}
+
+bool is_complete(const fs::path& dataset) {
+    if (!fs::exists(dataset / description_name)) return false;
+    const std::optional<Json> description = read_description(dataset);
+    return description && description->value("complete", Json()) == true;
+}
+
+void begin_variants(const fs::path& folder, const Json& json, std::span<const Mission> variants,
+                    bool overwrite) {
+    // In this order: another shard may write variants.json at any moment.
+    const bool has_files = holds_something(folder);
+    const std::optional<Json> found = read_variants(folder);
+    if (!found && has_files)
+        throw InputError({folder.string()},
+                         "holds files that are no variants of a sonarsim mission; choose another "
+                         "output.folder, or remove it");
+    if (found && *found != json && !overwrite)
+        refuse_folder(folder, "holds variants of another mission, seed or version of sonarsim");
+    if (found) require_no_links(folder, *found);
+    require_no_links(folder, json);
+    if (found && overwrite) {
+        for (const fs::path& old : folders_of_variants(folder, *found))
+            remove_variant(old, variants.front());
+        remove_files_beside(folder);
+    }
+    write_files_beside(folder, json);
+}
+
+std::map<std::string, std::string> split_lists(const Json& json) {
+    std::map<std::string, std::string> lists;
+    for (const Json& variant : json.at("variants")) {
+        const std::string part = variant.value("split", "");
+        if (std::ranges::find(split_part_names, part) != split_part_names.end())
+            lists[split_file_of(part)] += variant.at("folder").get<std::string>() + '\n';
+    }
+    return lists;
+}
+
+RenderSummary run_variants(const Mission& mission, std::span<const Mission> variants,
+                           const RenderOptions& options, const VariantCallback& begin,
+                           const ProgressCallback& progress, const std::atomic<bool>& stop) {
+    if (options.overwrite && options.shards > 1) {
+        throw InputError(
+            "one shard must not overwrite what another writes: remove the folder instead");
+    }
+    const fs::path& folder = mission.output.folder;
+    const Json json = describe_variants(mission, variants);
+    std::optional<FolderLock> lock;
+    RenderOptions one_by_one = options;
+    one_by_one.shard = 0;
+    one_by_one.shards = 1;
+    one_by_one.overwrite = false;  // that is done
+    SceneFiles models;
+    RenderSummary all;
+    all.complete = options.files;
+    Stopwatch watch;
+    const auto is_ours = [&](std::size_t i) {
+        return static_cast<int>(i % static_cast<std::size_t>(options.shards)) == options.shard;
+    };
+    std::uint64_t total = 0;
+    for (std::size_t i = 0; i < variants.size(); ++i)
+        total += is_ours(i);
+    std::uint64_t done = 0;
+    for (std::size_t i = 0; i < variants.size() && !all.stopped; ++i) {
+        if (!is_ours(i)) continue;
+        const std::string name = variant_folder(static_cast<int>(i)) + ": ";
+        const Assembly assembly = assemble(variants[i], models);
+        if (begin) begin(variants[i], assembly);
+        if (options.files && !lock) {
+            check(variants[i], assembly);  // before anything is written
+            lock.emplace(enter(folder, json, variants, options));
+            all.unlocked = !lock->works();
+        }
+        const RenderSummary one = run_job(variants[i], assembly, one_by_one, nullptr, stop);
+        add(all, one);
+        all.stopped = one.stopped;
+        for (const std::string& warning : one.warnings)
+            all.warnings.push_back(name + warning);
+        for (const std::string& warning : image_warnings(variants[i], assembly, one.sensors))
+            all.warnings.push_back(name + warning);
+        if (progress) progress(++done, total);
+    }
+    for (std::size_t i = 0; i < variants.size(); ++i)
+        all.complete = all.complete && (is_ours(i) || is_complete(variants[i].output.folder));
+    all.seconds = watch.lap();
+    return all;
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "job/merge.h"
+#include "job/run_job.h"
+#include "job/verify.h"
+#include "mission/dataset_names.h"
+
+// The variants of a mission lie below one folder:
+//
+//     OUT/variants.json         what was drawn for each of them
+//     OUT/split/train.txt       with output.split: which of them are for what; val.txt, test.txt
+//     OUT/SHA256SUMS            of the files above
+//     OUT/variant_0000/         a dataset like any other
+//
+// A shard renders whole variants: those whose index i has i % shards == shard.
+
+namespace sonarsim {
+
+/// What variants.json says of the variants of a mission, which may not be rendered yet. InputError
+/// where `folder` holds something else and `overwrite` is off.
+nlohmann::ordered_json describe_variants(const Mission& mission, std::span<const Mission> variants);
+
+/// variants.json of a folder; nothing where there is none. InputError when it is not sonarsim's.
+std::optional<nlohmann::ordered_json> read_variants(const std::filesystem::path& folder);
+
+/// The folders of the variants that a variants.json names, in order.
+std::vector<std::filesystem::path> folders_of_variants(const std::filesystem::path& folder,
+                                                       const nlohmann::ordered_json& json);
+
+/// The lists of the parts that a variants.json tells, by name: "split/train.txt".
+std::map<std::string, std::string> split_lists(const nlohmann::ordered_json& json);
+
+/// Makes `folder`, which is locked, ready for variants, or throws InputError when it holds
+/// something else; with `overwrite` removes those that another variants.json names.
+void begin_variants(const std::filesystem::path& folder, const nlohmann::ordered_json& json,
+                    std::span<const Mission> variants, bool overwrite);
+
+/// Called before a variant is rendered, with what it is made of.
+using VariantCallback = std::function<void(const Mission& variant, const Assembly& assembly)>;
+
+/// Renders the variants of a mission, one after the other, each as run_job does. The summary adds
+/// all of them up; `complete` means those of this shard. What the engines and the images give to
+/// warn of is told once for each variant, with its folder.
+RenderSummary run_variants(const Mission& mission, std::span<const Mission> variants,
+                           const RenderOptions& options, const VariantCallback& begin,
+                           const ProgressCallback& progress, const std::atomic<bool>& stop);
+
+/// Joins the shards of one mission with variants, as merge_datasets does those of each. InputError
+/// when the parts are not of one mission, and for a variant that is in none of them.
+MergeSummary merge_variants(const std::vector<std::filesystem::path>& parts,
+                            const std::filesystem::path& out, int threads,
+                            const ProgressCallback& progress, const std::atomic<bool>& stop);
+
+/// Checks each variant as verify_dataset does, that none is missing, and the files beside them.
+DatasetCheck verify_variants(const std::filesystem::path& folder, int threads,
+                             const ProgressCallback& progress, const std::atomic<bool>& stop);
+
+}  // namespace sonarsim

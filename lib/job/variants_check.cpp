@@ -1,0 +1,158 @@
+#include <algorithm>
+#include <set>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "core/sha256.h"
+#include "dataset/layout.h"
+#include "dataset/ping_metadata.h"
+#include "job/checksums.h"
+#include "job/folder_lock.h"
+#include "job/variants.h"
+
+namespace sonarsim {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t largest_variant_sums = std::size_t{1} << 24;
+constexpr const char* render_variants_again =
+    "the render command that made the variants, run again, writes it anew";
+
+Json require_variants(const fs::path& folder) {
+    std::optional<Json> json = read_variants(folder);
+    if (json) return *std::move(json);
+    throw InputError({folder.string()},
+                     "has no variants.json; give output folders of one mission with variants");
+}
+
+/// Compares the files beside the variants with the sums of them.
+void check_files_beside(const fs::path& folder, const Json& json, DatasetCheck& check) {
+    std::set<std::string> expected{variants_name};
+    for (const auto& [name, lines] : split_lists(json))
+        expected.insert(name);
+    const fs::path sums_file = folder / checksums_name;
+    if (!fs::is_regular_file(sums_file)) {
+        check.faults.push_back(std::string(checksums_name) + ": is missing; " +
+                               render_variants_again);
+        return;
+    }
+    const auto sums =
+        parse_checksums(read_file(sums_file, largest_variant_sums), sums_file.string());
+    for (const std::string& name : expected) {
+        const auto sum = sums.find(name);
+        if (!fs::is_regular_file(folder / name)) {
+            check.faults.push_back(name + ": is missing; " + render_variants_again);
+            continue;
+        }
+        ++check.files;
+        check.bytes += fs::file_size(folder / name);
+        if (sum == sums.end() || sha256_of_file(folder / name) != sum->second)
+            check.faults.push_back(name + ": is not what SHA256SUMS tells; " +
+                                   render_variants_again);
+    }
+    for (const auto& [name, sum] : sums) {
+        if (!expected.contains(name))
+            check.faults.push_back(name + ": SHA256SUMS lists it, and variants.json does not; " +
+                                   render_variants_again);
+    }
+}
+
+/// What lies beside the variants and is not theirs.
+void list_strangers(const fs::path& folder, const Json& json, DatasetCheck& check) {
+    std::set<std::string> expected{variants_name, checksums_name};
+    for (const auto& [name, lines] : split_lists(json)) {
+        expected.insert(name);
+        expected.insert(split_folder_name);
+    }
+    for (const fs::path& variant : folders_of_variants(folder, json))
+        expected.insert(variant.filename().string());
+    for (const fs::path& here : {folder, folder / split_folder_name}) {
+        if (!fs::is_directory(here)) continue;
+        for (const fs::directory_entry& entry : fs::directory_iterator(here)) {
+            const std::string name = entry.path().lexically_relative(folder).string();
+            if (!expected.contains(name)) check.strangers.push_back(name);
+        }
+    }
+    std::ranges::sort(check.strangers);
+}
+
+}  // namespace
+
+MergeSummary merge_variants(const std::vector<fs::path>& parts, const fs::path& out, int threads,
+                            const ProgressCallback& progress, const std::atomic<bool>& stop) {
+    const Json json = require_variants(parts.at(0));
+    for (const fs::path& part : parts) {
+        if (require_variants(part) != json) {
+            throw InputError({part.string()},
+                             "holds variants of another mission, seed or version "
+                             "of sonarsim than " +
+                                 parts[0].string());
+        }
+        std::error_code absent;
+        if (fs::equivalent(part, out, absent))
+            throw InputError({out.string()},
+                             "is one of the parts; name another folder to write to");
+    }
+    const std::vector<fs::path> targets = folders_of_variants(out, json);
+    std::vector<std::vector<fs::path>> sources(targets.size());
+    for (const fs::path& part : parts) {
+        const std::vector<fs::path> own = folders_of_variants(part, json);
+        for (std::size_t i = 0; i < own.size(); ++i) {
+            if (fs::exists(own[i] / description_name)) sources[i].push_back(own[i]);
+        }
+    }
+    const auto missing = std::ranges::find_if(sources, [](const auto& s) { return s.empty(); });
+    if (missing != sources.end()) {
+        const std::string name = targets[missing - sources.begin()].filename().string();
+        throw InputError(name +
+                         " is in none of the parts; render what is missing, or name its "
+                         "folder, too");
+    }
+    const FolderLock lock = lock_alone(out);
+    begin_variants(out, json, {}, false);
+    MergeSummary all{.unlocked = !lock.works()};
+    all.complete = true;
+    for (std::size_t i = 0; i < targets.size() && all.complete; ++i) {
+        const MergeSummary one = merge_datasets(sources[i], targets[i], threads, nullptr, stop);
+        all.pings += one.pings;
+        all.skipped += one.skipped;
+        all.complete = one.complete;
+        all.unlocked = all.unlocked || one.unlocked;
+        if (progress) progress(i + 1, targets.size());
+    }
+    return all;
+}
+
+DatasetCheck verify_variants(const fs::path& folder, int threads, const ProgressCallback& progress,
+                             const std::atomic<bool>& stop) {
+    const Json json = require_variants(folder);
+    const std::vector<fs::path> folders = folders_of_variants(folder, json);
+    DatasetCheck all;
+    check_files_beside(folder, json, all);
+    list_strangers(folder, json, all);
+    for (std::size_t i = 0; i < folders.size() && !all.stopped; ++i) {
+        const std::string name = folders[i].filename().string();
+        if (!fs::exists(folders[i] / description_name)) {
+            all.faults.push_back(name +
+                                 ": is missing; the render command that made the dataset, "
+                                 "run again, makes it");
+            continue;
+        }
+        const DatasetCheck one = verify_dataset(folders[i], threads, nullptr, stop);
+        all.files += one.files;
+        all.bytes += one.bytes;
+        all.more_faults += one.more_faults;
+        all.stopped = one.stopped;
+        for (const std::string& fault : one.faults)
+            all.faults.push_back(name + "/" + fault);
+        for (const std::string& stranger : one.strangers)
+            all.strangers.push_back(name + "/" + stranger);
+        if (progress) progress(i + 1, folders.size());
+    }
+    return all;
+}
+
+}  // namespace sonarsim

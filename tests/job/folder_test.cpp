@@ -1,0 +1,227 @@
+#include "job/folder.h"
+
+#include <doctest/doctest.h>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "format/png.h"
+#include "job/run_job.h"
+#include "support/small_mission.h"
+#include "support/temporary_folder.h"
+
+using namespace sonarsim;
+using namespace sonarsim::test;
+namespace fs = std::filesystem;
+
+namespace {
+
+RenderSummary run(const Mission& mission, int poses, bool overwrite) {
+    return run_job(mission, small_assembly(mission, poses), {.overwrite = overwrite}, {},
+                   std::atomic<bool>(false));
+}
+
+void check_refused(const Mission& mission, int poses, const std::string& what,
+                   bool overwrite = false) {
+    const auto before = contents(mission.output.folder);
+    const std::string message =
+        mission.output.folder.string() + ": " + what + "; choose another output.folder";
+    CHECK_THROWS_WITH_AS(run(mission, poses, overwrite), message.c_str(), InputError);
+    CHECK(contents(mission.output.folder) == before);
+}
+
+constexpr const char* or_overwrite =
+    "; choose another output.folder, or replace it with --overwrite";
+
+void check_refused_unless_overwritten(const Mission& mission, int poses, const std::string& what) {
+    const std::string message = mission.output.folder.string() + ": " + what + or_overwrite;
+    CHECK_THROWS_WITH_AS(run(mission, poses, false), message.c_str(), InputError);
+}
+
+/// Replaces text in a file.
+void edit(const fs::path& path, const std::string& from, const std::string& to) {
+    std::string text = read_file(path, 1 << 20);
+    REQUIRE(text.find(from) != std::string::npos);
+    write_file(path, text.replace(text.find(from), from.size(), to));
+}
+
+}  // namespace
+
+TEST_SUITE("dataset") {
+    TEST_CASE("folder: an empty folder and one with a crash's first breath are fresh") {
+        const TemporaryFolder temporary;
+        const Mission mission = small_mission(temporary.path);
+        write_file(temporary.path / ".dataset.json.0123456789abcdef.part", "{");
+        CHECK(run(mission, 2, false).complete);
+    }
+
+    TEST_CASE("folder: what is no dataset is never overwritten, asked or not") {
+        const TemporaryFolder temporary;
+        const Mission mission = small_mission(temporary.path / "out");
+        fs::create_directory(mission.output.folder);
+        write_file(mission.output.folder / "thesis.tex", "five years");
+        for (const bool overwrite : {false, true})
+            check_refused(mission, 2, "holds files that are no sonarsim dataset", overwrite);
+        for (const char* json :
+             {"", "{", "[]", "3", "{}", R"({"format": "other"})", R"({"format": 3})"}) {
+            write_file(mission.output.folder / "dataset.json", json);
+            for (const bool overwrite : {false, true})
+                check_refused(mission, 2, "holds a dataset.json that is not sonarsim's", overwrite);
+        }
+    }
+
+    TEST_CASE("folder: a file in its place is refused, overwrite or not") {
+        const TemporaryFolder temporary;
+        const Mission mission = small_mission(temporary.path / "out");
+        write_file(mission.output.folder, "a file");
+        for (const bool overwrite : {false, true}) {
+            CHECK_THROWS_WITH_AS(run(mission, 2, overwrite),
+                                 (mission.output.folder.string() + ": is not a folder").c_str(),
+                                 InputError);
+        }
+    }
+
+    TEST_CASE("folder: another mission's dataset is refused, and says why") {
+        const TemporaryFolder temporary;
+        Mission mission = small_mission(temporary.path / "out");
+        run(mission, 4, false);
+        check_refused_unless_overwritten(
+            mission, 5,
+            "holds a dataset of this mission made from other scene, material or trajectory files");
+        ++mission.seed;
+        check_refused_unless_overwritten(mission, 4, "holds a dataset of another mission");
+        --mission.seed;
+        edit(mission.output.folder / "dataset.json", "\"program_version\": \"",
+             "\"program_version\": \"9");
+        check_refused_unless_overwritten(
+            mission, 4, "holds a dataset of this mission made by another version of sonarsim");
+    }
+
+    TEST_CASE("folder: builds are mixed where their arithmetic agrees, and only there") {
+        const TemporaryFolder temporary;
+        const Mission mission = small_mission(temporary.path / "out");
+        run(mission, 4, false);
+        const fs::path description = mission.output.folder / "dataset.json";
+        edit(description, "\"compiler\": \"", "\"compiler\": \"another ");
+        CHECK(run(mission, 4, false).complete);
+        const std::string ours = "x86-64-v3, " + png_encoder();
+        edit(description, "\"arithmetic\": \"x86-64-v3", "\"arithmetic\": \"AVX-512");
+        check_refused_unless_overwritten(
+            mission, 4,
+            "holds a dataset of this mission made by a build of sonarsim whose bytes differ "
+            "(AVX-512, " +
+                png_encoder() + "; this one: " + ours + ")");
+        edit(description, "\"png_encoder\"", "\"nothing\"");
+        check_refused_unless_overwritten(
+            mission, 4,
+            "holds a dataset of this mission made by a build of sonarsim whose bytes differ "
+            "(AVX-512, unknown; this one: " +
+                ours + ")");
+    }
+
+    TEST_CASE("folder: overwrite replaces a whole dataset and nothing else") {
+        const TemporaryFolder temporary;
+        Mission mission = small_mission(temporary.path / "out");
+        const fs::path& out = mission.output.folder;
+        mission.sensors[1].name = "gone";
+        run(mission, 8, false);
+        write_file(out / "notes.txt", "mine");
+        write_file(out / "gone/meta/notes.txt", "mine");
+        write_file(out / "front/polar/.000007.npy.0123456789abcdef.part", "half");
+        mission.sensors[1].name = "left";
+        CHECK(run(mission, 3, true).complete);
+        const auto files = contents(out);
+        CHECK(files.size() == 5 + 4 * 4 + 2);  // front at 0, 1, 2 and left at 0; the notes
+        CHECK(files.contains("notes.txt"));
+        CHECK(files.contains("gone/meta/notes.txt"));
+        CHECK_FALSE(fs::exists(out / "gone/fan"));
+        CHECK_FALSE(files.contains("front/polar/000007.npy"));
+    }
+
+    TEST_CASE("folder: overwrite removes what dataset.json lists, not what looks like it") {
+        const TemporaryFolder temporary;
+        const Mission mission = small_mission(temporary.path / "out");
+        const fs::path& out = mission.output.folder;
+        run(mission, 4, false);
+        write_file(out / "front/meta/20240101.json", "a log");
+        fs::create_directories(out / "camera/image");
+        write_file(out / "camera/image/000001.png", "a photograph");
+        CHECK(run(mission, 4, true).complete);
+        CHECK(read_file(out / "front/meta/20240101.json", 100) == "a log");
+        CHECK(read_file(out / "camera/image/000001.png", 100) == "a photograph");
+    }
+
+    TEST_CASE("folder: what others put beside a dataset stays, whatever it is called") {
+        const TemporaryFolder temporary;
+        Mission mission = small_mission(temporary.path / "out");
+        const fs::path& out = mission.output.folder;
+        run(mission, 4, false);
+        const std::vector<fs::path> notes{out / ".film.mkv.part", out / "front/.film.mkv.part",
+                                          out / "journal.d/2024.txt"};
+        fs::create_directory(out / "journal.d");
+        for (const fs::path& note : notes)
+            write_file(note, "mine");
+        fs::remove(out / "front/polar/000000.npy");
+        CHECK(run(mission, 4, false).pings == 1);
+        CHECK(run(mission, 4, true).complete);
+        for (const fs::path& note : notes)
+            CHECK(read_file(note, 100) == "mine");
+    }
+
+    TEST_CASE("folder: whatever a description lists, overwriting ends, and spares what is read") {
+        const TemporaryFolder temporary;
+        Mission mission = small_mission(temporary.path / "out");
+        const fs::path& out = mission.output.folder;
+        run(mission, 4, false);
+        write_file(temporary.path / "victim", "mine");
+        const std::string path = (temporary.path / "victim").string();
+        edit(out / "dataset.json", "front/image/%06d.png", path);
+        edit(out / "dataset.json", "\"pings\": 4", "\"pings\": 1000000000000000000");
+        edit(out / "dataset.json", "\"files\"", "\"products\": [\"" + path + "\"], \"files\"");
+        CHECK(run(mission, 4, true).complete);
+        CHECK(read_file(path, 100) == "mine");
+
+        write_file(out / "scene.glb", "mine");
+        edit(out / "dataset.json", "\"files\"", "\"products\": [\"scene.glb\"], \"files\"");
+        mission.scene.file = out / "scene.glb";
+        const auto before = contents(out);
+        CHECK_THROWS_AS(run(mission, 4, true), InputError);
+        CHECK(contents(out) == before);
+    }
+
+    TEST_CASE("folder: neither overwriting nor writing goes through a link") {
+        const TemporaryFolder temporary;
+        const Mission mission = small_mission(temporary.path / "out");
+        const fs::path& out = mission.output.folder;
+        run(mission, 4, false);
+        // Another dataset, reached through the first one's folder.
+        const Mission other = small_mission(temporary.path / "other");
+        run(other, 4, false);
+        const auto before = contents(other.output.folder);
+        fs::remove_all(out / "left");
+        fs::create_directory_symlink(temporary.path / "other/left", out / "left");
+        for (const bool overwrite : {false, true}) {
+            CHECK_THROWS_AS(run(mission, 4, overwrite), InputError);
+            CHECK(contents(other.output.folder) == before);
+        }
+        // A description that points out of the folder removes nothing there.
+        fs::remove(out / "left");
+        edit(out / "dataset.json", "front/polar/%06d.npy", "../other/front/polar/%06d.npy");
+        CHECK(run(mission, 4, true).complete);
+        CHECK(contents(other.output.folder) == before);
+    }
+
+    TEST_CASE("folder: a file that the mission reads is never replaced") {
+        const TemporaryFolder temporary;
+        Mission mission = small_mission(temporary.path);
+        write_file(temporary.path / "trajectory.tum", "0 0 0 0 0 0 0 1");
+        mission.trajectory = FileTrajectoryConfig{temporary.path / "trajectory.tum", 0.0};
+        for (const bool overwrite : {false, true})
+            CHECK_THROWS_AS(run(mission, 2, overwrite), InputError);
+        CHECK(read_file(temporary.path / "trajectory.tum", 100) == "0 0 0 0 0 0 0 1");
+        // A scene in the folder of a sensor.
+        mission = small_mission(temporary.path / "new");
+        mission.scene.file = temporary.path / "new/front/scene.glb";
+        CHECK_THROWS_AS(run(mission, 2, false), InputError);
+        CHECK_FALSE(fs::exists(temporary.path / "new"));
+    }
+}

@@ -1,0 +1,256 @@
+#include <OpenImageIO/imageio.h>
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "assembly/engine_probes.h"
+#include "core/csv.h"
+#include "core/file.h"
+#include "dataset/folded_records.h"
+#include "dataset/writers.h"
+#include "dataset/writers/formats.h"
+#include "job/run_job.h"
+#include "product/sidescan_row.h"
+#include "product/soundings.h"
+#include "sonar/kinds.h"
+#include "support/npy_data.h"
+#include "support/small_mission.h"
+#include "support/temporary_folder.h"
+
+using namespace sonarsim;
+using namespace sonarsim::test;
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+namespace {
+
+constexpr int poses = 7;  // front, mbes and sss ping at all of them, sounder at 0, 2, 4, 6
+
+RenderSummary run(const Mission& mission) {
+    return run_job(mission, small_assembly(mission, poses), {}, {}, std::atomic<bool>(false));
+}
+
+template <class T>
+std::vector<T> pixels_of(const fs::path& path, int width, int height, int channels,
+                         OIIO::TypeDesc type) {
+    const auto in = OIIO::ImageInput::open(path.string());
+    REQUIRE(in);
+    CHECK(in->spec().width == width);
+    CHECK(in->spec().height == height);
+    CHECK(in->spec().nchannels == channels);
+    CHECK(in->spec().format == type);
+    std::vector<T> pixels(in->spec().image_pixels() * channels);
+    REQUIRE(in->read_image(0, 0, 0, channels, type, pixels.data()));
+    return pixels;
+}
+
+}  // namespace
+
+TEST_SUITE("dataset") {
+    TEST_CASE("series: every file is there and says what the pings say") {
+        const TemporaryFolder temporary;
+        const fs::path out = temporary.path / "out";
+        const Mission mission = survey_mission(out);
+        const Assembly assembly = small_assembly(mission, poses);
+        const RenderSummary summary = run(mission);
+        CHECK(summary.complete);
+        CHECK(summary.pings == 3 * 7 + 4);
+        // 4 common; front 7 x 4; mbes 7 x 4 and 6; sss 7 and 3; sounder 4 and 3.
+        CHECK(contents(out).size() == 5 + 28 + 34 + 10 + 7);
+
+        const auto engine = make_engine(assembly.scene, engine_settings(mission, assembly));
+        const auto ping = [&](int sensor, std::uint32_t pose) {
+            return render_ping(assembly.sonars[sensor], assembly.scene, *engine,
+                               assembly.trajectory[pose].T_world_vehicle, {mission.seed, pose});
+        };
+        const auto waterfall = data_of<float>(out / "sss/waterfall.npy", {"<f4", {7, 192}});
+        const auto echogram = data_of<float>(out / "sounder/echogram.npy", {"<f4", {60, 4}, true});
+        const auto soundings = data_of<double>(out / "mbes/soundings.npy", {"<f8", {7, 40, 5}});
+        REQUIRE(soundings.size() == 7 * 40 * 5);
+        // 2 x 90 bins of 5.2 cm from 0.3 m, and 2 x 6 columns from nadir to there.
+        for (std::uint32_t k = 0; k < 7; ++k) {
+            const std::vector<float> row = sidescan_row(mission.sensors[2], ping(2, k));
+            CHECK(std::equal(row.begin(), row.end(), waterfall.begin() + k * 192));
+            const auto found = find_soundings(assembly.sonars[1],
+                                              assembly.trajectory[k].T_world_vehicle, ping(1, k));
+            for (std::size_t j = 0; j < 40; ++j) {
+                const double* const f = soundings.data() + (k * 40 + j) * 5;
+                CHECK(f[0] == found[j].range_m);
+                CHECK(f[3] == found[j].position.z());
+                CHECK(f[4] == found[j].quality);
+            }
+        }
+        for (std::uint32_t k = 0; k < 4; ++k) {
+            const std::vector<float> column = ping(3, 2 * k).intensity;
+            CHECK(std::equal(column.begin(), column.end(), echogram.begin() + k * 60));
+        }
+
+        // PNG: full_scale is 0.5.
+        const auto plain =
+            pixels_of<std::uint16_t>(out / "sss/waterfall.png", 192, 7, 1, OIIO::TypeDesc::UINT16);
+        for (std::size_t i = 0; i < plain.size(); ++i)
+            REQUIRE(std::fabs(plain[i] - 65535.0 * std::min(1.0F, waterfall[i] / 0.5F)) < 0.51);
+        const auto echo = pixels_of<std::uint16_t>(out / "sounder/echogram.png", 4, 60, 1,
+                                                   OIIO::TypeDesc::UINT16);
+        for (int i = 0; i < 60; ++i) {
+            for (int k = 0; k < 4; ++k) {
+                REQUIRE(std::fabs(echo[i * 4 + k] -
+                                  65535.0 * std::min(1.0F, echogram[k * 60 + i] / 0.5F)) < 0.51);
+            }
+        }
+        CHECK(OIIO::ImageInput::open((out / "sss/waterfall_view.png").string()));
+        CHECK(OIIO::ImageInput::open((out / "sounder/echogram_view.png").string()));
+    }
+
+    TEST_CASE("series: the metadata of a ping say what was measured") {
+        // The sonars are 1.5 m above the floor of the tank, mounts at the vehicle's origin.
+        const TemporaryFolder temporary;
+        const fs::path out = temporary.path / "out";
+        run(survey_mission(out));
+        const auto measured = [&](const char* file) {
+            return Json::parse(read_file(out / file, 1 << 20)).at("measured");
+        };
+        const Json row = measured("sss/meta/000003.json");
+        CHECK(row.at("altitude_m").get<double>() == doctest::Approx(1.5));
+        for (const char* side : {"port", "starboard"}) {
+            const double first = row.at("first_return_m").at(side);
+            CHECK(std::fabs(first - 1.5) < 4.7 / 90);
+        }
+        const Json column = measured("sounder/meta/000004.json");
+        CHECK(column.at("altitude_m").get<double>() == doctest::Approx(1.5));
+        CHECK(std::fabs(column.at("depth_m").get<double>() - 1.5) < 2.0 * 2.7 / 60);
+        CHECK(measured("mbes/meta/000000.json").at("soundings") == 40);
+        const Json front = Json::parse(read_file(out / "front/meta/000000.json", 1 << 20));
+        CHECK_FALSE(front.contains("measured"));
+        const Json sensors = Json::parse(read_file(out / "dataset.json", 1 << 20)).at("sensors");
+        CHECK(sensors[2].at("records").at("file") == "sss/waterfall.npy");
+        CHECK(sensors[2].at("waterfall").at("columns") == 192);
+        CHECK(sensors[2].at("waterfall").at("blank_columns_a_side") == 6);
+        CHECK_FALSE(sensors[3].contains("waterfall"));
+        CHECK(sensors[3].at("pings") == 4);
+        CHECK(sensors[1].at("products").size() == 5);
+        CHECK_FALSE(sensors[0].contains("records"));
+    }
+
+    TEST_CASE("series: soundings as text, as a point cloud and as a map agree") {
+        const TemporaryFolder temporary;
+        const fs::path out = temporary.path / "out";
+        run(survey_mission(out));
+        const auto soundings = data_of<double>(out / "mbes/soundings.npy", {"<f8", {7, 40, 5}});
+        const CsvTable csv = read_csv(out / "mbes/soundings.csv", 1 << 20);
+        REQUIRE(csv.rows.size() == 280);
+        CHECK(csv.rows[45].fields[0] == "1");
+        CHECK(csv.rows[45].fields[2] == "5");
+        CHECK(std::fabs(std::stod(csv.rows[45].fields[6]) - soundings[45 * 5 + 3]) < 5.1e-5);
+
+        const std::string ply = read_file(out / "mbes/soundings.ply", 1 << 20);
+        const std::string mark = "end_header\n";
+        const std::size_t at = ply.find(mark) + mark.size();
+        CHECK(ply.starts_with("ply\nformat binary_little_endian 1.0\nelement vertex 280\n"));
+        REQUIRE(ply.size() == at + 280 * 28);
+        for (int k = 0; k < 280; ++k) {
+            double point[3];
+            std::memcpy(point, ply.data() + at + 28 * k, sizeof point);
+            for (int axis = 0; axis < 3; ++axis)
+                REQUIRE(point[axis] == soundings[k * 5 + 1 + axis]);
+        }
+
+        const Json map = Json::parse(read_file(out / "mbes/bathymetry.json", 1 << 20));
+        const int columns = map.at("columns");
+        const int rows = map.at("rows");
+        const double cell = map.at("cell_m");
+        const auto z =
+            pixels_of<float>(out / "mbes/bathymetry.tif", columns, rows, 1, OIIO::TypeDesc::FLOAT);
+        std::vector<double> sum(z.size(), 0.0);
+        std::vector<int> count(z.size(), 0);
+        for (int k = 0; k < 280; ++k) {
+            const double* const f = soundings.data() + k * 5;
+            if (f[4] < map.at("least_quality").get<double>()) continue;
+            const auto column =
+                static_cast<int>(std::floor((f[1] - map.at("west_m").get<double>()) / cell));
+            const auto row =
+                static_cast<int>(std::floor((map.at("north_m").get<double>() - f[2]) / cell));
+            REQUIRE(column >= 0);
+            REQUIRE(column < columns);
+            REQUIRE(row >= 0);
+            REQUIRE(row < rows);
+            sum[row * columns + column] += f[3];
+            ++count[row * columns + column];
+        }
+        for (std::size_t i = 0; i < z.size(); ++i) {
+            REQUIRE(std::isnan(z[i]) == (count[i] == 0));
+            if (count[i] > 0) REQUIRE(z[i] == doctest::Approx(sum[i] / count[i]));
+        }
+        CHECK(OIIO::ImageInput::open((out / "mbes/bathymetry.png").string()));
+    }
+
+    TEST_CASE("series: output chooses them") {
+        const TemporaryFolder temporary;
+        const fs::path out = temporary.path / "out";
+        Mission mission = survey_mission(out);
+        mission.output.waterfall = mission.output.soundings = false;
+        mission.output.polar = mission.output.image = mission.output.fan = false;
+        CHECK(run(mission).complete);
+        CHECK_FALSE(fs::exists(out / "sss/waterfall.npy"));
+        CHECK_FALSE(fs::exists(out / "mbes/soundings.csv"));
+        CHECK(fs::exists(out / "sounder/echogram.npy"));
+        CHECK(fs::exists(out / "sss/meta/000006.json"));
+    }
+
+    TEST_CASE("series: without metadata the records alone are written") {
+        const TemporaryFolder temporary;
+        const fs::path out = temporary.path / "out";
+        Mission mission = survey_mission(out);
+        mission.output.meta = false;
+        CHECK(run(mission).complete);
+        CHECK_FALSE(fs::exists(out / "sss/meta"));
+        CHECK_FALSE(fs::exists(out / "sounder/meta"));
+        CHECK(fs::exists(out / "sss/waterfall.png"));
+        CHECK(run(mission).pings == 0);
+    }
+
+    TEST_CASE("series: what is predicted before a run is not less than what it writes") {
+        const TemporaryFolder temporary;
+        const Mission mission = survey_mission(temporary.path / "out");
+        const Assembly assembly = small_assembly(mission, poses);
+        run(mission);
+        const std::vector<Writers> writers = make_writers(mission, assembly);
+        const std::vector<std::size_t> pings = count_pings(mission, poses);
+        for (std::size_t i = 0; i < writers.size(); ++i) {
+            double written = 0.0;
+            for (const auto& [name, bytes] :
+                 contents(temporary.path / "out" / mission.sensors[i].name))
+                written += static_cast<double>(bytes.size());
+            CHECK(bytes_at_most(writers[i], pings[i]) >= written);
+        }
+        // Images of a side-scan sonar do not count: it has none.
+        CHECK(bytes_at_most(writers[2], pings[2]) < 1e6);
+    }
+
+    TEST_CASE("series: more pings than a picture can be long are averaged") {
+        const TemporaryFolder temporary;
+        SonarConfig config = default_sonar(SonarKind::echosounder);
+        config.name = "sounder";
+        config.range_bins = 4;
+        Mission mission;
+        mission.sensors = {config};
+        Assembly assembly;
+        assembly.sonars = {make_sonar(config, {})};
+        assembly.full_scales = {1.0};
+        constexpr std::size_t pings = most_picture_rows + 3;  // two to a column, the last alone
+        const RecordFile file(temporary.path / "echogram.npy", {"<f4", {4, pings}, true}, pings);
+        const std::vector<float> one(4, 1.0F);
+        file.write(1, std::as_bytes(std::span(one)));
+        file.write(pings - 1, std::as_bytes(std::span(one)));
+        make_echogram_writer({mission, assembly, 0, pings})->write_products(file, temporary.path);
+        constexpr int width = most_picture_rows / 2 + 2;
+        const auto pixels = pixels_of<std::uint16_t>(temporary.path / "echogram.png", width, 4, 1,
+                                                     OIIO::TypeDesc::UINT16);
+        CHECK(pixels[0] == 32768);
+        CHECK(pixels[1] == 0);
+        CHECK(pixels[width - 1] == 65535);
+    }
+}
