@@ -5,6 +5,8 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 SONARSIM_BUILD=no ./scripts/setup.sh clang
 
+# As test.sh configures it, so that its build is used where there is one.
+export SONARSIM_JOINED=${SONARSIM_JOINED:-ON}
 cmake --preset release >&2
 cmake --build build-release --target sonarsim >&2
 programs=(build-release/sonarsim)

@@ -55,11 +55,16 @@ git clone --quiet "$root" "$clone"
 "${enter[@]}" "$clone/scripts/render.sh" "$clone/configs/tank_imaging.yaml" --quiet --out "$clone/out/tank"
 "${enter[@]}" "$clone/build/sonarsim" verify "$clone/out/tank"
 
-./scripts/setup.sh
+# The build of the tests is used where there is one.
+program=$root/build-release/sonarsim
+if [ ! -x "$program" ]; then
+    ./scripts/setup.sh
+    program=$root/build/sonarsim
+fi
 configs=$root/configs
 exec ./scripts/same_bytes.py --folder "$root/build-debian13" \
     --mission "$root/tests/four_sonars.yaml,engine=rays" --mission "$root/tests/four_sonars.yaml,engine=octree" \
     --mission "$configs/tank_imaging.yaml,trajectory.rate_hz=1" \
     --mission "$configs/tank_multipath.yaml,trajectory.rate_hz=1" \
     --mission "$configs/tank_calibrated.yaml,trajectory.rate_hz=0.2" \
-    --mission "$configs/tank_echosounder.yaml" "$root/build/sonarsim" "${enter[*]} $clone/build/sonarsim"
+    --mission "$configs/tank_echosounder.yaml" "$program" "${enter[*]} $clone/build/sonarsim"
