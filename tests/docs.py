@@ -1,4 +1,4 @@
-"""Every file that the documentation names exists, and a function it links to stands in that file.
+"""Every file and every heading that a page names exists, and a function it links to stands in that file.
 
     python3 tests/docs.py <root of the repository>
 """
@@ -13,12 +13,14 @@ LINK = re.compile(r"\[([^\]]*)\]\(([^)\s]+)\)")
 MADE_LATER = ("scenes/generated/",)  # by scripts/make_scenes.py
 
 
+def anchors_of(page: pathlib.Path) -> set[str]:
+    return {re.sub(r"[^\w\- ]", "", title.lower()).strip().replace(" ", "-")
+            for title in re.findall(r"^#+ (.*)$", page.read_text(), re.MULTILINE)}
+
+
 def faults_of(page: pathlib.Path, root: pathlib.Path) -> list[str]:
     faults = []
-    text = page.read_text()
-    anchors = {re.sub(r"[^\w\- ]", "", title.lower()).strip().replace(" ", "-")
-               for title in re.findall(r"^#+ (.*)$", text, re.MULTILINE)}
-    for number, line in enumerate(text.splitlines(), 1):
+    for number, line in enumerate(page.read_text().splitlines(), 1):
         where = f"{page.relative_to(root)}:{number}"
         for path in PATH.findall(line):
             if not path.startswith(MADE_LATER) and not (root / path).exists():
@@ -27,11 +29,11 @@ def faults_of(page: pathlib.Path, root: pathlib.Path) -> list[str]:
             if re.match(r"[a-z]+:", target):
                 continue
             file, _, anchor = target.partition("#")
-            linked = page.parent / file
-            if not file and anchor not in anchors:
-                faults.append(f"{where}: no heading makes the anchor #{anchor}")
-            elif not linked.exists():
+            linked = page.parent / file if file else page
+            if not linked.exists():
                 faults.append(f"{where}: {target} does not exist")
+            elif anchor and anchor not in anchors_of(linked):
+                faults.append(f"{where}: no heading makes the anchor {target}")
             name = re.fullmatch(r"`(\w+)`", label)
             if name and file and linked.is_file() and name.group(1) not in linked.read_text():
                 faults.append(f"{where}: {target} does not hold {name.group(1)}")
@@ -39,7 +41,7 @@ def faults_of(page: pathlib.Path, root: pathlib.Path) -> list[str]:
 
 
 def main(root: pathlib.Path) -> int:
-    pages = sorted((root / "docs").glob("*.md")) + [root / "README.md"]
+    pages = sorted((root / "docs").rglob("*.md")) + sorted(root.glob("*.md"))
     faults = [fault for page in pages for fault in faults_of(page, root)]
     print("\n".join(faults) if faults else f"{len(pages)} pages name nothing that is not there")
     return 1 if faults else 0
