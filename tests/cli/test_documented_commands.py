@@ -1,5 +1,6 @@
-"""The commands of README.md and docs/*.md do what they say: every line of a code block that is a command is
-run, with the program under test and on small input, or stands in NOT_RUN with the reason."""
+"""The commands of README.md, CONTRIBUTING.md and docs/*.md do what they say: every line of a code block
+that is a command is run, with the program under test and on small input, or stands in NOT_RUN with the
+reason."""
 import concurrent.futures
 import os
 import pathlib
@@ -11,7 +12,7 @@ import unittest
 import clean_clone
 from sandbox import IN_MEMORY, MATERIALS, MISSION, SONARSIM, box_gltf, path_csv, python_with
 
-PAGES = ("README.md", *(f"docs/{path.name}" for path in sorted((clean_clone.ROOT / "docs").glob("*.md"))))
+PAGES = ("README.md", "CONTRIBUTING.md", *(f"docs/{path.name}" for path in sorted((clean_clone.ROOT / "docs").glob("*.md"))))
 
 # How a command begins: variables, then a script of the repository or a program.
 BEGINS = re.compile(r"""(?:[A-Z_]+=(?:"[^"]*"|\S+)\ )*
@@ -25,6 +26,7 @@ NOT_RUN = {
     "SONARSIM_PRESET=asan ./scripts/test.sh": CI,
     "SONARSIM_PRESET=tsan ./scripts/test.sh": CI,
     ".ci/run": "runs this test",
+    "ctest --test-dir build-release -R cli.render": "runs another test",
     "./scripts/fuzz.sh 60": CI,
     "./scripts/tidy.sh": CI,
     "./scripts/compilers.sh": CI,
