@@ -3,7 +3,7 @@ file, and code that it quotes stands there word by word.
 
     python3 tests/docs.py <root of the repository>
 
-A block of C++ follows a line <!-- from FILE -->. The rule for it is first tried on made-up pages.
+A block of C++ or of a patch follows a line <!-- from FILE -->. The rule for it is first tried on made-up pages.
 """
 import pathlib
 import re
@@ -14,7 +14,7 @@ FOLDERS = "apps|configs|docs|lib|scenes|scripts|tests|trajectories"
 # A path from the root of the repository, wherever it stands; patterns with * are not paths.
 PATH = re.compile(rf"(?<![\w./*-])(?:\.\./|\./)?((?:{FOLDERS})/[\w./-]*[\w/])(?![\w*<{{])")
 LINK = re.compile(r"\[([^\]]*)\]\(([^)\s]+)\)")
-BLOCK = re.compile(r"(?:^<!-- from (\S+) -->\n)?^```cpp\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+BLOCK = re.compile(r"(?:^<!-- from (\S+) -->\n)?^```(?:cpp|diff)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 MADE_LATER = ("scenes/generated/",)  # by scripts/make_scenes.py
 
 
