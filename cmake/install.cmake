@@ -17,10 +17,12 @@ add_library(sonarsim::sonarsim ALIAS sonarsim_lib)
 install(TARGETS sonarsim RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
 install(TARGETS sonarsim_lib EXPORT sonarsim
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
-# embree.h needs a definition that only the library's own files get, and its neighbours include it.
+# All headers, since they include each other. The API is the few that tests/consumer includes and
+# docs/development.md lists. embree.h needs a definition that only the library's own files get, and its
+# neighbours include it.
 install(DIRECTORY lib/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/sonarsim COMPONENT development
         FILES_MATCHING PATTERN "*.h" PATTERN "embree*.h" EXCLUDE)
-install(FILES README.md CHANGELOG.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+install(FILES README.md CHANGELOG.md CONTRIBUTING.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT licence)
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 install(PROGRAMS scripts/make_scenes.py

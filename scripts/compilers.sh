@@ -13,8 +13,8 @@ programs=(build-release/sonarsim)
 for build in "g++ -O2" "clang++ -O3"; do
     read -r compiler level <<<"$build"
     folder=build-compilers/$compiler$level
-    # No warning ends this build: where a folder is one file to the compiler, a name of one file
-    # shadows that of another. The other builds look at warnings file by file.
+    # Warnings are no errors here: a folder is compiled as one file, in which names of one file shadow
+    # those of another. The other builds check warnings file by file.
     cmake --preset program -B "$folder" -DCMAKE_CXX_COMPILER="$compiler" -DSONARSIM_WERROR=OFF \
         -DCMAKE_CXX_FLAGS_RELEASE="$level -DNDEBUG" >&2
     cmake --build "$folder" --target sonarsim >&2

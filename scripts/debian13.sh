@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # ./scripts/debian13.sh [--prepare] [folder]: runs README's first command on Debian 13, in a chroot
 # (default: /var/tmp/sonarsim-debian13, kept for the next time) and in a clone of the last commit;
-# verifies the dataset; compares what that build and the build of this machine render, byte by byte.
+# verifies the dataset, and compares the datasets of that build and of this machine's, byte by byte.
 # --prepare only makes the chroot and installs the packages. The chroot takes root and some 1.2 GB.
-# Exit code 77 where a chroot cannot be made.
+# Exit code 77 if a chroot cannot be made.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 root=$PWD

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws the labels of a dataset over its pictures, to be looked at:
+"""Draws the labels of a dataset over its pictures:
 
     scripts/draw_labels.py OUT FOLDER [--every N]
 

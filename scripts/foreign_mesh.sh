@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# ./scripts/foreign_mesh.sh: makes scenes/generated/motorbike.glb, a detailed mesh that was not made
-# for sonar: motorBike.obj of Debian's openfoam-examples, enlarged twice (4.1 x 1.4 x 2.7 m), all of steel,
+# ./scripts/foreign_mesh.sh: makes scenes/generated/motorbike.glb, a detailed mesh of other
+# origin: motorBike.obj of Debian's openfoam-examples, enlarged twice (4.1 x 1.4 x 2.7 m), all of steel,
 # with its wheels on z = 0 and its middle at the origin. Installs the packages that it needs.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # ./scripts/fuzz.sh [seconds]: runs each target of tests/fuzz for that long (default: 60), as many at
 # a time as there are cores, in the build of the preset asan. New inputs are kept in
-# build-asan/fuzz/NAME, what was printed in NAME.log, an input that ends a target in NAME-crash-*.
+# build-asan/fuzz/NAME, the output in NAME.log, and an input that ends a target in NAME-crash-*.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 seconds=${1:-60}

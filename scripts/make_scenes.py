@@ -31,7 +31,7 @@ FOREIGN = "motorbike"  # by foreign_mesh.sh, from a Debian package
 
 
 def builders(cells: int, area: float, quarterings: int) -> dict:
-    """Of every scene its files, by name without .glb, and what builds each."""
+    """The files of every scene, by name without .glb, with the function that builds each."""
     return {
         "tank": {"tank": tank.build},
         "seafloor": {"seafloor": lambda: seafloor.build(cells, area)},
@@ -51,7 +51,7 @@ def write(path: pathlib.Path, build) -> None:
 
 
 def make_for(mission: pathlib.Path, options: list[str], scenes: dict) -> int:
-    """Makes what is missing of the files that a mission names; 2 where no script makes one."""
+    """Makes the missing files that a mission names; 2 if no script makes one of them."""
     known = {GENERATED / f"{file}.glb": build for files in scenes.values()
              for file, build in files.items()}
     known[ROOT / "scenes" / "tank.glb"] = tank.build

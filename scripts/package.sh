@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # ./scripts/package.sh: builds the Debian packages sonarsim and libsonarsim-dev in build-package/, for the
-# release of Debian that it runs on, and looks at them with lintian where that is installed.
+# release of Debian that it runs on, and checks them with lintian if that is installed.
 #   sudo apt install ./build-package/sonarsim_*.deb
 set -euo pipefail
 cd "$(dirname "$0")/.."

@@ -2,8 +2,8 @@
 # ./scripts/report.sh [options of `sonarsim report`]: measures the tank and the sea floor and puts
 # the tables into docs/performance.md and the plots beside it. Takes some minutes on an idle machine.
 # SCENES="tank seafloor wreck lifeboat motorbike" ./scripts/report.sh: measures these, into
-# out/report_SCENE; tables and plots of those that docs/performance.md has a place for go there.
-# QUARTERINGS="0 1 2 3": the lifeboat once for each, its triangles cut into four as often.
+# out/report_SCENE. Tables and plots that docs/performance.md has marks for go into that page.
+# QUARTERINGS="0 1 2 3": the lifeboat once for each number, with its triangles cut into four that often.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 "$root/scripts/setup.sh" python3-matplotlib

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Renders missions with several builds of sonarsim and compares every byte of what they write.
+"""Renders missions with several builds of sonarsim and compares every byte of their datasets.
 
     ./scripts/same_bytes.py [--mission FILE[,KEY=VALUE...]]... PROGRAM PROGRAM...
 

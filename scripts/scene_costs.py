@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Measures what a composed scene costs: tables in Markdown, for docs/performance.md.
+"""Measures the cost of composed scenes: tables in Markdown, for docs/performance.md.
 
     ./scripts/scene_costs.py copies [--counts 1000 100000] [--sonarsim PROGRAM]
     ./scripts/scene_costs.py motion [--sonarsim PROGRAM]

@@ -21,7 +21,7 @@ install() {
         apt-get install -y -qq --no-install-recommends "${missing[@]}" >&2
 }
 
-# With the tests come the images' second reader and their framework.
+# The tests need their framework and a second reader of images.
 [ "$preset" = program ] || set -- doctest-dev libopenimageio-dev "$@"
 install g++ cmake ninja-build ccache make pkg-config python3 \
     libeigen3-dev libembree-dev libtbb-dev librandom123-dev libtinygltf-dev \
@@ -29,7 +29,7 @@ install g++ cmake ninja-build ccache make pkg-config python3 \
 case $preset in
     asan | tsan)
         install clang
-        # The sanitizers' package bears the number of the compiler: 14 on Debian 12, 19 on Debian 13.
+        # The sanitizers' package has the compiler's version in its name: 14 on Debian 12, 19 on Debian 13.
         install "libclang-rt-$(clang++ -dumpversion | cut -d. -f1)-dev"
         ;;
 esac

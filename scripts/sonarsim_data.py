@@ -13,7 +13,7 @@
 
     python3 sonarsim_data.py OUT               # says what is in a dataset
 
-A sample has the names of docs/mission.md: 'polar', 'image', 'fan', 'meta' and labels; sonars that are
+A sample has the names of docs/dataset.md and docs/labels.md: 'polar', 'image', 'fan', 'meta' and labels; sonars that are
 written as records have their rows: 'waterfall', 'echogram', 'scan', 'soundings'.
 """
 import collections
@@ -50,7 +50,7 @@ def open_dataset(folder):
 
 
 class Dataset:
-    """A dataset: `sensors` by name, and what its dataset.json (`description`) tells besides."""
+    """A dataset: `sensors` by name, and its dataset.json as `description`."""
 
     def __init__(self, folder):
         self.folder = folder
@@ -285,14 +285,14 @@ def middles(edges):
 
 
 def checked(text, rule, key):
-    """The text, when it is all of what the rule describes; else ValueError."""
+    """The text, if all of it matches the rule; else ValueError."""
     if isinstance(text, str) and rule.fullmatch(text):
         return text
     raise ValueError(f"{key!r} is {text!r}, which is no name that sonarsim gives")
 
 
 def whole(number, low, key):
-    """The number, when it is a whole one and not below `low`; else ValueError."""
+    """The number, if it is whole and not below `low`; else ValueError."""
     if isinstance(number, int) and not isinstance(number, bool) and low <= number < 1 << 32:
         return number
     raise ValueError(f"{key!r} is {number!r} and must be a whole number from {low} on")
@@ -354,7 +354,7 @@ def read_png(data):
 
 
 def unpacked(data, expected):
-    """What zlib packed, `expected` bytes of it; ValueError when there are more or fewer."""
+    """The bytes that zlib packed; ValueError if they are not `expected` bytes."""
     stream = zlib.decompressobj()
     try:
         out = stream.decompress(data, expected + 1)
@@ -380,7 +380,7 @@ def unfiltered(filters, rows):
 
 
 def read_npy(data):
-    """The array in a .npy file, format 1.0; ValueError when it is none or not as long as it tells."""
+    """The array in a .npy file, format 1.0; ValueError if it is no such file, or not as long as its header says."""
     file = io.BytesIO(data)
     if np.lib.format.read_magic(file) != (1, 0):
         raise ValueError("is no .npy file, format 1.0")

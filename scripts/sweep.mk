@@ -10,8 +10,8 @@
 #
 #        SENSOR=fls add_sigma="0 0.1 0.2" mult_sigma="0 0.2"
 #
-# What is done is not done again; what was interrupted resumes. -jN renders N points at a time, each
-# on one thread. A point that fails does not stop the others: OUT/failed/ holds what it said, and the
+# Finished points are not rendered again; interrupted ones resume. -jN renders N points at a time, each
+# on one thread. A point that fails does not stop the others: OUT/failed/ holds its messages, and the
 # sweep ends with exit code 2 and the list of them. Values are separated by blanks and hold none; signs
 # that make or the shell would take for its own are refused, as in $ ' " * ( ; and !.
 
@@ -28,8 +28,7 @@ comma := ,
 empty :=
 space := $(empty) $(empty)
 
-# A mistyped parameter would otherwise be left out without a word. Keys with dots are sonarsim's to
-# check.
+# Without this check a mistyped parameter would be ignored. sonarsim checks keys with dots.
 given := $(foreach v,$(.VARIABLES),$(if $(filter line,$(origin $(v))),$(v)))
 dotted := $(sort $(foreach v,$(given),$(if $(findstring .,$(v)),$(v))))
 unknown := $(filter-out $(known) $(dotted),$(given))
@@ -56,13 +55,13 @@ points :=
 $(foreach axis,$(axes),$(eval points := $(call cross,$(points),$(axis))))
 points := $(sort $(points))
 
-# Bins that no scene lights hold noise alone, and the same draws where the seed is the same.
+# Bins without an echo hold noise alone, and points with one seed have the same noise.
 seeds := $(if $(filter seed,$(axes)),$(sort $(seed)),one)
 $(if $(filter-out $(words $(seeds)),$(words $(points))),$(warning points that share a seed have the \
 same noise, bit for bit, in every bin that nothing lights. To train with one and test with another \
 is a leak: give each a seed of its own, or keep those of one seed on the same side))
 
-# The folder of a point: what a name of a file, or make, does not take is left out or replaced.
+# The folder of a point. Characters that a file name or make does not take are dropped or replaced.
 folder = $(subst [,,$(subst ],,$(subst /,_,$(subst :,_,$(subst !,$(comma),$(1))))))
 folders := $(foreach p,$(points),$(call folder,$(p)))
 $(if $(filter $(words $(points)),$(words $(sort $(folders)))),,$(error two points would have one folder: $(folders)))

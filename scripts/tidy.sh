@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # ./scripts/tidy.sh [commit]: runs clang-tidy over the files of lib/ and apps/ that have changed since
-# the commit (default: the one before HEAD), uncommitted changes included; of a changed header over
-# the .cpp files that include it.
+# the commit (default: the one before HEAD), uncommitted changes included. For a changed header it runs
+# over the .cpp files that include it.
 # ./scripts/tidy.sh --all: over all of them, a quarter of an hour on two cores.
 # The checks stand in .clang-tidy. Exit code 1 when there is a finding.
 set -euo pipefail
@@ -34,7 +34,7 @@ fi
 [ -n "$sources" ] || { echo "clang-tidy: nothing has changed"; exit 0; }
 
 SONARSIM_BUILD=no ./scripts/setup.sh clang-tidy
-# Configured, never built: it says how each file is compiled.
+# Configured and never built: clang-tidy reads the compile commands.
 SONARSIM_JOINED=OFF cmake --preset release -B build-tidy >/dev/null
 # The warnings are GCC's; clang does not know all of their names.
 xargs -P "$(nproc)" -n 1 clang-tidy -p build-tidy --quiet --warnings-as-errors='*' \

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Measures what writing costs: tables in Markdown, for docs/performance.md and docs/mission.md.
+"""Measures the cost of writing: tables in Markdown, for docs/performance.md.
 
     ./scripts/writing_costs.py [--sonarsim PROGRAM] [--out FOLDER]              per output, the tank
     ./scripts/writing_costs.py --labels [...]                                   per label, likewise

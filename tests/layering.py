@@ -2,17 +2,18 @@
 
     python3 tests/layering.py <root of the repository>
 
-Four rules: a folder of lib/ includes only the folders below it, a part of a folder only the parts
-below it, no files include each other in a circle, and what comes after the trace takes ranges from
-lib/trace/arrivals.h; x.h and x.cpp count as one. Each rule is first tried on made-up files that break
-it.
+Rules: a folder of lib/ includes only the folders below it, a part of a folder only the parts below it,
+no files include each other in a circle, and folders after the trace take ranges from
+lib/trace/arrivals.h; x.h and x.cpp count as one. The tables of folders in docs/development.md and
+README.md name the same folders. Each rule is first tried on made-up files that break it.
 """
 import pathlib
 import re
 import sys
 import tempfile
 
-# What each folder of lib/ may include besides itself, as the table of docs/development.md says.
+# The folders of lib/ with the folders that each may include. The table of docs/development.md says the
+# same, and README's table names each.
 ALLOWED = {
     "core": set(),
     "mission": {"core"},
@@ -139,15 +140,23 @@ def faults_in_code(root: pathlib.Path) -> tuple[int, list[str]]:
 
 
 def faults_in_table(text: str) -> list[str]:
-    """Where the table of docs/development.md differs from ALLOWED."""
-    faults, told = [], {}
+    """The differences between the table of docs/development.md and ALLOWED."""
+    faults, listed = [], {}
     for folder, row in re.findall(r"^\| `lib/(\w+)` \|.*\| *([^|]*?) *\|$", text, re.MULTILINE):
-        words = set(told) if row == "all of the above" else set(row.split(", ")) - {""}
-        told[folder] = words
+        words = set(listed) if row == "all of the above" else set(row.split(", ")) - {""}
+        listed[folder] = words
         if words != ALLOWED.get(folder):
             faults.append(f"docs/development.md: the row of lib/{folder} is not what ALLOWED says")
     return faults + [f"docs/development.md: no row for lib/{folder}"
-                     for folder in ALLOWED if folder not in told]
+                     for folder in ALLOWED if folder not in listed]
+
+
+def faults_in_readme(text: str) -> list[str]:
+    """Folders of ALLOWED that the table of README lacks, and others that it names."""
+    named = [folder for row in re.findall(r"^\| (.*?) \|", text, re.MULTILINE)
+             for folder in re.findall(r"`lib/(\w+)`", row)]
+    return ([f"README.md: no row names lib/{folder}" for folder in ALLOWED if folder not in named] +
+            [f"README.md: ALLOWED has no folder {folder}" for folder in named if folder not in ALLOWED])
 
 
 def fault_when(files: dict[str, str]) -> list[str]:
@@ -191,12 +200,17 @@ def try_the_rules():
     row = "| `lib/core` | | |\n| `lib/mission` | | core |\n"
     assert len(faults_in_table(row)) == len(ALLOWED) - 2, faults_in_table(row)
     assert any("row of lib/mission" in line for line in faults_in_table(row.replace("| core", "| ping")))
+    readme = "".join(f"| `lib/{folder}` | |\n" for folder in ALLOWED)
+    assert faults_in_readme(readme + "No row: `lib/lamps`.\n") == []
+    assert faults_in_readme(readme.replace("`lib/core`", "")) == ["README.md: no row names lib/core"]
+    assert faults_in_readme(readme + "| `lib/lamps` | |\n") == ["README.md: ALLOWED has no folder lamps"]
 
 
 def main(root: pathlib.Path) -> int:
     try_the_rules()
     files, faults = faults_in_code(root)
     faults += faults_in_table((root / "docs/development.md").read_text())
+    faults += faults_in_readme((root / "README.md").read_text())
     print("\n".join(faults) if faults else f"{files} files, no arrow runs the wrong way")
     return 1 if faults else 0
 

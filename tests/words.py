@@ -4,7 +4,7 @@
 
 A comment begins with a noun phrase or a sentence ("True if ...", "The number of ..."), not with a
 preposition or a question word ("Of the ...", "Whether ...", "How many ..."). BANNED names the words
-and what to write instead; they are searched in comments and string literals of C++ and in Markdown.
+and what to write instead; they are searched in comments and string literals of C++ and in pages.
 The rules hold for the folders and pages of CLEAN, and are first tried on made-up faults.
 """
 import pathlib
@@ -13,14 +13,33 @@ import sys
 import tempfile
 
 # Folders and pages that follow the rules; add one when it does.
-CLEAN = ["lib/core", "lib/scene", "lib/trajectory", "lib/visibility", "lib/validation", "lib/benchmark",
-         "tests/core", "tests/scene", "tests/trajectory", "tests/visibility", "tests/validation",
-         "tests/benchmark", "tests/hard", "tests/support", "docs/glossary.md"]
+CLEAN = [
+    "CHANGELOG.md",
+    "CONTRIBUTING.md",
+    "README.md",
+    "docs",
+    "lib/benchmark",
+    "lib/core",
+    "lib/scene",
+    "lib/trajectory",
+    "lib/validation",
+    "lib/visibility",
+    "tests/benchmark",
+    "tests/consumer",
+    "tests/core",
+    "tests/examples",
+    "tests/hard",
+    "tests/scene",
+    "tests/support",
+    "tests/trajectory",
+    "tests/validation",
+    "tests/visibility",
+]
 # Begins of a comment that lack a subject.
 FRAGMENT = re.compile(r"(of|by|that of|those|what|whether|how|where|whose|which|in which)\b",
                       re.IGNORECASE)
-# The same within a comment, after a full stop.
-INVERSION = re.compile(r"(?<=\. )(Of|That of|Those of|By how|In which|Whether|What is)\b")
+# The same within a comment, after a full stop, and in pages at the begin of a line.
+INVERSION = re.compile(r"(?:(?<=\. )|^)(Of|That of|Those of|By how|In which|Whether|What is)\b")
 BANNED = {
     r"there and back": "two-way",
     r"by way of": "over, through or by",
@@ -53,7 +72,11 @@ def comments_of(lines: list[str]) -> list[tuple[int, str]]:
 
 def faults_of_comment(text: str) -> list[str]:
     faults = [f"a comment begins with '{match.group()}'" for match in [FRAGMENT.match(text)] if match]
-    return faults + [f"a sentence begins with '{found}'" for found in INVERSION.findall(text)]
+    return faults or inversions_in(text)
+
+
+def inversions_in(text: str) -> list[str]:
+    return [f"a sentence begins with '{found}'" for found in INVERSION.findall(text)]
 
 
 def banned_in(text: str) -> list[str]:
@@ -65,7 +88,8 @@ def faults_of(path: pathlib.Path, root: pathlib.Path) -> list[str]:
     faults = []
     lines = path.read_text().splitlines()
     if path.suffix == ".md":
-        faults = [(n, fault) for n, line in enumerate(lines, 1) for fault in banned_in(line)]
+        for number, line in enumerate(lines, 1):
+            faults += [(number, fault) for fault in banned_in(line) + inversions_in(line)]
     else:
         for number, text in comments_of(lines):
             faults += [(number, fault) for fault in faults_of_comment(text) + banned_in(text)]
@@ -109,8 +133,8 @@ def try_the_rules():
             found = faults_of(file, file.parent)
             assert len(found) == 1 and fault in found[0], f"{text!r}: {found}"
         page = pathlib.Path(folder) / "x.md"
-        page.write_text("Sound goes by\nby way of the floor.\n")
-        assert len(faults_of(page, page.parent)) == 1
+        page.write_text("Sound goes by\nby way of the floor.\nIt ends. Of these, two.\n# What is it\n")
+        assert len(faults_of(page, page.parent)) == 2
 
 
 def main(root: pathlib.Path) -> int:

@@ -13,7 +13,7 @@ namespace sonarsim {
 
 namespace {
 
-// docs/mission.md says why: "Why it warns from there on".
+// docs/warnings.md has the reason for each limit.
 constexpr double huge_m = 10e3;
 constexpr double tiny_m = 0.1;
 constexpr double tiny_of_range = 0.01;

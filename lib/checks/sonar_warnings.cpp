@@ -6,7 +6,7 @@ namespace sonarsim {
 
 namespace {
 
-// docs/mission.md says why: "Why it warns from there on".
+// docs/warnings.md has the reason for each limit.
 constexpr double many_white = 0.05;  // of the lit bins
 constexpr double faint = 0.25;       // of the noise, in the mean
 constexpr double fewest_greys = 16.0;

@@ -121,8 +121,8 @@ bool faces_up(const Scene& scene) {
     return up > 0.1 * either;
 }
 
-/// Whether the sonar is where no vehicle can be. docs/mission.md says why these figures: "Why it
-/// warns from there on".
+/// Counts pings at which the sonar is where no vehicle can be. docs/warnings.md has the reason for
+/// each limit.
 void judge_place(const Scene& scene, bool open_upwards, std::span<const Eigen::AlignedBox3f> boxes,
                  const Pose& T_world_sensor, const Surroundings& around, SonarSurvey& out) {
     std::size_t above = 0;

@@ -61,7 +61,7 @@ void judge_radians(const Trajectory& trajectory, std::vector<Warning>& out) {
     }
     if (largest == 0.0 || largest > 1.001 * full_turn_rad) return;
     const HeadingErrors errors = heading_errors(trajectory);
-    // docs/mission.md says why these figures: "Why it warns from there on".
+    // docs/warnings.md has the reason for each limit.
     if (errors.as_degrees > 30.0 && errors.as_radians < 15.0) {
         out.push_back(
             make_warning(Doubt::radians, "trajectory", largest,

@@ -1,5 +1,6 @@
-"""The commands of README.md and docs/*.md do what they say: every line of a code block that is a command is
-run, with the program under test and on small input, or stands in NOT_RUN with the reason."""
+"""The commands of README.md, CONTRIBUTING.md and docs/*.md do what they say: every line of a code block
+that is a command is run, with the program under test and on small input, or stands in NOT_RUN with the
+reason."""
 import concurrent.futures
 import os
 import pathlib
@@ -11,7 +12,7 @@ import unittest
 import clean_clone
 from sandbox import IN_MEMORY, MATERIALS, MISSION, SONARSIM, box_gltf, path_csv, python_with
 
-PAGES = ("README.md", *(f"docs/{path.name}" for path in sorted((clean_clone.ROOT / "docs").glob("*.md"))))
+PAGES = ("README.md", "CONTRIBUTING.md", *(f"docs/{path.name}" for path in sorted((clean_clone.ROOT / "docs").glob("*.md"))))
 
 # How a command begins: variables, then a script of the repository or a program.
 BEGINS = re.compile(r"""(?:[A-Z_]+=(?:"[^"]*"|\S+)\ )*
@@ -25,6 +26,7 @@ NOT_RUN = {
     "SONARSIM_PRESET=asan ./scripts/test.sh": CI,
     "SONARSIM_PRESET=tsan ./scripts/test.sh": CI,
     ".ci/run": "runs this test",
+    "ctest --test-dir build-release -R cli.render": "runs another test",
     "./scripts/fuzz.sh 60": CI,
     "./scripts/tidy.sh": CI,
     "./scripts/compilers.sh": CI,
@@ -38,7 +40,7 @@ NOT_RUN = {
     "sonarsim report --hard": "takes minutes; tests/hard runs the same catalogue",
     "scripts/slurm/render.sh 64 mission.yaml out/big --time=60 --cpus-per-task=4":
         "needs Slurm; test_clusters.py runs it with a stand-in",
-    "parallel sonarsim render mission.yaml --threads 1 --shard {}/8 --out part{} ::: $(seq 8)":
+    "parallel sonarsim render mission.yaml --threads 1 --shard {}/4 --out part{} ::: $(seq 4)":
         "needs GNU parallel",
 }
 PYTHON = python_with("matplotlib")
@@ -83,7 +85,6 @@ INSTEAD = {
         f"sonarsim render configs/tank_detection.yaml --set trajectory.rate_hz=8 {TINY} --out OUT",
     "sonarsim inspect crane.glb --materials crane.csv":
         "cp scenes/materials.csv crane.csv; sonarsim inspect crane.glb --materials crane.csv",
-    "sonarsim merge part1 part2 part3 part4 OUT": "sonarsim merge part1 part2 part3 part4 MERGED",
     "for n in 0 1 2 3; do scripts/make_scenes.py lifeboat --quarterings $n --out out/lifeboat_$n; done":
         "for n in 0 3; do "
         "scripts/make_scenes.py lifeboat --quarterings $((n / 3)) --out out/lifeboat_$n; done",
@@ -100,11 +101,10 @@ SHARDS = "for i in $(seq {0}); do sonarsim render mission.yaml -q --shard $i/{0}
 BEFORE = {
     "README.md": (INSTEAD["build/sonarsim validate hull.yaml && build/sonarsim render hull.yaml"],
                   SHARDS.format(2, "PART")),
-    "docs/datasets.md": (SHARDS.format(8, "part"),
-                         "for name in tank wreck harbour; do "
-                         "sonarsim render mission.yaml -q --set name=$name --out out/$name; done"),
-    "docs/mission.md": (INSTEAD["sonarsim render configs/tank_detection.yaml --out OUT"],
-                        SHARDS.format(4, "part")),
+    "docs/dataset.md": (INSTEAD["sonarsim render configs/tank_detection.yaml --out OUT"],
+                        "for name in tank wreck harbour; do "
+                        "sonarsim render mission.yaml -q --set name=$name --out out/$name; done"),
+    "docs/running.md": (SHARDS.format(4, "part"),),
     "docs/pictures.md": ("sonarsim render mission.yaml -q --out OUT",),
     "docs/scenes.md": ("scripts/make_scenes.py --for configs/minefield_variants.yaml",
                        "sonarsim render configs/minefield_variants.yaml -q --set variants=2 "

@@ -1,4 +1,4 @@
-"""What README.md and docs/mission.md tell a reader to type: the first mission and the Python
+"""What README.md and docs/dataset.md tell a reader to type: the first mission and the Python
 snippets. The snippets need numpy; they are skipped without."""
 import json
 import pathlib
@@ -10,7 +10,7 @@ from sandbox import Sandbox, box_gltf, python_with
 
 ROOT = pathlib.Path(__file__).parents[2]
 README = (ROOT / "README.md").read_text()
-MISSION_PAGE = (ROOT / "docs" / "mission.md").read_text()
+DATASET_PAGE = (ROOT / "docs" / "dataset.md").read_text()
 PYTHON = python_with("numpy")
 
 
@@ -58,13 +58,13 @@ class Documents(Sandbox):
     @unittest.skipIf(PYTHON is None, "needs numpy")
     def test_snippet_of_the_page_opens_every_kind(self):
         self.render_all_kinds("out/survey")
-        lines = self.run_snippet(MISSION_PAGE)
+        lines = self.run_snippet(DATASET_PAGE)
         for name in ("fls", "mbes", "sss", "sounder"):
             self.assertIn(name + " (", lines)
 
     @unittest.skipIf(PYTHON is None, "needs numpy")
     def test_snippets_open_what_little_was_asked_for(self):
-        for folder, page in (("out/hull", README), ("out/survey", MISSION_PAGE)):
+        for folder, page in (("out/hull", README), ("out/survey", DATASET_PAGE)):
             self.render_all_kinds(folder, "--set", "output.meta=false", "--set",
                                   "output.polar=false")
             self.run_snippet(page)
@@ -77,7 +77,7 @@ class Documents(Sandbox):
                   "output:\n  folder: out/survey\n")
         self.assert_renders()
         # The side-scan is the last of the sensors, so its are what the loop leaves behind.
-        printed = self.run_snippet(MISSION_PAGE, "print(json.dumps([ranges.tolist(), "
+        printed = self.run_snippet(DATASET_PAGE, "print(json.dumps([ranges.tolist(), "
                                                  "pings.tolist()]))")
         ranges, rows = json.loads(printed.splitlines()[-1])
         self.assertEqual((len(rows), len(rows[0])), (6, 130))

@@ -39,6 +39,9 @@ def main(build, compiler):
         # 512 bins from 0.1 to 10 m: the wall at 5 m lies in bin 253, which begins at 4.992 m.
         range_m = float(run(own / "one_ping"))
         assert 5.0 - 9.9 / 512 < range_m <= 5.0, range_m
+        tank = prefix / "share/sonarsim/configs/tank_imaging.yaml"
+        name, occupied = run(own / "mission_ping", tank).split()
+        assert name == "fls" and 1000 < int(occupied) < 512 * 256, (name, occupied)
         print(f"installed, found, built and run: the wall echoes from {range_m} m on")
 
 

@@ -1,0 +1,29 @@
+// The first ping of each sonar of a mission: prints the sonar's name and the number of its bins with an
+// echo, without noise.
+#include <algorithm>
+#include <iostream>
+
+#include "assembly/assemble.h"
+#include "mission/parse.h"
+#include "sonar/kinds.h"
+#include "sonar/sonar.h"
+#include "visibility/make_engine.h"
+
+using namespace sonarsim;
+
+int main(int argc, char** argv) {
+    if (argc != 2) {
+        std::cerr << "usage: mission_ping mission.yaml\n";
+        return 2;
+    }
+    const Mission mission = load_mission(argv[1], {}, sonar_keys());
+    const Assembly assembly = assemble(mission);
+    const auto engine = make_engine(assembly.scene, EngineSettings{});
+    for (const Sonar& sonar : assembly.sonars) {
+        const Ping ping = render_ping(sonar, assembly.scene, *engine,
+                                      assembly.trajectory.front().T_world_vehicle,
+                                      PingKey{mission.seed, 0}, without_random_terms);
+        const auto occupied = ping.intensity.size() - std::ranges::count(ping.intensity, 0.0F);
+        std::cout << sonar.config.name << ' ' << occupied << '\n';
+    }
+}

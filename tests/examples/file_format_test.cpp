@@ -1,0 +1,79 @@
+// The example of docs/add_a_file_format.md.
+#include <doctest/doctest.h>
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "dataset/writers/formats.h"
+#include "support/scenes.h"
+#include "support/small_mission.h"
+#include "support/temporary_folder.h"
+#include "visibility/make_engine.h"
+
+using namespace sonarsim;
+using namespace sonarsim::test;
+
+namespace {
+
+/// nearest/NNNNNN.csv: the range of the first bin with an echo in each beam, m.
+class NearestWriter final : public Writer {
+  public:
+    explicit NearestWriter(const WriterContext& context) : sonar_(context.sonar()) {}
+
+    WriterOutputs outputs() const override {
+        return {PingFile{"nearest", ".csv"}, 16.0 + 24.0 * sonar_.settings.view.beams, {}};
+    }
+
+    std::string encode(const FinishedPing& finished) const override {
+        std::string csv = "beam,range_m\n";
+        for (int j = 0; j < finished.ping.beams; ++j) {
+            int i = 0;
+            while (i < finished.ping.range_bins && finished.ping.at(i, j) == 0.0F)
+                ++i;
+            if (i < finished.ping.range_bins)
+                csv += fmt::format("{},{:.4f}\n", j, sonar_.range_edges_m[i]);
+        }
+        return csv;
+    }
+
+  private:
+    const Sonar& sonar_;
+};
+
+}  // namespace
+
+/// A wall across the boresight at x = 5 m, a beam at azimuth phi: its first echo is at 5 /
+/// cos(phi), since the wall is nearest in the plane of the boresight.
+TEST_CASE("example of a file format: the nearest echo of each beam") {
+    const TemporaryFolder temporary;
+    Mission mission = small_mission(temporary.path / "out");
+    mission.sensors.resize(1);
+    mission.sensors[0].noise = {};
+    mission.sensors[0].mount = {};
+    Assembly assembly = small_assembly(mission, 1);
+    assembly.scene = empty_scene();
+    add_quad(assembly.scene, {5, -9, -9}, {5, 9, -9}, {5, 9, 9}, {5, -9, 9},
+             add_material(assembly.scene, 1.0F));
+    const Sonar& sonar = assembly.sonars[0];
+    const auto engine = make_engine(assembly.scene, {});
+    const TracedPing traced = trace(sonar, assembly.scene, *engine, Pose{}, 0);
+    const Ping ping = form_image(traced, sonar.settings, assembly.scene, {}, {});
+
+    const NearestWriter writer({mission, assembly, 0, 1});
+    const std::string csv = writer.encode({.id = {},
+                                           .sonar = sonar,
+                                           .traced = traced,
+                                           .ping = ping,
+                                           .measured = {},
+                                           .clipped_pixels = 0});
+    CHECK(static_cast<double>(csv.size()) <= writer.outputs().bytes_per_ping);
+    std::string expected = "beam,range_m\n";
+    for (int j = 0; j < ping.beams; ++j) {
+        const auto azimuth = [&](int edge) { return std::fabs(sonar.azimuth_edges_rad[edge]); };
+        const double range = 5.0 / std::cos(std::min(azimuth(j), azimuth(j + 1)));
+        const auto bin = std::ranges::upper_bound(sonar.range_edges_m, range) - 1;
+        expected += fmt::format("{},{:.4f}\n", j, *bin);
+    }
+    CHECK(csv == expected);
+}
