@@ -121,7 +121,9 @@ class Sensor:
         self._records = dict(description.get("label_records", {}))
         if "records" in description:
             record = description["records"]
-            self._records[pathlib.PurePath(record["file"]).stem] = record
+            # A dataset of an older sonarsim names the record in the name of its file alone.
+            name = record.get("name", pathlib.PurePath(record["file"]).stem)
+            self._records[checked(name, re.compile(NAME, re.ASCII), "records.name")] = record
         if self._packs:
             whole(self._packs["pings"], 1, "packs.pings")
             self._path(self._packs["file"], PATTERN)

@@ -81,7 +81,7 @@ void warn_of_empty_scatter(const Mission& mission, Scene& scene) {
     for (const ScatterConfig& scatter : mission.scene.scatter) {
         if (scatter.count[1] > 0.0) continue;
         scene.warnings.push_back("scene.scatter: of '" + printable(scatter.name) +
-                               "' no object is placed because its count is 0");
+                                 "' no object is placed because its count is 0");
     }
 }
 
@@ -119,10 +119,10 @@ void read_scene_files(const Mission& mission, SceneFiles& models) {
 
 /// The number of triangles beyond which load_scene() shares meshes. A million triangles take 170
 /// MB.
-std::size_t share_beyond(RepeatedFiles repeats, EngineType engine) {
+std::size_t share_beyond(RepeatedFiles repeats, EngineKind engine) {
     constexpr std::size_t many_triangles = 4'000'000;
     if (repeats == RepeatedFiles::shared) return 0;
-    const bool may_be_rays = engine == EngineType::automatic || engine == EngineType::rays;
+    const bool may_be_rays = engine == EngineKind::automatic || engine == EngineKind::rays;
     const bool may_share = repeats == RepeatedFiles::automatic && may_be_rays;
     return may_share ? many_triangles : share_nothing;
 }

@@ -89,7 +89,7 @@ std::vector<double> find_full_scales(const Mission& mission, const Scene& scene,
     tbb::task_arena arena;
     arena.execute([&] {
         const std::unique_ptr<VisibilityEngine> engine =
-            make_engine(scene, {.type = EngineType::rays, .octree = {}});
+            make_engine(scene, {.type = EngineKind::rays, .octree = {}});
         for (const Sonar& sonar : sonars) {
             scales.push_back(find_full_scale(mission, scene, trajectory, motions, sonar, *engine));
         }

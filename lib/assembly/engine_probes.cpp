@@ -25,7 +25,7 @@ double rays_goal(const Sonar& sonar) {
 
 EngineSettings engine_settings(const Mission& mission, const Assembly& assembly) {
     EngineSettings settings = engine_settings(mission);
-    if (settings.type != EngineType::automatic) return settings;
+    if (settings.type != EngineKind::automatic) return settings;
     for (const Sonar& sonar : assembly.sonars) {
         for (const std::uint32_t pose :
              sample_pings(assembly.trajectory.size(), sonar.config.every, most_probes)) {

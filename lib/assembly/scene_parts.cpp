@@ -71,7 +71,7 @@ class LazyBottom {
   public:
     LazyBottom(const SceneConfig& scene, SceneFiles& models) : scene_(scene), models_(models) {}
 
-    /// Whether this object is the bottom.
+    /// True if this object is the bottom.
     bool is(const ObjectConfig& object) const {
         return scene_.file.empty() && &object == &scene_.objects.front();
     }
@@ -83,7 +83,7 @@ class LazyBottom {
         return bottom_;
     }
 
-    /// Whether there is a bottom that does not move.
+    /// True if there is a bottom that does not move.
     bool exists() const { return !scene_.file.empty() || stands_still(scene_.objects.front()); }
 
     /// " from (x, y) to (x, y)", for messages.

@@ -152,7 +152,7 @@ std::vector<Growth> measure_growth(const Mission& mission, const Assembly& assem
             OctreeConfig octree = mission.octree;
             octree.literal = false;
             std::vector<std::unique_ptr<VisibilityEngine>> engines;
-            engines.push_back(make_engine(scene, {EngineType::rays, {}}));
+            engines.push_back(make_engine(scene, {EngineKind::rays, {}}));
             if (octree_too) {
                 engines.push_back(make_engine(scene, engine_settings(EngineKind::octree, octree)));
             }

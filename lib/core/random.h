@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string_view>
 
 namespace sonarsim {
 
@@ -95,6 +96,19 @@ enum class Stream : std::uint32_t {
     receiver_noise = 8,
     ping_variation = 9,  ///< the key that varies as `sensor`, the pose as `ping`
 };
+
+/// A number for a name: its FNV-1a hash.
+constexpr std::uint32_t number_of_name(std::string_view name) {
+    std::uint32_t hash = 2166136261U;
+    for (const char c : name)
+        hash = (hash ^ static_cast<unsigned char>(c)) * 16777619U;
+    return hash;
+}
+
+/// A stream that is not in the list above, for a stage that brings its own.
+constexpr Stream stream_named(std::string_view name) {
+    return Stream{0x80000000U | number_of_name(name)};
+}
 
 /// The key of one stream of one ping of one sensor. The counter that goes with it identifies the
 /// item of the draw (a scatterer cell, a pixel).

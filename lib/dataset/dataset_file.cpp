@@ -62,14 +62,25 @@ DescribedPacks read_packs(const CheckedJson& json, const std::string& folder) {
     return packs;
 }
 
-/// The file of records, which tells its axes, too.
+/// The list of labels whose ids an array holds.
+std::string read_ids(const CheckedJson& json) {
+    const std::optional<CheckedJson> ids = json.find("ids");
+    if (!ids) return {};
+    std::string text = ids->text();
+    if (text != "instances" && text != "classes" && text != "materials")
+        ids->refuse("instances, classes or materials");
+    return text;
+}
+
+/// The file of records.
 std::string read_record(const CheckedJson& json, const std::string& folder) {
     for (const CheckedJson& axis : json.at("axes").items())
         axis.text();
+    if (const auto name = json.find("name")) plain_name(*name);
     return path_in(json.at("file"), folder, false);
 }
 
-/// How many bins lie between the edges.
+/// The number of bins between the edges.
 std::uint64_t read_bins(const CheckedJson& edges) {
     double last = -std::numeric_limits<double>::infinity();
     const std::vector<CheckedJson> all = edges.items();
@@ -99,6 +110,63 @@ std::vector<std::string> read_products(const CheckedJson& json, const std::strin
     return products;
 }
 
+/// The arrays of a sensor; `bins` and `fan` are the shapes [rows, columns] of a ping and of its
+/// fan.
+std::vector<DescribedArray> read_arrays(const CheckedJson& sensor,
+                                        const std::vector<std::size_t>& bins,
+                                        const std::vector<std::size_t>& fan) {
+    std::vector<DescribedArray> arrays;
+    if (const auto described = sensor.find("arrays")) {
+        for (const auto& [kind, array] : described->members()) {
+            const CheckedJson axes = array.at("axes");
+            const bool is_fan = axes.json() == Json{"row", "column"};
+            if (!is_fan && axes.json() != Json{"range", "azimuth"})
+                axes.refuse("[range, azimuth] or [row, column]");
+            arrays.push_back({kind, is_fan ? fan : bins, read_ids(array)});
+        }
+    }
+    if (const auto records = sensor.find("label_records")) {
+        for (const auto& [label, record] : records->members())
+            arrays.push_back({"label_records/" + label, {}, read_ids(record)});
+    }
+    return arrays;
+}
+
+void check_numbers(const CheckedJson& list, std::size_t count, const char* right) {
+    const std::vector<CheckedJson> numbers = list.items();
+    if (numbers.size() != count) list.refuse(right);
+    for (const CheckedJson& number : numbers)
+        number.number();
+}
+
+/// Checks a picture that people may look at; a page may load its files.
+void check_picture(const CheckedJson& json, const std::string& folder) {
+    json.at("title").text();
+    const CheckedJson per = json.at("per");
+    const std::string series = per.text();
+    if (series != "ping" && series != "sweep" && series != "sensor")
+        per.refuse("ping, sweep or sensor");
+    path_in(json.at("file"), folder, series != "sensor");
+    const auto boxes = json.find("boxes_of");
+    if (series == "ping") {
+        if (boxes && boxes->text() != "bins" && boxes->text() != "fan")
+            boxes->refuse("bins or fan");
+        if (const auto ahead = json.find("ahead")) ahead->text();
+        return;
+    }
+    if (boxes) path_in(*boxes, folder, series == "sweep");
+    if (series == "sweep") {
+        json.at("pings").whole(1, any_count);
+        json.at("radius_px").number();
+        json.at("width_px").whole(1, largest_side);
+    } else if (const auto along = json.find("pings_along")) {
+        if (along->text() != "x" && along->text() != "y") along->refuse("x or y");
+        check_numbers(json.at("origin_px"), 2, "two numbers");
+        check_numbers(json.at("pixel_px"), 2, "two numbers");
+        json.at("pings_per_pixel").whole(1, any_count);
+    }
+}
+
 DescribedSensor read_sensor(const CheckedJson& json, std::uint64_t poses) {
     DescribedSensor sensor;
     sensor.name = plain_name(json.at("name"));
@@ -122,22 +190,21 @@ DescribedSensor read_sensor(const CheckedJson& json, std::uint64_t poses) {
     sensor.products = read_products(json, sensor.name);
     sensor.range_bins = read_bins(json.at("range_edges_m"));
     if (const auto edges = json.find("azimuth_edges_rad")) sensor.azimuth_bins = read_bins(*edges);
+    std::vector<std::size_t> fan_shape;
     if (const auto fan = json.find("fan")) {
-        sensor.fan = {fan->at("height_px").whole(1, largest_side),
-                      fan->at("width_px").whole(1, largest_side)};
+        fan_shape = {fan->at("height_px").whole(1, largest_side),
+                     fan->at("width_px").whole(1, largest_side)};
+    }
+    sensor.arrays = read_arrays(json, {sensor.range_bins, sensor.azimuth_bins}, fan_shape);
+    if (const auto pictures = json.find("pictures")) {
+        for (const CheckedJson& picture : pictures->items())
+            check_picture(picture, sensor.name);
     }
     if (const auto scan = json.find("scan")) scan->at("pings_per_sweep").whole(1, any_count);
     return sensor;
 }
 
-void check_point(const CheckedJson& point) {
-    const std::vector<CheckedJson> coordinates = point.items();
-    if (coordinates.size() != 3) point.refuse("three numbers");
-    for (const CheckedJson& coordinate : coordinates)
-        coordinate.number();
-}
-
-/// The names of what has the ids 1, 2, ...
+/// The names with the ids 1, 2, ...
 std::vector<std::string> read_names(const CheckedJson& list) {
     std::vector<std::string> names;
     for (const CheckedJson& one : list.items()) {
@@ -154,8 +221,8 @@ DescribedLabels read_labels(const CheckedJson& json) {
         instance.at("class").whole(1, labels.classes.size());
         const CheckedJson box = instance.at("box_world_m");
         if (box.json().is_null()) continue;
-        check_point(box.at("min"));
-        check_point(box.at("max"));
+        check_numbers(box.at("min"), 3, "three numbers");
+        check_numbers(box.at("max"), 3, "three numbers");
     }
     return labels;
 }

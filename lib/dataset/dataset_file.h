@@ -20,14 +20,15 @@ struct DescribedPacks {
     NamedTexts members;       ///< patterns of the names in an archive, by kind
 };
 
-/// The height and width of a picture, px.
-struct DescribedPicture {
-    std::uint64_t height = 0;
-    std::uint64_t width = 0;
+/// The rows and columns of the files of a kind, and the list of labels whose ids they hold.
+struct DescribedArray {
+    std::string kind;                ///< as in `files`, or "label_records/LABEL"
+    std::vector<std::size_t> shape;  ///< [rows, columns]; empty: it is not described
+    std::string ids;                 ///< "instances", "classes" or "materials"; "": no ids
 };
 
-/// A sensor as dataset.json tells it. Every path is relative to the folder of the dataset and lies
-/// in the folder of the sensor.
+/// A sensor as dataset.json describes it. Every path is relative to the folder of the dataset and
+/// lies in the folder of the sensor.
 struct DescribedSensor {
     std::string name;
     std::uint64_t every = 1;  ///< pings at every n-th pose
@@ -39,11 +40,12 @@ struct DescribedSensor {
     NamedTexts label_records;  ///< files by label
     std::vector<std::string> products;
     std::uint64_t range_bins = 0;
-    std::uint64_t azimuth_bins = 0;  ///< 0 where the kind has none
-    std::optional<DescribedPicture> fan;
+    std::uint64_t azimuth_bins = 0;      ///< 0 where the kind has none
+    std::vector<DescribedArray> arrays;  ///< none in a dataset of an older program
 };
 
-/// What the ids of labels mean: id k is the entry k - 1. All empty where a dataset has none.
+/// The meaning of the ids of labels: id k is the entry k - 1. All are empty in a dataset without
+/// labels.
 struct DescribedLabels {
     std::vector<std::string> instances;
     std::vector<std::string> classes;
@@ -68,7 +70,7 @@ struct DatasetFile {
 /// InputError when it cannot be read.
 std::optional<nlohmann::ordered_json> read_description(const std::filesystem::path& folder);
 
-/// The one reader of what a dataset.json says. `file` is for the messages. InputError, with the key
+/// The one reader of dataset.json. `file` is for the messages. InputError, with the key
 /// and what it must be, when it is of another version of the format, when a key is missing or of
 /// another type, when a number is out of range, when a name is not plain (see dataset/file_names.h)
 /// and when a path leaves the folder of its sensor.

@@ -49,6 +49,39 @@ Json describe_build() {
             {"png_encoder", png_encoder()}};
 }
 
+/// The picture of a file of a ping, for people; null if it is none.
+Json describe_picture(const PingFile& file, const Json& pattern) {
+    if (file.title.empty() || pattern.is_null()) return nullptr;
+    Json json = {{"title", file.title}, {"file", pattern}, {"per", "ping"}};
+    if (file.array == PingArray::bins) json["ahead"] = "down";
+    if (file.array != PingArray::none)
+        json["boxes_of"] = file.array == PingArray::fan ? "fan" : "bins";
+    return json;
+}
+
+/// Describes a file of every ping: its place, its rows and columns, and the picture it may be.
+void describe_ping_file(const PingFile& file, const SensorLayout& own, const std::string& number,
+                        Json& json) {
+    if (own.pings_per_pack > 0) {
+        json["packs"]["members"][file.name] =
+            own.name + "-" + number + "." + file.name + file.extension;
+    } else {
+        json["files"][file.name] = own.name + "/" + file.name + "/" + number + file.extension;
+    }
+    if (file.array == PingArray::none) return;
+    const bool is_fan = file.array == PingArray::fan;
+    Json& array = json["arrays"][file.name];
+    array["axes"] = is_fan ? Json{"row", "column"} : Json{"range", "azimuth"};
+    if (!file.ids.empty()) array["ids"] = file.ids;
+}
+
+Json describe_record(const PingRecord& record, const std::string& folder, std::string_view name) {
+    Json json = {{"file", folder + "/" + record.file}, {"axes", record.axes}};
+    if (record.label.empty()) json["name"] = name;
+    if (!record.ids.empty()) json["ids"] = record.ids;
+    return json;
+}
+
 Json describe_sensor(const Sonar& sonar, double full_scale, const Layout& layout,
                      const SensorLayout& own, const Writers& writers) {
     const SonarConfig& config = sonar.config;
@@ -68,22 +101,22 @@ Json describe_sensor(const Sonar& sonar, double full_scale, const Layout& layout
                          {"pings", own.pings_per_pack},
                          {"members", Json::object()}};
     }
+    Json fans = Json::array();  // first among the pictures, since operators expect them
+    Json pictures = Json::array();
     for (const auto& part : own.per_ping) {
         if (const auto* file = std::get_if<PingFile>(&part)) {
-            if (own.pings_per_pack > 0) {
-                json["packs"]["members"][file->name] =
-                    config.name + "-" + number + "." + file->name + file->extension;
-            } else {
-                json["files"][file->name] =
-                    config.name + "/" + file->name + "/" + number + file->extension;
-            }
-        }
-        if (const auto* record = std::get_if<PingRecord>(&part)) {
-            Json& place =
-                record->label.empty() ? json["records"] : json["label_records"][record->label];
-            place = {{"file", config.name + "/" + record->file}, {"axes", record->axes}};
+            describe_ping_file(*file, own, number, json);
+            Json picture = describe_picture(*file, json["files"].value(file->name, Json()));
+            if (!picture.is_null())
+                (file->array == PingArray::fan ? fans : pictures).push_back(std::move(picture));
+        } else {
+            const auto& record = std::get<PingRecord>(part);
+            (record.label.empty() ? json["records"] : json["label_records"][record.label]) =
+                describe_record(record, config.name, kind_of(config.kind).record.name);
         }
     }
+    fans.insert(fans.end(), pictures.begin(), pictures.end());
+    json["pictures"] = std::move(fans);
     for (const std::string& name : own.products)
         json["products"].push_back(config.name + "/" + name);
     for (const auto& writer : writers)

@@ -3,9 +3,7 @@
 #include <string>
 
 #include "core/file.h"
-#include "dataset/coco/pings.h"
-#include "dataset/coco/records.h"
-#include "dataset/coco/scans.h"
+#include "dataset/coco/coco.h"
 #include "dataset/shared_products.h"
 #include "dataset/split.h"
 

@@ -14,17 +14,13 @@ namespace {
 
 bool has_pictures(const Mission& mission, CocoPicture picture) {
     const OutputConfig& output = mission.output;
-    if (picture == CocoPicture::record) {
+    if (picture == CocoPicture::record || picture == CocoPicture::scan) {
+        const RecordPictures wanted =
+            picture == CocoPicture::record ? RecordPictures::strip : RecordPictures::sweeps;
         return std::ranges::any_of(mission.sensors, [&](const SonarConfig& sensor) {
-            const RecordKind record = kind_of(sensor.kind).record;
-            return (record == RecordKind::waterfall && output.waterfall) ||
-                   (record == RecordKind::echogram && output.echogram);
+            const RecordShape& shape = kind_of(sensor.kind).record;
+            return shape.pictures == wanted && shape.is_written(output);
         });
-    }
-    if (picture == CocoPicture::scan) {
-        return output.scan && std::ranges::any_of(mission.sensors, [](const SonarConfig& sensor) {
-                   return kind_of(sensor.kind).record == RecordKind::scan;
-               });
     }
     const bool written = picture == CocoPicture::fan ? output.fan : output.image || output.polar;
     return written && std::ranges::any_of(mission.sensors, [](const SonarConfig& sensor) {
@@ -38,15 +34,12 @@ std::string part_name(SplitPart part) {
 
 void add_coco(const Mission& mission, CocoPicture picture, std::vector<SharedProduct>& products) {
     if (!has_pictures(mission, picture)) return;
-    const char* const stems[] = {"/coco", "/coco_fan", "/coco_records", "/coco_scans"};
-    const std::string stem =
-        labels_folder_name + std::string(stems[static_cast<std::size_t>(picture)]);
-    products.push_back({SharedProduct::Kind::coco, stem + ".json", picture, SplitPart::none});
+    products.push_back({SharedProduct::Kind::coco, coco_file(picture), picture, SplitPart::none});
     const bool of_pings = picture == CocoPicture::polar || picture == CocoPicture::fan;
     if (!of_pings) return;
     for (const SplitPart part : parts_of(mission.output.split)) {
         products.push_back(
-            {SharedProduct::Kind::coco, stem + "_" + part_name(part) + ".json", picture, part});
+            {SharedProduct::Kind::coco, coco_file(picture, "_" + part_name(part)), picture, part});
     }
 }
 
@@ -57,11 +50,16 @@ bool asks_for_all(const Mission& mission) {
 
 }  // namespace
 
+std::string coco_file(CocoPicture picture, const std::string& part) {
+    const char* const stems[] = {"/coco", "/coco_fan", "/coco_records", "/coco_scans"};
+    return labels_folder_name + std::string(stems[static_cast<std::size_t>(picture)]) + part +
+           ".json";
+}
+
 std::vector<SharedProduct> shared_products(const Mission& mission) {
     std::vector<SharedProduct> products;
     for (const SplitPart part : parts_of(mission.output.split)) {
-        products.push_back(
-            {SharedProduct::Kind::split, split_file_of(part_name(part)), {}, part});
+        products.push_back({SharedProduct::Kind::split, split_file_of(part_name(part)), {}, part});
     }
     if (is_asked(mission, Label::coco)) {
         add_coco(mission, CocoPicture::polar, products);

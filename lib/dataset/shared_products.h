@@ -26,6 +26,10 @@ struct SharedProduct {
     SplitPart part = SplitPart::none;  ///< that it lists; none: all poses
 };
 
+/// The COCO file of all pictures of a sort, or of a part of the split ("_train"), relative to the
+/// folder of the dataset.
+std::string coco_file(CocoPicture picture, const std::string& part = "");
+
 /// Those that a mission asks for.
 std::vector<SharedProduct> shared_products(const Mission& mission);
 

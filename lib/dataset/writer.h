@@ -38,30 +38,40 @@ struct WriterContext {
     double full_scale() const { return assembly.full_scales[sensor]; }
 };
 
-/// A finished ping, with all that a writer may ask about it.
+/// A finished ping with everything that a writer may need.
 struct FinishedPing {
     PingId id;
     const Sonar& sonar;  ///< as it was for this ping
     const TracedPing& traced;
     const Ping& ping;
-    const nlohmann::ordered_json& measured;  ///< what its metadata say; null for none
+    const nlohmann::ordered_json& measured;  ///< for its metadata; null for none
     std::uint64_t clipped_pixels;            ///< intensities above full_scale
-    const LabelledPing* labels = nullptr;    ///< what output.labels asks for; null: nothing
+    const LabelledPing* labels = nullptr;    ///< null if output.labels asks for none
+};
+
+/// The meaning of the rows and columns of a file of a ping.
+enum class PingArray {
+    none,  ///< it has none, or they are of its own
+    bins,  ///< [range, azimuth], the bins of the ping
+    fan,   ///< [row, column], the pixels of the fan
 };
 
 /// A file per ping: NAME/000000EXTENSION in the folder of the sensor.
 struct PingFile {
     std::string name;       ///< of the folder
     std::string extension;  ///< with the dot
+    PingArray array = PingArray::none;
+    std::string ids = {};    ///< its values are ids of this list of `labels` in dataset.json
+    std::string title = {};  ///< of a picture for people; "": it is none
 };
 
 /// A record per ping, in one file for all pings of the sensor.
 struct PingRecord {  // NOLINT(bugprone-exception-escape): moving JSON throws nothing
     std::string file;
     NpyFormat format;
-    nlohmann::ordered_json axes;  ///< what the indices count, for dataset.json
-    /// What the records hold: a label, "raw", or "" for the echoes.
-    std::string label = {};
+    nlohmann::ordered_json axes;  ///< the meaning of the indices, for dataset.json
+    std::string label = {};       ///< of the values: a label, "raw", or "" for the echoes
+    std::string ids = {};         ///< as in PingFile
 };
 
 /// A file that is made of the records of all pings.
@@ -70,7 +80,7 @@ struct Product {
     double bytes_at_most;
 };
 
-/// What a writer leaves behind, known before the first ping.
+/// The files of a writer, known before the first ping.
 struct WriterOutputs {
     std::variant<PingFile, PingRecord> per_ping;
     double bytes_per_ping = 0.0;  ///< at most; noise hardly compresses, so PNG files count in full
@@ -80,10 +90,14 @@ struct WriterOutputs {
 /// The outputs of a writer that leaves a record of `bytes` per ping in `file`.
 WriterOutputs record_outputs(std::string file, NpyFormat format, nlohmann::ordered_json axes,
                              double bytes);
+/// The outputs of a writer of records in the shape of the sonar's kind, in STEM.npy: numbers of
+/// this NumPy type and size.
+WriterOutputs record_outputs(const WriterContext& context, const std::string& stem,
+                             const char* type, int bytes_of_number, std::string label = {});
 
 /// One output format of one sensor. Writers are immutable: any number of threads may encode at a
-/// time. What is there already at a resume is told by the journal, by the size of each file and the
-/// hash of each record; products are made anew unless all of them are there.
+/// time. A resume finds by the journal what is there: by the size of each file and the hash of each
+/// record. It makes products again unless all of them are there.
 class Writer {
   public:
     virtual ~Writer() = default;

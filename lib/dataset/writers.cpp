@@ -2,10 +2,22 @@
 
 #include "core/error.h"
 #include "dataset/shared_products.h"
-#include "dataset/writers/formats.h"
-#include "dataset/writers/labels.h"
+#include "dataset/writers/label_writers.h"
 
 namespace sonarsim {
+
+// The makers of the formats, each in the file of its name. They return null when the mission does
+// not ask for the format or the sonar has no such output.
+std::unique_ptr<Writer> make_polar_writer(const WriterContext& context);
+std::unique_ptr<Writer> make_image_writer(const WriterContext& context);
+std::unique_ptr<Writer> make_raw_writer(const WriterContext& context);
+std::unique_ptr<Writer> make_fan_writer(const WriterContext& context);
+std::unique_ptr<Writer> make_stages_writer(const WriterContext& context);
+std::unique_ptr<Writer> make_strip_writer(const WriterContext& context);
+std::unique_ptr<Writer> make_soundings_writer(const WriterContext& context);
+std::unique_ptr<Writer> make_scan_writer(const WriterContext& context);
+std::unique_ptr<Writer> make_raw_records_writer(const WriterContext& context);  // in raw.cpp
+std::unique_ptr<Writer> make_meta_writer(const WriterContext& context);
 
 namespace {
 
@@ -18,8 +30,7 @@ constexpr MakeWriter formats[] = {
     make_raw_writer,          //
     make_fan_writer,          //
     make_stages_writer,       //
-    make_waterfall_writer,    //
-    make_echogram_writer,     //
+    make_strip_writer,        //
     make_soundings_writer,    //
     make_scan_writer,         //
     make_raw_records_writer,  //

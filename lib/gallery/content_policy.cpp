@@ -8,7 +8,7 @@ namespace sonarsim {
 
 namespace {
 
-/// The bytes that hexadecimal digits tell, as base64.
+/// The bytes of hexadecimal digits, as base64.
 std::string base64_of(const std::string& hex) {
     constexpr std::string_view digits =
         "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -28,7 +28,7 @@ std::string base64_of(const std::string& hex) {
     return text;
 }
 
-/// The browser takes the sum of all that stands between the tags.
+/// The browser hashes all text between the tags.
 std::string source_of(std::string_view page, std::string_view begin, std::string_view end) {
     const std::size_t at = page.find(begin) + begin.size();
     return "'sha256-" + base64_of(sha256(page.substr(at, page.find(end, at) - at))) + "'";
@@ -37,7 +37,7 @@ std::string source_of(std::string_view page, std::string_view begin, std::string
 }  // namespace
 
 std::string content_policy(std::string_view page) {
-    // Of a page that is opened from a disk, some browsers take 'self' for nothing.
+    // For a page that is opened from a disk, some browsers match nothing with 'self'.
     return "default-src 'none'; style-src " + source_of(page, "<style>", "</style>") +
            "; script-src " + source_of(page, "<script>", "</script>") +
            "; img-src 'self' file:; base-uri 'none'; form-action 'none'";

@@ -17,11 +17,10 @@ void use_json(const std::filesystem::path& file, const std::string& text, const 
     try {
         use(parse_json(text, file.string()));
     } catch (const nlohmann::json::exception&) {
-        throw InputError({file.string()},
-                         "is not what sonarsim writes; sonarsim verify tells what to do");
+        throw InputError({file.string()}, "is not what sonarsim writes; run sonarsim verify");
     } catch (const std::out_of_range&) {
         throw InputError({file.string()},
-                         "has ids that dataset.json does not; sonarsim verify tells what to do");
+                         "has ids that dataset.json does not; run sonarsim verify");
     }
 }
 

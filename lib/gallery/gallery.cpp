@@ -96,7 +96,7 @@ Json mount_json(const Pose& T_vehicle_sensor) {
 
 Json sensor_json(const fs::path& folder, const Json& description, const Json& sensor,
                  const Sonar& sonar, const PictureBoxes& boxes, BoxLabels& labels) {
-    Json views = views_of(folder, description, sensor, sonar, boxes, labels);
+    Json views = views_of(folder, description, sensor, boxes, labels);
     Json columns = measured_columns(folder, sensor);
     const auto pings = sensor.at("pings").get<std::size_t>();
     const auto every = static_cast<std::uint32_t>(sonar.config.every);

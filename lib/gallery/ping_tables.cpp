@@ -99,8 +99,7 @@ Json boxes_of_yolo(const fs::path& folder, const Json& description, const Json& 
         while (lines >> number >> x >> y >> w >> h) {
             if (number >= classes.size()) {
                 throw InputError({file.string()},
-                                 "has a class that dataset.json does not; sonarsim verify tells "
-                                 "what to do");
+                                 "has a class that dataset.json does not; run sonarsim verify");
             }
             const std::size_t label = labels.index_of(classes[number].at("name"));
             boxes.push_back(box(label, (x - 0.5 * w) * width, (y - 0.5 * h) * height,

@@ -3,15 +3,15 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "gallery/box_labels.h"
+#include "gallery/boxes.h"
 
 namespace sonarsim {
 
-/// To five digits: it is to be looked at.
+/// The number to five digits, for people.
 nlohmann::ordered_json short_number(double value);
 
-/// What the metadata of a sensor's pings say was measured, each number in a column of one value per
-/// ping, to five digits; null where a ping lacks it or is not rendered. `sensor` is its block in
+/// The measured values in the metadata of a sensor's pings: a column per number with a value per
+/// ping, to five digits; null for a ping that lacks it or is not rendered. `sensor` is its block in
 /// dataset.json.
 nlohmann::ordered_json measured_columns(const std::filesystem::path& folder,
                                         const nlohmann::ordered_json& sensor);
@@ -23,8 +23,8 @@ struct PingBoxes {
     nlohmann::ordered_json in_fan;
 };
 
-/// Those of the label `objects`, or of `yolo` where that is what there is: its lines tell classes
-/// alone, and so do the boxes.
+/// The boxes of the label `objects` or, without it, of `yolo`, whose lines and boxes name classes
+/// only.
 PingBoxes ping_boxes(const std::filesystem::path& folder, const nlohmann::ordered_json& description,
                      const nlohmann::ordered_json& sensor, BoxLabels& labels);
 

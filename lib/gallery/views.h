@@ -3,13 +3,13 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "gallery/picture_boxes.h"
+#include "gallery/boxes.h"
 #include "gallery/ping_tables.h"
-#include "ping/sonar.h"
 
 namespace sonarsim {
 
-/// What a sensor has to show, as the scripts of the page take it: a list of
+/// The pictures of a sensor, which its block in dataset.json lists, as the scripts of the page take
+/// them: a list of
 ///
 ///     title, file    a path, with %06d for a number where there are several
 ///     per            "ping": a picture of each; "sweep": of each `pings`; absent: one of all
@@ -19,9 +19,11 @@ namespace sonarsim {
 ///     along, origin, step     of a picture of all pings: the axis along which they lie, and where
 ///                    the first begins and how long one is, x and y, px
 ///     radius         of a scan: its greatest range as a share of the width
+///
+/// InputError when the dataset was written before dataset.json listed pictures.
 nlohmann::ordered_json views_of(const std::filesystem::path& folder,
                                 const nlohmann::ordered_json& description,
-                                const nlohmann::ordered_json& sensor, const Sonar& sonar,
+                                const nlohmann::ordered_json& sensor,
                                 const PictureBoxes& picture_boxes, BoxLabels& labels);
 
 /// A sentence about what a sensor has and the page cannot show; empty where it shows everything.

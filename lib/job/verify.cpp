@@ -48,31 +48,20 @@ struct Task {
     std::optional<std::size_t> ids;  ///< that there are, of a file of ids
 };
 
-bool has_kind(const NamedTexts& files, const std::string& kind) {
-    return std::ranges::any_of(files, [&](const auto& file) { return file.first == kind; });
+/// The description of a file's rows, columns and ids in dataset.json; null if it has none.
+const DescribedArray* array_of(const DescribedFile& file) {
+    if (!file.sensor) return nullptr;
+    const auto found = std::ranges::find(file.sensor->arrays, file.kind, &DescribedArray::kind);
+    return found == file.sensor->arrays.end() ? nullptr : &*found;
 }
 
-/// The shape that dataset.json tells; none where it does not.
-Shape told_shape(const DescribedFile& file) {
-    if (!file.sensor || !has_kind(file.sensor->files, file.kind)) return {};
-    const DescribedSensor& sensor = *file.sensor;
-    const std::string extension = fs::path(file.name).extension().string();
-    if (file.kind == "stages" || (extension != ".npy" && extension != ".png")) return {};
-    if (!file.kind.starts_with("fan")) return {sensor.range_bins, sensor.azimuth_bins};
-    return sensor.fan ? Shape{sensor.fan->height, sensor.fan->width} : Shape{};
-}
-
-/// How many ids dataset.json tells for the values of a file; nothing where they are no ids.
-std::optional<std::size_t> told_ids(const DescribedFile& file, const DatasetFile& dataset) {
-    std::string_view kind = file.kind;
-    for (const std::string_view prefix : {"label_records/", "fan_"}) {
-        if (kind.starts_with(prefix)) kind.remove_prefix(prefix.size());
-    }
+/// The number of ids that dataset.json lists for the values of a file; nothing if they are no ids.
+std::optional<std::size_t> count_ids(const DescribedFile& file, const DatasetFile& dataset) {
+    const DescribedArray* const array = array_of(file);
     const DescribedLabels& labels = dataset.labels;
-    if (kind == "instance" || kind == "second" || kind == "shadow") return labels.instances.size();
-    if (kind == "class") return labels.classes.size();
-    if (kind == "material") return labels.materials.size();
-    return std::nullopt;
+    if (!array || array->ids.empty()) return std::nullopt;
+    if (array->ids == "instances") return labels.instances.size();
+    return array->ids == "classes" ? labels.classes.size() : labels.materials.size();
 }
 
 /// What is to be looked at; what is missing is a fault already.
@@ -86,7 +75,7 @@ std::vector<Task> list_tasks(const fs::path& folder, const DatasetFile& dataset,
         if (!fs::is_regular_file(folder / file.name)) {
             add_fault(check, file.name + ": is missing; " + render_again);
         } else if (sum != sums.end()) {
-            tasks.push_back({file, sum->second, told_ids(file, dataset)});
+            tasks.push_back({file, sum->second, count_ids(file, dataset)});
         } else if (file.name != checksums_name && !sums.empty()) {
             add_fault(check, file.name +
                                  ": SHA256SUMS does not list it; remove SHA256SUMS, and the render "
@@ -120,7 +109,8 @@ void note_opened(Look& look, const DescribedFile& file, const std::optional<std:
     }
     if (!file.sensor || file.kind.empty() || file.kind == "records") return;
     const Shape& shape = opened.shape;
-    Shape told = told_shape(file);
+    const DescribedArray* const array = array_of(file);
+    Shape told = array ? array->shape : Shape{};
     const std::string kind = file.sensor->name + "/" + file.kind;
     const bool is_told = !told.empty();
     if (!is_told) told = look.shapes.try_emplace(kind, shape).first->second;
@@ -150,7 +140,7 @@ void look_into(const fs::path& path, const DescribedFile& pack, const DatasetFil
         }
         const DescribedFile file{name, pack.sensor, members[k].first};
         const bool sound = look.fault.empty();
-        note_opened(look, file, told_ids(file, dataset), open_bytes(name, bytes));
+        note_opened(look, file, count_ids(file, dataset), open_bytes(name, bytes));
         if (sound && !look.fault.empty()) look.fault = name + " in it " + look.fault;
         if (++k < members.size()) return;
         k = 0;

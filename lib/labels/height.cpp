@@ -11,7 +11,7 @@ namespace sonarsim {
 
 namespace {
 
-// What lies no further below the bottom than this share of its range is on it, but for rounding.
+// Surface that lies below the bottom by at most this share of its range is on it: rounding.
 constexpr double on_bottom = 1e-4;
 
 }  // namespace

@@ -11,7 +11,7 @@
 
 namespace sonarsim {
 
-/// Finds how high above the bottom lies what a beam's bins show.
+/// Finds the height above the bottom of the surface in the bins of a beam.
 class HeightFinder {
   public:
     /// All but the pose must outlive the finder. Without a bottom nothing has a height.
@@ -19,9 +19,9 @@ class HeightFinder {
                  const Pose& T_world_sensor)
         : materials_(materials), bins_(bins), bottom_(bottom), T_world_sensor_(T_world_sensor) {}
 
-    /// The mean height of the echo of each bin, m, weighted with area times intensity: how far the
-    /// next surface of the bottom lies straight below. 0 for the bottom itself, NaN where the
-    /// samples give none or have no bottom below. The bottom below one sample is taken as level.
+    /// The mean height of the echo of each bin, m, weighted with area times intensity: the distance
+    /// to the next surface of the bottom straight below. 0 for the bottom itself, NaN in bins
+    /// without an echo or without a bottom below. The bottom below one sample is taken as level.
     void find(std::span<const Sample> samples, std::span<float> height_m);
 
   private:
@@ -36,7 +36,7 @@ class HeightFinder {
     const Bottom* bottom_;
     Pose T_world_sensor_;
     std::vector<Sums> sums_;            ///< 0 between calls
-    int first_bin_ = 0, last_bin_ = 0;  ///< of the beam under way: [first, last) have an echo
+    int first_bin_ = 0, last_bin_ = 0;  ///< the bins [first, last) of this beam have an echo
 };
 
 }  // namespace sonarsim

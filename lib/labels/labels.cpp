@@ -14,7 +14,7 @@ namespace sonarsim {
 
 namespace {
 
-/// What the echoes of a beam are told apart by: pairs of object and material.
+/// The echoes of a beam are separated by object and material.
 struct Surface {
     std::uint32_t object, material;
 
@@ -76,7 +76,7 @@ std::uint16_t id_16(std::uint32_t id) {
     return static_cast<std::uint16_t>(id);
 }
 
-/// Labels one beam after the other. Holds what they share, so that nothing is allocated anew.
+/// Labels one beam after the other. Holds buffers, so that beams after the first allocate nothing.
 class BeamLabeller {
   public:
     BeamLabeller(const TracedPing& traced, const View& view, const Scene& scene,
@@ -120,7 +120,7 @@ class BeamLabeller {
     }
 
     /// 1 for the bins of beam j that show surface, 0 for others. `labelled`: label() was called for
-    /// this beam; else what it would find is not needed, and this costs half as much.
+    /// this beam. If not, this takes half of the time of label().
     std::span<const std::uint8_t> lit(int j, bool labelled) {
         lit_.assign(bins_.count + 1, 0);
         if (labelled) {
@@ -163,7 +163,7 @@ class BeamLabeller {
         }
     }
 
-    /// Bins outside of the reach of all echoes are blank already.
+    /// Bins that no echo reaches are blank already.
     void write_ids(std::size_t at, std::vector<std::uint16_t>& out) const {
         for (int i = strongest_.first; i < strongest_.last; ++i)
             out[at + i] = id_16(strongest_.key[i]);
@@ -187,7 +187,7 @@ class BeamLabeller {
     RangeBins bins_;
     std::vector<BouncedSurface> bounced_;
     BeamShares shares_;
-    std::vector<Surface> surfaces_;  ///< by the keys of shares_
+    std::vector<Surface> surfaces_;  ///< indexed by the keys of shares_
     std::vector<float> direct_;      ///< echo of the visible surface, by bin
     std::vector<Stretch> stretches_;
     std::vector<Sample> gathered_;

@@ -9,23 +9,22 @@ namespace sonarsim {
 
 namespace {
 
-// A sight line through more surfaces than these is given up: four closed bodies one behind the
-// other.
+// A sight line ends after this many surfaces: four closed bodies one behind the other.
 constexpr int most_surfaces_behind = 8;
 
-// Where a sight line goes on behind a surface, as a share of its range: well above the rounding of
-// floats and far below a bin.
+// The gap behind a surface at which a sight line continues, as a share of its range: well above the
+// rounding of floats and far below a bin.
 constexpr float step_behind = 1e-5F;
 
-// Surface seen along its plane covers all ranges: it is spread over this share of its range at
-// most.
+// Surface that is seen along its plane covers all ranges; its extent is limited to this share of
+// its range.
 constexpr float longest_half = 0.1F;
 
-/// A sight line on its way.
+/// A sight line behind the visible surface.
 struct SightLine {
     Eigen::Vector3f direction;
     float before_m;  ///< range of its sample
-    float range_m;   ///< how far it has come
+    float range_m;   ///< length so far
     float solid_angle;
     std::uint32_t sample;
     std::uint32_t beam;
@@ -37,7 +36,7 @@ struct WayNode {
     std::uint32_t object, before;
 };
 
-/// Whether the way that ends in a node has met an object.
+/// True if the way that ends in a node has met an object.
 bool has_met(const std::vector<WayNode>& nodes, std::uint32_t node, std::uint32_t object) {
     while (nodes[node].object != object && nodes[node].before != node)
         node = nodes[node].before;
@@ -64,20 +63,21 @@ std::vector<SightLine> sight_lines(const Samples& samples, int beams) {
     return lines;
 }
 
-/// By how much the range of a plane changes along the half edge of the footprint before it.
+/// The change of a plane's range along the half edge of the footprint before it.
 float range_along(const Eigen::Vector3f& edge, const Eigen::Vector3f& direction, float before_m,
                   const Eigen::Vector3f& normal, float range_m) {
     const Eigen::Vector3f turn = (edge - direction * direction.dot(edge)) / before_m;
     return std::fabs(range_m * normal.dot(turn) / normal.dot(direction));
 }
 
-/// Half the extent in range of what a sight line meets, a piece of the plane with this normal.
+/// Half the extent in range of the surface that a sight line meets, a piece of the plane with this
+/// normal.
 float half_extent(const SightLine& line, const Sample& sample, float range_m,
                   const Eigen::Vector3f& normal) {
     const float half = range_along(sample.edge_u, line.direction, line.before_m, normal, range_m) +
                        range_along(sample.edge_v, line.direction, line.before_m, normal, range_m);
     const float most = longest_half * range_m;
-    // Of a plane seen edge-on the quotient may be no number.
+    // The quotient may be no number for a plane that is seen edge-on.
     return half < most ? half : most;
 }
 

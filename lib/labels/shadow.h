@@ -10,10 +10,10 @@
 
 namespace sonarsim {
 
-/// Finds the bins that lie in shadow: some surface falls into them, and they show none. Sight lines
-/// go on behind what they met first; what they meet there is hidden. A bin in shadow belongs to
-/// what hides most of its surface, counted by solid angle, or of the nearest bin where sight lines
-/// end. The far side of a body is hidden by the body itself.
+/// Finds the bins in shadow: surface falls into them, and none of it is visible. Sight lines
+/// continue behind the first surface that they meet; the surface that they meet there is hidden. A
+/// bin in shadow gets the object that hides most of its surface, by solid angle, or that of the
+/// nearest bin in which sight lines end. A body hides its own far side.
 class ShadowFinder {
   public:
     /// Traces the hidden surface, where `on`. The arguments must outlive the finder.
@@ -24,23 +24,23 @@ class ShadowFinder {
     /// `lit` is 1 for the bins that show surface, else 0.
     void find(int j, std::span<const std::uint8_t> lit, std::span<std::uint16_t> shadow);
 
-    /// Of each object, the part of its solid angle within the range that nothing hides; NaN for an
+    /// The share of each object's solid angle within the range that nothing hides; NaN for an
     /// object that no sight line meets. An object does not hide itself.
     std::vector<float> visible_shares() const;
 
   private:
-    /// What sight lines meet of an object, sr.
+    /// The solid angle of an object that sight lines meet, sr.
     struct SolidAngles {
         double visible = 0.0, hidden = 0.0;
     };
 
-    /// Hidden surface, seen through what is before it.
+    /// Hidden surface behind another one.
     struct Hidden {
         std::uint32_t beam, object;  ///< the object that hides it
         float range_m, half_m, solid_angle;
     };
 
-    /// Where the hidden surface of an object stands in `hidden_`.
+    /// The index of an object's hidden surface in `hidden_`.
     struct Place {
         std::uint32_t object, at;
 
@@ -55,12 +55,13 @@ class ShadowFinder {
     std::vector<std::uint16_t>& owners(int j);
 
     RangeBins bins_;
-    std::vector<SolidAngles> solid_angles_;  ///< by object
-    std::vector<Hidden> hidden_;             ///< of the sight lines, layer by layer
+    std::vector<SolidAngles> solid_angles_;  ///< indexed by object
+    std::vector<Hidden> hidden_;             ///< all hidden surface, layer by layer
     std::vector<std::uint32_t> beam_begin_;  ///< beams + 1 offsets into `places_`
-    std::vector<Place> places_;              ///< of hidden surface, sorted by beam
+    std::vector<Place> places_;              ///< sorted by beam
     std::vector<std::uint8_t> covered_;      ///< [beams, range bins]: some surface falls into it
-    /// [beams][range bins]: 1 + what hides most there; 0: no line ends there. Empty: not yet asked.
+    /// [beams][range bins]: 1 + the object that hides most there; 0: no line ends there. Empty: not
+    /// computed yet.
     std::vector<std::vector<std::uint16_t>> owners_;
     BeamShares shares_;
     StrongestFinder finder_;

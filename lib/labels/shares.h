@@ -8,18 +8,18 @@
 
 namespace sonarsim {
 
-/// What the sources of a beam's echo (objects, say) add to each of its bins.
+/// The parts of the echo of a beam's bins that several sources (objects, say) add.
 struct BeamShares {
-    /// What one source adds to the bins [first, last).
+    /// The part of one source in the bins [first, last).
     struct Source {
         std::uint32_t key;
         int first, last;
-        std::size_t offset;  ///< of the bin `first` in `echo`
+        std::size_t offset;  ///< index of the bin `first` in `echo`
     };
     std::vector<Source> sources;  ///< several may have one key
     std::vector<float> echo;      ///< area times intensity
     std::vector<float> weight;    ///< area of all sources, by bin
-    std::vector<float> total;     ///< of all sources, by bin
+    std::vector<float> total;     ///< echo of all sources, by bin
     int first = 0, last = 0;      ///< outside [first, last) no bin has an echo
 
     void clear(int bins);
@@ -33,22 +33,21 @@ struct BeamShares {
 
 /// The largest and the second largest share of each bin of a beam.
 struct Strongest {
-    std::vector<std::uint32_t> key;  ///< 1 + key of the source; 0: the bin has no echo
-    std::vector<float> echo;         ///< of that key
-    std::vector<std::uint32_t>
-        second_key;  ///< likewise; 0: there is no other key, or none was asked
+    std::vector<std::uint32_t> key;         ///< 1 + key of the source; 0: the bin has no echo
+    std::vector<float> echo;                ///< its share
+    std::vector<std::uint32_t> second_key;  ///< 0: no other key, or not asked for
     std::vector<float> second_echo;
     int first = 0, last = 0;  ///< outside [first, last) all is 0
 
     void clear(int bins);
 };
 
-/// How many of the largest shares are looked for.
+/// The number of the largest shares to find.
 enum class Ranks { first, first_and_second };
 
-/// Finds in every bin the keys that give the most. `key_of` turns the key of a source into what is
-/// asked for, such as the class of an object; what shares a key is added up first. Of equal shares
-/// the lower key is taken.
+/// Finds the keys with the largest parts in every bin. `key_of` turns the key of a source into the
+/// wanted one, such as the class of an object; parts of one key are summed first. Among equal parts
+/// the lower key wins.
 class StrongestFinder {
   public:
     template <class KeyOf>
@@ -68,7 +67,7 @@ class StrongestFinder {
     void find_ordered(const BeamShares& shares, Ranks ranks, Strongest& out);
 
     std::vector<Entry> order_;
-    std::vector<float> sum_;  ///< of the sources with one key
+    std::vector<float> sum_;  ///< sum of the sources with one key
 };
 
 }  // namespace sonarsim

@@ -6,9 +6,6 @@ namespace sonarsim {
 
 // The instrument that `model: calibrated` simulates, with its defaults. Names are the YAML keys.
 
-/// The model that turns the visible surface into an image: docs/model.md or docs/calibrated.md.
-enum class ModelKind { paper, calibrated };
-
 /// The transducer's shape. It has no key: it follows from the kind of sonar.
 enum class Aperture {
     line,            ///< an array across track that forms beams

@@ -184,14 +184,13 @@ class SchemaBuilder {
     }
 
     /// The keys of a sonar of this kind and model.
-    SchemaJson sonar_of(const SonarKeys& kind, ModelKind model) const {
+    SchemaJson sonar_of(const SonarKeys& kind, const Choice<ModelKind>& model) const {
         SonarConfig sonar = kind.defaults;
-        sonar.model = model;
+        sonar.model = model.value;
         SchemaJson json = object_of(sonar);
-        const auto name = std::ranges::find(echo_models, model, &Choice<ModelKind>::value)->name;
-        json["properties"]["model"]["enum"] = {name};
-        json["properties"]["model"]["default"] = "paper";
-        if (model == ModelKind::calibrated) json["required"].push_back("model");
+        json["properties"]["model"]["enum"] = {model.name};
+        json["properties"]["model"]["default"] = echo_models[0].name;
+        if (model.value != echo_models[0].value) json["required"].push_back("model");
         return json;
     }
 
@@ -218,17 +217,20 @@ class SchemaBuilder {
         SchemaJson rules = SchemaJson::array();
         for (const SonarKeys& kind : sonars_) {
             kinds.push_back(kind.name);
-            for (const ModelKind model : {ModelKind::paper, ModelKind::calibrated}) {
-                const bool calibrated = model == ModelKind::calibrated;
+            for (const Choice<ModelKind>& model : echo_models) {
+                const bool is_default = model.value == echo_models[0].value;
                 SchemaJson own = sonar_of(kind, model);
                 add_missing_keys(own["properties"], all_keys);
                 SchemaJson if_this{{"properties", {{"kind", {{"const", kind.name}}}}},
                                    {"required", {"kind"}},
                                    {"not", {{"required", {"preset"}}}}};
+                // What is no model at all is checked by the rule of the default.
+                SchemaJson others = names_of(echo_models);
+                others.erase(0);
                 if_this["properties"]["model"] =
-                    calibrated ? SchemaJson{{"const", "calibrated"}}
-                               : SchemaJson{{"not", {{"const", "calibrated"}}}};
-                if (calibrated) if_this["required"].push_back("model");
+                    is_default ? SchemaJson{{"not", {{"enum", std::move(others)}}}}
+                               : SchemaJson{{"const", model.name}};
+                if (!is_default) if_this["required"].push_back("model");
                 rules.push_back({{"if", std::move(if_this)}, {"then", std::move(own)}});
             }
         }

@@ -8,7 +8,10 @@
 #include <variant>
 #include <vector>
 
+#include "core/engine_kind.h"
+#include "mission/echo_models.h"
 #include "mission/instrument.h"
+#include "mission/paper_keys.h"
 #include "mission/place.h"
 #include "mission/scene_config.h"
 #include "mission/trajectory_config.h"
@@ -39,19 +42,6 @@ struct MountConfig {
     bool operator==(const MountConfig&) const = default;
 };
 
-/// Random terms of the paper's model; zero switches a term off.
-struct NoiseConfig {
-    double range_lambda_m = 0.0;   ///< mean of the exponential range noise, Eq. 7
-    double scatterer_m = 0.02;     ///< edge of the cells that share one draw of the range noise
-    double add_sigma = 0.0;        ///< Rayleigh scale of the additive noise, Eq. 11
-    double mult_sigma = 0.0;       ///< standard deviation of the multiplicative noise, Eq. 13
-    bool scale_with_range = true;  ///< additive noise grows with r^2 and the lobe, Eq. 10
-    double lobe_sigma_deg = 0.0;   ///< width of that lobe; 0 means azimuth_deg / 8
-    double gain = 0.0;             ///< m of Eq. 12; 0 means the paper's value for the kind
-
-    bool operator==(const NoiseConfig&) const = default;
-};
-
 enum class MultipathMethod { none, cluster, exact };
 
 /// Multipath via a second surface, Eq. 1-3. Off by default, since it adds half of a ping's time.
@@ -63,17 +53,6 @@ struct MultipathConfig {
     double delta_deg = 5.0;
 
     bool operator==(const MultipathConfig&) const = default;
-};
-
-enum class StreakMode { none, add, reduce };
-
-/// Azimuth streaks, Eq. 14-15.
-struct StreaksConfig {
-    StreakMode mode = StreakMode::none;
-    double threshold = 0.08;  ///< share of a range row's echo area at normal incidence
-    double angle_deg = 8.0;   ///< largest angle that counts as normal incidence
-
-    bool operator==(const StreaksConfig&) const = default;
 };
 
 /// The kinds of sonar; the table in sonar/kinds.h defines them.
@@ -114,9 +93,6 @@ struct AccuracyConfig {
 
     bool operator==(const AccuracyConfig&) const = default;
 };
-
-/// The method that finds the visible surface.
-enum class EngineKind { automatic, rays, octree, slices };
 
 struct SlicesConfig {
     int per_beam = 0;  ///< slices per beam; 0: derived from accuracy.relative_l1

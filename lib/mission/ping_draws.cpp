@@ -3,55 +3,61 @@
 #include <algorithm>
 #include <array>
 #include <functional>
+#include <utility>
 
 #include "core/error.h"
 #include "core/random.h"
 #include "core/text.h"
 #include "mission/draw_value.h"
+#include "mission/schema.h"
 
 namespace sonarsim {
 
 namespace {
 
-/// A number that may be drawn for every ping.
-template <class Section>
-struct Varying {
-    std::string_view key;  ///< relative to the section
-    double& (*of)(Section&);
+using NamedNumbers = std::vector<std::pair<std::string, double*>>;
+
+/// Lists the numbers of a section by key; a visitor of describe().
+class NumberLister {
+  public:
+    template <class T>
+    void section(const char* key, T& value) {
+        prefix_ = std::string(key) + ".";
+        describe(*this, value);
+    }
+    void number(const char* key, double& value, const Limits&, const char*) {
+        list.emplace_back(prefix_ + key, &value);
+    }
+    template <std::size_t N>
+    void numbers(const char* key, std::array<double, N>& values, const Limits&, const char*) {
+        for (std::size_t k = 0; k < N; ++k)
+            list.emplace_back(prefix_ + key + "." + std::to_string(k), &values[k]);
+    }
+    void flag(const char*, bool, const char*) {}
+    template <class T, std::size_t N>
+    void choice(const char*, T, const std::array<Choice<T>, N>&, const char*) {}
+
+    NamedNumbers list;
+
+  private:
+    std::string prefix_;
 };
 
-constexpr std::array of_sensor{
-    Varying<SonarConfig>{"mount.translation_m.0",
-                         [](auto& c) -> double& { return c.mount.translation_m[0]; }},
-    Varying<SonarConfig>{"mount.translation_m.1",
-                         [](auto& c) -> double& { return c.mount.translation_m[1]; }},
-    Varying<SonarConfig>{"mount.translation_m.2",
-                         [](auto& c) -> double& { return c.mount.translation_m[2]; }},
-    Varying<SonarConfig>{"mount.rpy_deg.0", [](auto& c) -> double& { return c.mount.rpy_deg[0]; }},
-    Varying<SonarConfig>{"mount.rpy_deg.1", [](auto& c) -> double& { return c.mount.rpy_deg[1]; }},
-    Varying<SonarConfig>{"mount.rpy_deg.2", [](auto& c) -> double& { return c.mount.rpy_deg[2]; }},
-    Varying<SonarConfig>{"noise.range_lambda_m",
-                         [](auto& c) -> double& { return c.noise.range_lambda_m; }},
-    Varying<SonarConfig>{"noise.scatterer_m",
-                         [](auto& c) -> double& { return c.noise.scatterer_m; }},
-    Varying<SonarConfig>{"noise.add_sigma", [](auto& c) -> double& { return c.noise.add_sigma; }},
-    Varying<SonarConfig>{"noise.mult_sigma", [](auto& c) -> double& { return c.noise.mult_sigma; }},
-    Varying<SonarConfig>{"noise.lobe_sigma_deg",
-                         [](auto& c) -> double& { return c.noise.lobe_sigma_deg; }},
-    Varying<SonarConfig>{"noise.gain", [](auto& c) -> double& { return c.noise.gain; }},
-    Varying<SonarConfig>{"streaks.threshold",
-                         [](auto& c) -> double& { return c.streaks.threshold; }},
-    Varying<SonarConfig>{"streaks.angle_deg",
-                         [](auto& c) -> double& { return c.streaks.angle_deg; }},
-};
-constexpr std::array of_vehicle{
-    Varying<VehicleConfig>{"offset_m.0", [](auto& c) -> double& { return c.offset_m[0]; }},
-    Varying<VehicleConfig>{"offset_m.1", [](auto& c) -> double& { return c.offset_m[1]; }},
-    Varying<VehicleConfig>{"offset_m.2", [](auto& c) -> double& { return c.offset_m[2]; }},
-    Varying<VehicleConfig>{"turn_deg.0", [](auto& c) -> double& { return c.turn_deg[0]; }},
-    Varying<VehicleConfig>{"turn_deg.1", [](auto& c) -> double& { return c.turn_deg[1]; }},
-    Varying<VehicleConfig>{"turn_deg.2", [](auto& c) -> double& { return c.turn_deg[2]; }},
-};
+/// The numbers of a sensor that may be drawn for every ping: neither the scene nor the view depends
+/// on them.
+NamedNumbers numbers_of(SonarConfig& sensor) {
+    NumberLister lister;
+    lister.section("mount", sensor.mount);
+    lister.section("noise", sensor.noise);
+    lister.section("streaks", sensor.streaks);
+    return std::move(lister.list);
+}
+
+NamedNumbers numbers_of(VehicleConfig& vehicle) {
+    NumberLister lister;
+    describe(lister, vehicle);
+    return std::move(lister.list);
+}
 
 constexpr std::string_view vehicle_section = "vehicle.";
 
@@ -60,13 +66,13 @@ std::string section_of(std::string_view sensor) {
 }
 
 /// The number of a section that a key names; null if it may not be drawn for pings.
-template <class Section, std::size_t N>
-const Varying<Section>* find_number(const std::array<Varying<Section>, N>& numbers,
-                                    std::string_view key, std::string_view section) {
-    if (!key.starts_with(section)) return nullptr;
-    const auto found =
-        std::ranges::find(numbers, key.substr(section.size()), &Varying<Section>::key);
-    return found == numbers.end() ? nullptr : &*found;
+template <class Section>
+double* find_number(Section& section, std::string_view key, std::string_view name) {
+    if (!key.starts_with(name)) return nullptr;
+    const NamedNumbers numbers = numbers_of(section);
+    const auto found = std::ranges::find(numbers, key.substr(name.size()),
+                                         &std::pair<std::string, double*>::first);
+    return found == numbers.end() ? nullptr : found->second;
 }
 
 /// Calls `visit` for every rule that is drawn for pings and whose key begins with `section`.
@@ -84,11 +90,11 @@ std::string drawn_text(const Mission& mission, const VaryConfig& rule, std::uint
     return draw_value(rule, mission.seed, index, pose, Stream::ping_variation);
 }
 
-template <class Section, std::size_t N>
+template <class Section>
 void draw_section(const Mission& mission, std::string_view name, std::uint32_t pose,
-                  const std::array<Varying<Section>, N>& numbers, Section& section) {
+                  Section& section) {
     for_each_rule(mission, name, [&](const VaryConfig& rule, std::uint32_t index) {
-        find_number(numbers, rule.key, name)->of(section) =
+        *find_number(section, rule.key, name) =
             *parse_number(drawn_text(mission, rule, index, pose));
     });
 }
@@ -97,16 +103,18 @@ void draw_section(const Mission& mission, std::string_view name, std::uint32_t p
 
 void check_key_of_pings(const Mission& mission, const VaryConfig& rule) {
     constexpr double least_share = 0.05;
-    const auto names_it = [&](const SonarConfig& sensor) {
-        return find_number(of_sensor, rule.key, section_of(sensor.name)) != nullptr;
+    const auto names_it = [&](SonarConfig sensor) {
+        return find_number(sensor, rule.key, section_of(sensor.name)) != nullptr;
     };
-    if (!find_number(of_vehicle, rule.key, vehicle_section) &&
+    VehicleConfig vehicle = mission.vehicle;
+    if (!find_number(vehicle, rule.key, vehicle_section) &&
         std::ranges::none_of(mission.sensors, names_it)) {
         std::string keys;
-        for (const auto& number : of_sensor)
-            keys += std::string(number.key) + ", ";
-        for (const auto& number : of_vehicle)
-            keys += std::string(vehicle_section) + std::string(number.key) + ", ";
+        SonarConfig any;
+        for (const auto& [key, number] : numbers_of(any))
+            keys += key + ", ";
+        for (const auto& [key, number] : numbers_of(vehicle))
+            keys += std::string(vehicle_section) + key + ", ";
         throw InputError(rule.place.location,
                          "'" + printable(rule.key) +
                              "' cannot be drawn for every ping; write per: variant, or one of "
@@ -141,12 +149,12 @@ bool varies_by_ping(const Mission& mission, std::string_view sensor) {
 }
 
 void draw_for_ping(const Mission& mission, std::uint32_t pose, SonarConfig& sensor) {
-    draw_section(mission, section_of(sensor.name), pose, of_sensor, sensor);
+    draw_section(mission, section_of(sensor.name), pose, sensor);
 }
 
 VehicleConfig vehicle_at(const Mission& mission, std::uint32_t pose) {
     VehicleConfig vehicle = mission.vehicle;
-    draw_section(mission, vehicle_section, pose, of_vehicle, vehicle);
+    draw_section(mission, vehicle_section, pose, vehicle);
     return vehicle;
 }
 

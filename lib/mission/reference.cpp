@@ -178,7 +178,7 @@ class KeyCollector {
         add(key, "section per name", "", meaning, required);
         for (const SonarKeys& kind : sonars_) {
             kind_ = kind.name;
-            for (const ModelKind model : {ModelKind::paper, ModelKind::calibrated}) {
+            for (const auto& [name, model] : echo_models) {
                 SonarConfig sonar = kind.defaults;
                 sonar.model = model;
                 enter(path_below(key) + ".NAME", sonar);

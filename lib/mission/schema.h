@@ -26,9 +26,6 @@ inline constexpr std::array multipath_methods{
     Choice<MultipathMethod>{"none", MultipathMethod::none},
     Choice<MultipathMethod>{"cluster", MultipathMethod::cluster},
     Choice<MultipathMethod>{"exact", MultipathMethod::exact}};
-inline constexpr std::array streak_modes{Choice<StreakMode>{"none", StreakMode::none},
-                                         Choice<StreakMode>{"add", StreakMode::add},
-                                         Choice<StreakMode>{"reduce", StreakMode::reduce}};
 inline constexpr std::array engine_kinds{Choice<EngineKind>{"auto", EngineKind::automatic},
                                          Choice<EngineKind>{"rays", EngineKind::rays},
                                          Choice<EngineKind>{"octree", EngineKind::octree},
@@ -89,28 +86,6 @@ void describe(Visitor& v, MountConfig& c) {
 }
 
 template <class Visitor>
-void describe(Visitor& v, NoiseConfig& c) {
-    v.number("range_lambda_m", c.range_lambda_m, at_least(0),
-             "mean of the exponential range noise; 0 is off, and a side-scan sonar has none");
-    // Cells are counted from the world's origin: below a tenth of a millimetre the counts of
-    // UTM-sized coordinates leave what a double holds exactly.
-    v.number("scatterer_m", c.scatterer_m, between(1e-4, 1e3),
-             "edge of the cells of the scene that share one draw of the range noise");
-    v.number("add_sigma", c.add_sigma, at_least(0),
-             "scale of the Rayleigh noise that is added to every pixel; 0 is off");
-    v.number("mult_sigma", c.mult_sigma, at_least(0),
-             "standard deviation of the normal noise that multiplies every pixel; 0 is off");
-    v.flag("scale_with_range", c.scale_with_range,
-           "the added noise grows with range and towards the boresight");
-    v.number("lobe_sigma_deg", c.lobe_sigma_deg, between(0, 360),
-             "angular width of the added noise's growth towards the boresight; 0 means an eighth "
-             "of the full angle in azimuth");
-    v.number("gain", c.gain, at_least(0),
-             "factor m of Eq. 12 that multiplies every pixel; 0 means the paper's: 0.5 for imaging "
-             "and profiling sonars, which halves their images, and 1 for others");
-}
-
-template <class Visitor>
 void describe(Visitor& v, MultipathConfig& c) {
     v.choice("method", c.method, multipath_methods,
              "multipath via a second surface: `cluster` traces one ray for a cluster of samples, "
@@ -119,17 +94,6 @@ void describe(Visitor& v, MultipathConfig& c) {
               "size of a cluster in range, azimuth and elevation bins");
     v.number("delta_deg", c.delta_deg, between(0, 180),
              "largest angle between the normals within a cluster");
-}
-
-template <class Visitor>
-void describe(Visitor& v, StreaksConfig& c) {
-    v.choice("mode", c.mode, streak_modes,
-             "azimuth streaks: `add` brightens a range row with too many echoes at normal "
-             "incidence, `reduce` darkens it");
-    v.number("threshold", c.threshold, between(0, 1),
-             "share of a row's echo area at normal incidence from which on the row is a streak");
-    v.number("angle_deg", c.angle_deg, between(0, 90),
-             "largest angle of incidence that counts as normal");
 }
 
 template <class Visitor>
@@ -190,7 +154,8 @@ void describe(Visitor& v, SonarConfig& c) {
                   {"opening_deg", "instrument"},
                   "opening_deg limits what a calibrated echosounder insonifies: it must be at "
                   "least instrument.beam.width_deg; 3 times the width holds the main lobe");
-    } else {
+    }
+    if (c.model == ModelKind::paper) {
         v.section("noise", c.noise, "the random terms of the paper's model");
         v.section("streaks", c.streaks, "azimuth streaks of the paper's model");
     }

@@ -20,8 +20,8 @@ struct Pair {
 struct Boxes {
     std::array<int, boxes_per_block> first, last;   ///< bin
     std::array<Pair, boxes_per_block> density;      ///< per bin: area, and area times intensity
-    std::array<Pair, boxes_per_block> share;        ///< of the first and of the second bin
-    std::array<float, boxes_per_block> last_share;  ///< of the last bin
+    std::array<Pair, boxes_per_block> share;        ///< shares of the first and the second bin
+    std::array<float, boxes_per_block> last_share;  ///< share of the last bin
 };
 
 /// The boxes of the echoes [begin, begin + count). Those wholly outside the range add 0 to the

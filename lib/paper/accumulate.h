@@ -22,8 +22,9 @@ inline RangeBins range_bins(const View& view) {
             .count = view.range_bins};
 }
 
-/// What the boxes that begin in bin i add to it and to bin i + 1. In one place, so that a box costs
-/// one addition of four floats; additions to overlapping places would wait for each other.
+/// The sums that the boxes beginning in bin i add to it and to bin i + 1. They lie together, so
+/// that a box costs one addition of four floats; additions to overlapping memory would wait for
+/// each other.
 struct alignas(16) BinSum {
     float weight;  ///< area, m^2
     float echo;    ///< area times intensity
@@ -33,7 +34,7 @@ struct alignas(16) BinSum {
 
 /// The sums of one beam's bins, whose quotients are the means of Eq. 9.
 struct BinSums {
-    std::vector<BinSum> begins = {BinSum{}};  ///< by bin + 1; the first one stays 0
+    std::vector<BinSum> begins = {BinSum{}};  ///< indexed by bin + 1; the first one stays 0
 
     void clear(int bins);
     float weight(std::size_t bin) const { return begins[bin + 1].weight + begins[bin].next_weight; }

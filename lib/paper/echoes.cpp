@@ -15,7 +15,7 @@ constexpr int lanes = 8;
 
 constexpr std::array<float, lanes> lane_numbers = {0, 1, 2, 3, 4, 5, 6, 7};
 
-/// Where the echoes of a footprint go.
+/// The destination of the echoes of a footprint.
 struct Target {
     float* range_m;
     float* half_m;

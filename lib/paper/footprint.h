@@ -33,16 +33,17 @@ struct Footprints {
     using Floats = std::array<float, most>;
     using Vectors = std::array<Floats, 3>;  ///< x, y, z
 
-    int count = 0;  ///< of samples, rounded up to whole vectors; the last sample fills them
+    int count = 0;  ///< number of samples, rounded up to whole vectors with the last sample
     Vectors position, edge_u, edge_v;  ///< m, sensor frame
     Floats height_m, area_m2, reflection;
     Vectors cell, cell_u, cell_v;  ///< the first three in scatterer cells, when there is noise
 
-    Floats range_m, depth_u_m, depth_v_m;  ///< of the centre; spanned by either half edge
-    Floats u, v;                           ///< whole numbers: pieces along either edge
-    Floats half_m;                         ///< half the extent of a piece in range
-    Floats shift_m;                        ///< of the middle of that extent from the piece's centre
-    Floats weight;                         ///< of a piece, m^2
+    Floats range_m, depth_u_m,
+        depth_v_m;   ///< range of the centre; extent in range of each half edge
+    Floats u, v;     ///< whole numbers: pieces along either edge
+    Floats half_m;   ///< half the extent of a piece in range
+    Floats shift_m;  ///< middle of that extent, relative to the centre of the piece
+    Floats weight;   ///< area of a piece, m^2
 };
 
 /// Makes the footprints of at most `Footprints::most` samples and cuts them: into one piece per

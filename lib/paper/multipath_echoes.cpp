@@ -32,7 +32,7 @@ struct Cut {
     int v = 1;
 };
 
-/// How a bounce is cut: no piece wider than a beam nor, with range noise, than a scatterer cell.
+/// The pieces of a bounce: none is wider than a beam or, with range noise, a scatterer cell.
 Cut cut(const BouncePath& b, const Sample& sample, float bin_m, const ScattererLattice& lattice) {
     Pieces wanted{.u = 2.0F * std::fabs(b.beam_u), .v = 2.0F * std::fabs(b.beam_v)};
     if (lattice.exists()) {

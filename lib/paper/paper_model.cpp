@@ -4,6 +4,8 @@
 #include <array>
 
 #include "core/clock.h"
+#include "core/elementary.h"
+#include "core/units.h"
 #include "paper/accumulate.h"
 #include "paper/echoes.h"
 #include "paper/image_columns.h"
@@ -24,7 +26,7 @@ struct DirectEchoes {
     const ScattererLattice& lattice;
     const RangeNoise& range_noise;
     PhiloxKey draws;
-    Echoes echoes = {};  ///< of the samples that were added last
+    Echoes echoes = {};  ///< the samples that were added last
 
     /// Eq. 4-8. Returns how many echoes lie out of range.
     std::uint64_t add(std::span<const Sample> samples, BinSums& sums) {
@@ -87,6 +89,34 @@ void PaperModel::form(const TracedPing& traced, const FormContext& context, Ping
     // 7. Streaks, Eq. 14-15.
     if (rows.exist()) ping.counts.streak_rows = add_streaks(ping.intensity, areas, rows);
     ping.seconds.noise = watch.lap();
+}
+
+PaperModel paper_model(const SonarConfig& config, const PaperSonar& sonar) {
+    const NoiseConfig& noise = config.noise;
+    PaperModel model;
+    model.streaks = {
+        .mode = config.streaks.mode,
+        .threshold = static_cast<float>(config.streaks.threshold),
+        .least_cosine = static_cast<float>(sincos(radians(config.streaks.angle_deg)).cos)};
+    model.range_noise = {.lambda_m = static_cast<float>(noise.range_lambda_m),
+                         .scatterer_m = static_cast<float>(noise.scatterer_m),
+                         .fades = sonar.range_noise_fades};
+    model.pixel_noise = {.gain = static_cast<float>(noise.gain > 0.0 ? noise.gain : sonar.gain),
+                         .add_sigma = static_cast<float>(noise.add_sigma),
+                         .mult_sigma = static_cast<float>(noise.mult_sigma),
+                         .range_scale = sonar.range_scale,
+                         .lobe_scale = std::vector<float>(sonar.beams, 1.0F)};
+    if (!noise.scale_with_range) return model;
+    const double sigma =
+        radians(noise.lobe_sigma_deg > 0.0 ? noise.lobe_sigma_deg : config.azimuth_deg / 8.0);
+    for (std::size_t j = 0; j < sonar.beam_azimuths_rad.size(); ++j) {
+        const double phi = sonar.beam_azimuths_rad[j];
+        // The narrowest lobes that a mission can ask for have no width left in radians.
+        const double sigmas = phi == 0.0 ? 0.0 : phi / sigma;
+        model.pixel_noise.lobe_scale[j] =
+            static_cast<float>(1.0 + 0.5 * exponential(-0.5 * sigmas * sigmas));
+    }
+    return model;
 }
 
 std::span<const std::string_view> PaperModel::random_terms() const {

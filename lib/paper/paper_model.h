@@ -1,5 +1,8 @@
 #pragma once
 
+#include <vector>
+
+#include "mission/mission.h"
 #include "paper/pixel_noise.h"
 #include "paper/range_noise.h"
 #include "paper/streaks.h"
@@ -18,5 +21,18 @@ struct PaperModel final : EchoModel {
     SignalAndNoise signal_and_noise(float clean, float noisy, int range_bin,
                                     int beam) const override;
 };
+
+/// The properties of a sonar on which its noise depends.
+struct PaperSonar {
+    double gain;                            ///< m of Eq. 12, unless the mission sets it
+    bool range_noise_fades;                 ///< Eq. 8
+    std::vector<float> range_scale;         ///< for PixelNoise
+    std::vector<double> beam_azimuths_rad;  ///< middles of a fan's beams; empty: no lobe
+    int beams;
+};
+
+/// The model with the noise and the streaks of the mission. Over the beams of a fan the pixel noise
+/// has the lobe of Eq. 10, 1 + 0.5 exp(-phi^2 / (2 sigma^2)), if the mission asks for it.
+PaperModel paper_model(const SonarConfig& config, const PaperSonar& sonar);
 
 }  // namespace sonarsim

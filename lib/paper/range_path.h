@@ -12,8 +12,8 @@ namespace sonarsim {
 
 /// The footprint of a sample as a way through the bins, and how far it rises along an axis.
 struct RangePath {
-    double range_m, rise_m;    ///< of its centre; the rise is counted from the sensor
-    double before_m, after_m;  ///< how far its range reaches from there
+    double range_m, rise_m;    ///< centre; the rise is relative to the sensor
+    double before_m, after_m;  ///< extent of its range on either side
     double depth_m;            ///< spanned by its half edges
     double bend;               ///< squared length of the way per metre of range
     double slope;              ///< rise per metre of range, where range grows fastest
@@ -22,7 +22,7 @@ struct RangePath {
 /// `axis` is a unit vector in the sensor's frame.
 RangePath range_path(const Sample& sample, const Eigen::Vector3f& axis);
 
-/// How far the footprint has risen at range r. On its way p + t e, where d . e = 1, the range is
+/// The rise of the footprint at range r. Along p + t e, where d . e = 1, the range is
 /// r^2 = r_0^2 + 2 r_0 t + e^2 t^2: a flat piece may span many bins, and its rise is not linear.
 inline double rise_at(const RangePath& path, double r) {
     const double more = (r - path.range_m) * (r + path.range_m);
@@ -39,8 +39,9 @@ struct CoveredBins {
     static constexpr int at_once = 16;
 
     int first, count;
-    std::array<double, at_once> share;       ///< of the footprint, by bin
-    std::array<double, at_once + 1> values;  ///< where it enters the first bin and leaves each
+    std::array<double, at_once> share;  ///< share of the footprint, by bin
+    std::array<double, at_once + 1>
+        values;  ///< at the entry into the first bin and the exit of each
 };
 
 /// Calls visit(covered) for the bins that the footprint covers, in order, with the values of

@@ -15,7 +15,7 @@ struct ScattererLattice {
     bool exists() const { return edge_m > 0.0F; }
 };
 
-/// What a cell is called in its draw: the lowest 21 bits of its x and y and 22 of its z. Cells that
+/// The name of a cell in its draw: the lowest 21 bits of its x and y and 22 of its z. Cells that
 /// lie 2^21 edges apart share draws, 42 km at 2 cm.
 struct CellName {
     std::uint32_t low, high;

@@ -8,22 +8,22 @@
 
 namespace sonarsim {
 
-/// What a ping of a sonar is traced and formed with.
+/// The settings of a sonar for the trace and the image of a ping.
 struct PingSettings : TraceSettings {
     std::shared_ptr<const EchoModel> model;
     std::uint32_t stream = 0;  ///< names the sonar in every random draw
 };
 
-/// Which draw of the noise a ping gets.
+/// The key of the random draws of a ping.
 struct PingKey {
     std::uint64_t seed = 0;
     std::uint32_t ping = 0;  ///< index of the pose on the trajectory
 };
 
-/// The image of a traced ping by the sonar's echo model, with those of the terms that the settings
-/// have. A pure function: the same arguments give the same bytes. `settings` may differ from those
-/// that the ping was traced with in all but the view. The ping counts and times the tracing as
-/// well; of multipath only what is in the image.
+/// The image of a traced ping by the sonar's echo model, with the terms that both `terms` and the
+/// settings have. A pure function: the same arguments give the same bytes. `settings` may differ
+/// from those of the trace except for the view. The counts and the times of the ping include the
+/// trace; its multipath is counted only if it is in the image.
 Ping form_image(const TracedPing& traced, const PingSettings& settings, const Scene& scene,
                 const PingKey& key, const Terms& terms = {});
 

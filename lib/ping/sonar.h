@@ -9,27 +9,27 @@
 
 namespace sonarsim {
 
-/// A sonar ready to ping: its configuration turned into what a ping works with.
+/// A sonar ready to ping: its configuration and everything that is derived from it.
 struct Sonar {
     SonarConfig config;
-    Pose T_vehicle_sensor;  ///< where its head, if it turns, is at angle 0
+    Pose T_vehicle_sensor;  ///< with a turning head at angle 0
     PingSettings settings;
     std::vector<double> range_edges_m;      ///< range_bins + 1
-    std::vector<double> azimuth_edges_rad;  ///< of a fan: beams + 1, from starboard (-) to port (+)
+    std::vector<double> azimuth_edges_rad;  ///< fan only: beams + 1, from starboard (-) to port (+)
     bool equal_sine = false;  ///< the columns of a fan's image are equal in the sine of azimuth
-    std::vector<float> noise_growth;  ///< by range bin: (r / range_max)^2 of Eq. 10, or 1
-    /// Of a head that turns from ping to ping, about the sensor's z axis, positive to port: its
-    /// angles, over and over again. Empty for a sonar that is fixed.
+    std::vector<float> noise_growth;  ///< per range bin: (r / range_max)^2 of Eq. 10, or 1
+    /// The angles of a head that turns from ping to ping about the sensor's z axis, positive to
+    /// port; they repeat. Empty for a fixed sonar.
     std::vector<double> head_angles_rad;
-    /// Of a sonar that makes soundings: what range noise adds to a range, m, by the length in bins
-    /// of the run that shows the surface. Empty: nothing.
+    /// For soundings: the bias of a range by range noise, m, indexed by the length in bins of the
+    /// run that shows the surface. Empty: no bias.
     std::vector<double> range_bias_m;
 };
 
 /// The angle of the head at the pose with this index on the trajectory; 0 for a fixed sonar.
 double head_angle_rad(const Sonar& sonar, std::uint32_t pose);
 
-/// Where an azimuth within the fan lies among the columns of the image, 0 to the number of them.
+/// The column of the image, from 0 to the number of columns, in which an azimuth of the fan lies.
 double column_at(const Sonar& sonar, double azimuth_rad);
 
 /// T_world_sensor at that pose.

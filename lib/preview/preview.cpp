@@ -1,8 +1,9 @@
 #include "preview/preview.h"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -40,20 +41,6 @@ struct Tile {
     Picture picture;
 };
 
-std::string fixed(double value, int decimals) {
-    std::array<char, 64> text;
-    const auto end = std::to_chars(text.data(), text.data() + text.size(), value,
-                                   std::chars_format::fixed, decimals);
-    return {text.data(), end.ptr};
-}
-
-std::string significant(double value) {
-    std::array<char, 64> text;
-    const auto end =
-        std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 3);
-    return {text.data(), end.ptr};
-}
-
 /// The font draws a small m as the sign of the metre, which a name must not contain.
 std::string capitals(std::string text) {
     for (char& letter : text) {
@@ -66,27 +53,26 @@ std::string head_text(const Mission& mission, const Trajectory& trajectory, std:
     const TimedPose& now = trajectory[pose];
     const Eigen::Vector3d& at = now.T_world_vehicle.translation;
     const Eigen::Vector3d bow = now.T_world_vehicle.rotation * Eigen::Vector3d::UnitX();
-    return capitals(mission.name) + "   ping " + std::to_string(pose) + " of 0 to " +
-           std::to_string(trajectory.size() - 1) + "   t = " + fixed(now.t_s, 2) +
-           " s   x = " + fixed(at.x(), 2) + " m   y = " + fixed(at.y(), 2) +
-           " m   z = " + fixed(at.z(), 2) +
-           " m   yaw = " + fixed(degrees(std::atan2(bow.y(), bow.x())), 1) + " deg";
+    return fmt::format(
+        "{}   ping {} of 0 to {}   t = {:.2f} s   x = {:.2f} m   y = {:.2f} m   z = {:.2f} m   "
+        "yaw = {:.1f} deg",
+        capitals(mission.name), pose, trajectory.size() - 1, now.t_s, at.x(), at.y(), at.z(),
+        degrees(std::atan2(bow.y(), bow.x())));
 }
 
 std::string title_of(const Sonar& sonar, std::uint32_t pose, double white) {
     const View& view = sonar.settings.view;
-    return capitals(sonar.config.name + ": " + std::string(name_of(sonar.config.kind))) +
-           "   ping " + std::to_string(ping_at(sonar, pose)) + "   " +
-           significant(view.range_min_m) + " - " + significant(view.range_max_m) + " m   " +
-           std::to_string(view.range_bins) + " x " + std::to_string(view.beams) +
-           " bins   white = " + significant(white);
+    return fmt::format("{}   ping {}   {:.3g} - {:.3g} m   {} x {} bins   white = {:.3g}",
+                       capitals(sonar.config.name + ": " + std::string(name_of(sonar.config.kind))),
+                       ping_at(sonar, pose), view.range_min_m, view.range_max_m, view.range_bins,
+                       view.beams, white);
 }
 
 /// `engine: auto` becomes the rays, since trying the engines takes longer than the few pings of a
 /// preview.
 EngineSettings settings_of_preview(const Mission& mission) {
     EngineSettings settings = engine_settings(mission);
-    if (settings.type == EngineType::automatic) settings.type = EngineType::rays;
+    if (settings.type == EngineKind::automatic) settings.type = EngineKind::rays;
     return settings;
 }
 

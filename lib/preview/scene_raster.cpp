@@ -16,8 +16,8 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Corners = std::array<Vector3d, 3>;
 
-/// Visits the triangles of the scene at a pose, world. Of the copies it visits those whose box is
-/// wanted, and only every n-th if there are very many.
+/// Visits the triangles of the scene at a pose, world. It visits the copies whose box is
+/// wanted, and only every n-th triangle of them if there are very many.
 template <class Wanted, class Visit>
 void for_each_triangle(const Assembly& assembly, std::uint32_t pose, const Wanted& wanted,
                        const Visit& visit) {

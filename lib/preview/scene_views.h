@@ -14,7 +14,7 @@ namespace sonarsim {
 struct Moment {
     const Assembly& assembly;
     std::uint32_t pose;
-    std::vector<BeamOutline> beams;  ///< by sonar
+    std::vector<BeamOutline> beams;  ///< one per sonar
 };
 
 /// Draws a plan, north (y) up: the height of the highest surface below the vehicle, dark where

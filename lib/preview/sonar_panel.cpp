@@ -9,7 +9,6 @@
 #include "product/fan_style.h"
 #include "product/gain.h"
 #include "product/scan.h"
-#include "product/sidescan_row.h"
 #include "sonar/kinds.h"
 
 namespace sonarsim {
@@ -119,41 +118,55 @@ Series render_series(const Sonar& sonar, std::uint32_t pose, std::size_t poses,
     return series;
 }
 
-SonarPanel draw_waterfall(const Sonar& sonar, const Series& series, int width, int height) {
+/// Draws pings as rows, with the range axis below.
+SonarPanel draw_rows(const Sonar& sonar, const RecordShape& shape, const Series& series, int width,
+                     int height) {
     const SonarConfig& config = sonar.config;
-    Values values{series.pings.size(), static_cast<std::size_t>(waterfall_columns(config)), {}};
+    Values values{series.pings.size(), shape.values(config), {}};
     for (const Ping& ping : series.pings) {
-        const std::vector<float> row = sidescan_row(config, ping);
+        const std::vector<float> row = record_values(shape, config, ping.intensity, 0.0F);
         values.value.insert(values.value.end(), row.begin(), row.end());
     }
     Picture picture(width, height, backdrop);
     const int bottom = height - axis_px;
     draw_values(picture, 0, width, bottom, values, series.white, stops_of(FanColours::copper));
-    const double px_per_m = 0.5 * width / config.range_max_m;
-    for (const double range : axis_marks(0.0, config.range_max_m, 5.0)) {
-        for (const double side : {-1.0, 1.0}) {
-            const int x = static_cast<int>(0.5 * width + side * range * px_per_m);
-            fill(picture, x, bottom, 1, 4, ink);
-            const std::string text = number_text(range) + " m";
-            const int half = text_width(text) / 2 + 1;
-            if (x >= half && x + half < width)
-                write(picture, x, bottom + 8, text, Align::middle, ink);
+    const auto mark_at = [&](double range, int x) {
+        fill(picture, x, bottom, 1, 4, ink);
+        const std::string text = number_text(range) + " m";
+        const int half = text_width(text) / 2 + 1;
+        if (x >= half && x + half < width) write(picture, x, bottom + 8, text, Align::middle, ink);
+    };
+    if (shape.two_sides) {
+        const double px_per_m = 0.5 * width / config.range_max_m;
+        for (const double range : axis_marks(0.0, config.range_max_m, 5.0)) {
+            for (const double side : {-1.0, 1.0})
+                mark_at(range, static_cast<int>(0.5 * width + side * range * px_per_m));
         }
+        write(picture, 18, 3, "port", Align::left, mark_colour);
+        write(picture, width - 18, 3, "starboard", Align::right, mark_colour);
+    } else {
+        const double px_per_m = width / (config.range_max_m - config.range_min_m);
+        for (const double range : axis_marks(config.range_min_m, config.range_max_m, 8.0))
+            mark_at(range, static_cast<int>((range - config.range_min_m) * px_per_m));
     }
     const int y = static_cast<int>((series.here + 0.5) * bottom / series.pings.size());
     fill(picture, 0, y, 14, 1, mark_colour);
     fill(picture, width - 14, y, 14, 1, mark_colour);
-    write(picture, 18, 3, "port", Align::left, mark_colour);
-    write(picture, width - 18, 3, "starboard", Align::right, mark_colour);
     return {std::move(picture), series.white};
 }
 
-SonarPanel draw_echogram(const Sonar& sonar, const Series& series, int width, int height) {
+/// Draws pings as columns, with the range axis on the left.
+SonarPanel draw_columns(const Sonar& sonar, const RecordShape& shape, const Series& series,
+                        int width, int height) {
     const SonarConfig& config = sonar.config;
-    Values values{static_cast<std::size_t>(config.range_bins), series.pings.size(), {}};
-    for (int bin = 0; bin < config.range_bins; ++bin) {
-        for (const Ping& ping : series.pings)
-            values.value.push_back(ping.at(bin, 0));
+    const std::size_t columns = series.pings.size();
+    Values values{shape.values(config), columns, {}};
+    values.value.resize(values.rows * columns);
+    for (std::size_t k = 0; k < columns; ++k) {
+        const std::vector<float> column =
+            record_values(shape, config, series.pings[k].intensity, 0.0F);
+        for (std::size_t i = 0; i < column.size(); ++i)
+            values.value[i * columns + k] = column[i];
     }
     Picture picture(width, height, backdrop);
     const int left = number_px;
@@ -166,8 +179,7 @@ SonarPanel draw_echogram(const Sonar& sonar, const Series& series, int width, in
         write(picture, left - 8, std::clamp(y - 3, 0, height - 8), number_text(range) + " m",
               Align::right, ink);
     }
-    const int x =
-        left + static_cast<int>((series.here + 0.5) * (width - left) / series.pings.size());
+    const int x = left + static_cast<int>((series.here + 0.5) * (width - left) / columns);
     fill(picture, x, 0, 1, 14, mark_colour);
     fill(picture, x, height - 14, 1, 14, mark_colour);
     return {std::move(picture), series.white};
@@ -182,18 +194,13 @@ std::uint32_t ping_at(const Sonar& sonar, std::uint32_t pose) {
 SonarPanel draw_sonar(const Sonar& sonar, std::uint32_t pose, std::size_t poses,
                       const RenderPing& render, int width, int height) {
     const std::uint32_t own = ping_at(sonar, pose);
-    switch (kind_of(sonar.config.kind).record) {
-        case RecordKind::waterfall:
-            return draw_waterfall(sonar, render_series(sonar, own, poses, render), width, height);
-        case RecordKind::echogram:
-            return draw_echogram(sonar, render_series(sonar, own, poses, render), width, height);
-        case RecordKind::scan:
-            return draw_scan(sonar, own, render, width, height);
-        case RecordKind::none:
-        case RecordKind::soundings:
-            break;
-    }
-    return draw_fan(sonar, render(own), width, height);
+    const RecordShape& shape = kind_of(sonar.config.kind).record;
+    if (shape.pictures == RecordPictures::none) return draw_fan(sonar, render(own), width, height);
+    if (shape.pictures == RecordPictures::sweeps)
+        return draw_scan(sonar, own, render, width, height);
+    const Series series = render_series(sonar, own, poses, render);
+    return shape.upright ? draw_columns(sonar, shape, series, width, height)
+                         : draw_rows(sonar, shape, series, width, height);
 }
 
 }  // namespace sonarsim

@@ -29,17 +29,17 @@ std::optional<double> detected_depth(const Sonar& sonar, const Ping& ping) {
     return 0.5 * (sonar.range_edges_m[*bin] + sonar.range_edges_m[*bin + 1]);
 }
 
-EchogramFrame echogram_frame(const SonarConfig& config, int pings) {
-    EchogramFrame frame;
+StripFrame echogram_frame(const SonarConfig& config, int pings) {
+    StripFrame frame;
     frame.axis_width = text_width("1000.0 m") + 12;
-    frame.ping_width = pixels_per_bin(least_width, pings);
-    frame.range_height = pixels_per_bin(least_height, config.range_bins);
-    frame.width = frame.axis_width + pings * frame.ping_width;
-    frame.height = config.range_bins * frame.range_height;
+    frame.ping_px = pixels_per_bin(least_width, pings);
+    frame.bin_px = pixels_per_bin(least_height, config.range_bins);
+    frame.width = frame.axis_width + pings * frame.ping_px;
+    frame.height = config.range_bins * frame.bin_px;
     return frame;
 }
 
-Picture echogram_axis(const SonarConfig& config, const EchogramFrame& frame) {
+Picture echogram_axis(const SonarConfig& config, const StripFrame& frame) {
     Picture axis(frame.axis_width, frame.height, backdrop);
     const int right = frame.axis_width - 1;
     fill(axis, right, 0, 1, frame.height, ink);
@@ -53,12 +53,12 @@ Picture echogram_axis(const SonarConfig& config, const EchogramFrame& frame) {
     return axis;
 }
 
-void echogram_row(std::span<const float> bins, double white, int ping_width,
+void echogram_row(std::span<const float> bins, double white, const StripFrame& frame,
                   std::span<Rgb> pixels) {
     const auto full = static_cast<float>(white);
     for (std::size_t k = 0; k < bins.size(); ++k) {
         const Rgb colour = blend(echo_colours, shade(bins[k], full));
-        std::fill_n(pixels.begin() + static_cast<std::ptrdiff_t>(k) * ping_width, ping_width,
+        std::fill_n(pixels.begin() + static_cast<std::ptrdiff_t>(k) * frame.ping_px, frame.ping_px,
                     colour);
     }
 }

@@ -21,4 +21,8 @@ class Gain {
 /// The shown amplitude of an intensity, which is power: sqrt(intensity / white), at most 1.
 float shade(float intensity, float white);
 
+/// Converts intensities to 16-bit grey values: round(65535 intensity / full_scale), white above
+/// full_scale.
+std::vector<std::uint16_t> grey_16(std::span<const float> intensity, double full_scale);
+
 }  // namespace sonarsim

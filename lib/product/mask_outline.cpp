@@ -42,7 +42,7 @@ class BoxPixels {
         return in_box && inside_[index(x, y)] != 0;
     }
 
-    /// Whether an outline has run up the left side of this pixel.
+    /// True if an outline has run up the left side of this pixel.
     bool is_walked(int x, int y) const { return walked_[index(x, y)] != 0; }
     void walk(int x, int y) { walked_[index(x, y)] = 1; }
 

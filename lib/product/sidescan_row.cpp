@@ -34,8 +34,22 @@ int waterfall_columns(const SonarConfig& config) {
     return 2 * (blank_columns(config) + config.range_bins);
 }
 
+std::vector<std::int32_t> waterfall_bins(const SonarConfig& config) {
+    const int before = blank_columns(config);
+    std::vector<std::int32_t> bins(waterfall_columns(config), -1);
+    const int nadir = static_cast<int>(bins.size() / 2);  // the first column to starboard of it
+    for (int i = 0; i < config.range_bins; ++i) {
+        bins[nadir - 1 - before - i] = 2 * i + port;
+        bins[nadir + before + i] = 2 * i + starboard;
+    }
+    return bins;
+}
+
 std::vector<float> sidescan_row(const SonarConfig& config, const Ping& ping) {
-    return sidescan_row<float>(config, ping.intensity, 0.0F);
+    std::vector<float> row;
+    for (const std::int32_t bin : waterfall_bins(config))
+        row.push_back(bin < 0 ? 0.0F : ping.intensity[bin]);
+    return row;
 }
 
 FirstReturns first_returns(const Sonar& sonar, const Ping& ping) {

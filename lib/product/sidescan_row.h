@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -18,19 +19,9 @@ int blank_columns(const SonarConfig& config);
 /// The number of columns of the whole row.
 int waterfall_columns(const SonarConfig& config);
 
-/// Arranges the values of a side-scan ping, [range bins, 2] like Ping::intensity, as a row of the
-/// waterfall; `blank` fills the columns where the sonar does not listen.
-template <class T>
-std::vector<T> sidescan_row(const SonarConfig& config, const std::vector<T>& values, T blank) {
-    const int before = blank_columns(config);
-    std::vector<T> row(waterfall_columns(config), blank);
-    const int nadir = static_cast<int>(row.size() / 2);  // the first column to starboard of it
-    for (int i = 0; i < config.range_bins; ++i) {
-        row[nadir - 1 - before - i] = values[2 * i + 1];  // port
-        row[nadir + before + i] = values[2 * i];
-    }
-    return row;
-}
+/// The bin of a side-scan ping, [range bins, 2] like Ping::intensity, that each column shows; -1
+/// where the sonar does not listen.
+std::vector<std::int32_t> waterfall_bins(const SonarConfig& config);
 
 /// A side-scan ping as a row of the waterfall.
 std::vector<float> sidescan_row(const SonarConfig& config, const Ping& ping);

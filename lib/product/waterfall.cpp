@@ -16,9 +16,15 @@ constexpr Rgb nadir_colour{150, 190, 220};
 
 }  // namespace
 
-Picture waterfall_axis(const SonarConfig& config) {
-    const int nadir = waterfall_columns(config) / 2;  // column of the nadir line
-    Picture axis(2 * nadir + 1, axis_height, backdrop);
+StripFrame waterfall_frame(const SonarConfig& config, int pings) {
+    return {.axis_height = axis_height,
+            .width = waterfall_columns(config) + 1,
+            .height = axis_height + pings};
+}
+
+Picture waterfall_axis(const SonarConfig& config, const StripFrame& frame) {
+    const int nadir = frame.width / 2;  // column of the nadir line
+    Picture axis(frame.width, axis_height, backdrop);
     fill(axis, 0, axis_height - 1, axis.width, 1, ink);
     const double columns_per_m = nadir / config.range_max_m;
     const int label_px = text_width("000.0 m") + 12;
@@ -41,7 +47,8 @@ Picture waterfall_axis(const SonarConfig& config) {
     return axis;
 }
 
-void waterfall_row(std::span<const float> row, double white, std::span<Rgb> pixels) {
+void waterfall_row(std::span<const float> row, double white, const StripFrame& /*frame*/,
+                   std::span<Rgb> pixels) {
     const std::span<const Rgb> copper = stops_of(FanColours::copper);
     const auto full = static_cast<float>(white);
     const std::size_t nadir = row.size() / 2;

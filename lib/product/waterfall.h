@@ -1,21 +1,19 @@
 #pragma once
 
-#include <span>
-
-#include "mission/mission.h"
-#include "product/picture.h"
+#include "product/strip.h"
 
 namespace sonarsim {
 
-// The waterfall as an operator sees it, in copper tones: a range axis, then a row per ping, the
-// first ping on top, port on the left. It is one pixel wider than the waterfall's row
-// (sidescan_row.h), for the line at nadir.
+// The waterfall of a side-scan sonar as an operator sees it, in copper tones: a range axis, then a
+// row per ping, the first ping on top, port on the left. It is one pixel wider than the row of the
+// record (sidescan_row.h), for the line at nadir.
 
-/// Draws the strip with the range axis, metres on either side of nadir.
-Picture waterfall_axis(const SonarConfig& config);
+StripFrame waterfall_frame(const SonarConfig& config, int pings);
+/// The range axis, metres on either side of nadir.
+Picture waterfall_axis(const SonarConfig& config, const StripFrame& frame);
+void waterfall_row(std::span<const float> row, double white, const StripFrame& frame,
+                   std::span<Rgb> pixels);
 
-/// Draws one row of the waterfall; `pixels` has one more element than `row`. `white` is the
-/// intensity of the brightest colour.
-void waterfall_row(std::span<const float> row, double white, std::span<Rgb> pixels);
+inline constexpr StripStyle waterfall_style{waterfall_frame, waterfall_axis, waterfall_row};
 
 }  // namespace sonarsim

@@ -33,7 +33,11 @@ KindOfSonar echosounder_kind() {
             .gain = 1.0,
             .range_noise_fades = false,
             .has_images = false,
-            .record = RecordKind::echogram,
+            .record = {.name = "echogram",
+                       .wanted = &OutputConfig::echogram,
+                       .upright = true,
+                       .pictures = RecordPictures::strip,
+                       .style = echogram_style},
             .measure = measure_depth};
 }
 

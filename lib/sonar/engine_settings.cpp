@@ -2,26 +2,9 @@
 
 namespace sonarsim {
 
-namespace {
-
-EngineType type_of(EngineKind kind) {
-    switch (kind) {
-        case EngineKind::octree:
-            return EngineType::octree;
-        case EngineKind::slices:
-            return EngineType::slices;
-        case EngineKind::rays:
-            return EngineType::rays;
-        default:
-            return EngineType::automatic;
-    }
-}
-
-}  // namespace
-
 EngineSettings engine_settings(EngineKind kind, const OctreeConfig& octree,
                                const SlicesConfig& slices) {
-    return {.type = type_of(kind),
+    return {.type = kind,
             .octree = {.leaf_m = octree.leaf_m,
                        .memory_mb = static_cast<std::size_t>(octree.memory_mb),
                        .literal = octree.literal},

@@ -5,7 +5,7 @@
 
 namespace sonarsim {
 
-/// What a mission's `engine`, `octree` and `slices` keys stand for. For `auto` see also
+/// The settings of a mission's `engine`, `octree` and `slices` keys. For `auto` see also
 /// assembly/engine_probes.h.
 EngineSettings engine_settings(EngineKind kind, const OctreeConfig& octree = {},
                                const SlicesConfig& slices = {});

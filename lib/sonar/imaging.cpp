@@ -16,7 +16,6 @@ KindOfSonar imaging_kind() {
             .gain = 0.5,
             .range_noise_fades = true,
             .has_images = true,
-            .record = RecordKind::none,
             .finish = add_azimuth};
 }
 

@@ -5,6 +5,13 @@
 
 namespace sonarsim {
 
+// Each is in the file of its name.
+KindOfSonar imaging_kind();
+KindOfSonar profiling_kind();
+KindOfSonar sidescan_kind();
+KindOfSonar echosounder_kind();
+KindOfSonar scanning_kind();
+
 const std::vector<KindOfSonar>& kinds_of_sonar() {
     static const std::vector<KindOfSonar> kinds = {
         imaging_kind(), profiling_kind(), sidescan_kind(), echosounder_kind(), scanning_kind(),
@@ -18,6 +25,10 @@ const KindOfSonar& kind_of(SonarKind kind) {
         kinds, [kind](const KindOfSonar& one) { return one.keys.kind == kind; });
     if (found == kinds.end()) throw std::logic_error("a kind of sonar is not in the table");
     return *found;
+}
+
+std::size_t RecordShape::values(const SonarConfig& config) const {
+    return bins ? bins(config).size() : static_cast<std::size_t>(config.range_bins);
 }
 
 std::string_view name_of(SonarKind kind) {

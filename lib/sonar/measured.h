@@ -7,9 +7,9 @@
 
 namespace sonarsim {
 
-/// What the metadata of a ping say was measured: the altitude, which is the truth (how far below
-/// the sonar the scene begins), and what the kind of sonar adds. What is absent is null; the whole
-/// is null for kinds that measure nothing.
+/// The measured values for the metadata of a ping: the true altitude, that is the distance from the
+/// sonar straight down to the scene, and the values of the sonar's kind. An absent value is null;
+/// the whole is null for kinds that measure nothing.
 nlohmann::ordered_json measured(const PingView& view, const VisibilityEngine& engine);
 
 }  // namespace sonarsim

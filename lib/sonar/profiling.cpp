@@ -7,7 +7,7 @@ namespace sonarsim {
 
 namespace {
 
-/// How many beams have a sounding.
+/// The number of beams with a sounding.
 void measure_soundings(const PingView& view, nlohmann::ordered_json& json) {
     json["soundings"] = lit_beams(view.ping);
 }
@@ -40,7 +40,7 @@ KindOfSonar profiling_kind() {
             .gain = 0.5,
             .range_noise_fades = true,
             .has_images = true,
-            .record = RecordKind::soundings,
+            .record = {.name = "soundings", .wanted = &OutputConfig::soundings},
             .finish = add_azimuth_and_offsets,
             .measure = measure_soundings};
 }

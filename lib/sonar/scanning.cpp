@@ -18,6 +18,12 @@ void measure_head(const PingView& view, nlohmann::ordered_json& json) {
     json["head_angle_rad"] = head_angle_rad(view.sonar, view.pose);
 }
 
+void describe_sweeps(const Sonar& sonar, nlohmann::ordered_json& sensor) {
+    sensor["scan"] = {{"pings_per_sweep", scan_steps(sonar.config)},
+                      {"step_edges_rad", scan_edges_rad(sonar.config)},
+                      {"axes", {"range", "step"}}};
+}
+
 }  // namespace
 
 /// A mechanical scanning sonar, such as a Ping360 or a Micron: a single beam whose head turns a
@@ -42,7 +48,10 @@ KindOfSonar scanning_kind() {
             .gain = 1.0,
             .range_noise_fades = true,
             .has_images = false,
-            .record = RecordKind::scan,
+            .record = {.name = "scan",
+                       .wanted = &OutputConfig::scan,
+                       .pictures = RecordPictures::sweeps,
+                       .describe = describe_sweeps},
             .finish = turn_head,
             .measure = measure_head};
 }

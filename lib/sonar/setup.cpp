@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <stdexcept>
 
 #include "calibrated/model.h"
 #include "core/elementary.h"
@@ -34,44 +35,8 @@ Pose mounted(const MountConfig& mount, const Pose& T_vehicle_default) {
     return turned * T_vehicle_default;
 }
 
-std::uint32_t stream_of(std::string_view sensor_name) {
-    // FNV-1a.
-    std::uint32_t hash = 2166136261U;
-    for (const char c : sensor_name)
-        hash = (hash ^ static_cast<unsigned char>(c)) * 16777619U;
-    return hash;
-}
-
 void set_mount(Sonar& sonar, const KindOfSonar& kind) {
     sonar.T_vehicle_sensor = mounted(sonar.config.mount, kind.looks_down ? looking_down() : Pose{});
-}
-
-std::shared_ptr<const EchoModel> paper_model(const Sonar& sonar, const KindOfSonar& kind) {
-    const SonarConfig& config = sonar.config;
-    const NoiseConfig& noise = config.noise;
-    auto model = std::make_shared<PaperModel>();
-    model->streaks = {.mode = config.streaks.mode,
-                      .threshold = static_cast<float>(config.streaks.threshold),
-                      .least_cosine = cosine_of(config.streaks.angle_deg)};
-    model->range_noise = {.lambda_m = static_cast<float>(noise.range_lambda_m),
-                          .scatterer_m = static_cast<float>(noise.scatterer_m),
-                          .fades = kind.range_noise_fades};
-    model->pixel_noise = {.gain = static_cast<float>(noise.gain > 0.0 ? noise.gain : kind.gain),
-                          .add_sigma = static_cast<float>(noise.add_sigma),
-                          .mult_sigma = static_cast<float>(noise.mult_sigma),
-                          .range_scale = sonar.noise_growth,
-                          .lobe_scale = std::vector<float>(sonar.settings.view.beams, 1.0F)};
-    if (!noise.scale_with_range || !kind.keys.azimuth_bins) return model;
-    const double sigma =
-        radians(noise.lobe_sigma_deg > 0.0 ? noise.lobe_sigma_deg : config.azimuth_deg / 8.0);
-    for (int j = 0; j < sonar.settings.view.beams; ++j) {
-        const double phi = 0.5 * (sonar.azimuth_edges_rad[j] + sonar.azimuth_edges_rad[j + 1]);
-        // The narrowest lobes that a mission can ask for have no width left in radians.
-        const double sigmas = phi == 0.0 ? 0.0 : phi / sigma;
-        model->pixel_noise.lobe_scale[j] =
-            static_cast<float>(1.0 + 0.5 * exponential(-0.5 * sigmas * sigmas));
-    }
-    return model;
 }
 
 Sonar common_sonar(const SonarConfig& config, const AccuracyConfig& accuracy,
@@ -84,7 +49,7 @@ Sonar common_sonar(const SonarConfig& config, const AccuracyConfig& accuracy,
     set_mount(sonar, kind);
     sonar.range_edges_m = edges(config.range_min_m, config.range_max_m, config.range_bins);
     PingSettings& settings = sonar.settings;
-    settings.stream = stream_of(config.name);
+    settings.stream = number_of_name(config.name);
     settings.view = {.azimuth_rad = radians(cone ? config.opening_deg : config.azimuth_deg),
                      .elevation_rad = radians(cone ? config.opening_deg : config.elevation_deg),
                      .range_min_m = config.range_min_m,
@@ -112,7 +77,18 @@ void add_azimuth(Sonar& sonar) {
     sonar.azimuth_edges_rad = edges(-half, half, sonar.settings.view.beams);
 }
 
-std::shared_ptr<const EchoModel> instrument_model(Sonar& sonar, const WaterConfig& water) {
+namespace {
+
+/// The middles of the beams of a fan; empty for other sonars.
+std::vector<double> beam_azimuths(const Sonar& sonar, const KindOfSonar& kind) {
+    std::vector<double> middles;
+    for (int j = 0; kind.keys.azimuth_bins && j < sonar.settings.view.beams; ++j)
+        middles.push_back(0.5 * (sonar.azimuth_edges_rad[j] + sonar.azimuth_edges_rad[j + 1]));
+    return middles;
+}
+
+/// Sets the azimuth edges, too, if beams are spaced by sine.
+CalibratedModel instrument_model(Sonar& sonar, const WaterConfig& water) {
     const InstrumentConfig& instrument = sonar.config.instrument;
     const View& view = sonar.settings.view;
     std::vector<double> sines;
@@ -126,8 +102,25 @@ std::shared_ptr<const EchoModel> instrument_model(Sonar& sonar, const WaterConfi
         for (int j = 0; sonar.equal_sine && j <= view.beams; ++j)
             sonar.azimuth_edges_rad[j] = arcsin((2.0 * j / view.beams - 1.0) * sincos(half).sin);
     }
-    return std::make_shared<const CalibratedModel>(
-        calibrated_model(instrument, water, view, sines));
+    return calibrated_model(instrument, water, view, sines);
+}
+
+}  // namespace
+
+std::shared_ptr<const EchoModel> make_echo_model(Sonar& sonar, const KindOfSonar& kind,
+                                                 const WaterConfig& water) {
+    switch (sonar.config.model) {
+        case ModelKind::paper:
+            return std::make_shared<PaperModel>(
+                paper_model(sonar.config, {.gain = kind.gain,
+                                           .range_noise_fades = kind.range_noise_fades,
+                                           .range_scale = sonar.noise_growth,
+                                           .beam_azimuths_rad = beam_azimuths(sonar, kind),
+                                           .beams = sonar.settings.view.beams}));
+        case ModelKind::calibrated:
+            return std::make_shared<CalibratedModel>(instrument_model(sonar, water));
+    }
+    throw std::logic_error("an echo model is not made here");
 }
 
 Pose looking_down() {

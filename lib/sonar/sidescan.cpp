@@ -1,4 +1,5 @@
 #include "product/sidescan_row.h"
+#include "product/waterfall.h"
 #include "sonar/kinds.h"
 #include "sonar/setup.h"
 
@@ -11,6 +12,15 @@ void measure_first_returns(const PingView& view, nlohmann::ordered_json& json) {
     const FirstReturns first = first_returns(view.sonar, view.ping);
     json["first_return_m"] = {{"port", number_or_null(first.port_m)},
                               {"starboard", number_or_null(first.starboard_m)}};
+}
+
+void describe_waterfall(const Sonar& sonar, nlohmann::ordered_json& sensor) {
+    sensor["waterfall"] = {{"columns", waterfall_columns(sonar.config)},
+                           {"blank_columns_a_side", blank_columns(sonar.config)},
+                           {"column_m", sonar.settings.view.bin_m()},
+                           {"slant_range",
+                            "of the middle of column k: |k + 0.5 - columns / 2| "
+                            "column_m; blank columns lie before range_min"}};
 }
 
 }  // namespace
@@ -27,17 +37,25 @@ KindOfSonar sidescan_kind() {
     defaults.range_bins = 690;
     defaults.instrument.beam.aperture = Aperture::port_starboard;
     defaults.instrument.beam.width_deg = 0.25;
-    return {.keys = {.kind = SonarKind::sidescan,
-                     .name = "sidescan",
-                     .defaults = defaults,
-                     .range_noise = false},
-            .shape = ViewShape::port_starboard,
-            .looks_down = true,
-            .gain = 1.0,
-            .range_noise_fades = true,
-            .has_images = false,
-            .record = RecordKind::waterfall,
-            .measure = measure_first_returns};
+    return {
+        .keys = {.kind = SonarKind::sidescan,
+                 .name = "sidescan",
+                 .defaults = defaults,
+                 .range_noise = false},
+        .shape = ViewShape::port_starboard,
+        .looks_down = true,
+        .gain = 1.0,
+        .range_noise_fades = true,
+        .has_images = false,
+        .record = {.name = "waterfall",
+                   .wanted = &OutputConfig::waterfall,
+                   .axis = "port from range_max to nadir, then starboard from nadir to range_max",
+                   .pictures = RecordPictures::strip,
+                   .style = waterfall_style,
+                   .bins = waterfall_bins,
+                   .describe = describe_waterfall,
+                   .two_sides = true},
+        .measure = measure_first_returns};
 }
 
 }  // namespace sonarsim

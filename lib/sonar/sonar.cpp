@@ -8,12 +8,15 @@ namespace sonarsim {
 
 Sonar make_sonar(const SonarConfig& config, const AccuracyConfig& accuracy,
                  const WaterConfig& water) {
-    const KindOfSonar& kind = kind_of(config.kind);
+    return make_sonar(kind_of(config.kind), config, accuracy, water);
+}
+
+Sonar make_sonar(const KindOfSonar& kind, const SonarConfig& config, const AccuracyConfig& accuracy,
+                 const WaterConfig& water) {
     Sonar sonar = common_sonar(config, accuracy, kind);
     if (kind.finish) kind.finish(sonar);
     PingSettings& settings = sonar.settings;
-    settings.model = config.model == ModelKind::paper ? paper_model(sonar, kind)
-                                                      : instrument_model(sonar, water);
+    settings.model = make_echo_model(sonar, kind, water);
     settings.guard_beams = settings.model->guard_beams();
     settings.multipath.scattered = settings.model->needs_scattered_paths();
     return sonar;
@@ -29,7 +32,7 @@ std::optional<Sonar> drawn_sonar(const Mission& mission, const Sonar& sonar, std
         return drawn;
     if (drawn.config.model != ModelKind::paper) return drawn;
     if (kind.finish) kind.finish(drawn);
-    drawn.settings.model = paper_model(drawn, kind);
+    drawn.settings.model = make_echo_model(drawn, kind, mission.water);
     return drawn;
 }
 

@@ -8,20 +8,25 @@
 #include "core/pose.h"
 #include "mission/mission.h"
 #include "ping/sonar.h"
+#include "sonar/kinds.h"
 
 namespace sonarsim {
 
 /// A sonar of the kind that its configuration names, see sonar/kinds.h.
-/// `water` is what the calibrated model works with.
+/// `water` is for the calibrated model.
 Sonar make_sonar(const SonarConfig& config, const AccuracyConfig& accuracy,
                  const WaterConfig& water = {});
 
-/// The sonar as it is at a pose, with what the mission's `vary` draws for every ping; nothing where
-/// that is nothing of this sonar.
+/// The same for a kind that need not be in the table of sonar/kinds.h.
+Sonar make_sonar(const KindOfSonar& kind, const SonarConfig& config, const AccuracyConfig& accuracy,
+                 const WaterConfig& water = {});
+
+/// The sonar at a pose, with the numbers that the mission's `vary` draws for every ping; nothing if
+/// none of them is of this sonar.
 std::optional<Sonar> drawn_sonar(const Mission& mission, const Sonar& sonar, std::uint32_t pose);
 
-/// What the sonar sees from a pose of its vehicle; `pose` is the pose's index on the trajectory, by
-/// which a head turns.
+/// Traces a ping from a pose of the vehicle; `pose` is the index of that pose on the trajectory, on
+/// which the angle of a turning head depends.
 TracedPing trace(const Sonar& sonar, const Scene& scene, const VisibilityEngine& engine,
                  const Pose& T_world_vehicle, std::uint32_t pose, const Terms& terms = {});
 

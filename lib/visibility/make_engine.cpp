@@ -23,30 +23,30 @@ constexpr double least_error_in_cones = 0.01;
 
 std::unique_ptr<VisibilityEngine> make_engine(const Scene& scene, const EngineSettings& settings) {
     switch (settings.type) {
-        case EngineType::octree:
+        case EngineKind::octree:
             return make_octree_engine(scene, settings.octree);
-        case EngineType::slices:
+        case EngineKind::slices:
             return make_slices_engine(scene, settings.slices);
-        case EngineType::automatic:
+        case EngineKind::automatic:
             return make_auto_engine(scene, settings.slices, settings.probes);
-        case EngineType::rays:
+        case EngineKind::rays:
             break;
     }
     return make_rays_engine(scene);
 }
 
 std::string unsupported(const EngineSettings& settings, const Scene& scene) {
-    const bool is_octree = settings.type == EngineType::octree;
-    if (!scene.bodies.empty() && (is_octree || settings.type == EngineType::slices)) {
+    const bool is_octree = settings.type == EngineKind::octree;
+    if (!scene.bodies.empty() && (is_octree || settings.type == EngineKind::slices)) {
         return std::string(is_octree ? "engine: octree" : "engine: slices") +
                " does not support moving objects; use engine: auto or engine: rays";
     }
-    if (!scene.copies.empty() && (is_octree || settings.type == EngineType::slices)) {
+    if (!scene.copies.empty() && (is_octree || settings.type == EngineKind::slices)) {
         return std::string(is_octree ? "engine: octree" : "engine: slices") +
                " does not support copies of shared meshes; use engine: auto or engine: rays, or "
                "scene.repeats: copied";
     }
-    if (settings.type != EngineType::octree) return "";
+    if (settings.type != EngineKind::octree) return "";
     const double length_m = (scene.bounds_max - scene.bounds_min).maxCoeff();
     const double longest_m = longest_octree_scene_m(settings.octree);
     if (length_m <= longest_m) return "";
@@ -59,7 +59,7 @@ std::string unsupported(const EngineSettings& settings, const Scene& scene) {
 }
 
 std::string unsupported(const EngineSettings& settings, const View& view) {
-    if (settings.type != EngineType::octree) return "";
+    if (settings.type != EngineKind::octree) return "";
     const double width_deg = std::round(1e9 * degrees(view.elevation_rad)) / 1e9;
     if (width_deg <= widest_octree_deg) return "";
     return std::string("engine: octree takes ") +
@@ -71,23 +71,23 @@ std::string unsupported(const EngineSettings& settings, const View& view) {
 std::string accuracy_warning(const EngineSettings& settings, const View& view, bool multipath,
                              bool energies_add) {
     // With a box under a water surface, rays found 669 echoes over both, slices none.
-    if (settings.type == EngineType::slices && multipath) {
+    if (settings.type == EngineKind::slices && multipath) {
         return "engine: slices misses most multipath: reflections start at the middle of each "
                "patch "
                "of surface, and a patch of the slices may span the whole elevation of a beam; use "
                "engine: auto or engine: rays";
     }
-    if (settings.type == EngineType::slices && energies_add &&
+    if (settings.type == EngineKind::slices && energies_add &&
         view.shape == ViewShape::port_starboard) {
         return "engine: slices is off by up to 18 % in the narrow beam of a side-scan with the "
                "calibrated model; use engine: auto or engine: rays";
     }
-    if (settings.type == EngineType::slices && energies_add && view.shape == ViewShape::cone &&
+    if (settings.type == EngineKind::slices && energies_add && view.shape == ViewShape::cone &&
         view.relative_l1 < least_error_in_cones) {
         return "engine: slices is off by up to 1 % in a cone with the calibrated model, more than "
                "accuracy.relative_l1; use engine: auto or engine: rays";
     }
-    if (settings.type != EngineType::octree || settings.octree.literal) return "";
+    if (settings.type != EngineKind::octree || settings.octree.literal) return "";
     const double error = estimated_octree_error(view, settings.octree.leaf_m);
     if (error <= view.relative_l1) return "";
     const auto percent = [](double x) { return number_text(std::ceil(1e3 * x) / 10.0) + " %"; };

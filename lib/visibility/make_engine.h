@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/engine_kind.h"
 #include "scene/scene.h"
 #include "visibility/auto_engine.h"
 #include "visibility/engine.h"
@@ -12,10 +13,8 @@
 
 namespace sonarsim {
 
-enum class EngineType { automatic, rays, octree, slices };
-
 struct EngineSettings {
-    EngineType type = EngineType::rays;
+    EngineKind type = EngineKind::rays;
     OctreeOptions octree;       ///< for the octree only
     SlicesOptions slices = {};  ///< for the slices only
     /// For `automatic` only; it takes the slices if there are none.

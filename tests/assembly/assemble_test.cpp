@@ -144,7 +144,7 @@ TEST_SUITE("assembly") {
         CHECK_THROWS_AS(assemble(mission), InputError);
     }
 
-    TEST_CASE("assemble: what is wrong with a file is told") {
+    TEST_CASE("assemble: errors in files name the file") {
         const MissionOnDisk disk;
         const Mission mission = disk.load("{file: poses.csv}");
         write_file(disk.folder.path / "materials.csv",

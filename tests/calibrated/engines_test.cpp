@@ -29,9 +29,9 @@ TEST_SUITE("calibrated") {
         config.range_bins = 230;
         config.elevation_deg = 6.0;
         const std::vector<float> rays =
-            expected_image(make_sonar(config, {0.02}), scene, EngineType::rays);
+            expected_image(make_sonar(config, {0.02}), scene, EngineKind::rays);
         const std::vector<float> slices =
-            expected_image(make_sonar(config, {0.02}), scene, EngineType::slices);
+            expected_image(make_sonar(config, {0.02}), scene, EngineKind::slices);
         CHECK(image_error(rays, slices).relative_l1 < 0.04);
     }
 
@@ -47,9 +47,9 @@ TEST_SUITE("calibrated") {
             config.range_bins = 190;
             config.instrument.beam.width_deg = 7.0;
             const std::vector<float> rays =
-                expected_image(make_sonar(config, {0.02}), scene, EngineType::rays);
+                expected_image(make_sonar(config, {0.02}), scene, EngineKind::rays);
             const std::vector<float> slices =
-                expected_image(make_sonar(config, {0.02}), scene, EngineType::slices);
+                expected_image(make_sonar(config, {0.02}), scene, EngineKind::slices);
             CHECK(image_error(rays, slices).relative_l1 < 0.04);
         }
     }

@@ -33,7 +33,7 @@ std::vector<float> image_of_ball(const Sonar& sonar, double azimuth_rad, double 
     Scene scene = empty_scene();
     const Eigen::Vector3d centre = 2.0 * direction_of(azimuth_rad, elevation_rad);
     add_sphere(scene, centre.cast<float>(), 0.1F, add_material(scene, 0.4F));
-    return expected_image(sonar, scene, EngineType::rays);
+    return expected_image(sonar, scene, EngineKind::rays);
 }
 
 }  // namespace

@@ -100,6 +100,36 @@ class Gallery(Sandbox):
         self.assertIn("output.fan or output.image", notes[0])
         self.assertEqual(notes[1:], ["", "", ""])
 
+    def test_an_older_dataset_lists_no_pictures(self):
+        self.assert_renders("--set", "output.labels=false")
+        description = json.loads((self.out / "dataset.json").read_text())
+        for sensor in description["sensors"]:
+            del sensor["pictures"]
+        self.write("out/dataset.json", json.dumps(description))
+        self.assert_refused(self.run_sonarsim("gallery", "out"), "dataset.json",
+                            "lists no pictures of sensor 'fls'", "render the dataset again")
+
+    def test_the_pictures_are_those_that_the_dataset_lists(self):
+        """No name of a file decides on a picture: another title and another file are shown as well."""
+        self.assert_renders()
+        description = json.loads((self.out / "dataset.json").read_text())
+        for sensor in description["sensors"]:
+            for picture in sensor["pictures"]:
+                picture["title"] = "A " + picture["title"]
+                picture["file"] = picture["file"].replace("_view.png", "_other.png")
+        self.write("out/dataset.json", json.dumps(description))
+        views = {s["name"]: s["views"] for s in dataset_in(self.gallery())["sensors"]}
+        self.assertEqual([view["title"] for view in views["fls"]], ["A fan", "A polar"])
+        view, = views["sss"]
+        self.assertEqual((view["title"], view["file"]), ("A waterfall", "sss/waterfall_other.png"))
+        self.assertTrue(view["boxes"])
+        # Ten pings in a row of pixels: the n-th ping lies n tenths of a row from the first.
+        description["sensors"][1]["pictures"][0]["pings_per_pixel"] = 10
+        self.write("out/dataset.json", json.dumps(description))
+        folded, = dataset_in(self.gallery())["sensors"][1]["views"]
+        self.assertEqual(folded["step"], [1, 0.1])
+        self.assertEqual(folded["boxes"], view["boxes"])
+
     def test_the_seed_is_a_text(self):
         """JavaScript rounds whole numbers from 2^53 on."""
         self.assert_renders("--seed", "9007199254740993", "--set", "output.labels=false")

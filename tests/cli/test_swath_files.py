@@ -146,6 +146,14 @@ class SwathFiles(Sandbox):
         self.assertAlmostEqual(place["rows"] * 0.25, 2 * math.sqrt(25**2 - 10**2), delta=0.6)
         self.assertEqual((place["pings"], place["pings_left_out"]), (81, 0))
 
+    def test_only_a_side_scan_sonar_has_them(self):
+        """An echosounder has a record of all pings, too."""
+        self.edit("mission.yaml", "sensors:\n", "sensors:\n  sounder: {kind: echosounder}\n")
+        self.assert_renders("--overwrite")
+        self.assertTrue((self.out / "sss/waterfall.xtf").is_file())
+        self.assertEqual(sorted(path.name for path in (self.out / "sounder").iterdir()),
+                         ["echogram.npy", "echogram.png", "echogram_view.png"])
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -51,6 +51,16 @@ class Verify(Sandbox):
         self.assertEqual((verdict["faults"], verdict["strangers"]), ([], []))
         self.assertEqual(self.verify("--quiet", "-j1").stderr, "")
 
+    def test_an_older_dataset_does_not_describe_its_arrays(self):
+        """It is whole; its files are compared with each other."""
+        description = json.loads((self.out / "dataset.json").read_text())
+        for sensor in description["sensors"]:
+            sensor.pop("arrays", None)
+            del sensor["pictures"]
+        self.write("out/dataset.json", json.dumps(description))
+        self.resum("dataset.json")
+        self.assertEqual(self.verify().returncode, 0, self.verify().stderr)
+
     def test_coreutils_take_the_sums(self):
         check = ["sha256sum", "--check", "--strict", "--quiet", "SHA256SUMS"]
         self.assertEqual(subprocess.run(check, cwd=self.out, check=False).returncode, 0)

@@ -20,7 +20,7 @@ TEST_CASE("a million pings of two sensors: no two of their random streams are th
     std::vector<std::uint64_t> keys;
     keys.reserve(6'000'000);
     for (const char* const sensor : {"fls", "sss"}) {
-        const std::uint32_t name = stream_of(sensor);
+        const std::uint32_t name = number_of_name(sensor);
         for (std::uint32_t ping = 0; ping < 1'000'000; ++ping) {
             for (const Stream stream :
                  {Stream::range_noise, Stream::pixel_noise, Stream::multipath_range_noise}) {

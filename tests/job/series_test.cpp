@@ -11,7 +11,6 @@
 #include "core/file.h"
 #include "dataset/folded_records.h"
 #include "dataset/writers.h"
-#include "dataset/writers/formats.h"
 #include "job/run_job.h"
 #include "product/sidescan_row.h"
 #include "product/soundings.h"
@@ -19,6 +18,10 @@
 #include "support/npy_data.h"
 #include "support/small_mission.h"
 #include "support/temporary_folder.h"
+
+namespace sonarsim {
+std::unique_ptr<Writer> make_strip_writer(const WriterContext& context);
+}
 
 using namespace sonarsim;
 using namespace sonarsim::test;
@@ -245,7 +248,7 @@ TEST_SUITE("dataset") {
         const std::vector<float> one(4, 1.0F);
         file.write(1, std::as_bytes(std::span(one)));
         file.write(pings - 1, std::as_bytes(std::span(one)));
-        make_echogram_writer({mission, assembly, 0, pings})->write_products(file, temporary.path);
+        make_strip_writer({mission, assembly, 0, pings})->write_products(file, temporary.path);
         constexpr int width = most_picture_rows / 2 + 2;
         const auto pixels = pixels_of<std::uint16_t>(temporary.path / "echogram.png", width, 4, 1,
                                                      OIIO::TypeDesc::UINT16);

@@ -26,7 +26,7 @@ TEST_CASE("labels: the elevation of a floor is that of its range") {
     config.elevation_deg = 40.0;
     const Sonar sonar = noise_free(config, 0.01);
     constexpr double H = 2.0;
-    for (const EngineType type : engine_types) {
+    for (const EngineKind type : engine_types) {
         CAPTURE(static_cast<int>(type));
         const Labelled out = label(scene, sonar, {Eigen::Quaterniond::Identity(), {0, 0, H}}, type);
         int bins = 0;
@@ -79,7 +79,7 @@ TEST_CASE("labels: heights above the bottom, of a box, of a ramp and of the bott
     config.range_bins = 512;
     const Sonar sonar = noise_free(config, 0.01);
     const Pose pose{rotation_from_rpy(0.0, radians(20.0), 0.0), {0, 0, 2}};
-    for (const EngineType type : engine_types) {
+    for (const EngineKind type : engine_types) {
         CAPTURE(static_cast<int>(type));
         const auto engine = make_engine(scene, {.type = type, .octree = {}});
         const TracedPing traced = trace(sonar, scene, *engine, pose, 0);
@@ -129,7 +129,7 @@ TEST_CASE("labels: a wall on the border of the bottom has heights") {
     config.elevation_deg = 20.0;
     const Sonar sonar = noise_free(config, 0.01);
     const Pose pose{Eigen::Quaterniond::Identity(), {0, 0, 2}};
-    for (const EngineType type : engine_types) {
+    for (const EngineKind type : engine_types) {
         CAPTURE(static_cast<int>(type));
         const auto engine = make_engine(scene, {.type = type, .octree = {}});
         const TracedPing traced = trace(sonar, scene, *engine, pose, 0);
@@ -142,7 +142,7 @@ TEST_CASE("labels: a wall on the border of the bottom has heights") {
             REQUIRE(std::isnan(labels.height_m[k]) == !seen);
             if (!seen) continue;
             ++lit;
-            // What lies as far above the sonar as below it falls into one bin.
+            // Surface as far above the sonar as below it falls into one bin.
             CHECK(std::fabs(labels.height_m[k] - 2.0F) < 0.2F);
         }
         CHECK(lit > 50);

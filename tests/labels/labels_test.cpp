@@ -90,7 +90,7 @@ TEST_CASE("labels: a panel before a wall, its shadow, and water that is open") {
     const Sonar sonar = noise_free(small_imaging());
     const double panel = std::atan2(0.5, 3.0);
     const double wall = std::atan2(2.0, 6.0);
-    for (const EngineType type : engine_types) {
+    for (const EngineKind type : engine_types) {
         CAPTURE(static_cast<int>(type));
         const Labelled out = label(scene, sonar, Pose{}, type);
         // Solid angles of the same elevations are as their azimuths.
@@ -135,7 +135,7 @@ TEST_CASE("labels: two things in one bin share its echo by area and reflection")
     add_quad(scene, {5, -9, -9}, {5, 9, -9}, {5, 9, 0}, {5, -9, 0}, weak);
     add_quad(scene, {5, -9, 0}, {5, 9, 0}, {5, 9, 9}, {5, -9, 9}, strong);
     const Sonar sonar = noise_free(small_imaging());
-    for (const EngineType type : engine_types) {
+    for (const EngineKind type : engine_types) {
         CAPTURE(static_cast<int>(type));
         const Labelled out = label(scene, sonar, Pose{}, type);
         double lit = 0.0;
@@ -208,7 +208,7 @@ TEST_CASE("labels: in the tank the objects are those that rays without number fi
     const std::size_t count = objects.objects.size();
     for (const Pose& pose : tank_poses()) {
         const std::vector<double> echoes = echoes_by_rays(scene, objects, sonar, pose);
-        for (const EngineType type : engine_types) {
+        for (const EngineKind type : engine_types) {
             CAPTURE(static_cast<int>(type));
             const Labelled out = label(scene, sonar, pose, type);
             double lit = 0.0;
@@ -222,7 +222,7 @@ TEST_CASE("labels: in the tank the objects are those that rays without number fi
                 ++lit;
                 const auto told = static_cast<std::size_t>(out.labels.object[bin]) - 1;
                 same += most == echo + told;
-                // Another object is told only where both are there, or at the edge of a bin, where
+                // Another object is named only where both are there, or at the edge of a bin, where
                 // a footprint reaches over: then a neighbour has it.
                 bool near = echo[told] > 0.0;
                 for (const int step :
@@ -247,7 +247,7 @@ TEST_CASE("labels: azimuth runs from starboard to port, as in the image") {
     add_sphere(scene, {5, 1.5F, 0}, 0.2F, m, 32);
     add_sphere(scene, {5, -1.5F, 0}, 0.2F, m, 32);
     const Sonar sonar = noise_free(small_imaging());
-    const Labelled out = label(scene, sonar, Pose{}, EngineType::rays);
+    const Labelled out = label(scene, sonar, Pose{}, EngineKind::rays);
     int seen = 0;
     for (int j = 0; j < out.labels.beams; ++j) {
         for (int i = 0; i < out.labels.range_bins; ++i) {

@@ -90,7 +90,7 @@ struct Score {
 void add_score(const Scene& scene, const Sonar& sonar, const Pose& pose, const RayGrid& grid,
                Score& score) {
     const std::vector<bool> hidden = hidden_by_rays(scene, sonar, pose, grid);
-    const Labelled out = label(scene, sonar, pose, EngineType::slices);
+    const Labelled out = label(scene, sonar, pose, EngineKind::slices);
     for (std::size_t k = 0; k < hidden.size(); ++k) {
         const bool is = out.labels.shadow[k] > 0;
         const bool should = hidden[k] && out.labels.object[k] == 0;

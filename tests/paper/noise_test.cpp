@@ -173,7 +173,7 @@ TEST_CASE("each quarter of a block of pixels follows the laws by itself" *
 }
 
 TEST_CASE("what lights a pixel does not change what the others draw") {
-    // Where a block of pixels is dark, nothing is drawn for the multiplicative noise.
+    // If a block of pixels is dark, nothing is drawn for the multiplicative noise.
     std::vector<float> dark(3 * 128, 0.0F);
     std::vector<float> lit = dark;
     lit[130] = 1.0F;

@@ -50,8 +50,8 @@ TEST_CASE("streaks come from walls seen face on") {
         return render_ping(make_sonar(config, {}), scene, *make_rays_engine(scene), Pose{}, {})
             .counts.streak_rows;
     };
-    // Face on, the normal is in view. Of a wall at distance D, ranges below D / cos 8 degrees are
-    // within 8 degrees of it: 5 to 5.049 m, less than a bin of 0.099 m: one row, or two.
+    // Face on, the normal is in view. At a wall in the distance D, ranges below D / cos 8 degrees
+    // are within 8 degrees of it: 5 to 5.049 m, less than a bin of 0.099 m: one row, or two.
     CHECK(rows(0.0F) >= 1);
     CHECK(rows(0.0F) <= 2);
     // At 45 degrees the nearest to normal that is seen is 45 - 30 degrees.

@@ -87,7 +87,7 @@ class PlainSonar {
         }
     }
 
-    /// Whether a footprint that reaches into the beam lies in several cells. The pipeline draws for
+    /// True if a footprint that reaches into the beam lies in several cells. The pipeline draws for
     /// pieces no larger than a cell by their centres; here every point draws for itself.
     bool straddles(int beam) const { return straddles_[beam]; }
 
@@ -119,7 +119,7 @@ class PlainSonar {
             for (int j = 0; j < beams; ++j) {
                 const int k = i * beams + j;
                 const double mean = weight[k] > 0.0 ? sum[k] / weight[k] : 0.0;  // Eq. 9
-                const double phi = (j + 0.5) / beams - 0.5;                      // of azimuth_deg
+                const double phi = (j + 0.5) / beams - 0.5;  // share of azimuth_deg
                 const double lobe = 1.0 + 0.5 * std::exp(-0.5 * phi * phi * 64.0);
                 const double x = normal(random);
                 const double y = normal(random);
@@ -181,7 +181,7 @@ class PlainSonar {
 
     SonarConfig config_;
     std::vector<PlainPoint> points_;
-    std::vector<bool> straddles_;  ///< by beam
+    std::vector<bool> straddles_;  ///< indexed by beam
 };
 
 }  // namespace

@@ -84,7 +84,7 @@ TEST_CASE("run offsets: beams of many delayed echoes have no bias after them") {
             }
             CAPTURE(lambda_m);
             CAPTURE(length_m);
-            // Where surfaces of several lengths make runs of one length, their offsets are
+            // If surfaces of several lengths make runs of one length, their offsets are
             // averaged.
             CHECK(std::fabs(bias / trials) < 0.1 * bin_m + 0.1 * lambda_m);
         }

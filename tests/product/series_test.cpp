@@ -34,7 +34,7 @@ TEST_SUITE("product") {
         ping.range_bins = 3;
         ping.beams = 2;
         ping.intensity = {1, 10, 2, 20, 3, 30};  // starboard 1 2 3, port 10 20 30
-        SonarConfig config = sidescan(3);        // of 10 m
+        SonarConfig config = sidescan(3);        // bins of 10 m
         CHECK(sidescan_row(config, ping) == std::vector<float>{30, 20, 10, 1, 2, 3});
         // 20 m to 26 m in bins of 2 m: ten bins from nadir to range_min.
         config.range_min_m = 20.0;
@@ -122,7 +122,9 @@ TEST_SUITE("product") {
 
     TEST_CASE("waterfall: bright copper where it echoes, marks at their ranges") {
         const SonarConfig config = sidescan(300);  // 10 cm
-        Picture axis = waterfall_axis(config);
+        const StripFrame frame = waterfall_frame(config, 7);
+        CHECK(frame.height == frame.axis_height + 7);
+        Picture axis = waterfall_axis(config, frame);
         CHECK(axis.width == 601);
         const Rgb* const ticks = axis.row(axis.height - 3);
         // 10 m to starboard is bin 100, pixel 301 + 100, after the line; to port 299 - 100.
@@ -134,13 +136,13 @@ TEST_SUITE("product") {
         row[20] = 0.125F;
         row[299] = row[300] = 0.5F;
         std::vector<Rgb> pixels(601);
-        waterfall_row(row, 0.5, pixels);
+        waterfall_row(row, 0.5, frame, pixels);
         CHECK(pixels[0] == Rgb{0, 0, 0});
         CHECK(pixels[10] == Rgb{255, 199, 127});
         CHECK(pixels[20].r > pixels[20].g);  // copper
         CHECK(pixels[20].g > pixels[20].b);
         CHECK(pixels[300].b > pixels[300].r);  // the line at nadir
-        CHECK(pixels[299] == pixels[10]);      // which hides no bin
+        CHECK(pixels[299] == pixels[10]);      // the line hides no bin
         CHECK(pixels[301] == pixels[10]);
     }
 
@@ -148,9 +150,9 @@ TEST_SUITE("product") {
         SonarConfig config = default_sonar(SonarKind::echosounder);
         config.range_min_m = 0.0;
         config.range_max_m = 10.0;
-        const EchogramFrame frame = echogram_frame(config, 100);  // 200 bins
-        CHECK(frame.range_height == 2);
-        CHECK(frame.ping_width == 6);
+        const StripFrame frame = echogram_frame(config, 100);  // 200 bins
+        CHECK(frame.bin_px == 2);
+        CHECK(frame.ping_px == 6);
         CHECK(frame.height == 400);
         CHECK(frame.width == frame.axis_width + 600);
         Picture axis = echogram_axis(config, frame);
@@ -158,7 +160,7 @@ TEST_SUITE("product") {
         CHECK(axis.row(160)[frame.axis_width - 4] == ink);
         CHECK(axis.row(120)[frame.axis_width - 4] == backdrop);
         std::vector<Rgb> pixels(12);
-        echogram_row(std::vector<float>{0.0F, 1.0F}, 1.0, 6, pixels);
+        echogram_row(std::vector<float>{0.0F, 1.0F}, 1.0, frame, pixels);
         CHECK(pixels[5].b > pixels[5].r);
         CHECK(pixels[6].r > pixels[6].b);
         CHECK(pixels[6] == pixels[11]);

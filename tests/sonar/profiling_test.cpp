@@ -31,7 +31,7 @@ struct Spread {
     double rms_m;
 };
 
-/// How far the soundings of a straight pass lie above the surface below them.
+/// The heights of the soundings of a straight pass above the surface below them.
 Spread heights_of_a_pass(const Scene& scene, const Sonar& sonar) {
     const auto engine = make_rays_engine(scene);
     double sum = 0.0;

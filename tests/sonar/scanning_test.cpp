@@ -20,7 +20,7 @@ SonarConfig scanning_sonar() {
     config.step_deg = 10.0;
     config.range_min_m = 0.2;
     config.range_max_m = 6.0;
-    config.range_bins = 290;  // of 2 cm
+    config.range_bins = 290;  // 2 cm each
     return config;
 }
 

@@ -16,7 +16,7 @@ using namespace sonarsim::test;
 
 namespace {
 
-constexpr float R = 0.5F;   // of the bottom
+constexpr float R = 0.5F;   // reflection of the bottom
 constexpr double H = 5.02;  // altitude, not at the edge of a bin
 
 SonarConfig sidescan() {

@@ -59,7 +59,7 @@ inline std::vector<float> image_of_samples(const CalibratedModel& model, const V
 }
 
 /// The expected image of an engine from the origin, without speckle and noise.
-inline std::vector<float> expected_image(const Sonar& sonar, const Scene& scene, EngineType type) {
+inline std::vector<float> expected_image(const Sonar& sonar, const Scene& scene, EngineKind type) {
     EngineSettings settings;
     settings.type = type;
     const auto engine = make_engine(scene, settings);

@@ -9,7 +9,7 @@
 
 namespace sonarsim::test {
 
-inline constexpr std::array engine_types{EngineType::rays, EngineType::octree, EngineType::slices};
+inline constexpr std::array engine_types{EngineKind::rays, EngineKind::octree, EngineKind::slices};
 inline constexpr LabelRequest everything{.objects = true,
                                          .shares = true,
                                          .classes = true,
@@ -28,7 +28,7 @@ struct Labelled {
     }
 };
 
-inline Labelled label(const Scene& scene, const Sonar& sonar, const Pose& pose, EngineType type) {
+inline Labelled label(const Scene& scene, const Sonar& sonar, const Pose& pose, EngineKind type) {
     const auto engine = make_engine(scene, {.type = type, .octree = {}});
     const TracedPing traced = trace(sonar, scene, *engine, pose, 0);
     Labelled out;

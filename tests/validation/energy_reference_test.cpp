@@ -51,7 +51,7 @@ TEST_CASE("the calibrated reference agrees with the engines" * doctest::skip(tes
             cast_energy_reference(caster, scene, sonar.settings,
                                   sensor_pose(sonar, T_world_vehicle, 0), {0.01, 16.0, 30'000'000});
         EngineSettings engine;
-        engine.type = EngineType::rays;
+        engine.type = EngineKind::rays;
         const Ping ping = render_ping(sonar, scene, *make_engine(scene, engine), T_world_vehicle,
                                       {}, direct_echoes_alone);
         const ImageError error = image_error(ping.intensity, reference.intensity);

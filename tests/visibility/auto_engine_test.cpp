@@ -115,15 +115,15 @@ TEST_CASE("auto takes slices for few triangles, and without probes") {
 
 TEST_CASE("engine: slices with multipath gives a warning") {
     const View view = auto_view();
-    const auto warning = [&](EngineType type, bool multipath) {
+    const auto warning = [&](EngineKind type, bool multipath) {
         EngineSettings settings;
         settings.type = type;
         return accuracy_warning(settings, view, multipath);
     };
-    CHECK(warning(EngineType::slices, true).find("use engine: auto") != std::string::npos);
-    CHECK(warning(EngineType::slices, false).empty());
-    CHECK(warning(EngineType::automatic, true).empty());
-    CHECK(warning(EngineType::rays, true).empty());
+    CHECK(warning(EngineKind::slices, true).find("use engine: auto") != std::string::npos);
+    CHECK(warning(EngineKind::slices, false).empty());
+    CHECK(warning(EngineKind::automatic, true).empty());
+    CHECK(warning(EngineKind::rays, true).empty());
 }
 
 TEST_SUITE_END();

@@ -93,13 +93,13 @@ TEST_SUITE("visibility") {
     TEST_CASE("copies: the octree and the slices refuse") {
         const Eigen::Affine3d place = placed({5.0, 0.0, 0.0}, 1.0, 0.0);
         const Scene scene = spheres({&place, 1}, Eigen::Vector3d::Zero());
-        CHECK(unsupported({.type = EngineType::rays, .octree = {}}, scene).empty());
-        CHECK(unsupported({.type = EngineType::automatic, .octree = {}}, scene).empty());
-        CHECK(unsupported({.type = EngineType::octree, .octree = {}}, scene) ==
+        CHECK(unsupported({.type = EngineKind::rays, .octree = {}}, scene).empty());
+        CHECK(unsupported({.type = EngineKind::automatic, .octree = {}}, scene).empty());
+        CHECK(unsupported({.type = EngineKind::octree, .octree = {}}, scene) ==
               "engine: octree does not support copies of shared meshes; use engine: auto or "
               "engine: rays, "
               "or scene.repeats: copied");
-        CHECK(unsupported({.type = EngineType::slices, .octree = {}}, scene)
+        CHECK(unsupported({.type = EngineKind::slices, .octree = {}}, scene)
                   .find("slices does not support") != std::string::npos);
     }
 }

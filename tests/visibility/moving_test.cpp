@@ -110,10 +110,10 @@ TEST_SUITE("visibility") {
         Scene shape = empty_scene();
         add_sphere(shape, {0, 0, 0}, 0.5F, add_material(shape, 1.0F), 16);
         const Scene scene = as_body(shape);
-        CHECK(unsupported({.type = EngineType::rays, .octree = {}}, scene).empty());
-        CHECK(unsupported({.type = EngineType::octree, .octree = {}}, scene) ==
+        CHECK(unsupported({.type = EngineKind::rays, .octree = {}}, scene).empty());
+        CHECK(unsupported({.type = EngineKind::octree, .octree = {}}, scene) ==
               "engine: octree does not support moving objects; use engine: auto or engine: rays");
-        CHECK(unsupported({.type = EngineType::slices, .octree = {}}, scene) ==
+        CHECK(unsupported({.type = EngineKind::slices, .octree = {}}, scene) ==
               "engine: slices does not support moving objects; use engine: auto or engine: rays");
     }
 }

@@ -95,13 +95,13 @@ TEST_CASE("octree view: the narrowest views see a wall") {
 }
 
 TEST_CASE("octree view: a warning gives the expected error, and appears only above the goal") {
-    const EngineSettings octree{EngineType::octree, {}};
+    const EngineSettings octree{EngineKind::octree, {}};
     View view = fan(60.0, 12.0, 10.0, 512, 256);
     CHECK(accuracy_warning(octree, view).empty());
-    CHECK(accuracy_warning({EngineType::octree, {.leaf_m = 0.02}}, view).empty());
-    CHECK(accuracy_warning({EngineType::octree, {.leaf_m = 0.5}}, view).find("octree.leaf_m") !=
+    CHECK(accuracy_warning({EngineKind::octree, {.leaf_m = 0.02}}, view).empty());
+    CHECK(accuracy_warning({EngineKind::octree, {.leaf_m = 0.5}}, view).find("octree.leaf_m") !=
           std::string::npos);
-    CHECK(accuracy_warning({EngineType::octree, {.leaf_m = 0.05}}, view) ==
+    CHECK(accuracy_warning({EngineKind::octree, {.leaf_m = 0.05}}, view) ==
           "engine: octree will be off by about 4.7 % in this view, more than accuracy.relative_l1 "
           "(3 %); use engine: rays or a smaller octree.leaf_m");
     view.relative_l1 = 0.01;

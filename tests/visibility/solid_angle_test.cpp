@@ -62,7 +62,7 @@ TEST_CASE("a room fills the solid angle of a view, thin objects included") {
     const Scene scene = room_with_poles();
     const Pose T_world_sensor{rotation_from_rpy(0.0, radians(15.0), 0.05), {0.1, 0.05, 0.2}};
     for (const ViewShape shape : {ViewShape::fan, ViewShape::port_starboard, ViewShape::cone}) {
-        for (const EngineType type : {EngineType::rays, EngineType::slices, EngineType::octree}) {
+        for (const EngineKind type : {EngineKind::rays, EngineKind::slices, EngineKind::octree}) {
             EngineSettings settings;
             settings.type = type;
             const View view = view_of(shape);
@@ -78,7 +78,7 @@ TEST_CASE("a room fills the solid angle of a view, thin objects included") {
             CAPTURE(static_cast<int>(type));
             CAPTURE(seen / solid_angle(view));
             CHECK(std::fabs(seen / solid_angle(view) - 1.0) <
-                  (type == EngineType::octree ? 0.04 : 0.005));
+                  (type == EngineKind::octree ? 0.04 : 0.005));
         }
     }
 }

@@ -1,5 +1,8 @@
 #include "dataset/coco/file.h"
 
+#include "core/error.h"
+#include "format/coco_counts.h"
+
 namespace sonarsim {
 
 namespace {
@@ -51,6 +54,39 @@ Json annotation_json(const CocoAnnotation& a) {
             {"area", a.area},
             {"segmentation", {{"size", {a.image_height, a.image_width}}, {"counts", a.counts}}},
             {"iscrowd", 0}};
+}
+
+CocoAnnotation annotation_of(const ObjectMask& mask, std::uint64_t width, std::uint64_t height) {
+    CocoAnnotation annotation;
+    annotation.left = mask.left;
+    annotation.top = mask.top;
+    annotation.width = mask.right - mask.left;
+    annotation.height = mask.bottom - mask.top;
+    annotation.area = mask.area;
+    annotation.image_width = width;
+    annotation.image_height = height;
+    annotation.counts = coco_counts(mask.runs);
+    return annotation;
+}
+
+const Json* labelled_picture(const Json& sensor, const char* per) {
+    if (!sensor.contains("pictures")) {
+        throw InputError("dataset.json lists no pictures of sensor '" +
+                         sensor.at("name").get<std::string>() +
+                         "', since an older sonarsim wrote it; render the dataset again");
+    }
+    for (const Json& picture : sensor.at("pictures")) {
+        if (picture.at("per") == per && picture.contains("boxes_of")) return &picture;
+    }
+    return nullptr;
+}
+
+const PingRecord* instance_record(const SensorLayout& sensor) {
+    for (const auto& part : sensor.per_ping) {
+        const auto* record = std::get_if<PingRecord>(&part);
+        if (record && record->label == "instance") return record;
+    }
+    return nullptr;
 }
 
 }  // namespace sonarsim

@@ -1,4 +1,4 @@
-#include "dataset/coco/pings.h"
+#include "dataset/coco/coco.h"
 
 #include <array>
 #include <functional>
@@ -49,7 +49,7 @@ std::optional<PictureSeries> series_of(const SensorLayout& sensor, const Json& d
     return series;
 }
 
-/// What the picture shows of an object; nothing where it shows nothing.
+/// The annotation of an object; nothing if the picture does not show it.
 std::optional<CocoAnnotation> annotation_of(const Json& object, const PictureSeries& series,
                                             CocoPicture picture, std::uint64_t image_id,
                                             const Json& class_ids) {

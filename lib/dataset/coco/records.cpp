@@ -1,13 +1,11 @@
-#include "dataset/coco/records.h"
+#include "dataset/coco/coco.h"
 
 #include <algorithm>
 #include <optional>
 #include <span>
 
 #include "dataset/coco/file.h"
-#include "dataset/coco/pings.h"
 #include "dataset/folded_records.h"
-#include "format/coco_counts.h"
 #include "product/object_masks.h"
 
 namespace sonarsim {
@@ -16,45 +14,40 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// An object that is not seen for so many pings is passed again when it is.
+/// An object that no ping shows for longer than this begins another pass.
 constexpr std::size_t most_unseen = 32;
 
 /// The picture that is made of all pings of a sensor. A row, or column, may stand for several.
 struct RecordPicture {
     std::uint64_t id;
     std::size_t sensor;
-    std::string file;  ///< in the folder of the sensor
-    PingRecord ids;    ///< of instances
+    std::string file;  ///< relative to the folder of the dataset
+    PingRecord ids;    ///< the records of instances
     bool is_upright;   ///< pings are columns
-    std::size_t bins;  ///< of a ping
-    std::size_t rows;  ///< of pings
+    std::size_t bins;  ///< per ping
+    std::size_t rows;  ///< rows or columns of pings
 
     std::size_t width() const { return is_upright ? rows : bins; }
     std::size_t height() const { return is_upright ? bins : rows; }
 };
 
-std::optional<RecordPicture> picture_of(const SensorLayout& sensor) {
-    const char* const names[] = {"waterfall.png", "echogram.png"};
-    const auto file = std::ranges::find_first_of(sensor.products, names);
-    if (file == sensor.products.end()) return std::nullopt;
-    for (const auto& part : sensor.per_ping) {
-        const auto* record = std::get_if<PingRecord>(&part);
-        if (!record || record->label != "instance") continue;
-        const bool is_upright = record->format.fortran_order;
-        return RecordPicture{.id = 0,
-                             .sensor = 0,
-                             .file = *file,
-                             .ids = *record,
-                             .is_upright = is_upright,
-                             .bins = record->format.shape[is_upright ? 0 : 1],
-                             .rows = static_cast<std::size_t>(picture_rows(sensor.pings))};
-    }
-    return std::nullopt;
+std::optional<RecordPicture> picture_of(const SensorLayout& sensor, const Json& described) {
+    const Json* const picture = labelled_picture(described, "sensor");
+    const PingRecord* const ids = instance_record(sensor);
+    if (!picture || !ids) return std::nullopt;
+    const bool is_upright = ids->format.fortran_order;
+    return RecordPicture{.id = 0,
+                         .sensor = 0,
+                         .file = picture->at("boxes_of"),
+                         .ids = *ids,
+                         .is_upright = is_upright,
+                         .bins = ids->format.shape[is_upright ? 0 : 1],
+                         .rows = static_cast<std::size_t>(picture_rows(sensor.pings))};
 }
 
 /// An object on its way past the sonar, and how often it has been passed.
 struct Passing {
-    std::uint16_t number = 0;  ///< of its present pass
+    std::uint16_t number = 0;  ///< number of its present pass
     std::size_t last = 0;      ///< ping that saw it
 };
 
@@ -62,7 +55,7 @@ struct Passing {
 /// for several pings, the first of them that shows an object counts.
 struct Passes {
     std::vector<std::uint16_t> of_pixel;
-    std::vector<std::uint16_t> instance{0};  ///< by number
+    std::vector<std::uint16_t> instance{0};  ///< indexed by the number of a pass
 };
 
 Passes passes_of(const RecordPicture& picture, const RecordFile& records) {
@@ -102,7 +95,7 @@ void write_record_coco(const Layout& layout, const Json& description,
         id += 2 * sensor.pings;
     std::vector<RecordPicture> pictures;
     for (std::size_t i = 0; i < layout.sensors.size(); ++i, ++id) {
-        if (auto picture = picture_of(layout.sensors[i])) {
+        if (auto picture = picture_of(layout.sensors[i], description.at("sensors").at(i))) {
             picture->id = id;
             picture->sensor = i;
             pictures.push_back(*std::move(picture));
@@ -113,7 +106,7 @@ void write_record_coco(const Layout& layout, const Json& description,
     for (const RecordPicture& picture : pictures) {
         const SensorLayout& sensor = layout.sensors[picture.sensor];
         out.add({{"id", picture.id},
-                 {"file_name", sensor.name + "/" + picture.file},
+                 {"file_name", picture.file},
                  {"width", picture.width()},
                  {"height", picture.height()},
                  {"sensor", sensor.name}});
@@ -130,18 +123,12 @@ void write_record_coco(const Layout& layout, const Json& description,
         for (const ObjectMask& mask :
              object_masks(passes.of_pixel, static_cast<int>(picture.height()))) {
             const std::uint16_t instance = passes.instance[mask.id];
-            out.add(annotation_json({.id = annotation_id++,
-                                     .image_id = picture.id,
-                                     .instance = instance,
-                                     .category = instances.at(instance - 1).at("class"),
-                                     .left = mask.left,
-                                     .top = mask.top,
-                                     .width = mask.right - mask.left,
-                                     .height = mask.bottom - mask.top,
-                                     .area = mask.area,
-                                     .image_width = picture.width(),
-                                     .image_height = picture.height(),
-                                     .counts = coco_counts(mask.runs)}));
+            CocoAnnotation annotation = annotation_of(mask, picture.width(), picture.height());
+            annotation.id = annotation_id++;
+            annotation.image_id = picture.id;
+            annotation.instance = instance;
+            annotation.category = instances.at(instance - 1).at("class");
+            out.add(annotation_json(annotation));
         }
     }
     out.end_list();

@@ -1,5 +1,5 @@
 #include "dataset/fan_png.h"
-#include "dataset/writers/formats.h"
+#include "dataset/writer.h"
 
 namespace sonarsim {
 
@@ -14,7 +14,10 @@ class FanWriter final : public Writer {
           full_scale_(context.full_scale()) {}
 
     WriterOutputs outputs() const override {
-        return {PingFile{"fan", ".png"}, fan_png_bytes_at_most(png_), {}};
+        return {
+            PingFile{.name = "fan", .extension = ".png", .array = PingArray::fan, .title = "fan"},
+            fan_png_bytes_at_most(png_),
+            {}};
     }
 
     std::string encode(const FinishedPing& finished) const override {

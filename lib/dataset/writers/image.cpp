@@ -1,6 +1,6 @@
-#include "dataset/writers/formats.h"
+#include "dataset/writer.h"
 #include "format/png.h"
-#include "product/grey.h"
+#include "product/gain.h"
 
 namespace sonarsim {
 
@@ -13,7 +13,11 @@ class ImageWriter final : public Writer {
         : view_(context.sonar().settings.view), full_scale_(context.full_scale()) {}
 
     WriterOutputs outputs() const override {
-        return {PingFile{"image", ".png"}, png_bytes_at_most(view_.beams, view_.range_bins, 2), {}};
+        return {
+            PingFile{
+                .name = "image", .extension = ".png", .array = PingArray::bins, .title = "polar"},
+            png_bytes_at_most(view_.beams, view_.range_bins, 2),
+            {}};
     }
 
     /// Rows and columns are those of polar/, which is not how a fan lies.

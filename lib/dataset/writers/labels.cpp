@@ -1,16 +1,10 @@
-#include "dataset/writers/labels.h"
-
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <utility>
 
-#include "dataset/writers/objects.h"
-#include "dataset/writers/semantic.h"
-#include "dataset/writers/yolo.h"
+#include "dataset/writers/label_writers.h"
 #include "format/id_png.h"
 #include "format/png.h"
-#include "product/sidescan_row.h"
 
 namespace sonarsim {
 
@@ -19,7 +13,7 @@ namespace {
 using Ids = std::vector<std::uint16_t>;
 using Floats = std::vector<float>;
 
-/// Whether the bins [i0, i1) of some beams are all 0. Most of a ping is.
+/// True if the bins [i0, i1) of some beams are all 0, as most of a ping is.
 bool is_blank(const std::uint16_t* beams, std::size_t range_bins, std::size_t i0, std::size_t i1,
               std::size_t count) {
     std::uint16_t any = 0;
@@ -30,7 +24,7 @@ bool is_blank(const std::uint16_t* beams, std::size_t range_bins, std::size_t i0
     return any == 0;
 }
 
-/// Floats are blank nowhere.
+/// Floats count as never blank.
 bool is_blank(const float*, std::size_t, std::size_t, std::size_t, std::size_t) {
     return false;
 }
@@ -91,53 +85,32 @@ Floats image(const WriterContext& context, const FinishedPing& finished, const T
         .intensity;
 }
 
-constexpr float nothing = std::numeric_limits<float>::quiet_NaN();
-
-/// A file that a label leaves behind: 16 bits in a PNG, or float32 in .npy.
+/// A file of a label: 16 bits in a PNG, or float32 in .npy. One of the three sources is set.
 struct LabelFile {
     Label label;
     const char* name;
-    IdsOf ids;  ///< these three: what it holds; the others are null
-    FloatsOf floats;
-    const Terms* image;
-    float blank;  ///< where a side-scan sonar does not listen
+    IdsOf ids_of = nullptr;
+    FloatsOf floats_of = nullptr;
+    const Terms* terms = nullptr;  ///< the terms of an image
+    const char* ids = "";          ///< as in PingFile
 };
-
-constexpr LabelFile id_file(Label label, const char* name, IdsOf values) {
-    return {label, name, values, nullptr, nullptr, 0.0F};
-}
-
-constexpr LabelFile float_file(Label label, const char* name, FloatsOf values) {
-    return {label, name, nullptr, values, nullptr, nothing};
-}
-
-constexpr LabelFile image_file(Label label, const char* name, const Terms& terms) {
-    return {label, name, nullptr, nullptr, &terms, 0.0F};
-}
 
 constexpr LabelFile label_files[] = {
-    id_file(Label::instance, "instance", ids<&PingLabels::object>),
-    id_file(Label::share, "share", shares<&PingLabels::share>),
-    id_file(Label::second, "second", ids<&PingLabels::second>),
-    id_file(Label::second, "second_share", shares<&PingLabels::second_share>),
-    id_file(Label::class_name, "class", ids<&PingLabels::class_id>),
-    id_file(Label::material, "material", ids<&PingLabels::material>),
-    float_file(Label::elevation, "elevation", floats<&PingLabels::elevation_rad>),
-    float_file(Label::elevation, "elevation_spread", floats<&PingLabels::elevation_spread_rad>),
-    float_file(Label::height, "height", floats<&PingLabels::height_m>),
-    id_file(Label::shadow, "shadow", ids<&PingLabels::shadow>),
-    id_file(Label::multipath, "multipath", shares<&PingLabels::multipath>),
-    image_file(Label::clean, "clean", without_random_terms),
-    image_file(Label::direct_only, "direct_only", direct_echoes_alone),
-    image_file(Label::multipath_only, "multipath_only", multipath_alone),
+    {Label::instance, "instance", ids<&PingLabels::object>, {}, {}, "instances"},
+    {Label::share, "share", shares<&PingLabels::share>},
+    {Label::second, "second", ids<&PingLabels::second>, {}, {}, "instances"},
+    {Label::second, "second_share", shares<&PingLabels::second_share>},
+    {Label::class_name, "class", ids<&PingLabels::class_id>, {}, {}, "classes"},
+    {Label::material, "material", ids<&PingLabels::material>, {}, {}, "materials"},
+    {Label::elevation, "elevation", {}, floats<&PingLabels::elevation_rad>},
+    {Label::elevation, "elevation_spread", {}, floats<&PingLabels::elevation_spread_rad>},
+    {Label::height, "height", {}, floats<&PingLabels::height_m>},
+    {Label::shadow, "shadow", ids<&PingLabels::shadow>, {}, {}, "instances"},
+    {Label::multipath, "multipath", shares<&PingLabels::multipath>},
+    {Label::clean, "clean", {}, {}, &without_random_terms},
+    {Label::direct_only, "direct_only", {}, {}, &direct_echoes_alone},
+    {Label::multipath_only, "multipath_only", {}, {}, &multipath_alone},
 };
-
-/// A ping of a label in the shape of its sonar's records.
-template <class T>
-std::string label_record(const WriterContext& context, const std::vector<T>& values, T blank) {
-    if (context.kind().record != RecordKind::waterfall) return record_bytes(values);
-    return record_bytes(sidescan_row<T>(context.sonar().config, values, blank));
-}
 
 /// A file per ping with the rows and columns of the sonar's image.
 class LabelImageWriter final : public Writer {
@@ -146,22 +119,22 @@ class LabelImageWriter final : public Writer {
         : context_(context), view_(context.sonar().settings.view), file_(file) {}
 
     WriterOutputs outputs() const override {
-        if (!file_.ids) {
-            return {PingFile{file_.name, ".npy"}, 128.0 + 4.0 * view_.range_bins * view_.beams, {}};
-        }
-        return {
-            PingFile{file_.name, ".png"}, png_bytes_at_most(view_.beams, view_.range_bins, 2), {}};
+        const double bytes = file_.ids_of ? png_bytes_at_most(view_.beams, view_.range_bins, 2)
+                                          : 128.0 + 4.0 * view_.range_bins * view_.beams;
+        return {PingFile{file_.name, file_.ids_of ? ".png" : ".npy", PingArray::bins, file_.ids},
+                bytes,
+                {}};
     }
 
     std::string encode(const FinishedPing& finished) const override {
         const PingLabels& labels = finished.labels->bins;
-        if (file_.image) {
-            return npy_bytes(image(context_, finished, *file_.image), view_.range_bins,
+        if (file_.terms) {
+            return npy_bytes(image(context_, finished, *file_.terms), view_.range_bins,
                              view_.beams);
         }
-        if (file_.floats)
-            return npy_bytes_of_columns(file_.floats(labels), view_.range_bins, view_.beams);
-        return id_png_bytes(rows_of_range(file_.ids(labels), labels), view_.beams,
+        if (file_.floats_of)
+            return npy_bytes_of_columns(file_.floats_of(labels), view_.range_bins, view_.beams);
+        return id_png_bytes(rows_of_range(file_.ids_of(labels), labels), view_.beams,
                             view_.range_bins);
     }
 
@@ -178,13 +151,13 @@ class LabelFanWriter final : public Writer {
         : frame_(fan_frame(context.sonar(), context.mission.output.fan_width_px)), file_(file) {}
 
     WriterOutputs outputs() const override {
-        return {PingFile{std::string("fan_") + file_.name, ".png"},
+        return {PingFile{std::string("fan_") + file_.name, ".png", PingArray::fan, file_.ids},
                 png_bytes_at_most(frame_.width, frame_.height, 2),
                 {}};
     }
 
     std::string encode(const FinishedPing& finished) const override {
-        const Ids values = file_.ids(finished.labels->bins);
+        const Ids values = file_.ids_of(finished.labels->bins);
         return id_png_bytes(fan_values(finished.labels->fan_bins->by_row, values, std::uint16_t{0}),
                             frame_.width, frame_.height);
     }
@@ -198,39 +171,33 @@ class LabelFanWriter final : public Writer {
 class LabelRecordWriter final : public Writer {
   public:
     LabelRecordWriter(const WriterContext& context, const LabelFile& file)
-        : context_(context), view_(context.sonar().settings.view), file_(file) {}
+        : context_(context), file_(file) {}
 
     WriterOutputs outputs() const override {
-        const SonarConfig& config = context_.sonar().config;
-        const char* const type = file_.ids ? "<u2" : "<f4";
-        const auto bins = static_cast<std::size_t>(view_.range_bins);
-        const bool rows = context_.kind().record == RecordKind::waterfall;
-        const auto columns = rows ? static_cast<std::size_t>(waterfall_columns(config)) : bins;
-        const bool upright = context_.kind().record == RecordKind::echogram;
-        NpyFormat format{type, {context_.pings, columns}};
-        if (upright) format = {type, {columns, context_.pings}, true};
-        const double bytes = (file_.ids ? 2.0 : 4.0) * static_cast<double>(columns);
-        nlohmann::ordered_json axes = {"ping", rows ? "column, as in waterfall.npy" : "range"};
-        if (upright) axes = {"range", "ping"};
-        WriterOutputs outputs = record_outputs(std::string(file_.name) + ".npy", std::move(format),
-                                               std::move(axes), bytes);
-        std::get<PingRecord>(outputs.per_ping).label = file_.name;
+        WriterOutputs outputs = file_.ids_of
+                                    ? record_outputs(context_, file_.name, "<u2", 2, file_.name)
+                                    : record_outputs(context_, file_.name, "<f4", 4, file_.name);
+        std::get<PingRecord>(outputs.per_ping).ids = file_.ids;
         return outputs;
     }
 
     std::string encode(const FinishedPing& finished) const override {
         const PingLabels& labels = finished.labels->bins;
-        if (file_.image)
-            return label_record(context_, image(context_, finished, *file_.image), file_.blank);
-        if (file_.floats) {
-            return label_record(context_, rows_of_range(file_.floats(labels), labels), file_.blank);
-        }
-        return label_record<std::uint16_t>(context_, rows_of_range(file_.ids(labels), labels), 0);
+        if (file_.terms) return record(image(context_, finished, *file_.terms), 0.0F);
+        if (file_.ids_of)
+            return record<std::uint16_t>(rows_of_range(file_.ids_of(labels), labels), 0);
+        return record(rows_of_range(file_.floats_of(labels), labels),
+                      std::numeric_limits<float>::quiet_NaN());
     }
 
   private:
+    template <class T>
+    std::string record(const std::vector<T>& image, T blank) const {
+        return record_bytes(
+            record_values(context_.kind().record, context_.sonar().config, image, blank));
+    }
+
     WriterContext context_;
-    const View& view_;
     const LabelFile& file_;
 };
 
@@ -251,7 +218,7 @@ std::vector<std::unique_ptr<Writer>> make_label_writers(const WriterContext& con
         if (!is_asked(mission, file.label) && !for_coco) continue;
         if (has_images) add(std::make_unique<LabelImageWriter>(context, file));
         if (!has_images) add(std::make_unique<LabelRecordWriter>(context, file));
-        if (has_fan && file.ids) add(std::make_unique<LabelFanWriter>(context, file));
+        if (has_fan && file.ids_of) add(std::make_unique<LabelFanWriter>(context, file));
     }
     add(make_objects_writer(context));
     for (auto& writer : make_semantic_writers(context))

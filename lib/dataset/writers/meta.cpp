@@ -1,5 +1,5 @@
 #include "dataset/ping_metadata.h"
-#include "dataset/writers/formats.h"
+#include "dataset/writer.h"
 
 namespace sonarsim {
 

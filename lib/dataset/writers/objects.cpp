@@ -1,5 +1,3 @@
-#include "dataset/writers/objects.h"
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <optional>
@@ -8,18 +6,16 @@
 
 #include "dataset/label_description.h"
 #include "dataset/ping_metadata.h"
+#include "dataset/writers/label_writers.h"
 #include "format/coco_counts.h"
 #include "product/object_table.h"
+#include "sonar/setup.h"
 
 namespace sonarsim {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json number_or_null(const std::optional<double>& value) {
-    return value ? Json(*value) : Json(nullptr);
-}
 
 Json seen_box_json(const Eigen::AlignedBox3f& box) {
     if (box.isEmpty()) return nullptr;
@@ -132,8 +128,8 @@ class ObjectsWriter final : public Writer {
     WriterContext context_;
     const View& view_;
     bool with_masks_;
-    std::vector<Eigen::AlignedBox3d> boxes_;           ///< by object, world frame
-    std::vector<std::optional<MovingObject>> moving_;  ///< by object
+    std::vector<Eigen::AlignedBox3d> boxes_;           ///< indexed by object, world frame
+    std::vector<std::optional<MovingObject>> moving_;  ///< indexed by object
 };
 
 }  // namespace

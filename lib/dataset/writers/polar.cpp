@@ -1,4 +1,4 @@
-#include "dataset/writers/formats.h"
+#include "dataset/writer.h"
 
 namespace sonarsim {
 
@@ -10,7 +10,9 @@ class PolarWriter final : public Writer {
     explicit PolarWriter(const WriterContext& context) : view_(context.sonar().settings.view) {}
 
     WriterOutputs outputs() const override {
-        return {PingFile{"polar", ".npy"}, 128.0 + 4.0 * view_.range_bins * view_.beams, {}};
+        return {PingFile{"polar", ".npy", PingArray::bins},
+                128.0 + 4.0 * view_.range_bins * view_.beams,
+                {}};
     }
 
     std::string encode(const FinishedPing& finished) const override {

@@ -2,33 +2,31 @@
 
 #include "core/atomic_file.h"
 #include "dataset/fan_png.h"
-#include "dataset/writers/formats.h"
+#include "dataset/writer.h"
 #include "format/npy.h"
 
 namespace sonarsim {
 
 namespace {
 
-/// scan.npy: float32 [ping, range], one column of the display per ping. Of each sweep of the head,
-/// and of the unfinished one at the end, the display as it stood then: scan_NNNN.npy, float32
-/// [range, step], and scan_NNNN.png, 8 bits per channel, round,
-/// boresight up.
+/// scan.npy: float32 [ping, range], one column of the display per ping. The display after each
+/// sweep of the head, and after the unfinished one at the end: scan_NNNN.npy, float32 [range,
+/// step], and scan_NNNN.png, 8 bits per channel, round, boresight up.
 class ScanWriter final : public Writer {
   public:
     explicit ScanWriter(const WriterContext& context)
-        : sonar_(context.sonar()),
-          pings_(context.pings),
-          full_scale_(context.full_scale()),
+        : context_(context),
+          sonar_(context.sonar()),
+          name_(context.kind().record.name),
           steps_(scan_steps(sonar_.config)),
           png_(make_fan_png(whole_scan(sonar_), context.mission.output)) {}
 
     WriterOutputs outputs() const override {
-        const auto bins = static_cast<std::size_t>(sonar_.config.range_bins);
-        WriterOutputs outputs = record_outputs("scan.npy", {"<f4", {pings_, bins}},
-                                               {"ping", "range"}, 4.0 * static_cast<double>(bins));
-        for (std::size_t sweep = 0; sweep < scan_sweeps(sonar_.config, pings_); ++sweep) {
-            outputs.products.push_back(
-                {name(sweep, ".npy"), 128.0 + 4.0 * static_cast<double>(bins * steps_)});
+        WriterOutputs outputs = record_outputs(context_, name_, "<f4", 4);
+        const auto values =
+            static_cast<double>(sonar_.config.range_bins) * static_cast<double>(steps_);
+        for (std::size_t sweep = 0; sweep < scan_sweeps(sonar_.config, context_.pings); ++sweep) {
+            outputs.products.push_back({name(sweep, ".npy"), 128.0 + 4.0 * values});
             outputs.products.push_back({name(sweep, ".png"), fan_png_bytes_at_most(png_)});
         }
         return outputs;
@@ -42,23 +40,31 @@ class ScanWriter final : public Writer {
                         const std::filesystem::path& folder) const override {
         ScanDisplay display(sonar_);
         std::vector<float> bins(sonar_.config.range_bins);
-        for (std::size_t ping = 0; ping < pings_; ++ping) {
+        for (std::size_t ping = 0; ping < context_.pings; ++ping) {
             records.read(ping, std::as_writable_bytes(std::span(bins)));
             display.show(ping, bins);
-            const bool last_of_sweep = (ping + 1) % steps_ == 0 || ping + 1 == pings_;
+            const bool last_of_sweep = (ping + 1) % steps_ == 0 || ping + 1 == context_.pings;
             if (last_of_sweep) write_display(display.image(), ping / steps_, folder);
         }
     }
 
     void describe(nlohmann::ordered_json& sensor) const override {
-        sensor["scan"] = {{"pings_per_sweep", steps_},
-                          {"step_edges_rad", scan_edges_rad(sonar_.config)},
-                          {"axes", {"range", "step"}}};
+        const RecordShape& shape = context_.kind().record;
+        if (shape.describe) shape.describe(sonar_, sensor);
+        const std::string file = sonar_.config.name + "/" + name_ + "_%04d.png";
+        const FanFrame& frame = png_.map.frame;
+        sensor["pictures"].push_back({{"title", name_},
+                                      {"file", file},
+                                      {"per", "sweep"},
+                                      {"boxes_of", file},
+                                      {"pings", steps_},
+                                      {"radius_px", sonar_.config.range_max_m / frame.pixel_m},
+                                      {"width_px", frame.width}});
     }
 
   private:
-    static std::string name(std::size_t sweep, const char* extension) {
-        return scan_file_name("scan", sweep, extension);
+    std::string name(std::size_t sweep, const char* extension) const {
+        return scan_file_name(name_, sweep, extension);
     }
 
     void write_display(const Ping& image, std::size_t sweep,
@@ -67,13 +73,13 @@ class ScanWriter final : public Writer {
         array.append(npy_bytes(image.intensity, image.range_bins, image.beams));
         array.finish();
         StreamedFile picture(folder / name(sweep, ".png"));
-        picture.append(fan_png_bytes(png_, image, full_scale_));
+        picture.append(fan_png_bytes(png_, image, context_.full_scale()));
         picture.finish();
     }
 
+    WriterContext context_;
     const Sonar& sonar_;
-    std::size_t pings_;
-    double full_scale_;
+    std::string name_;
     std::size_t steps_;
     FanPng png_;
 };
@@ -81,8 +87,9 @@ class ScanWriter final : public Writer {
 }  // namespace
 
 std::unique_ptr<Writer> make_scan_writer(const WriterContext& context) {
-    const bool records = context.kind().record == RecordKind::scan;
-    if (!context.mission.output.scan || !records) return nullptr;
+    const RecordShape& shape = context.kind().record;
+    if (shape.pictures != RecordPictures::sweeps) return nullptr;
+    if (!shape.is_written(context.mission.output)) return nullptr;
     return std::make_unique<ScanWriter>(context);
 }
 

@@ -1,8 +1,7 @@
-#include "dataset/writers/semantic.h"
-
 #include <algorithm>
 
 #include "core/error.h"
+#include "dataset/writers/label_writers.h"
 #include "format/id_png.h"
 #include "format/png.h"
 
@@ -24,7 +23,10 @@ class SemanticWriter final : public Writer {
     }
 
     WriterOutputs outputs() const override {
-        return {PingFile{of_fan_ ? "fan_semantic" : "semantic", ".png"},
+        return {PingFile{.name = of_fan_ ? "fan_semantic" : "semantic",
+                         .extension = ".png",
+                         .array = of_fan_ ? PingArray::fan : PingArray::bins,
+                         .title = of_fan_ ? "classes, fan" : "classes, polar"},
                 png_bytes_at_most(width_, height_, 1),
                 {}};
     }
@@ -74,7 +76,7 @@ std::vector<std::unique_ptr<Writer>> make_semantic_writers(const WriterContext& 
     const std::size_t classes = context.assembly.objects.classes.size();
     if (classes > most_classes) {
         throw InputError(mission.output.labels_place.location,
-                         "`semantic` tells 255 classes apart, and the scene has " +
+                         "`semantic` has room for 255 classes, and the scene has " +
                              std::to_string(classes) +
                              ": group its nodes with `classes`, or ask for `class` instead");
     }

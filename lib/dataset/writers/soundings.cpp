@@ -1,6 +1,7 @@
 #include "product/soundings.h"
 
-#include <charconv>
+#include <spdlog/fmt/fmt.h>
+
 #include <cmath>
 #include <cstring>
 #include <functional>
@@ -9,7 +10,7 @@
 #include "core/atomic_file.h"
 #include "core/file.h"
 #include "dataset/ping_metadata.h"
-#include "dataset/writers/formats.h"
+#include "dataset/writer.h"
 #include "format/geotiff.h"
 #include "format/image_file.h"
 #include "format/png.h"
@@ -52,13 +53,6 @@ void for_each_sounding(const SoundingSource& source,
     }
 }
 
-void append_fixed(std::string& line, double value, int decimals) {
-    char text[64];
-    const auto end =
-        std::to_chars(text, text + sizeof text, value, std::chars_format::fixed, decimals);
-    line.append(text, end.ptr);
-}
-
 template <class T>
 void append_raw(std::string& bytes, T value) {
     char raw[sizeof(T)];
@@ -66,7 +60,7 @@ void append_raw(std::string& bytes, T value) {
     bytes.append(raw, sizeof(T));
 }
 
-/// Whether a sounding belongs in a map.
+/// True if a sounding belongs in a map.
 bool good_for_map(const RecordedSounding& sounding) {
     return sounding.quality >= map_quality;
 }
@@ -93,18 +87,10 @@ void write_soundings(const SoundingSource& source, const std::filesystem::path& 
     StreamedFile csv(folder / "soundings.csv");
     csv.append("pose,time_s,beam,range_m,x_m,y_m,z_m,quality\n");
     std::uint64_t count = 0;
-    std::string line;
     for_each_sounding(source, [&](const RecordedSounding& s) {
-        line = std::to_string(s.pose) + ',';
-        append_fixed(line, source.trajectory[s.pose].t_s, 6);
-        line += ',' + std::to_string(s.beam);
-        for (const double value : {s.range_m, s.position.x(), s.position.y(), s.position.z()}) {
-            line += ',';
-            append_fixed(line, value, 4);
-        }
-        line += ',';
-        append_fixed(line, s.quality, 3);
-        csv.append(line += '\n');
+        csv.append(fmt::format("{},{:.6f},{},{:.4f},{:.4f},{:.4f},{:.4f},{:.3f}\n", s.pose,
+                               source.trajectory[s.pose].t_s, s.beam, s.range_m, s.position.x(),
+                               s.position.y(), s.position.z(), s.quality));
         ++count;
     });
     csv.finish();
@@ -113,12 +99,13 @@ void write_soundings(const SoundingSource& source, const std::filesystem::path& 
     ply.append("ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(count) +
                "\nproperty double x\nproperty double y\nproperty double z\n"
                "property float quality\nend_header\n");
+    std::string vertex;
     for_each_sounding(source, [&](const RecordedSounding& s) {
-        line.clear();
+        vertex.clear();
         for (const double value : {s.position.x(), s.position.y(), s.position.z()})
-            append_raw(line, value);
-        append_raw(line, static_cast<float>(s.quality));
-        ply.append(line);
+            append_raw(vertex, value);
+        append_raw(vertex, static_cast<float>(s.quality));
+        ply.append(vertex);
     });
     ply.finish();
 }
@@ -191,6 +178,12 @@ class SoundingsWriter final : public Writer {
         write_bathymetry(source, context_.mission.output.bathymetry_cell_m, folder);
     }
 
+    void describe(nlohmann::ordered_json& sensor) const override {
+        sensor["pictures"].push_back({{"title", "bathymetry"},
+                                      {"file", context_.sonar().config.name + "/bathymetry.png"},
+                                      {"per", "sensor"}});
+    }
+
   private:
     std::size_t beams() const { return context_.sonar().settings.view.beams; }
 
@@ -200,8 +193,9 @@ class SoundingsWriter final : public Writer {
 }  // namespace
 
 std::unique_ptr<Writer> make_soundings_writer(const WriterContext& context) {
-    const bool records = context.kind().record == RecordKind::soundings;
-    if (!context.mission.output.soundings || !records) return nullptr;
+    const RecordShape& record = context.kind().record;
+    const bool is_its = record.wanted == &OutputConfig::soundings;
+    if (!is_its || !record.is_written(context.mission.output)) return nullptr;
     return std::make_unique<SoundingsWriter>(context);
 }
 

@@ -1,11 +1,29 @@
-#include "dataset/writers/formats.h"
+#include <algorithm>
+
+#include "dataset/writer.h"
 #include "format/png.h"
 #include "product/fan.h"
-#include "product/panels.h"
 
 namespace sonarsim {
 
 namespace {
+
+/// The fans of several pings of one sonar side by side, the first on the left: grey values
+/// [height, pings * width].
+std::vector<std::uint8_t> render_panels(const FanMap& map, std::span<const Ping> pings,
+                                        double full_scale) {
+    const auto width = static_cast<std::size_t>(map.frame.width);
+    const auto height = static_cast<std::size_t>(map.frame.height);
+    std::vector<std::uint8_t> picture(height * width * pings.size());
+    for (std::size_t k = 0; k < pings.size(); ++k) {
+        const std::vector<std::uint8_t> fan = render_fan(map, pings[k], full_scale);
+        for (std::size_t row = 0; row < height; ++row) {
+            std::copy_n(fan.data() + row * width, width,
+                        picture.data() + (row * pings.size() + k) * width);
+        }
+    }
+    return picture;
+}
 
 /// stages/NNNNNN.png: 8 bits, a fan for each stage of the echo model side by side: direct echoes,
 /// then with multipath, then with one random term of the model after the other.
@@ -17,7 +35,9 @@ class StagesWriter final : public Writer {
           width_(static_cast<int>(stage_count(context.sonar())) * map_.frame.width) {}
 
     WriterOutputs outputs() const override {
-        return {PingFile{"stages", ".png"}, png_bytes_at_most(width_, map_.frame.height, 1), {}};
+        return {PingFile{.name = "stages", .extension = ".png", .title = "stages"},
+                png_bytes_at_most(width_, map_.frame.height, 1),
+                {}};
     }
 
     std::string encode(const FinishedPing& finished) const override {

@@ -14,7 +14,7 @@
 #include "dataset/ping_metadata.h"
 #include "format/geotiff.h"
 #include "format/xtf.h"
-#include "product/grey.h"
+#include "product/gain.h"
 #include "product/mosaic.h"
 #include "product/sidescan_row.h"
 #include "sonar/sonar_at_pose.h"

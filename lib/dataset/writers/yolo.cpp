@@ -1,8 +1,9 @@
-#include "dataset/writers/yolo.h"
+#include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
-#include <charconv>
+#include <iterator>
 
+#include "dataset/writers/label_writers.h"
 #include "product/mask_outline.h"
 
 namespace sonarsim {
@@ -11,13 +12,10 @@ namespace {
 
 /// " 0.123456": `pixels` of `all`.
 void append_share(std::string& line, double pixels, int all) {
-    char text[32];
-    const auto end =
-        std::to_chars(text, text + sizeof text, pixels / all, std::chars_format::fixed, 6);
-    line.append(" ").append(text, end.ptr);
+    fmt::format_to(std::back_inserter(line), " {:.6f}", pixels / all);
 }
 
-/// Which picture of a ping is labelled.
+/// The picture of a ping that is labelled.
 struct LabelledPicture {
     bool is_fan;
     int width;

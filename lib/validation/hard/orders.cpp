@@ -50,7 +50,7 @@ std::vector<ConvergenceOrder> convergence_orders() {
         ConvergenceOrder rays{
             subject.name, "rays", "relative_l1", {0.24, 0.12, 0.06, 0.03, 0.015}, {}};
         const std::unique_ptr<VisibilityEngine> engine =
-            make_engine(subject.scene, {EngineType::rays, {}});
+            make_engine(subject.scene, {EngineKind::rays, {}});
         for (const double goal : rays.steps) {
             Sonar finer = sonar;
             finer.settings.view.relative_l1 = goal;

@@ -1,4 +1,4 @@
-#include "dataset/coco/records.h"
+#include "dataset/coco/coco.h"
 
 #include <doctest/doctest.h>
 
@@ -31,8 +31,12 @@ TEST_SUITE("dataset") {
         layout.folder = folder.path;
         layout.poses = pings;
         layout.sensors.push_back(
-            {.name = "sss", .pings = pings, .per_ping = {record}, .products = {"waterfall.png"}});
+            {.name = "sss", .pings = pings, .per_ping = {record}, .products = {"rows.png"}});
         nlohmann::ordered_json description = {{"mission", "m"}, {"program_version", "1"}};
+        description["sensors"] = {
+            {{"name", "sss"},
+             {"pictures",
+              {{{"file", "sss/view.png"}, {"per", "sensor"}, {"boxes_of", "sss/rows.png"}}}}}};
         description["labels"]["classes"] = {{{"id", 1}, {"name", "mine"}}};
         for (int k = 0; k < 7; ++k)
             description["labels"]["instances"].push_back({{"class", 1}});
@@ -42,6 +46,7 @@ TEST_SUITE("dataset") {
         const auto coco =
             nlohmann::json::parse(read_file(folder.path / "coco.json", std::size_t{1} << 20));
         REQUIRE(coco["images"].size() == 1);
+        CHECK(coco["images"][0]["file_name"] == "sss/rows.png");
         CHECK(coco["images"][0]["width"] == bins);
         CHECK(coco["images"][0]["height"] == 50'001);
         REQUIRE(coco["annotations"].size() == 2);

@@ -1,9 +1,10 @@
-#include "gallery/picture_boxes.h"
+#include "gallery/boxes.h"
 
+#include <algorithm>
 #include <cstdint>
-#include <vector>
 
 #include "core/file.h"
+#include "dataset/shared_products.h"
 #include "gallery/foreign_json.h"
 
 namespace sonarsim {
@@ -40,11 +41,34 @@ void add_boxes_of_file(const fs::path& coco, const std::vector<std::string>& tex
 
 }  // namespace
 
+std::string object_text(const std::string& name, const std::string& class_name) {
+    return name == class_name ? name : name + " (" + class_name + ")";
+}
+
+std::vector<std::string> object_texts(const Json& description) {
+    std::vector<std::string> texts;
+    if (!description.contains("labels")) return texts;
+    const Json& labels = description["labels"];
+    for (const Json& instance : labels.at("instances")) {
+        const auto class_id = instance.at("class").get<std::size_t>();
+        texts.push_back(
+            object_text(instance.at("name"), labels.at("classes").at(class_id - 1).at("name")));
+    }
+    return texts;
+}
+
+std::size_t BoxLabels::index_of(const std::string& text) {
+    const auto found = std::ranges::find(texts, text);
+    if (found != texts.end()) return static_cast<std::size_t>(found - texts.begin());
+    texts.push_back(text);
+    return texts.size() - 1;
+}
+
 PictureBoxes picture_boxes(const fs::path& folder, const Json& description, BoxLabels& labels) {
     const std::vector<std::string> texts = object_texts(description);
     PictureBoxes boxes;
-    for (const char* name : {"labels/coco_records.json", "labels/coco_scans.json"})
-        add_boxes_of_file(folder / name, texts, labels, boxes);
+    for (const CocoPicture picture : {CocoPicture::record, CocoPicture::scan})
+        add_boxes_of_file(folder / coco_file(picture), texts, labels, boxes);
     return boxes;
 }
 

@@ -1,0 +1,8 @@
+#pragma once
+
+namespace sonarsim {
+
+/// The method that finds the visible surface; `automatic` chooses one.
+enum class EngineKind { automatic, rays, octree, slices };
+
+}  // namespace sonarsim

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <string_view>
+#include <vector>
+
+#include "mission/mission.h"
+#include "ping/sonar.h"
+#include "product/strip.h"
+
+namespace sonarsim {
+
+/// The pictures that are made of the records of all pings.
+enum class RecordPictures {
+    none,
+    strip,   ///< one, a row or a column per ping
+    sweeps,  ///< one for each sweep of a turning head, round
+};
+
+/// The record of a kind of sonar: what a ping becomes in NAME.npy, which holds all pings of a
+/// sensor. It is a selection of the ping's bins, or, without pictures, whatever its writer makes.
+struct RecordShape {
+    std::string_view name;                 ///< name of the file; "": the kind has no record
+    bool OutputConfig::*wanted = nullptr;  ///< the mission's key that asks for it
+    std::string_view axis = "range";       ///< the meaning of a ping's values, for dataset.json
+    bool upright = false;                  ///< pings are columns: [range, ping]
+    RecordPictures pictures = RecordPictures::none;
+    StripStyle style = {};  ///< for a strip
+    /// The bin of the ping's image [range, beam] that each value shows; -1: none. Null: a record
+    /// has the bins of the sonar's one beam.
+    std::vector<std::int32_t> (*bins)(const SonarConfig& config) = nullptr;
+    /// Adds what a reader needs to know of the values to the sensor's block in dataset.json.
+    void (*describe)(const Sonar& sonar, nlohmann::ordered_json& sensor) = nullptr;
+    /// The record has two sides, port and starboard of the track: XTF and mosaics are made of it.
+    bool two_sides = false;
+
+    bool is_written(const OutputConfig& output) const { return wanted && output.*wanted; }
+    /// The number of values of a ping.
+    std::size_t values(const SonarConfig& config) const;
+};
+
+/// The values of a ping's image [range bins, beams] as its record; `blank` where it shows no bin.
+template <class T>
+std::vector<T> record_values(const RecordShape& shape, const SonarConfig& config,
+                             const std::vector<T>& image, T blank) {
+    if (!shape.bins) return image;
+    std::vector<T> values;
+    for (const std::int32_t bin : shape.bins(config))
+        values.push_back(bin < 0 ? blank : image[static_cast<std::size_t>(bin)]);
+    return values;
+}
+
+}  // namespace sonarsim

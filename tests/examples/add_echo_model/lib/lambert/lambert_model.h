@@ -1,0 +1,19 @@
+#pragma once
+
+#include "trace/echo_model.h"
+
+namespace sonarsim {
+
+/// Energies by Lambert's law, without noise: a patch of visible surface adds R cos^2(incidence)
+/// area / range^4 to the bin of its centre. Multipath is left out.
+struct LambertModel final : EchoModel {
+    void form(const TracedPing& traced, const FormContext& context, Ping& ping) const override;
+    std::span<const std::string_view> random_terms() const override { return {}; }
+    bool energies_add() const override { return true; }
+    SignalAndNoise signal_and_noise(float clean, float /*noisy*/, int /*range_bin*/,
+                                    int /*beam*/) const override {
+        return {clean, 0.0};
+    }
+};
+
+}  // namespace sonarsim

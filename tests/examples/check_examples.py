@@ -1,0 +1,73 @@
+"""Checks the examples of docs/add_*.md: what one adds to lib, and how few files it touches.
+
+    python3 tests/examples/check_examples.py <root of the repository> <compiler> <include folders>
+
+An example is a folder with the files that it adds to lib and wiring.patch, the lines that it changes
+in lib. Its new and changed sources must compile, over the rest of lib. The tests of
+examples_test.cpp run what is new.
+"""
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+
+# The example, the most files that it may touch in lib, and the folder of its own that is not counted.
+EXAMPLES = (("add_sonar", 6, None), ("add_stage", 5, None), ("add_echo_model", 4, "lambert"))
+
+
+def run(*command, cwd=None):
+    done = subprocess.run([str(word) for word in command], cwd=cwd, capture_output=True, text=True,
+                          check=False)
+    assert done.returncode == 0, f"{' '.join(map(str, command))}\n{done.stdout}{done.stderr}"
+    return done.stdout
+
+
+def patched_files(patch):
+    return [line.split()[1].removeprefix("b/") for line in patch.read_text().splitlines()
+            if line.startswith("+++ ")]
+
+
+def overlay_of(root, example, folder):
+    """The files of lib that an example adds or changes, in `folder`; by their paths."""
+    patch = example / "wiring.patch"
+    changed = patched_files(patch)
+    for name in changed:
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(root / name, folder / name)
+    run("git", "apply", patch, cwd=folder)
+    added = [path.relative_to(example).as_posix() for path in (example / "lib").rglob("*")
+             if path.is_file()]
+    for name in added:
+        assert not (root / name).exists(), f"{example.name} adds {name}, which lib has"
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(example / name, folder / name)
+    return sorted(changed + added)
+
+
+def check(root, name, most, own, compiler, includes):
+    with tempfile.TemporaryDirectory() as temporary:
+        folder = pathlib.Path(temporary)
+        files = overlay_of(root, root / "tests/examples" / name, folder)
+        counted = [file for file in files if not file.startswith(f"lib/{own}/")]
+        print(f"{name}: {len(counted)} files in lib, at most {most}:", *files)
+        assert len(counted) <= most, f"{name} touches {len(counted)} files, more than {most}"
+        flags = [f"-I{folder}/lib", f"-I{root}/lib", *(f"-idirafter{path}" for path in includes)]
+        headers = folder / "headers.cpp"
+        headers.write_text("".join(f'#include "{file.removeprefix("lib/")}"\n' for file in files
+                                   if file.endswith(".h")))
+        for source in [headers, *(folder / file for file in files if file.endswith(".cpp"))]:
+            run(compiler, "-std=gnu++20", "-march=x86-64-v3", "-fsyntax-only", "-Wall", "-Wextra",
+                "-Werror", *flags, source)
+
+
+def main(root, compiler, includes):
+    for name, most, own in EXAMPLES:
+        check(root, name, most, own, compiler, includes)
+
+
+if __name__ == "__main__":
+    if shutil.which("git") is None:
+        print("git is not here, which applies the patches")
+        sys.exit(77)
+    main(pathlib.Path(sys.argv[1]), sys.argv[2], [path for path in sys.argv[3].split(":") if path])

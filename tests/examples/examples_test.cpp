@@ -1,0 +1,93 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/units.h"
+#include "lambert/lambert_model.h"
+#include "paper/dropouts.h"
+#include "sonar/kinds.h"
+#include "sonar/sonar.h"
+#include "support/scenes.h"
+#include "visibility/rays/rays_engine.h"
+
+// Runs the files that the examples of docs/add_*.md add. check_examples.py compiles them together
+// with the lines that the examples change in lib.
+
+namespace sonarsim {
+KindOfSonar obstacle_kind();
+}
+
+using namespace sonarsim;
+using namespace sonarsim::test;
+
+TEST_SUITE_BEGIN("examples");
+
+TEST_CASE("example of a sonar: its record shows a wall ahead at its range") {
+    Scene scene = empty_scene();
+    add_box(scene, {7.03F, -50.0F, -50.0F}, {8.0F, 50.0F, 50.0F}, add_material(scene, 0.6F));
+    const auto engine = make_rays_engine(scene);
+    const KindOfSonar kind = obstacle_kind();
+    SonarConfig config = kind.keys.defaults;
+    config.name = "ahead";
+    const Sonar sonar = make_sonar(kind, config, {});
+    const Ping ping = render_ping(sonar, scene, *engine, {}, {});
+    const std::vector<float> row = record_values(kind.record, config, ping.intensity, 0.0F);
+    REQUIRE(row.size() == kind.record.values(config));
+    // Surface begins at 7.03 m and ends where the cone of half-angle 7.5 degrees does.
+    const auto lit = [](float value) { return value > 0.0F; };
+    const auto first = std::ranges::find_if(row, lit) - row.begin();
+    const auto count = std::ranges::count_if(row, lit);
+    const auto bin_of = [&](double range) {
+        return static_cast<int>((range - config.range_min_m) / sonar.settings.view.bin_m());
+    };
+    CHECK(first == bin_of(7.03));
+    CHECK(first + count - 1 == bin_of(7.03 / std::cos(radians(7.5))));
+    // The picture shows the brightest bin white.
+    const StripFrame frame = kind.record.style.frame(config, 1);
+    std::vector<Rgb> pixels(frame.width);
+    kind.record.style.row(row, *std::ranges::max_element(row), frame, pixels);
+    CHECK(pixels[std::ranges::max_element(row) - row.begin()] == Rgb{255, 255, 255});
+    CHECK(pixels[0] == Rgb{0, 0, 0});
+}
+
+TEST_CASE("example of a stage: it loses a share of the beams, each by a draw of its own") {
+    constexpr int beams = 512;
+    constexpr int range_bins = 3;
+    constexpr double share = 0.1;
+    constexpr int pings = 40;
+    int lost = 0;
+    for (std::uint32_t ping = 0; ping < pings; ++ping) {
+        const PhiloxKey key = stream_key(7, 1, ping, stream_named("dropouts"));
+        std::vector<float> image(static_cast<std::size_t>(range_bins) * beams, 1.0F);
+        const int own = drop_beams(image, beams, {static_cast<float>(share)}, key);
+        CHECK(std::ranges::count(image, 0.0F) == range_bins * own);
+        lost += own;
+    }
+    // The number of lost beams is binomial; 5 deviations are left in one of two million seeds.
+    const double mean = pings * beams * share;
+    CHECK(std::fabs(lost - mean) < 5.0 * std::sqrt(mean * (1.0 - share)));
+}
+
+TEST_CASE("example of an echo model: the energy of a floor under a cone") {
+    // With dA = r^2 dOmega / cos and r = H / cos, the sum of R cos^2 dA / r^4 over a cone of
+    // half-angle a is R / H^2 times the integral of cos^3 dOmega, R / H^2 (pi / 2) (1 - cos^4 a).
+    constexpr double H = 4.0;
+    constexpr double R = 0.6;
+    Scene scene = empty_scene();
+    add_floor(scene, 100.0F, 0.0F, add_material(scene, static_cast<float>(R)));
+    const auto engine = make_rays_engine(scene);
+    SonarConfig config = default_sonar(SonarKind::echosounder);
+    config.name = "sounder";
+    Sonar sonar = make_sonar(config, {0.005});
+    sonar.settings.model = std::make_shared<LambertModel>();
+    const Ping ping =
+        render_ping(sonar, scene, *engine, {Eigen::Quaterniond::Identity(), {0, 0, H}}, {});
+    const double energy = std::accumulate(ping.intensity.begin(), ping.intensity.end(), 0.0);
+    const double cosine = std::cos(radians(15.0));
+    CHECK(energy ==
+          doctest::Approx(R / (H * H) * 0.5 * pi * (1.0 - std::pow(cosine, 4))).epsilon(0.01));
+}
+
+TEST_SUITE_END();
