@@ -5,10 +5,13 @@
 namespace sonarsim {
 
 std::shared_ptr<const VisibilityEngine> engine_at(const VisibilityEngine& engine,
-                                                  std::span<const Trajectory> motions, double t_s) {
-    // This pointer owns nothing.
-    if (motions.empty()) return {std::shared_ptr<const VisibilityEngine>(), &engine};
-    return engine.at(poses_at(motions, t_s));
+                                                  std::span<const Trajectory> motions, double t_s,
+                                                  std::span<const Sight> sights) {
+    if (!motions.empty()) return engine.at(poses_at(motions, t_s));
+    if (!sights.empty()) {
+        if (std::shared_ptr<const VisibilityEngine> ready = engine.prepared(sights)) return ready;
+    }
+    return {std::shared_ptr<const VisibilityEngine>(), &engine};  // owns nothing
 }
 
 }  // namespace sonarsim

@@ -138,8 +138,11 @@ void render(const Mission& mission, const Assembly& assembly, const std::vector<
             const SonarAtPose at_pose(mission, assembly.sonars[id.sensor], id.pose);
             const Sonar& sonar = *at_pose;
             const TimedPose& pose = assembly.trajectory[id.pose];
+            const std::vector<Sight> sights_of_ping =
+                sights(sonar.settings.view, sonar.settings.guard_beams,
+                       sensor_pose(sonar, pose.T_world_vehicle, id.pose));
             const std::shared_ptr<const VisibilityEngine> now =
-                engine_at(*engine, assembly.motions, pose.t_s);
+                engine_at(*engine, assembly.motions, pose.t_s, sights_of_ping);
             const TracedPing traced =
                 trace(sonar, assembly.scene, *now, pose.T_world_vehicle, id.pose);
             const Ping ping =

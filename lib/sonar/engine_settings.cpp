@@ -1,5 +1,7 @@
 #include "sonar/engine_settings.h"
 
+#include <algorithm>
+
 namespace sonarsim {
 
 EngineSettings engine_settings(EngineKind kind, const OctreeConfig& octree,
@@ -12,7 +14,9 @@ EngineSettings engine_settings(EngineKind kind, const OctreeConfig& octree,
 }
 
 EngineSettings engine_settings(const Mission& mission) {
-    return engine_settings(mission.engine, mission.octree, mission.slices);
+    EngineSettings settings = engine_settings(mission.engine, mission.octree, mission.slices);
+    settings.coverage = std::ranges::count(mission.output.labels, Label::shadow) > 0;
+    return settings;
 }
 
 }  // namespace sonarsim

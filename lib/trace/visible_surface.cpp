@@ -12,17 +12,24 @@ namespace sonarsim {
 
 namespace {
 
-/// Adds the surface that the engine sees in the guard beams on one side of the view. They are wider
-/// than the beams of the view, and their middle is `middle_rad` off the boresight.
-void add_guard_side(const View& view, const GuardBeams& guard_beams, double middle_rad,
-                    const VisibilityEngine& engine, const Pose& T_world_sensor,
-                    VisibleSurface& out) {
+/// The guard beams on one side of the view, where they are wider than its beams.
+View guard_view(const View& view, const GuardBeams& guard_beams) {
     View side = view;
     side.beams = guard_beams.count;
     side.azimuth_rad = guard_beams.count * guard_beams.beam_rad;
-    const Pose T_sensor_side{rotation_from_rpy(0.0, 0.0, middle_rad), Eigen::Vector3d::Zero()};
+    return side;
+}
+
+/// The pose of that view in the sensor's frame; `side` is -1 for starboard, 1 for port.
+Pose guard_side(const View& view, const GuardBeams& guard_beams, double side) {
+    const double middle = 0.5 * (view.azimuth_rad + guard_beams.count * guard_beams.beam_rad);
+    return {rotation_from_rpy(0.0, 0.0, side * middle), Eigen::Vector3d::Zero()};
+}
+
+/// Adds the surface that the engine sees in the guard beams on one side of the view.
+void add_guard_side(const View& view, const Samples& seen, const Pose& T_sensor_side,
+                    VisibleSurface& out) {
     const Eigen::Matrix3f R = T_sensor_side.rotation.toRotationMatrix().cast<float>();
-    const Samples seen = engine.visible_surface(side, T_world_sensor * T_sensor_side);
     for (Sample sample : seen.items) {
         sample.position = R * sample.position;
         if (!is_reached(view, sample.position)) continue;
@@ -32,7 +39,7 @@ void add_guard_side(const View& view, const GuardBeams& guard_beams, double midd
         out.outside_sector.push_back(sample);
     }
     out.samples.dropped += seen.dropped;
-    // Of NaN and a number, fmax gives the number.
+    // fmax of NaN and a number is the number.
     out.samples.estimated_l1 = std::fmax(out.samples.estimated_l1, seen.estimated_l1);
 }
 
@@ -53,18 +60,30 @@ bool is_reached(const View& view, const Eigen::Vector3f& position) {
     return std::fabs(position.y()) <= widest * arrival_range(position);
 }
 
+std::vector<Sight> sights(const View& view, const GuardBeams& guard_beams,
+                          const Pose& T_world_sensor) {
+    if (!(guard_beams.beam_rad > 0.0)) return {{widened_view(view, guard_beams), T_world_sensor}};
+    std::vector<Sight> all{{view, T_world_sensor}};
+    for (const double side : {-1.0, 1.0})
+        all.push_back(
+            {guard_view(view, guard_beams), T_world_sensor * guard_side(view, guard_beams, side)});
+    return all;
+}
+
 VisibleSurface visible_surface(const View& view, const GuardBeams& guard_beams,
                                const VisibilityEngine& engine, const Pose& T_world_sensor) {
+    const std::vector<Sight> asked = sights(view, guard_beams, T_world_sensor);
+    const auto see = [&](const Sight& sight) {
+        return engine.visible_surface(sight.view, sight.T_world_sensor);
+    };
     VisibleSurface out;
-    if (guard_beams.beam_rad > 0.0) {
-        out.samples = engine.visible_surface(view, T_world_sensor);
-        const double middle = 0.5 * (view.azimuth_rad + guard_beams.count * guard_beams.beam_rad);
-        add_guard_side(view, guard_beams, -middle, engine, T_world_sensor, out);
-        add_guard_side(view, guard_beams, middle, engine, T_world_sensor, out);
+    out.samples = see(asked[0]);
+    if (asked.size() > 1) {
+        add_guard_side(view, see(asked[1]), guard_side(view, guard_beams, -1.0), out);
+        add_guard_side(view, see(asked[2]), guard_side(view, guard_beams, 1.0), out);
         return out;
     }
     const int guards = guard_beams.count;
-    out.samples = engine.visible_surface(widened_view(view, guard_beams), T_world_sensor);
     if (guards == 0) return out;
     std::vector<Sample>& items = out.samples.items;
     std::vector<std::uint32_t>& begins = out.samples.beam_begin;

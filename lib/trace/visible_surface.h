@@ -23,7 +23,12 @@ struct GuardBeams {
 /// The view in which surface is traced: the sonar's view with guard beams on either side.
 View widened_view(const View& view, const GuardBeams& guard_beams);
 
-/// Whether the cones of a fan's beams reach a point in its guard beams: its y / r is no more than
+/// The views that visible_surface() asks the engine for: VisibilityEngine::prepared() makes them
+/// ready.
+std::vector<Sight> sights(const View& view, const GuardBeams& guard_beams,
+                          const Pose& T_world_sensor);
+
+/// True if the cones of a fan's beams reach a point in its guard beams: its y / r is no more than
 /// that of the view's borders on the horizontal plane. `position` is in the sensor frame, m.
 bool is_reached(const View& view, const Eigen::Vector3f& position);
 

@@ -180,7 +180,8 @@ class FanCoverage {
         }
     }
 
-    /// Ranges at which a triangle meets the half plane of an azimuth, within the limits of elevation.
+    /// Ranges at which a triangle meets the half plane of an azimuth, within the limits of
+    /// elevation.
     RangeInterval on_border(const Corners& corners, const SinCosFloat& azimuth) const {
         std::array<Eigen::Vector2f, 2> end;  // along the ground, up
         int ends = 0;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -16,5 +17,25 @@ namespace sonarsim {
 std::vector<std::uint8_t> covered_bins(const TriangleRuns& surface, const View& view,
                                        const Pose& T_world_sensor,
                                        std::span<const Pose> T_world_body = {});
+
+/// Coverage of one scene, as an engine holds it. `ready`: the runs of triangles are made at once,
+/// for all pings; otherwise every call makes them, and a scene of a million triangles takes 10 ms.
+class SceneCoverage {
+  public:
+    /// `scene` must outlive it.
+    SceneCoverage(const Scene& scene, bool ready)
+        : scene_(&scene), runs_(ready ? std::make_shared<const TriangleRuns>(scene) : nullptr) {}
+
+    /// See covered_bins() above.
+    std::vector<std::uint8_t> bins(const View& view, const Pose& T_world_sensor,
+                                   std::span<const Pose> T_world_body = {}) const {
+        return covered_bins(runs_ ? *runs_ : TriangleRuns(*scene_), view, T_world_sensor,
+                            T_world_body);
+    }
+
+  private:
+    const Scene* scene_;
+    std::shared_ptr<const TriangleRuns> runs_;
+};
 
 }  // namespace sonarsim

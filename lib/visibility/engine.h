@@ -57,6 +57,12 @@ struct Intersection {
     std::uint32_t instance;  ///< index into Scene::instances
 };
 
+/// A view from a pose.
+struct Sight {
+    View view;
+    Pose T_world_sensor;
+};
+
 /// Finds the surface of a scene that a sonar insonifies. Engines are immutable to their callers:
 /// any number of threads may call them at once, and a result depends only on the arguments.
 class VisibilityEngine {
@@ -77,6 +83,13 @@ class VisibilityEngine {
     /// with bodies; `unsupported` names the engines that cannot trace bodies.
     virtual std::unique_ptr<VisibilityEngine> at(std::span<const Pose> /*T_world_body*/) const {
         throw std::logic_error("this engine does not know of bodies that move");
+    }
+
+    /// The engine with everything ready that visible_surface() needs for these sights, so that
+    /// these calls take no locks. It must not outlive this engine. Null if there is nothing to make
+    /// ready.
+    virtual std::unique_ptr<VisibilityEngine> prepared(std::span<const Sight> /*sights*/) const {
+        return nullptr;
     }
 
     /// Warnings about the results so far: sentences that name the keys to change.

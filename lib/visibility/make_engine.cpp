@@ -24,15 +24,15 @@ constexpr double least_error_in_cones = 0.01;
 std::unique_ptr<VisibilityEngine> make_engine(const Scene& scene, const EngineSettings& settings) {
     switch (settings.type) {
         case EngineKind::octree:
-            return make_octree_engine(scene, settings.octree);
+            return make_octree_engine(scene, settings.octree, settings.coverage);
         case EngineKind::slices:
-            return make_slices_engine(scene, settings.slices);
+            return make_slices_engine(scene, settings.slices, settings.coverage);
         case EngineKind::automatic:
-            return make_auto_engine(scene, settings.slices, settings.probes);
+            return make_auto_engine(scene, settings.slices, settings.probes, settings.coverage);
         case EngineKind::rays:
             break;
     }
-    return make_rays_engine(scene);
+    return make_rays_engine(scene, settings.coverage);
 }
 
 std::string unsupported(const EngineSettings& settings, const Scene& scene) {

@@ -19,6 +19,8 @@ struct EngineSettings {
     SlicesOptions slices = {};  ///< for the slices only
     /// For `automatic` only; it takes the slices if there are none.
     std::vector<Probe> probes = {};
+    bool coverage =
+        false;  ///< covered_bins() will be called: what it needs is made with the engine
 };
 
 /// Makes the engine over a scene, which must outlive it. Throws InputError when octree.leaf_m is

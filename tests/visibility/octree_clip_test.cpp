@@ -1,6 +1,6 @@
 #include <doctest/doctest.h>
 
-#include "visibility/octree/clip.h"
+#include "visibility/octree/leaf.h"
 
 using namespace sonarsim;
 

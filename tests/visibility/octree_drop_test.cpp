@@ -161,7 +161,7 @@ TEST_CASE("octree leaf: a triangle is not too small for its cube, a touch of one
     const auto material = test::add_material(scene, 0.5F);
     const auto count = [&](const Cube& cube) {
         const Caster caster(scene);
-        FacetArrays facets;
+        std::vector<LeafFacet> facets;
         return LeafMaker(scene, caster).append(cube, std::vector<std::uint32_t>{0}, facets);
     };
     // 1 um by 1 um in a cube of 10 m: 5e-15 of its section, but the only surface there is.

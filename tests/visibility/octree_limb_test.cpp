@@ -6,8 +6,8 @@
 #include "support/sanitized.h"
 #include "support/scenes.h"
 #include "support/sonars.h"
+#include "visibility/octree/leaf_samples.h"
 #include "visibility/octree/octree_engine.h"
-#include "visibility/octree/sight_lines.h"
 
 using namespace sonarsim;
 

@@ -94,11 +94,11 @@ TEST_CASE("octree leaf: the section of a cube by a plane along it is that square
     Scene scene = test::empty_scene();
     test::add_floor(scene, 10.0F, 0.25F, test::add_material(scene, 0.5F));
     const Caster caster(scene);
-    FacetArrays facets;
+    std::vector<LeafFacet> facets;
     const int count =
         LeafMaker(scene, caster).append({{1, 2, 0}, 0.5}, all_triangles(scene), facets);
     REQUIRE(count == 1);
-    const LeafFacet facet = facets.at(0);
+    const LeafFacet facet = facets[0];
     CHECK((facet.centre - Eigen::Vector3f(1.25F, 2.25F, 0.25F)).norm() < 1e-6F);
     CHECK(std::fabs(facet.normal.z()) == doctest::Approx(1.0));
     CHECK(facet.area_m2 == doctest::Approx(0.25));
@@ -113,11 +113,11 @@ TEST_CASE("octree leaf: on a sphere, normals are radial and centroids lie just i
     test::add_sphere(scene, {0, 0, 0}, 1.0F, test::add_material(scene, 0.5F));
     const Caster caster(scene);
     const LeafMaker maker(scene, caster);
-    FacetArrays facets;
+    std::vector<LeafFacet> facets;
     // A cube of 0.1 m about the point (0.6, 0, 0.8) of the sphere.
     const int count = maker.append({{0.55, -0.05, 0.75}, 0.1}, all_triangles(scene), facets);
     REQUIRE(count == 1);
-    const LeafFacet facet = facets.at(0);
+    const LeafFacet facet = facets[0];
     CHECK(facet.normal.cross(facet.centre.normalized()).norm() < 5e-3F);
     // The mean distance of a cap of angular radius a lies a^2 / 4 below the radius; a ~ 0.07.
     CHECK(facet.centre.norm() < 1.0F);
@@ -134,16 +134,16 @@ TEST_CASE("octree leaf: a thin plate keeps both faces, and the larger material c
                    steel);
     test::add_quad(scene, {-1, 0.3F, 0}, {0.2F, 0.3F, 0}, {0.2F, 0.3F, 1}, {-1, 0.3F, 1}, wood);
     const Caster caster(scene);
-    FacetArrays facets;
+    std::vector<LeafFacet> facets;
     REQUIRE(LeafMaker(scene, caster).append({{0, 0, -0.25}, 0.5}, all_triangles(scene), facets) ==
             3);
-    CHECK(facets.at(0).normal.dot(facets.at(1).normal) == doctest::Approx(-1.0));
-    CHECK(facets.at(0).area_m2 == doctest::Approx(0.25));
-    CHECK(facets.at(1).area_m2 == doctest::Approx(0.25));
+    CHECK(facets[0].normal.dot(facets[1].normal) == doctest::Approx(-1.0));
+    CHECK(facets[0].area_m2 == doctest::Approx(0.25));
+    CHECK(facets[1].area_m2 == doctest::Approx(0.25));
     // 0.2 m by 0.25 m.
-    CHECK(facets.at(2).area_m2 == doctest::Approx(0.05));
-    CHECK(scene.triangle_material[facets.at(0).triangle] == steel);
-    CHECK(scene.triangle_material[facets.at(2).triangle] == wood);
+    CHECK(facets[2].area_m2 == doctest::Approx(0.05));
+    CHECK(scene.triangle_material[facets[0].triangle] == steel);
+    CHECK(scene.triangle_material[facets[2].triangle] == wood);
 }
 
 TEST_CASE("octree: samples face the sonar and stay in their beam") {
@@ -180,6 +180,33 @@ TEST_CASE("octree: only tiles in view are refined") {
     CHECK(octree->statistics().nodes == once.nodes);
     octree->visible_surface(wide_view(20.0), tank_pose(0));
     CHECK(octree->statistics().nodes > 2 * once.nodes);
+}
+
+TEST_CASE("octree: a ping that is ready changes nothing, and shows the same as any other") {
+    const Scene scene = test::tank();
+    for (const bool literal : {false, true}) {
+        for (const std::size_t memory_mb : {512U, 1U}) {
+            const auto octree = make_octree_engine(scene, {0.02, memory_mb, literal});
+            const Sight sight{tank_view(), tank_pose(2)};
+            const auto ready = octree->prepared(std::span(&sight, 1));
+            REQUIRE(ready);
+            const OctreeStatistics before = octree->statistics();
+            CHECK(before.nodes > 1);
+            const Samples found = ready->visible_surface(sight.view, sight.T_world_sensor);
+            const OctreeStatistics after = octree->statistics();
+            CHECK(after.nodes == before.nodes);
+            CHECK(after.evictions == before.evictions);
+            // Other pings may drop its tiles from the tree meanwhile.
+            for (int k = 0; k < 4; ++k)
+                octree->visible_surface(tank_view(), tank_pose(k));
+            CHECK(same(ready->visible_surface(sight.view, sight.T_world_sensor), found));
+            const auto other = make_octree_engine(scene, {0.02, 512, literal});
+            CHECK(same(other->visible_surface(sight.view, sight.T_world_sensor), found));
+            // Another ping is prepared when it is asked for.
+            CHECK(same(ready->visible_surface(tank_view(), tank_pose(3)),
+                       other->visible_surface(tank_view(), tank_pose(3))));
+        }
+    }
 }
 
 TEST_CASE("octree: the same bytes for any number of threads and any order") {

@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 #include "core/random.h"
 #include "core/text.h"
@@ -32,13 +33,6 @@ std::uint64_t number_of(const Pose& pose) {
     return number;
 }
 
-bool same_view(const View& a, const View& b) {
-    return a.azimuth_rad == b.azimuth_rad && a.elevation_rad == b.elevation_rad &&
-           a.range_min_m == b.range_min_m && a.range_max_m == b.range_max_m &&
-           a.range_bins == b.range_bins && a.beams == b.beams && a.relative_l1 == b.relative_l1 &&
-           a.shape == b.shape;
-}
-
 std::string percent_text(double x) {
     return number_text(std::ceil(1e3 * x) / 10.0) + " %";
 }
@@ -57,50 +51,38 @@ std::string name_of_view(const View& view) {
 
 }  // namespace
 
-const GoalCheck::OfView* GoalCheck::find(const View& view) const {
-    const auto found = std::find_if(views_.begin(), views_.end(),
-                                    [&](const OfView& one) { return same_view(one.view, view); });
-    return found == views_.end() ? nullptr : &*found;
-}
-
-bool GoalCheck::wants(const View& view, const Pose& T_world_sensor) const {
+std::shared_ptr<double> GoalCheck::place_for(const View& view, const Pose& T_world_sensor) {
+    auto known = std::ranges::find(views_, view, &OfView::view);
+    if (known == views_.end()) known = views_.insert(known, {view, {}});
+    auto& errors = known->errors;
     const std::uint64_t number = number_of(T_world_sensor);
-    const std::scoped_lock held(lock_);
-    const OfView* const of_view = find(view);
-    if (!of_view) return true;
-    const auto& errors = of_view->errors;
-    if (errors.contains(number)) return false;
-    return errors.size() < checked_pings || number < errors.rbegin()->first;
-}
-
-void GoalCheck::add(const View& view, const Pose& T_world_sensor, double error) {
-    const std::uint64_t number = number_of(T_world_sensor);
-    const std::scoped_lock held(lock_);
-    const OfView* const known = find(view);
-    const std::ptrdiff_t at = known ? known - views_.data() : std::ssize(views_);
-    if (!known) views_.push_back({view, {}});
-    auto& errors = views_[at].errors;
-    errors.emplace(number, error);
-    if (errors.size() > checked_pings) errors.erase(std::prev(errors.end()));
+    if (errors.contains(number)) return nullptr;
+    if (errors.size() == checked_pings) {
+        if (number > errors.rbegin()->first) return nullptr;
+        errors.erase(std::prev(errors.end()));
+    }
+    return errors[number] = std::make_shared<double>(std::numeric_limits<double>::quiet_NaN());
 }
 
 std::vector<std::string> GoalCheck::warnings(double fixed_leaf_m) const {
     std::vector<std::string> all;
-    const std::scoped_lock held(lock_);
     for (const auto& [view, errors] : views_) {
         double sum = 0.0;
         double worst = 0.0;
         int above = 0;
+        int known = 0;
         for (const auto& [number, error] : errors) {
-            sum += error;
-            worst = std::max(worst, error);
-            above += error > view.relative_l1;
+            if (std::isnan(*error)) continue;
+            ++known;
+            sum += *error;
+            worst = std::max(worst, *error);
+            above += *error > view.relative_l1;
         }
         if (worst <= view.relative_l1) continue;
-        const double mean = sum / static_cast<double>(errors.size());
+        const double mean = sum / known;
         all.push_back(
             "engine: octree misses accuracy.relative_l1 (" + percent_text(view.relative_l1) +
-            ") in " + std::to_string(above) + " of the " + std::to_string(errors.size()) +
+            ") in " + std::to_string(above) + " of the " + std::to_string(known) +
             " pings that were checked in views of " + name_of_view(view) + ": off by about " +
             percent_text(mean) + " on average and " + percent_text(worst) + " at worst; " +
             (fixed_leaf_m > 0.0

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 #include <map>
-#include <mutex>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -12,15 +12,11 @@
 namespace sonarsim {
 
 /// Selects pings for an estimate of their error, and stores the estimates. Each view has a few such
-/// pings, chosen only by their poses: they do not depend on the order in which pings are rendered,
-/// nor on threads.
+/// pings, chosen only by their poses: they do not depend on the order in which pings are prepared.
 class GoalCheck {
   public:
-    /// True if the error of this ping should be estimated.
-    bool wants(const View& view, const Pose& T_world_sensor) const;
-
-    /// Stores the estimated relative L1 of a ping.
-    void add(const View& view, const Pose& T_world_sensor, double error);
+    /// The place to store the estimated relative L1 of this ping; null if it needs no estimate.
+    std::shared_ptr<double> place_for(const View& view, const Pose& T_world_sensor);
 
     /// One warning for every view with an estimate above its goal. `fixed_leaf_m` is octree.leaf_m,
     /// 0 if the leaf size follows the goal.
@@ -29,13 +25,10 @@ class GoalCheck {
   private:
     struct OfView {
         View view;
-        /// The entries with the least hashes of their poses.
-        std::map<std::uint64_t, double> errors;
+        /// The entries with the least hashes of their poses; NaN until the ping has stored one.
+        std::map<std::uint64_t, std::shared_ptr<double>> errors;
     };
 
-    const OfView* find(const View& view) const;
-
-    mutable std::mutex lock_;
     std::vector<OfView> views_;
 };
 

@@ -12,6 +12,24 @@ namespace {
 constexpr int most_facets = 6;
 constexpr double same_direction = 0.85;  // cosine
 
+/// Keeps the part of a polygon with x[axis] >= bound, or the part with x[axis] < bound.
+void cut(const Polygon& from, int axis, double bound, bool keep_above, Polygon& to) {
+    to.corners = 0;
+    for (int i = 0; i < from.corners; ++i) {
+        const Eigen::Vector3d& a = from.corner[i];
+        const Eigen::Vector3d& b = from.corner[i + 1 < from.corners ? i + 1 : 0];
+        const bool a_in = (a[axis] >= bound) == keep_above;
+        const bool b_in = (b[axis] >= bound) == keep_above;
+        if (a_in) to.corner[to.corners++] = a;
+        if (a_in != b_in) {
+            const double t = (bound - a[axis]) / (b[axis] - a[axis]);
+            to.corner[to.corners] = a + t * (b - a);
+            to.corner[to.corners++][axis] = bound;
+        }
+    }
+    if (to.corners < 3) to.corners = 0;
+}
+
 /// True if the part of a triangle in a cube is real surface, false if it is rounding where the
 /// triangle touches the cube: then its area is tiny compared to the triangle. All area of a
 /// triangle without area is rounding.
@@ -116,33 +134,53 @@ LeafFacet facet_of(const Group& group, const Eigen::Vector3d& relative_to) {
 
 }  // namespace
 
-void FacetArrays::push_back(const LeafFacet& facet) {
-    int k = 0;
-    for (const Eigen::Vector3f* v : {&facet.centre, &facet.normal, &facet.edge_u, &facet.edge_v}) {
-        for (int axis = 0; axis < 3; ++axis)
-            values[k++].push_back((*v)[axis]);
+bool overlaps(const Triangle& triangle, const Cube& cube) {
+    for (int axis = 0; axis < 3; ++axis) {
+        const double low = std::min({triangle[0][axis], triangle[1][axis], triangle[2][axis]});
+        const double high = std::max({triangle[0][axis], triangle[1][axis], triangle[2][axis]});
+        if (high < cube.min[axis] || low >= cube.min[axis] + cube.edge) return false;
     }
-    values[k++].push_back(facet.area_m2);
-    values[k].push_back(facet.thickness_m);
-    triangle.push_back(facet.triangle);
+    return true;
 }
 
-LeafFacet FacetArrays::at(std::uint32_t i) const {
-    const auto vector = [&](int k) {
-        return Eigen::Vector3f(values[k][i], values[k + 1][i], values[k + 2][i]);
-    };
-    return {vector(centre),  vector(normal),       vector(edge_u), vector(edge_v),
-            values[area][i], values[thickness][i], triangle[i]};
+Polygon clip(const Triangle& triangle, const Cube& cube) {
+    Polygon polygon;
+    for (int i = 0; i < 3; ++i)
+        polygon.corner[i] = triangle[i];
+    polygon.corners = 3;
+    Polygon next;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double low = cube.min[axis];
+        const double high = low + cube.edge;
+        const double least = std::min({triangle[0][axis], triangle[1][axis], triangle[2][axis]});
+        const double most = std::max({triangle[0][axis], triangle[1][axis], triangle[2][axis]});
+        if (least < low) {
+            cut(polygon, axis, low, true, next);
+            std::swap(polygon, next);
+        }
+        if (most >= high) {
+            cut(polygon, axis, high, false, next);
+            std::swap(polygon, next);
+        }
+    }
+    return polygon;
 }
 
-void FacetArrays::shrink_to_fit() {
-    for (std::vector<float>& v : values)
-        v.shrink_to_fit();
-    triangle.shrink_to_fit();
-}
-
-std::size_t FacetArrays::bytes() const {
-    return triangle.capacity() * (values.size() * sizeof(float) + sizeof(std::uint32_t));
+Moments moments(const Polygon& polygon, const Eigen::Vector3d& relative_to) {
+    Moments sum;
+    if (polygon.corners < 3) return sum;
+    const Eigen::Vector3d a = polygon.corner[0] - relative_to;
+    for (int i = 1; i + 1 < polygon.corners; ++i) {
+        const Eigen::Vector3d b = polygon.corner[i] - relative_to;
+        const Eigen::Vector3d c = polygon.corner[i + 1] - relative_to;
+        const double area = 0.5 * (b - a).cross(c - a).norm();
+        const Eigen::Vector3d s = a + b + c;
+        sum.area += area;
+        sum.first += (area / 3.0) * s;
+        sum.second += (area / 12.0) * (a * a.transpose() + b * b.transpose() + c * c.transpose() +
+                                       s * s.transpose());
+    }
+    return sum;
 }
 
 bool is_flat_rectangle(const LeafFacet& facet) {
@@ -160,7 +198,7 @@ Triangle LeafMaker::triangle(std::uint32_t index) const {
 }
 
 int LeafMaker::append(const Cube& cube, std::span<const std::uint32_t> triangles,
-                      FacetArrays& facets) const {
+                      std::vector<LeafFacet>& facets) const {
     const Eigen::Vector3d centre = cube.min.array() + 0.5 * cube.edge;
     const double sliver = 1e-12 * cube.edge * cube.edge;
     FacetGroups groups;

@@ -7,9 +7,38 @@
 #include <vector>
 
 #include "visibility/caster.h"
-#include "visibility/octree/clip.h"
 
 namespace sonarsim {
+
+/// A half-open cube [min, min + edge), scene-local, m.
+struct Cube {
+    Eigen::Vector3d min;
+    double edge;
+};
+
+using Triangle = std::array<Eigen::Vector3d, 3>;
+
+/// A convex, planar polygon: a triangle after clipping by up to six planes.
+struct Polygon {
+    std::array<Eigen::Vector3d, 9> corner;
+    int corners = 0;
+};
+
+/// False if no part of the triangle's bounding box is in the cube.
+bool overlaps(const Triangle& triangle, const Cube& cube);
+
+/// The part of a triangle inside a cube; no corners if there is none. Surface in a face between two
+/// cubes belongs to the cube above the face.
+Polygon clip(const Triangle& triangle, const Cube& cube);
+
+/// Integrals over surface, relative to a given point.
+struct Moments {
+    double area = 0.0;
+    Eigen::Vector3d first = Eigen::Vector3d::Zero();   ///< integral of p dA
+    Eigen::Matrix3d second = Eigen::Matrix3d::Zero();  ///< integral of p p^T dA
+};
+
+Moments moments(const Polygon& polygon, const Eigen::Vector3d& relative_to);
 
 /// A patch of the surface inside a node's cube: the parallelogram with the same centroid and second
 /// moments. Scene-local, m.
@@ -23,19 +52,8 @@ struct LeafFacet {
     std::uint32_t triangle;  ///< the largest of its triangles, for material and instance
 };
 
-/// Facets as a structure of arrays, so that loops over them vectorise.
-struct FacetArrays {
-    static constexpr int centre = 0, normal = 3, edge_u = 6, edge_v = 9, area = 12, thickness = 13;
-
-    std::array<std::vector<float>, 14> values;  ///< the floats of LeafFacet, in its order
-    std::vector<std::uint32_t> triangle;
-
-    std::uint32_t size() const { return static_cast<std::uint32_t>(triangle.size()); }
-    void push_back(const LeafFacet& facet);
-    LeafFacet at(std::uint32_t index) const;
-    void shrink_to_fit();
-    std::size_t bytes() const;
-};
+/// True if the facet equals its surface: a flat rectangle.
+bool is_flat_rectangle(const LeafFacet& facet);
 
 /// Converts the triangles inside a cube to facets.
 class LeafMaker {
@@ -49,14 +67,11 @@ class LeafMaker {
     /// triangles in it. At most a millionth of a triangle is lost to rounding. Returns the number
     /// of facets appended.
     int append(const Cube& cube, std::span<const std::uint32_t> triangles,
-               FacetArrays& facets) const;
+               std::vector<LeafFacet>& facets) const;
 
   private:
     const Scene* scene_;
     const Caster* caster_;
 };
-
-/// True if the facet equals its surface: a flat rectangle.
-bool is_flat_rectangle(const LeafFacet& facet);
 
 }  // namespace sonarsim

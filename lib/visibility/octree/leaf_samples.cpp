@@ -1,17 +1,38 @@
 #include "visibility/octree/leaf_samples.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/groups.h"
 #include "visibility/octree/depth_buffer.h"
 #include "visibility/octree/projection.h"
-#include "visibility/octree/search.h"
-#include "visibility/octree/sight_lines.h"
 
 namespace sonarsim {
 
 namespace {
+
+/// Along a sight line a surface deviates by its thickness over the cosine of incidence. The cosine
+/// is limited to this, since it falls to zero behind the limb of a sphere.
+constexpr float least_sight_cosine = 0.1F;
+
+/// Positions are floats; their error is some roundings of 6e-8 of the range.
+constexpr float sight_rounding = 1e-6F;
+
+/// True if the plane that a sight line met lies in front of the sample. `towards` is the vector
+/// from the sonar to the sample in local axes.
+bool hides(const Facet& facet, const LocalPose& pose, const Eigen::Vector3f& towards,
+           const Sample& sample, float thickness_m, float rounding_m) {
+    // A sample in that plane belongs to the same surface, even if it is so nearly edge-on that
+    // ranges are meaningless.
+    const float height = facet.normal.dot(pose.position - facet.vertex);
+    const float along = facet.normal.dot(towards);
+    if (std::fabs(height + along) <= thickness_m + rounding_m) return false;
+    const float range_m = sample.position.norm();
+    const float cosine = std::max(sample.height_m / range_m, least_sight_cosine);
+    const float nearer = 1.0F - (thickness_m / cosine + rounding_m) / range_m;
+    return std::fabs(height) < nearer * std::fabs(along);
+}
 
 /// The visible parts of the leaves, in the order of the leaves.
 struct LeafParts {
@@ -34,22 +55,43 @@ Sample sample_of(const ProjectedFacet& facet, const VisiblePart& part, const Sce
     return sample;
 }
 
-LeafParts find_parts(Octree& tree, const Scene& scene, const View& view, const ViewVolume& volume,
-                     const LeafSize& leaf_size) {
+/// Draws a facet, and once for each end if it crosses the half plane behind the sonar, where
+/// azimuths jump.
+void add(const ProjectedFacet& facet, const Outline& outline, const ProjectionGrid& grid,
+         DepthBuffer& depths, std::vector<ProjectedFacet>& facets) {
+    depths.draw(facet, outline);
+    facets.push_back(facet);
+    // So near the axis the facet covers all azimuths, and its ends are meaningless.
+    if (facet.half_beams > 0.5F * grid.beams_per_revolution) return;
+    for (const float turn : {-grid.beams_per_revolution, grid.beams_per_revolution}) {
+        ProjectedFacet other = facet;
+        other.beam += turn;
+        if (other.beam + other.half_beams <= 0.0F ||
+            other.beam - other.half_beams >= static_cast<float>(grid.beams))
+            continue;
+        depths.draw(other, outline);
+        facets.push_back(other);
+    }
+}
+
+LeafParts find_parts(const Octree& tree, const Scene& scene, const PreparedView& prepared) {
+    const View& view = prepared.view;
     const auto middle = static_cast<float>(0.5 * view.range_max_m);
-    const ProjectionGrid grid = projection_grid(view, leaf_size.at(middle) / middle);
+    const ProjectionGrid grid = projection_grid(view, prepared.leaf_size.at(middle) / middle);
     DepthBuffer depths(grid);
     std::vector<ProjectedFacet> facets;
-    std::vector<Outline> outlines;
     LeafParts parts;
-    const auto take = [&](const LeafRun& run) {
-        const std::size_t first = facets.size();
-        outlines.clear();
-        parts.dropped += project(run, volume, grid, facets, outlines);
-        for (std::size_t k = 0; k < outlines.size(); ++k)
-            depths.draw(facets[first + k], outlines[k]);
-    };
-    Search(tree, volume, leaf_size, take).run();
+    tree.visit_leaves(prepared, [&](const Visit&, float edge_m,
+                                    std::span<const LeafFacet> leaf_facets) {
+        for (const LeafFacet& leaf : leaf_facets) {
+            ProjectedFacet facet;
+            Outline outline;
+            const Projection result = project(leaf, edge_m, prepared.volume, grid, facet, outline);
+            parts.dropped += result == Projection::on_axis;
+            if (result != Projection::in_view) continue;
+            add(facet, outline, grid, depths, facets);
+        }
+    });
     if (view.shape == ViewShape::cone) depths.mask_cone(view.azimuth_rad);
 
     parts.samples.reserve(2 * facets.size());
@@ -73,31 +115,44 @@ LeafParts find_parts(Octree& tree, const Scene& scene, const View& view, const V
     return parts;
 }
 
-/// Drops samples that other surface hides, as sight lines show.
-void drop_hidden(const Caster& caster, const View& view, const ViewVolume& volume,
-                 LeafParts& parts) {
-    const LocalPose pose{volume.R_sensor_local().transpose(), volume.position().cast<float>()};
-    const std::vector<std::uint32_t> seen = in_sight(
-        caster, pose, static_cast<float>(view.range_max_m), parts.samples, parts.thickness_m);
-    for (std::size_t k = 0; k < seen.size(); ++k) {
-        parts.samples[k] = parts.samples[seen[k]];
-        parts.beams[k] = parts.beams[seen[k]];
-    }
-    parts.samples.resize(seen.size());
-    parts.beams.resize(seen.size());
-}
-
 }  // namespace
 
-Samples leaf_samples(Octree& tree, const Caster& caster, const Scene& scene, const View& view,
-                     const ViewVolume& volume, const LeafSize& leaf_size) {
-    LeafParts parts = find_parts(tree, scene, view, volume, leaf_size);
-    drop_hidden(caster, view, volume, parts);
-    Groups by_beam = sort_into_groups(parts.beams, view.beams);
+std::vector<std::uint32_t> in_sight(const Caster& caster, const LocalPose& pose, float reach_m,
+                                    std::span<const Sample> samples,
+                                    std::span<const float> thickness_m) {
+    std::vector<Eigen::Vector3f> directions(samples.size());
+    std::vector<std::uint32_t> met(samples.size());
+    for (std::size_t i = 0; i < samples.size(); ++i)
+        directions[i] = pose.rotation * samples[i].position.normalized();
+    caster.cast(pose.position, directions, reach_m, met);
+    std::vector<std::uint32_t> seen;
+    seen.reserve(samples.size());
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        const bool hidden = met[i] != Caster::nothing &&
+                            hides(caster.facet(met[i]), pose, pose.rotation * samples[i].position,
+                                  samples[i], thickness_m[i], sight_rounding * reach_m);
+        if (!hidden) seen.push_back(static_cast<std::uint32_t>(i));
+    }
+    return seen;
+}
+
+Samples leaf_samples(const Octree& tree, const Caster& caster, const Scene& scene,
+                     const PreparedView& prepared) {
+    const View& view = prepared.view;
+    const LeafParts parts = find_parts(tree, scene, prepared);
+    const LocalPose pose{prepared.volume.R_sensor_local().transpose(),
+                         prepared.volume.position().cast<float>()};
+    const std::vector<std::uint32_t> seen = in_sight(
+        caster, pose, static_cast<float>(view.range_max_m), parts.samples, parts.thickness_m);
+    std::vector<std::uint32_t> beams;
+    beams.reserve(seen.size());
+    for (const std::uint32_t k : seen)
+        beams.push_back(parts.beams[k]);
+    Groups by_beam = sort_into_groups(beams, view.beams);
     Samples samples;
-    samples.items.reserve(parts.samples.size());
+    samples.items.reserve(seen.size());
     for (const std::uint32_t k : by_beam.items)
-        samples.items.push_back(parts.samples[k]);
+        samples.items.push_back(parts.samples[seen[k]]);
     samples.beam_begin = std::move(by_beam.begin);
     samples.dropped = parts.dropped;
     return samples;

@@ -1,10 +1,8 @@
-#include "visibility/octree/literal.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include "core/elementary.h"
-#include "visibility/octree/search.h"
+#include "visibility/octree/leaf_samples.h"
 
 namespace sonarsim {
 
@@ -24,39 +22,36 @@ struct Vote {
 
 }  // namespace
 
-Samples literal_samples(Octree& tree, const Scene& scene, const View& view,
-                        const ViewVolume& volume, const LeafSize& leaf_size) {
+Samples literal_samples(const Octree& tree, const Scene& scene, const PreparedView& prepared) {
+    const View& view = prepared.view;
+    const Eigen::Matrix3f& R_sensor_local = prepared.volume.R_sensor_local();
     // Pixel height: a leaf at half the greatest range.
     const auto middle = static_cast<float>(0.5 * view.range_max_m);
-    const double row_height = leaf_size.at(middle) / middle;
+    const double row_height = prepared.leaf_size.at(middle) / middle;
     // Pixel width: a beam of a fan; the wide beams of other views are divided into square pixels.
     const bool fan = view.shape == ViewShape::fan;
     std::vector<Vote> votes;
     Samples samples;
-    const auto take = [&](const LeafRun& run) {
-        for (std::uint32_t i = run.begin; i < run.end; ++i) {
-            const LeafFacet facet = run.level->facets.at(run.level->nodes[i].facets);
-            const Eigen::Vector3f centre =
-                volume.R_sensor_local() * node_visit(run.root, run.level->nodes[i]).centre;
-            const double range = centre.norm();
-            if (!(range > 0.0)) {
-                ++samples.dropped;  // the leaf's centre is at the sonar and has no direction
-                continue;
-            }
-            const int beam = beam_of(view, centre);
-            if (beam < 0) continue;
-            const double azimuth = arctan2(centre.y(), centre.x()) + 0.5 * view.azimuth_rad;
-            const double elevation = arcsin(centre.z() / range) + 0.5 * view.elevation_rad;
-            const auto column = fan ? beam : static_cast<int>(std::max(azimuth, 0.0) / row_height);
-            const auto row = static_cast<int>(std::max(elevation, 0.0) / row_height);
-            const Eigen::Vector3f normal = volume.R_sensor_local() * facet.normal;
-            votes.push_back(
-                {static_cast<std::uint64_t>(column) << 32U | static_cast<std::uint64_t>(row), beam,
-                 static_cast<float>(range), run.leaf_m, centre,
-                 normal.dot(centre) > 0.0F ? Eigen::Vector3f(-normal) : normal, facet.triangle});
+    tree.visit_leaves(prepared, [&](const Visit& cube, float edge_m,
+                                    std::span<const LeafFacet> facets) {
+        const Eigen::Vector3f centre = R_sensor_local * cube.centre;
+        const double range = centre.norm();
+        if (!(range > 0.0)) {
+            ++samples.dropped;  // the leaf's centre is at the sonar and has no direction
+            return;
         }
-    };
-    Search(tree, volume, leaf_size, take).run();
+        const int beam = beam_of(view, centre);
+        if (beam < 0) return;
+        const double azimuth = arctan2(centre.y(), centre.x()) + 0.5 * view.azimuth_rad;
+        const double elevation = arcsin(centre.z() / range) + 0.5 * view.elevation_rad;
+        const auto column = fan ? beam : static_cast<int>(std::max(azimuth, 0.0) / row_height);
+        const auto row = static_cast<int>(std::max(elevation, 0.0) / row_height);
+        const Eigen::Vector3f normal = R_sensor_local * facets[0].normal;
+        votes.push_back(
+            {static_cast<std::uint64_t>(column) << 32U | static_cast<std::uint64_t>(row), beam,
+             static_cast<float>(range), edge_m, centre,
+             normal.dot(centre) > 0.0F ? Eigen::Vector3f(-normal) : normal, facets[0].triangle});
+    });
     std::stable_sort(votes.begin(), votes.end(), [](const Vote& a, const Vote& b) {
         return a.pixel != b.pixel ? a.pixel < b.pixel : a.range_m < b.range_m;
     });

@@ -17,7 +17,7 @@ struct OctreeStatistics {
     std::uint64_t facets = 0;  ///< pieces of surface held by all nodes
     std::uint64_t bytes = 0;
     std::uint64_t ping_bytes = 0;  ///< memory of the tiles of the most demanding ping
-    std::uint64_t evictions = 0;   ///< subtrees dropped so far
+    std::uint64_t evictions = 0;   ///< tiles dropped so far
     double leaf_area_m2 = 0.0;     ///< surface held by all leaves
 };
 

@@ -1,7 +1,6 @@
 #include "visibility/octree/projection.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "core/elementary.h"
@@ -30,115 +29,15 @@ constexpr double least_rows = 16.0;
 constexpr int most_columns = 8192;
 constexpr int most_rows = 2048;
 
-/// A block of facets during projection.
-struct Lanes {
-    static constexpr int width = 32;
-    using Lane = std::array<float, width>;
-    std::array<Lane, 3> centre, normal, u, v;
-    Lane in_sight, beams_u, beams_v, rows_u, rows_v;
-    Lane beam, half_beams, row, mix_u, mix_v;
-    Lane depth, depth_beam, depth_row, depth_range, slack;
-};
-
-void project_block(const FacetArrays& facets, std::uint32_t begin, int count,
-                   const ViewVolume& volume, const ProjectionGrid& grid, float leaf_m, Lanes& out) {
-    // A local copy, which no write to `out` can change, stays in registers.
-    // NOLINTNEXTLINE(performance-unnecessary-copy-initialization)
-    const Eigen::Matrix3f R = volume.R_sensor_local();
-    const Eigen::Vector3f at = R * volume.position().cast<float>();
-    for (int axis = 0; axis < 3; ++axis) {
-        const float a = R(axis, 0);
-        const float b = R(axis, 1);
-        const float c = R(axis, 2);
-        const float shift = at[axis];
-        const auto to_sensor = [&](int first_value, float minus, float* to) {
-            const float* const x = facets.values[first_value].data() + begin;
-            const float* const y = facets.values[first_value + 1].data() + begin;
-            const float* const z = facets.values[first_value + 2].data() + begin;
-            for (int k = 0; k < count; ++k)
-                to[k] = a * x[k] + b * y[k] + c * z[k] - minus;
-        };
-        to_sensor(FacetArrays::centre, shift, out.centre[axis].data());
-        to_sensor(FacetArrays::normal, 0.0F, out.normal[axis].data());
-        to_sensor(FacetArrays::edge_u, 0.0F, out.u[axis].data());
-        to_sensor(FacetArrays::edge_v, 0.0F, out.v[axis].data());
-    }
-    const float* const thickness = facets.values[FacetArrays::thickness].data() + begin;
-    const float beams_per_rad = grid.beams_per_rad;
-    const float rows_per_slope = grid.rows_per_slope;
-    const auto beams = static_cast<float>(grid.beams);
-    const auto rows = static_cast<float>(grid.rows);
-    const float columns_per_beam = static_cast<float>(grid.columns_per_beam);
-    const float least_rho2 = grid.least_rho2_m2;
-    const float least_height = grid.least_height_m;
-    for (int k = 0; k < count; ++k) {
-        const float x = out.centre[0][k];
-        const float y = out.centre[1][k];
-        const float z = out.centre[2][k];
-        const float rho2 = std::max(x * x + y * y, least_rho2);
-        const float per_rho = 1.0F / std::sqrt(rho2);
-        const float per_rho2 = per_rho * per_rho;
-        const float slope = z * per_rho;
-        const float beams_u = beams_per_rad * per_rho2 * (x * out.u[1][k] - y * out.u[0][k]);
-        const float beams_v = beams_per_rad * per_rho2 * (x * out.v[1][k] - y * out.v[0][k]);
-        const float rho_u = per_rho * (x * out.u[0][k] + y * out.u[1][k]);
-        const float rho_v = per_rho * (x * out.v[0][k] + y * out.v[1][k]);
-        const float rows_u = rows_per_slope * per_rho * (out.u[2][k] - slope * rho_u);
-        const float rows_v = rows_per_slope * per_rho * (out.v[2][k] - slope * rho_v);
-        const float half_beams = std::sqrt(beams_u * beams_u + beams_v * beams_v) + 1e-6F;
-        const float beam = beams_per_rad * arctan2_float(y, x) + 0.5F * beams;
-        const float row = rows_per_slope * slope + 0.5F * rows;
-        const float half_rows = std::fabs(rows_u) + std::fabs(rows_v);
-        const float out_of_sight = std::max(std::max(-half_beams - beam, beam - half_beams - beams),
-                                            std::max(-half_rows - row, row - half_rows - rows));
-        // The sensor's axis has no azimuth.
-        out.in_sight[k] = rho2 > least_rho2 ? -out_of_sight : -1.0F;
-        out.beams_u[k] = beams_u;
-        out.beams_v[k] = beams_v;
-        out.rows_u[k] = rows_u;
-        out.rows_v[k] = rows_v;
-        out.beam[k] = beam;
-        out.half_beams[k] = half_beams;
-        out.row[k] = row;
-        out.mix_u[k] = beams_u / half_beams;
-        out.mix_v[k] = beams_v / half_beams;
-        const float signed_height =
-            -(out.normal[0][k] * x + out.normal[1][k] * y + out.normal[2][k] * z);
-        const float facing = signed_height < 0.0F ? -1.0F : 1.0F;
-        const float nx = facing * out.normal[0][k];
-        const float ny = facing * out.normal[1][k];
-        const float nz = facing * out.normal[2][k];
-        out.normal[0][k] = nx;
-        out.normal[1][k] = ny;
-        out.normal[2][k] = nz;
-        // 1 / rho = -(n . (cos azimuth, sin azimuth, slope)) / height.
-        const float height = std::max(facing * signed_height, least_height);
-        const float per_height = 1.0F / height;
-        const float depth_row = -nz * per_height / rows_per_slope;
-        const float depth_beam = (nx * y - ny * x) * per_rho * per_height / beams_per_rad;
-        const float leaf_depth = leaf_m * per_rho2;
-        const float cosine = std::max(height * per_rho / std::sqrt(1.0F + slope * slope), 0.1F);
-        const float pixel_slope = std::fabs(depth_row) + std::fabs(depth_beam) / columns_per_beam;
-        out.depth[k] = per_rho;
-        out.depth_row[k] = depth_row;
-        out.depth_beam[k] = depth_beam;
-        out.depth_range[k] = per_rho2 * (std::fabs(rho_u) + std::fabs(rho_v)) + 0.5F * leaf_depth;
-        out.slack[k] = slack_leaves * leaf_depth + per_rho2 * thickness[k] / cosine +
-                       std::min(0.5F * pixel_slope, 0.25F * leaf_depth);
-    }
-}
-
-/// True if a facet is dropped only because its azimuth is within rounding, although it is in view.
-bool is_lost_on_axis(const Lanes& lanes, int k, const ProjectionGrid& grid) {
-    const float x = lanes.centre[0][k];
-    const float y = lanes.centre[1][k];
-    if (x * x + y * y > grid.least_rho2_m2) return false;
-    const auto aside = [&](const std::array<Lanes::Lane, 3>& v) {
-        return std::sqrt(v[0][k] * v[0][k] + v[1][k] * v[1][k]);
+/// True if a facet on the sensor's z axis may be in view.
+bool is_in_view(const ProjectedFacet& facet, const ProjectionGrid& grid) {
+    const auto aside = [](const Eigen::Vector3f& v) {
+        return std::sqrt(v.x() * v.x() + v.y() * v.y());
     };
-    const float farthest = std::sqrt(grid.least_rho2_m2) + aside(lanes.u) + aside(lanes.v);
+    const float farthest =
+        std::sqrt(grid.least_rho2_m2) + aside(facet.edge_u) + aside(facet.edge_v);
     const float lowest =
-        std::fabs(lanes.centre[2][k]) - std::fabs(lanes.u[2][k]) - std::fabs(lanes.v[2][k]);
+        std::fabs(facet.centre.z()) - std::fabs(facet.edge_u.z()) - std::fabs(facet.edge_v.z());
     return grid.rows_per_slope * lowest < 0.5F * static_cast<float>(grid.rows) * farthest;
 }
 
@@ -164,68 +63,79 @@ ProjectionGrid projection_grid(const View& view, float leaf_rad) {
     return grid;
 }
 
-int project(const LeafRun& run, const ViewVolume& volume, const ProjectionGrid& grid,
-            std::vector<ProjectedFacet>& projected, std::vector<Outline>& outlines) {
-    const FacetArrays& facets = run.level->facets;
-    Lanes lanes;
-    int lost = 0;
-    for (std::uint32_t begin = run.facets_begin(); begin < run.facets_end();
-         begin += Lanes::width) {
-        const int count =
-            static_cast<int>(std::min<std::uint32_t>(run.facets_end() - begin, Lanes::width));
-        project_block(facets, begin, count, volume, grid, run.leaf_m, lanes);
-        for (int k = 0; k < count; ++k) {
-            if (!(lanes.in_sight[k] > 0.0F)) {
-                lost += is_lost_on_axis(lanes, k, grid);
-                continue;
-            }
-            const auto vector = [&](const std::array<Lanes::Lane, 3>& v) {
-                return Eigen::Vector3f(v[0][k], v[1][k], v[2][k]);
-            };
-            const Eigen::Vector3f u = vector(lanes.u);
-            const Eigen::Vector3f v = vector(lanes.v);
-            const float a = lanes.mix_u[k];
-            const float b = lanes.mix_v[k];
-            ProjectedFacet& next = projected.emplace_back();
-            next.centre = vector(lanes.centre);
-            next.normal = vector(lanes.normal);
-            // Rotating conjugate half edges into each other keeps the second moments.
-            next.edge_u = a * u + b * v;
-            next.edge_v = a * v - b * u;
-            next.rows_u = a * lanes.rows_u[k] + b * lanes.rows_v[k];
-            const float rows = a * lanes.rows_v[k] - b * lanes.rows_u[k];
-            // Rows must grow along edge_v, so that a part's v follows from its rows.
-            if (rows < 0.0F) next.edge_v = -next.edge_v;
-            next.half_rows = std::max(std::fabs(rows), 1e-4F);
-            next.area_m2 = facets.values[FacetArrays::area][begin + k];
-            next.thickness_m = facets.values[FacetArrays::thickness][begin + k];
-            next.triangle = facets.triangle[begin + k];
-            next.beam = lanes.beam[k];
-            next.half_beams = lanes.half_beams[k];
-            next.row = lanes.row[k];
-            next.depth = lanes.depth[k];
-            next.depth_beam = lanes.depth_beam[k];
-            next.depth_row = lanes.depth_row[k];
-            next.depth_range = lanes.depth_range[k];
-            next.slack = lanes.slack[k];
-            outlines.push_back(
-                {lanes.beams_u[k], lanes.beams_v[k], lanes.rows_u[k], lanes.rows_v[k]});
-            const float beam = next.beam;
-            const float half = next.half_beams;
-            // So near the axis the facet covers all azimuths, and its ends are meaningless.
-            if (half > 0.5F * grid.beams_per_revolution) continue;
-            for (const float other :
-                 {beam - grid.beams_per_revolution, beam + grid.beams_per_revolution}) {
-                if (other + half <= 0.0F || other - half >= static_cast<float>(grid.beams))
-                    continue;
-                ProjectedFacet over = projected.back();
-                over.beam = other;
-                projected.push_back(over);
-                outlines.push_back(Outline(outlines.back()));
-            }
-        }
+Projection project(const LeafFacet& leaf, float leaf_m, const ViewVolume& volume,
+                   const ProjectionGrid& grid, ProjectedFacet& facet, Outline& outline) {
+    const Eigen::Matrix3f& R = volume.R_sensor_local();
+    const Eigen::Vector3f at = R * volume.position().cast<float>();
+    // The order of the sums is part of the result.
+    const auto turned = [&R](const Eigen::Vector3f& v) {
+        return Eigen::Vector3f(R.col(0) * v.x() + R.col(1) * v.y() + R.col(2) * v.z());
+    };
+    facet.centre = turned(leaf.centre) - at;
+    const Eigen::Vector3f u = turned(leaf.edge_u);
+    const Eigen::Vector3f v = turned(leaf.edge_v);
+    const float x = facet.centre.x();
+    const float y = facet.centre.y();
+    const float rho2 = x * x + y * y;
+    if (!(rho2 > grid.least_rho2_m2)) {
+        facet.edge_u = u;
+        facet.edge_v = v;
+        return is_in_view(facet, grid) ? Projection::on_axis : Projection::out_of_view;
     }
-    return lost;
+    const float per_rho = 1.0F / std::sqrt(rho2);
+    const float per_rho2 = per_rho * per_rho;
+    const float slope = facet.centre.z() * per_rho;
+    const float rho_u = per_rho * (x * u.x() + y * u.y());
+    const float rho_v = per_rho * (x * v.x() + y * v.y());
+    outline = {grid.beams_per_rad * per_rho2 * (x * u.y() - y * u.x()),
+               grid.beams_per_rad * per_rho2 * (x * v.y() - y * v.x()),
+               grid.rows_per_slope * per_rho * (u.z() - slope * rho_u),
+               grid.rows_per_slope * per_rho * (v.z() - slope * rho_v)};
+    const auto& [beams_u, beams_v, rows_u, rows_v] = outline;
+    const auto beams = static_cast<float>(grid.beams);
+    const auto rows = static_cast<float>(grid.rows);
+    facet.half_beams = std::sqrt(beams_u * beams_u + beams_v * beams_v) + 1e-6F;
+    facet.beam = grid.beams_per_rad * arctan2_float(y, x) + 0.5F * beams;
+    facet.row = grid.rows_per_slope * slope + 0.5F * rows;
+    const float tall = std::fabs(rows_u) + std::fabs(rows_v);
+    const bool in_view = facet.beam > -facet.half_beams && facet.beam - facet.half_beams < beams &&
+                         facet.row > -tall && facet.row - tall < rows;
+    if (!in_view) return Projection::out_of_view;
+
+    const Eigen::Vector3f normal = turned(leaf.normal);
+    const float signed_height = -(normal.x() * x + normal.y() * y + normal.z() * facet.centre.z());
+    const float facing = signed_height < 0.0F ? -1.0F : 1.0F;
+    facet.normal = facing * normal;
+    const float height = std::max(facing * signed_height, grid.least_height_m);
+    // 1 / rho = -(n . (cos azimuth, sin azimuth, slope)) / height.
+    const float per_height = 1.0F / height;
+    facet.depth = per_rho;
+    facet.depth_row = -facet.normal.z() * per_height / grid.rows_per_slope;
+    facet.depth_beam =
+        (facet.normal.x() * y - facet.normal.y() * x) * per_rho * per_height / grid.beams_per_rad;
+    const float leaf_depth = leaf_m * per_rho2;
+    facet.depth_range = per_rho2 * (std::fabs(rho_u) + std::fabs(rho_v)) + 0.5F * leaf_depth;
+    const float cosine = std::max(height * per_rho / std::sqrt(1.0F + slope * slope), 0.1F);
+    const float pixel_slope =
+        std::fabs(facet.depth_row) +
+        std::fabs(facet.depth_beam) / static_cast<float>(grid.columns_per_beam);
+    facet.slack = slack_leaves * leaf_depth + per_rho2 * leaf.thickness_m / cosine +
+                  std::min(0.5F * pixel_slope, 0.25F * leaf_depth);
+
+    // Rotating conjugate half edges into each other keeps the second moments.
+    const float a = beams_u / facet.half_beams;
+    const float b = beams_v / facet.half_beams;
+    facet.edge_u = a * u + b * v;
+    facet.edge_v = a * v - b * u;
+    facet.rows_u = a * rows_u + b * rows_v;
+    const float rows_along_v = a * rows_v - b * rows_u;
+    // Rows must grow along edge_v, so that a part's v follows from its rows.
+    if (rows_along_v < 0.0F) facet.edge_v = -facet.edge_v;
+    facet.half_rows = std::max(std::fabs(rows_along_v), 1e-4F);
+    facet.area_m2 = leaf.area_m2;
+    facet.thickness_m = leaf.thickness_m;
+    facet.triangle = leaf.triangle;
+    return Projection::in_view;
 }
 
 }  // namespace sonarsim

@@ -4,9 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "visibility/octree/search.h"
-#include "visibility/view.h"
-#include "visibility/view_volume.h"
+#include "visibility/octree/tree.h"
 
 namespace sonarsim {
 
@@ -59,11 +57,15 @@ struct Outline {
     float rows_v;
 };
 
-/// Projects the facets of a run and appends those that may be in view to `facets`, and their
-/// outlines to `outlines`. A facet that crosses the half plane behind the sonar, where azimuths
-/// jump, is appended once for each end. Returns the number of facets in view that are dropped,
-/// since their centre lies on the sensor's z axis to within rounding.
-int project(const LeafRun& run, const ViewVolume& volume, const ProjectionGrid& grid,
-            std::vector<ProjectedFacet>& facets, std::vector<Outline>& outlines);
+enum class Projection {
+    in_view,
+    out_of_view,
+    on_axis,  ///< in view, but the sensor's z axis is so near that the azimuth is rounding
+};
+
+/// Projects a facet in local axes, of a leaf with edges of `leaf_m`. Sets `facet` and `outline` if
+/// the result is `in_view`, which is not certain.
+Projection project(const LeafFacet& leaf, float leaf_m, const ViewVolume& volume,
+                   const ProjectionGrid& grid, ProjectedFacet& facet, Outline& outline);
 
 }  // namespace sonarsim

@@ -1,9 +1,10 @@
 #include "visibility/octree/tree.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
-#include <limits>
+#include <utility>
 
 #include "core/error.h"
 
@@ -23,29 +24,26 @@ constexpr int flat_levels = 1;
 // would decide which cube holds the surface; these offsets, in units of a leaf, prevent that.
 const Eigen::Vector3d lattice_offset(0.381966011, 0.618033989, 0.272019650);
 
-bool overlaps(const Triangle& triangle, const Cube& cube) {
-    for (int axis = 0; axis < 3; ++axis) {
-        const double low = std::min({triangle[0][axis], triangle[1][axis], triangle[2][axis]});
-        const double high = std::max({triangle[0][axis], triangle[1][axis], triangle[2][axis]});
-        if (high < cube.min[axis] || low >= cube.min[axis] + cube.edge) return false;
-    }
-    return true;
+std::size_t bytes_of(const Level& level) {
+    return sizeof(Level) + level.children.capacity() * sizeof(std::uint32_t) +
+           level.nodes.capacity() * sizeof(LevelNode) + level.facets.capacity() * sizeof(LeafFacet);
 }
 
-std::size_t bytes_of(const TopNode& node) {
-    const std::size_t triangles =
-        node.triangles.capacity() + (node.tile ? node.tile->triangles.capacity() : 0);
-    return sizeof(TopNode) + node.level.bytes() + triangles * sizeof(std::uint32_t) +
-           (node.tile ? sizeof(Tile) : 0);
+/// Memory of the levels below the tile's own.
+std::size_t bytes_of_tile(const Level* finest) {
+    std::size_t bytes = 0;
+    for (; finest->coarser; finest = finest->coarser.get())
+        bytes += bytes_of(*finest);
+    return bytes;
 }
 
-/// Adds the sentinel and frees spare memory.
-void close(Level& level) {
-    LevelNode end{};
-    end.facets = level.facets.size();
-    level.nodes.push_back(end);
-    level.nodes.shrink_to_fit();
-    level.facets.shrink_to_fit();
+/// Number of halvings until a node is as small as a leaf at its distance.
+int halvings(const Visit& visit, const LeafSize& leaf_size) {
+    const float leaf = leaf_size.at(visit.centre.norm()) * 1.0001F;
+    int count = 0;
+    for (float edge = visit.edge; edge > leaf && visit.index.level + count < 30; edge *= 0.5F)
+        ++count;
+    return count;
 }
 
 }  // namespace
@@ -53,7 +51,7 @@ void close(Level& level) {
 Octree::Octree(const Scene& scene, const Caster& caster, const OctreeOptions& options)
     : maker_(scene, caster),
       flat_levels_(options.literal ? 0 : flat_levels),
-      cache_(options.memory_mb << 20) {
+      limit_bytes_(options.memory_mb << 20U) {
     if (!(options.leaf_m >= 0.0)) {
         throw InputError("octree: leaf_m must be positive, or 0 for a size that suits the bins");
     }
@@ -83,38 +81,31 @@ Octree::Octree(const Scene& scene, const Caster& caster, const OctreeOptions& op
     std::vector<std::uint32_t> all(scene.triangles.size());
     for (std::uint32_t i = 0; i < all.size(); ++i)
         all[i] = i;
-    add_top({}, std::move(all));
-}
-
-double Octree::edge_m(int level) const {
-    return std::ldexp(edge_m_, -level);
+    add_upper({}, std::move(all));
 }
 
 Cube Octree::cube(const CubeIndex& index) const {
-    const double edge = edge_m(index.level);
+    const double edge = std::ldexp(edge_m_, -index.level);
     return {min_ + edge * Eigen::Vector3d(index.x, index.y, index.z), edge};
 }
 
-void Octree::add_top(const CubeIndex& index, std::vector<std::uint32_t> triangles) {
-    TopNode& node = top_.emplace_back();
+void Octree::add_upper(const CubeIndex& index, std::vector<std::uint32_t> triangles) {
+    UpperNode& node = upper_.emplace_back();
     node.index = index;
-    if (add_node(index, {}, triangles, node.level)) close(node.level);
-    const double edge = edge_m(index.level);
+    upper_bytes_ += sizeof(UpperNode) + triangles.capacity() * sizeof(std::uint32_t);
+    node.own = level_of_cube(index, triangles);
+    node.finest = node.own;
+    if (node.own) upper_bytes_ += bytes_of(*node.own);
+    const double edge = cube(index).edge;
     const bool small = edge <= tile_edge_m_;
     const bool few = triangles.size() <= triangles_per_tile;
-    // If triangles are tiny, a tile holds many of them, so that the top does not grow forever.
-    if ((small && few) || edge <= tile_edge_m_ / 16.0) {
-        node.tile = std::make_unique<Tile>();
-        node.tile->index = index;
-        node.tile->triangles = std::move(triangles);
-    } else {
-        node.triangles = std::move(triangles);
-    }
-    top_bytes_ += bytes_of(node);
+    // If triangles are tiny, a tile holds many of them, so that the upper part does not grow
+    // forever.
+    node.is_tile = (small && few) || edge <= tile_edge_m_ / 16.0;
+    node.triangles = std::move(triangles);
 }
 
-void Octree::split(std::uint32_t top_node) {
-    TopNode& node = top_[top_node];
+void Octree::split(UpperNode& node) {
     std::array<std::vector<std::uint32_t>, 8> lists;
     std::array<Cube, 8> cubes;
     for (int octant = 0; octant < 8; ++octant)
@@ -126,107 +117,112 @@ void Octree::split(std::uint32_t top_node) {
                 lists[octant].push_back(index);
         }
     }
-    top_bytes_ -= node.triangles.capacity() * sizeof(std::uint32_t);
+    upper_bytes_ -= node.triangles.capacity() * sizeof(std::uint32_t);
     node.triangles = {};
-    node.children = static_cast<std::uint32_t>(top_.size());
+    node.children = static_cast<std::uint32_t>(upper_.size());
     for (int octant = 0; octant < 8; ++octant) {
         if (lists[octant].empty()) continue;
         lists[octant].shrink_to_fit();
         node.octants |= static_cast<std::uint8_t>(1 << octant);
-        add_top(node.index.child(octant), std::move(lists[octant]));
+        add_upper(node.index.child(octant), std::move(lists[octant]));
     }
 }
 
-bool Octree::add_node(const CubeIndex& tile, const LevelNode& node,
-                      std::span<const std::uint32_t> triangles, Level& level) const {
-    const CubeIndex index{(tile.x << node.level) + node.x, (tile.y << node.level) + node.y,
-                          (tile.z << node.level) + node.z, tile.level + node.level};
-    LevelNode added = node;
-    added.facets = level.facets.size();
-    const int count = maker_.append(cube(index), triangles, level.facets);
-    if (count == 0) return false;
-    added.flat = count == 1 && is_flat_rectangle(level.facets.at(added.facets));
-    level.nodes.push_back(added);
-    return true;
+Visit Octree::visit_of(const CubeIndex& index, const ViewVolume& volume) const {
+    const Cube own = cube(index);
+    const Eigen::Vector3d centre = own.min.array() + 0.5 * own.edge;
+    return {index, (centre - volume.position()).cast<float>(), static_cast<float>(own.edge),
+            Containment::partly};
 }
 
-void Octree::split(const Tile& tile, const LevelNode& node, Level& finer) const {
-    const CubeIndex index{(tile.index.x << node.level) + node.x,
-                          (tile.index.y << node.level) + node.y,
-                          (tile.index.z << node.level) + node.z, tile.index.level + node.level};
-    const Cube parent = cube(index);
-    std::vector<std::uint32_t> near;
-    for (const std::uint32_t triangle : tile.triangles) {
-        if (overlaps(maker_.triangle(triangle), parent)) near.push_back(triangle);
+void Octree::find_tiles(UpperNode& node, Visit visit, PreparedView& prepared) {
+    if (!is_in_view(visit, prepared.volume) || !node.own) return;
+    const int depth = halvings(visit, prepared.leaf_size);
+    if (node.is_tile || depth == 0) {
+        node.last_use = pings_;
+        prepared.tiles.push_back({visit, &node, std::min(depth, most_levels), nullptr});
+        return;
     }
-    for (int octant = 0; octant < 8; ++octant) {
-        LevelNode child{};
-        child.x = static_cast<std::uint16_t>(2 * node.x + (octant & 1));
-        child.y = static_cast<std::uint16_t>(2 * node.y + (octant >> 1 & 1));
-        child.z = static_cast<std::uint16_t>(2 * node.z + (octant >> 2));
-        child.level = static_cast<std::uint8_t>(node.level + 1);
-        add_node(tile.index, child, near, finer);
+    if (node.children == 0) split(node);
+    const int near =
+        (visit.centre.x() < 0.0F) | (visit.centre.y() < 0.0F) << 1 | (visit.centre.z() < 0.0F) << 2;
+    for (int i = 0; i < 8; ++i) {
+        const unsigned octant = i ^ near;
+        if (!(node.octants >> octant & 1U)) continue;
+        const auto before =
+            static_cast<std::uint32_t>(std::popcount(node.octants & ((1U << octant) - 1U)));
+        Visit child = visit_of(visit.index.child(static_cast<int>(octant)), prepared.volume);
+        child.containment = visit.containment;
+        find_tiles(upper_[node.children + before], child, prepared);
     }
 }
 
-void Octree::grow(Tile& tile, int levels) {
-    if (tile.levels.empty()) {
-        add_node(tile.index, {}, tile.triangles, tile.levels.emplace_back());
-        close(tile.levels.back());
-    }
-    while (static_cast<int>(tile.levels.size()) < levels) {
-        const int next = static_cast<int>(tile.levels.size());
-        Level finer;
-        Level& level = tile.levels.back();
-        for (std::size_t i = 0; i + 1 < level.nodes.size(); ++i) {
-            LevelNode& node = level.nodes[i];
-            node.children = static_cast<std::uint32_t>(finer.nodes.size());
-            if (node.flat && next - node.level <= flat_levels_) {
-                LevelNode same = node;
-                same.facets = finer.facets.size();
-                finer.facets.push_back(level.facets.at(node.facets));
-                finer.nodes.push_back(same);
-            } else {
-                split(tile, node, finer);
+PreparedView Octree::prepare(const View& view, const Pose& T_local_sensor,
+                             const LeafSize& leaf_size) {
+    ++pings_;
+    PreparedView prepared{view, ViewVolume(view, T_local_sensor), leaf_size};
+    find_tiles(upper_[0], visit_of({}, prepared.volume), prepared);
+    std::size_t needed = 0;
+    bool has_room = true;
+    for (TileInView& tile : prepared.tiles) {
+        UpperNode& node = *tile.node;
+        std::shared_ptr<const Level> level = node.finest;
+        if (level->depth < tile.depth) {
+            level = grown(node, level, tile.depth);
+            const std::size_t more = bytes_of_tile(level.get()) - node.bytes;
+            has_room = has_room && make_room(more);
+            if (has_room) {
+                node.finest = level;
+                node.bytes += more;
+                tile_bytes_ += more;
             }
         }
-        level.nodes.back().children = static_cast<std::uint32_t>(finer.nodes.size());
-        close(finer);
-        tile.levels.push_back(std::move(finer));
+        needed += bytes_of_tile(level.get());
+        if (node.finest->depth < tile.depth) continue;  // visit_leaves() makes it once more
+        while (level->depth > tile.depth)
+            level = level->coarser;
+        tile.level = std::move(level);
     }
-    cache_.count(tile);
+    most_ping_bytes_ = std::max(most_ping_bytes_, needed);
+    return prepared;
 }
 
-void Octree::note_ping_bytes(std::size_t bytes) {
-    std::size_t most = most_ping_bytes_;
-    while (bytes > most && !most_ping_bytes_.compare_exchange_weak(most, bytes)) {
+/// Drops tiles that this ping does not need until `bytes` more fit, and a quarter of the limit so
+/// that the search for the oldest pays. Tiles always keep a quarter of the limit. Returns false if
+/// there is no room.
+bool Octree::make_room(std::size_t bytes) {
+    const std::size_t limit =
+        std::max(limit_bytes_ - std::min(upper_bytes_, limit_bytes_), limit_bytes_ / 4);
+    if (tile_bytes_ + bytes <= limit) return true;
+    std::vector<UpperNode*> oldest_first;
+    for (UpperNode& node : upper_) {
+        if (node.bytes > 0 && node.last_use < pings_) oldest_first.push_back(&node);
     }
+    std::ranges::stable_sort(oldest_first, {}, &UpperNode::last_use);
+    for (UpperNode* const node : oldest_first) {
+        if (tile_bytes_ + bytes <= limit / 4 * 3) break;
+        tile_bytes_ -= std::exchange(node->bytes, 0);
+        node->finest = node->own;
+        ++evictions_;
+    }
+    return tile_bytes_ + bytes <= limit;
 }
 
 OctreeStatistics Octree::statistics() const {
     OctreeStatistics out;
-    out.bytes = top_bytes_ + cache_.bytes();
-    out.ping_bytes = top_bytes_ + most_ping_bytes_;
-    out.evictions = cache_.evictions();
-    const std::shared_lock top(top_lock_);
-    const auto count = [&](const Level& level, bool finest) {
-        out.nodes += level.nodes.size() - 1;
-        out.facets += level.facets.size();
-        if (!finest) return;
-        out.leaves += level.nodes.size() - 1;
-        for (const float area : level.facets.values[FacetArrays::area])
-            out.leaf_area_m2 += static_cast<double>(area);
-    };
-    for (const TopNode& node : top_) {
-        if (node.level.nodes.empty()) continue;
-        if (!node.tile) {
-            count(node.level, node.children == 0);
-            continue;
+    out.bytes = upper_bytes_ + tile_bytes_;
+    out.ping_bytes = upper_bytes_ + most_ping_bytes_;
+    out.evictions = evictions_;
+    for (const UpperNode& node : upper_) {
+        const bool has_leaves = node.own && node.children == 0;
+        for (const Level* level = node.finest.get(); level; level = level->coarser.get()) {
+            out.nodes += level->nodes.size() - 1;
+            out.facets += level->facets.size();
+            if (!has_leaves || level != node.finest.get()) continue;
+            out.leaves += level->nodes.size() - 1;
+            for (const LeafFacet& facet : level->facets)
+                out.leaf_area_m2 += static_cast<double>(facet.area_m2);
         }
-        const std::shared_lock shared(node.tile->lock);
-        if (node.tile->levels.empty()) count(node.level, true);
-        for (const Level& level : node.tile->levels)
-            count(level, &level == &node.tile->levels.back());
     }
     return out;
 }

@@ -17,11 +17,11 @@ namespace {
 
 class RaysEngine final : public VisibilityEngine {
   public:
-    RaysEngine(const Eigen::Vector3d& origin, Caster caster,
-               std::shared_ptr<const TriangleRuns> surface, std::span<const Pose> T_world_body)
+    RaysEngine(const Eigen::Vector3d& origin, Caster caster, SceneCoverage coverage,
+               std::span<const Pose> T_world_body)
         : origin_(origin),
           caster_(std::move(caster)),
-          surface_(std::move(surface)),
+          coverage_(std::move(coverage)),
           T_world_body_(T_world_body.begin(), T_world_body.end()) {}
 
     Samples visible_surface(const View& view, const Pose& T_world_sensor) const override {
@@ -38,29 +38,28 @@ class RaysEngine final : public VisibilityEngine {
 
     std::vector<std::uint8_t> covered_bins(const View& view,
                                            const Pose& T_world_sensor) const override {
-        return sonarsim::covered_bins(*surface_, view, T_world_sensor, T_world_body_);
+        return coverage_.bins(view, T_world_sensor, T_world_body_);
     }
 
     std::unique_ptr<VisibilityEngine> at(std::span<const Pose> T_world_body) const override {
         std::vector<Pose> T_local_body(T_world_body.begin(), T_world_body.end());
         for (Pose& pose : T_local_body)
             pose.translation -= origin_;
-        return std::make_unique<RaysEngine>(origin_, caster_.moved(T_local_body), surface_,
+        return std::make_unique<RaysEngine>(origin_, caster_.moved(T_local_body), coverage_,
                                             T_world_body);
     }
 
   private:
     Eigen::Vector3d origin_;
     Caster caster_;
-    std::shared_ptr<const TriangleRuns> surface_;
+    SceneCoverage coverage_;
     std::vector<Pose> T_world_body_;
 };
 
 }  // namespace
 
-std::unique_ptr<VisibilityEngine> make_rays_engine(const Scene& scene) {
-    return std::make_unique<RaysEngine>(scene.origin, Caster(scene),
-                                        std::make_shared<const TriangleRuns>(scene),
+std::unique_ptr<VisibilityEngine> make_rays_engine(const Scene& scene, bool coverage) {
+    return std::make_unique<RaysEngine>(scene.origin, Caster(scene), SceneCoverage(scene, coverage),
                                         std::span<const Pose>());
 }
 

@@ -100,11 +100,11 @@ class BeamCutter {
 
 class SlicesEngine final : public VisibilityEngine {
   public:
-    SlicesEngine(const Scene& scene, const SlicesOptions& options)
+    SlicesEngine(const Scene& scene, const SlicesOptions& options, bool coverage)
         : scene_(&scene),
           options_(options),
           caster_(scene),
-          surface_(scene),
+          coverage_(scene, coverage),
           mesh_(make_clusters(scene)) {}
 
     Samples visible_surface(const View& view, const Pose& T_world_sensor) const override {
@@ -129,7 +129,7 @@ class SlicesEngine final : public VisibilityEngine {
 
     std::vector<std::uint8_t> covered_bins(const View& view,
                                            const Pose& T_world_sensor) const override {
-        return sonarsim::covered_bins(surface_, view, T_world_sensor);
+        return coverage_.bins(view, T_world_sensor);
     }
 
   private:
@@ -157,15 +157,15 @@ class SlicesEngine final : public VisibilityEngine {
     const Scene* scene_;
     SlicesOptions options_;
     Caster caster_;
-    TriangleRuns surface_;
+    SceneCoverage coverage_;
     ClusterMesh mesh_;
 };
 
 }  // namespace
 
 std::unique_ptr<VisibilityEngine> make_slices_engine(const Scene& scene,
-                                                     const SlicesOptions& options) {
-    return std::make_unique<SlicesEngine>(scene, options);
+                                                     const SlicesOptions& options, bool coverage) {
+    return std::make_unique<SlicesEngine>(scene, options, coverage);
 }
 
 }  // namespace sonarsim

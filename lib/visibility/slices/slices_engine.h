@@ -12,8 +12,10 @@ struct SlicesOptions {
 };
 
 /// The slices engine: half-planes through the sensor, exact along each. `scene` must outlive it.
+/// `coverage`: covered_bins() will be called, so what it needs is made now.
 /// Throws std::runtime_error when Embree, which traces the secondary rays, cannot build its tree.
 std::unique_ptr<VisibilityEngine> make_slices_engine(const Scene& scene,
-                                                     const SlicesOptions& options);
+                                                     const SlicesOptions& options,
+                                                     bool coverage = false);
 
 }  // namespace sonarsim
