@@ -13,8 +13,8 @@ import sys
 import tempfile
 
 # Folders and pages that follow the rules; add one when it does.
-CLEAN = ["lib/core", "lib/scene", "lib/trajectory", "lib/visibility", "lib/validation", "lib/benchmark",
-         "tests/core", "tests/scene", "tests/trajectory", "tests/visibility", "tests/validation",
+CLEAN = ["lib/calibrated", "lib/core", "lib/scene", "lib/trace", "lib/trajectory", "lib/visibility", "lib/validation", "lib/benchmark",
+         "tests/calibrated", "tests/core", "tests/scene", "tests/trace", "tests/trajectory", "tests/visibility", "tests/validation",
          "tests/benchmark", "tests/hard", "tests/support", "docs/glossary.md"]
 # Begins of a comment that lack a subject.
 FRAGMENT = re.compile(r"(of|by|that of|those|what|whether|how|where|whose|which|in which)\b",
