@@ -28,7 +28,7 @@ void add_two(float* to, __m128 values) {
     _mm_storel_epi64(place, _mm_castps_si128(_mm_add_ps(before, values)));
 }
 
-/// Where the echoes of a block go: their places in the grid, and their shares in the next bin and
+/// The places in the grid that the echoes of a block go to, and their shares in the next bin and
 /// the next column.
 struct Targets {
     PatchBlock::Array<std::int32_t> place;

@@ -25,7 +25,8 @@ ArrayBeams array_beams(const BeamConfig& beam, const std::vector<double>& beam_s
 inline int columns_of(const ArrayBeams& beams) {
     return beams.amplitudes.grid().columns;
 }
-/// What turns independent columns into independent points.
+/// The scalloping correction across the columns: mean power over positions between two columns /
+/// power at a column.
 inline float scalloping_gain(const ArrayBeams& beams) {
     return beams.amplitudes.scalloping_gain();
 }

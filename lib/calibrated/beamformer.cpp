@@ -17,7 +17,7 @@ namespace {
 // Columns beside the outer beams: for echoes that lie between a beam and the edge of the view, and
 // for what an outer beam is interpolated from.
 constexpr int margin = 5;
-// What is left free behind the last column, so that an outer beam does not show at the other side.
+// Free columns behind the last one, so that an outer beam does not show at the other side.
 constexpr int gap = 12;
 
 /// The share of [at - 1/2, at + 1/2] steps that lies within [-half, half] steps.
@@ -42,7 +42,7 @@ Complexes element_weights(const LineArray& array, double elements) {
     return out;
 }
 
-/// Of the squared pattern: the weights correlated with themselves.
+/// The weights of the squared pattern: the weights correlated with themselves.
 Complexes correlated(const Complexes& weights) {
     const int n = static_cast<int>(weights.size());
     Complexes out;
@@ -132,7 +132,7 @@ Beamformer::Beamformer(const LineArray& array, const std::vector<double>& beam_s
     Complexes weights = element_weights(array, elements);
     if (powers) {
         weights = correlated(weights);
-        // What the transform cannot hold.
+        // The transform holds no more elements than its size.
         const int excess = (static_cast<int>(weights.size()) - size + 1) / 2;
         if (excess > 0) weights = Complexes(weights.begin() + excess, weights.end() - excess);
     }
@@ -187,7 +187,7 @@ Beamformer::Beamformer(const LineArray& array, const std::vector<double>& beam_s
 Beamformer::Scratch::Scratch(const Beamformer& beams)
     : data(beams.fourier_.size()),
       spare(beams.fourier_.size()),
-      a((beams.elements() + 1) / 2 * lanes_at_once),
+      a(static_cast<std::size_t>((beams.elements() + 1) / 2) * lanes_at_once),
       b(a.size()) {}
 
 /// Adds the noise of bins `row` to `row` + 7: that of an element depends on its number, the bin and
@@ -251,7 +251,7 @@ void Beamformer::form(const EchoGrid* grid, int row, const ElementNoise& noise, 
     }
     if (noise.element_sigma > 0.0F) add_noise(noise, row, key, scratch);
 
-    // Elements that the aperture does not have hear nothing.
+    // The transform has more elements than the aperture; the others receive nothing.
     const auto reach = static_cast<int>(weights_.size() / 2);
     std::fill(data + reach + 1, data + size - reach, ComplexLanes{});
     for (const Weight& w : weights_) {

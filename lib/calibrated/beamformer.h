@@ -11,8 +11,8 @@ namespace sonarsim {
 
 /// Noise of the receiver, before its beams are formed.
 struct ElementNoise {
-    float element_sigma = 0.0F;      ///< of either part, per element
-    float common_mode_sigma = 0.0F;  ///< of either part, in the beam straight ahead
+    float element_sigma = 0.0F;      ///< real and imaginary part each, per element
+    float common_mode_sigma = 0.0F;  ///< each part, in the beam straight ahead
 };
 
 /// Turns what arrives at a line array into beams. A grid of sines is the array's aperture seen
@@ -20,8 +20,8 @@ struct ElementNoise {
 /// and transformed back; beams between the columns of the grid are interpolated.
 class Beamformer {
   public:
-    /// Of `array`, for a fan of which `beam_sines` are the middles of the beams. `powers`: the grid
-    /// holds powers, and the weights are those of the squared pattern.
+    /// `beam_sines` are the sines of the beams' middles. `powers`: the grid holds powers, and the
+    /// weights are those of the squared pattern.
     Beamformer(const LineArray& array, const std::vector<double>& beam_sines, bool powers);
 
     const SineGrid& grid() const { return grid_; }
@@ -46,10 +46,10 @@ class Beamformer {
     static constexpr int most_taps = 8;
     struct Weight {
         float re, im;
-        int index;          ///< of the transform
+        int index;          ///< element of the transform
         float noise_scale;  ///< cancels, for noise, the interpolation correction, which applies to
                             ///< echoes only
-        float ahead_re, ahead_im;  ///< what a source straight ahead is there
+        float ahead_re, ahead_im;  ///< signal of a source straight ahead
     };
 
     void add_noise(const ElementNoise& noise, int row, PhiloxKey key, Scratch& scratch) const;
@@ -59,7 +59,7 @@ class Beamformer {
     Fourier fourier_;
     std::vector<Weight> weights_;
     int taps_ = 1;
-    std::vector<int> first_tap_;  ///< by beam
+    std::vector<int> first_tap_;  ///< [beams]
     std::vector<float> tap_;      ///< [beams, taps]
     float scalloping_gain_ = 1.0F;
     float unit_sigma_ = 0.0F;

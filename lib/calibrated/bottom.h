@@ -6,11 +6,11 @@
 
 namespace sonarsim {
 
-/// How a material scatters sound back, per unit of area and solid angle: the scattering
-/// cross-section sigma, whose 10 log is the scattering strength S.
+/// The backscatter of a material per unit of area and solid angle: the scattering cross-section
+/// sigma, whose 10 log is the backscattering strength S.
 struct Backscatter {
     float lambert = 0.0F;         ///< mu of Lambert's rule, sigma = mu sin^2(grazing angle)
-    float facet = 0.0F;           ///< of a mirror-like echo at normal incidence
+    float facet = 0.0F;           ///< sigma of the specular echo at normal incidence
     float inverse_slope2 = 0.0F;  ///< 1 / (2 s^2), s the root mean square slope of the facets
 
     /// sigma where `sine` is that of the grazing angle, v . n:
@@ -35,9 +35,9 @@ struct Backscatter {
 /// slope s; s = 0 has no facets.
 Backscatter backscatter(double lambert_db, double reflection, double slope_rms);
 
-/// Where `exp_neg` is 0 from, as exact as facets need it: 1e-19 of a power.
+/// `exp_neg` is 0 from here on. Facets need no more: a power of 1e-19 is left.
 inline constexpr float fades_at = 43.0F;
-/// The same for absorption, of which a gain may make up: the least power that floats hold.
+/// The same for absorption, which a gain may compensate: the least power that floats hold.
 inline constexpr float least_loss = 87.0F;
 
 /// e^-x for x >= -88, relative error below 3e-6; 0 from x = `longest` on and for NaN. Without

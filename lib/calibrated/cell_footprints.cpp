@@ -40,7 +40,7 @@ struct Vectors {
     }
 };
 
-/// What of a batch of samples is needed, in the world.
+/// The samples of a batch in the axes of the world, relative to the sonar.
 struct Surfaces {
     Vectors place, u, v;
     Batch<float> range, height, area;
@@ -65,7 +65,7 @@ struct Surfaces {
     }
 };
 
-/// Of three values the one along an axis.
+/// The value along an axis.
 template <class T>
 T along(std::int32_t axis, T x, T y, T z) {
     return axis == 0 ? x : axis == 1 ? y : z;

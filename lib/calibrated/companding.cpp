@@ -13,7 +13,7 @@ namespace {
 // The natural logarithm of it is that of a normal float, and its value is 0 in every companding.
 constexpr float least_power = 1e-37F;
 
-/// How a value in [0, 1] follows from the natural logarithm of the power, which is at most 0.
+/// The function from the natural logarithm of the power, at most 0, to a value in [0, 1].
 struct Law {
     bool logarithmic;
     float factor;

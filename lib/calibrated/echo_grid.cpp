@@ -1,9 +1,9 @@
 #include "calibrated/echo_grid.h"
 
-#include <immintrin.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include "calibrated/lanes.h"
 
 namespace sonarsim {
 
@@ -14,7 +14,8 @@ constexpr std::size_t floats_per_line = 16;
 std::size_t stride_of(int rows, std::size_t front) {
     // One bin behind the last as well, then whole cache lines, of an odd number: with a power of
     // two all columns would compete for the same places of the cache.
-    const std::size_t lines = (front + 2 * (rows + 1)) / floats_per_line + 1;
+    const std::size_t lines =
+        (front + 2 * (static_cast<std::size_t>(rows) + 1)) / floats_per_line + 1;
     return (lines | 1U) * floats_per_line;
 }
 
@@ -52,17 +53,16 @@ std::size_t EchoGrid::convolve_pulse(const RangeTaps& taps) {
         lit += echoes;
         if (echoes == 0) continue;
         for (std::size_t i = 0; i < lines * floats_per_line; i += floats_per_line) {
-            __m256 one = _mm256_setzero_ps();
-            __m256 other = _mm256_setzero_ps();
+            Floats8 one = 0.0F;
+            Floats8 other = 0.0F;
             const float* shifted = padded.data() + i;
             for (const float tap : taps.taps) {
-                const __m256 factor = _mm256_set1_ps(tap);
-                one = _mm256_fmadd_ps(factor, _mm256_loadu_ps(shifted), one);
-                other = _mm256_fmadd_ps(factor, _mm256_loadu_ps(shifted + 8), other);
+                one = fma(tap, Floats8::load(shifted), one);
+                other = fma(tap, Floats8::load(shifted + lanes), other);
                 shifted += 2;
             }
-            _mm256_storeu_ps(values + i, one);
-            _mm256_storeu_ps(values + i + 8, other);
+            one.store(values + i);
+            other.store(values + i + lanes);
         }
     }
     return lit;

@@ -15,9 +15,9 @@ struct SineGrid {
     int columns = 0;
 };
 
-/// What has come back, before the receiver: a complex amplitude or, in its real part, a power for
-/// every range bin and every column of a sine grid. A column is contiguous: echoes of one beam come
-/// one after the other, and 8 bins make a cache line.
+/// The echoes before the receiver: a complex amplitude or, in its real part, a power for every
+/// range bin and every column of a sine grid. A column is contiguous: echoes of one beam come one
+/// after the other, and 8 bins make a cache line.
 class EchoGrid {
   public:
     EchoGrid(int rows, int columns);

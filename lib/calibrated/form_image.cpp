@@ -13,8 +13,8 @@ namespace sonarsim {
 
 namespace {
 
-// Where speckle is drawn for the ping, patches twice as deep as otherwise are small enough: on the
-// tank the expected image is off by 1.8 %.
+// Patches may be twice as deep if speckle is drawn for each ping: on the tank the expected image is
+// then off by 1.8 %.
 constexpr float deeper_patches = 2.0F;
 
 std::vector<Backscatter> scattering_of(const Scene& scene) {
@@ -56,7 +56,7 @@ class ImageFormer {
         }
         if (context_.terms.multipath) add_multipath(specular_paths(traced, context_.scene), grid);
 
-        // 2. Speckle. That of the scene is in the amplitudes of its scatterers.
+        // 2. Speckle. With `speckle: scene` it is in the amplitudes of the scatterers.
         if (speckle_ == SpeckleMode::ping) draw_speckle(grid, speckle_gain_, ping_draws_);
 
         // 3. Pulse.

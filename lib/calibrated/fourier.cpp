@@ -1,10 +1,9 @@
 #include "calibrated/fourier.h"
 
-#include <immintrin.h>
-
 #include <algorithm>
 #include <array>
 
+#include "calibrated/lanes.h"
 #include "core/elementary.h"
 #include "core/units.h"
 
@@ -13,58 +12,54 @@ namespace sonarsim {
 namespace {
 
 struct Value {
-    __m256 re, im;
+    Floats8 re, im;
 };
 
 Value load(const ComplexLanes& z) {
-    return {_mm256_load_ps(z.re.data()), _mm256_load_ps(z.im.data())};
+    return {Floats8::load(z.re.data()), Floats8::load(z.im.data())};
 }
 
 void store(ComplexLanes& z, const Value& v) {
-    _mm256_store_ps(z.re.data(), v.re);
-    _mm256_store_ps(z.im.data(), v.im);
+    v.re.store(z.re.data());
+    v.im.store(z.im.data());
 }
 
 Value operator+(const Value& a, const Value& b) {
-    return {_mm256_add_ps(a.re, b.re), _mm256_add_ps(a.im, b.im)};
+    return {a.re + b.re, a.im + b.im};
 }
 
 Value operator-(const Value& a, const Value& b) {
-    return {_mm256_sub_ps(a.re, b.re), _mm256_sub_ps(a.im, b.im)};
+    return {a.re - b.re, a.im - b.im};
 }
 
 /// a times the root (re, im), conjugated for the inverse.
 template <bool inverse>
 Value turned(const Value& a, float re, float im) {
-    const __m256 c = _mm256_set1_ps(re);
-    const __m256 s = _mm256_set1_ps(inverse ? -im : im);
-    return {_mm256_fmsub_ps(a.re, c, _mm256_mul_ps(a.im, s)),
-            _mm256_fmadd_ps(a.re, s, _mm256_mul_ps(a.im, c))};
+    const Floats8 c = re;
+    const Floats8 s = inverse ? -im : im;
+    return {fms(a.re, c, a.im * s), fma(a.re, s, a.im * c)};
 }
 
 /// a times -i, or i for the inverse.
 template <bool inverse>
 Value quarter_turned(const Value& a) {
-    const __m256 zero = _mm256_setzero_ps();
-    if (inverse) return {_mm256_sub_ps(zero, a.im), a.re};
-    return {a.im, _mm256_sub_ps(zero, a.re)};
+    if (inverse) return {Floats8(0.0F) - a.im, a.re};
+    return {a.im, Floats8(0.0F) - a.re};
 }
 
 Value operator*(float a, const Value& b) {
-    const __m256 factor = _mm256_set1_ps(a);
-    return {_mm256_mul_ps(factor, b.re), _mm256_mul_ps(factor, b.im)};
+    return {a * b.re, a * b.im};
 }
 
 /// a + b c
 Value plus(const Value& a, float b, const Value& c) {
-    const __m256 factor = _mm256_set1_ps(b);
-    return {_mm256_fmadd_ps(factor, c.re, a.re), _mm256_fmadd_ps(factor, c.im, a.im)};
+    return {fma(b, c.re, a.re), fma(b, c.im, a.im)};
 }
 
 /// The transform of 3 or 5 numbers that lie `step` apart.
 template <bool inverse>
 std::array<Value, 3> of_three(const ComplexLanes* in, std::ptrdiff_t step) {
-    constexpr float sine = 0.866025404F;  // of a third of a turn
+    constexpr float sine = 0.866025404F;  // sine of a third of a turn
     const Value a = load(in[0]);
     const Value b = load(in[step]);
     const Value c = load(in[2 * step]);
@@ -93,7 +88,7 @@ std::array<Value, 5> of_five(const ComplexLanes* in, std::ptrdiff_t step) {
     return {a + be + cd, even1 + odd1, even2 + odd2, even2 - odd2, even1 - odd1};
 }
 
-/// What is left of a size without its factors of 2.
+/// The size without its factors of 2.
 int odd_part(int size) {
     while (size % 2 == 0)
         size /= 2;
@@ -200,7 +195,7 @@ int transform_size(int count) {
     int size = 2;
     while (size < count)
         size *= 2;
-    // Of a power of two five eighths or three quarters may do.
+    // Five eighths or three quarters of it may suffice.
     if (size >= 16 && size / 8 * 5 >= count) return size / 8 * 5;
     if (size >= 8 && size / 4 * 3 >= count) return size / 4 * 3;
     return size;

@@ -24,7 +24,7 @@ class Fourier {
 
     int size() const { return size_; }
 
-    /// Transforms `data` [size] by way of `scratch` [size]; the result is in `data`.
+    /// Transforms `data` [size] in place; `scratch` [size] is overwritten.
     void forward(ComplexLanes* data, ComplexLanes* scratch) const;
     /// The inverse, without the factor 1 / N.
     void backward(ComplexLanes* data, ComplexLanes* scratch) const;

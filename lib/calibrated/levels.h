@@ -15,8 +15,8 @@ namespace sonarsim {
 // side of 1. What follows keeps all of them finite. Within what instruments have it changes
 // nothing.
 
-/// By how many dB the powers of the grid of echoes are raised above ratios to the source level, so
-/// that floats hold the noise of the receiver and what is heard above it. `noise_db` and
+/// The dB that are added to the powers of the grid of echoes, which are ratios to the source level,
+/// so that floats hold the noise of the receiver and the echoes above it. `noise_db` and
 /// `common_mode_db` are relative to the source level. 0 where the noise lies within -300 and 200
 /// dB.
 double raised_by_db(double noise_db, double common_mode_db);
@@ -25,7 +25,7 @@ double raised_by_db(double noise_db, double common_mode_db);
 /// of them that add in phase are finite in every beam.
 inline constexpr float most_echo = 1e24F;
 
-/// Where the values of an image end: 300 dB above full scale, at which the receiver clips.
+/// The greatest value of an image: 300 dB above full scale, at which the receiver clips.
 inline constexpr float most_value = 1e30F;
 
 /// The factors from powers of the grid to values of the image, by bin: source level, gain and full

@@ -18,7 +18,7 @@ struct LineArray {
     double cubic_rad = 0.0;
     double quartic_rad = 0.0;
 
-    /// Of the aperture at x, 0 outside; the integral over x without errors of phase is 1.
+    /// The weight of the aperture at x, 0 outside; its integral without errors of phase is 1.
     std::complex<double> weight(double x) const;
 };
 

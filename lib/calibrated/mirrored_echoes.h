@@ -10,7 +10,7 @@
 
 namespace sonarsim {
 
-/// Adds the powers of what comes back by way of a mirror to the real parts of the grid. With the
+/// Adds the powers of the echoes over a mirror to the real parts of the grid. With the
 /// piece at the range r and its image at the range s,
 ///
 ///     EL = SL + S + 10 log R + 10 log A + D - 20 log r - 20 log s - alpha (r + s)    dB,

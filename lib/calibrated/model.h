@@ -23,12 +23,12 @@ namespace sonarsim {
 struct CalibratedModel final : EchoModel {
     InstrumentConfig instrument;
     SonarEquation equation;
-    PointLimits limits;  ///< of pieces that are not scatterers of the scene
+    PointLimits limits;  ///< for pieces that are not scatterers of the scene
     ScattererCells cells;
     Clutter clutter;
     RangeTaps amplitude_taps, power_taps;
     std::variant<TransducerBeams, ArrayBeams> beams;
-    /// By range bin, factor from the power of an echo to the value of the image.
+    /// [range bins] The factor from the power of an echo to the value of the image.
     std::vector<float> row_gain;
     GuardBeams guard;
     SpeckleMode speckle = SpeckleMode::scene;

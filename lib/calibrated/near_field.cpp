@@ -116,8 +116,8 @@ UnfocusedBeam unfocused_beam(const LineArray& array, double wavelength_m, double
     out.sines_per_unit = static_cast<float>((out.sines - 1) / (2.0 * greatest_sine));
     out.curvatures_per_unit = static_cast<float>((out.curvatures - 1) * nearest);
 
-    // As unfocused_pattern(). Of an array that is the same on both sides the sines of the phase
-    // cancel, and the cosines of x times the turn are the same for every curvature.
+    // As unfocused_pattern(). The array is symmetric, so the sines of the phase cancel; the cosines
+    // of x times the turn are the same for every curvature.
     const int steps = steps_for(bend, turn) / 2;
     const int count = half + 1;
     if (1.0 * steps * count * out.curvatures > most_products) {

@@ -19,7 +19,7 @@ namespace sonarsim {
 std::complex<double> unfocused_pattern(const LineArray& array, double u, double wavelength_m,
                                        double curvature_per_m);
 
-/// A table of the square of it, which is what the array has there and back.
+/// A table of its square, the two-way pattern.
 struct UnfocusedBeam {
     /// At the sine u of the angle off the axis and at a range; nearer than the array is long it is
     /// the pattern at its length. `u` lies within the table.

@@ -21,18 +21,18 @@ struct PatchBlock {
     int count = 0;
     Array<float> x{}, y{}, z{};  ///< m, sensor frame
     Array<float> area_m2{};
-    Array<float> height_m{};  ///< of the sonar above the piece's plane
+    Array<float> height_m{};  ///< the sonar's height above the piece's plane
     Array<std::uint32_t> material{};
 };
 
-/// How large a piece may be. In every direction the least of these holds.
+/// The greatest size of a piece. In every direction the least of these holds.
 struct PointLimits {
     float depth_m = 0.0F;         ///< in range; 0: any
-    float sine = 0.0F;            ///< across the beams, of y / range; 0: any
-    float elevation_sine = 0.0F;  ///< of z / range; 0: any
+    float sine = 0.0F;            ///< across the beams, y / range; 0: any
+    float elevation_sine = 0.0F;  ///< in elevation, z / range; 0: any
 };
 
-/// Into how many pieces a half edge is cut.
+/// The number of pieces along a half edge.
 inline int patches_along(const Eigen::Vector3f& half_edge, const Eigen::Vector3f& direction,
                          float range_m, const PointLimits& limits) {
     constexpr float most = 256.0F;

@@ -6,9 +6,9 @@
 
 namespace sonarsim {
 
-/// What a point's echo looks like along range: amplitudes at whole bins from `-reach` to `reach`,
-/// to be filtered with after echoes were put into the two nearest bins in proportion to their
-/// closeness. Together the two are the linear spline that is nearest to the pulse.
+/// The echo of a point along range: amplitudes at whole bins from `-reach` to `reach`. Echoes are
+/// first divided between the two nearest bins in proportion to their closeness, then filtered with
+/// these taps. Together the two are the linear spline that is nearest to the pulse.
 struct RangeTaps {
     int reach = 0;
     std::vector<float> taps;  ///< 2 reach + 1

@@ -1,31 +1,99 @@
 #include "calibrated/scatterer_search.h"
 
-#include <immintrin.h>
-
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <vector>
 
-#include "calibrated/cell_lists.h"
+#include "calibrated/cell_footprints.h"
+#include "calibrated/lanes.h"
+
+// The drawing in docs/calibrated.md, section 2, shows the steps: the rows of larger cells under a
+// footprint, those that are split, and the points that lie on it.
 
 namespace sonarsim {
 
 namespace {
 
-/// Where in a cell its point is along the first and the second axis, in edges, by random bits.
-__m256 within_first(__m256i bits) {
-    return _mm256_mul_ps(_mm256_cvtepi32_ps(_mm256_and_si256(bits, all_lanes(0xFFFFU))),
-                         _mm256_set1_ps(0x1p-16F));
+/// A one-to-one function of 32 bits whose results look random.
+Ints8 mixed(Ints8 h) {
+    h = (h ^ (h >> 16)) * Ints8(0x7FEB352DU);
+    h = (h ^ (h >> 15)) * Ints8(0x846CA68BU);
+    return h ^ (h >> 16);
 }
 
-__m256 within_second(__m256i bits) {
-    return _mm256_mul_ps(_mm256_cvtepi32_ps(_mm256_srli_epi32(bits, 16)), _mm256_set1_ps(0x1p-16F));
+/// Random bits of a level's cells, seen along an axis, by their numbers and a key.
+Ints8 cell_bits(Ints8 i, Ints8 j, std::int32_t level, std::int32_t axis, std::uint32_t key) {
+    const auto plane = static_cast<std::uint32_t>(4 * level + axis + 1) * 0x9E3779B1U;
+    const Ints8 cell = i * Ints8(0x85EBCA6BU) + j * Ints8(0xC2B2AE35U) + Ints8(plane);
+    return mixed(cell ^ Ints8(key));
+}
+
+/// Position of a cell's point along the first and the second axis, in edges, from its random bits.
+Floats8 point_along_first(Ints8 bits) {
+    return to_floats(bits & Ints8(0xFFFFU)) * 0x1p-16F;
+}
+Floats8 point_along_second(Ints8 bits) {
+    return to_floats(bits >> 16) * 0x1p-16F;
+}
+
+/// Cells under the samples of a batch. Column and row count from the base of their sample's
+/// footprint, along its two axes.
+struct CellList {
+    std::vector<std::int32_t> column, row;
+    std::vector<std::int32_t> bits;  ///< random, from the cell
+    int count = 0;
+    std::array<int, CellFootprints::most + 1> begin{};  ///< the first cell of each sample
+
+    CellList() { grow(); }
+    void grow() {
+        const std::size_t size = std::max<std::size_t>(2 * bits.size(), 1024);
+        column.resize(size);
+        row.resize(size);
+        bits.resize(size);
+    }
+    void add(unsigned mask, Ints8 columns, Ints8 rows, Ints8 random) {
+        // Eight lanes are written, and may be read from any cell on.
+        if (count + 2 * lanes > std::ssize(bits)) grow();
+        const ToFront front(mask);
+        front(columns).store(column.data() + count);
+        front(rows).store(row.data() + count);
+        front(random).store(bits.data() + count);
+        count += front.count;
+    }
+};
+
+/// Adds the larger cells under a footprint, eight rows at a time: to `whole` those that hold one
+/// scatterer, to `split` those that are split into four.
+void list_cells(const CellFootprints& p, int k, std::uint32_t key, CellList& whole,
+                CellList& split) {
+    const Ints8 base_i = p.base_first[k] / 2;
+    const Ints8 base_j = p.base_second[k] / 2;
+    const Ints8 first_split = static_cast<std::int32_t>(p.whole[k] * 0x1p24F);
+    const bool along_first = p.rows_along_first[k] != 0;
+    for (std::int32_t n = p.row_begin[k]; n < p.row_end[k]; n += lanes) {
+        const Ints8 outer = Ints8(n) + lane_numbers();
+        const Floats8 left = fma(p.slope[k], to_floats(outer), p.left[k]);
+        const Floats8 right = left + p.width[k];
+        Ints8 inner = to_ints(greatest(floor(left), p.least[k]));
+        const Ints8 end = to_ints(least(floor(right), p.greatest[k])) + 1;
+        const unsigned is_row = (Ints8(p.row_end[k]) > outer).bits();
+        while (const unsigned in_row = is_row & (end > inner).bits()) {
+            const Ints8 column = along_first ? outer : inner;
+            const Ints8 row = along_first ? inner : outer;
+            const Ints8 bits =
+                cell_bits(base_i + column, base_j + row, p.level[k] + 1, p.axis[k], key);
+            // Not the bits themselves: they place the cell's point.
+            const Ints8 other_bits = bits * Ints8(0x9E3779B1U);
+            const unsigned is_whole = (first_split > (other_bits >> 8)).bits();
+            whole.add(in_row & is_whole, column, row, bits);
+            split.add(in_row & ~is_whole, column, row, bits);
+            inner = inner + 1;
+        }
+    }
 }
 
 /// Finds the cells whose points lie on samples and makes scatterers of them. A batch of samples
-/// goes through each step together: how often a loop has to run is known well before it begins, and
-/// the processor does not wait for it.
+/// goes through each step together: the processor knows the length of a loop well before it begins.
 class Search {
   public:
     Search(PhiloxKey key, Scatterers& block, const std::function<void(const Scatterers&)>& use)
@@ -34,26 +102,57 @@ class Search {
     }
 
     void add(std::span<const Sample> samples, const ScattererCells& cells,
-             const SonarInScene& sonar);
+             const SonarInScene& sonar) {
+        samples_ = samples;
+        find_footprints(samples, cells, sonar, footprints_);
+        whole_.count = split_.count = 0;
+        for (int k = 0; k < footprints_.count; ++k) {
+            whole_.begin[k] = whole_.count;
+            split_.begin[k] = split_.count;
+            list_cells(footprints_, k, key_, whole_, split_);
+        }
+        whole_.begin[footprints_.count] = whole_.count;
+        split_.begin[footprints_.count] = split_.count;
+        for (int k = 0; k < footprints_.count; ++k) {
+            keep_whole(k);
+            keep_split(k);
+            runs_[run_count_++] = {k, block_.pieces.count};
+        }
+        complete_runs();
+    }
+
     void flush() {
         if (block_.pieces.count > 0) use_(block_);
         block_.pieces.count = 0;
-        filled_ = 0;
+        completed_ = 0;
     }
 
   private:
-    /// The scatterers of a sample in the block, up to one before `end`.
+    /// The scatterers of a sample in the block, from those of the run before to one before `end`.
     struct Run {
         int sample, end;
     };
 
-    void look_at_whole(int k);
-    void look_at_split(int k);
-    int room(int k);
+    /// Makes room in the block for scatterers of sample k, and returns their greatest number.
+    int room(int k) {
+        if (block_.pieces.count > PatchBlock::most - lanes) {
+            runs_[run_count_++] = {k, block_.pieces.count};
+            complete_runs();
+            flush();
+        }
+        return PatchBlock::most - block_.pieces.count;
+    }
+
+    void keep_whole(int k);
+    void keep_split(int k);
     template <int size>
-    int keep(int k, __m256i column, __m256i row, __m256i bits, unsigned asked, int to);
-    void fill();
-    void fill(const Run& run);
+    int keep(int k, Ints8 column, Ints8 row, Ints8 bits, unsigned mask, int to);
+    void complete(const Run& run);
+    void complete_runs() {
+        for (int r = 0; r < run_count_; ++r)
+            complete(runs_[r]);
+        run_count_ = 0;
+    }
 
     std::uint32_t key_;
     Scatterers& block_;
@@ -61,48 +160,25 @@ class Search {
     std::span<const Sample> samples_;
     CellFootprints footprints_;
     CellList whole_, split_;  ///< larger cells
-    // Of the scatterers of the block: where they lie on their sample, in half edges; the size and
-    // the numbers of their cells, from the base of the sample's footprint; and where in these they
-    // are, as bits.
+    // For each scatterer of the block: its position on the sample, in half edges; its cell's size
+    // and numbers, from the base of the sample's footprint; and the random bits of the cell.
     PatchBlock::Array<float> s_{}, t_{}, size_{};
-    PatchBlock::Array<std::int32_t> column_{}, row_{}, within_{};
-    std::array<Run, CellFootprints::most> runs_{};  ///< that are to be filled
-    int runs_count_ = 0;
-    int filled_ = 0;  ///< so many scatterers of the block are complete
+    PatchBlock::Array<std::int32_t> column_{}, row_{}, bits_{};
+    std::array<Run, CellFootprints::most> runs_{};  ///< not completed yet
+    int run_count_ = 0;
+    int completed_ = 0;  ///< number of complete scatterers in the block
 };
 
-void Search::add(std::span<const Sample> samples, const ScattererCells& cells,
-                 const SonarInScene& sonar) {
-    samples_ = samples;
-    find_footprints(samples, cells, sonar, footprints_);
-    list_cells(footprints_, key_, whole_, split_);
-    for (int k = 0; k < footprints_.count; ++k) {
-        look_at_whole(k);
-        look_at_split(k);
-        runs_[runs_count_++] = {k, block_.pieces.count};
-    }
-    fill();
-}
-
-/// Makes sure that the block has room for scatterers of sample k, and tells for how many.
-int Search::room(int k) {
-    if (block_.pieces.count > PatchBlock::most - search_lanes) {
-        runs_[runs_count_++] = {k, block_.pieces.count};
-        fill();
-        flush();
-    }
-    return PatchBlock::most - block_.pieces.count;
-}
-
-void Search::look_at_whole(int k) {
+void Search::keep_whole(int k) {
     const int end = whole_.begin[k + 1];
     for (int at = whole_.begin[k]; at < end;) {
         const int stop = std::min(end, at + room(k));
         int count = block_.pieces.count;
-        for (; at < stop; at += search_lanes) {
-            const auto load = [&](const auto& from) { return load_numbers(from.data() + at); };
-            count += keep<2>(k, load(whole_.column), load(whole_.row), load(whole_.bits),
-                             0xFFU >> std::max(0, at + search_lanes - stop), count);
+        for (; at < stop; at += lanes) {
+            count +=
+                keep<2>(k, Ints8::load(whole_.column.data() + at),
+                        Ints8::load(whole_.row.data() + at), Ints8::load(whole_.bits.data() + at),
+                        0xFFU >> std::max(0, at + lanes - stop), count);
         }
         at = stop;
         block_.pieces.count = count;
@@ -110,28 +186,21 @@ void Search::look_at_whole(int k) {
 }
 
 /// Two cells at a time, four parts each.
-void Search::look_at_split(int k) {
+void Search::keep_split(int k) {
     const CellFootprints& p = footprints_;
-    const __m256i base_i = _mm256_set1_epi32(p.base_first[k]);
-    const __m256i base_j = _mm256_set1_epi32(p.base_second[k]);
-    const __m256i two_cells = _mm256_setr_epi32(0, 0, 0, 0, 1, 1, 1, 1);
-    const __m256i right = _mm256_setr_epi32(0, 1, 0, 1, 0, 1, 0, 1);
-    const __m256i up = _mm256_setr_epi32(0, 0, 1, 1, 0, 0, 1, 1);
+    const Ints8 right = _mm256_setr_epi32(0, 1, 0, 1, 0, 1, 0, 1);
+    const Ints8 up = _mm256_setr_epi32(0, 0, 1, 1, 0, 0, 1, 1);
     const int end = split_.begin[k + 1];
     for (int at = split_.begin[k]; at < end;) {
         const int stop = std::min(end, at + room(k) / 4);
         int count = block_.pieces.count;
         for (; at < stop; at += 2) {
-            const auto twice = [&](const std::vector<std::int32_t>& from) {
-                const auto* const two = reinterpret_cast<const __m128i*>(from.data() + at);
-                const __m256i cells = _mm256_permutevar8x32_epi32(
-                    _mm256_castsi128_si256(_mm_loadl_epi64(two)), two_cells);
-                return _mm256_add_epi32(cells, cells);
-            };
-            const __m256i column = _mm256_add_epi32(twice(split_.column), right);
-            const __m256i row = _mm256_add_epi32(twice(split_.row), up);
-            const __m256i bits =
-                cell_bits(_mm256_add_epi32(base_i, column), _mm256_add_epi32(base_j, row),
+            const Ints8 columns = two_by_four(split_.column.data() + at);
+            const Ints8 rows = two_by_four(split_.row.data() + at);
+            const Ints8 column = columns + columns + right;
+            const Ints8 row = rows + rows + up;
+            const Ints8 bits =
+                cell_bits(Ints8(p.base_first[k]) + column, Ints8(p.base_second[k]) + row,
                           p.level[k], p.axis[k], key_);
             count += keep<1>(k, column, row, bits, at + 1 < stop ? 0xFFU : 0x0FU, count);
         }
@@ -141,95 +210,74 @@ void Search::look_at_split(int k) {
 }
 
 /// Keeps those of 8 cells whose points lie on the sample, from place `to` of the block on, and
-/// tells how many. Cells are `size` smaller cells large and numbered from the base.
+/// returns their number. A cell has `size` edges of a smaller cell.
 template <int size>
-int Search::keep(int k, __m256i column, __m256i row, __m256i bits, unsigned asked, int to) {
+int Search::keep(int k, Ints8 column, Ints8 row, Ints8 bits, unsigned mask, int to) {
     const CellFootprints& p = footprints_;
-    const auto off_centre = [](__m256i number, __m256 within, float centre) {
-        const __m256 share = _mm256_add_ps(_mm256_cvtepi32_ps(number), within);
-        return _mm256_fmsub_ps(_mm256_set1_ps(size), share, _mm256_set1_ps(centre));
-    };
-    const __m256 x = off_centre(column, within_first(bits), p.first[k]);
-    const __m256 y = off_centre(row, within_second(bits), p.second[k]);
-    const auto share = [&](float by_x, float by_y) {
-        return _mm256_fmadd_ps(x, _mm256_set1_ps(by_x), _mm256_mul_ps(y, _mm256_set1_ps(by_y)));
-    };
-    const __m256 s = share(p.s_x[k], p.s_y[k]);
-    const __m256 t = share(p.t_x[k], p.t_y[k]);
-    const __m256 most = _mm256_set1_ps(1.0F);
-    const __m256 least = _mm256_set1_ps(-1.0F);
-    const __m256 inside = _mm256_and_ps(
-        _mm256_and_ps(_mm256_cmp_ps(s, least, _CMP_GE_OQ), _mm256_cmp_ps(s, most, _CMP_LT_OQ)),
-        _mm256_and_ps(_mm256_cmp_ps(t, least, _CMP_GE_OQ), _mm256_cmp_ps(t, most, _CMP_LT_OQ)));
-    const ToFront front(asked & static_cast<unsigned>(_mm256_movemask_ps(inside)));
-    _mm256_storeu_ps(s_.data() + to, front(s));
-    _mm256_storeu_ps(t_.data() + to, front(t));
-    store_numbers(column_.data() + to, front(column));
-    store_numbers(row_.data() + to, front(row));
-    store_numbers(within_.data() + to, front(bits));
-    _mm256_storeu_ps(size_.data() + to, _mm256_set1_ps(size));
+    constexpr auto edges = static_cast<float>(size);
+    const Floats8 x = fms(edges, to_floats(column) + point_along_first(bits), p.first[k]);
+    const Floats8 y = fms(edges, to_floats(row) + point_along_second(bits), p.second[k]);
+    const Floats8 s = fma(x, p.s_x[k], y * p.s_y[k]);
+    const Floats8 t = fma(x, p.t_x[k], y * p.t_y[k]);
+    const Mask8 inside = (s >= -1.0F) & (s < 1.0F) & ((t >= -1.0F) & (t < 1.0F));
+    const ToFront front(mask & inside.bits());
+    front(s).store(s_.data() + to);
+    front(t).store(t_.data() + to);
+    front(column).store(column_.data() + to);
+    front(row).store(row_.data() + to);
+    front(bits).store(bits_.data() + to);
+    Floats8(edges).store(size_.data() + to);
     return front.count;
 }
 
-void Search::fill() {
-    for (int r = 0; r < runs_count_; ++r)
-        fill(runs_[r]);
-    runs_count_ = 0;
-}
-
-/// Completes the scatterers that were found on a sample. Whole vectors are written: what lies
-/// beyond the last scatterer is written again.
-void Search::fill(const Run& run) {
+/// Completes the scatterers that were found on a sample, eight at a time: those beyond the last one
+/// are overwritten later.
+void Search::complete(const Run& run) {
     PatchBlock& pieces = block_.pieces;
     const CellFootprints& p = footprints_;
-    const Sample& sample = samples_[run.sample];
+    const int of = run.sample;
+    const Sample& sample = samples_[of];
     const Eigen::Vector3f& position = sample.position;
     const Eigen::Vector3f& u = sample.edge_u;
     const Eigen::Vector3f& v = sample.edge_v;
-    const int of = run.sample;
-    const auto one = [](float value) { return _mm256_set1_ps(value); };
-    for (int k = filled_; k < run.end; k += search_lanes) {
-        const __m256 s = _mm256_loadu_ps(s_.data() + k);
-        const __m256 t = _mm256_loadu_ps(t_.data() + k);
-        const auto place = [&](float centre, float by_s, float by_t) {
-            return _mm256_fmadd_ps(s, one(by_s), _mm256_fmadd_ps(t, one(by_t), one(centre)));
+    const int axis = p.axis[of];
+    const int first = (axis + 1) % 3;
+    const int second = (axis + 2) % 3;
+    for (int k = completed_; k < run.end; k += lanes) {
+        const Floats8 s = Floats8::load(s_.data() + k);
+        const Floats8 t = Floats8::load(t_.data() + k);
+        const auto along = [&](float centre, float by_s, float by_t) {
+            return fma(s, by_s, fma(t, by_t, centre));
         };
-        const auto write = [&](float* to, __m256 values) { _mm256_storeu_ps(to + k, values); };
-        write(pieces.x.data(), place(position.x(), u.x(), v.x()));
-        write(pieces.y.data(), place(position.y(), u.y(), v.y()));
-        write(pieces.z.data(), place(position.z(), u.z(), v.z()));
-        write(pieces.height_m.data(), one(sample.height_m));
-        store_numbers(reinterpret_cast<std::int32_t*>(pieces.material.data()) + k,
-                      all_lanes(sample.material));
-        const __m256 size = _mm256_loadu_ps(size_.data() + k);
-        const __m256 edge = _mm256_mul_ps(size, one(p.fine_m[of]));
-        write(block_.edge_m.data(), edge);
-        write(pieces.area_m2.data(),
-              _mm256_mul_ps(_mm256_mul_ps(edge, edge), one(p.area_by_projected[of])));
+        along(position.x(), u.x(), v.x()).store(pieces.x.data() + k);
+        along(position.y(), u.y(), v.y()).store(pieces.y.data() + k);
+        along(position.z(), u.z(), v.z()).store(pieces.z.data() + k);
+        Floats8(sample.height_m).store(pieces.height_m.data() + k);
+        Ints8(sample.material).store(reinterpret_cast<std::int32_t*>(pieces.material.data()) + k);
+        const Floats8 size = Floats8::load(size_.data() + k);
+        const Floats8 edge = size * p.fine_m[of];
+        edge.store(block_.edge_m.data() + k);
+        (edge * edge * p.area_by_projected[of]).store(pieces.area_m2.data() + k);
         // Numbers from the base become those of the lattice: it is a multiple of 8.
-        const __m256i larger = _mm256_srli_epi32(_mm256_cvttps_epi32(size), 1);
-        const auto name = [&](int axis, std::int32_t base, __m256i number) {
-            const __m256i in_lattice = _mm256_srav_epi32(_mm256_set1_epi32(base), larger);
-            store_numbers(block_.cell[axis].data() + k, _mm256_add_epi32(in_lattice, number));
+        const Ints8 is_larger = to_ints(size) >> 1;
+        const auto number = [&](int of_axis, std::int32_t base, Ints8 from_base) {
+            (halved(base, is_larger) + from_base).store(block_.cell[of_axis].data() + k);
         };
-        const int axis = p.axis[of];
-        name((axis + 1) % 3, p.base_first[of], load_numbers(column_.data() + k));
-        name((axis + 2) % 3, p.base_second[of], load_numbers(row_.data() + k));
-        // Four cells high, the scatterer near the middle: samples of a curved surface are flat
-        // and put it a little higher or lower each time, which must not make it another one.
-        const __m256 height = place(p.height[of], p.height_u[of], p.height_v[of]);
-        const __m256 fours = _mm256_floor_ps(
-            _mm256_mul_ps(height, _mm256_sub_ps(one(0.375F), _mm256_mul_ps(size, one(0.125F)))));
-        const __m256i bottom = _mm256_slli_epi32(_mm256_cvttps_epi32(fours), 2);
-        name(axis, p.base_axis[of], _mm256_add_epi32(bottom, _mm256_set1_epi32(1)));
-        // The phase is that of the very place at which the scatterer is in its beam: were it one
-        // elsewhere in the cell, speckle would decorrelate faster than the aperture has it.
-        const __m256i within = load_numbers(within_.data() + k);
-        write(block_.within[(axis + 1) % 3].data(), within_first(within));
-        write(block_.within[(axis + 2) % 3].data(), within_second(within));
-        write(block_.within[axis].data(), one(0.5F));
+        number(first, p.base_first[of], Ints8::load(column_.data() + k));
+        number(second, p.base_second[of], Ints8::load(row_.data() + k));
+        // Four cells high, with the scatterer near the middle: a curved surface is cut into flat
+        // samples that are a little higher or lower each time, which must not change the scatterer.
+        const Floats8 height = along(p.height[of], p.height_u[of], p.height_v[of]);
+        const Floats8 fours = floor(height * (Floats8(0.375F) - size * 0.125F));
+        number(axis, p.base_axis[of], (to_ints(fours) << 2) + 1);
+        // The phase is that of the scatterer's place in the beam. With the phase of another place
+        // in the cell, speckle would decorrelate faster than the aperture allows.
+        const Ints8 bits = Ints8::load(bits_.data() + k);
+        point_along_first(bits).store(block_.within[first].data() + k);
+        point_along_second(bits).store(block_.within[second].data() + k);
+        Floats8(0.5F).store(block_.within[axis].data() + k);
     }
-    filled_ = run.end;
+    completed_ = run.end;
 }
 
 }  // namespace

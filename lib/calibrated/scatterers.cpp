@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/cell_name.h"
 #include "trace/arrivals.h"
 
 namespace sonarsim {
@@ -16,7 +17,7 @@ using Words = PatchBlock::Array<std::uint32_t>;
 // of the cell, which would otherwise show as speckle that is longer than the pulse.
 constexpr double most_of_resolution = 0.75;
 
-// Where sound meets a surface head-on, cells are this much larger than where it grazes it.
+// Levels that cells are larger by where sound meets a surface head-on than where it grazes it.
 constexpr int steep_levels = 1;
 
 /// 32 bits that look random by 64 (the finaliser of MurmurHash3, put to the words in turn).
@@ -58,15 +59,13 @@ std::int32_t cell_along(float metres, float per_edge) {
     return static_cast<std::int32_t>(std::floor(metres * per_edge));
 }
 
-/// What the cells are called in their draws.
+/// The counters of the cells for their random draws.
 void name_cells(const Scatterers& block, int count, Words& low, Words& high) {
-    constexpr std::uint32_t bits_21 = 0x1FFFFF;
     for (int k = 0; k < count; ++k) {
-        const std::uint32_t split = word_of(block.cell[2][k]);
-        low[k] = (word_of(block.cell[0][k]) & bits_21) | split << 21;
+        const CellName name = cell_name(block.cell[0][k], block.cell[1][k], block.cell[2][k]);
+        low[k] = name.low;
         // Levels differ in the exponent of the edge.
-        high[k] = ((word_of(block.cell[1][k]) & bits_21) | split >> 11 << 21) ^
-                  (std::bit_cast<std::uint32_t>(block.edge_m[k]) >> 23) * 0x9E3779B1U;
+        high[k] = name.high ^ (std::bit_cast<std::uint32_t>(block.edge_m[k]) >> 23) * 0x9E3779B1U;
     }
 }
 

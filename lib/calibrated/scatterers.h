@@ -15,12 +15,12 @@ namespace sonarsim {
 /// lattice of cubes. A cell's scatterer has a place within the cell, a strength and a phase of its
 /// own, all by the cell's number. Their edge doubles from one level to the next.
 struct ScattererCells {
-    float least_edge_m = 0.0F;         ///< of level 0
-    float edge_per_root_range = 0.0F;  ///< m per sqrt(m): where sound grazes a surface
-    float greatest_depth_m = 0.0F;     ///< of a cell, in range
-    float width_rad = 0.0F;            ///< of a resolution cell, across
+    float least_edge_m = 0.0F;         ///< level 0
+    float edge_per_root_range = 0.0F;  ///< m per sqrt(m), at grazing incidence
+    float greatest_depth_m = 0.0F;     ///< greatest size of a cell in range
+    float width_rad = 0.0F;            ///< width of a resolution cell
     int levels = 1;
-    double turns_per_m = 0.0;  ///< of phase, there and back: 2 / wavelength
+    double turns_per_m = 0.0;  ///< two-way phase: 2 / wavelength
 
     float edge_of(int level) const { return least_edge_m * static_cast<float>(1 << level); }
 };
@@ -30,7 +30,7 @@ struct ScattererCells {
 ScattererCells scatterer_cells(double per_cell, double resolution_m, double width_rad,
                                double range_min_m, double wavelength_m);
 
-/// Where the sonar is among the cells.
+/// The pose of the sonar among the cells.
 struct SonarInScene {
     Eigen::Matrix3f R_world_sensor = Eigen::Matrix3f::Identity();
     Eigen::Vector3d sensor = Eigen::Vector3d::Zero();  ///< relative to Scene::origin, m

@@ -17,11 +17,11 @@ struct ElevationPattern {
     std::vector<float> power;  ///< steps + 2; empty: 1 all over
 };
 
-/// There and back it is that of a line array of half-power width `width_rad`, as where only the
-/// transmitter is directed in elevation; 0: the same all over.
+/// The two-way pattern is that of a line array of half-power width `width_rad`, as if only the
+/// transmitter were directed in elevation; 0: omnidirectional.
 ElevationPattern elevation_pattern(double width_rad, double side_lobe_db);
 
-/// What a piece of surface sends back, and the range bin it goes to:
+/// The echo of a piece of surface, and its range bin:
 ///
 ///     EL = SL + S(grazing angle) + 10 log A + D(elevation) - 40 log r - 2 alpha r    dB
 ///
@@ -30,21 +30,21 @@ struct SonarEquation {
     float range_min_m = 0.0F;
     float bin_m = 0.0F;
     int rows = 0;
-    float loss_per_m = 0.0F;  ///< power goes with e^-(loss r) by absorption there and back
+    float loss_per_m = 0.0F;  ///< two-way absorption: power falls as e^-(loss r)
     float raised = 0.0F;      ///< powers are e^raised times their ratio to the source level
     ElevationPattern elevation;
 };
 
 /// The echoes of a block of pieces.
 struct PointEchoes {
-    int count = 0;  ///< of pieces, rounded up to whole vectors; echoes beyond have no power
+    int count = 0;  ///< pieces, rounded up to whole vectors; echoes beyond have no power
     PatchBlock::Array<float> range_m;
     PatchBlock::Array<float> power;
     PatchBlock::Array<float> row;     ///< in bins from the middle of the first one, -1 to rows
-    PatchBlock::Array<float> column;  ///< of the grid, where one is formed into beams
+    PatchBlock::Array<float> column;  ///< column of the grid, if beams are formed
 };
 
-/// One end of the ways that sound takes by way of a mirror: it is sent there or comes from there.
+/// One end of the paths over a mirror: the sound departs there or arrives from there.
 struct PathEndpoint {
     const PatchBlock& places;
     const PointEchoes& echoes;

@@ -19,14 +19,14 @@ struct SpecularPath {
         Eigen::Vector3f at, u, v;
     };
 
-    Place point;  ///< where the piece is
+    Place point;  ///< the piece
     /// The image source: in the direction of departure, at the length of the reflected path.
     Place image_source;
     float area_m2 = 0.0F;
     /// Sines of the angles that the surface makes with the way to the piece, with the way by the
     /// mirror, and with the direction midway between them.
     float sine_of_point = 0.0F, sine_of_image = 0.0F, sine_between = 0.0F;
-    float reflection = 0.0F;     ///< of the mirrors on the way: the share of the power they send on
+    float reflection = 0.0F;     ///< share of the power that the mirrors on the path reflect
     std::uint32_t material = 0;  ///< index into Scene::materials
 };
 

@@ -24,7 +24,7 @@ SineTable sine_table(double from, double to, Function value) {
     return out;
 }
 
-/// The complex amplitudes of one beam, there and back, for every piece.
+/// The two-way complex amplitudes of one beam for every piece.
 void find_weights(const TransducerBeams& beams, int beam, const PatchBlock& pieces,
                   const PointEchoes& echoes, Amplitudes& out) {
     for (int k = 0; k < pieces.count; ++k) {
@@ -148,7 +148,7 @@ void add_bistatic_powers(const TransducerBeams& beams, const PathEndpoint& out,
         find_weights(beams, beam, out.places, out.echoes, sent);
         find_weights(beams, beam, back.places, back.echoes, heard);
         for (int k = 0; k < back.places.count; ++k) {
-            // Weights are there and back, the square of one way.
+            // Weights are two-way, the square of one way.
             const float weight = std::sqrt(power_of(sent, k) * power_of(heard, k));
             add_between_bins(grid.column(beam), back.echoes.row[k], back.echoes.power[k] * weight,
                              0.0F);

@@ -22,19 +22,19 @@ struct SineTable {
     float at(float sine) const;
 };
 
-/// Transducers that both send and hear, and form no beams: the two sides of a side-scan sonar, the
-/// disc of an echosounder, the head of a scanning sonar. A side hears all of the surface, by its
-/// pattern.
+/// Transducers that both transmit and receive, and form no beams: the two sides of a side-scan
+/// sonar, the disc of an echosounder, the head of a scanning sonar. A side receives the echoes of
+/// all surface, weighted by its pattern.
 struct TransducerBeams {
     struct Axis {
         float x, y;  ///< unit, sensor frame
     };
     Aperture aperture = Aperture::piston;
     std::vector<Axis> sides;  ///< starboard and port; empty: one beam, along the boresight
-    UnfocusedBeam along;      ///< of a side, along the sensor's z axis, there and back
-    /// Amplitude there and back: of a side across, of a disc off its axis, of a head in azimuth.
+    UnfocusedBeam along;      ///< pattern of a side along the sensor's z axis, two-way
+    /// Two-way amplitude of a side across the track, of a disc off its axis, of a head in azimuth.
     SineTable pattern;
-    float noise_sigma = 0.0F;  ///< of either part
+    float noise_sigma = 0.0F;  ///< real and imaginary part each
 
     int beams() const { return sides.empty() ? 1 : static_cast<int>(sides.size()); }
 };

@@ -2,7 +2,7 @@
 
 namespace sonarsim {
 
-/// What the sound meets between sonar and scene.
+/// The water between sonar and scene.
 struct WaterState {
     double temperature_c = 10.0;
     double salinity_psu = 35.0;

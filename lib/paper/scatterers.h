@@ -1,7 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstdint>
+
+#include "core/cell_name.h"
 
 namespace sonarsim {
 
@@ -14,19 +15,6 @@ struct ScattererLattice {
 
     bool exists() const { return edge_m > 0.0F; }
 };
-
-/// The name of a cell in its draw: the lowest 21 bits of its x and y and 22 of its z. Cells that
-/// lie 2^21 edges apart share draws, 42 km at 2 cm.
-struct CellName {
-    std::uint32_t low, high;
-};
-
-inline CellName cell_name(std::int32_t x, std::int32_t y, std::int32_t z) {
-    constexpr std::uint32_t bits_21 = 0x1FFFFF;
-    const auto split = static_cast<std::uint32_t>(z);
-    return {.low = (static_cast<std::uint32_t>(x) & bits_21) | split << 21,
-            .high = (static_cast<std::uint32_t>(y) & bits_21) | split >> 11 << 21};
-}
 
 /// From the sensor frame to the cells of a lattice. Its constructor is inline so that loops that
 /// write echoes keep it in registers: that of one in another file might have kept its address.

@@ -13,7 +13,7 @@ namespace sonarsim {
 
 /// The arrival of the sound that a point sends back.
 struct Arrival {
-    float range_m;  ///< one-way equivalent slant range, m: half of the way there and back
+    float range_m;              ///< one-way equivalent slant range, m: half of the two-way path
     Eigen::Vector3f departure;  ///< unit, sensor frame: where the sound leaves to
     Eigen::Vector3f direction;  ///< unit, sensor frame: where the sound comes from
 };

@@ -19,8 +19,8 @@ Ray mirrored_ray(const Sample& sample, float bin_m) {
     return {sample.position + lift * sample.normal, mirrored(arrival.departure, sample.normal)};
 }
 
-/// Whether a ray may have hit the surface that it started from: its start lies in the plane of what
-/// it hit, to within rounding.
+/// True if a ray may have hit the surface that it started from: its start lies in the plane that it
+/// hit, to within rounding.
 bool hit_its_start(const Ray& ray, const Intersection& hit) {
     return std::fabs(hit.distance_m * hit.normal.dot(ray.direction)) <= hit.rounding_m;
 }

@@ -14,7 +14,7 @@
 
 namespace sonarsim {
 
-/// What a traced ray hit: the second surface h.
+/// The hit of a traced ray on the second surface h.
 struct BounceHit {
     Eigen::Vector3f point;    ///< p_h, sensor frame, m
     Eigen::Vector3f normal;   ///< n_h
@@ -26,7 +26,7 @@ struct BounceHit {
     bool exists = false;
 };
 
-/// What becomes of rays that meet the water's surface.
+/// The role of the water's surface for rays that meet it.
 enum class SurfaceRole {
     target,     ///< the rays hit the water's surface
     reflector,  ///< the water's surface mirrors the rays to what they hit; other rays hit nothing
@@ -46,7 +46,7 @@ struct BounceTracer {
     SurfaceRole surface_role = SurfaceRole::target;
 
     bool is_mirrored() const { return mirror && surface_role == SurfaceRole::reflector; }
-    /// Where the sonar is for the last leg of the sound.
+    /// The sonar, or its image, as the end of the last leg of the sound.
     Eigen::Vector3f sonar() const {
         return is_mirrored() ? mirror->image : Eigen::Vector3f(Eigen::Vector3f::Zero());
     }

@@ -118,7 +118,7 @@ Clusters cluster_samples(const View& view, const Samples& samples, const Cluster
         for (std::uint32_t i = samples.beam_begin[j]; i < samples.beam_begin[j + 1]; ++i) {
             const Sample& sample = samples.items[i];
             const float range = arrival_range(sample.position);
-            // Beyond the range, the path by way of a second surface is longer still.
+            // Beyond the range, the path over a second surface is longer still.
             if (!(range > 0.0F && range < range_max)) continue;
             cluster[i] = table.cluster_of(tiling.of(sample, range, j), sample.normal);
         }

@@ -8,7 +8,7 @@
 
 namespace sonarsim {
 
-/// How far apart the samples of a cluster may lie.
+/// The greatest distances between the samples of a cluster.
 struct ClusterLimits {
     int epsilon_bins = 0;       ///< in range, beam and elevation; 0: every sample by itself
     float delta_cosine = 1.0F;  ///< least cosine between normals

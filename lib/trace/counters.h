@@ -8,10 +8,10 @@
 
 namespace sonarsim {
 
-// What a ping counts and times. A stage owns a member of one of the structs and a line of the table
-// below it; sums, metadata and log lines follow from the tables.
+// The counters and times of a ping. A stage owns a member of one of the structs and a line of the
+// table below it; sums, metadata and log lines follow from the tables.
 
-/// What became of the samples of a ping as sources of multipath.
+/// The samples of a ping as sources of multipath, by their outcome.
 struct MultipathCounts {
     std::uint64_t samples = 0;
     std::uint64_t clusters = 0;
@@ -49,7 +49,7 @@ template <class Struct, class Number>
 struct Statistic {
     std::string_view name;  ///< in the metadata
     Number Struct::*member;
-    std::string_view text;   ///< what it counts or times; reads on after the number
+    std::string_view text;   ///< the counted items or the timed step; follows the number
     bool is_a_loss = false;  ///< something is missing from the image: worth a line in the log
 };
 

@@ -13,7 +13,7 @@
 
 namespace sonarsim {
 
-/// What an image is formed with, besides what was traced.
+/// The inputs of an image besides the traced ping.
 struct FormContext {
     const View& view;
     const Scene& scene;
@@ -36,14 +36,14 @@ class EchoModel {
 
     /// The guard beams that it needs.
     virtual GuardBeams guard_beams() const { return {}; }
-    /// Whether paths are needed that the second surface mirrors away from the sonar: a rough
+    /// True if paths are needed that the second surface mirrors away from the sonar: a rough
     /// surface scatters sound back along them.
     virtual bool needs_scattered_paths() const { return false; }
     /// The error goal at which this view has to be seen by rays; 0: any engine will do.
     virtual double rays_goal(const View& /*view*/) const { return 0.0; }
-    /// Whether a bin is the sum of its echoes' energies, and not their mean.
+    /// True if a bin is the sum of its echoes' energies, and not their mean.
     virtual bool energies_add() const { return false; }
-    /// Whether an image takes so long that a look at a mission forms fewer of them.
+    /// True if an image takes so long that previews and checks of a mission form fewer of them.
     virtual bool is_slow() const { return false; }
     /// The memory that it needs while it forms an image, besides the image, bytes.
     virtual double working_bytes(bool /*multipath*/) const { return 0.0; }

@@ -28,11 +28,11 @@ struct Plane {
     float radius_m;
 };
 
-/// What became of a sample, as the counter that it goes into.
+/// The counter that a sample adds to.
 using Outcome = std::uint64_t MultipathCounts::*;
 constexpr Outcome off_the_disc = nullptr;  ///< to be traced by itself
 
-/// Whether two rays hit one plane, or both nothing.
+/// True if two rays hit one plane, or both nothing.
 bool same_plane(const BounceHit& a, const BounceHit& b, float slack_m) {
     if (!a.exists || !b.exists) return a.exists == b.exists;
     const Eigen::Vector3f apart = b.point - a.point;
@@ -135,7 +135,7 @@ void follow_traced(const BounceTracer& context, std::span<const std::uint32_t> s
     }
 }
 
-/// Whether `hit`, of a ray from the sonar towards p_h, lies before p_h and hides it. Where both are
+/// True if `hit`, of a ray from the sonar towards p_h, lies before p_h and hides it. If both are on
 /// one surface, two ranges of one point are compared. Each is off by its rounding across the
 /// surface, which along the ray is longer by 1 / cos(incidence).
 bool hides(const Intersection& hit, const BounceHit& second, float range_m, const Ray& ray) {
@@ -184,7 +184,7 @@ std::vector<BouncePath> follow_all(const BounceTracer& context, const Clusters& 
     Followed followed;
     follow_traced(context, sources, second_hits, followed, counts);
 
-    // Where both hit one plane the members between them are reflected off it; the others are
+    // If both hit one plane, the members between them are reflected off it; otherwise all are
     // traced.
     sources.clear();
     std::uint32_t end = 0;
@@ -236,7 +236,7 @@ std::vector<BouncePath> find_bounces(const Multipath& multipath, const TraceCont
 
     std::vector<BouncePath> bounces = follow_all(context, clusters, counts);
     if (mirror) {
-        // What becomes of a sample is counted once, on its way without the mirror.
+        // A sample is counted once, on its path without the mirror.
         MultipathCounts mirrored_counts;
         context.surface_role = SurfaceRole::reflector;
         const std::vector<BouncePath> more = follow_all(context, clusters, mirrored_counts);

@@ -11,15 +11,15 @@
 
 namespace sonarsim {
 
-/// How a sonar finds multipath, Eq. 1-3 and Algorithm 1.
+/// The settings of a sonar's multipath, Eq. 1-3 and Algorithm 1.
 struct Multipath {
     bool on = false;
     ClusterLimits cluster;  ///< epsilon 0 is the exact method: every sample is traced by itself
-    /// Whether paths are kept that the second surface mirrors away from the sonar.
+    /// Keeps paths that the second surface mirrors away from the sonar.
     bool scattered = false;
 };
 
-/// What paths are traced in.
+/// The scene and the sonar that paths are traced for.
 struct TraceContext {
     const View& view;
     const Scene& scene;

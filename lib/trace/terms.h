@@ -11,7 +11,7 @@ struct Terms {
     static constexpr std::size_t all = std::numeric_limits<std::size_t>::max();
 
     bool direct = true;        ///< echoes of the visible surface
-    bool multipath = true;     ///< echoes by way of a second surface
+    bool multipath = true;     ///< echoes over a second surface
     std::size_t random = all;  ///< the first so many of EchoModel::random_terms()
 };
 

@@ -12,19 +12,20 @@
 
 namespace sonarsim {
 
-/// What is traced for a ping.
+/// The settings of the trace of a ping.
 struct TraceSettings {
     View view;
     GuardBeams guard_beams;
     Multipath multipath;
 };
 
-/// What a sonar saw from one pose. It holds no noise: any number of images may be formed from it.
+/// The surface that a sonar insonified from one pose. It holds no noise: any number of images may
+/// be formed from it.
 struct TracedPing {
     Pose T_world_sensor;
     Samples samples;                     ///< the visible surface
     std::vector<Sample> outside_sector;  ///< the visible surface in the guard beams
-    std::vector<BouncePath> bounces;     ///< multipath paths by way of `samples`
+    std::vector<BouncePath> bounces;     ///< multipath paths from `samples`
     PingCounts counts;
     PingSeconds seconds;
 };

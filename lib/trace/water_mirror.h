@@ -14,7 +14,7 @@ namespace sonarsim {
 /// the world's mirror image, in which the sonar is at `image`.
 struct WaterMirror {
     Eigen::Vector3f up;  ///< unit
-    float height_m;      ///< of the surface above the sonar
+    float height_m;      ///< height of the surface above the sonar
     float reflection;
     Eigen::Vector3f image;
 
@@ -24,7 +24,7 @@ struct WaterMirror {
     Eigen::Vector3f reflect_point(const Eigen::Vector3f& p) const {
         return reflect_direction(p) + image;
     }
-    /// How far along a ray from below the surface lies; infinite for one that does not rise.
+    /// Distance of the surface along a ray from below; infinite if the ray does not rise.
     float distance(const Ray& ray) const {
         const float rise = up.dot(ray.direction);
         const float below = height_m - up.dot(ray.origin);

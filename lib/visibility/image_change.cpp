@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/overlapped_bins.h"
+
 namespace sonarsim {
 
 namespace {
@@ -24,15 +26,12 @@ void add_box(const Sample& sample, double reflection, const View& view, BeamSums
     const double bin = view.bin_m();
     const double low = (range - half - view.range_min_m) / bin;
     const double high = std::max((range + half - view.range_min_m) / bin, low + 1e-6);
-    if (!(high > 0.0 && low < view.range_bins)) return;
     const double density = static_cast<double>(sample.area_m2) / (high - low);
     const double intensity = reflection * static_cast<double>(sample.height_m) / range;
-    const int last = static_cast<int>(std::min(high, view.range_bins - 0.5));
-    for (int i = static_cast<int>(std::max(low, 0.0)); i <= last; ++i) {
-        const double overlap = std::min(high, i + 1.0) - std::max(low, static_cast<double>(i));
-        if (!(overlap > 0.0)) continue;
-        sums.weight[i] += density * overlap;
-        sums.echo[i] += density * overlap * intensity;
+    const OverlappedBins bins(low, high, view.range_bins);
+    for (int i = bins.begin; i < bins.end; ++i) {
+        sums.weight[i] += density * bins.overlap(i);
+        sums.echo[i] += density * bins.overlap(i) * intensity;
     }
 }
 

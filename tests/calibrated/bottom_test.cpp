@@ -47,7 +47,7 @@ TEST_SUITE("calibrated") {
         // (v . h) / (n . h) of the sound, whose mean is v . n, for that of zeta is 0. With R they
         // send on R v . n in all.
         const Backscatter facets = backscatter(-300.0, 0.4, slope);
-        const double in = radians(60.0);  // of grazing
+        const double in = radians(60.0);  // grazing angle
         double sent = 0.0;
         constexpr int steps = 400;
         for (int i = 0; i < steps; ++i) {

@@ -60,7 +60,7 @@ constexpr std::array kinds{SonarKind::imaging, SonarKind::sidescan, SonarKind::e
 }  // namespace
 
 TEST_SUITE("calibrated") {
-    // Of 200 bins or more of exponential powers the mean is within 30 % of 1 by four deviations.
+    // The mean of 200 or more bins of exponential powers is within 30 % of 1 by four deviations.
     TEST_CASE("levels: noise at full scale is 1, whatever the source level" *
               doctest::skip(test::sanitized)) {
         for (const SonarKind kind : kinds) {

@@ -55,7 +55,7 @@ double loss_per_m(const Sonar& sonar) {
     return 0.2 * std::log(10.0) * calibrated_model_of(sonar).absorption_db_per_m;
 }
 
-/// All that comes back without the mirrors, and by way of them.
+/// The energy of the direct echoes, and of those over the mirrors.
 struct Energies {
     double direct, mirrored;
 };
@@ -233,9 +233,9 @@ TEST_SUITE("calibrated") {
             const auto without = image_of(sonar, direct_echoes_alone, 0);
             const auto alone = image_of(sonar, multipath_alone, 0);
             const auto with = image_of(sonar, mean_of_all, 0);
-            // What smears powers swings a little below 0 beside a glint, as it does with direct
-            // echoes: by some thousandths of what is added there. The transform over all beams
-            // rounds by some 1e-7 of the brightest of a row.
+            // The filter of powers swings a little below 0 beside a glint, as it does with direct
+            // echoes: by some thousandths of the power that is added there. The transform over all
+            // beams rounds by some 1e-7 of the brightest of a row.
             const View& view = sonar.settings.view;
             double most_lost = 0.0;
             for (int row = 0; row < view.range_bins; ++row) {

@@ -214,7 +214,7 @@ TEST_SUITE("calibrated") {
         CHECK(test::correlation(normalised(first, expected, 1, 1),
                                 normalised(otherwise, expected, 1, 1)) > 0.98);
 
-        // By a beam to port: what was in beam j is in beam j - 1.
+        // A turn by one beam to port: the echo of beam j is in beam j - 1.
         const Pose turned{rotation_from_rpy(0.0, 0.0, fan_rad / beams_of_fan),
                           Eigen::Vector3d::Zero()};
         const std::vector<float> second = image_of(model, floor_below(turned), turned, 1);
@@ -223,8 +223,8 @@ TEST_SUITE("calibrated") {
         CHECK(test::correlation(a, normalised(second, expected, 1, 1, 3)) < 0.1);
 
         // Sideways by d, transmitter and receiver alike, sound comes to the array as if it had
-        // moved by 2 d. Of a uniform aperture L the part 1 - 2 d / L is left, and powers are
-        // correlated by its square.
+        // moved by 2 d. The part 1 - 2 d / L of a uniform aperture L is left, and the correlation
+        // of powers is its square.
         const double aperture_m = 0.8859 * model.wavelength_m / radians(1.0);
         const auto moved = [&](double share) {
             const Pose pose{here.rotation, Eigen::Vector3d(0.0, share * aperture_m, 0.0)};

@@ -13,12 +13,12 @@
 using namespace sonarsim;
 
 TEST_SUITE("calibrated") {
-    TEST_CASE("decibels, there and back") {
+    TEST_CASE("decibels: a power and its inverse") {
         CHECK(std::fabs(power_of_db(3.0) / std::pow(10.0, 0.3) - 1.0) < 1e-13);
         CHECK(std::fabs(db_of_power(power_of_db(-87.5)) + 87.5) < 1e-11);
     }
 
-    TEST_CASE("fourier: the definition, and there and back") {
+    TEST_CASE("fourier: the definition, and the inverse") {
         for (const int size : {2, 3, 5, 8, 12, 20, 24, 32, 40, 64}) {
             const Fourier fourier(size);
             std::vector<ComplexLanes> data(size), scratch(size);

@@ -18,7 +18,7 @@ Samples point_at(double range_m) {
     return patches({range_m, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}, 5e-5, 5e-5, 1e-4);
 }
 
-/// How wide the values about their greatest are at half of it, in steps.
+/// The width of the peak of the values at half of its height, in steps.
 double half_power_width(const std::vector<double>& values) {
     const auto peak = static_cast<std::size_t>(std::ranges::max_element(values) - values.begin());
     const double half = 0.5 * values[peak];
@@ -40,7 +40,7 @@ double half_power_width(const std::vector<double>& values) {
 double aperture_width(const LineArray& array) {
     std::vector<double> pattern;
     constexpr int steps = 200;
-    constexpr double step = 0.01;  // of lambda / L
+    constexpr double step = 0.01;  // in lambda / L
     for (int i = -300; i <= 300; ++i) {
         std::complex<double> sum = 0.0;
         for (int k = 0; k < steps; ++k) {

@@ -31,8 +31,7 @@ double energy_db(const std::vector<float>& image) {
     return db_of_power(std::accumulate(image.begin(), image.end(), 0.0));
 }
 
-/// What the head's pattern takes of a point's level off its axis, there and back: one way it is the
-/// array's.
+/// The two-way loss of a point's level off the axis of the head: one way it is the array's pattern.
 double loss_db(const LineArray& head, double off_rad) {
     return 4.0 * 10.0 * std::log10(std::fabs(line_pattern(head, std::sin(off_rad))));
 }
@@ -40,7 +39,7 @@ double loss_db(const LineArray& head, double off_rad) {
 }  // namespace
 
 TEST_SUITE("calibrated") {
-    TEST_CASE("scanning: a point is smeared over the steps as the beam is, there and back") {
+    TEST_CASE("scanning: a point is smeared over the steps as the two-way beam is") {
         for (const char* const preset : {"micron", "ping360"}) {
             const Sonar sonar = scanning(preset);
             const LineArray head = array_of(sonar);

@@ -16,7 +16,7 @@ using namespace sonarsim::test;
 
 namespace {
 
-/// How the complex amplitudes of an aperture in uniform incoherent sound are correlated with those
+/// The correlation of the complex amplitudes of an aperture in uniform incoherent sound with those
 /// of the same aperture, moved by the share `moved` of its length and looking `turned` half-power
 /// widths or so aside, t = sine L / lambda: the ambiguity function of its weight,
 ///
@@ -159,7 +159,7 @@ TEST_SUITE("calibrated") {
                     " of at most ", most);
             CHECK(distance_from_exponential(powers) < most);
 
-            // Of n independent places a correlation is off by 1 / sqrt(n) or so; with neighbours
+            // A correlation over n independent places is off by about 1 / sqrt(n); with neighbours
             // there are some 4 times as many that count.
             const double tolerance = 2.0 / std::sqrt(static_cast<double>(powers.size()));
             const std::vector<double> here = patch.normalised(image, outer, inner);
@@ -192,8 +192,8 @@ TEST_SUITE("calibrated") {
         const PulseBand pulse(patch.sonar.config.instrument.pulse);
         constexpr int outer = 10;
         const int inner = patch.beams() - 2 * outer;
-        // Of one seed a correlation is off by 0.02 or so: the mean of four is held to the closed
-        // form.
+        // The correlation of one seed is off by about 0.02: the mean of four is compared with the
+        // closed form.
         constexpr std::uint32_t seeds = 4;
         std::vector<std::vector<double>> here;
         for (std::uint32_t seed = 1; seed <= seeds; ++seed) {
@@ -286,8 +286,8 @@ TEST_SUITE("calibrated") {
             const double found = 1.0 / (0.5 * squares / (mean * mean) - 1.0) * along * across;
             MESSAGE("shape ", found, " where ", shape, " was asked for; of the variance ",
                     along * across, " is left");
-            // Of 3 times 400 cells with the moments of a gamma distribution of shape 1 the ratio is
-            // off by 2 / sqrt(1200), 6 %; of higher shapes by less, but speckle adds as much.
+            // The ratio of 3 times 400 cells with the moments of a gamma distribution of shape 1 is
+            // off by 2 / sqrt(1200), 6 %; higher shapes give less, but speckle adds as much.
             CHECK(std::fabs(found / shape - 1.0) < 0.15);
         }
     }

@@ -67,7 +67,7 @@ double pulse_power(double bins) {
     return std::pow(line_pattern(band, bins * 1e-3), 2.0);
 }
 
-/// What a plane bottom, `depth_m` below an echosounder with bins of 5 cm, sends back by range.
+/// The echo of a plane bottom `depth_m` below an echosounder with bins of 5 cm, by range.
 double bottom_echo(const CalibratedModel& model, double width_deg, double depth_m, double range_m) {
     const double cosine = depth_m / range_m;
     const double sine = std::sqrt(1.0 - cosine * cosine);
@@ -145,8 +145,8 @@ TEST_SUITE("calibrated") {
         const CalibratedModel model = sounder(10.0);
         const double on_axis = energy_of(model, {patch_at(5.0, 0.0, 0.0, 0.01)});
         REQUIRE(on_axis > 0.0);
-        // In y or in z at half of the width, the power is a quarter there and back. The same angle
-        // of grazing takes a plate on an arc; let it face the sonar.
+        // In y or in z at half of the width, the two-way power is a quarter. The plate moves on
+        // an arc and faces the sonar, so that the grazing angle stays the same.
         const double angle = radians(5.0);
         for (const bool up : {false, true}) {
             const double across = 5.0 * std::sin(angle);
@@ -197,7 +197,7 @@ TEST_SUITE("calibrated") {
         }
         const std::vector<float> image = image_of(model, bottom);
         constexpr double bin_m = 0.05;
-        constexpr int steps = 200;  // of a bin
+        constexpr int steps = 200;  // per bin
         double energy = 0.0;
         double of_equation = 0.0;
         for (int row = 85; row < 106; ++row) {  // 4.75 to 5.8 m

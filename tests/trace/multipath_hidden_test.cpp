@@ -12,7 +12,7 @@
 using namespace sonarsim;
 using namespace sonarsim::test;
 
-// Whether the sonar sees the second point of a bounce, told to within rounding and no more.
+// The sonar sees the second point of a bounce or not: the tracer decides it to within rounding.
 
 TEST_SUITE_BEGIN("ping");
 
@@ -42,7 +42,7 @@ TEST_CASE("what hides the second point hides it in a scene of any size") {
 }
 
 TEST_CASE("what hides the second point hides it however near it is") {
-    // Of two walls, y = 2 and x = 5, the port one has a sample at (4, 2, 0). Its sound meets
+    // There are two walls, y = 2 and x = 5; the port one has a sample at (4, 2, 0). Its sound meets
     // the front wall at y = 4 - 10 / 4 = 1.5, or a little below, since the trace starts 0.45 mm off
     // the wall. A fin of 1 cm on the front wall at y = 1.4985 stands 3.5 mm before that point for
     // the sonar, and is passed by the sound from port.

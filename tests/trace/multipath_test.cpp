@@ -18,8 +18,8 @@ using namespace sonarsim::test;
 
 namespace {
 
-/// What the geometry of a scene says of a sample at p_i: range, azimuth and intensity, or no echo
-/// where the intensity is not positive.
+/// The expected echo of a sample at p_i, from the geometry of the scene; none if the intensity is
+/// not positive.
 struct Expected {
     double range;
     double azimuth;
@@ -234,7 +234,7 @@ TEST_CASE("the exact method is the paper's equations, sample by sample") {
         differ += comes_back != (bounce_of[i] != nullptr);
     }
     CHECK(found.bounces.size() > 200);
-    // Where the second point is within millimetres of an edge the two may see different sides.
+    // If the second point is within millimetres of an edge, the two may see different sides.
     CHECK(differ < 0.02 * static_cast<double>(found.bounces.size()));
 }
 

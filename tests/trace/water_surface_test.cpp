@@ -83,7 +83,7 @@ TEST_SUITE("ping") {
 
     TEST_CASE("water surface: the ghost of a wall in the surface") {
         // The sonar looks along x, level, at a wall at x = 6; the surface is 1 m above. Sound goes
-        // by way of the wall to the surface and straight back: the mirror image of the sonar in the
+        // over the wall to the surface and straight back: the mirror image of the sonar in the
         // wall is at (12, 0, 0), and p is where the line from there meets the surface.
         Scene scene = empty_scene();
         const std::uint32_t wall = add_material(scene, 0.5F);
@@ -104,7 +104,7 @@ TEST_SUITE("ping") {
             const Eigen::Vector3d p = image + (1.0 / r.z()) * r;
             if (p.x() > 5.99) continue;  // on the far side of the wall
             const double range = 0.5 * ((p - image).norm() + p.norm());
-            if (std::fabs(b.range_m - range) > 1e-3) continue;  // by way of the mirror
+            if (std::fabs(b.range_m - range) > 1e-3) continue;  // an echo over the mirror
             ++ghosts;
             const double cosine =
                 -(r - 2.0 * r.z() * Eigen::Vector3d::UnitZ()).normalized().dot(p.normalized());

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "core/overlapped_bins.h"
+
 namespace sonarsim {
 
 namespace {
@@ -57,9 +59,9 @@ void EdgeBinError::add(const Interval& range_m, float area_m2, float height_m, f
         reflection * std::min(2.0F * height_m / (range_m.from + range_m.to), 1.0F);
     const int first = static_cast<int>(std::max(low, 0.0F));
     const int last = static_cast<int>(std::min(high, end - 0.5F));
+    const OverlappedBins bins(low, high, count_);
     for (int i = first; i <= last; ++i) {
-        const float area = density * (std::min(high, static_cast<float>(i + 1)) -
-                                      std::max(low, static_cast<float>(i)));
+        const float area = density * bins.overlap(i);
         area_[i + 1] += area;
         echo_[i + 1] += area * intensity;
     }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/overlapped_bins.h"
+
 namespace sonarsim {
 
 namespace {
@@ -75,17 +77,12 @@ void RangeProfile::add(float from_m, float to_m, float weight, float height_m, f
     const float low = from_m * per_m_ - min_bins_;
     const float high = std::max(to_m * per_m_ - min_bins_, low + least_bins);
     const float density = weight / (high - low);
-    const float from = std::max(low, 0.0F);
-    const float to = std::min(high, static_cast<float>(bins_));
-    if (!(from < to)) return;
-    const int first = static_cast<int>(from);
-    const int last = std::min(static_cast<int>(std::ceil(to)), bins_);
-    first_ = last_ == 0 ? first : std::min(first_, first);
-    last_ = std::max(last_, last);
-    for (int i = first; i < last; ++i) {
-        const float share =
-            std::min(to, static_cast<float>(i + 1)) - std::max(from, static_cast<float>(i));
-        const float w = density * share;
+    const OverlappedBins bins(low, high, bins_);
+    if (bins.empty()) return;
+    first_ = last_ == 0 ? bins.begin : std::min(first_, bins.begin);
+    last_ = std::max(last_, bins.end);
+    for (int i = bins.begin; i < bins.end; ++i) {
+        const float w = density * bins.overlap(i);
         weight_[i] += w;
         echo_[i] += w * reflection * std::min(height_m * per_range_[i], 1.0F);
     }
