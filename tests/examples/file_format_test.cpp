@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dataset/writers/formats.h"
+#include "dataset/writer.h"
 #include "support/scenes.h"
 #include "support/small_mission.h"
 #include "support/temporary_folder.h"
