@@ -8,7 +8,7 @@
 
 namespace sonarsim {
 
-/// What the writers of a sensor make of a ping.
+/// The output of the writers of a sensor for a ping.
 struct WrittenPing {
     std::vector<std::string> parts;    ///< by writer: the bytes of a file or a record
     std::uint64_t clipped_pixels = 0;  ///< intensities above the white of pictures

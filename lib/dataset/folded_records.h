@@ -7,18 +7,17 @@
 
 namespace sonarsim {
 
-/// Pictures have a row (or column) per ping up to 60,000 pings; beyond that, the mean of as many
-/// pings as it takes. A PNG cannot be much longer.
+/// Pictures have at most this many rows (or columns) of pings. A row is the mean of several pings
+/// if there are more of them. A PNG cannot be much longer.
 inline constexpr std::size_t most_picture_rows = 60'000;
 
-/// How many pings share a row.
+/// The number of pings that share a row.
 std::size_t pings_per_row(std::size_t pings);
 
-/// How many rows that makes.
+/// The number of rows.
 int picture_rows(std::size_t pings);
 
-/// The float32 records of a file as the rows of a picture: each the mean of as many pings as it
-/// takes to have at most `most_picture_rows`.
+/// The float32 records of a file as the rows of a picture, each the mean of pings_per_row() pings.
 class FoldedRecords {
   public:
     explicit FoldedRecords(const RecordFile& records);
@@ -35,7 +34,7 @@ class FoldedRecords {
     std::vector<float> mean_;
 };
 
-/// The intensity that a picture for the eye shows brightest.
+/// The intensity of the brightest colour in a picture for people.
 double white_of(FoldedRecords& records);
 
 }  // namespace sonarsim

@@ -43,7 +43,8 @@ void add_coco(const Mission& mission, CocoPicture picture, std::vector<SharedPro
     }
 }
 
-/// `labels: true` asks for what there is; a list means what it says.
+/// True for `labels: true`, which asks for the labels that the sensors can have; a list asks for
+/// each of its labels.
 bool asks_for_all(const Mission& mission) {
     return mission.output.labels.size() == static_cast<std::size_t>(Label::yolo_polygons) + 1;
 }
@@ -101,11 +102,11 @@ void check_shared_products(const Mission& mission, std::size_t poses) {
         if (need.met || !is_asked(mission, need.label)) continue;
         const std::string why =
             imaging ? std::string("it needs ") + need.cure
-                    : "no sensor has pictures of single pings, only imaging and profiling sonars "
-                      "have; take it out of the list";
+                    : "only imaging and profiling sonars have pictures of single pings, and the "
+                      "mission has none of these; take it out of the list";
         throw InputError(
             mission.output.labels_place.location,
-            std::string("there is nothing for the label '") + need.name + "' to be of: " + why);
+            std::string("the label '") + need.name + "' has no pictures to label: " + why);
     }
 }
 

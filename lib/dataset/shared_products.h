@@ -17,20 +17,20 @@ enum class CocoPicture {
     scan,    ///< of the sweeps of a scanning sonar
 };
 
-/// A file that is made of the pings of all sonars when all of them are there.
+/// A file that is made of the pings of all sonars once all of them are rendered.
 struct SharedProduct {
     enum class Kind { coco, class_names, split };
     Kind kind;
     std::string file;                  ///< relative to the folder of the dataset
-    CocoPicture picture = {};          ///< of a COCO file
-    SplitPart part = SplitPart::none;  ///< that it lists; none: all poses
+    CocoPicture picture = {};          ///< COCO only: its pictures
+    SplitPart part = SplitPart::none;  ///< the poses that it lists; none: all
 };
 
 /// The COCO file of all pictures of a sort, or of a part of the split ("_train"), relative to the
 /// folder of the dataset.
 std::string coco_file(CocoPicture picture, const std::string& part = "");
 
-/// Those that a mission asks for.
+/// The shared products that a mission asks for.
 std::vector<SharedProduct> shared_products(const Mission& mission);
 
 /// InputError when the mission asks for labels of pictures and writes no such picture, or for a

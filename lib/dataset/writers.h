@@ -13,10 +13,10 @@ using Writers = std::vector<std::unique_ptr<Writer>>;
 /// By sensor. InputError when a sensor of the mission would have no output at all.
 std::vector<Writers> make_writers(const Mission& mission, const Assembly& assembly);
 
-/// How many pings each sensor sends.
+/// The number of pings of each sensor.
 std::vector<std::size_t> count_pings(const Mission& mission, std::size_t poses);
 
-/// The most that a sensor's files take, in bytes.
+/// The largest size of a sensor's files, bytes.
 double bytes_at_most(const Writers& writers, std::size_t pings);
 
 }  // namespace sonarsim

@@ -14,7 +14,7 @@ namespace sonarsim {
 struct Echoes {
     std::vector<float> range_m;                      ///< slant range, of the middle of its extent
     std::vector<float> half_m;                       ///< half its extent in range
-    std::vector<float> weight;                       ///< the area that it stands for, m^2
+    std::vector<float> weight;                       ///< area of its surface, m^2
     std::vector<float> intensity;                    ///< I, Eq. 6
     std::vector<std::uint32_t> cell_low, cell_high;  ///< CellName, when there is noise
 

@@ -21,27 +21,33 @@ void tint(Picture& picture, int x, int y, Rgb colour, float share) {
     pixel = blend(ends, share);
 }
 
-void draw_line(Picture& picture, Eigen::Vector2d from, Eigen::Vector2d to, Rgb colour,
-               float share) {
-    // Clipping the line first (Liang and Barsky) keeps the number of steps small.
-    const Eigen::Vector2d way = to - from;
+std::optional<std::pair<double, double>> part_within(const Eigen::Vector2d& size,
+                                                     const Eigen::Vector2d& from,
+                                                     const Eigen::Vector2d& way) {
     double begin = 0.0;
     double end = 1.0;
-    const double limits[] = {static_cast<double>(picture.width),
-                             static_cast<double>(picture.height)};
     for (int axis = 0; axis < 2; ++axis) {
         if (way[axis] == 0.0) {
-            if (from[axis] < 0.0 || from[axis] >= limits[axis]) return;
+            if (from[axis] < 0.0 || from[axis] >= size[axis]) return std::nullopt;
             continue;
         }
         const double a = -from[axis] / way[axis];
-        const double b = (limits[axis] - from[axis]) / way[axis];
+        const double b = (size[axis] - from[axis]) / way[axis];
         begin = std::max(begin, std::min(a, b));
         end = std::min(end, std::max(a, b));
     }
-    if (!(begin <= end)) return;
-    to = from + end * way;
-    from += begin * way;
+    if (!(begin <= end)) return std::nullopt;
+    return std::pair(begin, end);
+}
+
+void draw_line(Picture& picture, Eigen::Vector2d from, Eigen::Vector2d to, Rgb colour,
+               float share) {
+    // Clipping the line first keeps the number of steps small.
+    const Eigen::Vector2d way = to - from;
+    const auto part = part_within({picture.width, picture.height}, from, way);
+    if (!part) return;
+    to = from + part->second * way;
+    from += part->first * way;
     const int steps = std::max(1, static_cast<int>(std::ceil((to - from).lpNorm<1>())));
     int last_x = -1;
     int last_y = -1;

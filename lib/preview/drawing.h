@@ -1,7 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "product/picture.h"
 
@@ -9,6 +11,12 @@ namespace sonarsim {
 
 /// Blends a colour over a pixel with the weight `share`. Pixels outside the picture are ignored.
 void tint(Picture& picture, int x, int y, Rgb colour, float share);
+
+/// The part of the line from + t way, t in [0, 1], that lies within a rectangle of this size at the
+/// origin, by its first and last t (Liang and Barsky); nothing if no part does.
+std::optional<std::pair<double, double>> part_within(const Eigen::Vector2d& size,
+                                                     const Eigen::Vector2d& from,
+                                                     const Eigen::Vector2d& way);
 
 /// Draws a straight line, one pixel wide, between two points in pixels, clipped to the picture.
 void draw_line(Picture& picture, Eigen::Vector2d from, Eigen::Vector2d to, Rgb colour,

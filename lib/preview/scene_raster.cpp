@@ -82,18 +82,9 @@ struct HeightRaster {
         const Vector2d from = place(a);
         const Vector2d way = place(b) - from;
         // Only the part in the plot is stepped along: an edge may be a million times as long.
-        double begin = 0.0;
-        double end = 1.0;
-        for (const auto& [start, change, last] :
-             {std::array{from.x(), way.x(), static_cast<double>(frame.plot_width)},
-              std::array{from.y(), way.y(), static_cast<double>(frame.plot_height)}}) {
-            const double one = change != 0.0 ? -start / change : 0.0;
-            const double other = change != 0.0 ? (last - start) / change : 1.0;
-            if (change == 0.0 && (start < 0.0 || start >= last)) return;
-            begin = std::max(begin, std::min(one, other));
-            end = std::min(end, std::max(one, other));
-        }
-        if (begin > end) return;
+        const auto part = part_within(Vector2d(frame.plot_width, frame.plot_height), from, way);
+        if (!part) return;
+        const auto [begin, end] = *part;
         const int steps = static_cast<int>(std::ceil((end - begin) * way.norm()));
         for (int k = 0; k <= steps; ++k) {
             const double share = steps > 0 ? begin + (end - begin) * k / steps : begin;

@@ -45,13 +45,6 @@ std::vector<std::int32_t> waterfall_bins(const SonarConfig& config) {
     return bins;
 }
 
-std::vector<float> sidescan_row(const SonarConfig& config, const Ping& ping) {
-    std::vector<float> row;
-    for (const std::int32_t bin : waterfall_bins(config))
-        row.push_back(bin < 0 ? 0.0F : ping.intensity[bin]);
-    return row;
-}
-
 FirstReturns first_returns(const Sonar& sonar, const Ping& ping) {
     return {first_return_m(sonar, ping, port), first_return_m(sonar, ping, starboard)};
 }

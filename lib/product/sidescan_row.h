@@ -23,9 +23,6 @@ int waterfall_columns(const SonarConfig& config);
 /// where the sonar does not listen.
 std::vector<std::int32_t> waterfall_bins(const SonarConfig& config);
 
-/// A side-scan ping as a row of the waterfall.
-std::vector<float> sidescan_row(const SonarConfig& config, const Ping& ping);
-
 /// Slant range of the first bottom return on each side, m: the middle of its bin (first_return() in
 /// product/bottom.h). Nothing if the side is dark.
 struct FirstReturns {

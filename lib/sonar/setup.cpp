@@ -28,15 +28,13 @@ std::vector<double> edges(double low, double high, int bins) {
     return out;
 }
 
-Pose mounted(const MountConfig& mount, const Pose& T_vehicle_default) {
-    const Pose turned{rotation_from_rpy(radians(mount.rpy_deg[0]), radians(mount.rpy_deg[1]),
-                                        radians(mount.rpy_deg[2])),
-                      Eigen::Vector3d(mount.translation_m.data())};
-    return turned * T_vehicle_default;
-}
-
 void set_mount(Sonar& sonar, const KindOfSonar& kind) {
-    sonar.T_vehicle_sensor = mounted(sonar.config.mount, kind.looks_down ? looking_down() : Pose{});
+    const auto& [translation_m, rpy_deg] = sonar.config.mount;
+    const Pose turned{
+        rotation_from_rpy(radians(rpy_deg[0]), radians(rpy_deg[1]), radians(rpy_deg[2])),
+        Eigen::Vector3d(translation_m.data())};
+    const Pose down{rotation_from_rpy(0.0, 0.5 * pi, 0.0), Eigen::Vector3d::Zero()};
+    sonar.T_vehicle_sensor = turned * (kind.looks_down ? down : Pose{});
 }
 
 Sonar common_sonar(const SonarConfig& config, const AccuracyConfig& accuracy,
@@ -121,10 +119,6 @@ std::shared_ptr<const EchoModel> make_echo_model(Sonar& sonar, const KindOfSonar
             return std::make_shared<CalibratedModel>(instrument_model(sonar, water));
     }
     throw std::logic_error("an echo model is not made here");
-}
-
-Pose looking_down() {
-    return {rotation_from_rpy(0.0, 0.5 * pi, 0.0), Eigen::Vector3d::Zero()};
 }
 
 nlohmann::ordered_json number_or_null(const std::optional<double>& value) {

@@ -18,11 +18,9 @@ namespace sonarsim {
 /// `bins` + 1 equally spaced values from `low` to `high`, both exact.
 std::vector<double> edges(double low, double high, int bins);
 
-/// T_vehicle_sensor: the sonar's default mount, turned by the mission's roll, pitch and yaw and
-/// moved by its translation.
-Pose mounted(const MountConfig& mount, const Pose& T_vehicle_default);
-
-/// T_vehicle_sensor by the configuration of the sonar.
+/// Sets T_vehicle_sensor: the default mount of the kind, turned by the mission's roll, pitch and yaw
+/// and moved by its translation. Sonars that look down have x along the vehicle's -z and z along
+/// its x, so that azimuth runs from starboard (-) to port (+).
 void set_mount(Sonar& sonar, const KindOfSonar& kind);
 
 /// The mount, the view and the range edges of a sonar, by its configuration and its kind.
@@ -36,10 +34,6 @@ void add_azimuth(Sonar& sonar);
 /// azimuth edges of beams that are spaced by sine.
 std::shared_ptr<const EchoModel> make_echo_model(Sonar& sonar, const KindOfSonar& kind,
                                                  const WaterConfig& water);
-
-/// The mount of the sonars that look down: x along the vehicle's -z, z along its x, so that
-/// azimuth runs from starboard (-) to port (+).
-Pose looking_down();
 
 /// For metadata, where what is absent is null.
 nlohmann::ordered_json number_or_null(const std::optional<double>& value);

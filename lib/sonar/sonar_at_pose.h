@@ -7,8 +7,8 @@
 
 namespace sonarsim {
 
-/// A sonar as it is at a pose: with what the mission's `vary` draws for every ping or, where that
-/// is nothing of it, the sonar itself, which must last as long as this.
+/// A sonar at a pose: with the numbers that the mission's `vary` draws for every ping or, if none of
+/// them is of this sonar, the sonar itself, which must outlive this.
 class SonarAtPose {
   public:
     SonarAtPose(const Mission& mission, const Sonar& sonar, std::uint32_t pose)

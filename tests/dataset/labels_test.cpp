@@ -9,10 +9,10 @@
 #include "dataset/labelled_ping.h"
 #include "format/npy.h"
 #include "job/run_job.h"
-#include "product/sidescan_row.h"
 #include "sonar/kinds.h"
 #include "support/npy_data.h"
 #include "support/small_mission.h"
+#include "support/sonars.h"
 #include "support/temporary_folder.h"
 
 using namespace sonarsim;

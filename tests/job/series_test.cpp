@@ -12,11 +12,11 @@
 #include "dataset/folded_records.h"
 #include "dataset/writers.h"
 #include "job/run_job.h"
-#include "product/sidescan_row.h"
 #include "product/soundings.h"
 #include "sonar/kinds.h"
 #include "support/npy_data.h"
 #include "support/small_mission.h"
+#include "support/sonars.h"
 #include "support/temporary_folder.h"
 
 namespace sonarsim {

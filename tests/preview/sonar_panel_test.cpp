@@ -7,7 +7,6 @@
 
 #include "core/units.h"
 #include "product/fan.h"
-#include "product/sidescan_row.h"
 #include "sonar/kinds.h"
 #include "sonar/sonar.h"
 

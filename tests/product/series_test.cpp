@@ -12,8 +12,10 @@
 #include "product/sidescan_row.h"
 #include "product/waterfall.h"
 #include "sonar/kinds.h"
+#include "support/sonars.h"
 
 using namespace sonarsim;
+using sonarsim::test::sidescan_row;
 
 namespace {
 

@@ -7,6 +7,7 @@
 #include "sonar/kinds.h"
 #include "sonar/sonar.h"
 #include "support/scenes.h"
+#include "support/sonars.h"
 #include "validation/image_error.h"
 #include "validation/reference.h"
 #include "visibility/rays/rays_engine.h"

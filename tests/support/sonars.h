@@ -37,6 +37,11 @@ void change_paper_model(Sonar& sonar, Change change) {
     sonar.settings.model = std::move(model);
 }
 
+/// A side-scan ping as a row of the waterfall.
+inline std::vector<float> sidescan_row(const SonarConfig& config, const Ping& ping) {
+    return record_values(kind_of(SonarKind::sidescan).record, config, ping.intensity, 0.0F);
+}
+
 /// For a sonar whose view was replaced.
 inline void fit_noise_to_view(Sonar& sonar) {
     const View& view = sonar.settings.view;

@@ -28,8 +28,8 @@ void write_coco(const Layout& layout, const nlohmann::ordered_json& description,
 void write_record_coco(const Layout& layout, const nlohmann::ordered_json& description,
                        const SharedProduct& product);
 
-/// Writes a COCO file of the objects in the round pictures of scanning sonars, one for each sweep. A
-/// step that a sweep has not reached shows the sweep before. Ids continue those of
+/// Writes a COCO file of the objects in the round pictures of scanning sonars, one for each sweep.
+/// A step that a sweep has not reached shows the sweep before. Ids continue those of
 /// write_record_coco(); those of annotations are as in write_coco().
 void write_scan_coco(const Layout& layout, const Mission& mission,
                      const nlohmann::ordered_json& description, const SharedProduct& product);

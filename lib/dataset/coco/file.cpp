@@ -56,7 +56,7 @@ Json annotation_json(const CocoAnnotation& a) {
             {"iscrowd", 0}};
 }
 
-CocoAnnotation annotation_of(const ObjectMask& mask, std::uint64_t width, std::uint64_t height) {
+CocoAnnotation mask_annotation(const ObjectMask& mask, std::uint64_t width, std::uint64_t height) {
     CocoAnnotation annotation;
     annotation.left = mask.left;
     annotation.top = mask.top;

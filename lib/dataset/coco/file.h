@@ -40,7 +40,7 @@ struct CocoAnnotation {
 nlohmann::ordered_json annotation_json(const CocoAnnotation& annotation);
 
 /// The annotation of a mask in a picture of this size, px, without its ids and its category.
-CocoAnnotation annotation_of(const ObjectMask& mask, std::uint64_t width, std::uint64_t height);
+CocoAnnotation mask_annotation(const ObjectMask& mask, std::uint64_t width, std::uint64_t height);
 
 /// The picture of a sensor in dataset.json (`sensor`) whose objects are labelled, by "sensor" or
 /// "sweep"; null for none. InputError when an older program wrote the dataset.

@@ -1,10 +1,9 @@
-#include "dataset/coco/coco.h"
-
 #include <array>
 #include <functional>
 #include <optional>
 #include <stdexcept>
 
+#include "dataset/coco/coco.h"
 #include "dataset/coco/file.h"
 #include "dataset/ping_file_reader.h"
 

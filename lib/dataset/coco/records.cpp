@@ -1,9 +1,8 @@
-#include "dataset/coco/coco.h"
-
 #include <algorithm>
 #include <optional>
 #include <span>
 
+#include "dataset/coco/coco.h"
 #include "dataset/coco/file.h"
 #include "dataset/folded_records.h"
 #include "product/object_masks.h"
@@ -123,7 +122,7 @@ void write_record_coco(const Layout& layout, const Json& description,
         for (const ObjectMask& mask :
              object_masks(passes.of_pixel, static_cast<int>(picture.height()))) {
             const std::uint16_t instance = passes.instance[mask.id];
-            CocoAnnotation annotation = annotation_of(mask, picture.width(), picture.height());
+            CocoAnnotation annotation = mask_annotation(mask, picture.width(), picture.height());
             annotation.id = annotation_id++;
             annotation.image_id = picture.id;
             annotation.instance = instance;

@@ -1,11 +1,10 @@
-#include "dataset/coco/coco.h"
-
 #include <cstdint>
 #include <functional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "dataset/coco/coco.h"
 #include "dataset/coco/file.h"
 #include "dataset/file_names.h"
 #include "dataset/record_file.h"
@@ -91,7 +90,8 @@ void write_scan_coco(const Layout& layout, const Mission& mission, const Json& d
             const std::vector<std::uint16_t> ids =
                 fan_values(fan.by_column, display, std::uint16_t{0});
             for (const ObjectMask& mask : object_masks(ids, fan.frame.height)) {
-                CocoAnnotation annotation = annotation_of(mask, fan.frame.width, fan.frame.height);
+                CocoAnnotation annotation =
+                    mask_annotation(mask, fan.frame.width, fan.frame.height);
                 annotation.image_id = id + sweep;
                 annotation.id = annotation.image_id * ids_per_image + mask.id;
                 annotation.instance = mask.id;

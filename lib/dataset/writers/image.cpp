@@ -20,7 +20,7 @@ class ImageWriter final : public Writer {
             {}};
     }
 
-    /// Rows and columns are those of polar/, which is not how a fan lies.
+    /// Rows and columns are those of polar/; a fan has ahead up and port on the left.
     void describe(nlohmann::ordered_json& sensor) const override {
         sensor["image"] = {{"axes", {"range", "azimuth"}},
                            {"first_row", "nearest range"},
