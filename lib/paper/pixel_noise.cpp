@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/elementary.h"
+#include "core/normals.h"
 
 namespace sonarsim {
 
@@ -41,19 +42,14 @@ void draw_rayleigh(std::uint32_t block, PhiloxKey key, Lane& out) {
     }
 }
 
-/// Two draws of normal(0, 1) from each word, by Box and Muller: 20 bits make the radius, 12 the
-/// angle. The greatest radius is 5.4; one draw in 15 million would lie beyond.
+/// The draws of normal_pair() for each word.
 template <std::size_t count>
-void box_muller(const std::array<std::uint32_t, count>& words, float* __restrict cosines,
-                float* __restrict sines) {
+void draw_pairs(const std::array<std::uint32_t, count>& words, float* __restrict first,
+                float* __restrict second) {
     for (std::size_t k = 0; k < count; ++k) {
-        const auto upper = static_cast<float>(static_cast<std::int32_t>(words[k] >> 12));
-        const auto lower = static_cast<float>(static_cast<std::int32_t>(words[k] & 0xFFFU));
-        const float radius = std::sqrt(-2.0F * natural_log((upper + 0.5F) * 0x1p-20F));
-        const SinCosFloat angle =
-            sincos_small(static_cast<float>(2.0 * pi) * ((lower + 0.5F) * 0x1p-12F - 0.5F));
-        cosines[k] = radius * angle.cos;
-        sines[k] = radius * angle.sin;
+        const NormalPair pair = normal_pair(words[k]);
+        first[k] = pair.first;
+        second[k] = pair.second;
     }
 }
 
@@ -62,8 +58,8 @@ void draw_normal(std::uint32_t block, PhiloxKey key, Lane& out) {
     constexpr std::size_t quarter = pixels_per_block / 4;
     std::array<std::uint32_t, quarter> a, b;
     draw_words(block * quarter, multiplicative, key, a, b);
-    box_muller(a, out.data(), out.data() + quarter);
-    box_muller(b, out.data() + 2 * quarter, out.data() + 3 * quarter);
+    draw_pairs(a, out.data(), out.data() + quarter);
+    draw_pairs(b, out.data() + 2 * quarter, out.data() + 3 * quarter);
 }
 
 bool any_signal(std::span<const float> pixels) {
