@@ -54,7 +54,8 @@ void describe(Visitor& v, BeamConfig& c) {
         "two-way half-power beamwidth in elevation; 0 means a constant pattern over elevation_deg");
     v.number("elevation_side_lobe_db", c.elevation_side_lobe_db, side_lobes_db,
              "highest two-way side lobe in elevation");
-    v.require(c.elevation_width_deg == 0.0 || c.elevation_width_deg >= 0.01, {"elevation_width_deg"},
+    v.require(c.elevation_width_deg == 0.0 || c.elevation_width_deg >= 0.01,
+              {"elevation_width_deg"},
               "elevation_width_deg is 0, for a constant pattern, or at least 0.01");
 }
 

@@ -8,65 +8,60 @@
 #include "core/random.h"
 #include "core/text.h"
 #include "mission/draw_value.h"
+#include "mission/sonar_schema.h"
+#include "mission/trajectory_schema.h"
 
 namespace sonarsim {
 
 namespace {
 
-/// A number that may be drawn for every ping.
-template <class Section>
-struct Varying {
-    std::string_view key;  ///< relative to the section
-    double& (*of)(Section&);
+/// The visitor that lists the numbers of sections.
+struct NumberList {
+    std::string section;  ///< with a dot at its end
+    std::vector<std::pair<std::string, double*>> list = {};
+
+    void number(const char* key, double& value, const Limits&, const char* /*meaning*/) {
+        list.emplace_back(section + key, &value);
+    }
+    template <std::size_t N>
+    void numbers(const char* key, std::array<double, N>& values, const Limits&,
+                 const char* /*meaning*/) {
+        for (std::size_t k = 0; k < N; ++k)
+            list.emplace_back(section + key + "." + std::to_string(k), &values[k]);
+    }
+    void flag(const char*, bool, const char*) const {}
+    template <class T, std::size_t N>
+    void choice(const char*, T&, const std::array<Choice<T>, N>&, const char*) const {}
+
+    /// The number with this key; null if there is none.
+    double* find(std::string_view key) const {
+        const auto found = std::ranges::find(
+            list, key, [](const auto& one) { return std::string_view(one.first); });
+        return found == list.end() ? nullptr : found->second;
+    }
 };
 
-constexpr std::array of_sensor{
-    Varying<SonarConfig>{"mount.translation_m.0",
-                         [](auto& c) -> double& { return c.mount.translation_m[0]; }},
-    Varying<SonarConfig>{"mount.translation_m.1",
-                         [](auto& c) -> double& { return c.mount.translation_m[1]; }},
-    Varying<SonarConfig>{"mount.translation_m.2",
-                         [](auto& c) -> double& { return c.mount.translation_m[2]; }},
-    Varying<SonarConfig>{"mount.rpy_deg.0", [](auto& c) -> double& { return c.mount.rpy_deg[0]; }},
-    Varying<SonarConfig>{"mount.rpy_deg.1", [](auto& c) -> double& { return c.mount.rpy_deg[1]; }},
-    Varying<SonarConfig>{"mount.rpy_deg.2", [](auto& c) -> double& { return c.mount.rpy_deg[2]; }},
-    Varying<SonarConfig>{"noise.range_lambda_m",
-                         [](auto& c) -> double& { return c.noise.range_lambda_m; }},
-    Varying<SonarConfig>{"noise.scatterer_m",
-                         [](auto& c) -> double& { return c.noise.scatterer_m; }},
-    Varying<SonarConfig>{"noise.add_sigma", [](auto& c) -> double& { return c.noise.add_sigma; }},
-    Varying<SonarConfig>{"noise.mult_sigma", [](auto& c) -> double& { return c.noise.mult_sigma; }},
-    Varying<SonarConfig>{"noise.lobe_sigma_deg",
-                         [](auto& c) -> double& { return c.noise.lobe_sigma_deg; }},
-    Varying<SonarConfig>{"noise.gain", [](auto& c) -> double& { return c.noise.gain; }},
-    Varying<SonarConfig>{"streaks.threshold",
-                         [](auto& c) -> double& { return c.streaks.threshold; }},
-    Varying<SonarConfig>{"streaks.angle_deg",
-                         [](auto& c) -> double& { return c.streaks.angle_deg; }},
-};
-constexpr std::array of_vehicle{
-    Varying<VehicleConfig>{"offset_m.0", [](auto& c) -> double& { return c.offset_m[0]; }},
-    Varying<VehicleConfig>{"offset_m.1", [](auto& c) -> double& { return c.offset_m[1]; }},
-    Varying<VehicleConfig>{"offset_m.2", [](auto& c) -> double& { return c.offset_m[2]; }},
-    Varying<VehicleConfig>{"turn_deg.0", [](auto& c) -> double& { return c.turn_deg[0]; }},
-    Varying<VehicleConfig>{"turn_deg.1", [](auto& c) -> double& { return c.turn_deg[1]; }},
-    Varying<VehicleConfig>{"turn_deg.2", [](auto& c) -> double& { return c.turn_deg[2]; }},
-};
-
-constexpr std::string_view vehicle_section = "vehicle.";
+constexpr const char* vehicle_section = "vehicle.";
 
 std::string section_of(std::string_view sensor) {
     return "sensors." + std::string(sensor) + ".";
 }
 
-/// The number of a section that a key names; null if it may not be drawn for pings.
-template <class Section, std::size_t N>
-const Varying<Section>* find_number(const std::array<Varying<Section>, N>& numbers,
-                                    std::string_view key, std::string_view section) {
-    if (!key.starts_with(section)) return nullptr;
-    const auto found =
-        std::ranges::find(numbers, key.substr(section.size()), &Varying<Section>::key);
-    return found == numbers.end() ? nullptr : &*found;
+/// The numbers of a sensor that may be drawn for pings. Their keys begin with `section`.
+NumberList numbers_of(SonarConfig& sensor, const std::string& section) {
+    NumberList numbers{section + "mount."};
+    describe(numbers, sensor.mount);
+    numbers.section = section + "noise.";
+    describe(numbers, sensor.noise);
+    numbers.section = section + "streaks.";
+    describe(numbers, sensor.streaks);
+    return numbers;
+}
+
+NumberList numbers_of(VehicleConfig& vehicle) {
+    NumberList numbers{vehicle_section};
+    describe(numbers, vehicle);
+    return numbers;
 }
 
 /// Calls `visit` for every rule that is drawn for pings and whose key begins with `section`.
@@ -84,12 +79,10 @@ std::string drawn_text(const Mission& mission, const VaryConfig& rule, std::uint
     return draw_value(rule, mission.seed, index, pose, Stream::ping_variation);
 }
 
-template <class Section, std::size_t N>
-void draw_section(const Mission& mission, std::string_view name, std::uint32_t pose,
-                  const std::array<Varying<Section>, N>& numbers, Section& section) {
-    for_each_rule(mission, name, [&](const VaryConfig& rule, std::uint32_t index) {
-        find_number(numbers, rule.key, name)->of(section) =
-            *parse_number(drawn_text(mission, rule, index, pose));
+void draw_section(const Mission& mission, std::string_view section, std::uint32_t pose,
+                  const NumberList& numbers) {
+    for_each_rule(mission, section, [&](const VaryConfig& rule, std::uint32_t index) {
+        *numbers.find(rule.key) = *parse_number(drawn_text(mission, rule, index, pose));
     });
 }
 
@@ -97,16 +90,18 @@ void draw_section(const Mission& mission, std::string_view name, std::uint32_t p
 
 void check_key_of_pings(const Mission& mission, const VaryConfig& rule) {
     constexpr double least_share = 0.05;
+    VehicleConfig vehicle;
+    SonarConfig any_sensor;
+    const NumberList of_vehicle = numbers_of(vehicle);
     const auto names_it = [&](const SonarConfig& sensor) {
-        return find_number(of_sensor, rule.key, section_of(sensor.name)) != nullptr;
+        return numbers_of(any_sensor, section_of(sensor.name)).find(rule.key) != nullptr;
     };
-    if (!find_number(of_vehicle, rule.key, vehicle_section) &&
-        std::ranges::none_of(mission.sensors, names_it)) {
+    if (of_vehicle.find(rule.key) == nullptr && std::ranges::none_of(mission.sensors, names_it)) {
         std::string keys;
-        for (const auto& number : of_sensor)
-            keys += std::string(number.key) + ", ";
-        for (const auto& number : of_vehicle)
-            keys += std::string(vehicle_section) + std::string(number.key) + ", ";
+        for (const auto& number : numbers_of(any_sensor, "").list)
+            keys += number.first + ", ";
+        for (const auto& number : of_vehicle.list)
+            keys += number.first + ", ";
         throw InputError(rule.place.location,
                          "'" + printable(rule.key) +
                              "' cannot be drawn for every ping; write per: variant, or one of "
@@ -141,12 +136,13 @@ bool varies_by_ping(const Mission& mission, std::string_view sensor) {
 }
 
 void draw_for_ping(const Mission& mission, std::uint32_t pose, SonarConfig& sensor) {
-    draw_section(mission, section_of(sensor.name), pose, of_sensor, sensor);
+    const std::string section = section_of(sensor.name);
+    draw_section(mission, section, pose, numbers_of(sensor, section));
 }
 
 VehicleConfig vehicle_at(const Mission& mission, std::uint32_t pose) {
     VehicleConfig vehicle = mission.vehicle;
-    draw_section(mission, vehicle_section, pose, of_vehicle, vehicle);
+    draw_section(mission, vehicle_section, pose, numbers_of(vehicle));
     return vehicle;
 }
 
