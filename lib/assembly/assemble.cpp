@@ -13,7 +13,7 @@
 #include "core/text.h"
 #include "mission/files.h"
 #include "scene/gltf/load.h"
-#include "scene/gltf/model_of.h"
+#include "scene/gltf/scene_files.h"
 #include "sonar/engine_settings.h"
 #include "trajectory/files.h"
 
@@ -105,7 +105,7 @@ void read_scene_files(const Mission& mission, SceneFiles& models) {
     ErrorList errors;
     const auto read = [&](const std::filesystem::path& file, const MissionPlace& place) {
         if (file.empty()) return;
-        errors.attempt([&] { model_of({.file = file, .place = place.location}, models); });
+        errors.attempt([&] { models.model({.file = file, .place = place.location}); });
     };
     read(mission.scene.file, mission.scene.place);
     for (const ObjectConfig& object : mission.scene.objects)

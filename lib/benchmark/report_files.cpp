@@ -14,33 +14,38 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The figures of a row that vary over the poses.
+/// The figures of a row with their least and greatest value over the poses.
 std::vector<std::pair<const char*, const Summary*>> summaries(const ReportRow& row) {
     return {{"ms_per_ping", &row.ms_per_ping}, {"relative_l1", &row.relative_l1},
             {"relative_l2", &row.relative_l2}, {"miss_rate", &row.miss_rate},
             {"false_rate", &row.false_rate},   {"samples_per_ping", &row.samples_per_ping}};
 }
 
+/// The other figures of a row, in the order of the columns.
+std::vector<std::pair<const char*, double>> columns_of(const ReportRow& row) {
+    return {{"ms_per_ping", row.ms_per_ping.centre},
+            {"pings_per_s", row.pings_per_s},
+            {"times_131k_rays", row.times_rays},
+            {"relative_l1", row.relative_l1.centre},
+            {"worst_relative_l1", row.relative_l1.max},
+            {"relative_l2", row.relative_l2.centre},
+            {"miss_rate", row.miss_rate.centre},
+            {"false_rate", row.false_rate.centre},
+            {"samples_per_ping", row.samples_per_ping.centre},
+            {"build_s", row.cold.build_s},
+            {"first_ping_s", row.cold.first_ping_s},
+            {"peak_memory_mb", row.cold.peak_memory_mb}};
+}
+
 Json json_of(const ReportRow& row) {
     Json json{{"sensor", row.sensor},
               {"engine", row.setting.engine},
               {"setting", row.setting.name},
-              {"ms_per_ping", row.ms_per_ping.centre},
-              {"pings_per_s", row.pings_per_s},
-              {"times_131k_rays", row.times_rays},
-              {"relative_l1", row.relative_l1.centre},
-              {"worst_relative_l1", row.relative_l1.max},
-              {"promise", row.promise()},
-              {"relative_l2", row.relative_l2.centre},
-              {"miss_rate", row.miss_rate.centre},
-              {"false_rate", row.false_rate.centre},
-              {"samples_per_ping", row.samples_per_ping.centre},
-              {"build_s", row.cold.build_s},
-              {"first_ping_s", row.cold.first_ping_s},
-              {"peak_memory_mb", row.cold.peak_memory_mb}};
-    for (const auto& [name, spread] : summaries(row)) {
+              {"promise", row.promise()}};
+    for (const auto& [name, value] : columns_of(row))
+        json[name] = value;
+    for (const auto& [name, spread] : summaries(row))
         json["spread"][name] = {spread->min, spread->max};
-    }
     return json;
 }
 
@@ -82,7 +87,7 @@ Json growth_of(const Growth& growth) {
 }
 
 /// The figures of a multipath row: epsilon and delta, then the measurements.
-std::vector<std::pair<const char*, double>> figures(const MultipathRow& row) {
+std::vector<std::pair<const char*, double>> columns_of(const MultipathRow& row) {
     return {{"epsilon_bins", row.setting.epsilon_bins},
             {"delta_deg", row.setting.delta_deg},
             {"relative_l1", row.relative_l1},
@@ -106,7 +111,7 @@ const char* method_of(const MultipathRow& row) {
 
 Json json_of(const MultipathRow& row) {
     Json json{{"sensor", row.sensor}, {"method", method_of(row)}, {"current", row.current}};
-    for (const auto& [name, value] : figures(row))
+    for (const auto& [name, value] : columns_of(row))
         json[name] = value;
     return json;
 }
@@ -134,27 +139,20 @@ std::string report_json(const Report& report) {
 }
 
 std::string report_csv(const Report& report) {
-    std::string text =
-        "sensor,engine,setting,promise,ms_per_ping,pings_per_s,times_131k_rays,relative_l1,"
-        "worst_relative_l1,relative_l2,miss_rate,false_rate,samples_per_ping,build_s,first_ping_s,"
-        "peak_memory_mb";
-    for (const auto& [name, spread] : summaries(ReportRow{})) {
+    std::string text = "sensor,engine,setting,promise";
+    const ReportRow any;
+    for (const auto& [name, value] : columns_of(any))
+        text += std::string(",") + name;
+    for (const auto& [name, spread] : summaries(any))
         text += "," + std::string(name) + "_min," + name + "_max";
-    }
     text += "\n";
     for (const ReportRow& row : report.rows) {
         text +=
             row.sensor + "," + row.setting.engine + "," + row.setting.name + "," + row.promise();
-        for (const double value :
-             {row.ms_per_ping.centre, row.pings_per_s, row.times_rays, row.relative_l1.centre,
-              row.relative_l1.max, row.relative_l2.centre, row.miss_rate.centre,
-              row.false_rate.centre, row.samples_per_ping.centre, row.cold.build_s,
-              row.cold.first_ping_s, row.cold.peak_memory_mb}) {
+        for (const auto& [name, value] : columns_of(row))
             text += "," + number_text(value);
-        }
-        for (const auto& [name, spread] : summaries(row)) {
+        for (const auto& [name, spread] : summaries(row))
             text += "," + number_text(spread->min) + "," + number_text(spread->max);
-        }
         text += "\n";
     }
     return text;
@@ -162,12 +160,12 @@ std::string report_csv(const Report& report) {
 
 std::string multipath_csv(const Report& report) {
     std::string text = "sensor,method,current";
-    for (const auto& [name, value] : figures(MultipathRow{}))
+    for (const auto& [name, value] : columns_of(MultipathRow{}))
         text += std::string(",") + name;
     text += "\n";
     for (const MultipathRow& row : report.multipath) {
         text += row.sensor + "," + method_of(row) + "," + (row.current ? "true" : "false");
-        for (const auto& [name, value] : figures(row))
+        for (const auto& [name, value] : columns_of(row))
             text += "," + number_text(value);
         text += "\n";
     }

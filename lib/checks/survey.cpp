@@ -10,6 +10,7 @@
 #include "core/pose.h"
 #include "core/units.h"
 #include "scene/copies.h"
+#include "sonar/measured.h"
 #include "sonar/sonar_at_pose.h"
 #include "trace/arrivals.h"
 #include "visibility/view.h"
@@ -153,15 +154,6 @@ void take_attitude(const Eigen::Quaterniond& rotation, SonarSurvey& out) {
     out.pitch_deg.take(degrees(attitude.pitch));
 }
 
-void take_altitude(const VisibilityEngine& engine, const Pose& T_world_sensor, SonarSurvey& out) {
-    const Eigen::Vector3d down =
-        T_world_sensor.rotation.conjugate() * Eigen::Vector3d(0.0, 0.0, -1.0);
-    const Ray ray{Eigen::Vector3f::Zero(), down.cast<float>()};
-    Intersection bottom{};
-    engine.intersect(T_world_sensor, {&ray, 1}, {&bottom, 1});
-    if (std::isfinite(bottom.distance_m)) out.altitude_m.take(bottom.distance_m);
-}
-
 /// What surface a ping saw, and how far away.
 void take_samples(const View& view, const Samples& samples, SonarSurvey& out) {
     Interval echoes;
@@ -239,7 +231,7 @@ SonarSurvey survey_sonar(const Mission& mission, const Assembly& assembly, Sonar
         const Surroundings around = look(view, *now, T_world_sensor);
         ++out.pings;
         take_attitude(at.T_world_vehicle.rotation, out);
-        take_altitude(*now, T_world_sensor, out);
+        if (const auto altitude = altitude_m(*now, T_world_sensor)) out.altitude_m.take(*altitude);
         take_samples(view, traced.samples, out);
         judge_place(assembly.scene, open_upwards, boxes, T_world_sensor, around, out);
         if (ping.counts.occupied_bins == 0) {

@@ -104,9 +104,6 @@ inline float arctan2_float(float y, float x) {
 inline double arcsin(double x) {
     return arctan2(x, std::sqrt((1.0 - x) * (1.0 + x)));
 }
-inline double arccos(double x) {
-    return arctan2(std::sqrt((1.0 - x) * (1.0 + x)), x);
-}
 
 /// e^x for every x, relative error below 1e-15 where the result is a normal number; 0 below the
 /// smallest number, infinity above the largest, NaN for NaN. Cody and Waite's reduction to e^x =

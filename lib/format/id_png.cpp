@@ -1,12 +1,10 @@
 #include "format/id_png.h"
 
 #include <cstring>
-#include <stdexcept>
 #include <utility>
 #include <vector>
 
 #include "format/deflate.h"
-#include "format/png_chunks.h"
 #include "format/png_file.h"
 
 namespace sonarsim {
@@ -18,9 +16,7 @@ namespace {
 template <class Pixel, class Write>
 std::string pack_pixels(std::span<const Pixel> pixels, int width, int height, Write write) {
     const auto columns = static_cast<std::size_t>(width);
-    if (pixels.size() != columns * height) {
-        throw std::logic_error("the number of pixels does not suit the size of the image");
-    }
+    check_image_size(pixels.size(), width, height, 1);
     const std::size_t row_bytes = columns * sizeof(Pixel);
     std::vector<std::uint8_t> above(row_bytes, 0);
     std::vector<std::uint8_t> own(row_bytes);

@@ -4,13 +4,13 @@
 #include <stdexcept>
 #include <string>
 
-#include "format/png_chunks.h"
+#include "format/png_file.h"
 
 namespace sonarsim {
 
 namespace {
 
-std::string chunk(std::string_view kind, std::string_view data) {
+std::string png_chunk(std::string_view kind, std::string_view data) {
     std::string bytes;
     append_png_chunk(bytes, kind, data);
     return bytes;
@@ -26,9 +26,8 @@ int pixel_bytes(PixelKind kind) {
 ImageFile::ImageFile(const std::filesystem::path& path, int width, int height, PixelKind kind)
     : file_(path), width_(static_cast<std::size_t>(width)), stream_(pixel_bytes(kind)) {
     const int bits = kind == PixelKind::grey16 ? 16 : 8;
-    const int colours = kind == PixelKind::rgb8 ? 2 : 0;
-    file_.append(png_signature);
-    file_.append(chunk("IHDR", png_header(width, height, bits, colours)));
+    file_.append(png_start(
+        {width, height, bits, kind == PixelKind::rgb8 ? PngColours::rgb : PngColours::grey}));
 }
 
 void ImageFile::check_width(std::size_t pixels) const {
@@ -67,13 +66,13 @@ void ImageFile::row(std::span<const Rgb> pixels) {
 
 void ImageFile::write_packed() {
     const std::string packed = stream_.take();
-    if (!packed.empty()) file_.append(chunk("IDAT", packed));
+    if (!packed.empty()) file_.append(png_chunk("IDAT", packed));
 }
 
 void ImageFile::finish() {
     stream_.finish();
     write_packed();
-    file_.append(chunk("IEND", {}));
+    file_.append(png_chunk("IEND", {}));
     file_.finish();
 }
 

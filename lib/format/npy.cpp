@@ -8,8 +8,6 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "core/error.h"
-#include "core/file.h"
 #include "core/text.h"
 
 namespace sonarsim {
@@ -21,17 +19,6 @@ static_assert(std::endian::native == std::endian::little,
 
 constexpr std::size_t alignment = 64;
 constexpr std::size_t preamble = 10;  // magic, version, length of the header
-constexpr std::size_t largest_file = std::size_t{1} << 30;
-
-/// The number in `text` between `mark` and the next `end`; 0 if there is none.
-std::size_t number_between(const std::string& text, const std::string& mark, char end) {
-    const std::size_t at = text.find(mark);
-    if (at == std::string::npos) return 0;
-    const std::size_t first = at + mark.size();
-    const std::size_t last = text.find(end, first);
-    if (last == std::string::npos) return 0;
-    return parse_unsigned(std::string_view(text).substr(first, last - first)).value_or(0);
-}
 
 }  // namespace
 
@@ -101,24 +88,6 @@ std::string npy_bytes_of_columns(std::span<const float> by_column, std::size_t r
         }
     }
     return bytes;
-}
-
-Matrix read_npy(const std::filesystem::path& path) {
-    const std::string bytes = read_file(path, largest_file);
-    const std::string start = bytes.substr(0, 4 * alignment);
-    Matrix matrix;
-    matrix.rows = number_between(start, "'shape': (", ',');
-    matrix.columns = number_between(start, "'shape': (" + std::to_string(matrix.rows) + ", ", ')');
-    const std::string head = npy_header({"<f4", {matrix.rows, matrix.columns}});
-    const std::size_t cells = (bytes.size() - std::min(head.size(), bytes.size())) / sizeof(float);
-    if (!bytes.starts_with(head) || matrix.columns == 0 || cells / matrix.columns != matrix.rows ||
-        bytes.size() != head.size() + matrix.rows * matrix.columns * sizeof(float)) {
-        throw InputError({path.string()}, "is not a two-dimensional float32 .npy file, format 1.0");
-    }
-    matrix.values.resize(matrix.rows * matrix.columns);
-    std::memcpy(matrix.values.data(), bytes.data() + head.size(),
-                matrix.values.size() * sizeof(float));
-    return matrix;
 }
 
 }  // namespace sonarsim

@@ -1,20 +1,12 @@
 #pragma once
 
 #include <cstddef>
-#include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace sonarsim {
-
-/// A matrix, row by row.
-struct Matrix {
-    std::size_t rows = 0;
-    std::size_t columns = 0;
-    std::vector<float> values;  ///< [rows, columns]
-};
 
 /// The format of the data of a NumPy file.
 struct NpyFormat {
@@ -37,8 +29,5 @@ std::string npy_bytes(std::span<const float> values, std::size_t rows, std::size
 /// The same for a matrix that is stored column after column.
 std::string npy_bytes_of_columns(std::span<const float> by_column, std::size_t rows,
                                  std::size_t columns);
-
-/// Reads a file that npy_bytes() wrote. Throws InputError for any other file.
-Matrix read_npy(const std::filesystem::path& path);
 
 }  // namespace sonarsim

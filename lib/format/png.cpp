@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <iterator>
-#include <stdexcept>
 #include <vector>
 
 #include "format/deflate.h"
-#include "format/png_chunks.h"
 #include "format/png_file.h"
 
 namespace sonarsim {
@@ -14,11 +12,6 @@ namespace sonarsim {
 namespace {
 
 using PngRows = std::vector<std::uint8_t>;
-
-void check_size(std::size_t values, int width, int height, int channels) {
-    if (values == static_cast<std::size_t>(width) * height * channels) return;
-    throw std::logic_error("the number of pixels does not suit the size of the image");
-}
 
 /// `rows` are rows of a PNG image, each after its filter byte.
 std::string encode(const PngRows& rows, int width, int height, int channels, int bits,
@@ -34,7 +27,7 @@ std::string encode(const PngRows& rows, int width, int height, int channels, int
 }  // namespace
 
 std::string png_bytes(std::span<const std::uint8_t> pixels, int width, int height, int channels) {
-    check_size(pixels.size(), width, height, channels);
+    check_image_size(pixels.size(), width, height, channels);
     // Neighbours in a fan are similar, so that their differences pack well.
     const std::size_t row = static_cast<std::size_t>(width) * channels;
     PngRows rows(height * (row + 1));
@@ -50,7 +43,7 @@ std::string png_bytes(std::span<const std::uint8_t> pixels, int width, int heigh
 }
 
 std::string png_bytes(std::span<const std::uint16_t> pixels, int width, int height) {
-    check_size(pixels.size(), width, height, 1);
+    check_image_size(pixels.size(), width, height, 1);
     // Noise of 16 bits hardly packs; a mostly black image does.
     const bool dark = 2 * std::ranges::count(pixels, 0) > std::ssize(pixels);
     const auto row = static_cast<std::size_t>(width);

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "format/png_chunks.h"
+#include "format/png_file.h"
 
 namespace sonarsim {
 

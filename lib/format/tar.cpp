@@ -29,7 +29,7 @@ constexpr Field time_field{136, 12};
 constexpr Field sum_field{148, 8};
 constexpr Field type_field{156, 1};
 constexpr Field magic_field{257, 8};
-/// What eleven octal digits hold.
+/// The largest number with eleven octal digits.
 constexpr std::uint64_t largest_member = (std::uint64_t{1} << 33) - 1;
 constexpr std::string_view magic{"ustar\00000", 8};
 

@@ -4,8 +4,8 @@
 #include <array>
 #include <string_view>
 
-// What lies in the folder of a dataset beside the folders of its sensors (dataset/layout.h). The
-// names stand here because no sensor may bear one of them.
+// The files and folders of a dataset besides the folders of its sensors (dataset/layout.h). The
+// names stand here because no sensor may have one of them.
 
 namespace sonarsim {
 
@@ -18,12 +18,12 @@ inline constexpr const char* journal_folder_name = "journal.d";
 inline constexpr const char* labels_folder_name = "labels";
 inline constexpr const char* split_folder_name = "split";
 inline constexpr const char* gallery_name = "index.html";
-/// In the folder above the datasets of variants.
+/// A file in the folder above the datasets of variants.
 inline constexpr const char* variants_name = "variants.json";
-/// In the folder above datasets of different missions, each of which has its mission's name.
+/// A file in the folder above datasets of different missions, each with its mission's name.
 inline constexpr const char* collection_name = "collection.json";
 
-/// Whether no sensor may bear the name: the dataset has a file or folder of this name.
+/// True if the dataset has a file or folder of this name, so that no sensor may have it.
 inline bool is_taken_by_dataset(std::string_view name) {
     constexpr std::array<std::string_view, 9> taken{
         description_name,    mission_name,       trajectory_name,   checksums_name, journal_name,
@@ -31,7 +31,7 @@ inline bool is_taken_by_dataset(std::string_view name) {
     return std::ranges::find(taken, name) != taken.end();
 }
 
-/// Whether no mission may bear the name.
+/// True if no mission may have the name.
 inline bool is_taken_by_collection(std::string_view name) {
     return name == collection_name || name == checksums_name;
 }

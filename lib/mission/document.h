@@ -36,7 +36,7 @@ struct YamlNode {
     YamlNode* find(std::string_view wanted);
 };
 
-/// Whether nodes remember their lines. Nodes of a command line do not.
+/// Nodes of a file remember their lines, nodes of a command line do not.
 enum class Lines { counted, none };
 
 /// Reads one YAML document. It may hold maps, lists and scalars, at most 16 deep and 100,000 in

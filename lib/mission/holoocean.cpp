@@ -29,7 +29,7 @@ std::string name_from(std::string text) {
     return text.empty() ? "sonar" : text.substr(0, 60);
 }
 
-/// "noise.add_sigma" into the section of its name.
+/// The section of a sonar, as YAML. A setting such as "noise.add_sigma" goes into its subsection.
 std::string sonar_yaml(const std::string& name, const SonarType& type, const ImportedSonar& sonar,
                        int every, const YamlNode& sensor) {
     std::string text = "  " + name + ":\n    kind: " + type.kind + "\n";
@@ -82,6 +82,106 @@ double rate_of(const YamlNode& sensor, double ticks) {
     return rate != nullptr ? number_in(*rate, "Hz", above(0)) : ticks;
 }
 
+using FoundSonars = std::vector<std::pair<const YamlNode*, const SonarType*>>;
+
+/// The agent's sensors that are sonars. Warns of the others.
+FoundSonars sonars_of(const YamlNode& agent, std::vector<std::string>& warnings) {
+    const YamlNode* const sensors = agent.find("sensors");
+    if (sensors == nullptr || sensors->kind != YamlNode::Kind::list)
+        refuse_at(agent, "the agent needs a list of 'sensors'");
+    FoundSonars sonars;
+    for (const YamlNode& sensor : sensors->items) {
+        const YamlNode* const type = map_at(sensor, "sensors").find("sensor_type");
+        if (type == nullptr) refuse_at(sensor, "a sensor needs the key 'sensor_type'");
+        const auto known = std::ranges::find_if(
+            sonar_types(), [&](const SonarType& one) { return type->text == one.type; });
+        if (known != sonar_types().end()) {
+            sonars.emplace_back(&sensor, &*known);
+            continue;
+        }
+        const bool is_sonar = type->text.find("onar") != std::string::npos;
+        warnings.push_back(type->place.location().text() + ": " + in_quotes(type->text) +
+                           " is left out: it is no sonar that sonarsim has" +
+                           (is_sonar ? "; it has " + sonar_type_list() : ""));
+    }
+    if (sonars.empty()) refuse_at(*sensors, "none of the sensors is a sonar: " + sonar_type_list());
+    return sonars;
+}
+
+/// Adds the water that a sonar assumes. Warns if it differs from that of the sonars before.
+void add_water(const ImportedSonar& sonar, const YamlNode& sensor, Settings& water,
+               std::vector<std::string>& warnings) {
+    for (const auto& [key, value] : sonar.water) {
+        const std::string* const other = setting(water, key);
+        if (other == nullptr || *other == value) {
+            set_key(water, key, value);
+            continue;
+        }
+        warnings.push_back(sensor.place.location().text() +
+                           ": another water than that of the sonars before; a mission has one: " +
+                           key + " stays " + *other);
+    }
+}
+
+/// The sections of the sonars, as YAML. Fills `water`.
+std::string sensors_yaml(const FoundSonars& sonars, double rate_hz, double ticks, Settings& water,
+                         std::vector<std::string>& warnings) {
+    std::string yaml;
+    std::vector<std::string> names;
+    for (const auto& [sensor, type] : sonars) {
+        const ImportedSonar sonar = import_sonar(*sensor, *type, warnings);
+        add_water(sonar, *sensor, water, warnings);
+        const YamlNode* const given = sensor->find("sensor_name");
+        std::string name =
+            name_from(given != nullptr ? text_in(*given, "sensor_name") : type->type);
+        const auto same = std::ranges::count(names, name);
+        names.push_back(name);
+        if (same > 0) name += "_" + std::to_string(same + 1);
+        const double every = std::round(rate_hz / rate_of(*sensor, ticks));
+        yaml += sonar_yaml(name, *type, sonar, static_cast<int>(std::max(1.0, every)), *sensor);
+        if (const YamlNode* const socket = sensor->find("socket")) {
+            const std::string where = type->looks_down ? "; by default it looks down here" : "";
+            warnings.push_back(
+                socket->place.location().text() + ": where the socket " + in_quotes(socket->text) +
+                " sits on the agent is not in the scenario: check mount of '" + name + "'" + where);
+        }
+    }
+    return yaml;
+}
+
+/// A straight trajectory of 10 m from the agent's start, as YAML.
+std::string trajectory_yaml(const YamlNode& agent, double rate_hz) {
+    const auto start = vector_in(agent, "location", any_position_m);
+    const auto turn = vector_in(agent, "rotation", any_angle_deg);
+    // The first column of R = Rz Ry Rx is the direction of the bow.
+    const double degree = std::acos(-1.0) / 180.0;
+    const double along[] = {std::cos(turn[2] * degree) * std::cos(turn[1] * degree),
+                            std::sin(turn[2] * degree) * std::cos(turn[1] * degree),
+                            -std::sin(turn[1] * degree)};
+    std::array<double, 3> end = start;
+    for (std::size_t k = 0; k < 3; ++k)
+        end[k] = std::round((start[k] + 10.0 * along[k]) * 1e6) / 1e6;
+    std::string yaml =
+        "trajectory:\n  # A scenario says where the agent starts; from there 10 m ahead.\n"
+        "  waypoints:\n";
+    for (const auto& position : {start, end})
+        yaml +=
+            "    - {position_m: " + list_text(position) + ", rpy_deg: " + list_text(turn) + "}\n";
+    return yaml + "  rate_hz: " + number_text(rate_hz) + "\n";
+}
+
+/// Remarks, as YAML comments, on keys about the engine's octree and environment. Warns of each.
+std::string engine_remarks(const YamlNode& scenario, std::vector<std::string>& warnings) {
+    std::string remarks;
+    for (const YamlNode& item : scenario.items) {
+        if (!item.key.starts_with("octree_") && !item.key.starts_with("env_")) continue;
+        warnings.push_back(item.key_place.location().text() + ": " + in_quotes(item.key) +
+                           " has no counterpart: there is no octree to prepare");
+        remarks += "# without a counterpart: " + shown(item.key, 60) + "\n";
+    }
+    return remarks;
+}
+
 }  // namespace
 
 ImportedMission import_holoocean(std::string_view text, const std::string& file,
@@ -91,74 +191,16 @@ ImportedMission import_holoocean(std::string_view text, const std::string& file,
     ImportedMission mission;
     std::vector<std::string>& warnings = mission.warnings;
     const YamlNode& agent = main_agent(scenario, warnings);
-    const YamlNode* const told_ticks = scenario.find("ticks_per_sec");
+    const YamlNode* const given_ticks = scenario.find("ticks_per_sec");
     const double ticks =
-        told_ticks != nullptr ? number_in(*told_ticks, "ticks_per_sec", above(0)) : 30.0;
-
-    const YamlNode* const sensors = agent.find("sensors");
-    if (sensors == nullptr || sensors->kind != YamlNode::Kind::list)
-        refuse_at(agent, "the agent needs a list of 'sensors'");
+        given_ticks != nullptr ? number_in(*given_ticks, "ticks_per_sec", above(0)) : 30.0;
+    const FoundSonars sonars = sonars_of(agent, warnings);
     double rate_hz = 0.0;
-    std::vector<std::pair<const YamlNode*, const SonarType*>> sonars;
-    for (const YamlNode& sensor : sensors->items) {
-        const YamlNode* const type = map_at(sensor, "sensors").find("sensor_type");
-        if (type == nullptr) refuse_at(sensor, "a sensor needs the key 'sensor_type'");
-        const auto known = std::ranges::find_if(
-            sonar_types(), [&](const SonarType& one) { return type->text == one.type; });
-        if (known == sonar_types().end()) {
-            warnings.push_back(type->place.location().text() + ": " + in_quotes(type->text) +
-                               " is left out: it is no sonar that sonarsim has" +
-                               (type->text.find("onar") != std::string::npos
-                                    ? "; it has " + sonar_type_list()
-                                    : ""));
-            continue;
-        }
-        sonars.emplace_back(&sensor, &*known);
-        rate_hz = std::max(rate_hz, rate_of(sensor, ticks));
-    }
-    if (sonars.empty()) refuse_at(*sensors, "none of the sensors is a sonar: " + sonar_type_list());
-
-    std::string blocks;
+    for (const auto& [sensor, type] : sonars)
+        rate_hz = std::max(rate_hz, rate_of(*sensor, ticks));
     Settings water;
-    std::vector<std::string> names;
-    for (const auto& [sensor, type] : sonars) {
-        const ImportedSonar sonar = import_sonar(*sensor, *type, warnings);
-        for (const auto& [key, value] : sonar.water) {
-            const std::string* const other = setting(water, key);
-            if (other != nullptr && *other != value) {
-                warnings.push_back(sensor->place.location().text() +
-                                   ": another water than that of the sonars before; a mission has "
-                                   "one: " +
-                                   key + " stays " + *other);
-            } else {
-                set_key(water, key, value);
-            }
-        }
-        const YamlNode* const told = sensor->find("sensor_name");
-        std::string name = name_from(told != nullptr ? text_in(*told, "sensor_name") : type->type);
-        const auto same = std::ranges::count(names, name);
-        names.push_back(name);
-        if (same > 0) name += "_" + std::to_string(same + 1);
-        const double every = std::round(rate_hz / rate_of(*sensor, ticks));
-        blocks += sonar_yaml(name, *type, sonar, static_cast<int>(std::max(1.0, every)), *sensor);
-        if (const YamlNode* const socket = sensor->find("socket")) {
-            const std::string where = type->looks_down ? "; by default it looks down here" : "";
-            warnings.push_back(
-                socket->place.location().text() + ": where the socket " + in_quotes(socket->text) +
-                " sits on the agent is not in the scenario: check mount of '" + name + "'" + where);
-        }
-    }
-
-    const auto start = vector_in(agent, "location", any_position_m);
-    const auto turn = vector_in(agent, "rotation", any_angle_deg);
-    // R = Rz Ry Rx, its first column: where the bow points.
-    const double degree = std::acos(-1.0) / 180.0;
-    const double along[] = {std::cos(turn[2] * degree) * std::cos(turn[1] * degree),
-                            std::sin(turn[2] * degree) * std::cos(turn[1] * degree),
-                            -std::sin(turn[1] * degree)};
-    std::array<double, 3> end = start;
-    for (std::size_t k = 0; k < 3; ++k)
-        end[k] = std::round((start[k] + 10.0 * along[k]) * 1e6) / 1e6;
+    const std::string sensors = sensors_yaml(sonars, rate_hz, ticks, water, warnings);
+    const std::string trajectory = trajectory_yaml(agent, rate_hz);
     warnings.push_back(agent.place.location().text() +
                        ": a scenario says where the agent starts, not where it goes: the mission "
                        "goes 10 m ahead; write a trajectory of your own");
@@ -167,32 +209,16 @@ ImportedMission import_holoocean(std::string_view text, const std::string& file,
         ": the world is a level of the game engine: export it, or name another scene");
 
     std::string& yaml = mission.yaml;
-    std::string remarks;
-    for (const YamlNode& item : scenario.items) {
-        if (!item.key.starts_with("octree_") && !item.key.starts_with("env_")) continue;
-        warnings.push_back(item.key_place.location().text() + ": " + in_quotes(item.key) +
-                           " has no counterpart: there is no octree to prepare");
-        remarks += "# without a counterpart: " + shown(item.key, 60) + "\n";
-    }
-    yaml = "# From the HoloOcean scenario " + shown(file, 200) + ".\n";
-    yaml += remarks;
+    yaml = "# From the HoloOcean scenario " + shown(file, 200) + ".\n" +
+           engine_remarks(scenario, warnings);
     if (const YamlNode* const name = scenario.find("name"))
         yaml += "name: " + quoted_text(name_from(text_in(*name, "name"))) + "\n";
-    if (!water.empty()) {
-        yaml += "water:\n";
-        for (const auto& [key, value] : water)
-            yaml += "  " + key + ": " + value + "\n";
-    }
+    if (!water.empty()) yaml += "water:\n";
+    for (const auto& [key, value] : water)
+        yaml += "  " + key + ": " + value + "\n";
     yaml += "scene:\n  file: " + quoted_text(world.scene) +
             "  # the scenario's world is a level of the game engine\n  materials: " +
-            quoted_text(world.materials) + "\n";
-    yaml +=
-        "trajectory:\n  # A scenario says where the agent starts; from there 10 m ahead.\n"
-        "  waypoints:\n";
-    for (const auto& position : {start, end})
-        yaml +=
-            "    - {position_m: " + list_text(position) + ", rpy_deg: " + list_text(turn) + "}\n";
-    yaml += "  rate_hz: " + number_text(rate_hz) + "\nsensors:\n" + blocks;
+            quoted_text(world.materials) + "\n" + trajectory + "sensors:\n" + sensors;
     return mission;
 }
 

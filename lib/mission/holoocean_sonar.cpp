@@ -14,8 +14,8 @@ namespace {
 
 enum class Form {
     number,
-    variance,    ///< the square of what the mission has
-    resolution,  ///< width of a bin, of which the mission has the number
+    variance,    ///< the square of the mission's deviation
+    resolution,  ///< width of a bin; the mission has the number of bins
     whole,
     multipath,
     flag,
@@ -27,9 +27,9 @@ enum class Form {
 struct Parameter {
     const char* name;
     Form form;
-    const char* key;  ///< of the sonar, with dots; "water." ones are the mission's
+    const char* key;  ///< key of the sonar, with dots; keys "water." are those of the mission
     Limits limits;
-    const char* remark;  ///< where nothing corresponds: why
+    const char* remark;  ///< the reason for which nothing corresponds
 };
 
 constexpr const char* by_goal = "sampling follows from accuracy.relative_l1";
@@ -99,7 +99,7 @@ class SonarImporter {
         if (configuration == nullptr) return;
         for (const YamlNode& value : map_at(*configuration, "configuration").items)
             take(value, *configuration);
-        // HoloOcean's noise does not grow with range unless it is told to.
+        // HoloOcean's noise grows with range only if ScaleNoise is set.
         if (setting(sonar.settings, "noise.add_sigma") != nullptr &&
             setting(sonar.settings, "noise.scale_with_range") == nullptr)
             set_key(sonar.settings, "noise.scale_with_range", "false");
@@ -159,7 +159,8 @@ class SonarImporter {
         }
     }
 
-    /// The number of bins that a width gives; what they divide must stand in the scenario.
+    /// The number of bins of a width. The scenario must have the range or the angle that they
+    /// divide.
     static std::string bins(const Parameter& parameter, const YamlNode& node,
                             const YamlNode& configuration) {
         const double width = number_in(node, parameter.name, parameter.limits);

@@ -10,18 +10,18 @@
 
 namespace sonarsim {
 
-/// A kind of sonar of HoloOcean. Since version 2.4 each is there three times: by octree, by ray
+/// A kind of sonar of HoloOcean. Since version 2.4 each has three forms: with the octree, with ray
 /// casts and on the GPU.
 struct SonarType {
     const char* type;
     const char* kind;
-    bool looks_down;                      ///< by sonarsim's default mount
+    bool looks_down;                      ///< true for sonarsim's default mount
     std::vector<std::string_view> lacks;  ///< keys that the kind does not have
-    const char* azimuth_deg = "";         ///< its default, where sonarsim's differs
-    const char* remark = "";              ///< how the imported sonar differs from it
+    const char* azimuth_deg = "";         ///< its default, if sonarsim has another
+    const char* remark = "";              ///< differences of the imported sonar from it
 };
 
-/// All of them.
+/// All kinds of sonar of HoloOcean.
 std::span<const SonarType> sonar_types();
 /// Their names, separated by commas.
 std::string sonar_type_list();
@@ -29,16 +29,16 @@ std::string sonar_type_list();
 /// Keys of a mission and their values.
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
-/// Where the key is set already, the later value counts.
+/// Sets a key, or replaces its value.
 void set_key(Settings& settings, const std::string& key, const std::string& value);
-/// The value of a key; nullptr where it is not set.
+/// The value of a key; nullptr if it is not set.
 const std::string* setting(const Settings& settings, std::string_view key);
 
-/// What the `configuration` of a sonar becomes.
+/// The mission's keys for the `configuration` of a sonar.
 struct ImportedSonar {
-    Settings settings;                 ///< of the sonar, with dots: noise.add_sigma
-    Settings water;                    ///< of the mission's water
-    std::vector<std::string> remarks;  ///< what has no counterpart, and why
+    Settings settings;                 ///< keys of the sonar, with dots: noise.add_sigma
+    Settings water;                    ///< keys of the mission's water
+    std::vector<std::string> remarks;  ///< parameters without a counterpart, and the reasons
 };
 
 /// Adds a warning for each parameter without a counterpart. InputError for a wrong value.

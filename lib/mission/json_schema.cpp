@@ -27,72 +27,76 @@ class SchemaBuilder {
 
     void number(const char* key, double value, const Limits& limits, const char* meaning,
                 Presence presence = Presence::optional) {
-        add(key, within_limits("number", limits), meaning, presence, number_json(value));
+        add(key, "number", within_limits("number", limits), meaning, presence, number_json(value));
     }
     void number_or_auto(const char* key, double value, const Limits& limits, const char* meaning) {
         const SchemaJson either{{"anyOf", {{{"const", "auto"}}, within_limits("number", limits)}}};
-        add(key, either, meaning, Presence::optional,
+        add(key, "number", either, meaning, Presence::optional,
             value == 0.0 ? SchemaJson("auto") : number_json(value));
     }
     void integer(const char* key, int value, const Limits& limits, const char* meaning) {
-        add(key, within_limits("integer", limits), meaning, Presence::optional, value);
+        add(key, "whole number", within_limits("integer", limits), meaning, Presence::optional,
+            value);
     }
     void integer(const char* key, std::uint64_t value, const char* meaning) {
-        add(key,
+        add(key, "whole number",
             {{"type", "integer"},
              {"minimum", 0},
              {"maximum", std::numeric_limits<std::uint64_t>::max()}},
             meaning, Presence::optional, value);
     }
     void flag(const char* key, bool value, const char* meaning) {
-        add(key, {{"type", "boolean"}}, meaning, Presence::optional, value);
+        add(key, "true or false", {{"type", "boolean"}}, meaning, Presence::optional, value);
     }
     void text(const char* key, const std::string&, const char* meaning,
               Presence presence = Presence::optional) {
-        add(key, text_json(), meaning, presence);
+        add(key, "text", text_json(), meaning, presence);
     }
     void texts(const char* key, const std::vector<std::string>&, const char* meaning) {
-        add(key, list_json(text_json(), 0), meaning);
+        add(key, "list of texts", list_json(text_json(), 0), meaning);
     }
     void renaming(const char* key, const std::vector<std::pair<std::string, std::string>>&,
                   const char* meaning) {
-        add(key, {{"type", "object"}, {"additionalProperties", text_json()}}, meaning);
+        add(key, "text per name", {{"type", "object"}, {"additionalProperties", text_json()}},
+            meaning);
     }
     void values(const char* key, const std::vector<std::string>&, const char* meaning) {
-        add(key, list_json(SchemaJson::object(), 1), meaning);
+        add(key, "list of values", list_json(SchemaJson::object(), 1), meaning);
     }
     void range(const char* key, const std::array<double, 2>& value, const Limits& limits,
                const char* meaning) {
         const SchemaJson either{
             {"anyOf", {within_limits("number", limits), numbers_json(2, limits)}}};
-        add(key, either, meaning, Presence::optional,
+        add(key, "number or [least, largest]", either, meaning, Presence::optional,
             value[0] == value[1] ? number_json(value[0]) : list_of(value));
     }
     void path(const char* key, const std::filesystem::path&, const char* meaning,
               Presence presence = Presence::optional) {
-        add(key, text_json(), meaning, presence);
+        add(key, "path", text_json(), meaning, presence);
     }
     void paths(const char* key, const std::vector<std::filesystem::path>&, const char* meaning,
                Presence presence) {
-        add(key, {{"anyOf", {text_json(), list_json(text_json(), 1)}}}, meaning, presence);
+        add(key, "path or list of paths", {{"anyOf", {text_json(), list_json(text_json(), 1)}}},
+            meaning, presence);
     }
 
     template <std::size_t N>
     void numbers(const char* key, const std::array<double, N>& values, const Limits& limits,
                  const char* meaning, Presence presence = Presence::optional) {
-        add(key, numbers_json(N, limits), meaning, presence, list_of(values));
+        add(key, std::to_string(N) + " numbers", numbers_json(N, limits), meaning, presence,
+            list_of(values));
     }
     template <std::size_t N>
     void optional_numbers(const char* key, const std::optional<std::array<double, N>>&,
                           const Limits& limits, const char* meaning) {
-        add(key, numbers_json(N, limits), meaning);
+        add(key, std::to_string(N) + " numbers", numbers_json(N, limits), meaning);
     }
 
     template <class T, std::size_t N>
     void choice(const char* key, const T& value, const std::array<Choice<T>, N>& choices,
                 const char* meaning, Presence presence = Presence::optional) {
         const auto chosen = std::ranges::find(choices, value, &Choice<T>::value);
-        add(key, {{"enum", names_of(choices)}}, meaning, presence,
+        add(key, "choice", {{"enum", names_of(choices)}}, meaning, presence,
             chosen == choices.end() ? SchemaJson() : SchemaJson(chosen->name));
     }
 
@@ -101,7 +105,8 @@ class SchemaBuilder {
                 const char* meaning) {
         SchemaJson some = list_json({{"enum", names_of(choices)}}, 0);
         some["uniqueItems"] = true;
-        add(key, {{"anyOf", {{{"type", "boolean"}}, some}}}, meaning, Presence::optional, false);
+        add(key, "true, false or a list", {{"anyOf", {{{"type", "boolean"}}, some}}}, meaning,
+            Presence::optional, false);
     }
 
     void place(const MissionPlace&) const {}
@@ -109,14 +114,14 @@ class SchemaBuilder {
 
     const SonarKeys& sonar_kind(const char* key, const SonarConfig& value, const char* meaning) {
         const auto keys = std::ranges::find(sonars_, value.kind, &SonarKeys::kind);
-        add(key, {{"const", keys->name}}, meaning, required);
+        add(key, "choice", {{"const", keys->name}}, meaning, required);
         return *keys;
     }
 
     template <class T>
     void section(const char* key, T& value, const char* meaning,
                  Presence presence = Presence::optional) {
-        add(key, object_of(value), meaning, presence);
+        add(key, "section", object_of(value), meaning, presence);
     }
     /// Describes a section that has several forms.
     template <class... T>
@@ -124,7 +129,7 @@ class SchemaBuilder {
                  Presence presence = Presence::optional) {
         SchemaJson forms = SchemaJson::array();
         ((value.template emplace<T>(), forms.push_back(object_of(value))), ...);
-        add(key, {{"type", "object"}, {"oneOf", std::move(forms)}}, meaning, presence);
+        add(key, "section", {{"type", "object"}, {"oneOf", std::move(forms)}}, meaning, presence);
     }
     template <class T>
     void optional_section(const char* key, std::optional<T>&, const char* meaning) {
@@ -135,12 +140,13 @@ class SchemaBuilder {
     template <class T>
     void list(const char* key, std::vector<T>&, std::size_t fewest, const char* meaning) {
         T item;
-        add(key, list_json(object_of(item), fewest), meaning,
-            fewest > 0 ? Presence::required : Presence::optional);
+        const std::string fewest_text = "list of " + std::to_string(fewest) + " or more";
+        add(key, fewest > 0 ? fewest_text : "list of sections", list_json(object_of(item), fewest),
+            meaning, fewest > 0 ? Presence::required : Presence::optional);
     }
 
     void named(const char* key, std::vector<SonarConfig>&, const char* meaning) {
-        add(key,
+        add(key, "section per name",
             {{"type", "object"},
              {"minProperties", 1},
              {"propertyNames", {{"pattern", "^[A-Za-z0-9_-]{1,64}$"}}},
@@ -150,10 +156,13 @@ class SchemaBuilder {
 
     /// Each form requires a key of its own.
     template <class... T>
-    void one_of(const std::variant<T...>&, const std::array<const char*, sizeof...(T)>&) {}
+    void one_of(const std::variant<T...>& value,
+                const std::array<const char*, sizeof...(T)>& keys) {
+        form_ = keys[value.index()];
+    }
 
     void require(bool, std::initializer_list<const char*>, const char* message) {
-        checks_ += (checks_.empty() ? "" : "; ") + std::string(message);
+        checks_.push_back(message);
     }
 
     SchemaJson finish() {
@@ -161,12 +170,14 @@ class SchemaBuilder {
         if (!required_.empty()) json["required"] = required_;
         json["additionalProperties"] = false;
         if (!checks_.empty()) json["$comment"] = checks_;
+        if (!form_.empty()) json[schema_note_form] = form_;
         return json;
     }
 
   private:
-    void add(const char* key, SchemaJson type, const char* meaning,
+    void add(const char* key, const std::string& type_name, SchemaJson type, const char* meaning,
              Presence presence = Presence::optional, const SchemaJson& value = {}) {
+        type[schema_note_type] = type_name;
         type["description"] = meaning;
         if (presence == Presence::required) {
             required_.emplace_back(key);
@@ -224,7 +235,7 @@ class SchemaBuilder {
                 SchemaJson if_this{{"properties", {{"kind", {{"const", kind.name}}}}},
                                    {"required", {"kind"}},
                                    {"not", {{"required", {"preset"}}}}};
-                // What is no model at all is checked by the rule of the default.
+                // The rule of the default checks a name that is no model.
                 SchemaJson others = names_of(echo_models);
                 others.erase(0);
                 if_this["properties"]["model"] =
@@ -247,20 +258,44 @@ class SchemaBuilder {
     SonarKeyTable sonars_;
     SchemaJson properties_ = SchemaJson::object();
     std::vector<std::string> required_;
-    std::string checks_;
+    SchemaJson checks_ = SchemaJson::array();
+    std::string form_;  ///< key that selects this form of a section with several forms
 };
+
+/// Removes the notes for the tables of keys, and joins the checks.
+void remove_notes(SchemaJson& json) {
+    if (json.is_object()) {
+        json.erase(schema_note_type);
+        json.erase(schema_note_form);
+        const auto comment = json.find("$comment");
+        if (comment != json.end() && comment->is_array()) {
+            std::string text;
+            for (const SchemaJson& check : *comment)
+                text += (text.empty() ? "" : "; ") + check.get<std::string>();
+            *comment = text;
+        }
+    }
+    for (SchemaJson& child : json) {
+        if (child.is_structured()) remove_notes(child);
+    }
+}
 
 }  // namespace
 
 nlohmann::ordered_json mission_json_schema(SonarKeyTable sonars) {
-    SchemaBuilder builder(sonars);
-    Mission mission;
-    describe(builder, mission);
     SchemaJson schema{{"$schema", "https://json-schema.org/draft/2020-12/schema"},
                       {"title", "sonarsim mission"},
                       {"description", "A scene, a trajectory and sonars, for sonarsim render."}};
-    schema.update(builder.finish());
+    schema.update(noted_json_schema(sonars));
+    remove_notes(schema);
     return schema;
+}
+
+nlohmann::ordered_json noted_json_schema(SonarKeyTable sonars) {
+    SchemaBuilder builder(sonars);
+    Mission mission;
+    describe(builder, mission);
+    return builder.finish();
 }
 
 }  // namespace sonarsim

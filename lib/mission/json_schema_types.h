@@ -25,14 +25,6 @@ SchemaJson list_json(SchemaJson items, std::size_t fewest);
 
 SchemaJson numbers_json(std::size_t count, const Limits& limits);
 
-template <class T, std::size_t N>
-SchemaJson names_of(const std::array<Choice<T>, N>& choices) {
-    SchemaJson names = SchemaJson::array();
-    for (const Choice<T>& one : choices)
-        names.push_back(one.name);
-    return names;
-}
-
 template <std::size_t N>
 SchemaJson list_of(const std::array<double, N>& values) {
     SchemaJson list = SchemaJson::array();

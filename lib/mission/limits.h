@@ -1,5 +1,10 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
+
 #include "core/input_limits.h"
 
 namespace sonarsim {
@@ -27,7 +32,7 @@ constexpr Limits between(double low, double high) {
 inline constexpr Limits any_position_m{-furthest_m, furthest_m};
 inline constexpr Limits any_angle_deg{-360.0, 360.0};
 
-/// Whether a key may be left out, so that its default holds.
+/// An optional key may be left out; its default holds then.
 enum class Presence { optional, required };
 inline constexpr Presence required = Presence::required;
 
@@ -37,5 +42,13 @@ struct Choice {
     const char* name;
     T value;
 };
+
+template <class T, std::size_t N>
+std::vector<std::string> names_of(const std::array<Choice<T>, N>& choices) {
+    std::vector<std::string> names;
+    for (const Choice<T>& one : choices)
+        names.emplace_back(one.name);
+    return names;
+}
 
 }  // namespace sonarsim

@@ -34,7 +34,7 @@ struct WaterConfig {
     bool operator==(const WaterConfig&) const = default;
 };
 
-/// Where a sonar sits on the vehicle, relative to the default mount of its kind.
+/// The position of a sonar on the vehicle, relative to the default mount of its kind.
 struct MountConfig {
     std::array<double, 3> translation_m{};  ///< vehicle frame
     std::array<double, 3> rpy_deg{};        ///< roll, pitch, yaw; applied after the default mount

@@ -20,7 +20,7 @@ namespace sonarsim {
 
 void check_limits(const YamlNode& node, const char* key, double value, const Limits& limits);
 
-/// Whether the node is a word or number without quotes.
+/// True if the node is a word or number without quotes.
 bool is_plain(const YamlNode& node);
 
 double read_number(const YamlNode& node, const char* key, const Limits& limits);

@@ -9,70 +9,60 @@
 #include "core/random.h"
 #include "core/text.h"
 #include "mission/draw_value.h"
-#include "mission/schema.h"
+#include "mission/sonar_schema.h"
+#include "mission/trajectory_schema.h"
 
 namespace sonarsim {
 
 namespace {
 
-using NamedNumbers = std::vector<std::pair<std::string, double*>>;
+/// The visitor that lists the numbers of sections.
+struct NumberList {
+    std::string section;  ///< with a dot at its end
+    std::vector<std::pair<std::string, double*>> list = {};
 
-/// Lists the numbers of a section by key; a visitor of describe().
-class NumberLister {
-  public:
-    template <class T>
-    void section(const char* key, T& value) {
-        prefix_ = std::string(key) + ".";
-        describe(*this, value);
-    }
-    void number(const char* key, double& value, const Limits&, const char*) {
-        list.emplace_back(prefix_ + key, &value);
+    void number(const char* key, double& value, const Limits&, const char* /*meaning*/) {
+        list.emplace_back(section + key, &value);
     }
     template <std::size_t N>
-    void numbers(const char* key, std::array<double, N>& values, const Limits&, const char*) {
+    void numbers(const char* key, std::array<double, N>& values, const Limits&,
+                 const char* /*meaning*/) {
         for (std::size_t k = 0; k < N; ++k)
-            list.emplace_back(prefix_ + key + "." + std::to_string(k), &values[k]);
+            list.emplace_back(section + key + "." + std::to_string(k), &values[k]);
     }
-    void flag(const char*, bool, const char*) {}
+    void flag(const char*, bool, const char*) const {}
     template <class T, std::size_t N>
-    void choice(const char*, T, const std::array<Choice<T>, N>&, const char*) {}
+    void choice(const char*, T&, const std::array<Choice<T>, N>&, const char*) const {}
 
-    NamedNumbers list;
-
-  private:
-    std::string prefix_;
+    /// The number with this key; null if there is none.
+    double* find(std::string_view key) const {
+        const auto found = std::ranges::find(
+            list, key, [](const auto& one) { return std::string_view(one.first); });
+        return found == list.end() ? nullptr : found->second;
+    }
 };
 
-/// The numbers of a sensor that may be drawn for every ping: neither the scene nor the view depends
-/// on them.
-NamedNumbers numbers_of(SonarConfig& sensor) {
-    NumberLister lister;
-    lister.section("mount", sensor.mount);
-    lister.section("noise", sensor.noise);
-    lister.section("streaks", sensor.streaks);
-    return std::move(lister.list);
-}
-
-NamedNumbers numbers_of(VehicleConfig& vehicle) {
-    NumberLister lister;
-    describe(lister, vehicle);
-    return std::move(lister.list);
-}
-
-constexpr std::string_view vehicle_section = "vehicle.";
+constexpr const char* vehicle_section = "vehicle.";
 
 std::string section_of(std::string_view sensor) {
     return "sensors." + std::string(sensor) + ".";
 }
 
-/// The number of a section that a key names; null if it may not be drawn for pings.
-template <class Section>
-double* find_number(Section& section, std::string_view key, std::string_view name) {
-    if (!key.starts_with(name)) return nullptr;
-    const NamedNumbers numbers = numbers_of(section);
-    const auto found = std::ranges::find(numbers, key.substr(name.size()),
-                                         &std::pair<std::string, double*>::first);
-    return found == numbers.end() ? nullptr : found->second;
+/// The numbers of a sensor that may be drawn for pings. Their keys begin with `section`.
+NumberList numbers_of(SonarConfig& sensor, const std::string& section) {
+    NumberList numbers{section + "mount."};
+    describe(numbers, sensor.mount);
+    numbers.section = section + "noise.";
+    describe(numbers, sensor.noise);
+    numbers.section = section + "streaks.";
+    describe(numbers, sensor.streaks);
+    return numbers;
+}
+
+NumberList numbers_of(VehicleConfig& vehicle) {
+    NumberList numbers{vehicle_section};
+    describe(numbers, vehicle);
+    return numbers;
 }
 
 /// Calls `visit` for every rule that is drawn for pings and whose key begins with `section`.
@@ -90,12 +80,10 @@ std::string drawn_text(const Mission& mission, const VaryConfig& rule, std::uint
     return draw_value(rule, mission.seed, index, pose, Stream::ping_variation);
 }
 
-template <class Section>
-void draw_section(const Mission& mission, std::string_view name, std::uint32_t pose,
-                  Section& section) {
-    for_each_rule(mission, name, [&](const VaryConfig& rule, std::uint32_t index) {
-        *find_number(section, rule.key, name) =
-            *parse_number(drawn_text(mission, rule, index, pose));
+void draw_section(const Mission& mission, std::string_view section, std::uint32_t pose,
+                  const NumberList& numbers) {
+    for_each_rule(mission, section, [&](const VaryConfig& rule, std::uint32_t index) {
+        *numbers.find(rule.key) = *parse_number(drawn_text(mission, rule, index, pose));
     });
 }
 
@@ -103,18 +91,18 @@ void draw_section(const Mission& mission, std::string_view name, std::uint32_t p
 
 void check_key_of_pings(const Mission& mission, const VaryConfig& rule) {
     constexpr double least_share = 0.05;
-    const auto names_it = [&](SonarConfig sensor) {
-        return find_number(sensor, rule.key, section_of(sensor.name)) != nullptr;
+    VehicleConfig vehicle;
+    SonarConfig any_sensor;
+    const NumberList of_vehicle = numbers_of(vehicle);
+    const auto names_it = [&](const SonarConfig& sensor) {
+        return numbers_of(any_sensor, section_of(sensor.name)).find(rule.key) != nullptr;
     };
-    VehicleConfig vehicle = mission.vehicle;
-    if (!find_number(vehicle, rule.key, vehicle_section) &&
-        std::ranges::none_of(mission.sensors, names_it)) {
+    if (of_vehicle.find(rule.key) == nullptr && std::ranges::none_of(mission.sensors, names_it)) {
         std::string keys;
-        SonarConfig any;
-        for (const auto& [key, number] : numbers_of(any))
-            keys += key + ", ";
-        for (const auto& [key, number] : numbers_of(vehicle))
-            keys += std::string(vehicle_section) + key + ", ";
+        for (const auto& number : numbers_of(any_sensor, "").list)
+            keys += number.first + ", ";
+        for (const auto& number : of_vehicle.list)
+            keys += number.first + ", ";
         throw InputError(rule.place.location,
                          "'" + printable(rule.key) +
                              "' cannot be drawn for every ping; write per: variant, or one of "
@@ -149,12 +137,13 @@ bool varies_by_ping(const Mission& mission, std::string_view sensor) {
 }
 
 void draw_for_ping(const Mission& mission, std::uint32_t pose, SonarConfig& sensor) {
-    draw_section(mission, section_of(sensor.name), pose, sensor);
+    const std::string section = section_of(sensor.name);
+    draw_section(mission, section, pose, numbers_of(sensor, section));
 }
 
 VehicleConfig vehicle_at(const Mission& mission, std::uint32_t pose) {
     VehicleConfig vehicle = mission.vehicle;
-    draw_section(mission, vehicle_section, pose, vehicle);
+    draw_section(mission, vehicle_section, pose, numbers_of(vehicle));
     return vehicle;
 }
 

@@ -18,7 +18,7 @@ void check_key_of_pings(const Mission& mission, const VaryConfig& rule);
 /// The limits of a rule's draws, or all of its choices, as YAML.
 std::vector<std::string> extremes_of(const VaryConfig& rule);
 
-/// Whether any key of a sensor is drawn for every ping.
+/// True if any key of a sensor is drawn for every ping.
 bool varies_by_ping(const Mission& mission, std::string_view sensor);
 
 /// Draws the varying keys of a sensor at a pose.

@@ -61,57 +61,47 @@ const SonarKeys& MissionReader::sonar_kind(const char* key, SonarConfig& value,
 
 void MissionReader::number(const char* key, double& value, const Limits& limits,
                            const char* /*meaning*/, Presence presence) {
-    attempt(key, [&] {
-        if (const YamlNode* node = find(key, presence)) value = read_number(*node, key, limits);
-    });
+    read_key(key, presence, [&](const YamlNode& node) { value = read_number(node, key, limits); });
 }
 
 void MissionReader::number_or_auto(const char* key, double& value, const Limits& limits,
                                    const char* /*meaning*/) {
-    attempt(key, [&] {
-        const YamlNode* node = find(key, Presence::optional);
-        if (node == nullptr) return;
-        if (node->kind == YamlNode::Kind::scalar && node->text == "auto") {
+    read_key(key, Presence::optional, [&](const YamlNode& node) {
+        if (node.kind == YamlNode::Kind::scalar && node.text == "auto") {
             value = 0.0;
             return;
         }
-        const bool is_number = is_plain(*node) && parse_number(node->text);
-        if (!is_number) refuse_type(*node, key, "auto or a number");
-        value = read_number(*node, key, limits);
+        const bool is_number = is_plain(node) && parse_number(node.text);
+        if (!is_number) refuse_type(node, key, "auto or a number");
+        value = read_number(node, key, limits);
     });
 }
 
 void MissionReader::integer(const char* key, int& value, const Limits& limits,
                             const char* /*meaning*/) {
-    attempt(key, [&] {
-        const YamlNode* node = find(key, Presence::optional);
-        if (node == nullptr) return;
+    read_key(key, Presence::optional, [&](const YamlNode& node) {
         const std::optional<std::int64_t> number =
-            is_plain(*node) ? parse_integer(node->text) : std::nullopt;
-        if (!number) refuse_type(*node, key, "a whole number");
-        check_limits(*node, key, static_cast<double>(*number), limits);
+            is_plain(node) ? parse_integer(node.text) : std::nullopt;
+        if (!number) refuse_type(node, key, "a whole number");
+        check_limits(node, key, static_cast<double>(*number), limits);
         value = static_cast<int>(*number);
     });
 }
 
 void MissionReader::integer(const char* key, std::uint64_t& value, const char* /*meaning*/) {
-    attempt(key, [&] {
-        const YamlNode* node = find(key, Presence::optional);
-        if (node == nullptr) return;
+    read_key(key, Presence::optional, [&](const YamlNode& node) {
         const std::optional<std::uint64_t> number =
-            is_plain(*node) ? parse_unsigned(node->text) : std::nullopt;
-        if (!number) refuse_type(*node, key, "a whole number from 0 to 2^64 - 1");
+            is_plain(node) ? parse_unsigned(node.text) : std::nullopt;
+        if (!number) refuse_type(node, key, "a whole number from 0 to 2^64 - 1");
         value = *number;
     });
 }
 
 void MissionReader::flag(const char* key, bool& value, const char* /*meaning*/) {
-    attempt(key, [&] {
-        const YamlNode* node = find(key, Presence::optional);
-        if (node == nullptr) return;
-        const bool yes = is_plain(*node) && node->text == "true";
-        if (!yes && !(is_plain(*node) && node->text == "false")) {
-            refuse_type(*node, key, "true or false");
+    read_key(key, Presence::optional, [&](const YamlNode& node) {
+        const bool yes = is_plain(node) && node.text == "true";
+        if (!yes && !(is_plain(node) && node.text == "false")) {
+            refuse_type(node, key, "true or false");
         }
         value = yes;
     });
@@ -119,19 +109,15 @@ void MissionReader::flag(const char* key, bool& value, const char* /*meaning*/) 
 
 void MissionReader::text(const char* key, std::string& value, const char* /*meaning*/,
                          Presence presence) {
-    attempt(key, [&] {
-        if (const YamlNode* node = find(key, presence)) value = read_text(*node, key);
-    });
+    read_key(key, presence, [&](const YamlNode& node) { value = read_text(node, key); });
 }
 
 void MissionReader::texts(const char* key, std::vector<std::string>& values,
                           const char* /*meaning*/) {
-    attempt(key, [&] {
-        const YamlNode* node = find(key, Presence::optional);
-        if (node == nullptr) return;
-        if (node->kind != YamlNode::Kind::list) refuse_type(*node, key, "a list of texts");
+    read_key(key, Presence::optional, [&](const YamlNode& node) {
+        if (node.kind != YamlNode::Kind::list) refuse_type(node, key, "a list of texts");
         values.clear();
-        for (const YamlNode& item : node->items)
+        for (const YamlNode& item : node.items)
             values.push_back(read_text(item, key));
     });
 }
@@ -139,64 +125,54 @@ void MissionReader::texts(const char* key, std::vector<std::string>& values,
 void MissionReader::renaming(const char* key,
                              std::vector<std::pair<std::string, std::string>>& values,
                              const char* /*meaning*/) {
-    attempt(key, [&] {
-        const YamlNode* node = find(key, Presence::optional);
-        if (node == nullptr) return;
-        if (node->kind != YamlNode::Kind::map) refuse_type(*node, key, "a section of names");
+    read_key(key, Presence::optional, [&](const YamlNode& node) {
+        if (node.kind != YamlNode::Kind::map) refuse_type(node, key, "a section of names");
         values.clear();
-        for (const YamlNode& item : node->items)
+        for (const YamlNode& item : node.items)
             values.emplace_back(item.key, read_text(item, key));
     });
 }
 
 void MissionReader::values(const char* key, std::vector<std::string>& values,
                            const char* /*meaning*/) {
-    attempt(key, [&] {
-        const YamlNode* node = find(key, Presence::optional);
-        if (node == nullptr) return;
-        if (node->kind != YamlNode::Kind::list || node->items.empty())
-            refuse_type(*node, key, "a list of one or more values");
+    read_key(key, Presence::optional, [&](const YamlNode& node) {
+        if (node.kind != YamlNode::Kind::list || node.items.empty())
+            refuse_type(node, key, "a list of one or more values");
         values.clear();
-        for (const YamlNode& item : node->items)
+        for (const YamlNode& item : node.items)
             values.push_back(flow_text(item));
     });
 }
 
 void MissionReader::range(const char* key, std::array<double, 2>& value, const Limits& limits,
                           const char* /*meaning*/) {
-    attempt(key, [&] {
-        const YamlNode* node = find(key, Presence::optional);
-        if (node == nullptr) return;
-        if (node->kind != YamlNode::Kind::list) {
-            value.fill(read_number(*node, key, limits));
+    read_key(key, Presence::optional, [&](const YamlNode& node) {
+        if (node.kind != YamlNode::Kind::list) {
+            value.fill(read_number(node, key, limits));
             return;
         }
-        read_numbers(*node, key, value.data(), 2, limits);
+        read_numbers(node, key, value.data(), 2, limits);
         if (value[0] > value[1])
-            refuse(*node,
+            refuse(node,
                    "'" + std::string(key) + "': the first number must not be above the second");
     });
 }
 
 void MissionReader::path(const char* key, std::filesystem::path& value, const char* /*meaning*/,
                          Presence presence) {
-    attempt(key, [&] {
-        if (const YamlNode* node = find(key, presence)) value = path_of(*node, key);
-    });
+    read_key(key, presence, [&](const YamlNode& node) { value = path_of(node, key); });
 }
 
 void MissionReader::paths(const char* key, std::vector<std::filesystem::path>& values,
                           const char* /*meaning*/, Presence presence) {
-    attempt(key, [&] {
-        const YamlNode* node = find(key, presence);
-        if (node == nullptr) return;
+    read_key(key, presence, [&](const YamlNode& node) {
         values.clear();
-        if (node->kind != YamlNode::Kind::list) {
-            values.push_back(path_of(*node, key));
+        if (node.kind != YamlNode::Kind::list) {
+            values.push_back(path_of(node, key));
             return;
         }
-        if (node->items.empty()) refuse_type(*node, key, "a path or a list of one or more");
-        for (const YamlNode& item : node->items)
+        if (node.items.empty()) refuse_type(node, key, "a path or a list of one or more");
+        for (const YamlNode& item : node.items)
             values.push_back(path_of(item, key));
     });
 }

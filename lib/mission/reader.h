@@ -58,31 +58,23 @@ class MissionReader {
     template <std::size_t N>
     void numbers(const char* key, std::array<double, N>& values, const Limits& limits,
                  const char* /*meaning*/, Presence presence = Presence::optional) {
-        attempt(key, [&] {
-            if (const YamlNode* node = find(key, presence))
-                read_numbers(*node, key, values.data(), N, limits);
-        });
+        read_key(key, presence,
+                 [&](const YamlNode& node) { read_numbers(node, key, values.data(), N, limits); });
     }
 
     template <std::size_t N>
     void optional_numbers(const char* key, std::optional<std::array<double, N>>& values,
                           const Limits& limits, const char* /*meaning*/) {
-        attempt(key, [&] {
-            if (const YamlNode* node = find(key, Presence::optional))
-                read_numbers(*node, key, values.emplace().data(), N, limits);
+        read_key(key, Presence::optional, [&](const YamlNode& node) {
+            read_numbers(node, key, values.emplace().data(), N, limits);
         });
     }
 
     template <class T, std::size_t N>
     void choice(const char* key, T& value, const std::array<Choice<T>, N>& choices,
                 const char* /*meaning*/, Presence presence = Presence::optional) {
-        std::vector<std::string> names;
-        names.reserve(N);
-        for (const Choice<T>& one : choices)
-            names.emplace_back(one.name);
-        attempt(key, [&] {
-            if (const YamlNode* node = find(key, presence))
-                value = choices[index_of(*node, key, names)].value;
+        read_key(key, presence, [&](const YamlNode& node) {
+            value = choices[index_of(node, key, names_of(choices))].value;
         });
     }
 
@@ -90,14 +82,8 @@ class MissionReader {
     template <class T, std::size_t N>
     void subset(const char* key, std::vector<T>& values, const std::array<Choice<T>, N>& choices,
                 const char* /*meaning*/) {
-        const YamlNode* node = find(key, Presence::optional);
-        if (node == nullptr) return;
-        std::vector<std::string> names;
-        names.reserve(N);
-        for (const Choice<T>& one : choices)
-            names.emplace_back(one.name);
-        attempt(key, [&] {
-            const std::vector<bool> chosen = chosen_of(*node, key, names);
+        read_key(key, Presence::optional, [&](const YamlNode& node) {
+            const std::vector<bool> chosen = chosen_of(node, key, names_of(choices));
             values.clear();
             for (std::size_t i = 0; i < N; ++i) {
                 if (chosen[i]) values.push_back(choices[i].value);
@@ -118,17 +104,13 @@ class MissionReader {
     template <class T>
     void section(const char* key, T& value, const char* /*meaning*/,
                  Presence presence = Presence::optional) {
-        attempt(key, [&] {
-            if (const YamlNode* node = find(key, presence)) read(*node, key, value);
-        });
+        read_key(key, presence, [&](const YamlNode& node) { read(node, key, value); });
     }
 
     template <class T>
     void optional_section(const char* key, std::optional<T>& value, const char* /*meaning*/) {
-        attempt(key, [&] {
-            if (const YamlNode* node = find(key, Presence::optional))
-                read(*node, key, value.emplace());
-        });
+        read_key(key, Presence::optional,
+                 [&](const YamlNode& node) { read(node, key, value.emplace()); });
     }
 
     /// Reads a list of at least `fewest` sections. If `fewest` is 0, the key is optional.
@@ -188,6 +170,14 @@ class MissionReader {
         const std::size_t before = errors_.count();
         errors_.attempt(read_key);
         if (errors_.count() > before) faulty_.emplace_back(key);
+    }
+
+    /// The same for a key of this section, if it is there.
+    template <class Read>
+    void read_key(const char* key, Presence presence, const Read& read_node) {
+        attempt(key, [&] {
+            if (const YamlNode* node = find(key, presence)) read_node(*node);
+        });
     }
 
     const YamlNode* find(const char* key, Presence presence);

@@ -42,14 +42,14 @@ void draw_rayleigh(std::uint32_t block, PhiloxKey key, Lane& out) {
     }
 }
 
-/// Two draws of normal(0, 1) from each word.
+/// The draws of normal_pair() for each word.
 template <std::size_t count>
-void box_muller(const std::array<std::uint32_t, count>& words, float* __restrict cosines,
-                float* __restrict sines) {
+void draw_pairs(const std::array<std::uint32_t, count>& words, float* __restrict first,
+                float* __restrict second) {
     for (std::size_t k = 0; k < count; ++k) {
-        const NormalPair draws = normal_pair(words[k]);
-        cosines[k] = draws.first;
-        sines[k] = draws.second;
+        const NormalPair pair = normal_pair(words[k]);
+        first[k] = pair.first;
+        second[k] = pair.second;
     }
 }
 
@@ -58,8 +58,8 @@ void draw_normal(std::uint32_t block, PhiloxKey key, Lane& out) {
     constexpr std::size_t quarter = pixels_per_block / 4;
     std::array<std::uint32_t, quarter> a, b;
     draw_words(block * quarter, multiplicative, key, a, b);
-    box_muller(a, out.data(), out.data() + quarter);
-    box_muller(b, out.data() + 2 * quarter, out.data() + 3 * quarter);
+    draw_pairs(a, out.data(), out.data() + quarter);
+    draw_pairs(b, out.data() + 2 * quarter, out.data() + 3 * quarter);
 }
 
 bool any_signal(std::span<const float> pixels) {

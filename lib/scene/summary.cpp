@@ -1,9 +1,10 @@
 #include "scene/summary.h"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cstdint>
-#include <cstdio>
 #include <vector>
 
 #include "core/text.h"
@@ -29,23 +30,14 @@ double area_of(const Scene& scene, const std::array<std::uint32_t, 3>& triangle)
     return 0.5 * (b - a).cross(c - a).norm();
 }
 
-std::string fixed(double value) {
-    char buffer[64];
-    std::snprintf(buffer, sizeof(buffer), "%.3f", value);
-    return buffer;
-}
-
 std::string point(const Eigen::Vector3d& p) {
-    return "(" + fixed(p.x()) + ", " + fixed(p.y()) + ", " + fixed(p.z()) + ")";
+    return fmt::format("({:.3f}, {:.3f}, {:.3f})", p.x(), p.y(), p.z());
 }
 
-std::string left(std::string text, std::size_t width) {
-    if (text.size() < width) text.append(width - text.size(), ' ');
+/// Counts bytes; fmt counts the columns of a terminal.
+std::string padded(std::string text, std::size_t width) {
+    text.resize(std::max(text.size(), width), ' ');
     return text;
-}
-
-std::string right(const std::string& text, std::size_t width) {
-    return std::string(text.size() < width ? width - text.size() : 0, ' ') + text;
 }
 
 std::string table(const std::string& title, const std::vector<std::string>& names,
@@ -57,11 +49,10 @@ std::string table(const std::string& title, const std::vector<std::string>& name
     std::size_t width = title.size();
     for (const std::string& name : shown)
         width = std::max(width, name.size());
-    std::string out = "\n" + left(title, width) + "   triangles     area m^2\n";
-    for (std::size_t i = 0; i < shown.size(); ++i) {
-        out += left(shown[i], width) + right(std::to_string(shares[i].triangles), 12) +
-               right(fixed(shares[i].area_m2), 13) + "\n";
-    }
+    std::string out = padded("\n" + title, width + 1) + "   triangles     area m^2\n";
+    for (std::size_t i = 0; i < shown.size(); ++i)
+        out += padded(shown[i], width) +
+               fmt::format("{:>12}{:>13.3f}\n", shares[i].triangles, shares[i].area_m2);
     return out;
 }
 
@@ -81,21 +72,23 @@ std::string describe_scene(const Scene& scene) {
     for (const Material& material : scene.materials)
         materials.push_back(material.name);
 
-    std::string out =
-        "bounds     " + point(scene.bounds_min) + " to " + point(scene.bounds_max) +
-        " m\nsize       " + point(scene.bounds_max - scene.bounds_min) + " m\norigin     " +
-        point(scene.origin) + " m\ntriangles  " + std::to_string(whole.triangles) + " with " +
-        std::to_string(scene.vertices.size()) + " vertices, " + fixed(whole.area_m2) + " m^2\n";
+    std::string out = fmt::format(
+        "bounds     {} to {} m\nsize       {} m\norigin     {} m\n"
+        "triangles  {} with {} vertices, {:.3f} m^2\n",
+        point(scene.bounds_min), point(scene.bounds_max),
+        point(scene.bounds_max - scene.bounds_min), point(scene.origin), whole.triangles,
+        scene.vertices.size(), whole.area_m2);
     const SceneRejects& rejects = scene.rejects;
     if (rejects.degenerate_triangles + rejects.non_finite_triangles + rejects.skipped_primitives) {
-        out += "dropped    " + std::to_string(rejects.degenerate_triangles) +
-               " triangles without area, " + std::to_string(rejects.non_finite_triangles) +
-               " that are not finite, " + std::to_string(rejects.skipped_primitives) +
-               " primitives of points or lines\n";
+        out += fmt::format(
+            "dropped    {} triangles without area, {} that are not finite, {} primitives of points "
+            "or lines\n",
+            rejects.degenerate_triangles, rejects.non_finite_triangles, rejects.skipped_primitives);
     }
     if (has_coarse_vertices(scene)) {
-        out += "rounding   " + fixed(scene.vertex_rounding_m) +
-               " m, since vertices lie far from the origin of their file or node\n";
+        out += fmt::format(
+            "rounding   {:.3f} m, since vertices lie far from the origin of their file or node\n",
+            scene.vertex_rounding_m);
     }
     return out + table("material", materials, of_material) +
            table("instance", scene.instances, of_instance);
@@ -106,18 +99,17 @@ std::string describe_materials(const Scene& scene, const MaterialTable& table, c
     std::size_t width = title.size();
     for (const Material& material : scene.materials)
         width = std::max(width, printable(material.name).size());
-    std::string out = "\n" + left(title, width) + "  kg/m^3    m/s     reflection\n";
+    std::string out = padded("\n" + title, width + 1) + "  kg/m^3    m/s     reflection\n";
     for (const Material& material : scene.materials) {
-        out += left(printable(material.name), width);
+        out += padded(printable(material.name), width);
         const auto row = std::ranges::find(table.materials, material.name, &Material::name);
         if (row == table.materials.end()) {
             out += "  not in " + printable(table.file) + "\n";
             continue;
         }
-        out += right(number_text(row->density_kg_m3), 8) +
-               right(number_text(row->sound_speed_m_s), 8) +
-               right(fixed(power_reflection(row->density_kg_m3, row->sound_speed_m_s, water)), 13) +
-               "\n";
+        out += fmt::format("{:>8}{:>8}{:>13.3f}\n", number_text(row->density_kg_m3),
+                           number_text(row->sound_speed_m_s),
+                           power_reflection(row->density_kg_m3, row->sound_speed_m_s, water));
     }
     return out;
 }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -12,6 +13,11 @@ struct Surface {
     std::vector<Eigen::Vector3d> vertices;
     std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices into `vertices`
 };
+
+inline std::array<Eigen::Vector3d, 3> corners_of(const Surface& surface, std::size_t triangle) {
+    const auto& c = surface.triangles[triangle];
+    return {surface.vertices[c[0]], surface.vertices[c[1]], surface.vertices[c[2]]};
+}
 
 inline Surface moved(const Surface& surface, const Eigen::Affine3d& T_world_surface) {
     Surface out = surface;

@@ -1,11 +1,15 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "sonar/kinds.h"
 #include "visibility/engine.h"
 
 namespace sonarsim {
+
+/// The distance from a sonar straight down to the scene, m. None if there is nothing below.
+std::optional<double> altitude_m(const VisibilityEngine& engine, const Pose& T_world_sensor);
 
 /// The measured values for the metadata of a ping: the true altitude, that is the distance from the
 /// sonar straight down to the scene, and the values of the sonar's kind. An absent value is null;

@@ -8,10 +8,13 @@
 #include <vector>
 
 #include "core/file.h"
+#include "support/npy_data.h"
 #include "support/temporary_folder.h"
 
 using namespace sonarsim;
 using sonarsim::test::TemporaryFolder;
+using test::Matrix;
+using test::read_npy;
 
 namespace {
 

@@ -58,7 +58,7 @@ TEST_SUITE("dataset") {
         CHECK(read_back(archive) == files);
     }
 
-    TEST_CASE("tar: what is no archive of ours is told") {
+    TEST_CASE("tar: a file that is no archive of ours is refused") {
         std::string archive;
         append_to_tar(archive, "a", std::string(700, 'x'));
         const std::string end(tar_end_bytes, '\0');

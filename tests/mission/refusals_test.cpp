@@ -54,7 +54,7 @@ TEST_CASE("a value outside its range is refused at its place") {
                   "accuracy: {relative_l1: 0.5}\n") == "");
 }
 
-TEST_CASE("every fault is told, each where it stands") {
+TEST_CASE("every fault is reported at its place") {
     const auto faults = [](const std::string& text) {
         try {
             parse(text);

@@ -23,4 +23,19 @@ std::vector<T> data_of(const std::filesystem::path& path, const NpyFormat& forma
     return values;
 }
 
+/// A matrix, row by row.
+struct Matrix {
+    std::size_t rows = 0;
+    std::size_t columns = 0;
+    std::vector<float> values;  ///< [rows, columns]
+};
+
+/// Reads a file of npy_bytes().
+inline Matrix read_npy(const std::filesystem::path& path) {
+    const NpyFormat format = npy_format(read_file(path, 1 << 26).substr(0, 256));
+    REQUIRE(format.shape.size() == 2);
+    return {format.shape[0], format.shape[1],
+            data_of<float>(path, {"<f4", {format.shape[0], format.shape[1]}})};
+}
+
 }  // namespace sonarsim::test

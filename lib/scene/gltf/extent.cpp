@@ -6,7 +6,6 @@
 
 #include "core/error.h"
 #include "core/input_limits.h"
-#include "scene/gltf/corners.h"
 
 namespace sonarsim {
 

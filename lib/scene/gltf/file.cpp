@@ -5,7 +5,6 @@
 #include <cctype>
 #include <cstdint>
 #include <cstring>
-#include <nlohmann/json.hpp>
 #include <span>
 #include <string>
 #include <string_view>
@@ -13,22 +12,14 @@
 
 #include "core/error.h"
 #include "core/file.h"
-#include "scene/gltf/buffers.h"
-#include "scene/gltf/json.h"
+#include "core/text.h"
+#include "scene/gltf/reduced_json.h"
 
 namespace sonarsim {
 
 namespace {
 
-using nlohmann::json;
-
 constexpr std::size_t max_bytes = std::size_t{1} << 31;
-
-struct Container {
-    std::string_view json;
-    std::string_view binary;  // the BIN chunk of a .glb
-    bool has_binary = false;
-};
 
 std::uint32_t little_endian(std::string_view bytes, std::size_t at) {
     std::uint32_t value = 0;
@@ -54,11 +45,12 @@ std::string_view take_chunk(std::string_view& bytes, std::uint32_t type, const L
     return chunk;
 }
 
-Container open_container(std::string_view bytes, const Location& where) {
+/// The JSON of a .glb. Checks that its chunks lie within it, which tinygltf 2.7 does not do for the
+/// last 8 bytes.
+std::string_view json_chunk(std::string_view bytes, const Location& where) {
     constexpr std::uint32_t json_type = 0x4E4F534A;
     constexpr std::uint32_t binary_type = 0x004E4942;
     constexpr std::size_t head = 12;
-    if (!bytes.starts_with("glTF")) return {bytes, {}, false};
     if (bytes.size() < head) throw InputError(where, "the .glb ends within its header");
     if (little_endian(bytes, 4) != 2) {
         throw InputError(where, "is a .glb of version " + std::to_string(little_endian(bytes, 4)) +
@@ -70,12 +62,25 @@ Container open_container(std::string_view bytes, const Location& where) {
                                     " bytes; the file has " + std::to_string(bytes.size()));
     }
     bytes = bytes.substr(head, length - head);
-    Container container;
-    container.json = take_chunk(bytes, json_type, where);
-    // Later chunks belong to extensions; a reader has to skip them.
-    container.has_binary = bytes.size() >= 8 && little_endian(bytes, 4) == binary_type;
-    if (container.has_binary) container.binary = take_chunk(bytes, binary_type, where);
-    return container;
+    const std::string_view json = take_chunk(bytes, json_type, where);
+    if (!bytes.empty()) take_chunk(bytes, binary_type, where);
+    return json;
+}
+
+void put_little_endian(std::string& bytes, std::size_t at, std::size_t number) {
+    const auto value = static_cast<std::uint32_t>(number);
+    std::memcpy(bytes.data() + at, &value, sizeof(value));
+}
+
+/// Replaces the JSON of a .glb by what is read of it.
+void reduce_json_chunk(std::string& bytes, const Location& where) {
+    constexpr std::size_t json_at = 20;  // behind the header of the file and that of the chunk
+    const std::string_view json = json_chunk(bytes, where);
+    std::string reduced = reduced_gltf_json(json, where.file);
+    reduced.resize((reduced.size() + 3) / 4 * 4, ' ');
+    put_little_endian(bytes, 8, little_endian(bytes, 8) - json.size() + reduced.size());
+    put_little_endian(bytes, 12, reduced.size());
+    bytes.replace(json_at, json.size(), reduced);
 }
 
 bool contains(std::span<const std::string_view> list, std::string_view word) {
@@ -96,111 +101,116 @@ void check_format(const std::filesystem::path& path, std::string_view bytes) {
                          path.filename().string() + " " + converted.filename().string());
 }
 
-void check_extensions(const json& document, const std::string& file) {
+void check_extensions(const tinygltf::Model& model, const Location& where) {
     constexpr std::array<std::string_view, 3> compressed{
         "KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression"};
     constexpr std::array<std::string_view, 4> appearance{"KHR_materials_", "KHR_texture_",
                                                          "EXT_texture_", "KHR_lights_"};
-    for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
-        for (const json& entry : document.value(list, json::array())) {
-            const std::string name = entry.get<std::string>();
-            if (contains(compressed, name)) {
-                throw InputError(Location{file}, "is compressed with " + name +
-                                                     ", which is not read; export it uncompressed");
-            }
-            if (name == "EXT_mesh_gpu_instancing") {
-                throw InputError(Location{file}, "places copies with " + name +
-                                                     ", which is not read; export one node a copy");
-            }
-            const bool is_harmless =
-                name == "KHR_mesh_quantization" ||
-                std::any_of(appearance.begin(), appearance.end(),
-                            [&](std::string_view prefix) { return name.starts_with(prefix); });
-            if (std::string_view(list) == "extensionsRequired" && !is_harmless) {
-                throw InputError(Location{file},
-                                 "requires the extension '" + name + "', which is not read");
-            }
+    const auto check = [&](const std::string& name, bool is_required) {
+        if (contains(compressed, name)) {
+            throw InputError(where, "is compressed with " + name +
+                                        ", which is not read; export it uncompressed");
         }
-    }
+        if (name == "EXT_mesh_gpu_instancing") {
+            throw InputError(where, "places copies with " + name +
+                                        ", which is not read; export one node a copy");
+        }
+        const bool is_harmless =
+            name == "KHR_mesh_quantization" ||
+            std::any_of(appearance.begin(), appearance.end(),
+                        [&](std::string_view prefix) { return name.starts_with(prefix); });
+        if (is_required && !is_harmless)
+            throw InputError(where, "requires the extension '" + name + "', which is not read");
+    };
+    for (const std::string& name : model.extensionsUsed)
+        check(name, false);
+    for (const std::string& name : model.extensionsRequired)
+        check(name, true);
 }
 
-/// The buffers that tinygltf's file callbacks may read, by index.
-struct BufferReader {
-    const std::filesystem::path& gltf;
-    std::string_view binary;
-    const std::vector<GltfBuffer>& buffers;
-    std::size_t bytes_left = max_bytes;
+bool stays_below(const std::string& uri) {
+    const std::filesystem::path path(uri);
+    return uri.find(':') == std::string::npos && uri.find('\0') == std::string::npos &&
+           !path.is_absolute() && std::find(path.begin(), path.end(), "..") == path.end();
+}
 
-    std::vector<unsigned char> read(std::size_t index) {
-        const GltfBuffer& buffer = buffers.at(index);
-        if (buffer.source == GltfBuffer::Source::file) {
-            const std::string bytes = read_file(gltf.parent_path() / buffer.file, bytes_left);
-            bytes_left -= bytes.size();
-            return {bytes.begin(), bytes.end()};
-        }
-        if (buffer.byte_length > binary.size()) {
-            throw InputError(Location{gltf.string()},
-                             "buffers[0] claims " + std::to_string(buffer.byte_length) +
-                                 " bytes; the BIN chunk has " + std::to_string(binary.size()));
-        }
-        const auto bytes = binary.substr(0, buffer.byte_length);
-        return {bytes.begin(), bytes.end()};
-    }
-};
-
-/// Sets the file size callback that tinygltf 2.9 requires; 2.8 has none.
+/// Sets the file size callback that tinygltf 2.9 requires; 2.8 has none. read_file limits the size.
 template <class Callbacks>
-void tell_sizes(Callbacks& callbacks) {
+void ignore_sizes(Callbacks& callbacks) {
     if constexpr (requires { callbacks.GetFileSizeInBytes; }) {
-        callbacks.GetFileSizeInBytes = [](std::size_t* size, std::string*, const std::string& name,
-                                          void* user) {
-            const auto* buffers = static_cast<const BufferReader*>(user);
-            *size = buffers->buffers.at(std::stoul(name)).byte_length;
+        callbacks.GetFileSizeInBytes = [](std::size_t* size, std::string*, const std::string&,
+                                          void*) {
+            *size = 0;
             return true;
         };
     }
 }
 
-tinygltf::FsCallbacks callbacks_of(BufferReader& buffers) {
+/// The buffers that tinygltf may read: beside or below the glTF file, `bytes_left` at most.
+struct BufferFiles {
+    const std::filesystem::path& gltf;
+    std::size_t bytes_left = max_bytes;
+};
+
+tinygltf::FsCallbacks buffer_callbacks(BufferFiles& files) {
     tinygltf::FsCallbacks callbacks{};
-    tell_sizes(callbacks);
+    ignore_sizes(callbacks);
+    callbacks.user_data = &files;
     // Never called, but tinygltf 2.9 requires all callbacks or none.
     callbacks.WriteWholeFile = [](std::string*, const std::string&,
                                   const std::vector<unsigned char>&, void*) { return false; };
-    callbacks.FileExists = [](const std::string&, void*) { return true; };
     callbacks.ExpandFilePath = [](const std::string& name, void*) { return name; };
+    callbacks.FileExists = [](const std::string& name, void* user) {
+        if (stays_below(name)) return !name.empty();
+        throw InputError(Location{static_cast<const BufferFiles*>(user)->gltf.string()},
+                         "the buffer '" + printable(name.substr(0, 200)) +
+                             "' is not beside or below the glTF file, where buffers must lie");
+    };
     callbacks.ReadWholeFile = [](std::vector<unsigned char>* out, std::string*,
                                  const std::string& name, void* user) {
-        *out = static_cast<BufferReader*>(user)->read(std::stoul(name));
+        auto& from = *static_cast<BufferFiles*>(user);
+        const std::string bytes = read_file(from.gltf.parent_path() / name, from.bytes_left);
+        from.bytes_left -= bytes.size();
+        out->assign(bytes.begin(), bytes.end());
         return true;
     };
-    callbacks.user_data = &buffers;
     return callbacks;
 }
 
 }  // namespace
 
 tinygltf::Model read_gltf(const std::filesystem::path& path) {
-    const std::string file = path.string();
-    const std::string bytes = read_file(path, max_bytes);
+    const Location where{path.string()};
+    std::string bytes = read_file(path, max_bytes);
     check_format(path, bytes);
-    const Container container = open_container(bytes, Location{file});
-    json gltf = reduce_gltf_json(container.json, file);
-    check_extensions(gltf, file);
-    const std::vector<GltfBuffer> buffers = claim_buffers(gltf, container.has_binary, file);
-    const std::string text = gltf.dump();
+    const bool is_binary = bytes.starts_with("glTF");
+    if (is_binary) {
+        reduce_json_chunk(bytes, where);
+    } else {
+        bytes = reduced_gltf_json(bytes, where.file);
+    }
 
-    BufferReader buffer_reader{path, container.binary, buffers};
     tinygltf::TinyGLTF reader;
-    reader.SetFsCallbacks(callbacks_of(buffer_reader));
+    BufferFiles files{path};
+    reader.SetFsCallbacks(buffer_callbacks(files));
     tinygltf::Model model;
     std::string error;
     std::string warning;
-    const bool is_read = reader.LoadASCIIFromString(&model, &error, &warning, text.data(),
-                                                    static_cast<unsigned int>(text.size()), "");
+    const auto size = static_cast<unsigned int>(bytes.size());
+    const bool is_read =
+        is_binary
+            ? reader.LoadBinaryFromMemory(&model, &error, &warning,
+                                          reinterpret_cast<unsigned char*>(bytes.data()), size)
+            : reader.LoadASCIIFromString(&model, &error, &warning, bytes.data(), size, "");
+    check_extensions(model, where);
     // tinygltf continues after some errors, and quotes whole data URIs in its messages.
-    if (!is_read || !error.empty()) {
-        throw InputError(Location{file}, "is no valid glTF: " + error.substr(0, 300));
+    if (!is_read || !error.empty())
+        throw InputError(where, "is no valid glTF: " + error.substr(0, 300));
+    for (std::size_t i = 1; i < model.buffers.size(); ++i) {
+        if (!model.buffers[i].uri.empty()) continue;
+        throw InputError(where, "buffers[" + std::to_string(i) +
+                                    "]: has no uri, and only the first buffer of a .glb with a BIN "
+                                    "chunk may lack it");
     }
     return model;
 }

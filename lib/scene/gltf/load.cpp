@@ -14,7 +14,6 @@
 #include "core/text.h"
 #include "scene/gltf/extent.h"
 #include "scene/gltf/mesh_builder.h"
-#include "scene/gltf/model_of.h"
 #include "scene/gltf/primitives.h"
 #include "scene/gltf/repeats.h"
 
@@ -52,7 +51,7 @@ std::vector<OpenFile> open_files(std::span<const PlacedFile> files, SceneFiles& 
     for (const PlacedFile& file : files) {
         OpenFile& next = open.emplace_back();
         next.placed = &file;
-        next.model = &model_of(file, models);
+        next.model = &models.model(file);
         next.meshes = place_meshes(*next.model, file, names);
         if (next.meshes.empty() && !file.exclude.empty()) {
             throw InputError(file.place, "exclude leaves nothing of " + file.file.string() +
@@ -193,14 +192,6 @@ Scene load_scene(std::span<const PlacedFile> files, SceneFiles& models, const Ma
     Scene scene = compose(files, models, rules, share_beyond);
     resolve_materials(scene, table, water);
     return scene;
-}
-
-Scene load_scene(const std::filesystem::path& gltf, const std::filesystem::path& materials_csv,
-                 const Water& water) {
-    const MaterialTable table = read_materials(materials_csv);
-    SceneFiles models;
-    const PlacedFile file{.file = gltf};
-    return load_scene({&file, 1}, models, table, "", water);
 }
 
 Scene load_scene_geometry(const std::filesystem::path& gltf) {

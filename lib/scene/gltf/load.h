@@ -13,10 +13,15 @@
 
 namespace sonarsim {
 
-/// Reads a .gltf or .glb file (its content says which) with the materials of a CSV.
+/// For load_scene: no meshes are shared; every copy of a file becomes triangles of the scene.
+inline constexpr std::size_t share_nothing = std::numeric_limits<std::size_t>::max();
+
+/// Reads .gltf or .glb files (their content says which), each where it is placed; those that move
+/// become bodies. The scene equals, bit by bit, that of one file with all their nodes, in their
+/// order and with their transforms.
 ///
 /// World frame: (x, y, z)_world = (x, -z, y)_gltf, node transforms composed in double precision.
-/// Reads the file's default scene, else its first, else all root nodes. A triangle's material is
+/// Reads a file's default scene, else its first, else all root nodes. A triangle's material is
 /// `extras.sonar.material` of its node or the nearest ancestor that has one, else of its glTF
 /// material, else that material's name. Its instance is its node's name; a node without one is
 /// "node<index>", and a name that is taken gets "_2", "_3", ... Its class is `extras.sonar.class`
@@ -25,30 +30,22 @@ namespace sonarsim {
 /// multiple of g, the smallest power of ten that holds the scene's largest extent (at least 1 m),
 /// so that a scene moved by multiples of g keeps its local coordinates bit by bit.
 ///
+/// Materials without a name or without a row in `table` become `material_default`, unless that is
+/// empty. If the files that are placed more than once, under a name and without moving, make more
+/// than `share_beyond` triangles together, each becomes one shared mesh with copies.
+///
 /// InputError for an invalid glTF 2.0 file, for compressed or skinned meshes, unknown required
 /// extensions, buffers outside of the file's folder, primitives without material, and materials
-/// that the CSV lacks. Points, lines, degenerate and non-finite triangles are dropped and counted
-/// in `rejects`; a scene may end up empty.
-Scene load_scene(const std::filesystem::path& gltf, const std::filesystem::path& materials_csv,
-                 const Water& water);
-
-/// For load_scene: no meshes are shared; every copy of a file becomes triangles of the scene.
-inline constexpr std::size_t share_nothing = std::numeric_limits<std::size_t>::max();
-
-/// The same for many files, each where it is placed; those that move become bodies. The scene
-/// equals, bit by bit, that of one file with all their nodes, in their order and with their
-/// transforms. Materials without a name or without a row in `table` become `material_default`,
-/// unless that is empty. InputError also, at the place of the file in the mission, for a name that
-/// is taken, for a pattern of `exclude` or a material to rename that the file does not have, and
-/// for a material that the table lacks.
-///
-/// If the files that are placed more than once, under a name and without moving, make more than
-/// `share_beyond` triangles together, each becomes one shared mesh with copies.
+/// that the table lacks; at the place of the file in the mission, for a name that is taken and for
+/// a pattern of `exclude` or a material to rename that the file does not have. Points, lines,
+/// degenerate and non-finite triangles are dropped and counted in `rejects`; a scene may end up
+/// empty.
 Scene load_scene(std::span<const PlacedFile> files, SceneFiles& models, const MaterialTable& table,
                  const std::string& material_default, const Water& water,
                  std::size_t share_beyond = share_nothing);
 
-/// The same without a CSV: materials have only a name, "(no material)" if the file names none.
+/// Reads one file without a table of materials: materials have only a name, "(no material)" if the
+/// file names none.
 Scene load_scene_geometry(const std::filesystem::path& gltf);
 
 }  // namespace sonarsim

@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "scene/gltf/corners.h"
 #include "scene/gltf/primitives.h"
 #include "scene/scene.h"
 

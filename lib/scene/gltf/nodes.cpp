@@ -51,26 +51,16 @@ std::vector<int> parents_of(const Graph& graph) {
     return parent;
 }
 
-/// With one parent each, nodes that no root reaches hang below a cycle.
-void check_no_cycle(const Graph& graph, const std::vector<int>& parent) {
-    std::vector<int> reached;
+/// Refuses nodes below a cycle and nodes that lie too deep.
+void check_depth(const Graph& graph, const std::vector<int>& parent) {
     for (int i = 0; i < static_cast<int>(graph.size()); ++i) {
-        if (parent[static_cast<std::size_t>(i)] == no_parent) reached.push_back(i);
+        int above = i;
+        for (int depth = 1; above != no_parent; ++depth) {
+            if (depth > deepest_node) graph.fail(i, "lies deeper than 256 levels in the hierarchy");
+            above = parent[static_cast<std::size_t>(above)];
+            if (above == i) graph.fail(i, "is its own ancestor");
+        }
     }
-    for (std::size_t i = 0; i < reached.size(); ++i) {
-        const auto& children = graph.node(reached[i]).children;
-        reached.insert(reached.end(), children.begin(), children.end());
-    }
-    if (reached.size() == graph.size()) return;
-    std::vector<bool> is_reached(graph.size(), false);
-    for (const int index : reached)
-        is_reached[static_cast<std::size_t>(index)] = true;
-    const auto first = std::find(is_reached.begin(), is_reached.end(), false);
-    auto index = static_cast<int>(first - is_reached.begin());
-    // graph.size() steps up surely end on the cycle itself.
-    for (std::size_t i = 0; i < graph.size(); ++i)
-        index = parent[static_cast<std::size_t>(index)];
-    graph.fail(index, "is its own ancestor");
 }
 
 std::vector<int> scene_roots(const Graph& graph, const std::vector<int>& parent) {
@@ -216,34 +206,30 @@ std::vector<PlacedMesh> place_meshes(const tinygltf::Model& model, const PlacedF
     const std::string file = placed_file.file.string();
     const Graph graph{model, file};
     const std::vector<int> parent = parents_of(graph);
-    check_no_cycle(graph, parent);
+    check_depth(graph, parent);
 
     struct Visit {
         int node;
-        int depth;
         Eigen::Affine3d T_world_parent;
         std::string material;
         std::string label;
     };
     const Eigen::Affine3d T_world_gltf = placed_file.T_world_file * file_from_gltf(placed_file);
     std::vector<Visit> pending;
-    const auto push = [&pending](const std::vector<int>& nodes, int depth, const auto& transform,
+    const auto push = [&pending](const std::vector<int>& nodes, const auto& transform,
                                  const std::string& material, const std::string& label) {
         // Pushed in reverse, so that the stack yields them in their order.
         for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) {
-            pending.push_back({*node, depth, transform, material, label});
+            pending.push_back({*node, transform, material, label});
         }
     };
-    push(scene_roots(graph, parent), 1, T_world_gltf, "", "");
+    push(scene_roots(graph, parent), T_world_gltf, "", "");
 
     std::vector<PlacedMesh> placed;
     Exclusion exclusion(placed_file);
     while (!pending.empty()) {
         const Visit visit = std::move(pending.back());
         pending.pop_back();
-        if (visit.depth > deepest_node) {
-            graph.fail(visit.node, "lies deeper than 256 levels in the hierarchy");
-        }
         if (exclusion.takes(graph.name(visit.node))) continue;
         const tinygltf::Node& node = graph.node(visit.node);
         const Eigen::Affine3d T_world_node =
@@ -259,7 +245,7 @@ std::vector<PlacedMesh> place_meshes(const tinygltf::Model& model, const PlacedF
                  placed_file.name.empty() ? names.unique(graph.name(visit.node)) : placed_file.name,
                  material, label});
         }
-        push(node.children, visit.depth + 1, T_world_node, material, label);
+        push(node.children, T_world_node, material, label);
     }
     exclusion.require_used();
     return placed;

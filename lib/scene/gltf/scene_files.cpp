@@ -2,6 +2,7 @@
 
 #include <map>
 
+#include "core/named_at.h"
 #include "scene/gltf/file.h"
 
 namespace sonarsim {
@@ -13,10 +14,15 @@ struct SceneFiles::Models {
 SceneFiles::SceneFiles() : models_(std::make_unique<Models>()) {}
 SceneFiles::~SceneFiles() = default;
 
-const tinygltf::Model& SceneFiles::model(const std::filesystem::path& file) {
-    const auto known = models_->by_file.find(file);
+const tinygltf::Model& SceneFiles::model(const PlacedFile& placed) {
+    const auto known = models_->by_file.find(placed.file);
     if (known != models_->by_file.end()) return known->second;
-    return models_->by_file.emplace(file, read_gltf(file)).first->second;
+    try {
+        return models_->by_file.emplace(placed.file, read_gltf(placed.file)).first->second;
+    } catch (const InputError& error) {
+        if (placed.place.file.empty()) throw;
+        throw named_at(error, placed.place);
+    }
 }
 
 }  // namespace sonarsim

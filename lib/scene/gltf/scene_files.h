@@ -1,7 +1,8 @@
 #pragma once
 
-#include <filesystem>
 #include <memory>
+
+#include "scene/placed_file.h"
 
 namespace tinygltf {
 class Model;
@@ -17,8 +18,9 @@ class SceneFiles {
     SceneFiles(const SceneFiles&) = delete;
     SceneFiles& operator=(const SceneFiles&) = delete;
 
-    /// Reads the file on the first call. InputError as read_gltf. The reference stays valid.
-    const tinygltf::Model& model(const std::filesystem::path& file);
+    /// Reads the file on the first call. InputError as read_gltf, with the place in the mission
+    /// that names the file. The reference stays valid.
+    const tinygltf::Model& model(const PlacedFile& placed);
 
   private:
     struct Models;

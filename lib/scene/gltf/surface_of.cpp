@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "scene/gltf/model_of.h"
 #include "scene/gltf/primitives.h"
 #include "scene/objects.h"
 
@@ -50,7 +49,7 @@ Surface surface_of(const PlacedFile& file, SceneFiles& models, std::span<const s
     PlacedFile by_node = file;
     by_node.name.clear();  // empty, so that meshes have the names of their nodes
     UniqueNames names;
-    OpenFile open{&by_node, &model_of(file, models), {}, {}};
+    OpenFile open{&by_node, &models.model(file), {}, {}};
     open.meshes = place_meshes(*open.model, by_node, names);
     for (const std::string& pattern : nodes) {
         if (std::ranges::any_of(open.meshes, [&](const PlacedMesh& mesh) {

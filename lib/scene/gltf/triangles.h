@@ -2,6 +2,7 @@
 
 #include <tiny_gltf.h>
 
+#include <Eigen/Geometry>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -11,6 +12,14 @@
 #include "scene/gltf/accessor.h"
 
 namespace sonarsim {
+
+inline bool has_area(const std::array<Eigen::Vector3d, 3>& p) {
+    return (p[1] - p[0]).cross(p[2] - p[0]).squaredNorm() > 0.0;
+}
+
+inline bool is_finite(const std::array<Eigen::Vector3d, 3>& p) {
+    return p[0].allFinite() && p[1].allFinite() && p[2].allFinite();
+}
 
 /// The triangles of one glTF primitive.
 struct TriangleSource {

@@ -20,11 +20,6 @@ constexpr int most_cells = 1024;  // limit along x and along y
 // faster.
 constexpr double cells_per_triangle = 8.0;
 
-std::array<Eigen::Vector3d, 3> corners_of(const Surface& surface, std::uint32_t triangle) {
-    const auto& c = surface.triangles[triangle];
-    return {surface.vertices[c[0]], surface.vertices[c[1]], surface.vertices[c[2]]};
-}
-
 Eigen::AlignedBox2d area_of(const Surface& surface, std::uint32_t triangle) {
     Eigen::AlignedBox2d box;
     for (const std::uint32_t vertex : surface.triangles[triangle])

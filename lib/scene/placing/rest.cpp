@@ -11,11 +11,6 @@ namespace {
 
 using Corners = std::array<Eigen::Vector3d, 3>;
 
-Corners corners_at(const Surface& surface, std::size_t triangle) {
-    const auto& c = surface.triangles[triangle];
-    return {surface.vertices[c[0]], surface.vertices[c[1]], surface.vertices[c[2]]};
-}
-
 Eigen::AlignedBox2d box_from_above(const Corners& corners) {
     Eigen::AlignedBox2d box;
     for (const Eigen::Vector3d& corner : corners)
@@ -61,7 +56,7 @@ double highest_below(const Bottom& bottom, const Surface& object) {
     double highest = -std::numeric_limits<double>::infinity();
     if (box.isEmpty()) return highest;
     bottom.for_each_near(box, [&](std::uint32_t near) {
-        for (const Eigen::Vector3d& corner : corners_at(bottom.surface(), near))
+        for (const Eigen::Vector3d& corner : corners_of(bottom.surface(), near))
             highest = std::max(highest, corner.z());
     });
     return highest;
@@ -78,12 +73,12 @@ std::optional<double> lift_to_rest(const Bottom& bottom, const Surface& object) 
     }
     const double ground_top = highest_below(bottom, object);
     for (std::size_t t = 0; t < object.triangles.size(); ++t) {
-        const Corners own = corners_at(object, t);
+        const Corners own = corners_of(object, t);
         if (ground_top - std::min({own[0].z(), own[1].z(), own[2].z()}) <= lift) continue;
         const Eigen::AlignedBox2d box = box_from_above(own);
         const double lowest = std::min({own[0].z(), own[1].z(), own[2].z()});
         bottom.for_each_near(box, [&](std::uint32_t near) {
-            const Corners ground = corners_at(bottom.surface(), near);
+            const Corners ground = corners_of(bottom.surface(), near);
             // Quick test first: most of an object is too high to touch.
             const double highest = std::max({ground[0].z(), ground[1].z(), ground[2].z()});
             if (highest - lowest <= lift) return;

@@ -132,6 +132,14 @@ inline GltfBuilder one_triangle() {
 inline const std::string test_materials =
     "material,density_kg_m3,sound_speed_m_s\nsteel,7850,5900\nsand,1900,1650\nrubber,1100,1500\n";
 
+/// Loads one file with the materials of a CSV.
+inline Scene load_scene(const std::filesystem::path& gltf, const std::filesystem::path& csv,
+                        const Water& water) {
+    SceneFiles models;
+    const PlacedFile file{.file = gltf};
+    return load_scene({&file, 1}, models, read_materials(csv), "", water);
+}
+
 /// Writes the file and loads it, with the materials above.
 inline Scene load(const std::string& bytes) {
     const TemporaryFolder folder;

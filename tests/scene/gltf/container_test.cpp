@@ -15,8 +15,8 @@ std::string uri_error(const std::string& uri) {
     return load_error(gltf.text());
 }
 
-std::string outside(const std::string& uri) {
-    return "x.glb: buffers[0]: '" + uri +
+std::string outside(const std::string& name) {
+    return "x.glb: the buffer '" + name +
            "' is not beside or below the glTF file, where buffers must lie";
 }
 
@@ -24,20 +24,20 @@ std::string outside(const std::string& uri) {
 
 TEST_SUITE("scene") {
     TEST_CASE("glTF errors: buffers outside of the folder") {
-        for (const char* uri :
-             {"/etc/passwd", "../x.bin", "a/../../x.bin", "%2e%2e/x.bin", "%2Fetc/passwd",
-              "file:///etc/passwd", "http://localhost/x.bin", "C:/x.bin", ""}) {
+        for (const char* uri : {"/etc/passwd", "../x.bin", "a/../../x.bin", "file:///etc/passwd",
+                                "http://localhost/x.bin", "C:/x.bin"}) {
             CHECK(uri_error(uri) == outside(uri));
         }
+        CHECK(uri_error("%2e%2e/x.bin") == outside("../x.bin"));
+        CHECK(uri_error("%2Fetc/passwd") == outside("/etc/passwd"));
+        CHECK(uri_error("").starts_with("x.glb: is no valid glTF: 'uri' is missing"));
         CHECK(uri_error("a%00.bin") != "");
         CHECK(uri_error("missing.bin") == "missing.bin: cannot open: No such file or directory");
         CHECK(uri_error(".") == ".: is not a regular file");
     }
 
     TEST_CASE("glTF errors: buffers that are not what they claim") {
-        CHECK(uri_error("data:text/html;base64,AAAA") ==
-              "x.glb: buffers[0]: its data URI must start with "
-              "'data:application/octet-stream;base64,'");
+        CHECK(uri_error("data:text/html;base64,AAAA") == outside("data:text/html;base64,AAAA"));
         CHECK(uri_error("data:application/octet-stream;base64,AAAA")
                   .starts_with("x.glb: is no valid glTF: Failed to decode 'uri'"));
         CHECK(uri_error("data:application/octet-stream;base64,????") != "");
@@ -50,19 +50,22 @@ TEST_SUITE("scene") {
 
         GltfBuilder gltf = one_triangle();
         gltf.document["buffers"] = {{{"byteLength", 40}}};
-        CHECK(load_error(gltf) == "x.glb: buffers[0] claims 40 bytes; the BIN chunk has 36");
+        CHECK(
+            load_error(gltf).starts_with("x.glb: is no valid glTF: Invalid `byteLength'. Must be "
+                                         "equal or less than binary size"));
         gltf.document["buffers"] = {{{"byteLength", 36}}, {{"byteLength", 36}}};
         CHECK(load_error(gltf) ==
               "x.glb: buffers[1]: has no uri, and only the first buffer of a .glb with a BIN chunk "
               "may lack it");
         gltf.document["buffers"] = {{{"byteLength", 36}}};
-        CHECK(load_error(gltf.text()) ==
-              "x.glb: buffers[0]: has no uri, and only the first buffer of a .glb with a BIN chunk "
-              "may lack it");
+        CHECK(load_error(gltf.text()).starts_with("x.glb: is no valid glTF: 'uri' is missing"));
         gltf.document["buffers"] = json::array({json::object()});
-        CHECK(load_error(gltf) == "x.glb: buffers[0]: byteLength is missing");
+        CHECK(load_error(gltf).starts_with(
+            "x.glb: is no valid glTF: 'byteLength' property is missing in Buffer"));
         gltf.document["buffers"] = {{{"byteLength", 0}}};
-        CHECK(load_error(gltf) != "");
+        CHECK(load_error(gltf) ==
+              "x.glb: buffers[0].byteLength: expected a whole number from 1 to 9007199254740992, "
+              "not 0");
     }
 
     TEST_CASE("glTF errors: .glb containers that lie") {

@@ -276,6 +276,11 @@ TEST_SUITE("scene") {
               "x.glb: asset.version is missing; expected glTF version 2.0");
         CHECK(error_of([](json& d) { d["asset"]["version"] = "1.0"; }) ==
               "x.glb: is glTF version 1.0; expected 2.0");
+        // glTF 1.0 has objects where 2.0 has arrays.
+        CHECK(error_of([](json& d) {
+                  d["accessors"] = json::object();
+                  d["asset"]["version"] = "1.0";
+              }) == "x.glb: is glTF version 1.0; expected 2.0");
     }
 
     TEST_CASE("glTF: what is not read may be anything, as long as it is JSON") {

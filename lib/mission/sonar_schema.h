@@ -1,0 +1,123 @@
+#pragma once
+
+#include <array>
+
+#include "mission/echo_models.h"
+#include "mission/instrument_schema.h"
+#include "mission/limits.h"
+#include "mission/mission.h"
+#include "mission/paper_keys.h"
+#include "mission/sonar_keys.h"
+
+// The keys of a sonar. As in mission/schema.h.
+
+namespace sonarsim {
+
+inline constexpr std::array multipath_methods{
+    Choice<MultipathMethod>{"none", MultipathMethod::none},
+    Choice<MultipathMethod>{"cluster", MultipathMethod::cluster},
+    Choice<MultipathMethod>{"exact", MultipathMethod::exact}};
+
+template <class Visitor>
+void describe(Visitor& v, MountConfig& c) {
+    v.numbers("translation_m", c.translation_m, any_position_m,
+              "position of the sonar in the vehicle's frame");
+    v.numbers("rpy_deg", c.rpy_deg, any_angle_deg,
+              "roll, pitch and yaw on top of the default mount");
+}
+
+template <class Visitor>
+void describe(Visitor& v, MultipathConfig& c) {
+    v.choice("method", c.method, multipath_methods,
+             "multipath via a second surface: `cluster` traces one ray for a cluster of samples, "
+             "`exact` one for every sample");
+    v.integer("epsilon_bins", c.epsilon_bins, between(0, 8192),
+              "size of a cluster in range, azimuth and elevation bins");
+    v.number("delta_deg", c.delta_deg, between(0, 180),
+             "largest angle between the normals within a cluster");
+}
+
+/// Checks that the angles of a calibrated sonar hold its beam.
+template <class Visitor>
+void require_insonified(Visitor& v, const SonarConfig& c) {
+    const BeamConfig& beam = c.instrument.beam;
+    const bool forward = beam.aperture == Aperture::line || beam.aperture == Aperture::head;
+    v.require(!forward || c.azimuth_deg < 180.0, {"azimuth_deg", "model"},
+              "the line array of the calibrated model looks forward: azimuth_deg must be below "
+              "180");
+    v.require(beam.view_azimuth_deg == 0.0 || beam.view_azimuth_deg >= c.azimuth_deg,
+              {"azimuth_deg", "instrument"},
+              "instrument.beam.view_azimuth_deg must be 0 or at least azimuth_deg");
+    v.require(beam.aperture != Aperture::head || c.azimuth_deg >= beam.width_deg,
+              {"azimuth_deg", "instrument"},
+              "azimuth_deg limits what a calibrated scanning sonar insonifies: it must be at "
+              "least instrument.beam.width_deg; 2.5 times the width holds the main lobe, 4 "
+              "times the first side lobes");
+    v.require(beam.aperture != Aperture::port_starboard || c.elevation_deg >= beam.width_deg,
+              {"elevation_deg", "instrument"},
+              "elevation_deg limits what a calibrated side-scan sonar insonifies: it must be "
+              "at least instrument.beam.width_deg; a few times the width holds the side lobes");
+    v.require(beam.aperture != Aperture::piston || c.opening_deg >= beam.width_deg,
+              {"opening_deg", "instrument"},
+              "opening_deg limits what a calibrated echosounder insonifies: it must be at "
+              "least instrument.beam.width_deg; 3 times the width holds the main lobe");
+}
+
+template <class Visitor>
+void describe(Visitor& v, SonarConfig& c) {
+    const SonarKeys& keys = v.sonar_kind("kind", c, "the kind of sonar");
+    v.path("preset", c.preset,
+           "YAML file with keys of this section, such as those of configs/sensors; keys given here "
+           "override those of the file");
+    v.section("mount", c.mount, "where the sonar sits on the vehicle");
+    v.integer("every", c.every, at_least(1), "the sonar pings at every n-th pose");
+    if (keys.opening)
+        v.number("opening_deg", c.opening_deg, between(1e-3, 180), "full angle of the cone");
+    if (keys.azimuth)
+        v.number("azimuth_deg", c.azimuth_deg, between(1e-3, 360), "full angle in azimuth");
+    if (keys.elevation)
+        v.number("elevation_deg", c.elevation_deg, between(1e-3, 180), "full angle in elevation");
+    if (keys.head) {
+        v.number(
+            "sector_deg", c.sector_deg, between(1e-2, 360),
+            "full angle that the head covers; at 360 it keeps turning, below it sweeps to and fro");
+        v.number(
+            "step_deg", c.step_deg, between(1e-2, 360),
+            "angle that the head turns from ping to ping, rounded so that it divides the sector");
+        v.require(c.step_deg <= c.sector_deg, {"sector_deg", "step_deg"},
+                  "step_deg must be at most sector_deg");
+    }
+    v.number("range_min_m", c.range_min_m, at_least(0), "nearest slant range, one way");
+    v.number("range_max_m", c.range_max_m, above(0), "farthest slant range, one way");
+    // 8192 x 8192 bins are 2^26, the largest image that is rendered.
+    v.integer("range_bins", c.range_bins, between(1, 8192),
+              "number of range bins of a ping; for a side-scan sonar, of each side");
+    if (keys.azimuth_bins)
+        v.integer("azimuth_bins", c.azimuth_bins, between(1, 8192), "number of beams of a ping");
+    v.section("multipath", c.multipath, "multipath via a second surface");
+    v.choice(
+        "model", c.model, echo_models,
+        "echo model: the paper's, or the calibrated one, which gives what the instrument measures");
+    if (c.model == ModelKind::calibrated) {
+        v.section("instrument", c.instrument, "the instrument of the calibrated model");
+        require_insonified(v, c);
+    }
+    if (c.model == ModelKind::paper) {
+        v.section("noise", c.noise, "the random terms of the paper's model");
+        v.section("streaks", c.streaks, "azimuth streaks of the paper's model");
+    }
+    v.require(keys.range_noise || c.noise.range_lambda_m == 0.0, {"noise"},
+              "a side-scan sonar has no range noise: range_lambda_m must be 0");
+    v.require(c.range_min_m < c.range_max_m, {"range_min_m", "range_max_m"},
+              "range_min_m must be below range_max_m");
+    v.require((c.range_max_m - c.range_min_m) / c.range_bins > 1e-6,
+              {"range_min_m", "range_max_m", "range_bins"},
+              "range bins must be wider than a micrometre");
+    v.require(
+        c.kind != SonarKind::sidescan ||
+            c.range_min_m <= 65536.0 * (c.range_max_m - c.range_min_m) / c.range_bins,
+        {"range_min_m", "range_max_m", "range_bins"},
+        "a side-scan's waterfall begins at nadir: range_min_m must be at most 65536 range bins");
+}
+
+}  // namespace sonarsim
