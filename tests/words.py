@@ -13,9 +13,29 @@ import sys
 import tempfile
 
 # Folders and pages that follow the rules; add one when it does.
-CLEAN = ["lib/core", "lib/scene", "lib/trajectory", "lib/visibility", "lib/validation", "lib/benchmark",
-         "tests/core", "tests/scene", "tests/trajectory", "tests/visibility", "tests/validation",
-         "tests/benchmark", "tests/hard", "tests/support", "docs/glossary.md"]
+CLEAN = [
+    "apps",
+    "docs/glossary.md",
+    "lib/benchmark",
+    "lib/checks",
+    "lib/core",
+    "lib/job",
+    "lib/scene",
+    "lib/trajectory",
+    "lib/validation",
+    "lib/visibility",
+    "tests/benchmark",
+    "tests/checks",
+    "tests/core",
+    "tests/dataset",
+    "tests/hard",
+    "tests/job",
+    "tests/scene",
+    "tests/support",
+    "tests/trajectory",
+    "tests/validation",
+    "tests/visibility",
+]
 # Begins of a comment that lack a subject.
 FRAGMENT = re.compile(r"(of|by|that of|those|what|whether|how|where|whose|which|in which)\b",
                       re.IGNORECASE)

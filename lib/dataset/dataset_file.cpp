@@ -19,9 +19,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t largest_description = std::size_t{1} << 28;
-constexpr auto replace_bytes = Json::error_handler_t::replace;  ///< those that are no text
+constexpr auto replace_bytes = Json::error_handler_t::replace;  ///< bytes that are no text
 constexpr std::uint64_t any_count = std::numeric_limits<std::uint32_t>::max();
-constexpr std::uint64_t largest_side = std::uint64_t{1} << 20;  ///< of a picture, px
+constexpr std::uint64_t largest_side = std::uint64_t{1} << 20;  ///< side of a picture, px
 
 std::string plain_name(const CheckedJson& value) {
     std::string name = value.text();
@@ -62,14 +62,14 @@ DescribedPacks read_packs(const CheckedJson& json, const std::string& folder) {
     return packs;
 }
 
-/// The file of records, which tells its axes, too.
+/// The file of records; checks its axes, too.
 std::string read_record(const CheckedJson& json, const std::string& folder) {
     for (const CheckedJson& axis : json.at("axes").items())
         axis.text();
     return path_in(json.at("file"), folder, false);
 }
 
-/// How many bins lie between the edges.
+/// The number of bins between the edges.
 std::uint64_t read_bins(const CheckedJson& edges) {
     double last = -std::numeric_limits<double>::infinity();
     const std::vector<CheckedJson> all = edges.items();
@@ -137,7 +137,7 @@ void check_point(const CheckedJson& point) {
         coordinate.number();
 }
 
-/// The names of what has the ids 1, 2, ...
+/// The names with the ids 1, 2, ...
 std::vector<std::string> read_names(const CheckedJson& list) {
     std::vector<std::string> names;
     for (const CheckedJson& one : list.items()) {

@@ -26,7 +26,7 @@ struct DescribedPicture {
     std::uint64_t width = 0;
 };
 
-/// A sensor as dataset.json tells it. Every path is relative to the folder of the dataset and lies
+/// A sensor in dataset.json. Every path is relative to the folder of the dataset and lies
 /// in the folder of the sensor.
 struct DescribedSensor {
     std::string name;
@@ -39,11 +39,11 @@ struct DescribedSensor {
     NamedTexts label_records;  ///< files by label
     std::vector<std::string> products;
     std::uint64_t range_bins = 0;
-    std::uint64_t azimuth_bins = 0;  ///< 0 where the kind has none
+    std::uint64_t azimuth_bins = 0;  ///< 0 if the kind has none
     std::optional<DescribedPicture> fan;
 };
 
-/// What the ids of labels mean: id k is the entry k - 1. All empty where a dataset has none.
+/// The names of the ids of labels: id k is the entry k - 1. All empty if a dataset has no labels.
 struct DescribedLabels {
     std::vector<std::string> instances;
     std::vector<std::string> classes;
@@ -61,15 +61,15 @@ struct DatasetFile {
     std::uint64_t poses = 0;
     DescribedLabels labels;
     std::vector<DescribedSensor> sensors;
-    std::vector<std::string> products;  ///< of all sensors
+    std::vector<std::string> products;  ///< products of all sensors together
 };
 
-/// The dataset.json of a folder, its keys not checked; nothing when it is not sonarsim's.
+/// The dataset.json of a folder, its keys not checked; nothing if it is not sonarsim's.
 /// InputError when it cannot be read.
 std::optional<nlohmann::ordered_json> read_description(const std::filesystem::path& folder);
 
-/// The one reader of what a dataset.json says. `file` is for the messages. InputError, with the key
-/// and what it must be, when it is of another version of the format, when a key is missing or of
+/// The one reader of dataset.json. `file` is for the messages. InputError, with the key and what it
+/// must be, when it is of another version of the format, when a key is missing or of
 /// another type, when a number is out of range, when a name is not plain (see dataset/file_names.h)
 /// and when a path leaves the folder of its sensor.
 DatasetFile check_description(nlohmann::ordered_json json, const std::string& file);

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -31,27 +32,27 @@ struct WriterContext {
     const Mission& mission;
     const Assembly& assembly;
     std::size_t sensor;  ///< index in Mission::sensors
-    std::size_t pings;   ///< that the sensor sends in the whole mission
+    std::size_t pings;   ///< number of its pings in the whole mission
 
     const Sonar& sonar() const { return assembly.sonars[sensor]; }
     const KindOfSonar& kind() const { return kind_of(sonar().config.kind); }
     double full_scale() const { return assembly.full_scales[sensor]; }
 };
 
-/// A finished ping, with all that a writer may ask about it.
+/// A finished ping with everything that a writer may need.
 struct FinishedPing {
     PingId id;
     const Sonar& sonar;  ///< as it was for this ping
     const TracedPing& traced;
     const Ping& ping;
-    const nlohmann::ordered_json& measured;  ///< what its metadata say; null for none
+    const nlohmann::ordered_json& measured;  ///< `measured` in its metadata; null for none
     std::uint64_t clipped_pixels;            ///< intensities above full_scale
-    const LabelledPing* labels = nullptr;    ///< what output.labels asks for; null: nothing
+    const LabelledPing* labels = nullptr;    ///< null without output.labels
 };
 
 /// A file per ping: NAME/000000EXTENSION in the folder of the sensor.
 struct PingFile {
-    std::string name;       ///< of the folder
+    std::string name;       ///< name of the folder
     std::string extension;  ///< with the dot
 };
 
@@ -59,8 +60,8 @@ struct PingFile {
 struct PingRecord {  // NOLINT(bugprone-exception-escape): moving JSON throws nothing
     std::string file;
     NpyFormat format;
-    nlohmann::ordered_json axes;  ///< what the indices count, for dataset.json
-    /// What the records hold: a label, "raw", or "" for the echoes.
+    nlohmann::ordered_json axes;  ///< names of the axes, for dataset.json
+    /// Content of the records: a label, "raw", or "" for the echoes.
     std::string label = {};
 };
 
@@ -70,20 +71,25 @@ struct Product {
     double bytes_at_most;
 };
 
-/// What a writer leaves behind, known before the first ping.
+/// The output of a writer, known before the first ping.
 struct WriterOutputs {
     std::variant<PingFile, PingRecord> per_ping;
     double bytes_per_ping = 0.0;  ///< at most; noise hardly compresses, so PNG files count in full
     std::vector<Product> products;
 };
 
-/// The outputs of a writer that leaves a record of `bytes` per ping in `file`.
-WriterOutputs record_outputs(std::string file, NpyFormat format, nlohmann::ordered_json axes,
-                             double bytes);
+/// The outputs of a writer with a record of `bytes` per ping in `file`.
+inline WriterOutputs record_outputs(std::string file, NpyFormat format, nlohmann::ordered_json axes,
+                                    double bytes) {
+    WriterOutputs outputs;
+    outputs.per_ping = PingRecord{std::move(file), std::move(format), std::move(axes)};
+    outputs.bytes_per_ping = bytes;
+    return outputs;
+}
 
 /// One output format of one sensor. Writers are immutable: any number of threads may encode at a
-/// time. What is there already at a resume is told by the journal, by the size of each file and the
-/// hash of each record; products are made anew unless all of them are there.
+/// time. When a run resumes, the journal has the size of each finished file and the hash of each
+/// finished record; products are made again unless all of them are there.
 class Writer {
   public:
     virtual ~Writer() = default;

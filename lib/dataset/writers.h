@@ -10,10 +10,10 @@ namespace sonarsim {
 /// The writers of one sensor, in the order in which a ping is written.
 using Writers = std::vector<std::unique_ptr<Writer>>;
 
-/// By sensor. InputError when a sensor of the mission would have no output at all.
+/// The writers of each sensor. InputError when a sensor of the mission would have no output at all.
 std::vector<Writers> make_writers(const Mission& mission, const Assembly& assembly);
 
-/// How many pings each sensor sends.
+/// The number of pings of each sensor.
 std::vector<std::size_t> count_pings(const Mission& mission, std::size_t poses);
 
 /// The most that a sensor's files take, in bytes.

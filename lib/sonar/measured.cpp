@@ -1,13 +1,10 @@
 #include "sonar/measured.h"
 
 #include <cmath>
-#include <optional>
 
 #include "sonar/setup.h"
 
 namespace sonarsim {
-
-namespace {
 
 std::optional<double> altitude_m(const VisibilityEngine& engine, const Pose& T_world_sensor) {
     const Eigen::Vector3d down =
@@ -18,8 +15,6 @@ std::optional<double> altitude_m(const VisibilityEngine& engine, const Pose& T_w
     if (!std::isfinite(bottom.distance_m)) return std::nullopt;
     return bottom.distance_m;
 }
-
-}  // namespace
 
 nlohmann::ordered_json measured(const PingView& view, const VisibilityEngine& engine) {
     const KindOfSonar& kind = kind_of(view.sonar.config.kind);
