@@ -26,6 +26,7 @@ CLEAN = [
     "lib/visibility",
     "tests/benchmark",
     "tests/checks",
+    "tests/cli",
     "tests/core",
     "tests/dataset",
     "tests/hard",
