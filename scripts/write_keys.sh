@@ -1,9 +1,13 @@
 #!/usr/bin/env bash
-# ./scripts/write_keys.sh [program]: writes the tables of keys in docs/mission.md, as the program
-# (default: build/sonarsim) prints them. A test fails while they differ.
+# ./scripts/write_keys.sh [program]: writes the tables of keys in docs/mission.md and the table of
+# docs/warnings.md, as the program (default: build/sonarsim) prints them. A test fails while they
+# differ.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
-table=$(mktemp)
-trap 'rm -f "$table"' EXIT
-"${1:-$root/build/sonarsim}" keys > "$table"
-python3 "$root/scripts/insert_tables.py" "$root/docs/mission.md" "keys=$table"
+program=${1:-$root/build/sonarsim}
+tables=$(mktemp -d)
+trap 'rm -rf "$tables"' EXIT
+"$program" keys > "$tables/keys"
+"$program" warnings > "$tables/warnings"
+python3 "$root/scripts/insert_tables.py" "$root/docs/mission.md" "keys=$tables/keys"
+python3 "$root/scripts/insert_tables.py" "$root/docs/warnings.md" "warnings=$tables/warnings"

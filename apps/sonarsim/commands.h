@@ -19,6 +19,7 @@ void add_report(CLI::App& app, int& exit_code);
 void add_status(CLI::App& app, int& exit_code);
 void add_keys(CLI::App& app, int& exit_code);
 void add_schema(CLI::App& app, int& exit_code);
+void add_warnings(CLI::App& app, int& exit_code);
 void add_import_holoocean(CLI::App& app, int& exit_code);
 void add_completion(CLI::App& app, int& exit_code);
 void add_man(CLI::App& app, int& exit_code);

@@ -18,116 +18,107 @@ std::string replaced(std::string text, const std::string& what, const std::strin
     return text;
 }
 
-/// Quotes a text for bash and zsh.
-std::string single_quoted(const std::string& text) {
-    return "'" + replaced(text, "'", "'\\''") + "'";
+std::string choices_of(const OptionText& option) {
+    return fmt::format("{}", fmt::join(option.choices, " "));
 }
 
-std::string joined(const std::vector<std::string>& words) {
-    std::string text;
-    for (const std::string& word : words)
-        text += (text.empty() ? "" : " ") + word;
-    return text;
+/// The functions of bash. NAMES, OPTIONS and CHOICES are filled in.
+constexpr const char* bash_script = R"(# Completion of sonarsim for bash.
+_sonarsim() {
+    local current=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]}
+    local command='' word options='' words=''
+    for word in "${COMP_WORDS[@]:1:COMP_CWORD-1}"; do
+        [[ $word == -* ]] || { command=$word; break; }
+    done
+    case $command in
+        '') words='NAMES --help --version' ;;
+OPTIONS    esac
+    case "$command $before" in
+CHOICES    esac
+    [[ -z $words && $current == -* ]] && words=$options
+    if [[ -n $words ]]; then
+        mapfile -t COMPREPLY < <(compgen -W "$words" -- "$current")
+    else
+        compopt -o filenames 2>/dev/null
+        mapfile -t COMPREPLY < <(compgen -f -- "$current")
+    fi
 }
-
-std::string names_of_options(const CommandText& command) {
-    std::vector<std::string> names;
-    for (const OptionText& option : command.options)
-        names.push_back(option.name);
-    return joined(names);
-}
+complete -F _sonarsim sonarsim
+)";
 
 std::string bash(const std::vector<CommandText>& commands) {
-    std::vector<std::string> names;
+    std::string names;
     std::string options;
     std::string choices;
     for (const CommandText& command : commands) {
-        names.push_back(command.name);
-        options += "        " + command.name + ") options='" + names_of_options(command) + "' ;;\n";
-        for (const OptionText& option : command.options) {
-            if (option.choices.empty()) continue;
-            choices += "        '" + command.name + " " + option.name + "') words='" +
-                       joined(option.choices) + "' ;;\n";
-        }
-        for (const OptionText& argument : command.arguments) {
-            if (argument.choices.empty()) continue;
-            choices += "        '" + command.name + " " + command.name + "') words='" +
-                       joined(argument.choices) + "' ;;\n";
-        }
+        names += (names.empty() ? "" : " ") + command.name;
+        std::string own;
+        for (const OptionText& option : command.options)
+            own += (own.empty() ? "" : " ") + option.name;
+        options += fmt::format("        {}) options='{}' ;;\n", command.name, own);
+        const auto add_choices = [&](const OptionText& option, const std::string& before) {
+            if (option.choices.empty()) return;
+            choices += fmt::format("        '{} {}') words='{}' ;;\n", command.name, before,
+                                   choices_of(option));
+        };
+        for (const OptionText& option : command.options)
+            add_choices(option, option.name);
+        for (const OptionText& argument : command.arguments)
+            add_choices(argument, command.name);
     }
-    return "# Completion of sonarsim for bash.\n"
-           "_sonarsim() {\n"
-           "    local current=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]}\n"
-           "    local command='' word options='' words=''\n"
-           "    for word in \"${COMP_WORDS[@]:1:COMP_CWORD-1}\"; do\n"
-           "        [[ $word == -* ]] || { command=$word; break; }\n"
-           "    done\n"
-           "    case $command in\n"
-           "        '') words='" +
-           joined(names) + " --help --version' ;;\n" + options +
-           "    esac\n"
-           "    case \"$command $before\" in\n" +
-           choices +
-           "    esac\n"
-           "    [[ -z $words && $current == -* ]] && words=$options\n"
-           "    if [[ -n $words ]]; then\n"
-           "        mapfile -t COMPREPLY < <(compgen -W \"$words\" -- \"$current\")\n"
-           "    else\n"
-           "        compopt -o filenames 2>/dev/null\n"
-           "        mapfile -t COMPREPLY < <(compgen -f -- \"$current\")\n"
-           "    fi\n"
-           "}\n"
-           "complete -F _sonarsim sonarsim\n";
+    return replaced(replaced(replaced(bash_script, "NAMES", names), "OPTIONS", options), "CHOICES",
+                    choices);
 }
 
-/// The completion of an option's value for zsh: choices, or files.
-std::string zsh_value(const OptionText& option) {
-    // A positional argument has no value name, and an empty message has another meaning in zsh.
-    const std::string& message = option.value.empty() ? option.name : option.value;
-    if (!option.choices.empty()) return ":" + message + ":(" + joined(option.choices) + ")";
-    return ":" + option.value + ":_files";
+/// The functions of zsh. NAMES and CASES are filled in.
+constexpr const char* zsh_script = R"(#compdef sonarsim
+# Completion of sonarsim for zsh.
+_sonarsim() {
+    local -a commands=(
+NAMES    )
+    if ((CURRENT == 2)); then
+        _describe command commands
+        return
+    fi
+    shift words
+    ((CURRENT--))
+    case $words[1] in
+CASES    esac
 }
+if [[ $funcstack[1] == _sonarsim ]]; then _sonarsim "$@"; else compdef _sonarsim sonarsim; fi
+)";
 
 std::string zsh(const std::vector<CommandText>& commands) {
+    const auto quoted = [](const std::string& text) {
+        return "'" + replaced(text, "'", "'\\''") + "'";
+    };
     const auto meaning = [](std::string text) {
         for (const char* special : {"[", "]", ":"})
             text = replaced(text, special, std::string("\\") + special);
         return text;
     };
+    // A positional argument has no value name, and an empty message has another meaning in zsh.
+    const auto value = [](const OptionText& option) {
+        const std::string& message = option.value.empty() ? option.name : option.value;
+        return option.choices.empty() ? ":" + option.value + ":_files"
+                                      : ":" + message + ":(" + choices_of(option) + ")";
+    };
     std::string names;
     std::string cases;
     for (const CommandText& command : commands) {
-        names += "        " + single_quoted(command.name + ":" + meaning(command.meaning)) + "\n";
+        names += "        " + quoted(command.name + ":" + meaning(command.meaning)) + "\n";
         cases += "        " + command.name + ")\n            _arguments";
         for (const OptionText& option : command.options) {
-            cases += " \\\n                " +
-                     single_quoted("*" + option.name + "[" + meaning(option.meaning) + "]" +
-                                   (option.value.empty() ? "" : zsh_value(option)));
+            cases +=
+                " \\\n                " + quoted("*" + option.name + "[" + meaning(option.meaning) +
+                                                 "]" + (option.value.empty() ? "" : value(option)));
         }
         const bool named = !command.arguments.empty() && !command.arguments.front().choices.empty();
         cases += " \\\n                " +
-                 (named ? single_quoted("1" + zsh_value(command.arguments.front()))
-                        : std::string("'*:file:_files'")) +
+                 (named ? quoted("1" + value(command.arguments.front())) : "'*:file:_files'") +
                  "\n            ;;\n";
     }
-    return "#compdef sonarsim\n"
-           "# Completion of sonarsim for zsh.\n"
-           "_sonarsim() {\n"
-           "    local -a commands=(\n" +
-           names +
-           "    )\n"
-           "    if ((CURRENT == 2)); then\n"
-           "        _describe command commands\n"
-           "        return\n"
-           "    fi\n"
-           "    shift words\n"
-           "    ((CURRENT--))\n"
-           "    case $words[1] in\n" +
-           cases +
-           "    esac\n"
-           "}\n"
-           "if [[ $funcstack[1] == _sonarsim ]]; then _sonarsim \"$@\"; else compdef _sonarsim "
-           "sonarsim; fi\n";
+    return replaced(replaced(zsh_script, "NAMES", names), "CASES", cases);
 }
 
 std::string fish(const std::vector<CommandText>& commands) {
@@ -145,13 +136,13 @@ std::string fish(const std::vector<CommandText>& commands) {
         for (const OptionText& option : command.options) {
             text += seen + " -l " + option.name.substr(2);
             if (!option.short_name.empty()) text += " -s " + option.short_name.substr(1);
-            if (!option.choices.empty()) text += " -x -a " + quoted(joined(option.choices));
+            if (!option.choices.empty()) text += " -x -a " + quoted(choices_of(option));
             if (option.choices.empty() && !option.value.empty()) text += " -r";
             text += " -d " + quoted(option.meaning) + "\n";
         }
         for (const OptionText& argument : command.arguments) {
             if (!argument.choices.empty())
-                text += seen + " -f -a " + quoted(joined(argument.choices)) + "\n";
+                text += seen + " -f -a " + quoted(choices_of(argument)) + "\n";
         }
     }
     return text;

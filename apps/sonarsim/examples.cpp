@@ -31,6 +31,7 @@ constexpr std::array all_examples{
     Example{"report", "sonarsim report mission.yaml"},
     Example{"report", "sonarsim report --hard"},
     Example{"keys", "sonarsim keys --json"},
+    Example{"warnings", "sonarsim warnings"},
     Example{"schema", "sonarsim schema > sonarsim.schema.json"},
     Example{"import-holoocean",
             "sonarsim import-holoocean scenario.json --out mission.yaml --scene hull.glb"},

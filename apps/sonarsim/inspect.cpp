@@ -5,12 +5,12 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "checks/find_warnings.h"
 #include "commands.h"
 #include "logging.h"
 #include "scene/gltf/load.h"
 #include "scene/materials.h"
 #include "scene/summary.h"
-#include "warn_about_scene.h"
 
 namespace sonarsim {
 
@@ -80,9 +80,10 @@ int inspect(const InspectArguments& arguments) {
     const Scene scene = load_scene_geometry(arguments.scene);
     MaterialTable table;
     if (!arguments.materials.empty()) table = read_materials(arguments.materials);
-    warn_about(scene);
-    for (const std::string& doubt : unit_warnings(table.materials))
-        spdlog::warn("{}", doubt);
+    log_warnings(reading_warnings(scene));
+    for (const std::string& warning : unit_warnings(table.materials))
+        spdlog::warn("{}", sentence(make_warning(WarningCode::reading, arguments.materials.string(),
+                                                 warning)));
     if (arguments.as_csv) {
         fmt::print("{}", materials_csv(scene, table));
     } else if (arguments.log.json) {

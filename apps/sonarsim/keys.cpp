@@ -3,8 +3,10 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "checks/warning.h"
 #include "commands.h"
 #include "logging.h"
+#include "mission/json_schema.h"
 #include "mission/reference_markdown.h"
 #include "sonar/kinds.h"
 
@@ -56,6 +58,24 @@ Json reference_json(const std::vector<SectionReference>& sections) {
 }
 
 }  // namespace
+
+void add_schema(CLI::App& app, int& exit_code) {
+    CLI::App& command = *app.add_subcommand(
+        "schema", "Prints the JSON Schema of a mission, for editors that complete and check");
+    command.callback([&exit_code] {
+        fmt::print("{}\n", mission_json_schema(sonar_keys()).dump(1));
+        exit_code = exit_done;
+    });
+}
+
+void add_warnings(CLI::App& app, int& exit_code) {
+    CLI::App& command = *app.add_subcommand(
+        "warnings", "Prints every warning with its number, its cure, its limit and the reason");
+    command.callback([&exit_code] {
+        fmt::print("{}", warning_table_markdown());
+        exit_code = exit_done;
+    });
+}
 
 void add_keys(CLI::App& app, int& exit_code) {
     CLI::App& command = *app.add_subcommand(

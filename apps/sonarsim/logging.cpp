@@ -48,13 +48,21 @@ class TextFormatter : public spdlog::formatter {
     spdlog::pattern_formatter line_;
 };
 
-/// Adds the place at the start of a message, "file:line:column: ", as fields.
-void add_place(nlohmann::ordered_json& line, std::string_view message) {
+/// Adds what a message begins with as fields: the number of a warning, "W12 ", and the place,
+/// "file:line:column: ".
+void add_fields(nlohmann::ordered_json& line, std::string_view message) {
+    static const std::regex code("(W[0-9]{2,3}) ");
     static const std::regex place("([^:\\s][^:]*):([0-9]{1,9})(:([0-9]{1,9}))?: ");
     std::cmatch found;
-    if (!std::regex_search(message.data(), message.data() + message.size(), found, place,
-                           std::regex_constants::match_continuous))
-        return;
+    const auto begins_with = [&](const std::regex& pattern) {
+        return std::regex_search(message.data(), message.data() + message.size(), found, pattern,
+                                 std::regex_constants::match_continuous);
+    };
+    if (begins_with(code)) {
+        line["code"] = found[1].str();
+        message.remove_prefix(found.length());
+    }
+    if (!begins_with(place)) return;
     line["file"] = found[1].str();
     line["line"] = std::stoi(found[2]);
     if (found[4].matched) line["column"] = std::stoi(found[4]);
@@ -69,7 +77,7 @@ class JsonFormatter : public spdlog::formatter {
                                    now.time_since_epoch().count() % 1000);
         line["level"] = view(spdlog::level::to_string_view(message.level));
         line["message"] = view(message.payload);
-        add_place(line, view(message.payload));
+        add_fields(line, view(message.payload));
         const std::string text = json_line(line);
         out.append(text.data(), text.data() + text.size());
     }
@@ -80,10 +88,14 @@ class JsonFormatter : public spdlog::formatter {
 
 }  // namespace
 
-void add_log_options(CLI::App& command, LogOptions& options) {
+void add_log_options(CLI::App& command, LogOptions& options, LogResult result) {
     command.add_option("--log-level", options.level, "trace, debug, info, warning or error")
         ->check(CLI::IsMember({"trace", "debug", "info", "warning", "error"}))
         ->capture_default_str();
+    if (result == LogResult::text) {
+        command.add_flag("-q,--quiet", options.quiet, "Only warnings and errors");
+        return;
+    }
     command.add_flag("-q,--quiet", options.quiet,
                      "Only warnings and errors; --json still prints its result");
     command.add_flag("--json", options.json,
@@ -102,9 +114,19 @@ void start_logging(const LogOptions& options) {
     spdlog::set_default_logger(std::move(logger));
 }
 
+std::size_t log_warnings(std::span<const Warning> warnings) {
+    for (const Warning& warning : warnings)
+        spdlog::warn("{}", sentence(warning));
+    return warnings.size();
+}
+
 std::string warning_line(const LogOptions& options, const std::string& message) {
     if (options.json) return json_line({{"level", "warning"}, {"message", message}});
     return start_of_line() + "warning: " + message + "\n";
+}
+
+std::string result_line(std::string_view head, const std::string& rest) {
+    return fmt::format("{:<12}{}\n", head, printable(rest));
 }
 
 std::string json_line(const nlohmann::ordered_json& json) {

@@ -11,14 +11,15 @@
 #include <sstream>
 #include <string>
 #include <system_error>
+#include <vector>
 
 #include "command_texts.h"
 #include "commands.h"
 #include "core/build_info.h"
 #include "core/error.h"
+#include "core/text.h"
 #include "format/png.h"
 #include "logging.h"
-#include "usage.h"
 
 namespace {
 
@@ -44,6 +45,33 @@ std::string version_text() {
            build.flags + "; arithmetic " + build.arithmetic + "; PNG files by " + png_encoder();
 }
 
+/// The message for an unknown word on the command line, with the nearest known one.
+std::string unknown_word(const CLI::App& app, const std::string& word) {
+    const std::vector<CLI::App*> chosen = app.get_subcommands();
+    std::vector<std::string> known;
+    if (word.starts_with('-')) {
+        const CLI::App& command = chosen.empty() ? app : *chosen.front();
+        for (const CLI::Option* option : command.get_options()) {
+            for (const std::string& name : option->get_lnames())
+                known.push_back("--" + name);
+        }
+        const std::string name = word.substr(0, word.find('='));
+        return "unknown option '" + name + "'" + did_you_mean(name, known);
+    }
+    if (!chosen.empty()) return "one argument too many: '" + word + "'";
+    for (const CLI::App* command : app.get_subcommands({}))
+        known.push_back(command->get_name());
+    return "unknown subcommand '" + word + "'" + did_you_mean(word, known);
+}
+
+/// The message for a command line with an error, and how to get help.
+std::string usage_message(const CLI::App* app, const CLI::Error& error) {
+    const std::vector<std::string> left_over = app->remaining(true);
+    const std::string what =
+        left_over.empty() ? error.what() : unknown_word(*app, left_over.front());
+    return "error: " + printable(what) + "\nRun with --help for more information.\n";
+}
+
 int run(int argc, char** argv) {
     CLI::App app("Renders sonar datasets from a mission: a scene, a trajectory and sonars.");
     app.name("sonarsim");
@@ -62,6 +90,7 @@ int run(int argc, char** argv) {
     add_status(app, exit_code);
     add_keys(app, exit_code);
     add_schema(app, exit_code);
+    add_warnings(app, exit_code);
     add_import_holoocean(app, exit_code);
     add_completion(app, exit_code);
     add_man(app, exit_code);
@@ -93,9 +122,9 @@ int main(int argc, char** argv) {
         finish_printing();
         return exit_code;
     } catch (const InputError& error) {
-        std::istringstream faults(error.what());
-        for (std::string fault; std::getline(faults, fault);)
-            spdlog::error("{}", fault);
+        std::istringstream lines(error.what());
+        for (std::string line; std::getline(lines, line);)
+            spdlog::error("{}", line);
         return exit_bad_input;
     } catch (const std::bad_alloc&) {
         spdlog::error(out_of_memory);

@@ -38,9 +38,9 @@ std::string entry(const OptionText& option) {
     std::string choices;
     for (const std::string& choice : option.choices)
         choices += (choices.empty() ? "" : ", ") + choice;
-    const bool told =
+    const bool listed =
         choices.empty() || option.meaning.find(option.choices.front()) != std::string::npos;
-    return ".TP\n" + names + "\n" + troff(option.meaning) + (told ? "" : ": " + troff(choices)) +
+    return ".TP\n" + names + "\n" + troff(option.meaning) + (listed ? "" : ": " + troff(choices)) +
            "\n";
 }
 

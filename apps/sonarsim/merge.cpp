@@ -12,6 +12,7 @@
 #include "job/folder_lock.h"
 #include "job/variants.h"
 #include "logging.h"
+#include "mission_options.h"
 #include "progress.h"
 #include "signals.h"
 
@@ -22,37 +23,38 @@ namespace {
 constexpr const char* goes_on = "the same command run again goes on from there";
 
 struct MergeArguments {
-    std::vector<std::filesystem::path> folders;  ///< the parts, and at last the one to write to
+    std::vector<std::filesystem::path> folders;  ///< the parts, then the output
     bool different = false;
     int threads = 0;
     LogOptions log;
+
+    const std::filesystem::path& out() const { return folders.back(); }
+    std::vector<std::filesystem::path> parts() const {
+        return {folders.begin(), folders.end() - 1};
+    }
 };
 
 int collect(const MergeArguments& arguments, const std::atomic<bool>& stop) {
-    const std::filesystem::path& out = arguments.folders.back();
-    const std::vector<std::filesystem::path> parts(arguments.folders.begin(),
-                                                   arguments.folders.end() - 1);
     CollectionSummary summary;
     {
-        ProgressLine line(progress_of(arguments.log.quiet, arguments.log.json), "files");
-        summary = collect_datasets(
-            parts, out, arguments.threads,
-            [&](std::uint64_t done, std::uint64_t total) { line.show(done, total); }, stop);
+        ProgressLine line(arguments.log, "files");
+        summary = collect_datasets(arguments.parts(), arguments.out(), arguments.threads,
+                                   line.callback(), stop);
     }
     for (const std::string& warning : summary.warnings)
         spdlog::warn("{}", warning);
     if (arguments.log.json) {
-        const nlohmann::ordered_json json = {{"files", summary.files},
-                                             {"skipped", summary.skipped},
-                                             {"complete", summary.complete},
-                                             {"warnings", summary.warnings}};
-        fmt::print("{}", json_line(json));
+        fmt::print("{}", json_line({{"files", summary.files},
+                                    {"skipped", summary.skipped},
+                                    {"complete", summary.complete},
+                                    {"warnings", summary.warnings}}));
     }
     if (!summary.complete) {
         spdlog::warn("stopped after {} files; {}", summary.files, goes_on);
         return exit_signal + signal_received();
     }
-    spdlog::info("{}: complete; {} datasets side by side", out.string(), parts.size());
+    spdlog::info("{}: complete; {} datasets side by side", arguments.out().string(),
+                 arguments.parts().size());
     return exit_done;
 }
 
@@ -61,29 +63,26 @@ int merge(const MergeArguments& arguments) {
     const std::atomic<bool>& stop =
         stop_on_signal(warning_line(arguments.log, std::string("stopped at once; ") + goes_on));
     if (arguments.different) return collect(arguments, stop);
-    const std::filesystem::path& out = arguments.folders.back();
-    const std::vector<std::filesystem::path> parts(arguments.folders.begin(),
-                                                   arguments.folders.end() - 1);
+    const bool variants = read_variants(arguments.folders.front()).has_value();
     MergeSummary summary;
     {
-        const bool variants = read_variants(parts.front()).has_value();
-        ProgressLine line(progress_of(arguments.log.quiet, arguments.log.json),
-                          variants ? "variants" : "pings");
-        const auto show = [&](std::uint64_t done, std::uint64_t total) { line.show(done, total); };
-        summary = variants ? merge_variants(parts, out, arguments.threads, show, stop)
-                           : merge_datasets(parts, out, arguments.threads, show, stop);
+        ProgressLine line(arguments.log, variants ? "variants" : "pings");
+        const auto merge_all = variants ? merge_variants : merge_datasets;
+        summary =
+            merge_all(arguments.parts(), arguments.out(), arguments.threads, line.callback(), stop);
     }
     if (arguments.log.json) {
-        const nlohmann::ordered_json json = {
-            {"pings", summary.pings}, {"skipped", summary.skipped}, {"complete", summary.complete}};
-        fmt::print("{}", json_line(json));
+        fmt::print("{}", json_line({{"pings", summary.pings},
+                                    {"skipped", summary.skipped},
+                                    {"complete", summary.complete}}));
     }
-    if (summary.unlocked) spdlog::warn("{}", no_locks_warning(out));
+    if (summary.unlocked) spdlog::warn("{}", sentence(no_locks_warning(arguments.out())));
     if (!summary.complete) {
         spdlog::warn("stopped after {} pings; {}", summary.pings, goes_on);
         return exit_signal + signal_received();
     }
-    spdlog::info("{}: complete; {} of its pings were there already", out.string(), summary.skipped);
+    spdlog::info("{}: complete; {} of its pings were there already", arguments.out().string(),
+                 summary.skipped);
     return exit_done;
 }
 
@@ -101,9 +100,7 @@ void add_merge(CLI::App& app, int& exit_code) {
         ->type_name("PART... OUT");
     command.add_flag("--different", arguments->different,
                      "Puts whole datasets of different missions side by side");
-    command.add_option("-j,--threads", arguments->threads, "Threads (default: one per core)")
-        ->check(CLI::Range(1, 1024))
-        ->type_name("N");
+    add_threads_option(command, arguments->threads);
     add_log_options(command, arguments->log);
     command.callback([arguments, &exit_code] { exit_code = merge(*arguments); });
 }

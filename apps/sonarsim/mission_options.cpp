@@ -29,6 +29,12 @@ void add_mission_options(CLI::App& command, MissionOptions& options, MissionOutp
         ->type_name("FOLDER");
 }
 
+void add_threads_option(CLI::App& command, int& threads, const std::string& meaning) {
+    command.add_option("-j,--threads", threads, meaning)
+        ->check(CLI::Range(1, 1024))
+        ->type_name("N");
+}
+
 namespace {
 
 MissionSource source_of(const MissionOptions& options) {

@@ -24,6 +24,10 @@ enum class MissionOutput { dataset, other };
 void add_mission_options(CLI::App& command, MissionOptions& options,
                          MissionOutput output = MissionOutput::dataset);
 
+/// Adds -j.
+void add_threads_option(CLI::App& command, int& threads,
+                        const std::string& meaning = "Threads (default: one per core)");
+
 /// Loads the mission and applies --set, --seed and --out, in this order. Throws InputError as
 /// load_mission() does, and when the mission is from a dataset and --paths-from is missing.
 Mission load(const MissionOptions& options);

@@ -5,12 +5,12 @@
 #include <memory>
 #include <optional>
 
+#include "checks/find_warnings.h"
 #include "commands.h"
 #include "core/error.h"
 #include "format/image_file.h"
 #include "logging.h"
 #include "mission_options.h"
-#include "warn_about_scene.h"
 
 namespace sonarsim {
 
@@ -39,7 +39,7 @@ int preview(const PreviewArguments& arguments) {
     // takes longer than the whole preview.
     mission.output.full_scale = 1.0;
     const Assembly assembly = assemble(mission);
-    warn_about(assembly.scene);
+    log_warnings(reading_warnings(assembly.scene));
     const std::size_t poses = assembly.trajectory.size();
     const auto pose = arguments.ping.value_or(static_cast<std::uint32_t>(poses / 2));
     if (pose >= poses) {

@@ -57,26 +57,22 @@ std::string duration_text(double seconds) {
     return fmt::format("{} h {} min", whole / 3600, whole % 3600 / 60);
 }
 
-ProgressTo progress_of(bool quiet, bool json) {
-    if (quiet) return ProgressTo::nowhere;
-    return !json && ::isatty(STDERR_FILENO) == 1 ? ProgressTo::terminal : ProgressTo::log;
-}
-
-ProgressLine::ProgressLine(ProgressTo to, std::string what)
-    : to_(to),
+ProgressLine::ProgressLine(const LogOptions& log, std::string what)
+    : silent_(log.quiet),
+      on_terminal_(!silent_ && !log.json && ::isatty(STDERR_FILENO) == 1),
       what_(std::move(what)),
       start_(Clock::now()),
-      next_(start_ + (to == ProgressTo::log ? Clock::duration(std::chrono::minutes(1))
-                                            : Clock::duration(std::chrono::milliseconds(300)))) {}
+      next_(start_ + (on_terminal_ ? Clock::duration(std::chrono::milliseconds(300))
+                                   : Clock::duration(std::chrono::minutes(1)))) {}
 
 ProgressLine::~ProgressLine() {
-    if (to_ == ProgressTo::terminal) std::fputs("\r\x1b[K", stderr);
+    if (on_terminal_) std::fputs("\r\x1b[K", stderr);
 }
 
 void ProgressLine::show(std::uint64_t done, std::uint64_t total,
                         std::span<const StageSeconds> stages) {
     const Clock::time_point now = Clock::now();
-    if (to_ == ProgressTo::nowhere || now < next_ || done == 0) return;
+    if (silent_ || now < next_ || done == 0) return;
     const double rate =
         static_cast<double>(done) / std::chrono::duration<double>(now - start_).count();
     const std::string shares = shares_text(stages);
@@ -84,7 +80,7 @@ void ProgressLine::show(std::uint64_t done, std::uint64_t total,
                                    rate, rate < 10.0 ? 2 : 0, what_,
                                    duration_text(static_cast<double>(total - done) / rate),
                                    shares.empty() ? "" : "; ", shares);
-    if (to_ == ProgressTo::log) {
+    if (!on_terminal_) {
         next_ = now + std::chrono::minutes(1);
         spdlog::info("{}", text);
         return;

@@ -7,39 +7,38 @@
 #include <string_view>
 #include <utility>
 
+#include "job/parallel.h"
+#include "logging.h"
+
 namespace sonarsim {
 
 /// "12 s", "3 min 20 s", "2 h 5 min".
 std::string duration_text(double seconds);
 
-/// The place where progress is shown.
-enum class ProgressTo {
-    nowhere,
-    terminal,  ///< one line that is rewritten
-    log,       ///< a message every minute
-};
-
-/// The terminal if stderr is one, else the log; nowhere with `quiet`.
-ProgressTo progress_of(bool quiet, bool json);
-
 /// A stage of the work and its seconds so far.
 using StageSeconds = std::pair<std::string_view, double>;
 
-/// Shows how many of `what` ("pings") are done, the rate, and the time left.
+/// Shows the number of `what` ("pings") that are done, the rate and the time left: in one line that
+/// is rewritten if stderr is a terminal, else in a message every minute; not at all with --quiet.
 class ProgressLine {
   public:
-    explicit ProgressLine(ProgressTo to, std::string what = "pings");
+    explicit ProgressLine(const LogOptions& log, std::string what = "pings");
     ~ProgressLine();
     ProgressLine(const ProgressLine&) = delete;
     ProgressLine& operator=(const ProgressLine&) = delete;
 
     /// Shows the shares of `stages`, the largest first.
     void show(std::uint64_t done, std::uint64_t total, std::span<const StageSeconds> stages = {});
+    /// Calls show(). The line must outlive it.
+    ProgressCallback callback() {
+        return [this](std::uint64_t done, std::uint64_t total) { show(done, total); };
+    }
 
   private:
     using Clock = std::chrono::steady_clock;
 
-    ProgressTo to_;
+    bool silent_;
+    bool on_terminal_;
     std::string what_;
     Clock::time_point start_;
     Clock::time_point next_;

@@ -11,11 +11,10 @@
 #include <utility>
 #include <vector>
 
-#include "checks/image_warnings.h"
+#include "checks/find_warnings.h"
 #include "commands.h"
 #include "core/error.h"
 #include "dataset/layout.h"
-#include "dataset/split.h"
 #include "job/folder_lock.h"
 #include "job/run_job.h"
 #include "job/variants.h"
@@ -24,8 +23,6 @@
 #include "progress.h"
 #include "shard.h"
 #include "signals.h"
-#include "sonar/engine_settings.h"
-#include "warn_about_scene.h"
 
 namespace sonarsim {
 
@@ -83,7 +80,7 @@ void print_table(const RenderSummary& summary) {
 }
 
 void print_json(const RenderSummary& summary, const Mission& mission,
-                const std::vector<std::string>& warnings) {
+                std::span<const Warning> warnings) {
     Json thread_seconds = json_object<Json>(ping_timers, summary.stages);
     thread_seconds["encode"] = summary.encode_seconds;
     thread_seconds["write"] = summary.write_seconds;
@@ -103,7 +100,9 @@ void print_json(const RenderSummary& summary, const Mission& mission,
                                                     {"dark_pings", sensor.dark_pings},
                                                     {"brightest", sensor.brightest}};
     }
-    json["warnings"] = warnings;
+    json["warnings"] = Json::array();
+    for (const Warning& warning : warnings)
+        json["warnings"].push_back(sentence(warning));
     fmt::print("{}", json_line(json));
 }
 
@@ -117,8 +116,7 @@ void log_dropped(const PingCounts& counts) {
         spdlog::info("multipath: {}", sentence(multipath_counters, counts.multipath));
 }
 
-/// Logs the outcome and the warnings. Returns the number of warnings.
-std::size_t comment(const RenderSummary& summary, const Mission& mission, bool files) {
+void log_outcome(const RenderSummary& summary, const Mission& mission, bool files) {
     const std::string folder = mission.output.folder.string();
     if (files && summary.complete) {
         spdlog::info("{}: complete; {} of its pings were there already", folder, summary.skipped);
@@ -126,13 +124,6 @@ std::size_t comment(const RenderSummary& summary, const Mission& mission, bool f
         spdlog::info("{}: the pings of other shards are still missing", folder);
     }
     log_dropped(summary.counts);
-    if (summary.unlocked) spdlog::warn("{}", no_locks_warning(mission.output.folder));
-    constexpr std::size_t most = 20;  // warnings of all variants that are printed
-    for (std::size_t i = 0; i < std::min(most, summary.warnings.size()); ++i)
-        spdlog::warn("{}", summary.warnings[i]);
-    if (summary.warnings.size() > most)
-        spdlog::warn("and {} warnings more like these", summary.warnings.size() - most);
-    return summary.warnings.size() + (summary.unlocked ? 1 : 0);
 }
 
 /// A dataset's own mission.resolved.yaml may be rendered again; overwriting would replace it.
@@ -145,62 +136,55 @@ void spare_mission(const std::filesystem::path& file, const Mission& mission) {
                      "first, or choose another --out");
 }
 
-/// Logs warnings about the scene and the engine. Returns their number.
-std::size_t warn_before(const Mission& mission, const Assembly& assembly) {
-    std::size_t warnings = warn_about(assembly.scene);
-    for (const Sonar& sonar : assembly.sonars) {
-        const std::string doubt =
-            accuracy_warning(engine_settings(mission), sonar.settings.view,
-                             sonar.settings.multipath.on, sonar.settings.model->energies_add());
-        if (doubt.empty()) continue;
-        ++warnings;
-        spdlog::warn("sensor '{}': {}", sonar.config.name, doubt);
-    }
+struct Outcome {
+    RenderSummary summary;
+    std::vector<Warning> before;  ///< logged before the first ping
+    std::vector<Warning> after;
+};
+
+/// Logs the warnings that need no ping, and the size of the mission.
+std::vector<Warning> warn_before(const Mission& mission, const Assembly& assembly) {
+    std::vector<Warning> warnings = warnings_before_pings(mission, assembly);
+    log_warnings(warnings);
     spdlog::info("{}: {} triangles, {} poses", mission.name, assembly.scene.triangles.size(),
                  assembly.trajectory.size());
     return warnings;
 }
 
-/// The result of a command.
-struct Outcome {
-    RenderSummary summary;
-    std::vector<std::string> warnings;  ///< warnings about the images
-    std::size_t warned_before = 0;      ///< number of warnings before the first ping
-};
-
-/// Renders the mission, or its variants.
-Outcome render_all(const RenderArguments& arguments, const Mission& mission,
+Outcome render_one(const RenderArguments& arguments, const Mission& mission,
                    const std::atomic<bool>& stop) {
     Outcome out;
-    const ProgressTo progress = progress_of(arguments.log.quiet, arguments.log.json);
-    const std::vector<Mission> variants = load_variants(arguments.mission, mission);
-    if (!variants.empty()) {
-        spdlog::info("{}: {} variants", mission.name, variants.size());
-        const std::string few = too_few_variants_warning(mission.output.split, variants.size());
-        if (!few.empty()) spdlog::warn("{}", few);
-        ProgressLine line(progress, "variants");
-        // Warnings about the first scene hold for most others, which are not repeated.
-        bool first = true;
-        out.warned_before = few.empty() ? 0 : 1;
-        const auto begin = [&](const Mission& variant, const Assembly& assembly) {
-            if (first) out.warned_before += warn_before(variant, assembly);
-            first = false;
-        };
-        out.summary = run_variants(
-            mission, variants, arguments.render, begin,
-            [&](std::uint64_t done, std::uint64_t total) { line.show(done, total); }, stop);
-        return out;
-    }
     const Assembly assembly = assemble(mission);
-    out.warned_before = warn_before(mission, assembly);
-    ProgressLine line(progress);
+    out.before = warn_before(mission, assembly);
+    ProgressLine line(arguments.log);
     out.summary = run_job(
         mission, assembly, arguments.render,
         [&](const RenderSummary& so_far, std::uint64_t total) {
             line.show(so_far.pings, total, stage_seconds(so_far));
         },
         stop);
-    out.warnings = image_warnings(mission, assembly, out.summary.sensors);
+    out.after = out.summary.warnings;
+    for (Warning& warning : image_warnings(mission, assembly, out.summary.sensors))
+        out.after.push_back(std::move(warning));
+    return out;
+}
+
+Outcome render_variants(const RenderArguments& arguments, const Mission& mission,
+                        const std::vector<Mission>& variants, const std::atomic<bool>& stop) {
+    spdlog::info("{}: {} variants", mission.name, variants.size());
+    Outcome out;
+    out.before = split_warnings(mission.output.split, variants.size());
+    log_warnings(out.before);
+    ProgressLine line(arguments.log, "variants");
+    // Warnings about the first scene hold for most others, which are not repeated.
+    bool first = true;
+    const auto begin = [&](const Mission& variant, const Assembly& assembly) {
+        if (!std::exchange(first, false)) return;
+        for (Warning& warning : warn_before(variant, assembly))
+            out.before.push_back(std::move(warning));
+    };
+    out.summary = run_variants(mission, variants, arguments.render, begin, line.callback(), stop);
+    out.after = out.summary.warnings;
     return out;
 }
 
@@ -212,14 +196,19 @@ int render(RenderArguments arguments) {
         warning_line(arguments.log, std::string("stopped at once; ") + goes_on_from_there));
     const Mission mission = load(arguments.mission);
     if (arguments.render.overwrite) spare_mission(arguments.mission.file, mission);
-    const auto [summary, warnings, warned_before] = render_all(arguments, mission, stop);
-    const std::size_t warned =
-        warned_before + warnings.size() + comment(summary, mission, arguments.render.files);
-    for (const std::string& warning : warnings)
-        spdlog::warn("{}", warning);
+    const std::vector<Mission> variants = load_variants(arguments.mission, mission);
+    auto [summary, warnings, after] = variants.empty()
+                                          ? render_one(arguments, mission, stop)
+                                          : render_variants(arguments, mission, variants, stop);
+    if (summary.unlocked) after.insert(after.begin(), no_locks_warning(mission.output.folder));
+    log_outcome(summary, mission, arguments.render.files);
+    constexpr std::size_t most = 20;  // warnings of all variants that are printed
+    log_warnings(std::span(after).first(std::min(most, after.size())));
+    if (after.size() > most) spdlog::warn("and {} warnings more like these", after.size() - most);
+    warnings.insert(warnings.end(), after.begin(), after.end());
     if (arguments.log.prints_result())
         arguments.log.json ? print_json(summary, mission, warnings) : print_table(summary);
-    if (!summary.stopped) return arguments.strict && warned > 0 ? exit_warned : exit_done;
+    if (!summary.stopped) return arguments.strict && !warnings.empty() ? exit_warned : exit_done;
     spdlog::warn("stopped after {} pings; {}", summary.pings, goes_on_from_there);
     return exit_signal + signal_received();
 }
@@ -231,10 +220,7 @@ void add_render(CLI::App& app, int& exit_code) {
         "render", "Renders a mission into its dataset, or goes on with an interrupted one");
     auto arguments = std::make_shared<RenderArguments>();
     add_mission_options(command, arguments->mission);
-    command
-        .add_option("-j,--threads", arguments->render.threads, "Threads (default: one per core)")
-        ->check(CLI::Range(1, 1024))
-        ->type_name("N");
+    add_threads_option(command, arguments->render.threads);
     command
         .add_option_function<std::string>(
             "--shard", [arguments](const auto& text) { arguments->shard = parse_shard(text); },

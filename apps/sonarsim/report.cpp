@@ -14,6 +14,7 @@
 #include "benchmark/scaling.h"
 #include "benchmark/settings.h"
 #include "benchmark/timed_pings.h"
+#include "checks/find_warnings.h"
 #include "commands.h"
 #include "core/clock.h"
 #include "core/error.h"
@@ -22,7 +23,6 @@
 #include "mission_options.h"
 #include "validation/hard/cases.h"
 #include "validation/hard/orders.h"
-#include "warn_about_scene.h"
 
 namespace sonarsim {
 
@@ -104,7 +104,7 @@ int report(const ReportArguments& arguments) {
                          "objects out");
     }
     const double assembled_s = seconds_now() - start;
-    warn_about(assembly.scene);
+    log_warnings(reading_warnings(assembly.scene));
 
     ReportOptions options = arguments.report;
     if (arguments.quick) {
@@ -158,11 +158,8 @@ void add_report(CLI::App& app, int& exit_code) {
         ->delimiter(',')
         ->check(CLI::IsMember({"rays", "slices", "octree", "literal"}))
         ->type_name("NAMES");
-    command
-        .add_option("-j,--threads", arguments->report.threads,
-                    "Threads for pings/s (default: one per core)")
-        ->check(CLI::Range(1, 1024))
-        ->type_name("N");
+    add_threads_option(command, arguments->report.threads,
+                       "Threads for pings/s (default: one per core)");
     command.add_flag("--scale", arguments->scale,
                      "Measures how the cost grows with the scene, in detail and in area");
     command
@@ -175,10 +172,7 @@ void add_report(CLI::App& app, int& exit_code) {
                     "needs no mission")
         ->expected(0, 1)
         ->type_name("[NAME]");
-    command.add_option("--log-level", arguments->log.level, "trace, debug, info, warning or error")
-        ->check(CLI::IsMember({"trace", "debug", "info", "warning", "error"}))
-        ->capture_default_str();
-    command.add_flag("-q,--quiet", arguments->log.quiet, "Only warnings and errors");
+    add_log_options(command, arguments->log, LogResult::text);
     command.callback([arguments, &command, &exit_code] {
         arguments->hard = command.count("--hard") > 0;
         exit_code = report(*arguments);

@@ -35,7 +35,7 @@ extern "C" void on_signal(int number) {
 /// ping after that, so that the next run continues from the whole files.
 extern "C" void on_alarm(int) {
     const ssize_t written = ::write(STDERR_FILENO, last_text.data(), last_size);
-    static_cast<void>(written);  // there is nobody left to tell
+    static_cast<void>(written);  // the program ends in any case
     ::_exit(exit_signal + received);
 }
 

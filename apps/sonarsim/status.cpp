@@ -2,14 +2,12 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <chrono>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <vector>
 
 #include "commands.h"
-#include "core/text.h"
 #include "job/variants.h"
 #include "logging.h"
 #include "progress.h"
@@ -77,10 +75,6 @@ Json json_of(const JobStatus& status) {
     return json;
 }
 
-std::string line(std::string_view head, const std::string& rest) {
-    return fmt::format("{:<12}{}\n", head, printable(rest));
-}
-
 std::string text_of(const PingTally& pings) {
     return fmt::format("{} of {}", pings.done, pings.all);
 }
@@ -95,23 +89,20 @@ std::string text_of(const ShardStatus& shard) {
 }
 
 std::string text_of(const JobStatus& status) {
-    std::string text = line("mission", status.mission) + line("state", state_of(status));
+    std::string text =
+        result_line("mission", status.mission) + result_line("state", state_of(status));
     const double share = status.pings.all > 0 ? 100.0 * static_cast<double>(status.pings.done) /
                                                     static_cast<double>(status.pings.all)
                                               : 100.0;
-    text += line("pings", fmt::format("{} ({:.1f} %)", text_of(status.pings), share));
-    if (status.running()) text += line("pings/s", fmt::format("{:.3g}", status.pings_per_s()));
-    if (const auto left = time_left(status)) text += line("left", duration_text(*left));
+    text += result_line("pings", fmt::format("{} ({:.1f} %)", text_of(status.pings), share));
+    if (status.running())
+        text += result_line("pings/s", fmt::format("{:.3g}", status.pings_per_s()));
+    if (const auto left = time_left(status)) text += result_line("left", duration_text(*left));
     for (const auto& [name, pings] : status.sensors)
-        text += line(name, text_of(pings));
+        text += result_line(name, text_of(pings));
     for (const ShardStatus& shard : status.shards)
-        text += line(fmt::format("shard {}/{}", shard.shard, shard.shards), text_of(shard));
+        text += result_line(fmt::format("shard {}/{}", shard.shard, shard.shards), text_of(shard));
     return text;
-}
-
-double seconds_since_1970() {
-    return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch())
-        .count();
 }
 
 void print_variants(const VariantsStatus& status, bool as_json) {
@@ -124,21 +115,20 @@ void print_variants(const VariantsStatus& status, bool as_json) {
         fmt::print("{}", json_line(json));
         return;
     }
-    fmt::print(
-        "{}", line("variants", fmt::format("{} of {} complete", status.complete, status.variants)));
+    fmt::print("{}", result_line("variants", fmt::format("{} of {} complete", status.complete,
+                                                         status.variants)));
     for (const auto& [name, job] : status.under_way)
-        fmt::print("{}{}", line("variant", name), text_of(job));
+        fmt::print("{}{}", result_line("variant", name), text_of(job));
 }
 
 int status(const StatusArguments& arguments) {
     start_logging(arguments.log);
-    const double now_s = seconds_since_1970();
     const std::filesystem::path& first = arguments.folders.at(0);
     if (arguments.folders.size() == 1 && read_variants(first)) {
-        print_variants(read_variants_status(first, now_s), arguments.log.json);
+        print_variants(read_variants_status(first), arguments.log.json);
         return exit_done;
     }
-    const JobStatus found = read_status(arguments.folders, now_s);
+    const JobStatus found = read_status(arguments.folders);
     fmt::print("{}", arguments.log.json ? json_line(json_of(found)) : text_of(found));
     return exit_done;
 }

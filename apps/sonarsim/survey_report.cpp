@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/text.h"
+#include "logging.h"
 
 namespace sonarsim {
 
@@ -51,7 +52,7 @@ double round_off(double value) {
 }  // namespace
 
 std::string survey_text(const SonarSurvey& found, const Scene& scene) {
-    const auto line = [](const std::string& text) { return fmt::format("{:<12}{}\n", "", text); };
+    const auto line = [](const std::string& text) { return result_line("", text); };
     const Interval roll{round_off(found.roll_deg.low), round_off(found.roll_deg.high)};
     const Interval pitch{round_off(found.pitch_deg.low), round_off(found.pitch_deg.high)};
     std::string text =
@@ -96,7 +97,7 @@ Json survey_json(const SonarSurvey& found, const Scene& scene) {
 Json warnings_json(std::span<const Warning> warnings) {
     Json out = Json::array();
     for (const Warning& warning : warnings) {
-        out.push_back({{"number", number_of(warning.doubt)},
+        out.push_back({{"number", number_of(warning.code)},
                        {"about", warning.about},
                        {"what", warning.what},
                        {"cure", warning.cure}});

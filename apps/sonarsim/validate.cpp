@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cmath>
 #include <limits>
@@ -17,10 +18,9 @@
 #include "checks/find_warnings.h"
 #include "checks/memory.h"
 #include "commands.h"
+#include "core/clock.h"
 #include "core/machine_memory.h"
-#include "core/text.h"
 #include "dataset/metadata.h"
-#include "dataset/split.h"
 #include "job/folder.h"
 #include "job/ping_cost.h"
 #include "logging.h"
@@ -28,7 +28,6 @@
 #include "progress.h"
 #include "survey_report.h"
 #include "visibility/make_engine.h"
-#include "warn_about_scene.h"
 
 namespace sonarsim {
 
@@ -51,25 +50,29 @@ void check_writable(std::filesystem::path folder) {
     }
 }
 
-/// What the variants of a mission come to together.
+/// The sums over all variants of a mission, and the warnings about the first.
 struct VariantFindings {
     std::size_t variants = 0;
     std::uint64_t pings = 0;
     double bytes = 0.0;
-    std::vector<Warning> warnings;  ///< of the first
+    std::vector<Warning> warnings;
 };
 
-/// What a mission comes to.
+/// The names of FolderState.
+constexpr std::array state_names{"new", "unfinished", "complete"};
+
+/// Everything that is printed about a mission.
 struct Findings {
     const Mission& mission;
     const Assembly& assembly;
     std::filesystem::path folder;
     const char* state;
-    std::vector<std::size_t> pings;  ///< per sonar
-    double bytes = 0.0;              ///< at most
-    std::size_t images = 0;          ///< PNG files
-    std::vector<PingCost> costs = {};
-    std::vector<SonarSurvey> sonars = {};  ///< by sensor, as are the costs
+    std::vector<std::size_t> pings;        ///< per sonar
+    double bytes = 0.0;                    ///< at most
+    std::size_t images = 0;                ///< PNG files
+    double set_up_s = 0.0;                 ///< before the first ping: reading, tables, the engine
+    std::vector<PingCost> costs = {};      ///< per sonar
+    std::vector<SonarSurvey> sonars = {};  ///< per sonar
     std::vector<Warning> warnings = {};
 
     std::size_t all_pings() const { return std::reduce(pings.begin(), pings.end()); }
@@ -81,24 +84,12 @@ struct Findings {
             sum += static_cast<double>(pings[i]) * costs[i].*part;
         return sum;
     }
-    /// Wall clock where all threads are at work.
+    /// Wall clock of all pings if all threads are at work, without set_up_s.
     double hours() const {
         constexpr double seconds = 3600.0;
         return cost(&PingCost::seconds) / seconds / tbb::info::default_concurrency();
     }
 };
-
-const char* state_text(FolderState state) {
-    switch (state) {
-        case FolderState::fresh:
-            return "new";
-        case FolderState::unfinished:
-            return "unfinished";
-        case FolderState::complete:
-            return "complete";
-    }
-    return "";
-}
 
 nlohmann::ordered_json json_of(const Findings& f) {
     nlohmann::ordered_json sensors = nlohmann::ordered_json::object();
@@ -117,6 +108,7 @@ nlohmann::ordered_json json_of(const Findings& f) {
             {"folder", f.folder.string()},
             {"folder_state", f.state},
             {"images", f.images},
+            {"set_up_seconds", f.set_up_s},
             {"hours", f.hours()},
             {"bytes", f.cost(&PingCost::bytes)},
             {"bytes_at_most", f.bytes},
@@ -127,38 +119,38 @@ std::string text_of(const Findings& f) {
     const Scene& scene = f.assembly.scene;
     const Trajectory& trajectory = f.assembly.trajectory;
     const Eigen::Vector3d extent = scene.bounds_max - scene.bounds_min;
-    const auto line = [](std::string_view head, const std::string& rest) {
-        return fmt::format("{:<12}{}\n", head, printable(rest));
-    };
-    std::string text = line("mission", f.mission.name);
-    text += line("scene", fmt::format("{} triangles, {} materials, {} instances, "
-                                      "{:.1f} x {:.1f} x {:.1f} m",
-                                      scene.triangles.size(), scene.materials.size(),
-                                      scene.instances.size(), extent.x(), extent.y(), extent.z()));
-    text += line("trajectory", fmt::format("{} poses, {:.1f} s", trajectory.size(),
-                                           trajectory.back().t_s - trajectory.front().t_s));
+    std::string text = result_line("mission", f.mission.name);
+    text += result_line(
+        "scene", fmt::format("{} triangles, {} materials, {} instances, "
+                             "{:.1f} x {:.1f} x {:.1f} m",
+                             scene.triangles.size(), scene.materials.size(), scene.instances.size(),
+                             extent.x(), extent.y(), extent.z()));
+    text += result_line("trajectory", fmt::format("{} poses, {:.1f} s", trajectory.size(),
+                                                  trajectory.back().t_s - trajectory.front().t_s));
     if (!scene.copies.empty()) {
-        text += line("copies", fmt::format("{} of {} shared meshes", scene.copies.size(),
-                                           scene.shared_meshes.size()));
+        text += result_line("copies", fmt::format("{} of {} shared meshes", scene.copies.size(),
+                                                  scene.shared_meshes.size()));
     }
     if (!scene.bodies.empty())
-        text += line("moving", fmt::format("{} objects", scene.bodies.size()));
+        text += result_line("moving", fmt::format("{} objects", scene.bodies.size()));
     for (std::size_t i = 0; i < f.pings.size(); ++i) {
         const Sonar& sonar = f.assembly.sonars[i];
-        text +=
-            line(sonar.config.name, fmt::format("{} x {} bins, {} pings", sonar.config.range_bins,
-                                                sonar.settings.view.beams, f.pings[i]));
+        text += result_line(sonar.config.name,
+                            fmt::format("{} x {} bins, {} pings", sonar.config.range_bins,
+                                        sonar.settings.view.beams, f.pings[i]));
         text += survey_text(f.sonars[i], scene);
     }
+    text += result_line("dataset",
+                        fmt::format("{} pings, at most {:.1f} MB", f.all_pings(), 1e-6 * f.bytes));
     text +=
-        line("dataset", fmt::format("{} pings, at most {:.1f} MB", f.all_pings(), 1e-6 * f.bytes));
-    text += line("about", std::isnan(f.hours())
-                              ? fmt::format("{} images; a ping has no room in memory", f.images)
-                              : fmt::format("{} images, {} on {} threads, {:.3g} GB", f.images,
-                                            duration_text(3600.0 * f.hours()),
-                                            tbb::info::default_concurrency(),
-                                            1e-9 * f.cost(&PingCost::bytes)));
-    return text + line("folder", fmt::format("{} ({})", f.folder.string(), f.state));
+        result_line("about", std::isnan(f.hours())
+                                 ? fmt::format("{} images; a ping has no room in memory", f.images)
+                                 : fmt::format("{} images, {} on {} threads after {:.2g} s of "
+                                               "set-up, {:.3g} GB",
+                                               f.images, duration_text(3600.0 * f.hours()),
+                                               tbb::info::default_concurrency(), f.set_up_s,
+                                               1e-9 * f.cost(&PingCost::bytes)));
+    return text + result_line("folder", fmt::format("{} ({})", f.folder.string(), f.state));
 }
 
 /// The PNG files that a sensor leaves.
@@ -185,8 +177,8 @@ Findings find_out(const Mission& mission, const Assembly& assembly,
         overwrite ? FolderState::fresh
                   : inspect_folder(layout, describe_dataset(mission, assembly, layout, writers));
     check_writable(layout.folder);
-    Findings findings{mission, assembly, layout.folder, state_text(state),
-                      count_pings(mission, poses)};
+    Findings findings{mission, assembly, layout.folder,
+                      state_names[static_cast<std::size_t>(state)], count_pings(mission, poses)};
     for (std::size_t i = 0; i < writers.size(); ++i) {
         findings.bytes += bytes_at_most(writers[i], findings.pings[i]);
         findings.images += count_images(writers[i], findings.pings[i]);
@@ -197,27 +189,20 @@ Findings find_out(const Mission& mission, const Assembly& assembly,
 /// Casts: looks at the mission through its sonars.
 void look_at(const Mission& mission, const Assembly& assembly, const std::vector<Writers>& writers,
              Findings& findings) {
-    for (const std::string& doubt : warnings_about(assembly.scene))
-        findings.warnings.push_back(make_warning(Doubt::reading, "scene", doubt));
     const double available = std::max(0.0, machine_memory() - resident_memory());
-    for (Warning& warning :
-         memory_warnings(assembly.sonars, tbb::info::default_concurrency(), available))
-        findings.warnings.push_back(std::move(warning));
+    findings.warnings =
+        memory_warnings(assembly.sonars, tbb::info::default_concurrency(), available);
     const std::unique_ptr<VisibilityEngine> rays = make_engine(assembly.scene, {});
     findings.sonars = survey(mission, assembly, *rays);
     for (Warning& warning : find_warnings(mission, assembly, findings.sonars, *rays))
         findings.warnings.push_back(std::move(warning));
-    // Where not even one ping has room none is made to see how long it takes.
+    // If not even one ping has room in memory, none is made to measure its time.
     constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-    findings.costs = exceeds_memory(assembly.sonars, available)
-                         ? std::vector(assembly.sonars.size(), PingCost{unknown, unknown})
-                         : measure_pings(mission, assembly, writers);
-}
-
-int say(const std::vector<Warning>& warnings, bool strict) {
-    for (const Warning& warning : warnings)
-        spdlog::warn("{}", sentence(warning));
-    return strict && !warnings.empty() ? exit_warned : exit_done;
+    if (exceeds_memory(assembly.sonars, available)) {
+        findings.costs.assign(assembly.sonars.size(), {unknown, unknown});
+    } else {
+        findings.costs = measure_pings(mission, assembly, writers, findings.set_up_s);
+    }
 }
 
 /// Checks every variant, and casts in the first. Their scenes differ, and each may fail for reasons
@@ -249,9 +234,11 @@ void print_variants(const Mission& mission, const VariantFindings& all, bool as_
                                     {"warnings", warnings_json(all.warnings)}}));
         return;
     }
-    fmt::print("{:<12}{}\n{:<12}{}\n{:<12}{} pings, at most {:.1f} MB\n{:<12}{}\n", "mission",
-               printable(mission.name), "variants", all.variants, "dataset", all.pings,
-               1e-6 * all.bytes, "folder", printable(mission.output.folder.string()));
+    fmt::print("{}{}{}{}", result_line("mission", mission.name),
+               result_line("variants", std::to_string(all.variants)),
+               result_line("dataset",
+                           fmt::format("{} pings, at most {:.1f} MB", all.pings, 1e-6 * all.bytes)),
+               result_line("folder", mission.output.folder.string()));
 }
 
 int validate(const ValidateArguments& arguments) {
@@ -259,21 +246,23 @@ int validate(const ValidateArguments& arguments) {
     const Mission mission = load(arguments.mission);
     const std::vector<Mission> variants = load_variants(arguments.mission, mission);
     if (!variants.empty()) {
-        const VariantFindings all = check_variants(variants, arguments.overwrite);
+        VariantFindings all = check_variants(variants, arguments.overwrite);
+        for (Warning& warning : split_warnings(mission.output.split, variants.size()))
+            all.warnings.push_back(std::move(warning));
         if (arguments.log.prints_result()) print_variants(mission, all, arguments.log.json);
-        const std::string few = too_few_variants_warning(mission.output.split, variants.size());
-        if (!few.empty()) spdlog::warn("{}", few);
-        const int code = say(all.warnings, arguments.strict);
-        return arguments.strict && !few.empty() ? exit_warned : code;
+        return log_warnings(all.warnings) > 0 && arguments.strict ? exit_warned : exit_done;
     }
+    Stopwatch watch;
     const Assembly assembly = assemble(mission);
+    const double assemble_s = watch.lap();
     const std::vector<Writers> writers = make_writers(mission, assembly);
     Findings findings = find_out(mission, assembly, writers, arguments.overwrite);
+    findings.set_up_s = assemble_s;
     look_at(mission, assembly, writers, findings);
     if (arguments.log.prints_result()) {
         fmt::print("{}", arguments.log.json ? json_line(json_of(findings)) : text_of(findings));
     }
-    return say(findings.warnings, arguments.strict);
+    return log_warnings(findings.warnings) > 0 && arguments.strict ? exit_warned : exit_done;
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "job/collection.h"
 #include "job/variants.h"
 #include "logging.h"
+#include "mission_options.h"
 #include "progress.h"
 #include "signals.h"
 
@@ -26,57 +27,51 @@ struct VerifyArguments {
     LogOptions log;
 };
 
-void print_verdict(const DatasetCheck& check, bool whole) {
-    const Json json = {{"whole", whole},
+void print_result(const DatasetCheck& check) {
+    const Json json = {{"whole", check.errors.empty()},
                        {"files", check.files},
                        {"bytes", check.bytes},
-                       {"faults", check.faults},
-                       {"more_faults", check.more_faults},
-                       {"strangers", check.strangers}};
+                       {"errors", check.errors},
+                       {"more_errors", check.more_errors},
+                       {"unknown_files", check.unknown_files}};
     fmt::print("{}", json_line(json));
 }
 
 int verify(const VerifyArguments& arguments, const std::filesystem::path& folder,
            const std::atomic<bool>& stop) {
+    const bool variants = read_variants(folder).has_value();
     DatasetCheck check;
     {
-        const bool variants = read_variants(folder).has_value();
-        ProgressLine line(progress_of(arguments.log.quiet, arguments.log.json),
-                          variants ? "variants" : "files");
-        const auto show = [&](std::uint64_t done, std::uint64_t total) { line.show(done, total); };
-        check = variants ? verify_variants(folder, arguments.threads, show, stop)
-                         : verify_dataset(folder, arguments.threads, show, stop);
+        ProgressLine line(arguments.log, variants ? "variants" : "files");
+        check = variants ? verify_variants(folder, arguments.threads, line.callback(), stop)
+                         : verify_dataset(folder, arguments.threads, line.callback(), stop);
     }
-    for (const std::string& name : check.strangers)
+    for (const std::string& name : check.unknown_files)
         spdlog::warn("{}: is no file of the dataset; it does no harm", name);
-    for (const std::string& fault : check.faults)
-        spdlog::error("{}", fault);
-    if (check.more_faults > 0) spdlog::error("and more faults, which are not listed");
+    for (const std::string& error : check.errors)
+        spdlog::error("{}", error);
+    if (check.more_errors > 0) spdlog::error("and more errors, which are not listed");
     if (check.stopped) {
         spdlog::warn("stopped after {} files; nothing was changed", check.files);
         return exit_signal + signal_received();
     }
-    const bool whole = check.faults.empty();
-    if (arguments.log.json) print_verdict(check, whole);
-    if (whole)
-        spdlog::info("{}: whole; {} files, {} bytes", folder.string(), check.files, check.bytes);
-    return whole ? exit_done : exit_failed;
+    if (arguments.log.json) print_result(check);
+    if (!check.errors.empty()) return exit_failed;
+    spdlog::info("{}: whole; {} files, {} bytes", folder.string(), check.files, check.bytes);
+    return exit_done;
 }
 
-/// The worst exit code of the folder's dataset, or of its datasets side by side.
+/// Checks a dataset, or all datasets of a collection. Returns the worst exit code.
 int verify_all(const VerifyArguments& arguments) {
     start_logging(arguments.log);
     const std::atomic<bool>& stop =
         stop_on_signal(warning_line(arguments.log, "stopped at once; nothing was changed"));
-    std::vector<std::filesystem::path> folders = collected_folders(arguments.folder);
+    const std::vector<std::filesystem::path> folders = collected_folders(arguments.folder);
+    if (folders.empty()) return verify(arguments, arguments.folder, stop);
     int worst = exit_done;
-    if (folders.empty()) {
-        folders.push_back(arguments.folder);
-    } else {
-        for (const std::string& fault : collection_faults(arguments.folder)) {
-            spdlog::error("{}", fault);
-            worst = exit_failed;
-        }
+    for (const std::string& error : collection_errors(arguments.folder)) {
+        spdlog::error("{}", error);
+        worst = exit_failed;
     }
     for (const std::filesystem::path& folder : folders) {
         if (!stop) worst = std::max(worst, verify(arguments, folder, stop));
@@ -91,9 +86,7 @@ void add_verify(CLI::App& app, int& exit_code) {
         "verify", "Checks that a dataset is whole: every file is there, opens and has its bytes");
     auto arguments = std::make_shared<VerifyArguments>();
     command.add_option("folder", arguments->folder, "The folder of the dataset")->required();
-    command.add_option("-j,--threads", arguments->threads, "Threads (default: one per core)")
-        ->check(CLI::Range(1, 1024))
-        ->type_name("N");
+    add_threads_option(command, arguments->threads);
     add_log_options(command, arguments->log);
     command.callback([arguments, &exit_code] { exit_code = verify_all(*arguments); });
 }

@@ -10,7 +10,8 @@ namespace sonarsim {
 namespace {
 
 constexpr int all_around = 1000;
-constexpr int across = 17;  // of the field of view
+// In the field of view.
+constexpr int across = 17;
 constexpr int up_and_down = 5;
 
 /// The i-th of n parts of an angle about 0, in its middle.

@@ -11,8 +11,8 @@ namespace sonarsim {
 /// few dozen over the field of view, however narrow it is.
 std::vector<Eigen::Vector3f> look_around(const View& view);
 
-/// Whether a direction lies in the azimuths of a fan, whatever its elevation. Of a cone: whether it
-/// lies ahead.
+/// True if a direction lies in the azimuths of a fan, at any elevation. For a cone: if it lies
+/// ahead.
 bool is_in_azimuth(const View& view, const Eigen::Vector3f& direction);
 
 }  // namespace sonarsim

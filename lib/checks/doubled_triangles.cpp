@@ -36,50 +36,32 @@ std::uint64_t hash_of(const Corners& corners) {
     return hash;
 }
 
-/// Triangles by their corners, those that were met first. Open addressing: a table of pointers
-/// would take most of the time.
-class FirstTriangles {
-  public:
-    explicit FirstTriangles(const Scene& scene)
-        : scene_(scene), slots_(std::bit_ceil(2 * scene.triangles.size() + 1)) {}
-
-    /// The triangle with these corners that was met before this one, or this one.
-    std::uint32_t first_like(std::uint32_t triangle) {
-        const Corners corners = sorted_corners(scene_, triangle);
-        const std::uint64_t hash = hash_of(corners);
-        const auto mark = static_cast<std::uint32_t>(hash);
-        const std::size_t mask = slots_.size() - 1;
-        for (std::size_t at = (hash >> 32) & mask;; at = (at + 1) & mask) {
-            Slot& slot = slots_[at];
-            if (slot.next == 0) {
-                slot = {triangle + 1, mark};
-                return triangle;
-            }
-            if (slot.mark == mark && sorted_corners(scene_, slot.next - 1) == corners)
-                return slot.next - 1;
-        }
-    }
-
-  private:
-    struct Slot {
-        std::uint32_t next = 0;  ///< 1 + a triangle; 0: free
-        std::uint32_t mark = 0;  ///< of its hash
-    };
-
-    const Scene& scene_;
-    std::vector<Slot> slots_;
-};
-
 }  // namespace
 
 DoubledTriangles find_doubled(const Scene& scene) {
     DoubledTriangles found;
     if (scene.instances.size() < 2) return found;
-    FirstTriangles seen(scene);
+    struct Entry {
+        std::uint64_t hash;
+        std::uint32_t triangle;
+        auto operator<=>(const Entry&) const = default;
+    };
+    std::vector<Entry> entries;
+    entries.reserve(scene.triangles.size());
+    for (std::uint32_t t = 0; t < scene.triangles.size(); ++t)
+        entries.push_back({hash_of(sorted_corners(scene, t)), t});
+    std::ranges::sort(entries);
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> pairs;
-    for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
-        const std::uint32_t one = scene.triangle_instance[seen.first_like(t)];
-        const std::uint32_t other = scene.triangle_instance[t];
+    std::size_t begin = 0;  // first entry with the same hash
+    for (std::size_t k = 1; k < entries.size(); ++k) {
+        if (entries[k].hash != entries[begin].hash) begin = k;
+        if (begin == k) continue;
+        const Corners corners = sorted_corners(scene, entries[k].triangle);
+        const auto first = std::find_if(
+            entries.begin() + begin, entries.begin() + k,
+            [&](const Entry& entry) { return sorted_corners(scene, entry.triangle) == corners; });
+        const std::uint32_t one = scene.triangle_instance[first->triangle];
+        const std::uint32_t other = scene.triangle_instance[entries[k].triangle];
         if (one == other) continue;
         ++found.count;
         ++pairs[std::minmax(one, other)];

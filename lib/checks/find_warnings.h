@@ -6,13 +6,51 @@
 #include "assembly/assemble.h"
 #include "checks/survey.h"
 #include "checks/warning.h"
+#include "dataset/sensor_summary.h"
 
 namespace sonarsim {
 
-/// What may be wrong with a mission that is valid, by what it says and by what its sonars saw.
-/// `sonars` are by Mission::sensors.
+/// Everything that may be wrong with a valid mission. `sonars` are by Mission::sensors; `rays`
+/// casts into the scene.
 std::vector<Warning> find_warnings(const Mission& mission, const Assembly& assembly,
                                    std::span<const SonarSurvey> sonars,
                                    const VisibilityEngine& rays);
+
+/// The part of it that needs no ping: what reading the scene found, water, materials, engine and
+/// fans.
+std::vector<Warning> warnings_before_pings(const Mission& mission, const Assembly& assembly);
+
+/// W01: anything that reading the scene left out or found odd.
+std::vector<Warning> reading_warnings(const Scene& scene);
+
+/// The size of the scene, which way up it is, and parts that are in it twice.
+std::vector<Warning> scene_warnings(const Mission& mission, const Assembly& assembly,
+                                    std::span<const SonarSurvey> sonars);
+
+/// Water and materials that no water and no solid has.
+std::vector<Warning> material_warnings(const WaterConfig& water, const Scene& scene);
+
+/// Attitudes: angles that look like radians, quaternions that look like w x y z.
+std::vector<Warning> trajectory_warnings(const TrajectoryConfig& config,
+                                         const Trajectory& trajectory);
+
+/// A sonar in a survey: blind pings and why they are, echoes below the noise, pictures that are
+/// white or black.
+std::vector<Warning> sonar_warnings(const OutputConfig& output, const Sonar& sonar,
+                                    double full_scale, const SonarSurvey& found);
+
+/// Images of a run that are black, nearly black or white, or less accurate than the goal. `sensors`
+/// are by Mission::sensors; one without pings has no warnings.
+std::vector<Warning> image_warnings(const Mission& mission, const Assembly& assembly,
+                                    std::span<const SensorSummary> sensors);
+
+/// Objects that the mission places or gives a class, and that no sonar sees. One that the survey
+/// did not meet is looked for in the pings that have it in view.
+std::vector<Warning> unseen_objects(const Mission& mission, const Assembly& assembly,
+                                    std::span<const SonarSurvey> sonars,
+                                    const VisibilityEngine& rays);
+
+/// A split with more parts than the mission has variants.
+std::vector<Warning> split_warnings(const SplitConfig& config, std::size_t variants);
 
 }  // namespace sonarsim

@@ -35,7 +35,7 @@ std::vector<Warning> memory_warnings(const std::vector<Sonar>& sonars, int threa
     for (const Sonar& sonar : sonars) {
         const PingMemory ping = ping_memory(sonar);
         if (threads * ping.bytes <= available) continue;
-        out.push_back(make_warning(Doubt::memory, about_sensor(sonar.config.name),
+        out.push_back(make_warning(WarningCode::memory, about_sensor(sonar.config.name),
                                    ping.bytes / giga, threads, threads * ping.bytes / giga,
                                    available / giga, ping.key));
     }

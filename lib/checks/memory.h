@@ -8,18 +8,18 @@
 
 namespace sonarsim {
 
-/// The memory of one ping of a sonar, about.
+/// An estimate of the memory of one ping of a sonar.
 struct PingMemory {
     double bytes = 0.0;
-    std::string_view key;  ///< of the sensor's section, that would bring it down the most
+    std::string_view key;  ///< the key of the sensor that would reduce it most
 };
 PingMemory ping_memory(const Sonar& sonar);
 
-/// W26 for every sonar of which `threads` pings at once take more than the `available` bytes.
+/// W26 for every sonar whose pings on `threads` threads take more than the `available` bytes.
 std::vector<Warning> memory_warnings(const std::vector<Sonar>& sonars, int threads,
                                      double available);
 
-/// Whether one ping of any of the sonars takes more than the `available` bytes.
+/// True if one ping of any of the sonars takes more than the `available` bytes.
 bool exceeds_memory(const std::vector<Sonar>& sonars, double available);
 
 }  // namespace sonarsim

@@ -1,24 +1,24 @@
-#include "checks/scene_warnings.h"
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "checks/doubled_triangles.h"
+#include "checks/find_warnings.h"
 #include "core/text.h"
 #include "scene/copies.h"
+#include "scene/materials.h"
 
 namespace sonarsim {
 
 namespace {
 
-// docs/warnings.md has the reason for each limit.
+// docs/warnings.md says why these are the limits.
 constexpr double huge_m = 10e3;
 constexpr double tiny_m = 0.1;
 constexpr double tiny_of_range = 0.01;
 constexpr double out_of_scale = 20.0;
-// Of the scene's surface, in percent.
+// In percent of the scene's surface.
 constexpr double upright_of_an_edge = 50.0;
 constexpr double flat_of_an_edge = 10.0;
 
@@ -49,17 +49,18 @@ void judge_extent(const Mission& mission, const Assembly& assembly,
     }
     const double ratio = length / (way_m(assembly.trajectory) + 2.0 * range);
     if (length > huge_m) {
-        out.push_back(make_warning(Doubt::scene_huge, "scene", extent.x(), extent.y(), extent.z()));
-    } else if (length < tiny_m || length < tiny_of_range * range) {
         out.push_back(
-            make_warning(Doubt::scene_tiny, "scene", extent.x(), extent.y(), extent.z(), range));
+            make_warning(WarningCode::scene_huge, "scene", extent.x(), extent.y(), extent.z()));
+    } else if (length < tiny_m || length < tiny_of_range * range) {
+        out.push_back(make_warning(WarningCode::scene_tiny, "scene", extent.x(), extent.y(),
+                                   extent.z(), range));
     } else if (ratio > out_of_scale && 2 * blind > pings) {
         out.push_back(
-            make_warning(Doubt::scene_out_of_scale, "scene", length, ratio, blind, pings));
+            make_warning(WarningCode::scene_out_of_scale, "scene", length, ratio, blind, pings));
     }
 }
 
-/// Surface, and how much of it has its normal along each axis of the world, in twice m^2.
+/// All surface, and the surface whose normal lies along each axis of the world, in twice m^2.
 struct Facing {
     double all = 0.0;
     std::array<double, 3> along{};
@@ -82,8 +83,8 @@ Eigen::Vector3d normal_of(const Mesh& mesh, std::size_t triangle) {
     return (mesh.vertices[b] - corner).cross(mesh.vertices[c] - corner).template cast<double>();
 }
 
-/// The share of the surface whose normal lies along each axis of the world, in percent. Of copies
-/// every n-th triangle stands for n: a few million of them tell enough.
+/// The share of the surface whose normal lies along each axis of the world, in percent. If there
+/// are many copies, every n-th of their triangles stands for n: a few million are enough.
 std::array<double, 3> facing(const Scene& scene) {
     constexpr std::size_t most_of_copies = 2'000'000;
     Facing facing;
@@ -103,13 +104,13 @@ std::array<double, 3> facing(const Scene& scene) {
     return facing.along;
 }
 
-/// A sea floor of a file that was taken for y up has its normals along the world's y.
+/// A sea floor with z up that was read as y up has its normals along the world's y.
 void judge_axes(const Scene& scene, std::vector<Warning>& out) {
     const std::array<double, 3> share = facing(scene);
     const Eigen::Vector3d extent = scene.bounds_max - scene.bounds_min;
     const bool thin = extent.y() < 0.5 * extent.x() && extent.y() < 0.5 * extent.z();
     if (!thin || share[1] < upright_of_an_edge || share[2] > flat_of_an_edge) return;
-    out.push_back(make_warning(Doubt::scene_on_edge, "scene", share[1], share[2]));
+    out.push_back(make_warning(WarningCode::scene_on_edge, "scene", share[1], share[2]));
 }
 
 /// Two bodies that touch may share a few triangles; a part that was written twice shares all.
@@ -117,42 +118,65 @@ void judge_doubles(const Scene& scene, std::vector<Warning>& out) {
     constexpr std::size_t share = 100;
     const DoubledTriangles doubled = find_doubled(scene);
     if (doubled.count * share <= scene.triangles.size()) return;
-    out.push_back(make_warning(Doubt::doubled_triangles, "scene",
+    out.push_back(make_warning(WarningCode::doubled_triangles, "scene",
                                printable(scene.instances[doubled.one]),
                                printable(scene.instances[doubled.other]), doubled.between_them,
                                doubled.count, scene.triangles.size()));
 }
 
-void judge_water(const WaterConfig& water, std::vector<Warning>& out) {
-    if (water.density_kg_m3 < 950.0 || water.density_kg_m3 > 1200.0)
-        out.push_back(make_warning(Doubt::water_density, "water", water.density_kg_m3));
-    if (water.sound_speed_m_s < 1350.0 || water.sound_speed_m_s > 1700.0)
-        out.push_back(make_warning(Doubt::water_speed, "water", water.sound_speed_m_s));
+}  // namespace
+
+std::vector<Warning> reading_warnings(const Scene& scene) {
+    std::vector<Warning> out;
+    const auto add = [&](const std::string& what) {
+        out.push_back(make_warning(WarningCode::reading, "scene", what));
+    };
+    const auto left_out = [&](std::uint64_t count, const char* what) {
+        if (count > 0) add(fmt::format("the scene has {} {}; they are left out", count, what));
+    };
+    left_out(scene.rejects.degenerate_triangles, "triangles without area");
+    left_out(scene.rejects.non_finite_triangles, "triangles with a vertex that is NaN or infinite");
+    left_out(scene.rejects.skipped_primitives, "primitives of points or lines");
+    for (const std::string& warning : scene.warnings)
+        add(warning);
+    for (const std::string& warning : unit_warnings(scene.materials))
+        add(warning);
+    if (has_coarse_vertices(scene)) {
+        add(
+            fmt::format("the scene's vertices may be off by {:.2g} m: its file holds large "
+                        "coordinates as floats; put them into the translation of a node instead",
+                        scene.vertex_rounding_m));
+    }
+    return out;
 }
 
-void judge_materials(const WaterConfig& water, const Scene& scene, std::vector<Warning>& out) {
+std::vector<Warning> material_warnings(const WaterConfig& water, const Scene& scene) {
+    std::vector<Warning> out;
+    if (water.density_kg_m3 < 950.0 || water.density_kg_m3 > 1200.0)
+        out.push_back(make_warning(WarningCode::water_density, "water", water.density_kg_m3));
+    if (water.sound_speed_m_s < 1350.0 || water.sound_speed_m_s > 1700.0)
+        out.push_back(make_warning(WarningCode::water_speed, "water", water.sound_speed_m_s));
     constexpr double densest = 25e3;          // kg/m^3; osmium has 22,600
     constexpr double fastest = 20e3;          // m/s; diamond has 18,000
-    constexpr float faintest = 1.0F / 65535;  // of the power: impedances within 0.8 %
+    constexpr float faintest = 1.0F / 65535;  // reflected power: impedances within 0.8 %
     for (const Material& material : scene.materials) {
         const std::string about = "material '" + printable(material.name) + "'";
         if (material.density_kg_m3 > densest) {
-            out.push_back(
-                make_warning(Doubt::material_units, about, "density", material.density_kg_m3));
+            out.push_back(make_warning(WarningCode::material_units, about, "density",
+                                       material.density_kg_m3));
         }
         if (material.sound_speed_m_s > fastest) {
-            out.push_back(make_warning(Doubt::material_units, about, "speed of sound",
+            out.push_back(make_warning(WarningCode::material_units, about, "speed of sound",
                                        material.sound_speed_m_s));
         }
         if (material.reflection < faintest) {
-            out.push_back(make_warning(Doubt::material_silent, about, material.density_kg_m3,
+            out.push_back(make_warning(WarningCode::material_silent, about, material.density_kg_m3,
                                        material.sound_speed_m_s, material.reflection,
                                        water.density_kg_m3, water.sound_speed_m_s));
         }
     }
+    return out;
 }
-
-}  // namespace
 
 std::vector<Warning> scene_warnings(const Mission& mission, const Assembly& assembly,
                                     std::span<const SonarSurvey> sonars) {
@@ -162,8 +186,6 @@ std::vector<Warning> scene_warnings(const Mission& mission, const Assembly& asse
         judge_axes(assembly.scene, out);
         judge_doubles(assembly.scene, out);
     }
-    judge_water(mission.water, out);
-    judge_materials(mission.water, assembly.scene, out);
     return out;
 }
 

@@ -1,46 +1,77 @@
-#include "checks/sonar_warnings.h"
-
 #include <cmath>
+
+#include "checks/find_warnings.h"
 
 namespace sonarsim {
 
 namespace {
 
-// docs/warnings.md has the reason for each limit.
-constexpr double many_white = 0.05;  // of the lit bins
-constexpr double faint = 0.25;       // of the noise, in the mean
+// docs/warnings.md says why these are the limits.
+constexpr double many_white = 0.05;  // a share of the lit bins
+constexpr double faint = 0.25;       // a share of the noise's deviation
 constexpr double fewest_greys = 16.0;
+constexpr double many_lost = 0.5;   // a share of the echoes, or of the samples
+constexpr double long_noise = 0.1;  // mean shift, a share of the range
 
-/// Why the blind pings of a sonar are blind.
+/// Pings that see nothing, and the reasons.
 void judge_blindness(const Sonar& sonar, const SonarSurvey& found, std::vector<Warning>& out) {
     const SonarConfig& config = sonar.config;
     const std::string about = about_sensor(config.name);
-    const Blindness& why = found.why;
-    if (found.blind == 0) return;
-    out.push_back(make_warning(Doubt::blind, about, found.blind, found.pings));
-    if (why.too_far > 0) {
-        out.push_back(make_warning(Doubt::range_too_short, about, why.too_far, found.pings,
-                                   why.in_view_m.low, why.in_view_m.high, config.range_max_m));
+    const NoReturnReasons& why = found.no_return;
+    const auto add = [&](WarningCode code, std::size_t pings, const auto&... figures) {
+        if (pings > 0) out.push_back(make_warning(code, about, pings, found.pings, figures...));
+    };
+    add(WarningCode::blind, found.blind);
+    add(WarningCode::range_too_short, why.too_far, why.in_view_m.low, why.in_view_m.high,
+        config.range_max_m);
+    add(WarningCode::range_begins_late, why.too_near, why.ends_m.high, config.range_min_m);
+    const bool cone = sonar.settings.view.shape == ViewShape::cone;
+    add(WarningCode::elevation_too_narrow, why.too_flat, why.elevation_deg.low,
+        why.elevation_deg.high, cone ? "opening_deg" : "elevation_deg",
+        cone ? config.opening_deg : config.elevation_deg);
+    add(WarningCode::looks_elsewhere, why.elsewhere);
+    add(WarningCode::nothing_near, why.nothing,
+        why.nearest_m.empty()
+            ? std::string("the scene is empty")
+            : fmt::format("the nearest ever is {:.4g} m away or more", why.nearest_m.low));
+}
+
+/// Images that are too bright for the scale of the pictures, or too dark. A scale that the program
+/// finds leaves the brightest bins white on purpose.
+void judge_brightness(const OutputConfig& output, const std::string& about, double full_scale,
+                      double white_share, float brightest, std::vector<Warning>& out) {
+    if (output.full_scale == 0.0) return;
+    const double greys = 255.0 * std::sqrt(brightest / full_scale);
+    if (white_share > many_white) {
+        out.push_back(make_warning(WarningCode::saturated, about, 100.0 * white_share, full_scale,
+                                   brightest));
+    } else if (greys < fewest_greys) {
+        out.push_back(make_warning(WarningCode::dim, about, brightest, greys, full_scale));
     }
-    if (why.too_near > 0) {
-        out.push_back(make_warning(Doubt::range_begins_late, about, why.too_near, found.pings,
-                                   why.ends_m.high, config.range_min_m));
+}
+
+double share(std::uint64_t part, std::uint64_t whole) {
+    return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 0.0;
+}
+
+/// Pings of a run without echoes, and surface that left none.
+void judge_echoes(const SonarConfig& config, const SensorSummary& summary,
+                  std::vector<Warning>& out) {
+    const std::string about = about_sensor(config.name);
+    const PingCounts& counts = summary.counts;
+    const double lost = share(counts.out_of_range, counts.echoes);
+    const double range_m = config.range_max_m - config.range_min_m;
+    const double shift_m = config.noise.range_lambda_m;
+    if (shift_m > long_noise * range_m && lost >= many_lost) {
+        out.push_back(
+            make_warning(WarningCode::noise_beyond_range, about, 100.0 * lost, shift_m, range_m));
+    } else if (summary.dark_pings > 0) {
+        out.push_back(make_warning(WarningCode::blind, about, summary.dark_pings, summary.pings));
     }
-    if (why.too_flat > 0) {
-        const bool cone = sonar.settings.view.shape == ViewShape::cone;
-        out.push_back(make_warning(Doubt::elevation_too_narrow, about, why.too_flat, found.pings,
-                                   why.elevation_deg.low, why.elevation_deg.high,
-                                   cone ? "opening_deg" : "elevation_deg",
-                                   cone ? config.opening_deg : config.elevation_deg));
-    }
-    if (why.elsewhere > 0)
-        out.push_back(make_warning(Doubt::looks_elsewhere, about, why.elsewhere, found.pings));
-    if (why.nothing > 0) {
-        const std::string nearest =
-            why.nearest_m.empty()
-                ? "the scene is empty"
-                : fmt::format("the nearest ever is {:.4g} m away or more", why.nearest_m.low);
-        out.push_back(make_warning(Doubt::nothing_near, about, why.nothing, found.pings, nearest));
+    const std::uint64_t samples = counts.samples + counts.dropped_samples;
+    if (share(counts.dropped_samples, samples) >= many_lost) {
+        out.push_back(
+            make_warning(WarningCode::samples_dropped, about, counts.dropped_samples, samples));
     }
 }
 
@@ -52,22 +83,37 @@ std::vector<Warning> sonar_warnings(const OutputConfig& output, const Sonar& son
     const std::string about = about_sensor(sonar.config.name);
     judge_blindness(sonar, found, out);
     if (2 * found.below_surface > found.pings) {
-        out.push_back(make_warning(Doubt::below_surface, about, found.below_surface, found.pings));
+        out.push_back(
+            make_warning(WarningCode::below_surface, about, found.below_surface, found.pings));
     }
     if (found.enclosed > 0) {
-        out.push_back(make_warning(Doubt::inside_object, about, found.enclosed, found.pings,
+        out.push_back(make_warning(WarningCode::inside_object, about, found.enclosed, found.pings,
                                    found.enclosed_by));
     }
     if (found.blind == found.pings) return out;
     if (found.signal < faint * found.noise)
-        out.push_back(make_warning(Doubt::below_noise, about, found.signal, found.noise));
-    if (output.full_scale == 0.0) return out;
-    const double greys = 255.0 * std::sqrt(found.brightest / full_scale);
-    if (found.white_share > many_white) {
-        out.push_back(make_warning(Doubt::saturated, about, 100.0 * found.white_share, full_scale,
-                                   found.brightest));
-    } else if (greys < fewest_greys) {
-        out.push_back(make_warning(Doubt::dim, about, found.brightest, greys, full_scale));
+        out.push_back(make_warning(WarningCode::below_noise, about, found.signal, found.noise));
+    judge_brightness(output, about, full_scale, found.white_share, found.brightest, out);
+    return out;
+}
+
+std::vector<Warning> image_warnings(const Mission& mission, const Assembly& assembly,
+                                    std::span<const SensorSummary> sensors) {
+    std::vector<Warning> out;
+    for (std::size_t i = 0; i < sensors.size(); ++i) {
+        const SensorSummary& summary = sensors[i];
+        const SonarConfig& config = assembly.sonars[i].config;
+        if (summary.pings == 0) continue;
+        judge_echoes(config, summary, out);
+        if (summary.missed_goals > 0) {
+            out.push_back(make_warning(WarningCode::goal_missed, about_sensor(config.name),
+                                       summary.missed_goals, summary.pings,
+                                       mission.accuracy.relative_l1, summary.worst_l1));
+        }
+        if (summary.dark_pings == summary.pings) continue;
+        judge_brightness(mission.output, about_sensor(config.name), assembly.full_scales[i],
+                         share(summary.clipped_pixels, summary.counts.occupied_bins),
+                         summary.brightest, out);
     }
     return out;
 }

@@ -20,14 +20,14 @@ namespace sonarsim {
 namespace {
 
 constexpr std::size_t most_pings = 36;       // per sonar
-constexpr std::size_t most_bins = 1U << 25;  // of all of them
-constexpr std::size_t most_slow = 9;         // pings of a slow echo model
+constexpr std::size_t most_bins = 1U << 25;  // per sonar, all pings together
+constexpr std::size_t most_slow = 9;         // per sonar with a slow echo model
 constexpr double coarse_l1 = 0.2;
 
-/// What stands around a sonar.
+/// The surface around a sonar.
 struct Surroundings {
     std::vector<Eigen::Vector3f> directions;
-    std::vector<Intersection> met;  ///< by direction
+    std::vector<Intersection> met;  ///< one for each direction
 };
 
 Surroundings look(const View& view, const VisibilityEngine& engine, const Pose& T_world_sensor) {
@@ -45,7 +45,8 @@ double elevation_deg(const Eigen::Vector3f& direction) {
 }
 
 /// Finds out why a ping saw nothing.
-void explain(const View& view, const Surroundings& around, double to_scene_m, Blindness& why) {
+void explain(const View& view, const Surroundings& around, double to_scene_m,
+             NoReturnReasons& why) {
     Interval in_view;
     bool somewhere = false;
     double flattest = std::numeric_limits<double>::infinity();  // off the view's middle, in degrees
@@ -85,29 +86,14 @@ double distance_to(const Scene& scene, const Eigen::Vector3d& point) {
     return Eigen::AlignedBox3d(scene.bounds_min, scene.bounds_max).exteriorDistance(point);
 }
 
-/// Boxes around the instances, of what does not move.
-std::vector<Eigen::AlignedBox3f> boxes_of(const Scene& scene) {
-    std::vector<Eigen::AlignedBox3f> boxes(scene.instances.size());
-    for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
-        for (const std::uint32_t corner : scene.triangles[t])
-            boxes[scene.triangle_instance[t]].extend(scene.vertices[corner]);
-    }
-    const std::vector<Eigen::AlignedBox3d> copies = boxes_of_copies(scene);
-    for (std::size_t k = 0; k < copies.size(); ++k) {
-        if (copies[k].isEmpty()) continue;
-        boxes[scene.copies[k].instance].extend(copies[k].translated(-scene.origin).cast<float>());
-    }
-    return boxes;
-}
-
-/// A basin around the whole scene is no object that a sonar is in by mistake.
-bool holds_all(const Eigen::AlignedBox3f& box, const Scene& scene) {
+/// True for a basin around the whole scene: a sonar is not in it by mistake.
+bool holds_all(const Eigen::AlignedBox3d& box, const Scene& scene) {
     const Eigen::Vector3d extent = scene.bounds_max - scene.bounds_min;
-    return !box.isEmpty() && (box.sizes().cast<double>().array() >= 0.9 * extent.array()).all();
+    return !box.isEmpty() && (box.sizes().array() >= 0.9 * extent.array()).all();
 }
 
-/// Whether the scene's surface lies open upwards, as a sea floor does. Of a closed body what faces
-/// up and what faces down are equal.
+/// True if the scene's surface lies open upwards, as a sea floor does. The parts of a closed body
+/// that face up and down are equal.
 bool faces_up(const Scene& scene) {
     double up = 0.0;
     double either = 0.0;
@@ -122,9 +108,8 @@ bool faces_up(const Scene& scene) {
     return up > 0.1 * either;
 }
 
-/// Counts pings at which the sonar is where no vehicle can be. docs/warnings.md has the reason for
-/// each limit.
-void judge_place(const Scene& scene, bool open_upwards, std::span<const Eigen::AlignedBox3f> boxes,
+/// Counts a sonar where no vehicle can be. docs/warnings.md says why these are the limits.
+void judge_place(const Scene& scene, bool open_upwards, std::span<const Eigen::AlignedBox3d> boxes,
                  const Pose& T_world_sensor, const Surroundings& around, SonarSurvey& out) {
     std::size_t above = 0;
     std::size_t below = 0;
@@ -138,7 +123,7 @@ void judge_place(const Scene& scene, bool open_upwards, std::span<const Eigen::A
         (up ? met_above : met_below) += meets;
         if (meets) ++met[around.met[i].instance];
     }
-    // Beneath a sea floor there is surface all above and none below. Under a hull as well.
+    // Beneath a sea floor, and under a hull, there is surface everywhere above and none below.
     out.below_surface += open_upwards && 2 * met_above > above && 50 * met_below <= below;
     const auto most = std::ranges::max_element(met);
     if (scene.instances.size() < 2 || 100 * *most < 98 * around.directions.size()) return;
@@ -154,7 +139,7 @@ void take_attitude(const Eigen::Quaterniond& rotation, SonarSurvey& out) {
     out.pitch_deg.take(degrees(attitude.pitch));
 }
 
-/// What surface a ping saw, and how far away.
+/// Adds the surface that a ping saw, and its distance.
 void take_samples(const View& view, const Samples& samples, SonarSurvey& out) {
     Interval echoes;
     for (const Sample& sample : samples.items) {
@@ -207,7 +192,7 @@ void finish(const BinSums& sums, SonarSurvey& out) {
 }
 
 SonarSurvey survey_sonar(const Mission& mission, const Assembly& assembly, Sonar sonar,
-                         double full_scale, std::span<const Eigen::AlignedBox3f> boxes,
+                         double full_scale, std::span<const Eigen::AlignedBox3d> boxes,
                          const VisibilityEngine& rays) {
     SonarSurvey out;
     out.seen_m2.resize(assembly.scene.instances.size());
@@ -236,7 +221,8 @@ SonarSurvey survey_sonar(const Mission& mission, const Assembly& assembly, Sonar
         judge_place(assembly.scene, open_upwards, boxes, T_world_sensor, around, out);
         if (ping.counts.occupied_bins == 0) {
             ++out.blind;
-            explain(view, around, distance_to(assembly.scene, T_world_sensor.translation), out.why);
+            explain(view, around, distance_to(assembly.scene, T_world_sensor.translation),
+                    out.no_return);
         }
         add_bins(sonar, full_scale,
                  form_image(traced, then->settings, assembly.scene, key, {.random = 1}), ping, sums,
@@ -248,9 +234,22 @@ SonarSurvey survey_sonar(const Mission& mission, const Assembly& assembly, Sonar
 
 }  // namespace
 
+std::vector<Eigen::AlignedBox3d> boxes_of_instances(const Scene& scene) {
+    std::vector<Eigen::AlignedBox3d> boxes(scene.instances.size());
+    for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
+        for (const std::uint32_t corner : scene.triangles[t])
+            boxes[scene.triangle_instance[t]].extend(scene.origin +
+                                                     scene.vertices[corner].cast<double>());
+    }
+    const std::vector<Eigen::AlignedBox3d> copies = boxes_of_copies(scene);
+    for (std::size_t k = 0; k < copies.size(); ++k)
+        boxes[scene.copies[k].instance].extend(copies[k]);
+    return boxes;
+}
+
 std::vector<SonarSurvey> survey(const Mission& mission, const Assembly& assembly,
                                 const VisibilityEngine& rays) {
-    const std::vector<Eigen::AlignedBox3f> boxes = boxes_of(assembly.scene);
+    const std::vector<Eigen::AlignedBox3d> boxes = boxes_of_instances(assembly.scene);
     std::vector<SonarSurvey> out;
     for (std::size_t i = 0; i < assembly.sonars.size(); ++i) {
         out.push_back(survey_sonar(mission, assembly, assembly.sonars[i], assembly.full_scales[i],

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -24,44 +25,46 @@ struct Interval {
     }
 };
 
-/// Why pings saw nothing: of the blind ones, how many are so for each reason.
-struct Blindness {
-    std::size_t too_far = 0;    ///< what is in view begins behind range_max_m
-    std::size_t too_near = 0;   ///< all that is in view ends before range_min_m
+/// Counts of the pings without returns, by the reason.
+struct NoReturnReasons {
+    std::size_t too_far = 0;    ///< the surface in view begins behind range_max_m
+    std::size_t too_near = 0;   ///< the surface in view ends before range_min_m
     std::size_t too_flat = 0;   ///< within range there is surface above or below the view alone
     std::size_t elsewhere = 0;  ///< within range there is surface in other directions alone
     std::size_t nothing = 0;    ///< no surface within range in any direction
-    Interval in_view_m;  ///< where what is in view begins, in the pings for which it is too far
-    Interval ends_m;     ///< where it ends, in those for which it is too near
-    Interval
-        elevation_deg;   ///< the nearest surface to the view, in those for which that is too flat
-    Interval nearest_m;  ///< to the box around the scene, where there is no surface within range
+    Interval in_view_m;         ///< begin of the surface in view, of the pings that are too far
+    Interval ends_m;            ///< end of the surface in view, of those that are too near
+    Interval elevation_deg;     ///< surface nearest to the view, of those that are too flat
+    Interval nearest_m;         ///< distance to the box around the scene, of those with nothing
 };
 
-/// What a sonar sees in a few of its pings, spread over the trajectory.
+/// A sonar's view of the scene in a few of its pings along the trajectory.
 struct SonarSurvey {
-    std::size_t pings = 0;  ///< that were looked at
-    std::size_t blind = 0;  ///< of these, those that lit no bin
-    Blindness why;
+    std::size_t pings = 0;  ///< number of pings that were tried
+    std::size_t blind = 0;  ///< pings without a lit bin
+    NoReturnReasons no_return;
     std::size_t below_surface = 0;  ///< pings with surface above and none below
     std::size_t enclosed = 0;       ///< pings from within one instance of several
     std::string enclosed_by;        ///< the last of these instances
-    Interval altitude_m;            ///< empty where there is never anything below
-    Interval roll_deg;              ///< of the vehicle
+    Interval altitude_m;            ///< empty if there is never anything below
+    Interval roll_deg;              ///< attitude of the vehicle
     Interval pitch_deg;
-    Interval first_echo_m;  ///< of each ping that saw anything
+    Interval first_echo_m;  ///< one value for each ping that saw anything
     Interval last_echo_m;
-    double lit_share = 0.0;    ///< of the bins of all pings
-    double white_share = 0.0;  ///< of the lit bins, above the white of pictures
+    double lit_share = 0.0;    ///< a share of the bins of all pings
+    double white_share = 0.0;  ///< share of the lit bins above the white of pictures
     float brightest = 0.0F;
     double signal = 0.0;          ///< mean intensity of the lit bins without pixel noise
     double noise = 0.0;           ///< mean deviation of the noise that is added to them
-    std::vector<double> seen_m2;  ///< surface that was seen, by Scene::instances
+    std::vector<double> seen_m2;  ///< visible surface, by Scene::instances
 };
 
-/// Pings a few dozen poses with every sonar of the mission, at a coarse sampling and with rays. By
+/// Traces a few dozen pings of every sonar of the mission with rays, coarsely sampled. By
 /// Mission::sensors. The same mission gives the same numbers.
 std::vector<SonarSurvey> survey(const Mission& mission, const Assembly& assembly,
                                 const VisibilityEngine& rays);
+
+/// World boxes around the instances that stand still, by Scene::instances; empty for the others.
+std::vector<Eigen::AlignedBox3d> boxes_of_instances(const Scene& scene);
 
 }  // namespace sonarsim

@@ -1,11 +1,10 @@
-#include "checks/trajectory_warnings.h"
-
 #include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <string>
 #include <variant>
 
+#include "checks/find_warnings.h"
 #include "core/pose.h"
 #include "core/units.h"
 
@@ -19,8 +18,8 @@ double turn_deg(double from, double to) {
     return std::fabs(std::remainder(to - from, 360.0));
 }
 
-/// How far headings are off the way that the vehicle goes, in the mean over that way, degrees. As
-/// they stand, and with their numbers taken for radians.
+/// The mean angle between heading and track along the way, degrees: with the headings as they are
+/// written, and with their numbers read as radians.
 struct HeadingErrors {
     double as_degrees = 0.0;
     double as_radians = 0.0;
@@ -46,7 +45,7 @@ HeadingErrors heading_errors(const Trajectory& trajectory) {
     return errors;
 }
 
-/// Angles that people type in radians: whole quarters of a turn.
+/// True for the angles that people type in radians: whole quarters of a turn.
 bool is_quarter_turn_rad(double value) {
     const double quarters = value / (0.5 * pi);
     return quarters > 0.5 && std::fabs(quarters - std::round(quarters)) < 1e-3;
@@ -61,25 +60,25 @@ void judge_radians(const Trajectory& trajectory, std::vector<Warning>& out) {
     }
     if (largest == 0.0 || largest > 1.001 * full_turn_rad) return;
     const HeadingErrors errors = heading_errors(trajectory);
-    // docs/warnings.md has the reason for each limit.
+    // docs/warnings.md says why these are the limits.
     if (errors.as_degrees > 30.0 && errors.as_radians < 15.0) {
         out.push_back(
-            make_warning(Doubt::radians, "trajectory", largest,
-                         fmt::format("headings are {:.0f} degrees off the way, as radians {:.0f}",
+            make_warning(WarningCode::radians, "trajectory", largest,
+                         fmt::format("headings are {:.0f} degrees off the track, as radians {:.0f}",
                                      errors.as_degrees, errors.as_radians)));
     } else if (is_quarter_turn_rad(largest)) {
-        out.push_back(make_warning(Doubt::radians, "trajectory", largest,
+        out.push_back(make_warning(WarningCode::radians, "trajectory", largest,
                                    fmt::format("{:.5g} is a multiple of a quarter turn", largest)));
     }
 }
 
-/// Whether the vehicle lies on its side or on its back.
+/// True if the vehicle lies on its side or on its back.
 bool is_toppled(const Eigen::Quaterniond& rotation) {
     constexpr double half_right_angle_cosine = 0.7071;
     return rotation.toRotationMatrix()(2, 2) < half_right_angle_cosine;
 }
 
-/// Whether a trajectory's file has roll, pitch and yaw instead of quaternions.
+/// True if a trajectory's file has roll, pitch and yaw instead of quaternions.
 bool has_angles(const std::filesystem::path& file) {
     std::ifstream text(file);
     std::string header;
@@ -96,8 +95,8 @@ void judge_order(const Trajectory& trajectory, std::vector<Warning>& out) {
         upright_else += !is_toppled(Eigen::Quaterniond(q.x(), q.y(), q.z(), q.w()));
     }
     if (2 * toppled < trajectory.size() || 10 * upright_else < 9 * trajectory.size()) return;
-    out.push_back(make_warning(Doubt::quaternion_order, "trajectory", toppled, trajectory.size(),
-                               upright_else));
+    out.push_back(make_warning(WarningCode::quaternion_order, "trajectory", toppled,
+                               trajectory.size(), upright_else));
 }
 
 }  // namespace

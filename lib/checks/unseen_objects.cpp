@@ -1,13 +1,11 @@
-#include "checks/unseen_objects.h"
-
 #include <algorithm>
 #include <cmath>
 #include <string>
 
 #include "assembly/engine_at.h"
+#include "checks/find_warnings.h"
 #include "core/text.h"
 #include "core/units.h"
-#include "scene/copies.h"
 #include "sonar/sonar.h"
 #include "trace/arrivals.h"
 #include "visibility/angles.h"
@@ -22,7 +20,7 @@ constexpr std::size_t most_poses = 20000;  // that may have one in view
 constexpr std::size_t most_tries = 4;      // pings of a sonar for an object
 constexpr std::size_t most_named = 5;
 
-/// A sphere around an object; of a body in its own frame.
+/// A sphere around an object; the frame is the world, or its own if it moves.
 struct Extent {
     Eigen::Vector3d centre = Eigen::Vector3d::Zero();
     double radius = 0.0;
@@ -41,17 +39,9 @@ bool is_wanted(const Mission& mission, const Scene& scene, std::size_t instance)
     });
 }
 
-/// By instance, wherever its triangles are kept. An instance without any has an empty box.
+/// One for each instance, wherever its triangles are kept; empty if it has none.
 std::vector<Extent> extents_of(const Scene& scene) {
-    std::vector<Eigen::AlignedBox3d> boxes(scene.instances.size());
-    for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
-        for (const std::uint32_t corner : scene.triangles[t])
-            boxes[scene.triangle_instance[t]].extend(scene.origin +
-                                                     scene.vertices[corner].cast<double>());
-    }
-    const std::vector<Eigen::AlignedBox3d> copies = boxes_of_copies(scene);
-    for (std::size_t k = 0; k < copies.size(); ++k)
-        boxes[scene.copies[k].instance].extend(copies[k]);
+    const std::vector<Eigen::AlignedBox3d> boxes = boxes_of_instances(scene);
     std::vector<Extent> extents;
     extents.reserve(boxes.size());
     for (const Eigen::AlignedBox3d& box : boxes)
@@ -65,8 +55,8 @@ std::vector<Extent> extents_of(const Scene& scene) {
     return extents;
 }
 
-/// The angle between a point of the sensor frame and the field of view; 0 within it. Of a fan by
-/// the nearest azimuth and elevation.
+/// The angle between a point of the sensor frame and the field of view; 0 within it. In a fan it is
+/// measured to the nearest azimuth and elevation.
 double angle_off_view(const View& view, const Eigen::Vector3d& point) {
     const double half = 0.5 * view.azimuth_rad;
     if (view.shape == ViewShape::cone)
@@ -81,7 +71,7 @@ double angle_off_view(const View& view, const Eigen::Vector3d& point) {
     return std::atan2(nearest.cross(point).norm(), nearest.dot(point));
 }
 
-/// A pose and how far the object's middle is outside the field of view there.
+/// A pose, and the angle by which the object's middle is outside the field of view there.
 struct PoseInView {
     std::uint32_t pose = 0;
     double angle_off = 0.0;
@@ -117,8 +107,8 @@ std::vector<PoseInView> poses_in_view(const Assembly& assembly, const Sonar& son
     return poses;
 }
 
-/// Whether a sonar sees the instance in one of a few of these poses: of those that look straight at
-/// it, where there are any.
+/// True if a sonar sees the instance in one of a few of these poses; poses that look straight at it
+/// come first.
 bool sees(const Assembly& assembly, const Sonar& sonar, const std::vector<PoseInView>& poses,
           std::uint32_t instance, const VisibilityEngine& rays) {
     const std::size_t straight =
@@ -141,22 +131,14 @@ bool sees(const Assembly& assembly, const Sonar& sonar, const std::vector<PoseIn
     return false;
 }
 
-/// Names to be told: "'a', 'b' and 3 more".
-struct Names {
-    std::vector<std::string> names;
-
-    std::string text() const {
-        std::string out;
-        for (std::size_t i = 0; i < std::min(names.size(), most_named); ++i)
-            out += (i > 0 ? ", '" : "'") + printable(names[i]) + "'";
-        if (names.size() > most_named)
-            out += " and " + std::to_string(names.size() - most_named) + " more";
-        return out;
-    }
-};
-
-std::string objects_text(std::size_t count) {
-    return count == 1 ? "1 object is" : std::to_string(count) + " objects are";
+/// "'a', 'b' and 3 more".
+std::string names_text(const std::vector<std::string>& names) {
+    std::string out;
+    for (std::size_t i = 0; i < std::min(names.size(), most_named); ++i)
+        out += (i > 0 ? ", '" : "'") + printable(names[i]) + "'";
+    if (names.size() > most_named)
+        out += " and " + std::to_string(names.size() - most_named) + " more";
+    return out;
 }
 
 }  // namespace
@@ -166,8 +148,8 @@ std::vector<Warning> unseen_objects(const Mission& mission, const Assembly& asse
                                     const VisibilityEngine& rays) {
     const Scene& scene = assembly.scene;
     const std::vector<Extent> extents = extents_of(scene);
-    Names never_in_view;
-    Names hidden;
+    std::vector<std::string> never_in_view;
+    std::vector<std::string> hidden;
     std::size_t looked_for = 0;
     for (std::uint32_t instance = 0; instance < scene.instances.size(); ++instance) {
         const auto has_seen = [&](const SonarSurvey& sonar) {
@@ -183,27 +165,25 @@ std::vector<Warning> unseen_objects(const Mission& mission, const Assembly& asse
             in_view = in_view || !poses.empty();
             seen = sees(assembly, assembly.sonars[i], poses, instance, rays);
         }
-        if (!seen) (in_view ? hidden : never_in_view).names.push_back(scene.instances[instance]);
+        if (!seen) (in_view ? hidden : never_in_view).push_back(scene.instances[instance]);
     }
     const std::string not_looked_for =
         looked_for > most_objects
             ? fmt::format(" ({} more were not looked for)", looked_for - most_objects)
             : "";
     std::vector<Warning> out;
-    if (!never_in_view.names.empty()) {
-        out.push_back(make_warning(Doubt::unseen_object, "scene",
-                                   objects_text(never_in_view.names.size()) + " not in view",
-                                   never_in_view.text() + not_looked_for,
-                                   "move what is named into the view of a sonar, or the trajectory "
-                                   "towards it"));
-    }
-    if (!hidden.names.empty()) {
-        out.push_back(make_warning(Doubt::unseen_object, "scene",
-                                   objects_text(hidden.names.size()) + " in view but not seen",
-                                   hidden.text() + not_looked_for,
-                                   "what is named may lie behind, below or within something else, "
-                                   "or be smaller than a beam"));
-    }
+    const auto warn = [&](const std::vector<std::string>& names, const char* what,
+                          const char* cure) {
+        if (names.empty()) return;
+        const std::string count =
+            names.size() == 1 ? "1 object is" : std::to_string(names.size()) + " objects are";
+        out.push_back(make_warning(WarningCode::unseen_object, "scene", count + what,
+                                   names_text(names) + not_looked_for, cure));
+    };
+    warn(never_in_view, " not in view",
+         "move what is named into the view of a sonar, or the trajectory towards it");
+    warn(hidden, " in view but not seen",
+         "what is named may lie behind, below or within something else, or be smaller than a beam");
     return out;
 }
 

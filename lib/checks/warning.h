@@ -2,13 +2,14 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <span>
 #include <string>
 #include <string_view>
 
 namespace sonarsim {
 
-/// What may be wrong with a mission that is valid. A number belongs to one of them for good.
-enum class Doubt {
+/// The number of a warning: 12 is "W12". A number keeps its meaning in all versions.
+enum class WarningCode {
     reading = 1,
     scene_huge = 2,
     scene_tiny = 3,
@@ -35,33 +36,46 @@ enum class Doubt {
     engine = 24,
     doubled_triangles = 25,
     memory = 26,
+    few_variants = 27,
+    no_locks = 28,
+    goal_missed = 29,
+    samples_dropped = 30,
+    noise_beyond_range = 31,
+    thin_fan = 32,
 };
 
-/// A doubt with its figures.
+/// A row of the table of all warnings. `what` and `cure` are format strings of the same figures.
+struct WarningText {
+    WarningCode code;
+    const char* what;    ///< the finding
+    const char* cure;    ///< the remedy
+    const char* limit;   ///< from where on the program warns
+    const char* reason;  ///< why the limit lies there
+};
+
+/// All warnings in the order of their numbers.
+std::span<const WarningText> warning_table();
+/// The table in Markdown, for docs/warnings.md.
+std::string warning_table_markdown();
+
+/// A warning with its figures.
 struct Warning {
-    Doubt doubt;
+    WarningCode code;
     std::string about;  ///< "sensor 'fls'"
     std::string what;
     std::string cure;
 };
 
-/// The format strings of a doubt: what is found, and what would mend it. Both take the same
-/// figures.
-struct WarningWords {
-    const char* what;
-    const char* cure;
-};
-WarningWords words_of(Doubt doubt);
-
+/// `figures` fill both format strings of the table's row.
 template <class... Figures>
-Warning make_warning(Doubt doubt, std::string about, const Figures&... figures) {
-    const WarningWords words = words_of(doubt);
-    return {doubt, std::move(about), fmt::vformat(words.what, fmt::make_format_args(figures...)),
-            fmt::vformat(words.cure, fmt::make_format_args(figures...))};
+Warning make_warning(WarningCode code, std::string about, const Figures&... figures) {
+    const WarningText& text = warning_table()[static_cast<std::size_t>(code) - 1];
+    return {code, std::move(about), fmt::vformat(text.what, fmt::make_format_args(figures...)),
+            fmt::vformat(text.cure, fmt::make_format_args(figures...))};
 }
 
 /// "W12".
-std::string number_of(Doubt doubt);
+std::string number_of(WarningCode code);
 
 /// "W12 sensor 'fls': 3 of 36 pings ...; raise ...".
 std::string sentence(const Warning& warning);

@@ -17,22 +17,22 @@ nlohmann::ordered_json read_json(const std::filesystem::path& path, std::size_t 
 /// The same of a text; `file` is for the messages.
 nlohmann::ordered_json parse_json(const std::string& text, const std::string& file);
 
-/// The way from `key` to the first value in which two trees differ: "sensors[0].name"; nothing
-/// where there is none. Numbers are the same when they differ by no more than rounding. The order
-/// of keys does not count.
+/// The path of the first value in which two trees differ: "sensors[0].name"; nothing if they are
+/// equal. `key` is the path of the trees. Numbers are equal if they differ by no more than
+/// rounding. The order of keys does not count.
 std::optional<std::string> first_difference(const nlohmann::ordered_json& one,
                                             const nlohmann::ordered_json& other,
                                             const std::string& key = "");
 
-/// A value in the JSON of a file, with the way to it. Whatever is not as asked for throws an
-/// InputError that names the file, the key, what it is and what it must be. It refers to the JSON
-/// and to the name of the file, which both must outlive it.
+/// A value in the JSON of a file, with its path. A value of another type or range throws an
+/// InputError that names the file, the key, the value and what it must be. The JSON and the name of
+/// the file must outlive it.
 class CheckedJson {
   public:
     CheckedJson(const nlohmann::ordered_json& json, const std::string& file)
         : json_(&json), file_(&file) {}
 
-    /// A member of an object; nothing where it has none of this name.
+    /// A member of an object; nothing if it has none of this name.
     std::optional<CheckedJson> find(const char* name) const;
     /// A member that must be there.
     CheckedJson at(const char* name) const;

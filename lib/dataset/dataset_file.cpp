@@ -19,9 +19,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t largest_description = std::size_t{1} << 28;
-constexpr auto replace_bytes = Json::error_handler_t::replace;  ///< those that are no text
+constexpr auto replace_bytes = Json::error_handler_t::replace;  ///< bytes that are no text
 constexpr std::uint64_t any_count = std::numeric_limits<std::uint32_t>::max();
-constexpr std::uint64_t largest_side = std::uint64_t{1} << 20;  ///< of a picture, px
+constexpr std::uint64_t largest_side = std::uint64_t{1} << 20;  ///< side of a picture, px
 
 std::string plain_name(const CheckedJson& value) {
     std::string name = value.text();

@@ -63,15 +63,15 @@ struct DatasetFile {
     std::uint64_t poses = 0;
     DescribedLabels labels;
     std::vector<DescribedSensor> sensors;
-    std::vector<std::string> products;  ///< of all sensors
+    std::vector<std::string> products;  ///< products of all sensors together
 };
 
-/// The dataset.json of a folder, its keys not checked; nothing when it is not sonarsim's.
+/// The dataset.json of a folder, its keys not checked; nothing if it is not sonarsim's.
 /// InputError when it cannot be read.
 std::optional<nlohmann::ordered_json> read_description(const std::filesystem::path& folder);
 
-/// The one reader of dataset.json. `file` is for the messages. InputError, with the key
-/// and what it must be, when it is of another version of the format, when a key is missing or of
+/// The one reader of dataset.json. `file` is for the messages. InputError, with the key and what it
+/// must be, when it is of another version of the format, when a key is missing or of
 /// another type, when a number is out of range, when a name is not plain (see dataset/file_names.h)
 /// and when a path leaves the folder of its sensor.
 DatasetFile check_description(nlohmann::ordered_json json, const std::string& file);

@@ -11,18 +11,18 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// What the bytes of a dataset depend on in the build that wrote it.
+/// The properties of a build that the bytes of a dataset depend on.
 std::string bytes_of_build(const Json& description) {
     const Json build = description.value("build", Json());
     std::string text;
     for (const char* key : {"arithmetic", "png_encoder"}) {
-        const bool told = build.is_object() && build.contains(key) && build[key].is_string();
-        text += (text.empty() ? "" : ", ") + (told ? build[key].get<std::string>() : "unknown");
+        const bool known = build.is_object() && build.contains(key) && build[key].is_string();
+        text += (text.empty() ? "" : ", ") + (known ? build[key].get<std::string>() : "unknown");
     }
     return text;
 }
 
-/// Returns false when `visit` did.
+/// Returns false if `visit` did.
 bool visit_pings(const DescribedSensor& sensor, const std::string& kind, const std::string& pattern,
                  const std::function<bool(const DescribedFile&)>& visit) {
     for (std::uint64_t ping = 0; ping < sensor.pings; ++ping) {

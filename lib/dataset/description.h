@@ -8,20 +8,20 @@
 
 namespace sonarsim {
 
-/// What sets the dataset that `found` describes apart from that of `expected`, to follow "a
-/// dataset": "of another mission". Empty when both are the same dataset, complete or not. Their
-/// keys need not be checked.
+/// The difference between two descriptions as the end of a sentence that begins with "a dataset":
+/// "of another mission". Empty if both are the same dataset, complete or not. Their keys need not
+/// be checked.
 std::string difference_between(const nlohmann::ordered_json& found,
                                const nlohmann::ordered_json& expected);
 
 /// A file of a dataset.
 struct DescribedFile {
     std::string name;                         ///< relative to the folder of the dataset
-    const DescribedSensor* sensor = nullptr;  ///< null for what stands beside
+    const DescribedSensor* sensor = nullptr;  ///< null for files beside the sensors
     std::string kind;                         ///< "polar", ..., "packs", "records", or empty
 };
 
-/// Visits each file that dataset.json says is there, SHA256SUMS included, until `visit` returns
+/// Visits each file that dataset.json lists, SHA256SUMS included, until `visit` returns
 /// false.
 void for_each_described(const DatasetFile& dataset,
                         const std::function<bool(const DescribedFile&)>& visit);

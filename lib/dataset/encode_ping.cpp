@@ -1,23 +1,72 @@
 #include "dataset/encode_ping.h"
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
+#include <span>
+#include <stdexcept>
+#include <vector>
 
+#include "assembly/engine_at.h"
+#include "ping/sonar.h"
 #include "sonar/measured.h"
+#include "trace/visible_surface.h"
 
 namespace sonarsim {
 
-WrittenPing encode_ping(const Assembly& assembly, const VisibilityEngine& engine,
-                        const Writers& writers, const LabelPlan& plan, const PingId& id,
-                        const Sonar& sonar, const TracedPing& traced, const Ping& ping) {
+namespace {
+
+/// The greatest magnitude among `values`; not finite as soon as one of them is not. Without their
+/// sign the bits of floats have the order of the numbers, infinity above all of them and NaN above
+/// that; and unlike a maximum of floats, one of integers vectorises.
+float greatest_magnitude(std::span<const float> values) {
+    std::uint32_t greatest = 0;
+    for (const float value : values)
+        greatest = std::max(greatest, std::bit_cast<std::uint32_t>(value) & 0x7fffffffU);
+    return std::bit_cast<float>(greatest);
+}
+
+}  // namespace
+
+RenderedPing render_at_pose(const Mission& mission, const Assembly& assembly,
+                            const VisibilityEngine& engine, const PingId& id) {
+    const TimedPose& at = assembly.trajectory[id.pose];
+    const SonarAtPose sonar(mission, assembly.sonars[id.sensor], id.pose);
+    const std::vector<Sight> sights_of_ping =
+        sights(sonar->settings.view, sonar->settings.guard_beams,
+               sensor_pose(*sonar, at.T_world_vehicle, id.pose));
+    const std::shared_ptr<const VisibilityEngine> now =
+        engine_at(engine, assembly.motions, at.t_s, sights_of_ping);
+    TracedPing traced = trace(*sonar, assembly.scene, *now, at.T_world_vehicle, id.pose);
+    Ping ping = form_image(traced, sonar->settings, assembly.scene, {mission.seed, id.pose});
+    return {id, sonar, now, std::move(traced), std::move(ping)};
+}
+
+float brightest_pixel(const Ping& ping, std::string_view sensor, std::uint32_t pose) {
+    const float brightest = greatest_magnitude(ping.intensity);
+    if (std::isfinite(brightest)) return brightest;
+    const auto faulty =
+        std::ranges::count_if(ping.intensity, [](float v) { return !std::isfinite(v); });
+    throw std::runtime_error("sensor '" + std::string(sensor) + "', ping at pose " +
+                             std::to_string(pose) + ": " + std::to_string(faulty) + " of " +
+                             std::to_string(ping.intensity.size()) +
+                             " pixels are NaN or infinite, a fault of sonarsim; please report it "
+                             "with the mission");
+}
+
+WrittenPing encode_ping(const Assembly& assembly, const Writers& writers, const LabelPlan& plan,
+                        const RenderedPing& rendered) {
+    const auto& [id, at_pose, engine, traced, ping] = rendered;
+    const Sonar& sonar = *at_pose;
     WrittenPing out;
     const auto white = static_cast<float>(assembly.full_scales[id.sensor]);
     out.clipped_pixels = std::ranges::count_if(ping.intensity, [&](float v) { return v > white; });
     const auto metadata =
-        measured({sonar, assembly.trajectory[id.pose].T_world_vehicle, id.pose, ping}, engine);
+        measured({sonar, assembly.trajectory[id.pose].T_world_vehicle, id.pose, ping}, *engine);
     LabelledPing labels;
     if (plan.on) {
         labels = label_for_writers(plan, label_ping(traced, sonar.settings, assembly.scene,
-                                                    assembly.objects, engine, plan.request));
+                                                    assembly.objects, *engine, plan.request));
     }
     const FinishedPing finished{
         id, sonar, traced, ping, metadata, out.clipped_pixels, plan.on ? &labels : nullptr};

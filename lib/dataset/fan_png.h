@@ -9,8 +9,8 @@
 
 namespace sonarsim {
 
-/// What draws the fans of a sonar into PNG files, as output.fan_style has it: grey of one channel
-/// where that asks for nothing, else RGB.
+/// Draws the fans of a sonar into PNG files as output.fan_style says: in grey by default, else in
+/// RGB.
 struct FanPng {
     FanMap map;
     std::optional<FanStyle> style;

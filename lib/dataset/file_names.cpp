@@ -6,12 +6,12 @@ namespace sonarsim {
 
 namespace {
 
-constexpr std::size_t longest_name = 255;    // of a file, on the file systems of Linux
-constexpr std::size_t longest_path = 1024;   // of three names, that is more than enough
-constexpr std::size_t conversion_bytes = 4;  // of "%06d"
+constexpr std::size_t longest_name = 255;    // limit of the file systems of Linux
+constexpr std::size_t longest_path = 1024;   // more than enough for three names
+constexpr std::size_t conversion_bytes = 4;  // length of "%06d"
 
-/// Where the only number of a pattern stands; npos where the text is none.
-std::size_t place_of_number(std::string_view text) {
+/// The position of the only number of a pattern; npos if the text is no pattern.
+std::size_t find_number(std::string_view text) {
     const std::size_t at = text.find('%');
     const bool sound = at != std::string_view::npos && text.size() >= at + conversion_bytes &&
                        text[at + 1] == '0' && text[at + 2] >= '1' && text[at + 2] <= '9' &&
@@ -44,13 +44,13 @@ bool is_inner_path(std::string_view text) {
 }
 
 bool is_pattern(std::string_view text) {
-    const std::size_t at = place_of_number(text);
+    const std::size_t at = find_number(text);
     return at != std::string_view::npos && is_inner_path(put_at(text, at, "0"));
 }
 
 std::string numbered(const std::string& pattern, std::uint64_t number) {
     if (!is_pattern(pattern)) return {};
-    const std::size_t at = place_of_number(pattern);
+    const std::size_t at = find_number(pattern);
     std::string text = std::to_string(number);
     const auto digits = static_cast<std::size_t>(pattern[at + 2] - '0');
     text.insert(0, std::max(digits, text.size()) - text.size(), '0');

@@ -11,28 +11,28 @@
 
 namespace sonarsim {
 
-/// Whether the mission asks for a label.
+/// True if the mission asks for a label.
 bool is_asked(const Mission& mission, Label label);
 
-/// What is to be found of every ping of a sonar, worked out once.
+/// The labels to find for every ping of a sonar.
 struct LabelPlan {
     bool on = false;  ///< the mission asks for labels
     LabelRequest request;
     bool polar_masks = false;
     bool fan_masks = false;
-    FanBins fan;  ///< empty where no label is of the fan
+    FanBins fan;  ///< empty if no label is in the fan
 };
 LabelPlan plan_labels(const Mission& mission, const Assembly& assembly, const Sonar& sonar);
 
-/// What the labels of a ping are written from: found once, for all writers.
+/// The labels of a ping, for all writers.
 struct LabelledPing {
     PingLabels bins;
-    std::vector<ObjectMask> polar;  ///< by the object of each bin: rows of range, columns of beams
+    std::vector<ObjectMask> polar;  ///< masks of the objects: rows of range, columns of beams
     std::vector<ObjectMask> fan;    ///< the same in the picture of the fan
     const FanBins* fan_bins = nullptr;
 };
 
-/// `plan` must outlive what is returned.
+/// `plan` must outlive the result.
 LabelledPing label_for_writers(const LabelPlan& plan, PingLabels bins);
 
 }  // namespace sonarsim

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 
 #include "core/error.h"
 #include "core/text.h"
@@ -12,10 +13,10 @@ namespace sonarsim {
 
 namespace {
 
-/// As many as surely fit; 0 where nothing is packed.
+/// The number of pings that always fit; 0 without packs.
 std::size_t pings_per_pack(const Mission& mission, std::size_t sensor, const Writers& writers) {
     if (mission.output.pack == Pack::none) return 0;
-    double bytes = 0.0;  // of a ping, at most
+    double bytes = 0.0;  // upper limit for a ping
     for (const auto& writer : writers) {
         const WriterOutputs outputs = writer->outputs();
         if (std::holds_alternative<PingFile>(outputs.per_ping))
@@ -40,14 +41,33 @@ std::string journal_part(int shard, int shards) {
     return std::to_string(shard) + "-of-" + std::to_string(shards) + ".txt";
 }
 
-bool is_journal_part(std::string_view name) {
-    constexpr std::uint64_t most_shards = 1'000'000;  // as --shard has it
+std::optional<std::pair<int, int>> shard_of_part(const std::filesystem::path& part) {
+    constexpr std::uint64_t most_shards = 1'000'000;  // the limit of --shard
+    const std::string name = part.stem().string();
     const std::size_t of = name.find("-of-");
-    if (of == std::string_view::npos || !name.ends_with(".txt")) return false;
+    if (of == std::string::npos || part.extension() != ".txt") return std::nullopt;
     const auto shard = parse_unsigned(name.substr(0, of));
-    name.remove_suffix(4);
     const auto shards = parse_unsigned(name.substr(of + 4));
-    return shard && shards && *shard >= 1 && *shard <= *shards && *shards <= most_shards;
+    if (!shard || !shards || *shard < 1 || *shard > *shards || *shards > most_shards)
+        return std::nullopt;
+    return std::pair(static_cast<int>(*shard), static_cast<int>(*shards));
+}
+
+std::vector<std::filesystem::path> journal_parts(const std::filesystem::path& folder) {
+    std::vector<std::filesystem::path> parts;
+    const std::filesystem::path parts_folder = folder / journal_folder_name;
+    std::error_code error;
+    std::error_code absent;
+    for (std::filesystem::directory_iterator part(parts_folder, error), end; part != end;
+         part.increment(error)) {
+        const bool regular =
+            part->symlink_status(absent).type() == std::filesystem::file_type::regular;
+        if (regular && shard_of_part(part->path())) parts.push_back(part->path());
+    }
+    if (error && error != std::errc::no_such_file_or_directory &&
+        error != std::errc::not_a_directory)
+        throw std::filesystem::filesystem_error("cannot read", parts_folder, error);
+    return parts;
 }
 
 std::string Layout::number(std::uint32_t pose) const {
@@ -158,6 +178,17 @@ int shard_of(const Layout& layout, const PingId& ping, std::size_t index, int sh
     const bool packed = layout.sensors[ping.sensor].pings_per_pack > 0;
     return static_cast<int>((packed ? layout.pack_of(ping) : index) %
                             static_cast<std::size_t>(shards));
+}
+
+bool has_gallery(const std::filesystem::path& folder) {
+    std::error_code absent;
+    const std::filesystem::path file = folder / gallery_name;
+    if (std::filesystem::symlink_status(file, absent).type() != std::filesystem::file_type::regular)
+        return false;
+    constexpr std::size_t head_bytes = 1000;
+    std::string head(head_bytes, '\0');
+    std::ifstream(file, std::ios::binary).read(head.data(), head_bytes);
+    return head.find(gallery_mark) != std::string::npos;
 }
 
 }  // namespace sonarsim

@@ -3,31 +3,31 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "dataset/writers.h"
 #include "mission/dataset_names.h"
 
-// Where the files of a dataset lie:
+// The files of a dataset:
 //
 //     OUT/dataset.json                what this is, axes of the sensors, whether it is complete
 //     OUT/mission.resolved.yaml       the mission with every default written out
 //     OUT/SHA256SUMS                  of every other file, once all of them are there
 //     OUT/trajectory.tum              the pose of every ping number
-//     OUT/journal.txt                 the size and hash of every file of a ping, see
-//     job/journal.h; while
-//                                     the mission runs, parts of it lie in OUT/journal.d/
+//     OUT/journal.txt                 the size and hash of every file of a ping, see job/journal.h;
+//                                     while the mission runs, parts of it lie in OUT/journal.d/
 //     OUT/<sensor>/<format>/NNNNNN.*  a file per ping, or with output.pack
 //     OUT/<sensor>/pack/NNNNNN.tar    the files of as many pings as fit, one after the other, each
 //                                     <sensor>-NNNNNN.<format>.*
-//     OUT/<sensor>/*                  a file of records, one per ping, and what is made of them
-//     OUT/labels/*, OUT/split/*       what is made of the pings of all sensors
+//     OUT/<sensor>/*                  files of records, one per ping, and products of them
+//     OUT/labels/*, OUT/split/*       products of the pings of all sensors
 //
-// Which formats there are is told by the files in dataset/writers. A record that is not written yet
-// is zero. NNNNNN is the index of the pose on the trajectory, in six digits or as many as the last
-// one needs.
+// The files in dataset/writers are the formats. A record that is not written yet is zero. NNNNNN is
+// the index of the pose on the trajectory, in six digits or as many as the last one needs.
 
 namespace sonarsim {
 
@@ -36,35 +36,40 @@ inline constexpr const char* pack_folder_name = "pack";
 
 /// "3-of-8.txt": the part of the journal that a shard, counted from 1, writes.
 std::string journal_part(int shard, int shards);
-/// Whether journal_part() made this name.
-bool is_journal_part(std::string_view name);
+/// The shard and the number of shards in a name of journal_part(); nothing for other names.
+std::optional<std::pair<int, int>> shard_of_part(const std::filesystem::path& part);
+/// The parts of the journal in OUT/journal.d/: regular files, no links. Other runs may remove them
+/// meanwhile.
+std::vector<std::filesystem::path> journal_parts(const std::filesystem::path& folder);
 
 /// The files of one sensor.
 struct SensorLayout {
     std::string name;
     std::uint32_t every = 1;  ///< pings at every n-th pose
     std::size_t pings = 0;
-    std::vector<std::variant<PingFile, PingRecord>> per_ping;  ///< of its writers, in their order
+    std::vector<std::variant<PingFile, PingRecord>>
+        per_ping;  ///< outputs of its writers, in their order
     std::vector<std::string> products;
-    std::size_t pings_per_pack = 0;  ///< 0: files of pings lie by themselves
+    std::size_t pings_per_pack = 0;  ///< 0: no packs
 };
 
-/// Which files a dataset consists of.
+/// The files of a dataset.
 struct Layout {
     std::filesystem::path folder;
     std::vector<SensorLayout> sensors;
     std::vector<std::string> products;  ///< made of the pings of all sensors
     std::size_t poses = 0;
-    int digits = 6;  ///< of a ping number
+    int digits = 6;  ///< digits of a ping number
 
     std::string number(std::uint32_t pose) const;
     std::filesystem::path sensor_folder(std::size_t sensor) const;
     std::filesystem::path file(const PingId& ping, const PingFile& kind) const;
-    /// Where a product of a sensor lies; of the dataset, for the sensor after the last one.
+    /// The path of a sensor's product, or of a product of all sensors for the sensor after the
+    /// last.
     std::filesystem::path product_file(std::size_t sensor, const std::string& name) const;
 
-    // Of a sensor with packs. Every pack but the last holds the same number of pings, so that where
-    // a ping lies does not depend on what is in the others.
+    // For a sensor with packs. Every pack but the last holds the same number of pings, so that the
+    // pack of a ping does not depend on the sizes of others.
     std::size_t packs(std::size_t sensor) const;
     std::size_t pack_of(const PingId& ping) const;
     bool is_last_in_pack(const PingId& ping) const;
@@ -87,5 +92,16 @@ std::vector<PingId> list_pings(const Mission& mission, std::size_t poses);
 /// The shard, counted from 0, that renders a ping; `index` is that in list_pings(). The pings of a
 /// pack are in one shard.
 int shard_of(const Layout& layout, const PingId& ping, std::size_t index, int shards);
+
+// The page that `sonarsim gallery` puts beside the files of a dataset. It is no part of the
+// dataset: dataset.json and SHA256SUMS do not list it, and a run that replaces the dataset removes
+// it.
+
+/// A line of every such page, by which it is recognised.
+inline constexpr std::string_view gallery_mark =
+    R"(<meta name="generator" content="sonarsim gallery">)";
+
+/// True if the folder holds an index.html that is a gallery. No link is followed.
+bool has_gallery(const std::filesystem::path& folder);
 
 }  // namespace sonarsim

@@ -26,7 +26,7 @@ Json describe_inputs(const Mission& mission, const Assembly& assembly) {
     return inputs;
 }
 
-/// What of the scene's files is rendered, how well it is known, and what is left out.
+/// The rendered part of the scene's files, its accuracy, and the number of parts left out.
 Json describe_scene_use(const Scene& scene) {
     Json json = {{"triangles", scene.triangles.size()},
                  {"vertex_rounding_m", scene.vertex_rounding_m},

@@ -18,7 +18,7 @@ inline constexpr int dataset_format_version = 3;
 nlohmann::ordered_json describe_dataset(const Mission& mission, const Assembly& assembly,
                                         const Layout& layout, const std::vector<Writers>& writers);
 
-/// Its block `sensors`, which does not depend on the scene but for the full scales.
+/// The block `sensors` of dataset.json. Only the full scales in it depend on the scene.
 nlohmann::ordered_json describe_sensors(const Assembly& assembly, const Layout& layout,
                                         const std::vector<Writers>& writers);
 

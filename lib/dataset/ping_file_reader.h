@@ -9,8 +9,8 @@
 
 namespace sonarsim {
 
-/// Reads the files of pings, by themselves or in packs. Of each sensor one pack is in memory at a
-/// time, and of that the files of one kind: pings are best asked for in order.
+/// Reads the files of pings, loose or in packs. The files of one kind in one pack of each sensor
+/// are in memory at a time: read pings in their order.
 class PingFileReader {
   public:
     /// `layout` must outlive it.
@@ -28,10 +28,10 @@ class PingFileReader {
     };
 
     const Layout& layout_;
-    std::vector<OpenPack> packs_;  ///< by sensor
+    std::vector<OpenPack> packs_;  ///< one for each sensor
 };
 
-/// Where a file of a ping lies in the dataset: "fls/polar/000007.npy", or in a pack
+/// The place of a ping's file in the dataset: "fls/polar/000007.npy", or in a pack
 /// "fls/pack/000000.tar/fls-000007.polar.npy".
 std::string place_of_file(const Layout& layout, const PingId& ping, const PingFile& kind);
 

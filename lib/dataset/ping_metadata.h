@@ -11,7 +11,7 @@ namespace sonarsim {
 /// Position in metres; quaternion as x, y, z, w.
 nlohmann::ordered_json describe_pose(const Pose& pose);
 
-/// What was drawn, by key; text where it is neither a number nor a flag.
+/// The drawn values by key; text if a value is neither a number nor a flag.
 nlohmann::ordered_json describe_drawn(const DrawnValues& drawn);
 
 /// The metadata of one ping.

@@ -18,7 +18,7 @@ std::string record_bytes(const std::vector<T>& values) {
     return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
 }
 
-/// 16 hexadecimal digits by which the journal knows a record again.
+/// 16 hexadecimal digits for a record in the journal.
 std::string hash_of_record(std::string_view bytes);
 
 enum class RecordAccess {
@@ -26,10 +26,10 @@ enum class RecordAccess {
     read,   ///< opens a file that is there
 };
 
-/// Whether a file stays open between calls. A process may have few files open, often 1,024, and a
+/// Keeps a file open between calls, or not. A process may have few files open, often 1,024, and a
 /// mission thousands of sensors.
 enum class KeepOpen { yes, no };
-/// Of each sort of files (records, packs). Where there are more, none of them stays open.
+/// If there are more files of a sort (records, packs), none of them stays open.
 inline constexpr std::size_t most_files_kept_open = 64;
 
 /// A NumPy file of equal records, one per ping, that is filled while the mission runs, by any
@@ -57,11 +57,11 @@ class RecordFile {
     std::string hash(std::size_t record) const;
 
     /// std::runtime_error when the file's name has been removed, or given to another file, since it
-    /// was opened: what is written goes nowhere then.
+    /// was opened: records that are written are lost then.
     void require_in_place() const;
 
     /// After the last record. std::system_error when the disk did not take them all: some file
-    /// systems say so only here.
+    /// systems report that only here.
     void close();
 
   private:
@@ -81,7 +81,7 @@ class RecordFile {
     RecordAccess access_;
     std::uint64_t device_ = 0;  ///< with inode_: which file it was when it was first opened
     std::uint64_t inode_ = 0;
-    int fd_ = -1;  ///< -1 where it is opened for each call
+    int fd_ = -1;  ///< -1 if it is opened for each call
 };
 
 }  // namespace sonarsim

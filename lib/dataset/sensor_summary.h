@@ -1,20 +1,32 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "trace/ping.h"
 
 namespace sonarsim {
 
-/// What the pings of one sonar came to in a run.
+/// Sums over pings of one sonar.
 struct SensorSummary {
     std::uint64_t pings = 0;
-    std::uint64_t dark_pings = 0;  ///< without a bin that saw surface
-    PingCounts counts;             ///< summed over the pings
-    std::uint64_t clipped_pixels = 0;
-    std::uint64_t missed_goals = 0;  ///< pings whose estimated error is above the goal
-    double worst_l1 = 0.0;           ///< the greatest of the estimates
-    float brightest = 0.0F;          ///< intensity of the brightest pixel of all
+    std::uint64_t dark_pings = 0;  ///< pings without a bin that saw surface
+    PingCounts counts;
+    std::uint64_t clipped_pixels = 0;  ///< intensities above full_scale, if files were written
+    std::uint64_t missed_goals = 0;    ///< pings whose estimated error is above the goal
+    double worst_l1 = 0.0;             ///< the greatest of the estimates
+    float brightest = 0.0F;            ///< intensity of the brightest pixel of all
+
+    SensorSummary& operator+=(const SensorSummary& more) {
+        pings += more.pings;
+        dark_pings += more.dark_pings;
+        counts += more.counts;
+        clipped_pixels += more.clipped_pixels;
+        missed_goals += more.missed_goals;
+        worst_l1 = std::max(worst_l1, more.worst_l1);
+        brightest = std::max(brightest, more.brightest);
+        return *this;
+    }
 };
 
 }  // namespace sonarsim

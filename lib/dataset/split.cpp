@@ -29,7 +29,7 @@ std::vector<SplitPart> parts_of(const SplitConfig& config) {
 
 namespace {
 
-/// `what`: of which there are `poses`.
+/// Splits `poses` things; `what` is their name in messages.
 std::vector<SplitPart> split(const SplitConfig& config, std::size_t poses,
                              const std::string& what) {
     const std::vector<SplitPart> parts = parts_of(config);
@@ -81,15 +81,6 @@ std::vector<SplitPart> split_variants(const SplitConfig& config, std::size_t var
     SplitConfig without_gap = config;
     without_gap.gap = 0;
     return split(without_gap, variants, "variants");
-}
-
-std::string too_few_variants_warning(const SplitConfig& config, std::size_t variants) {
-    const std::vector<SplitPart> parts = parts_of(config);
-    if (variants >= parts.size()) return {};
-    const std::string first(split_part_names[static_cast<std::size_t>(parts.front())]);
-    return config.place.location.text() + ": the mission has fewer variants (" +
-           std::to_string(variants) + ") than the split has parts (" +
-           std::to_string(parts.size()) + "): all of them are put into '" + first + "'";
 }
 
 }  // namespace sonarsim

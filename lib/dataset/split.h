@@ -11,7 +11,7 @@
 
 namespace sonarsim {
 
-/// What a pose of the trajectory is for.
+/// The use of a pose of the trajectory.
 enum class SplitPart : std::uint8_t { train, val, test, none };
 
 /// Names of the parts, by SplitPart; without `none`.
@@ -23,7 +23,7 @@ std::string split_file_of(std::string_view part);
 /// The share of a part.
 double share_of(const SplitConfig& config, SplitPart part);
 
-/// The parts of a split that is on, those with a share alone.
+/// The parts of a split that is on, those with a share.
 std::vector<SplitPart> parts_of(const SplitConfig& config);
 
 /// The part of each pose. Each of the rounds, stretches of equal length, is cut into train, val and
@@ -31,11 +31,8 @@ std::vector<SplitPart> parts_of(const SplitConfig& config);
 /// have neighbours. InputError when a part would get no pose.
 std::vector<SplitPart> split_poses(const SplitConfig& config, std::size_t poses);
 
-/// The part of each variant, which has neighbours nowhere: as of poses, and without gaps. Where
-/// there are fewer variants than parts, the first part gets all of them.
+/// The part of each variant, as split_poses() but without gaps, since variants have no neighbours.
+/// If there are fewer variants than parts, the first part gets all of them.
 std::vector<SplitPart> split_variants(const SplitConfig& config, std::size_t variants);
-
-/// What to warn of where there are fewer variants than parts; else empty.
-std::string too_few_variants_warning(const SplitConfig& config, std::size_t variants);
 
 }  // namespace sonarsim

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -31,7 +32,7 @@ struct WriterContext {
     const Mission& mission;
     const Assembly& assembly;
     std::size_t sensor;  ///< index in Mission::sensors
-    std::size_t pings;   ///< that the sensor sends in the whole mission
+    std::size_t pings;   ///< number of its pings in the whole mission
 
     const Sonar& sonar() const { return assembly.sonars[sensor]; }
     const KindOfSonar& kind() const { return kind_of(sonar().config.kind); }
@@ -58,7 +59,7 @@ enum class PingArray {
 
 /// A file per ping: NAME/000000EXTENSION in the folder of the sensor.
 struct PingFile {
-    std::string name;       ///< of the folder
+    std::string name;       ///< name of the folder
     std::string extension;  ///< with the dot
     PingArray array = PingArray::none;
     std::string ids = {};    ///< its values are ids of this list of `labels` in dataset.json

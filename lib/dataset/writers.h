@@ -10,7 +10,7 @@ namespace sonarsim {
 /// The writers of one sensor, in the order in which a ping is written.
 using Writers = std::vector<std::unique_ptr<Writer>>;
 
-/// By sensor. InputError when a sensor of the mission would have no output at all.
+/// The writers of each sensor. InputError when a sensor of the mission would have no output at all.
 std::vector<Writers> make_writers(const Mission& mission, const Assembly& assembly);
 
 /// The number of pings of each sensor.

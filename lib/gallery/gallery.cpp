@@ -10,7 +10,6 @@
 #include "core/pose.h"
 #include "core/units.h"
 #include "dataset/dataset_file.h"
-#include "dataset/gallery_file.h"
 #include "dataset/layout.h"
 #include "gallery/content_policy.h"
 #include "gallery/page.h"

@@ -6,6 +6,7 @@
 
 #include "core/atomic_file.h"
 #include "core/error.h"
+#include "core/file.h"
 #include "core/in_parallel.h"
 #include "core/sha256.h"
 
@@ -17,11 +18,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t digits_of_sum = 64;
 
-void add_sum(StreamedFile& file, const std::string& sum, const std::string& name) {
-    file.append(sum + "  " + name + '\n');
-}
-
-/// The files that a ping has for itself, in the order of the writers.
+/// The files of single pings, in the order of the writers.
 void add_loose(StreamedFile& sums, const Layout& layout, std::uint32_t sensor,
                const JournalEntries& entries) {
     const SensorLayout& own = layout.sensors[sensor];
@@ -30,16 +27,18 @@ void add_loose(StreamedFile& sums, const Layout& layout, std::uint32_t sensor,
         if (!file) continue;
         for (std::uint32_t ping = 0; ping < own.pings; ++ping) {
             const PingId id{ping * own.every, sensor};
-            const auto told = entries.pings.find(id);
-            const auto entry = told && k < told->size() ? parse_entry(told->at(k)) : std::nullopt;
+            const auto fields = entries.pings.find(id);
+            const auto entry =
+                fields && k < fields->size() ? parse_entry(fields->at(k)) : std::nullopt;
             const fs::path path = layout.file(id, *file);
-            if (!entry) throw std::runtime_error("the journal does not tell of " + path.string());
-            add_sum(sums, entry->sha256, path.lexically_relative(layout.folder).string());
+            if (!entry) throw std::runtime_error("the journal does not list " + path.string());
+            sums.append(
+                checksum_line(entry->sha256, path.lexically_relative(layout.folder).string()));
         }
     }
 }
 
-/// They are read, several at a time.
+/// Packs, which are read, several at a time.
 void add_packs(StreamedFile& file, const Layout& layout, std::uint32_t sensor) {
     const SensorLayout& own = layout.sensors[sensor];
     std::vector<std::string> sums(layout.packs(sensor));
@@ -49,7 +48,7 @@ void add_packs(StreamedFile& file, const Layout& layout, std::uint32_t sensor) {
     };
     in_parallel(sums.size(), [&](std::size_t k) { sums[k] = sha256_of_file(pack(k)); });
     for (std::size_t k = 0; k < sums.size(); ++k)
-        add_sum(file, sums[k], pack(k).lexically_relative(layout.folder).string());
+        file.append(checksum_line(sums[k], pack(k).lexically_relative(layout.folder).string()));
 }
 
 bool stays_below(const fs::path& name) {
@@ -63,9 +62,9 @@ void write_checksums(const Layout& layout, const JournalEntries& entries,
                      const std::string& description) {
     StreamedFile sums(layout.folder / checksums_name);
     const auto add_file = [&](const std::string& name) {
-        add_sum(sums, sha256_of_file(layout.folder / name), name);
+        sums.append(checksum_line(sha256_of_file(layout.folder / name), name));
     };
-    add_sum(sums, sha256(description), description_name);
+    sums.append(checksum_line(sha256(description), description_name));
     for (const char* name : {mission_name, trajectory_name, journal_name})
         add_file(name);
     for (std::uint32_t i = 0; i < layout.sensors.size(); ++i) {
@@ -84,10 +83,14 @@ void write_checksums(const Layout& layout, const JournalEntries& entries,
     sums.finish();
 }
 
-std::map<std::string, std::string> parse_checksums(const std::string& text,
-                                                   const std::string& file) {
+std::string checksum_line(const std::string& sum, const std::string& name) {
+    return sum + "  " + name + '\n';
+}
+
+std::map<std::string, std::string> read_checksums(const fs::path& file) {
+    constexpr std::size_t largest = std::size_t{1} << 32;
     std::map<std::string, std::string> sums;
-    std::istringstream lines(text);
+    std::istringstream lines(read_file(file, largest));
     int number = 0;
     for (std::string line; std::getline(lines, line);) {
         ++number;
@@ -99,7 +102,7 @@ std::map<std::string, std::string> parse_checksums(const std::string& text,
                            // Each line ends; the last one of a file that was cut off does not.
                            blanks == "  " && stays_below(name) && !lines.eof();
         if (!sound) {
-            throw InputError({file, number},
+            throw InputError({file.string(), number},
                              "is not a SHA-256 sum, two blanks and the name of a file of the "
                              "dataset; remove SHA256SUMS, and the render command that made the "
                              "dataset writes it again");

@@ -10,15 +10,17 @@
 namespace sonarsim {
 
 /// Writes OUT/SHA256SUMS, as `sha256sum -c` takes it in OUT: every file of the dataset but this
-/// one. Of loose files of pings the journal tells the sum, so that they need not be read again; the
+/// one. The journal has the sums of loose files of pings, so that these need not be read again; the
 /// others are read, but for dataset.json, which gets the text `description` afterwards.
 /// std::runtime_error when the journal lacks a ping; std::system_error when a file cannot be read.
 void write_checksums(const Layout& layout, const JournalEntries& entries,
                      const std::string& description);
 
-/// The sums of a text like that by file, relative to OUT. InputError with the line for whatever is
-/// not 64 hexadecimal digits, two blanks (or a blank and a star) and the name of a file below OUT.
-std::map<std::string, std::string> parse_checksums(const std::string& text,
-                                                   const std::string& file);
+/// A line of SHA256SUMS.
+std::string checksum_line(const std::string& sum, const std::string& name);
+
+/// Reads the sums in a SHA256SUMS by file, relative to its folder. InputError with the line for
+/// anything but 64 hexadecimal digits, two blanks and the name of a file below that folder.
+std::map<std::string, std::string> read_checksums(const std::filesystem::path& file);
 
 }  // namespace sonarsim

@@ -1,9 +1,5 @@
 #include "job/collection.h"
 
-#include <tbb/global_control.h>
-#include <tbb/info.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -20,7 +16,7 @@
 #include "dataset/layout.h"
 #include "dataset/ping_metadata.h"
 #include "job/checksums.h"
-#include "job/collection_file.h"
+#include "job/folder.h"
 #include "job/folder_lock.h"
 
 namespace sonarsim {
@@ -30,14 +26,12 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t largest_text = std::size_t{1} << 32;
-
 /// A dataset that is to be collected.
 struct Member {
     fs::path from;
     DatasetFile description;
-    std::map<std::string, std::string> sums;  ///< by file
-    std::string folder;                       ///< in the collection
+    std::map<std::string, std::string> sums;  ///< SHA-256 by file
+    std::string folder;                       ///< its name in the collection
 };
 
 /// The name of the mission becomes that of a folder, which stands in lines of SHA256SUMS.
@@ -57,10 +51,7 @@ Member read_member(const fs::path& from) {
                          "is not complete, and only whole datasets can stand side by side; render "
                          "what is missing, or merge its shards first");
     }
-    Member member{from,
-                  std::move(description),
-                  parse_checksums(read_file(sums, largest_text), sums.string()),
-                  {}};
+    Member member{from, std::move(description), read_checksums(sums), {}};
     member.sums[checksums_name] = sha256_of_file(sums);
     return member;
 }
@@ -138,35 +129,28 @@ std::vector<std::string> seeds_shared_by(const std::vector<Member>& members) {
         for (const std::string& folder : folders)
             names += (names.empty() ? "" : ", ") + folder;
         warnings.push_back("the datasets of seed " + seed + " (" + names +
-                           ") have the same noise, bit for bit, in every bin that nothing lights: "
-                           "to train with one and test with another is a leak; render each with a "
+                           ") have the same noise, bit for bit, in every bin without an echo: to "
+                           "train with one and test with another is a leak; render each with a "
                            "seed of its own, or keep them on the same side");
     }
     return warnings;
 }
 
-/// Refuses symbolic links below `out`: a collection is written into folders of its own.
+/// Refuses symbolic links below `out`.
 void require_no_links(const fs::path& out, const std::vector<Member>& members) {
-    const auto require = [](const fs::path& path) {
-        if (!fs::is_symlink(path)) return;
-        throw InputError({path.string()},
-                         "is a symbolic link, and a collection is written into folders of its own; "
-                         "remove the link or choose another folder");
-    };
+    std::set<fs::path> folders;
     for (const Member& member : members) {
-        std::set<fs::path> folders;
         for (const auto& [name, sum] : member.sums) {
-            for (fs::path above = fs::path(name).parent_path(); !above.empty();
-                 above = above.parent_path())
-                folders.insert(above);
+            for (fs::path path = fs::path(member.folder) / name; path.has_parent_path();
+                 path = path.parent_path())
+                folders.insert(path.parent_path());
         }
-        require(out / member.folder);
-        for (const fs::path& folder : folders)
-            require(out / member.folder / folder);
     }
+    for (const fs::path& folder : folders)
+        require_no_link(out / folder, "a collection");
 }
 
-/// Makes the folder ready, or finds it so, and locks it.
+/// Locks the folder and makes it ready if it is not.
 FolderLock begin_collection(const fs::path& out, const Json& description) {
     FolderLock lock = lock_alone(out);
     if (std::optional<CollectionFile> found = read_collection(out)) {
@@ -188,7 +172,7 @@ bool copy_whole(const fs::path& from, const fs::path& to, const std::string& sum
     fs::copy_file(from, copy.part());
     if (sha256_of_file(copy.part()) != sum) {
         throw InputError({from.string()},
-                         "is not what its SHA256SUMS tells; sonarsim verify says what to do");
+                         "differs from its SHA256SUMS; sonarsim verify says what to do");
     }
     copy.commit();
     return true;
@@ -196,40 +180,31 @@ bool copy_whole(const fs::path& from, const fs::path& to, const std::string& sum
 
 }  // namespace
 
-CollectionSummary collect_datasets(
-    const std::vector<fs::path>& parts, const fs::path& out, int threads,
-    const std::function<void(std::uint64_t, std::uint64_t)>& progress,
-    const std::atomic<bool>& stop) {
+CollectionSummary collect_datasets(const std::vector<fs::path>& parts, const fs::path& out,
+                                   int threads, const ProgressCallback& progress,
+                                   const std::atomic<bool>& stop) {
     const std::vector<Member> members = read_members(parts);
     Json description = describe(members);
     const FolderLock lock = begin_collection(out, description);
     require_no_links(out, members);
     struct Copy {
-        const Member* member;
-        const std::string* name;
-        const std::string* sum;
+        fs::path from, to;
+        std::string sum;
     };
     std::vector<Copy> copies;
     std::string sums;
     for (const Member& member : members) {
         for (const auto& [name, sum] : member.sums) {
-            copies.push_back({&member, &name, &sum});
-            sums.append(sum).append("  ").append(member.folder).append("/").append(name) += '\n';
+            copies.push_back({member.from / name, out / member.folder / name, sum});
+            sums += checksum_line(sum, member.folder + "/" + name);
         }
     }
     CollectionSummary summary{.warnings = seeds_shared_by(members)};
-    if (!lock.works()) summary.warnings.push_back(no_locks_warning(out));
-    if (threads <= 0) threads = tbb::info::default_concurrency();
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    tbb::task_arena arena(threads);
-    arena.execute([&] {
+    if (!lock.works()) summary.warnings.push_back(sentence(no_locks_warning(out)));
+    on_threads(threads, [&](int n) {
         ordered_pipeline(
-            copies.size(), 2 * static_cast<std::size_t>(threads), stop,
-            [&](std::size_t i) {
-                const Copy& copy = copies[i];
-                return copy_whole(copy.member->from / *copy.name,
-                                  out / copy.member->folder / *copy.name, *copy.sum);
-            },
+            copies.size(), 2 * static_cast<std::size_t>(n), stop,
+            [&](std::size_t i) { return copy_whole(copies[i].from, copies[i].to, copies[i].sum); },
             [&](bool copied) {
                 ++(copied ? summary.files : summary.skipped);
                 if (progress) progress(summary.files + summary.skipped, copies.size());
@@ -238,61 +213,11 @@ CollectionSummary collect_datasets(
     if (summary.files + summary.skipped < copies.size()) return summary;
     description["complete"] = true;
     const std::string text = json_text(description);
-    sums += sha256(text) + "  " + collection_name + '\n';
     sync_file_system(out);
-    write_file_durably(out / checksums_name, sums);
+    write_file_durably(out / checksums_name, sums + checksum_line(sha256(text), collection_name));
     write_file_durably(out / collection_name, text);
     summary.complete = true;
     return summary;
-}
-
-std::vector<fs::path> collected_folders(const fs::path& folder) {
-    std::vector<fs::path> folders;
-    if (const std::optional<CollectionFile> collection = read_collection(folder)) {
-        for (const std::string& name : collection->folders)
-            folders.push_back(folder / name);
-    }
-    return folders;
-}
-
-std::vector<std::string> collection_faults(const fs::path& folder) {
-    const std::optional<CollectionFile> collection = read_collection(folder);
-    std::vector<std::string> faults;
-    if (!collection || !collection->complete) {
-        faults.push_back(std::string(collection_name) +
-                         ": is not complete; the merge command that made it, run again, goes on");
-        return faults;
-    }
-    const std::string cure =
-        "; the merge command that made the collection, run into an empty "
-        "folder, makes it anew";
-    const fs::path sums_file = folder / checksums_name;
-    if (!fs::is_regular_file(sums_file))
-        return {std::string(checksums_name) + ": is missing" + cure};
-    auto sums = parse_checksums(read_file(sums_file, largest_text), sums_file.string());
-    const auto check = [&](const std::string& name, const std::string& sum) {
-        const auto told = sums.extract(name);
-        if (told.empty()) {
-            faults.push_back(name + ": SHA256SUMS of the collection does not list it" + cure);
-        } else if (told.mapped() != sum) {
-            faults.push_back(name + ": is not what SHA256SUMS of the collection tells" + cure);
-        }
-    };
-    check(collection_name, sha256_of_file(folder / collection_name));
-    for (const fs::path& dataset : collected_folders(folder)) {
-        const std::string prefix = dataset.filename().string() + "/";
-        const fs::path own = dataset / checksums_name;
-        // What is wrong with a dataset is told of that dataset.
-        if (!fs::is_regular_file(own)) continue;
-        check(prefix + checksums_name, sha256_of_file(own));
-        for (const auto& [name, sum] : parse_checksums(read_file(own, largest_text), own.string()))
-            check(prefix + name, sum);
-    }
-    for (const auto& [name, sum] : sums) {
-        if (fs::is_regular_file(folder / name)) continue;
-        faults.push_back(name + ": is missing, and SHA256SUMS of the collection lists it" + cure);
-    }
-    return faults;
 }
 
 }  // namespace sonarsim

@@ -1,6 +1,9 @@
 #include "job/completion.h"
 
+#include "core/file.h"
+#include "dataset/ping_metadata.h"
 #include "dataset/shared_files.h"
+#include "job/checksums.h"
 
 namespace sonarsim {
 
@@ -22,7 +25,16 @@ void complete_dataset(const Layout& layout, const Mission& mission,
     write_shared_products(layout, mission, common.description);
     JournalEntries entries = read_journal(layout.folder);
     entries.products = require_products(layout);
-    finish_dataset(layout, common.description, entries);
+    write_journal(layout.folder / journal_name, entries);
+    // dataset.json says `complete` only after everything else is durable.
+    sync_file_system(layout.folder);
+    nlohmann::ordered_json finished = common.description;
+    finished["complete"] = true;
+    const std::string text = json_text(finished);
+    write_checksums(layout, entries, text);
+    sync_file_system(layout.folder);
+    write_file_durably(layout.folder / description_name, text);
+    remove_journal_parts(layout);
 }
 
 }  // namespace sonarsim

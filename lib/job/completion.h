@@ -8,7 +8,8 @@
 
 namespace sonarsim {
 
-/// Makes the products and the checksums when every ping is there, and says so in the folder; closes
+/// Completes a dataset that has every ping: writes products, journal.txt and SHA256SUMS, then
+/// dataset.json with `complete` set to true, and removes the parts of the journal; closes
 /// `records`. std::runtime_error when files vanish meanwhile; std::system_error when the disk
 /// fails.
 void complete_dataset(const Layout& layout, const Mission& mission,

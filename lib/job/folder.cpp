@@ -9,8 +9,6 @@
 #include "core/text.h"
 #include "dataset/description.h"
 #include "dataset/ping_metadata.h"
-#include "job/checksums.h"
-#include "job/listed_files.h"
 #include "mission/files.h"
 
 namespace sonarsim {
@@ -20,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// The number at the start of a ping's file name, when the rest of it is `ending`.
+/// The number at the start of a ping's file name, if the rest of it is `ending`.
 std::optional<std::uint32_t> ping_number(std::string_view name, std::string_view ending) {
     if (!name.ends_with(ending)) return std::nullopt;
     name.remove_suffix(ending.size());
@@ -56,14 +54,7 @@ Json own_description(const fs::path& folder) {
     refuse(folder, "holds a dataset.json that is not sonarsim's", or_nothing);
 }
 
-/// Whether there is nothing in the folder but what a run that was killed at its beginning left.
-bool is_unused(const fs::path& folder) {
-    return std::all_of(
-        fs::directory_iterator(folder), fs::directory_iterator(),
-        [](const auto& entry) { return is_temporary_name(entry.path().filename().string()); });
-}
-
-/// Whether the path is the folder or lies below it, links resolved.
+/// True if the path is the folder or lies below it, links resolved.
 bool is_within(const fs::path& path, const fs::path& folder) {
     const fs::path inner = fs::weakly_canonical(path);
     const fs::path outer = fs::weakly_canonical(folder);
@@ -73,12 +64,25 @@ bool is_within(const fs::path& path, const fs::path& folder) {
 
 }  // namespace
 
+bool is_unused(const fs::path& folder) {
+    return std::all_of(
+        fs::directory_iterator(folder), fs::directory_iterator(),
+        [](const auto& entry) { return is_temporary_name(entry.path().filename().string()); });
+}
+
+void require_no_link(const fs::path& path, const std::string& what) {
+    if (!fs::is_symlink(path)) return;
+    throw InputError({path.string()}, "is a symbolic link, and " + what +
+                                          " is written into folders of its own; remove the link "
+                                          "or choose another output folder");
+}
+
 FolderState inspect_folder(const Layout& layout, const Json& description) {
     const fs::path& folder = layout.folder;
     if (!fs::exists(folder)) return FolderState::fresh;
     require_folder(folder);
-    // Another shard may be starting. It writes dataset.json before anything else, so whoever finds
-    // something and only then looks for dataset.json sees it.
+    // Another shard may be starting. It writes dataset.json before anything else, so a run that
+    // finds something and only then looks for dataset.json sees it.
     const bool unused = is_unused(folder);
     if (!fs::exists(folder / description_name)) {
         if (unused) return FolderState::fresh;
@@ -93,13 +97,8 @@ FolderState inspect_folder(const Layout& layout, const Json& description) {
 
 void protect_inputs(const Layout& layout, const Mission& mission) {
     std::vector<fs::path> own = layout.folders();
-    for (const fs::path& folder : own) {
-        if (fs::is_symlink(folder)) {
-            throw InputError({folder.string()},
-                             "is a symbolic link, and a dataset is written into folders of its "
-                             "own; remove the link or choose another output.folder");
-        }
-    }
+    for (const fs::path& folder : own)
+        require_no_link(folder, "a dataset");
     for (const char* name :
          {description_name, mission_name, trajectory_name, journal_name, checksums_name})
         own.push_back(layout.folder / name);
@@ -131,7 +130,7 @@ void begin_dataset(const Layout& layout, const CommonFiles& files) {
     fs::create_directories(layout.folder);
     // First and durably: a folder without it that holds anything else is not ours to write into.
     write_file_durably(layout.folder / description_name, json_text(files.description));
-    // What it promises holds again at the end only.
+    // The sums hold again only when the dataset is complete.
     fs::remove(layout.folder / checksums_name);
     write_file(layout.folder / mission_name, files.mission);
     write_file(layout.folder / trajectory_name, files.trajectory);
@@ -176,24 +175,10 @@ void remove_leftovers(const Layout& layout, const std::vector<PingId>& todo, boo
 }
 
 void remove_journal_parts(const Layout& layout) {
-    const fs::path folder = layout.folder / journal_folder_name;
     std::error_code ignored;  // another run may be removing them, too
-    for (fs::directory_iterator part(folder, ignored), end; part != end; part.increment(ignored)) {
-        if (is_journal_part(part->path().filename().string())) fs::remove(part->path(), ignored);
-    }
-    fs::remove(folder, ignored);  // where nothing else is in it
-}
-
-void finish_dataset(const Layout& layout, const Json& description, const JournalEntries& entries) {
-    write_journal(layout.folder / journal_name, entries);
-    sync_file_system(layout.folder);
-    Json finished = description;
-    finished["complete"] = true;
-    const std::string text = json_text(finished);
-    write_checksums(layout, entries, text);
-    sync_file_system(layout.folder);
-    write_file_durably(layout.folder / description_name, text);
-    remove_journal_parts(layout);
+    for (const fs::path& part : journal_parts(layout.folder))
+        fs::remove(part, ignored);
+    fs::remove(layout.folder / journal_folder_name, ignored);  // stays if it holds other files
 }
 
 }  // namespace sonarsim

@@ -1,24 +1,30 @@
 #pragma once
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "dataset/layout.h"
-#include "job/journal.h"
 
 namespace sonarsim {
 
 enum class FolderState {
     fresh,       ///< holds nothing yet
     unfinished,  ///< holds a part of this very dataset
-    complete,    ///< says that it holds all of it
+    complete,    ///< holds all of it, by its dataset.json
 };
 
-/// What the output folder holds, seen from the dataset that `description` (dataset.json) stands
+/// The state of the output folder, seen from the dataset that `description` (dataset.json) stands
 /// for. InputError when it holds something else: other files, or a dataset of another mission, of
 /// other input files or of another version of the program.
 FolderState inspect_folder(const Layout& layout, const nlohmann::ordered_json& description);
+
+/// True if a folder holds nothing but what a run that was killed at its beginning left.
+bool is_unused(const std::filesystem::path& folder);
+
+/// InputError when the path is a symbolic link. `what` is what a user writes there: "a dataset".
+void require_no_link(const std::filesystem::path& path, const std::string& what);
 
 /// InputError when writing the dataset would touch what is not its own: a file that the mission
 /// reads, or something behind a symbolic link. The folder of the dataset itself may be a link.
@@ -29,7 +35,15 @@ void protect_inputs(const Layout& layout, const Mission& mission);
 /// folder holds files and no dataset of sonarsim, or when that lists a file that the mission reads.
 void remove_dataset(const Layout& layout, const Mission& mission);
 
-/// The text of the files that stand beside the pings.
+/// Removes the files that dataset.json (`description`) lists, complete or temporary, the gallery,
+/// and the folders that are empty then. Other files stay, and so does everything behind a symbolic
+/// link. No description can make it touch a file outside `folder`. InputError, and nothing is
+/// removed, when it lists one of `inputs`, which the mission reads.
+void remove_listed_files(const std::filesystem::path& folder,
+                         const nlohmann::ordered_json& description,
+                         const std::vector<std::filesystem::path>& inputs);
+
+/// The text of the files beside the pings.
 struct CommonFiles {
     nlohmann::ordered_json description;  ///< dataset.json
     std::string mission;                 ///< mission.resolved.yaml
@@ -40,20 +54,15 @@ struct CommonFiles {
 /// with `complete` set to false. std::system_error when the disk does not take them.
 void begin_dataset(const Layout& layout, const CommonFiles& files);
 
-/// Whether the files beside dataset.json and the journal are there.
+/// True if the files beside dataset.json and the journal are there.
 bool has_common_files(const Layout& layout);
 
-/// Removes the temporary files that an interrupted run left of the pings in `todo` (sorted), and of
-/// the common files when no other shard may be at work (`alone`).
+/// Removes the temporary files of the pings in `todo` (sorted) that an interrupted run left, and
+/// with `alone`, when no other shard may be at work, those of the common files.
 void remove_leftovers(const Layout& layout, const std::vector<PingId>& todo, bool alone);
 
-/// Removes the parts of the journal, and no other file. A run that was cut off just before its end
+/// Removes the parts of the journal, and no other file. A run that was killed just before its end
 /// leaves them.
 void remove_journal_parts(const Layout& layout);
-
-/// Writes journal.txt, SHA256SUMS and then dataset.json with `complete` set to true, all durably,
-/// after all else has become durable; then the parts of the journal go.
-void finish_dataset(const Layout& layout, const nlohmann::ordered_json& description,
-                    const JournalEntries& entries);
 
 }  // namespace sonarsim

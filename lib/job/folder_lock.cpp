@@ -26,7 +26,7 @@ constexpr std::chrono::milliseconds pause_between_tries(20);
 
 enum class Lock { taken, busy, unknown };
 
-/// `unknown`: the file system has no locks (ENOLCK, EOPNOTSUPP), or cannot tell.
+/// `unknown`: the file system has no locks (ENOLCK, EOPNOTSUPP), or the call failed.
 Lock lock_now(int fd, int mode) {
     while (::flock(fd, mode | LOCK_NB) != 0) {
         if (errno == EINTR) continue;
@@ -69,7 +69,7 @@ bool FolderLock::try_lock(int mode) {
     return lock != Lock::busy;
 }
 
-/// Whether the open folder still has its name: a run that begins anew may remove folders.
+/// True if the open folder still has its name: a run with --overwrite may remove folders.
 bool FolderLock::is_in_place() const {
     struct stat opened {};
     struct stat named {};
@@ -126,10 +126,8 @@ void refuse_second_run(const fs::path& folder) {
                      "another output.folder");
 }
 
-std::string no_locks_warning(const fs::path& folder) {
-    return folder.string() +
-           ": the disk of this folder has no locks, so that a second run into it would not be "
-           "refused and would mix its files with these; start only one";
+Warning no_locks_warning(const fs::path& folder) {
+    return make_warning(WarningCode::no_locks, folder.string());
 }
 
 bool lock_file(int fd, bool& works) {
@@ -153,15 +151,10 @@ bool is_locked(const fs::path& file) {
 }
 
 bool others_write(const fs::path& folder, int shards) {
-    const std::string same_division = "-of-" + std::to_string(shards) + ".txt";
-    std::error_code none;  // another run may be removing the parts
-    for (fs::directory_iterator part(folder / journal_folder_name, none), end; part != end;
-         part.increment(none)) {
-        const std::string name = part->path().filename().string();
-        const bool shard_beside = shards > 1 && name.ends_with(same_division);
-        if (is_journal_part(name) && !shard_beside && is_locked(part->path())) return true;
-    }
-    return false;
+    return std::ranges::any_of(journal_parts(folder), [&](const fs::path& part) {
+        const bool same_division = shards > 1 && shard_of_part(part)->second == shards;
+        return !same_division && is_locked(part);
+    });
 }
 
 }  // namespace sonarsim

@@ -5,19 +5,20 @@
 #include <functional>
 #include <initializer_list>
 #include <optional>
-#include <string>
+
+#include "checks/warning.h"
 
 namespace sonarsim {
 
 /// The right to write into a folder. It is a lock (flock) on the folder itself: it leaves no file,
-/// and it ends with the process, however that ends. Whoever writes a whole dataset holds the folder
-/// alone; shards of one job share it. Where the file system has no locks, all are granted.
+/// and it ends with the process, however that ends. A run that writes a whole dataset holds the
+/// folder alone; shards of one job share it. If the file system has no locks, all are granted.
 ///
 /// On a network's file system the lock of a folder holds on one machine only. The lock of a part of
-/// the journal, a file, holds on all of them; others_write() asks for it.
+/// the journal, a file, holds on all of them; others_write() checks those.
 class FolderLock {
   public:
-    /// Tells whether to wait on for another run; asked every few hundredths of a second.
+    /// Returns true to wait on for another run; called every few hundredths of a second.
     using Waits = std::function<bool()>;
 
     /// Makes the folder where there is none. Locks nothing yet. InputError when the path is no
@@ -28,14 +29,14 @@ class FolderLock {
     FolderLock(const FolderLock&) = delete;
     FolderLock& operator=(const FolderLock&) = delete;
 
-    // Each takes the place of the lock held before; others may come in between. They return false
-    // when another run holds the folder and `waits` says not to wait on; nothing is held then.
+    // Each replaces the lock held before; others may come in between. They return false when
+    // another run holds the folder and `waits` returns false; nothing is held then.
     bool take_alone(const Waits& waits);
     bool share(const Waits& waits);
-    /// Alone where no other run is at work, else shared.
+    /// Takes it alone if no other run is at work, else shared.
     bool take_alone_or_share(const Waits& waits);
 
-    /// False where the file system has no locks.
+    /// False if the file system has no locks.
     bool works() const { return works_; }
 
   private:
@@ -63,18 +64,18 @@ std::optional<FolderLock> lock_for_run(const std::filesystem::path& folder, int 
 /// InputError: another run writes into the folder.
 [[noreturn]] void refuse_second_run(const std::filesystem::path& folder);
 
-/// What to warn of where the file system has no locks.
-std::string no_locks_warning(const std::filesystem::path& folder);
+/// W28: the file system has no locks.
+Warning no_locks_warning(const std::filesystem::path& folder);
 
-/// Locks a file for this process alone, against a glance by is_locked() as well. Returns false when
-/// another one has locked it; `works` becomes false where the file system has no locks.
+/// Locks a file for this process alone. Returns false when another process has locked it for longer
+/// than is_locked() does; `works` becomes false if the file system has no locks.
 bool lock_file(int fd, bool& works);
 
-/// Whether a process has locked a file with lock_file().
+/// True if a process has locked a file with lock_file().
 bool is_locked(const std::filesystem::path& file);
 
-/// Whether a run that is not a shard of the same division in `shards` writes into the folder of a
-/// dataset, as the locks on the parts of the journal tell. A whole run is of no division.
+/// True if a run that is not a shard of the same division in `shards` writes into the folder of a
+/// dataset, by the locks on the parts of the journal. A run that is no shard has no division.
 bool others_write(const std::filesystem::path& folder, int shards);
 
 }  // namespace sonarsim

@@ -33,7 +33,7 @@ std::string sealed(const std::string& line) {
     return line + ' ' + fnv1a_128(line).substr(0, hash_digits) + '\n';
 }
 
-/// The line without its hash; nothing when they do not agree.
+/// The line without its hash; nothing if they do not agree.
 std::optional<std::string> opened(const std::string& line) {
     const std::size_t space = line.rfind(' ');
     if (space == std::string::npos) return std::nullopt;
@@ -42,10 +42,10 @@ std::optional<std::string> opened(const std::string& line) {
     return text;
 }
 
-std::string ping_line(const PingId& ping, const std::vector<std::string>& what) {
+std::string ping_line(const PingId& ping, const std::vector<std::string>& fields) {
     std::string line = "ping " + std::to_string(ping.sensor) + ' ' + std::to_string(ping.pose);
-    for (const std::string& one : what)
-        line += ' ' + one;
+    for (const std::string& field : fields)
+        line += ' ' + field;
     return sealed(line);
 }
 
@@ -59,10 +59,10 @@ void read_line(const std::string& line, JournalEntries& entries) {
     if (word == "ping") {
         PingId ping{0, sensor};
         words >> ping.pose;
-        std::vector<std::string> what;
+        std::vector<std::string> fields;
         while (words >> word)
-            what.push_back(word);
-        entries.pings.add(ping, what);
+            fields.push_back(word);
+        entries.pings.add(ping, fields);
     } else if (word == "product") {
         std::uint64_t size = 0;
         words >> word >> size;
@@ -70,18 +70,13 @@ void read_line(const std::string& line, JournalEntries& entries) {
     }
 }
 
-double seconds_since_1970() {
-    return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch())
-        .count();
-}
-
-/// A line that tells when something was.
+/// A line with the time of an event.
 std::string time_line(const char* what, double seconds) {
     constexpr double milli = 1e3;
     return sealed(std::string(what) + ' ' + number_text(std::round(seconds * milli) / milli));
 }
 
-/// Line by line, since it may be long.
+/// Reads line by line, since a part may be long.
 void read_part(const fs::path& path, JournalEntries& entries) {
     std::ifstream lines(path, std::ios::binary);
     if (!lines) {
@@ -95,17 +90,16 @@ void read_part(const fs::path& path, JournalEntries& entries) {
 
 }  // namespace
 
+double seconds_since_1970() {
+    return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch())
+        .count();
+}
+
 JournalEntries read_journal(const fs::path& folder) {
     JournalEntries entries;
-    // Parts first: the run that completes a dataset writes the whole before it removes them.
-    const fs::path parts = folder / journal_folder_name;
-    if (fs::is_directory(parts)) {
-        for (const fs::directory_entry& part : fs::directory_iterator(parts)) {
-            const bool ours = is_journal_part(part.path().filename().string());
-            if (ours && part.symlink_status().type() == fs::file_type::regular)
-                read_part(part, entries);
-        }
-    }
+    // Parts first: the run that completes a dataset writes journal.txt before it removes them.
+    for (const fs::path& part : journal_parts(folder))
+        read_part(part, entries);
     if (fs::is_regular_file(folder / journal_name)) read_part(folder / journal_name, entries);
     entries.pings.sort();
     return entries;
@@ -113,8 +107,8 @@ JournalEntries read_journal(const fs::path& folder) {
 
 JournalRun read_journal_run(const fs::path& part) {
     JournalRun run;
-    std::ifstream lines(part,
-                        std::ios::binary);  // none: the run that completed the dataset removed it
+    // It fails if the run that completed the dataset has removed the part.
+    std::ifstream lines(part, std::ios::binary);
     for (std::string line; std::getline(lines, line);) {
         const std::optional<std::string> text = opened(line);
         if (!text) continue;
@@ -132,8 +126,8 @@ JournalRun read_journal_run(const fs::path& part) {
 
 void write_journal(const fs::path& path, const JournalEntries& entries) {
     StreamedFile file(path);
-    entries.pings.for_each([&](const PingId& ping, const std::vector<std::string>& what) {
-        file.append(ping_line(ping, what));
+    entries.pings.for_each([&](const PingId& ping, const std::vector<std::string>& fields) {
+        file.append(ping_line(ping, fields));
     });
     for (const auto& [product, size] : entries.products) {
         file.append(sealed("product " + std::to_string(product.first) + ' ' + product.second + ' ' +
@@ -152,7 +146,7 @@ Journal::Journal(const fs::path& folder, const std::string& name, double checkpo
         ::close(fd_);
         refuse_second_run(folder_);
     }
-    // What an interrupted run left may end in the middle of a line.
+    // The last line of an interrupted run may be torn.
     if (::lseek(fd_, 0, SEEK_END) > 0) pending_ = "\n";
     thread_ = std::thread([this, checkpoint_seconds] { run(checkpoint_seconds); });
 }
@@ -165,10 +159,10 @@ Journal::~Journal() {
     if (fd_ >= 0) ::close(fd_);
 }
 
-void Journal::add(const PingId& ping, const std::vector<std::string>& what) {
+void Journal::add(const PingId& ping, const std::vector<std::string>& fields) {
     const std::lock_guard lock(mutex_);
     rethrow();
-    pending_ += ping_line(ping, what);
+    pending_ += ping_line(ping, fields);
 }
 
 void Journal::finish() {
@@ -195,7 +189,7 @@ void Journal::run(double checkpoint_seconds) {
             checkpoint();
         } catch (...) {
             const std::lock_guard lock(mutex_);
-            fault_ = std::current_exception();
+            error_ = std::current_exception();
             return;
         }
     }
@@ -210,7 +204,7 @@ void Journal::checkpoint() {
     if (lines.empty()) return;
     sync_file_system(folder_);
     if (start_s_ > 0.0) {
-        // A line that an interrupted run left unfinished ends before it.
+        // The torn line of an interrupted run ends before it.
         const std::size_t begin = lines.front() == '\n' ? 1 : 0;
         lines.insert(begin, time_line("run", std::exchange(start_s_, 0.0)));
     }
@@ -225,7 +219,7 @@ void Journal::checkpoint() {
 }
 
 void Journal::rethrow() {
-    if (fault_) std::rethrow_exception(fault_);
+    if (error_) std::rethrow_exception(error_);
 }
 
 }  // namespace sonarsim

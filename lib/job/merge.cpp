@@ -1,9 +1,5 @@
 #include "job/merge.h"
 
-#include <tbb/global_control.h>
-#include <tbb/info.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <memory>
 #include <optional>
@@ -37,7 +33,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t largest_common_file = std::size_t{1} << 32;
 
-/// Beside the pings, what a part holds. `complete` is set to false, as at the beginning of a run.
+/// The files of a part beside its pings. `complete` is set to false, as at the beginning of a run.
 CommonFiles read_common(const fs::path& folder) {
     Json description = require_dataset(folder).json;
     description["complete"] = false;
@@ -63,13 +59,13 @@ void require_same(const fs::path& part, const CommonFiles& found, const fs::path
                          "--different");
 }
 
-/// What the products of a dataset are made with: all that the mission names but the scene.
+/// The input of the products of a dataset: all that the mission names but the scene.
 struct MergeContext {
     Mission mission;
     Assembly assembly;
 };
 
-/// The white of each sensor's pictures, which the scene was needed to find.
+/// The white of each sensor's pictures. It was derived from the scene, which is not needed here.
 std::vector<double> full_scales_of(const DatasetFile& dataset, const std::string& file) {
     std::vector<double> scales;
     for (const DescribedSensor& sensor : dataset.sensors) {
@@ -103,8 +99,8 @@ MergeContext read_context(const fs::path& part, const CommonFiles& common, const
     return context;
 }
 
-/// How many pings fit a pack depends on the scene, which is not needed here: the parts tell. Of a
-/// sensor that the mission does not pack, the packs are a fault that is found later.
+/// The number of pings in a pack depends on the scene, which is not needed here: the description of
+/// the parts has it. Packs of a sensor that the mission does not pack are an error found later.
 void adopt_packs(Layout& layout, const DatasetFile& dataset) {
     for (std::size_t i = 0; i < layout.sensors.size(); ++i) {
         std::size_t& own = layout.sensors[i].pings_per_pack;
@@ -112,9 +108,8 @@ void adopt_packs(Layout& layout, const DatasetFile& dataset) {
     }
 }
 
-/// Compares what dataset.json says with what the mission gives: a key that was changed would be
-/// copied into the whole.
-void require_as_made(const Json& told, const fs::path& part, const MergeContext& context,
+/// Compares dataset.json with the mission: a key that was changed would be copied into the whole.
+void require_as_made(const Json& found, const fs::path& part, const MergeContext& context,
                      const Layout& layout, const std::vector<Writers>& writers) {
     const Mission& mission = context.mission;
     Json made = {{"mission", mission.name},
@@ -123,7 +118,7 @@ void require_as_made(const Json& told, const fs::path& part, const MergeContext&
                  {"sensors", describe_sensors(context.assembly, layout, writers)}};
     if (!layout.products.empty()) made["products"] = layout.products;
     for (const auto& [key, value] : made.items()) {
-        const auto way = first_difference(told.value(key, Json()), value, key);
+        const auto way = first_difference(found.value(key, Json()), value, key);
         if (!way) continue;
         throw InputError({(part / description_name).string()},
                          "'" + printable(*way) +
@@ -134,7 +129,7 @@ void require_as_made(const Json& told, const fs::path& part, const MergeContext&
 
 /// A folder that pings are taken from.
 struct Part {
-    /// `datasets` are open at the same time.
+    /// `datasets`: number of datasets that are open at the same time.
     Part(Layout of, const fs::path& folder, std::size_t datasets) : layout(std::move(of)) {
         layout.folder = folder;
         records = open_records(layout, RecordAccess::read, datasets);
@@ -146,34 +141,29 @@ struct Part {
     std::unique_ptr<FinishedPings> finished;  ///< refers to the two above
 };
 
-/// A ping that is to be copied, and where from.
+/// A ping to be copied, and its source.
 struct Copy {
     PingId id;
     const Part* from;
 };
 
-/// "shards 2/3, 3/3" of the pings that are missing, where the parts' journals tell of shards.
+/// " (--shard 2/3, 3/3)" with the shards of the missing pings; empty if the journals have no
+/// shards.
 std::string missing_shards(const std::vector<PingId>& all,
                            const std::vector<std::unique_ptr<Part>>& parts,
                            const std::vector<std::size_t>& missing) {
-    std::optional<std::uint64_t> shards;
+    int shards = 1;
     for (const auto& part : parts) {
-        const fs::path folder = part->layout.folder / journal_folder_name;
-        if (!fs::is_directory(folder)) continue;
-        for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-            const std::string name = entry.path().stem().string();
-            const std::size_t of = name.find("-of-");
-            if (is_journal_part(entry.path().filename().string()))
-                shards = parse_unsigned(std::string_view(name).substr(of + 4));
-        }
+        for (const fs::path& file : journal_parts(part->layout.folder))
+            shards = shard_of_part(file)->second;
     }
-    if (!shards || *shards < 2) return {};
+    if (shards < 2) return {};
     std::set<int> which;
     for (const std::size_t ping : missing)
-        which.insert(1 + shard_of(parts[0]->layout, all[ping], ping, static_cast<int>(*shards)));
+        which.insert(1 + shard_of(parts[0]->layout, all[ping], ping, shards));
     std::string text;
-    for (const std::uint64_t shard : which)
-        text += (text.empty() ? "" : ", ") + std::to_string(shard) + "/" + std::to_string(*shards);
+    for (const int shard : which)
+        text += (text.empty() ? "" : ", ") + std::to_string(shard) + "/" + std::to_string(shards);
     return " (--shard " + text + ")";
 }
 
@@ -196,25 +186,58 @@ std::vector<Copy> plan_copies(const std::vector<PingId>& all,
                      "'; render what is missing, or name its folder, too");
 }
 
-/// The bytes of a ping, which are those that the journal of its part tells.
+/// The bytes of a ping. InputError unless they are those that the journal of its part lists.
 EncodedPing sound_ping(const Copy& copy) {
     const Part& from = *copy.from;
     EncodedPing encoded = read_ping(from.layout, from.records, *from.finished, copy.id);
     const SensorLayout& sensor = from.layout.sensors[copy.id.sensor];
-    const std::vector<std::string> found = journal_words(sensor, encoded);
-    const std::vector<std::string> told = from.finished->words_of(copy.id);
-    const auto differs = std::ranges::mismatch(found, told).in1;
+    const std::vector<std::string> found = journal_fields(sensor, encoded);
+    const auto differs = std::ranges::mismatch(found, from.finished->fields_of(copy.id)).in1;
     if (differs == found.end()) return encoded;
     const auto* file = std::get_if<PingFile>(&sensor.per_ping[differs - found.begin()]);
     const fs::path path = !file                       ? from.layout.sensor_folder(copy.id.sensor)
                           : sensor.pings_per_pack > 0 ? from.layout.pack_file(copy.id)
                                                       : from.layout.file(copy.id, *file);
     throw InputError({path.string()},
-                     "is not what the journal of its part tells; copy the part again, or remove "
+                     "differs from the journal of its part; copy the part again, or remove "
                      "the file and render that shard again");
 }
 
-/// `out` may hold an unfinished merge, and none of the parts.
+/// Makes the missing pings of a dataset from those of the parts, and completes it.
+void copy_pings(const std::vector<std::unique_ptr<Part>>& parts, const std::vector<PingId>& all,
+                const Layout& layout, const MergeContext& context,
+                const std::vector<Writers>& writers, const CommonFiles& common, int threads,
+                const ProgressCallback& progress, const std::atomic<bool>& stop,
+                MergeSummary& summary) {
+    RecordFiles records = open_records(layout, RecordAccess::write, parts.size() + 1);
+    const FinishedPings there(layout, records);
+    const std::vector<Copy> copies = plan_copies(all, parts, there);
+    summary.skipped = all.size() - copies.size();
+    constexpr double checkpoint_s = 5.0;
+    Journal journal(layout.folder, journal_part(1, 1), checkpoint_s);
+    PingFiles files(layout, records, there);
+    ordered_pipeline(
+        copies.size(), 2 * static_cast<std::size_t>(threads), stop,
+        [&](std::size_t i) {
+            EncodedPing encoded = sound_ping(copies[i]);
+            files.write(copies[i].id, encoded);
+            return encoded;
+        },
+        [&](const EncodedPing& encoded) {
+            const Copy& copy = copies[summary.pings];
+            files.pack(copy.id, encoded);
+            journal.add(copy.id, copy.from->finished->fields_of(copy.id));
+            ++summary.pings;
+            if (progress) progress(summary.pings, copies.size());
+        });
+    journal.finish();
+    if (summary.pings < copies.size()) return;
+    complete_dataset(layout, context.mission, writers, records, common);
+    summary.complete = true;
+}
+
+}  // namespace
+
 void require_apart(const std::vector<fs::path>& parts, const fs::path& out) {
     for (const fs::path& part : parts) {
         std::error_code absent;
@@ -225,11 +248,8 @@ void require_apart(const std::vector<fs::path>& parts, const fs::path& out) {
     }
 }
 
-}  // namespace
-
 MergeSummary merge_datasets(const std::vector<fs::path>& folders, const fs::path& out, int threads,
-                            const std::function<void(std::uint64_t, std::uint64_t)>& progress,
-                            const std::atomic<bool>& stop) {
+                            const ProgressCallback& progress, const std::atomic<bool>& stop) {
     require_apart(folders, out);
     const CommonFiles common = read_common(folders.at(0));
     for (const fs::path& folder : folders)
@@ -246,7 +266,7 @@ MergeSummary merge_datasets(const std::vector<fs::path>& folders, const fs::path
 
     protect_inputs(layout, context.mission);
     const std::vector<PingId> all = list_pings(context.mission, poses);
-    // What is missing is told before anything is written.
+    // InputError for missing pings before anything is written.
     if (inspect_folder(layout, common.description) == FolderState::fresh)
         plan_copies(all, parts, *parts[0]->finished);
     const FolderLock lock = lock_alone(layout.folder);
@@ -258,37 +278,9 @@ MergeSummary merge_datasets(const std::vector<fs::path>& folders, const fs::path
         return summary;
     }
     begin_dataset(layout, common);
-    RecordFiles records = open_records(layout, RecordAccess::write, folders.size() + 1);
-    const FinishedPings there(layout, records);
-    const std::vector<Copy> copies = plan_copies(all, parts, there);
-    summary.skipped = all.size() - copies.size();
-
-    if (threads <= 0) threads = tbb::info::default_concurrency();
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    tbb::task_arena arena(threads);
-    constexpr double checkpoint_s = 5.0;
-    Journal journal(layout.folder, journal_part(1, 1), checkpoint_s);
-    PingFiles files(layout, records, there);
-    arena.execute([&] {
-        ordered_pipeline(
-            copies.size(), 2 * static_cast<std::size_t>(threads), stop,
-            [&](std::size_t i) {
-                EncodedPing encoded = sound_ping(copies[i]);
-                files.write(copies[i].id, encoded);
-                return encoded;
-            },
-            [&](const EncodedPing& encoded) {
-                const Copy& copy = copies[summary.pings];
-                files.pack(copy.id, encoded);
-                journal.add(copy.id, copy.from->finished->words_of(copy.id));
-                ++summary.pings;
-                if (progress) progress(summary.pings, copies.size());
-            });
+    on_threads(threads, [&](int n) {
+        copy_pings(parts, all, layout, context, writers, common, n, progress, stop, summary);
     });
-    journal.finish();
-    if (summary.pings < copies.size()) return summary;
-    complete_dataset(layout, context.mission, writers, records, common);
-    summary.complete = true;
     return summary;
 }
 

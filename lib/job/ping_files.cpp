@@ -1,8 +1,13 @@
 #include "job/ping_files.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <fstream>
 #include <span>
+#include <utility>
 
 #include "core/error.h"
 #include "core/file.h"
@@ -30,14 +35,14 @@ std::string read_part_of(const fs::path& path, std::uint64_t offset, std::uint64
 
 }  // namespace
 
-std::vector<std::string> journal_words(const SensorLayout& sensor, const EncodedPing& encoded) {
-    std::vector<std::string> words;
+std::vector<std::string> journal_fields(const SensorLayout& sensor, const EncodedPing& encoded) {
+    std::vector<std::string> fields;
     for (std::size_t k = 0; k < encoded.size(); ++k) {
         const bool record = std::holds_alternative<PingRecord>(sensor.per_ping[k]);
-        words.push_back(record ? hash_of_record(encoded[k])
-                               : entry_text({encoded[k].size(), sha256(encoded[k])}));
+        fields.push_back(record ? hash_of_record(encoded[k])
+                                : entry_text({encoded[k].size(), sha256(encoded[k])}));
     }
-    return words;
+    return fields;
 }
 
 EncodedPing read_ping(const Layout& layout, const RecordFiles& records,
@@ -60,6 +65,36 @@ EncodedPing read_ping(const Layout& layout, const RecordFiles& records,
         }
     }
     return encoded;
+}
+
+PackFile::PackFile(const std::filesystem::path& path)
+    : path_(path), fd_(::open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666)) {
+    if (fd_ < 0) throw_errno("cannot write", path_);
+}
+
+PackFile::~PackFile() {
+    if (fd_ >= 0) ::close(fd_);
+}
+
+void PackFile::write(std::uint64_t offset, std::string_view bytes) {
+    if (fd_ < 0) fd_ = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC | O_NOFOLLOW);
+    if (fd_ < 0) throw_errno("cannot write", path_);
+    while (!bytes.empty()) {
+        const ssize_t put = ::pwrite(fd_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+        if (put < 0 && errno == EINTR) continue;
+        if (put < 0) throw_errno("cannot write", path_);
+        offset += static_cast<std::uint64_t>(put);
+        bytes.remove_prefix(static_cast<std::size_t>(put));
+    }
+}
+
+void PackFile::pause() {
+    if (::close(std::exchange(fd_, -1)) != 0) throw_errno("cannot write", path_);
+}
+
+void PackFile::finish(std::uint64_t bytes) {
+    const bool cut = ::ftruncate(fd_, static_cast<off_t>(bytes)) == 0;
+    if (!cut || ::close(std::exchange(fd_, -1)) != 0) throw_errno("cannot write", path_);
 }
 
 PingFiles::PingFiles(const Layout& layout, const RecordFiles& records, const FinishedPings& there)

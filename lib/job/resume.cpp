@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of a regular file; nothing for anything else.
+/// The size of a regular file; nothing for anything else.
 std::optional<std::uint64_t> size_of(const fs::path& path) {
     std::error_code absent;
     if (fs::symlink_status(path, absent).type() != fs::file_type::regular) return std::nullopt;
@@ -22,7 +22,7 @@ std::optional<std::uint64_t> size_of(const fs::path& path) {
     return absent ? std::nullopt : std::optional(size);
 }
 
-/// Those of the dataset as of a sensor after the last one.
+/// Visits the products; those of all sensors as if of a sensor after the last one.
 template <class Visit>
 void for_each_product(const Layout& layout, const Visit& visit) {
     for (std::uint32_t i = 0; i < layout.sensors.size(); ++i) {
@@ -69,20 +69,19 @@ FinishedPings::FinishedPings(const Layout& layout, const RecordFiles& records)
 void FinishedPings::find_packed(std::uint32_t sensor) {
     const SensorLayout& own = layout_.sensors[sensor];
     ends_[sensor].assign(own.pings, 0);
-    std::uint64_t size = 0;  // of the pack's file
+    std::uint64_t size = 0;  // bytes of the pack
     for (std::uint32_t i = 0; i < own.pings; ++i) {
         const PingId ping{i * own.every, sensor};
         const bool first = i % own.pings_per_pack == 0;
         if (first) size = size_of(layout_.pack_file(ping)).value_or(0);
         if (!first && ends_[sensor][i - 1] == 0) continue;
-        if (size == 0 || !is_told(ping)) continue;
+        if (size == 0 || !is_listed(ping)) continue;
         std::uint64_t end = begin_in_pack(ping);
         for (std::size_t k = 0; k < own.per_ping.size(); ++k) {
             if (std::holds_alternative<PingFile>(own.per_ping[k]))
                 end += tar_bytes(bytes_of(ping, k));
         }
-        // A pack that goes on is not finished yet, or was cut off: what it holds is told by its
-        // journal.
+        // A pack that was cut off may be longer than the pings that the journal lists.
         const bool whole =
             layout_.is_last_in_pack(ping) ? size == end + tar_end_bytes : size >= end;
         if (whole) ends_[sensor][i] = end;
@@ -96,30 +95,30 @@ std::uint64_t FinishedPings::begin_in_pack(const PingId& ping) const {
 }
 
 std::uint64_t FinishedPings::bytes_of(const PingId& ping, std::size_t k) const {
-    return parse_entry(words_of(ping).at(k)).value_or(FileEntry{}).bytes;
+    return parse_entry(fields_of(ping).at(k)).value_or(FileEntry{}).bytes;
 }
 
-std::vector<std::string> FinishedPings::words_of(const PingId& ping) const {
+std::vector<std::string> FinishedPings::fields_of(const PingId& ping) const {
     return entries_.pings.find(ping).value();
 }
 
 bool FinishedPings::operator()(const PingId& ping) const {
     const bool packed = layout_.sensors[ping.sensor].pings_per_pack > 0;
-    return packed ? ends_[ping.sensor][layout_.record_of(ping)] > 0 : is_told(ping);
+    return packed ? ends_[ping.sensor][layout_.record_of(ping)] > 0 : is_listed(ping);
 }
 
-bool FinishedPings::is_told(const PingId& ping) const {
-    const auto words = entries_.pings.find(ping);
+bool FinishedPings::is_listed(const PingId& ping) const {
+    const auto fields = entries_.pings.find(ping);
     const SensorLayout& sensor = layout_.sensors[ping.sensor];
     const auto& parts = sensor.per_ping;
-    if (!words || words->size() != parts.size()) return false;
+    if (!fields || fields->size() != parts.size()) return false;
     for (std::size_t k = 0; k < parts.size(); ++k) {
-        const std::string& expected = (*words)[k];
+        const std::string& expected = (*fields)[k];
         if (const auto* file = std::get_if<PingFile>(&parts[k])) {
-            const auto told = parse_entry(expected);
-            if (!told) return false;
+            const auto entry = parse_entry(expected);
+            if (!entry) return false;
             const bool loose = sensor.pings_per_pack == 0;
-            if (loose && size_of(layout_.file(ping, *file)) != told->bytes) return false;
+            if (loose && size_of(layout_.file(ping, *file)) != entry->bytes) return false;
         } else if (records_[ping.sensor][k]->hash(layout_.record_of(ping)) != expected) {
             return false;
         }
@@ -162,7 +161,7 @@ ProductSizes require_products(const Layout& layout) {
 
 namespace {
 
-/// Whether every product is there with the size that the journal tells.
+/// True if every product is there with the size that the journal lists.
 bool has_products(const Layout& layout) {
     const ProductSizes expected = read_journal(layout.folder).products;
     bool all = true;

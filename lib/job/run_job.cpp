@@ -1,9 +1,5 @@
 #include "job/run_job.h"
 
-#include <tbb/global_control.h>
-#include <tbb/info.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -11,13 +7,11 @@
 #include <utility>
 #include <vector>
 
-#include "assembly/engine_at.h"
 #include "assembly/engine_probes.h"
 #include "core/clock.h"
 #include "core/error.h"
 #include "core/ordered_pipeline.h"
 #include "dataset/encode_ping.h"
-#include "dataset/finite_image.h"
 #include "dataset/metadata.h"
 #include "job/completion.h"
 #include "job/folder.h"
@@ -25,37 +19,33 @@
 #include "job/journal.h"
 #include "job/ping_files.h"
 #include "job/resume.h"
-#include "sonar/sonar_at_pose.h"
 #include "trajectory/files.h"
 
 namespace sonarsim {
 
 namespace {
 
-/// What one ping left behind besides its files.
+/// The result of one ping besides its files.
 struct PingReport {
     PingId id;
-    EncodedPing encoded;             ///< to be packed; empty where nothing is
-    std::vector<std::string> words;  ///< for the journal
-    PingCounts counts;
+    EncodedPing encoded;              ///< bytes for a pack; empty if the sensor has none
+    std::vector<std::string> fields;  ///< for the journal
+    SensorSummary summary;            ///< this ping alone
     PingSeconds seconds;
-    float brightest = 0.0F;
     double encode_seconds = 0.0;
     double write_seconds = 0.0;
-    std::uint64_t clipped_pixels = 0;
-    double estimated_l1 = 0.0;  ///< NaN when the engine has no estimate
-    double goal_l1 = 0.0;
 };
 
-void add(SensorSummary& sensor, const PingReport& report) {
-    ++sensor.pings;
-    sensor.dark_pings += report.counts.occupied_bins == 0;
-    sensor.counts += report.counts;
-    sensor.clipped_pixels += report.clipped_pixels;
-    sensor.brightest = std::max(sensor.brightest, report.brightest);
-    if (std::isnan(report.estimated_l1)) return;
-    sensor.missed_goals += report.estimated_l1 > report.goal_l1;
-    sensor.worst_l1 = std::max(sensor.worst_l1, report.estimated_l1);
+PingReport report_of(const RenderedPing& rendered) {
+    const auto& [id, sonar, engine, traced, ping] = rendered;
+    SensorSummary summary{.pings = 1,
+                          .dark_pings = ping.counts.occupied_bins == 0 ? 1U : 0U,
+                          .counts = ping.counts,
+                          .brightest = brightest_pixel(ping, sonar->config.name, id.pose)};
+    // The estimate is NaN if the engine has none.
+    summary.missed_goals = ping.estimated_l1 > sonar->settings.view.relative_l1 ? 1 : 0;
+    if (!std::isnan(ping.estimated_l1)) summary.worst_l1 = ping.estimated_l1;
+    return {.id = id, .encoded = {}, .fields = {}, .summary = summary, .seconds = ping.seconds};
 }
 
 void add(RenderSummary& summary, const PingReport& report) {
@@ -63,29 +53,22 @@ void add(RenderSummary& summary, const PingReport& report) {
     summary.stages += report.seconds;
     summary.encode_seconds += report.encode_seconds;
     summary.write_seconds += report.write_seconds;
-    summary.counts += report.counts;
-    summary.clipped_pixels += report.clipped_pixels;
-    add(summary.sensors[report.id.sensor], report);
+    summary.counts += report.summary.counts;
+    summary.clipped_pixels += report.summary.clipped_pixels;
+    summary.sensors[report.id.sensor] += report.summary;
 }
 
-void check(const RenderOptions& options) {
-    if (options.threads < 0) throw InputError("the number of threads must not be negative");
-    if (options.shards < 1 || options.shard < 0 || options.shard >= options.shards) {
-        throw InputError("a shard must be one of 0 to shards - 1");
-    }
-    if (options.overwrite && options.shards > 1) {
-        throw InputError(
-            "one shard must not overwrite what another writes: remove the folder instead");
-    }
-}
-
-/// Which pings a run renders.
+/// The pings that a run renders.
 struct Plan {
     std::vector<PingId> todo;
-    std::uint64_t skipped = 0;  ///< of this shard, with all their files
+    std::uint64_t skipped = 0;  ///< pings of this shard with all their files
 };
 
-/// The pings whose index in list_pings() is i are in shard `shard_of(i)`.
+bool is_never_there(const PingId& /*ping*/) {
+    return false;
+}
+
+/// `shard(i)` is the shard of the ping with the index i in list_pings().
 Plan make_plan(const std::vector<PingId>& all, const RenderOptions& options,
                const std::function<int(std::size_t)>& shard,
                const std::function<bool(const PingId&)>& is_there) {
@@ -97,7 +80,7 @@ Plan make_plan(const std::vector<PingId>& all, const RenderOptions& options,
     return plan;
 }
 
-/// Where a run writes to.
+/// The place that a run writes to.
 struct Destination {
     const Layout& layout;
     const std::vector<Writers>& writers;
@@ -105,63 +88,56 @@ struct Destination {
     Journal& journal;
 };
 
-/// Hands a ping to the writers of its sensor and what they make of it to the disk.
-void write_ping(const Assembly& assembly, const VisibilityEngine& engine, const Destination& to,
-                const LabelPlan& labels, const Sonar& sonar, const TracedPing& traced,
-                const Ping& ping, PingReport& report) {
+/// The arguments of run_job(), and what its steps share.
+struct Run {
+    const Mission& mission;
+    const Assembly& assembly;
+    const RenderOptions& options;
+    const JobCallback& progress;
+    const std::atomic<bool>& stop;
+    int threads;
+    RenderSummary& summary;
+};
+
+/// Hands a ping to the writers of its sensor, and their output to the disk.
+void write_ping(const Assembly& assembly, const Destination& to, const LabelPlan& labels,
+                const RenderedPing& rendered, PingReport& report) {
     const PingId& id = report.id;
     Stopwatch watch;
-    WrittenPing written =
-        encode_ping(assembly, engine, to.writers[id.sensor], labels, id, sonar, traced, ping);
-    report.clipped_pixels = written.clipped_pixels;
+    WrittenPing written = encode_ping(assembly, to.writers[id.sensor], labels, rendered);
+    report.summary.clipped_pixels = written.clipped_pixels;
     report.encode_seconds = watch.lap();
     to.files.write(id, written.parts);
     const SensorLayout& sensor = to.layout.sensors[id.sensor];
-    report.words = journal_words(sensor, written.parts);
+    report.fields = journal_fields(sensor, written.parts);
     if (sensor.pings_per_pack > 0) report.encoded = std::move(written.parts);
     report.write_seconds = watch.lap();
 }
 
 /// Renders `todo`, several pings at a time; at most twice as many as threads are in memory. Without
-/// a destination nothing is written, but what `labels`, by sensor, ask for is found.
-void render(const Mission& mission, const Assembly& assembly, const std::vector<LabelPlan>& labels,
-            const std::vector<PingId>& todo, const Destination* to, int threads,
-            const JobCallback& progress, const std::atomic<bool>& stop, RenderSummary& summary) {
+/// a destination nothing is written, but labels are found.
+void render(const Run& run, const std::vector<PingId>& todo, const Destination* to) {
     if (todo.empty()) return;
+    const Assembly& assembly = run.assembly;
+    RenderSummary& summary = run.summary;
+    std::vector<LabelPlan> labels;
+    for (const Sonar& sonar : assembly.sonars)
+        labels.push_back(plan_labels(run.mission, assembly, sonar));
     const std::unique_ptr<VisibilityEngine> engine =
-        make_engine(assembly.scene, engine_settings(mission, assembly));
+        make_engine(assembly.scene, engine_settings(run.mission, assembly));
     Stopwatch watch;
     ordered_pipeline(
-        todo.size(), 2 * static_cast<std::size_t>(threads), stop,
+        todo.size(), 2 * static_cast<std::size_t>(run.threads), run.stop,
         [&](std::size_t i) {
-            const PingId& id = todo[i];
-            const SonarAtPose at_pose(mission, assembly.sonars[id.sensor], id.pose);
-            const Sonar& sonar = *at_pose;
-            const TimedPose& pose = assembly.trajectory[id.pose];
-            const std::vector<Sight> sights_of_ping =
-                sights(sonar.settings.view, sonar.settings.guard_beams,
-                       sensor_pose(sonar, pose.T_world_vehicle, id.pose));
-            const std::shared_ptr<const VisibilityEngine> now =
-                engine_at(*engine, assembly.motions, pose.t_s, sights_of_ping);
-            const TracedPing traced =
-                trace(sonar, assembly.scene, *now, pose.T_world_vehicle, id.pose);
-            const Ping ping =
-                form_image(traced, sonar.settings, assembly.scene, {mission.seed, id.pose});
-            PingReport report{.id = id,
-                              .encoded = {},
-                              .words = {},
-                              .counts = ping.counts,
-                              .seconds = ping.seconds,
-                              .brightest = brightest_pixel(ping, sonar.config.name, id.pose),
-                              .estimated_l1 = ping.estimated_l1,
-                              .goal_l1 = sonar.settings.view.relative_l1};
-            const LabelPlan& plan = labels[id.sensor];
+            const RenderedPing rendered = render_at_pose(run.mission, assembly, *engine, todo[i]);
+            PingReport report = report_of(rendered);
+            const LabelPlan& plan = labels[report.id.sensor];
             if (to) {
-                write_ping(assembly, *now, *to, plan, sonar, traced, ping, report);
+                write_ping(assembly, *to, plan, rendered, report);
             } else if (plan.on) {
                 Stopwatch labelling;
-                label_ping(traced, sonar.settings, assembly.scene, assembly.objects, *now,
-                           plan.request);
+                label_ping(rendered.traced, rendered.sonar->settings, assembly.scene,
+                           assembly.objects, *rendered.engine, plan.request);
                 report.encode_seconds = labelling.lap();
             }
             return report;
@@ -172,17 +148,18 @@ void render(const Mission& mission, const Assembly& assembly, const std::vector<
                 Stopwatch packing;
                 to->files.pack(report.id, report.encoded);
                 summary.write_seconds += packing.lap();
-                to->journal.add(report.id, report.words);
+                to->journal.add(report.id, report.fields);
             }
-            if (progress) progress(summary, todo.size());
+            if (run.progress) run.progress(summary, todo.size());
         });
     summary.seconds = watch.lap();
     summary.stopped = summary.pings < todo.size();
-    summary.warnings = engine->warnings();
+    for (const std::string& warning : engine->warnings())
+        summary.warnings.push_back(make_warning(WarningCode::engine, "engine", warning));
 }
 
-/// Makes the folder ready for pings, and says what it held before. A shard then lets others in; as
-/// another run may come in between, the folder is looked at once more.
+/// Makes the folder ready for pings, and returns what it held before. A shard then admits other
+/// shards; since another run may come in between, the folder is inspected once more.
 FolderState set_up(const Layout& layout, const CommonFiles& common, const Mission& mission,
                    const RenderOptions& options, FolderLock& lock) {
     if (options.overwrite) remove_dataset(layout, mission);
@@ -209,53 +186,30 @@ bool complete_once(const Layout& layout, const Mission& mission,
     return true;
 }
 
-}  // namespace
-
-RenderSummary run_job(const Mission& mission, const Assembly& assembly,
-                      const RenderOptions& options, const JobCallback& progress,
-                      const std::atomic<bool>& stop) {
-    check(options);
-    const int threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    tbb::task_arena arena(threads);
-    const std::vector<PingId> all = list_pings(mission, assembly.trajectory.size());
-    RenderSummary summary;
-    summary.sensors.resize(assembly.sonars.size());
-    std::vector<LabelPlan> labels;
-    for (const Sonar& sonar : assembly.sonars)
-        labels.push_back(plan_labels(mission, assembly, sonar));
-    const auto render_all = [&](const std::vector<PingId>& todo, const Destination* to) {
-        arena.execute(
-            [&] { render(mission, assembly, labels, todo, to, threads, progress, stop, summary); });
-    };
-    if (!options.files) {
-        const auto shard = [&](std::size_t i) { return static_cast<int>(i % options.shards); };
-        const auto none = [](const PingId&) { return false; };
-        render_all(make_plan(all, options, shard, none).todo, nullptr);
-        return summary;
-    }
-
+/// Renders into the folder of the mission what is missing there, and completes the dataset.
+void run_in_folder(const Run& run, const std::vector<PingId>& all) {
+    const Mission& mission = run.mission;
+    const Assembly& assembly = run.assembly;
+    const RenderOptions& options = run.options;
+    RenderSummary& summary = run.summary;
     const std::vector<Writers> writers = make_writers(mission, assembly);
     const Layout layout = make_layout(mission, writers, assembly.trajectory.size());
     const CommonFiles common{describe_dataset(mission, assembly, layout, writers),
                              resolved_text(mission, assembly), write_tum(assembly.trajectory)};
     protect_inputs(layout, mission);
-    std::optional<FolderLock> lock = lock_for_run(layout.folder, options.shards, stop);
-    if (!lock) {
-        summary.stopped = true;
-        return summary;
-    }
+    std::optional<FolderLock> lock = lock_for_run(layout.folder, options.shards, run.stop);
+    summary.stopped = !lock;
+    if (!lock) return;
     summary.unlocked = !lock->works();
     const FolderState state = set_up(layout, common, mission, options, *lock);
     const auto shard = [&](std::size_t i) { return shard_of(layout, all[i], i, options.shards); };
     if (state == FolderState::complete) {
-        const auto none = [](const PingId&) { return false; };
-        const std::vector<PingId> own = make_plan(all, options, shard, none).todo;
+        const std::vector<PingId> own = make_plan(all, options, shard, is_never_there).todo;
         summary.complete = has_all(layout, own);
         if (summary.complete) {
             summary.skipped = own.size();
             remove_journal_parts(layout);
-            return summary;
+            return;
         }
         begin_dataset(layout, common);
     }
@@ -271,20 +225,50 @@ RenderSummary run_job(const Mission& mission, const Assembly& assembly,
     {
         PingFiles files(layout, records, *there);
         const Destination to{layout, writers, files, journal};
-        render_all(plan.todo, &to);
+        render(run, plan.todo, &to);
     }
     journal.finish();
-    if (summary.stopped) return summary;
-    // What was there, or written by this run, may be gone by now: all of it is looked at once more.
+    if (summary.stopped) return;
+    // Files may have been removed meanwhile: all of them are looked at once more.
     require_records(records);
-    // The journal is held once at a time: of many pings it is long.
+    // Only one copy of the journal is held at a time: with many pings it is long.
     there.emplace(layout, records);
     require_files(layout, plan.todo, *there);
     const bool all_there = std::ranges::all_of(all, *there);
     there.reset();
-    if (!all_there) return summary;
-    summary.complete = complete_once(layout, mission, writers, records, common, *lock, stop);
+    if (!all_there) return;
+    summary.complete = complete_once(layout, mission, writers, records, common, *lock, run.stop);
     summary.stopped = !summary.complete;
+}
+
+}  // namespace
+
+void check(const RenderOptions& options) {
+    if (options.threads < 0) throw InputError("the number of threads must not be negative");
+    if (options.shards < 1 || options.shard < 0 || options.shard >= options.shards)
+        throw InputError("a shard must be one of 0 to shards - 1");
+    if (options.overwrite && options.shards > 1) {
+        throw InputError(
+            "one shard must not overwrite what another writes: remove the folder instead");
+    }
+}
+
+RenderSummary run_job(const Mission& mission, const Assembly& assembly,
+                      const RenderOptions& options, const JobCallback& progress,
+                      const std::atomic<bool>& stop) {
+    check(options);
+    RenderSummary summary;
+    summary.sensors.resize(assembly.sonars.size());
+    on_threads(options.threads, [&](int threads) {
+        const Run run{mission, assembly, options, progress, stop, threads, summary};
+        const std::vector<PingId> all = list_pings(mission, assembly.trajectory.size());
+        if (options.files) {
+            run_in_folder(run, all);
+        } else {
+            const auto shard = [&](std::size_t i) { return static_cast<int>(i % options.shards); };
+            render(run, make_plan(all, options, shard, is_never_there).todo, nullptr);
+        }
+    });
     return summary;
 }
 

@@ -3,11 +3,12 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
-#include <string>
 #include <vector>
 
 #include "assembly/assemble.h"
+#include "checks/warning.h"
 #include "dataset/sensor_summary.h"
+#include "job/parallel.h"
 #include "mission/mission.h"
 #include "trace/ping.h"
 
@@ -17,38 +18,36 @@ struct RenderOptions {
     int threads = 0;            ///< 0: one per core
     int shard = 0;              ///< renders the pings whose index i has i % shards == shard
     int shards = 1;             ///< 1: all of them
-    bool overwrite = false;     ///< begins anew where the folder holds another dataset
+    bool overwrite = false;     ///< replaces another dataset in the folder
     bool files = true;          ///< false: renders and throws away, to measure
-    double checkpoint_s = 5.0;  ///< between checkpoints; what a power cut costs at the most
+    double checkpoint_s = 5.0;  ///< between checkpoints; the most that a power cut costs
 };
+/// InputError when the options contradict each other.
+void check(const RenderOptions& options);
 
 struct RenderSummary {
     std::uint64_t pings = 0;    ///< rendered by this run
     std::uint64_t skipped = 0;  ///< not rendered: their files were there already
     bool complete = false;      ///< the folder now holds every ping of every shard
     bool stopped = false;       ///< ended early on request
-    bool unlocked = false;      ///< the disk has no locks that would keep a second run away
+    bool unlocked = false;      ///< the disk has no locks that would refuse a second run
     double seconds = 0.0;       ///< wall clock from the first ping to the last
     PingSeconds stages;         ///< summed over the pings, and so over threads
     double encode_seconds = 0.0;
     double write_seconds = 0.0;
     PingCounts counts;                   ///< summed over the pings
-    std::vector<std::string> warnings;   ///< of the engine
+    std::vector<Warning> warnings;       ///< from the engine; of variants also about the images
     std::uint64_t clipped_pixels = 0;    ///< intensities above full_scale, where files were written
     std::vector<SensorSummary> sensors;  ///< in the order of Mission::sensors
 };
 
-/// Called after each ping with how many are done and how many this run has to do; from any
-/// thread, but never twice at a time, and in ascending order.
-using ProgressCallback = std::function<void(std::uint64_t done, std::uint64_t total)>;
-
-/// The same of a job, with what its pings came to so far.
+/// As ProgressCallback, with the sums over the pings so far.
 using JobCallback = std::function<void(const RenderSummary& so_far, std::uint64_t total)>;
 
 /// Renders a mission into its output folder.
 ///
 /// A folder with an unfinished dataset of the same mission, inputs and program version is resumed:
-/// pings that its journal lists, and whose files are there with the sizes that it tells, are not
+/// pings that its journal lists, and whose files are there with the listed sizes, are not
 /// rendered again, and the bytes come out the same. If nothing is missing, nothing is done. Shards
 /// may run at the same time, in one folder or in folders that are merged later (job/merge.h);
 /// whichever run finds that no ping is missing makes the products and marks the dataset as

@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
+#include <tuple>
 
 #include "core/error.h"
-#include "core/text.h"
 #include "dataset/description.h"
 #include "dataset/layout.h"
 #include "job/folder_lock.h"
@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// As much of the layout as tells which ping is in which shard.
+/// The part of the layout from which shard_of() derives the shard of a ping.
 Layout layout_of(const fs::path& folder, const DatasetFile& dataset) {
     Layout layout;
     layout.folder = folder;
@@ -37,8 +37,8 @@ Layout layout_of(const fs::path& folder, const DatasetFile& dataset) {
     return layout;
 }
 
-/// Calls `visit` with every ping of the dataset and its index, as list_pings() has them. A list of
-/// them could take more memory than there is: dataset.json alone tells how many they are.
+/// Calls `visit` with every ping of the dataset and its index in list_pings(). There is no list of
+/// them: dataset.json may claim more pings than fit into memory.
 template <class Visit>
 void for_each_ping(const Layout& layout, const Visit& visit) {
     std::size_t index = 0;
@@ -47,28 +47,6 @@ void for_each_ping(const Layout& layout, const Visit& visit) {
             if (pose % layout.sensors[sensor].every == 0) visit(PingId{pose, sensor}, index++);
         }
     }
-}
-
-/// The shards that a name of the form journal_part() stands for.
-std::pair<int, int> shard_of_part(const std::string& name) {
-    const std::size_t of = name.find("-of-");
-    const auto shard = parse_integer(name.substr(0, of));
-    const auto shards = parse_integer(name.substr(of + 4, name.size() - of - 8));
-    return {static_cast<int>(shard.value_or(1)), static_cast<int>(shards.value_or(1))};
-}
-
-/// The parts of the journals in the folders, by the shard that writes them.
-std::map<std::pair<int, int>, fs::path> parts_in(const std::vector<fs::path>& folders) {
-    std::map<std::pair<int, int>, fs::path> parts;
-    for (const fs::path& folder : folders) {
-        const fs::path own = folder / journal_folder_name;
-        if (!fs::is_directory(own)) continue;
-        for (const fs::directory_entry& part : fs::directory_iterator(own)) {
-            const std::string name = part.path().filename().string();
-            if (is_journal_part(name)) parts.try_emplace(shard_of_part(name), part.path());
-        }
-    }
-    return parts;
 }
 
 ShardStatus status_of(const fs::path& part, double now_s) {
@@ -82,7 +60,7 @@ ShardStatus status_of(const fs::path& part, double now_s) {
     return status;
 }
 
-/// Adds the shards of one division of the job that nobody has begun.
+/// Adds the shards of one division of the job that were not begun.
 std::vector<ShardStatus> with_missing(const std::vector<ShardStatus>& begun) {
     std::vector<ShardStatus> all = begun;
     std::set<int> divisions;
@@ -111,7 +89,8 @@ double JobStatus::pings_per_s() const {
     return sum;
 }
 
-JobStatus read_status(const std::vector<fs::path>& folders, double now_s) {
+JobStatus read_status(const std::vector<fs::path>& folders) {
+    const double now_s = seconds_since_1970();
     const DatasetFile dataset = require_dataset(folders.at(0));
     const Layout layout = layout_of(folders[0], dataset);
     JobStatus status;
@@ -128,10 +107,14 @@ JobStatus read_status(const std::vector<fs::path>& folders, double now_s) {
         read_journal(folder).pings.for_each(
             [&](const PingId& ping, const std::vector<std::string>&) { done.insert(ping); });
     }
-    for (const auto& [shard, part] : parts_in(folders)) {
+    std::map<std::pair<int, int>, fs::path> parts;
+    for (const fs::path& folder : folders) {
+        for (const fs::path& part : journal_parts(folder))
+            parts.try_emplace(shard_of_part(part).value(), part);
+    }
+    for (const auto& [shard, part] : parts) {
         ShardStatus one = status_of(part, now_s);
-        one.shard = shard.first;
-        one.shards = shard.second;
+        std::tie(one.shard, one.shards) = shard;
         status.shards.push_back(one);
     }
     status.shards = status.complete ? std::vector<ShardStatus>() : with_missing(status.shards);
@@ -149,14 +132,14 @@ JobStatus read_status(const std::vector<fs::path>& folders, double now_s) {
     return status;
 }
 
-VariantsStatus read_variants_status(const fs::path& folder, double now_s) {
+VariantsStatus read_variants_status(const fs::path& folder) {
     VariantsStatus status;
     const std::optional<Json> json = read_variants(folder);
     if (!json) throw InputError({folder.string()}, "holds no variants of a sonarsim mission");
     for (const fs::path& variant : folders_of_variants(folder, *json)) {
         ++status.variants;
         if (!fs::exists(variant / description_name)) continue;
-        JobStatus one = read_status({variant}, now_s);
+        JobStatus one = read_status({variant});
         if (one.complete) {
             ++status.complete;
         } else {

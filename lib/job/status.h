@@ -8,24 +8,23 @@
 
 namespace sonarsim {
 
-/// Pings that are done, of all.
 struct PingTally {
     std::uint64_t done = 0;
     std::uint64_t all = 0;
 };
 
-/// What a shard of a job has done.
+/// The progress of a shard.
 struct ShardStatus {
     int shard = 1;  ///< counted from 1
     int shards = 1;
     PingTally pings;
     bool begun = false;
     bool running = false;      ///< a process has its part of the journal open
-    double pings_per_s = 0.0;  ///< of the last run that wrote to it; 0 where that is not known
+    double pings_per_s = 0.0;  ///< rate of the last run that wrote to it; 0: unknown
     double age_s = 0.0;        ///< since its last checkpoint
 };
 
-/// How far a job is.
+/// The progress of a job.
 struct JobStatus {
     std::string mission;
     bool complete = false;
@@ -34,24 +33,23 @@ struct JobStatus {
     std::vector<ShardStatus> shards;  ///< empty once the dataset is complete
 
     bool running() const;
-    /// Of the shards that are running, together.
+    /// The sum over the shards that are running.
     double pings_per_s() const;
 };
 
 /// Reads the dataset.json and the journals of a dataset that is being rendered, interrupted or
-/// complete; of several folders with the shards of one. `now_s` is the time since 1970. InputError
-/// when a folder holds no dataset, or one of another mission than the first.
-JobStatus read_status(const std::vector<std::filesystem::path>& folders, double now_s);
+/// complete, or of several folders with the shards of one. InputError when a folder holds no
+/// dataset, or one of another mission than the first.
+JobStatus read_status(const std::vector<std::filesystem::path>& folders);
 
-/// How far the variants of a mission are.
+/// The progress of the variants of a mission.
 struct VariantsStatus {
     std::size_t variants = 0;
     std::size_t complete = 0;
-    std::vector<std::pair<std::string, JobStatus>>
-        under_way;  ///< begun and not complete, by folder
+    std::vector<std::pair<std::string, JobStatus>> under_way;  ///< begun, not complete, by folder
 };
 
-/// The same of a folder with a variants.json.
-VariantsStatus read_variants_status(const std::filesystem::path& folder, double now_s);
+/// As read_status(), for a folder with a variants.json.
+VariantsStatus read_variants_status(const std::filesystem::path& folder);
 
 }  // namespace sonarsim

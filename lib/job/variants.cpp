@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "checks/image_warnings.h"
+#include "checks/find_warnings.h"
 #include "core/clock.h"
 #include "core/error.h"
 #include "core/file.h"
@@ -14,6 +14,7 @@
 #include "dataset/metadata.h"
 #include "dataset/ping_metadata.h"
 #include "dataset/split.h"
+#include "job/checksums.h"
 #include "job/folder.h"
 #include "job/folder_lock.h"
 #include "mission/resolved.h"
@@ -36,15 +37,7 @@ constexpr std::size_t largest_index = std::size_t{1} << 30;
                      what + "; choose another output.folder, or --overwrite to begin anew");
 }
 
-bool holds_something(const fs::path& folder) {
-    return fs::exists(folder) &&
-           !std::all_of(fs::directory_iterator(folder), fs::directory_iterator(),
-                        [](const auto& entry) {
-                            return is_temporary_name(entry.path().filename().string());
-                        });
-}
-
-/// Removes what lies in the folder of a variant, which belongs to it alone.
+/// Removes the dataset of a variant, and its folder if that is empty then.
 void remove_variant(const fs::path& folder, const Mission& mission) {
     if (!fs::is_directory(folder)) return;
     const FolderLock lock = lock_alone(folder);
@@ -54,7 +47,7 @@ void remove_variant(const fs::path& folder, const Mission& mission) {
     if (fs::is_empty(folder)) fs::remove(folder);
 }
 
-/// Removes what lies beside the variants, but not variants.json, by which the folder is known.
+/// Removes the files beside the variants. variants.json stays: the folder is recognised by it.
 void remove_files_beside(const fs::path& folder) {
     fs::remove(folder / checksums_name);
     for (const std::string_view part : split_part_names)
@@ -63,8 +56,7 @@ void remove_files_beside(const fs::path& folder) {
     fs::remove(folder / split_folder_name, not_empty);
 }
 
-/// Writes a file that is not there as it should be: the disk of a complete dataset may be
-/// read-only.
+/// Writes a file only if it differs: the disk of a complete dataset may be read-only.
 void keep_or_write(const fs::path& file, const std::string& text) {
     if (fs::is_regular_file(file) && read_file(file, largest_index) == text) return;
     fs::create_directories(file.parent_path());
@@ -76,7 +68,7 @@ void write_files_beside(const fs::path& folder, const Json& json) {
     std::string sums;
     const auto write = [&](const std::string& name, const std::string& text) {
         keep_or_write(folder / name, text);
-        sums += sha256(text) + "  " + name + '\n';
+        sums += checksum_line(sha256(text), name);
     };
     write(variants_name, json_text(json));
     for (const auto& [name, lines] : split_lists(json))
@@ -102,12 +94,6 @@ FolderLock enter(const fs::path& folder, const Json& json, std::span<const Missi
     return lock;
 }
 
-/// What can be refused of a mission that is about to be rendered.
-void check(const Mission& mission, const Assembly& assembly) {
-    const std::vector<Writers> writers = make_writers(mission, assembly);
-    protect_inputs(make_layout(mission, writers, assembly.trajectory.size()), mission);
-}
-
 void add(RenderSummary& all, const RenderSummary& one) {
     all.pings += one.pings;
     all.skipped += one.skipped;
@@ -120,19 +106,11 @@ void add(RenderSummary& all, const RenderSummary& one) {
     all.counts += one.counts;
     all.clipped_pixels += one.clipped_pixels;
     all.sensors.resize(std::max(all.sensors.size(), one.sensors.size()));
-    for (std::size_t i = 0; i < one.sensors.size(); ++i) {
-        SensorSummary& sensor = all.sensors[i];
-        sensor.pings += one.sensors[i].pings;
-        sensor.dark_pings += one.sensors[i].dark_pings;
-        sensor.counts += one.sensors[i].counts;
-        sensor.clipped_pixels += one.sensors[i].clipped_pixels;
-        sensor.missed_goals += one.sensors[i].missed_goals;
-        sensor.worst_l1 = std::max(sensor.worst_l1, one.sensors[i].worst_l1);
-        sensor.brightest = std::max(sensor.brightest, one.sensors[i].brightest);
-    }
+    for (std::size_t i = 0; i < one.sensors.size(); ++i)
+        all.sensors[i] += one.sensors[i];
 }
 
-/// What is read of variants.json. The keys that are compared alone may be anything.
+/// InputError for the keys of variants.json that are read; the others are only compared.
 void check_variants(const Json& json, const std::string& file) {
     int index = 0;
     for (const CheckedJson& variant : CheckedJson(json, file).at("variants").items()) {
@@ -145,16 +123,12 @@ void check_variants(const Json& json, const std::string& file) {
     }
 }
 
-/// Nothing is written or removed through a link: what it leads to is not of this folder.
+/// Refuses links: nothing outside the folder is written or removed.
 void require_no_links(const fs::path& folder, const Json& json) {
     std::vector<fs::path> folders = folders_of_variants(folder, json);
-    folders.push_back(folder / "split");
-    for (const fs::path& one : folders) {
-        if (!fs::is_symlink(one)) continue;
-        throw InputError({one.string()},
-                         "is a symbolic link, and variants are written into folders of their own; "
-                         "remove the link or choose another output.folder");
-    }
+    folders.push_back(folder / split_folder_name);
+    for (const fs::path& one : folders)
+        require_no_link(one, "a variant");
 }
 
 }  // namespace
@@ -208,7 +182,7 @@ bool is_complete(const fs::path& dataset) {
 void begin_variants(const fs::path& folder, const Json& json, std::span<const Mission> variants,
                     bool overwrite) {
     // In this order: another shard may write variants.json at any moment.
-    const bool has_files = holds_something(folder);
+    const bool has_files = fs::exists(folder) && !is_unused(folder);
     const std::optional<Json> found = read_variants(folder);
     if (!found && has_files)
         throw InputError({folder.string()},
@@ -239,17 +213,14 @@ std::map<std::string, std::string> split_lists(const Json& json) {
 RenderSummary run_variants(const Mission& mission, std::span<const Mission> variants,
                            const RenderOptions& options, const VariantCallback& begin,
                            const ProgressCallback& progress, const std::atomic<bool>& stop) {
-    if (options.overwrite && options.shards > 1) {
-        throw InputError(
-            "one shard must not overwrite what another writes: remove the folder instead");
-    }
+    check(options);
     const fs::path& folder = mission.output.folder;
     const Json json = describe_variants(mission, variants);
     std::optional<FolderLock> lock;
     RenderOptions one_by_one = options;
     one_by_one.shard = 0;
     one_by_one.shards = 1;
-    one_by_one.overwrite = false;  // that is done
+    one_by_one.overwrite = false;  // enter() has done that
     SceneFiles models;
     RenderSummary all;
     all.complete = options.files;
@@ -267,17 +238,23 @@ RenderSummary run_variants(const Mission& mission, std::span<const Mission> vari
         const Assembly assembly = assemble(variants[i], models);
         if (begin) begin(variants[i], assembly);
         if (options.files && !lock) {
-            check(variants[i], assembly);  // before anything is written
+            // InputError before anything is written.
+            const std::vector<Writers> writers = make_writers(variants[i], assembly);
+            protect_inputs(make_layout(variants[i], writers, assembly.trajectory.size()),
+                           variants[i]);
             lock.emplace(enter(folder, json, variants, options));
             all.unlocked = !lock->works();
         }
         const RenderSummary one = run_job(variants[i], assembly, one_by_one, nullptr, stop);
         add(all, one);
         all.stopped = one.stopped;
-        for (const std::string& warning : one.warnings)
-            all.warnings.push_back(name + warning);
-        for (const std::string& warning : image_warnings(variants[i], assembly, one.sensors))
-            all.warnings.push_back(name + warning);
+        for (std::vector<Warning> found :
+             {one.warnings, image_warnings(variants[i], assembly, one.sensors)}) {
+            for (Warning& warning : found) {
+                warning.about.insert(0, name);
+                all.warnings.push_back(std::move(warning));
+            }
+        }
         if (progress) progress(++done, total);
     }
     for (std::size_t i = 0; i < variants.size(); ++i)

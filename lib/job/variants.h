@@ -16,7 +16,7 @@
 // The variants of a mission lie below one folder:
 //
 //     OUT/variants.json         what was drawn for each of them
-//     OUT/split/train.txt       with output.split: which of them are for what; val.txt, test.txt
+//     OUT/split/train.txt       with output.split: the variants of a part; also val.txt, test.txt
 //     OUT/SHA256SUMS            of the files above
 //     OUT/variant_0000/         a dataset like any other
 //
@@ -24,18 +24,17 @@
 
 namespace sonarsim {
 
-/// What variants.json says of the variants of a mission, which may not be rendered yet. InputError
-/// where `folder` holds something else and `overwrite` is off.
+/// The variants.json of a mission.
 nlohmann::ordered_json describe_variants(const Mission& mission, std::span<const Mission> variants);
 
-/// variants.json of a folder; nothing where there is none. InputError when it is not sonarsim's.
+/// The variants.json of a folder; nothing if there is none. InputError when it is not sonarsim's.
 std::optional<nlohmann::ordered_json> read_variants(const std::filesystem::path& folder);
 
 /// The folders of the variants that a variants.json names, in order.
 std::vector<std::filesystem::path> folders_of_variants(const std::filesystem::path& folder,
                                                        const nlohmann::ordered_json& json);
 
-/// The lists of the parts that a variants.json tells, by name: "split/train.txt".
+/// The text of the lists of the split by file, "split/train.txt".
 std::map<std::string, std::string> split_lists(const nlohmann::ordered_json& json);
 
 /// Makes `folder`, which is locked, ready for variants, or throws InputError when it holds
@@ -43,12 +42,11 @@ std::map<std::string, std::string> split_lists(const nlohmann::ordered_json& jso
 void begin_variants(const std::filesystem::path& folder, const nlohmann::ordered_json& json,
                     std::span<const Mission> variants, bool overwrite);
 
-/// Called before a variant is rendered, with what it is made of.
+/// Called before a variant is rendered, with its assembly.
 using VariantCallback = std::function<void(const Mission& variant, const Assembly& assembly)>;
 
-/// Renders the variants of a mission, one after the other, each as run_job does. The summary adds
-/// all of them up; `complete` means those of this shard. What the engines and the images give to
-/// warn of is told once for each variant, with its folder.
+/// Renders the variants of a mission, one after the other, each as run_job does. The summary holds
+/// the sums over all of them and the warnings about each, with its folder.
 RenderSummary run_variants(const Mission& mission, std::span<const Mission> variants,
                            const RenderOptions& options, const VariantCallback& begin,
                            const ProgressCallback& progress, const std::atomic<bool>& stop);

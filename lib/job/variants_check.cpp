@@ -2,7 +2,6 @@
 #include <set>
 
 #include "core/error.h"
-#include "core/file.h"
 #include "core/sha256.h"
 #include "dataset/layout.h"
 #include "dataset/ping_metadata.h"
@@ -17,7 +16,6 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t largest_variant_sums = std::size_t{1} << 24;
 constexpr const char* render_variants_again =
     "the render command that made the variants, run again, writes it anew";
 
@@ -35,33 +33,31 @@ void check_files_beside(const fs::path& folder, const Json& json, DatasetCheck& 
         expected.insert(name);
     const fs::path sums_file = folder / checksums_name;
     if (!fs::is_regular_file(sums_file)) {
-        check.faults.push_back(std::string(checksums_name) + ": is missing; " +
+        check.errors.push_back(std::string(checksums_name) + ": is missing; " +
                                render_variants_again);
         return;
     }
-    const auto sums =
-        parse_checksums(read_file(sums_file, largest_variant_sums), sums_file.string());
+    const auto sums = read_checksums(sums_file);
     for (const std::string& name : expected) {
         const auto sum = sums.find(name);
         if (!fs::is_regular_file(folder / name)) {
-            check.faults.push_back(name + ": is missing; " + render_variants_again);
+            check.errors.push_back(name + ": is missing; " + render_variants_again);
             continue;
         }
         ++check.files;
         check.bytes += fs::file_size(folder / name);
         if (sum == sums.end() || sha256_of_file(folder / name) != sum->second)
-            check.faults.push_back(name + ": is not what SHA256SUMS tells; " +
-                                   render_variants_again);
+            check.errors.push_back(name + ": differs from SHA256SUMS; " + render_variants_again);
     }
     for (const auto& [name, sum] : sums) {
         if (!expected.contains(name))
-            check.faults.push_back(name + ": SHA256SUMS lists it, and variants.json does not; " +
+            check.errors.push_back(name + ": SHA256SUMS lists it, and variants.json does not; " +
                                    render_variants_again);
     }
 }
 
-/// What lies beside the variants and is not theirs.
-void list_strangers(const fs::path& folder, const Json& json, DatasetCheck& check) {
+/// Lists the files beside the variants that do not belong to them.
+void list_unknown_files(const fs::path& folder, const Json& json, DatasetCheck& check) {
     std::set<std::string> expected{variants_name, checksums_name};
     for (const auto& [name, lines] : split_lists(json)) {
         expected.insert(name);
@@ -73,16 +69,17 @@ void list_strangers(const fs::path& folder, const Json& json, DatasetCheck& chec
         if (!fs::is_directory(here)) continue;
         for (const fs::directory_entry& entry : fs::directory_iterator(here)) {
             const std::string name = entry.path().lexically_relative(folder).string();
-            if (!expected.contains(name)) check.strangers.push_back(name);
+            if (!expected.contains(name)) check.unknown_files.push_back(name);
         }
     }
-    std::ranges::sort(check.strangers);
+    std::ranges::sort(check.unknown_files);
 }
 
 }  // namespace
 
 MergeSummary merge_variants(const std::vector<fs::path>& parts, const fs::path& out, int threads,
                             const ProgressCallback& progress, const std::atomic<bool>& stop) {
+    require_apart(parts, out);
     const Json json = require_variants(parts.at(0));
     for (const fs::path& part : parts) {
         if (require_variants(part) != json) {
@@ -91,10 +88,6 @@ MergeSummary merge_variants(const std::vector<fs::path>& parts, const fs::path& 
                              "of sonarsim than " +
                                  parts[0].string());
         }
-        std::error_code absent;
-        if (fs::equivalent(part, out, absent))
-            throw InputError({out.string()},
-                             "is one of the parts; name another folder to write to");
     }
     const std::vector<fs::path> targets = folders_of_variants(out, json);
     std::vector<std::vector<fs::path>> sources(targets.size());
@@ -132,11 +125,11 @@ DatasetCheck verify_variants(const fs::path& folder, int threads, const Progress
     const std::vector<fs::path> folders = folders_of_variants(folder, json);
     DatasetCheck all;
     check_files_beside(folder, json, all);
-    list_strangers(folder, json, all);
+    list_unknown_files(folder, json, all);
     for (std::size_t i = 0; i < folders.size() && !all.stopped; ++i) {
         const std::string name = folders[i].filename().string();
         if (!fs::exists(folders[i] / description_name)) {
-            all.faults.push_back(name +
+            all.errors.push_back(name +
                                  ": is missing; the render command that made the dataset, "
                                  "run again, makes it");
             continue;
@@ -144,12 +137,12 @@ DatasetCheck verify_variants(const fs::path& folder, int threads, const Progress
         const DatasetCheck one = verify_dataset(folders[i], threads, nullptr, stop);
         all.files += one.files;
         all.bytes += one.bytes;
-        all.more_faults += one.more_faults;
+        all.more_errors += one.more_errors;
         all.stopped = one.stopped;
-        for (const std::string& fault : one.faults)
-            all.faults.push_back(name + "/" + fault);
-        for (const std::string& stranger : one.strangers)
-            all.strangers.push_back(name + "/" + stranger);
+        for (const std::string& error : one.errors)
+            all.errors.push_back(name + "/" + error);
+        for (const std::string& file : one.unknown_files)
+            all.unknown_files.push_back(name + "/" + file);
         if (progress) progress(i + 1, folders.size());
     }
     return all;

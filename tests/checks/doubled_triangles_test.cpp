@@ -7,7 +7,7 @@
 using namespace sonarsim;
 using namespace sonarsim::test;
 
-TEST_SUITE_BEGIN("survey");
+TEST_SUITE_BEGIN("checks");
 
 TEST_CASE("doubled triangles: those of two nodes, in whatever order their corners stand") {
     // A sphere of its own node, then two quads over it: each of two triangles. Nothing is doubled.
@@ -36,7 +36,7 @@ TEST_CASE("doubled triangles: those of two nodes, in whatever order their corner
     again(quad, other);
     again(quad + 1, other);
     again(quad, 0);
-    // Twice in one node tells no two nodes apart.
+    // Triangles that are twice in one node do not count.
     again(quad + 2, other);
     const DoubledTriangles found = find_doubled(scene);
     CHECK(found.count == 3);

@@ -1,7 +1,6 @@
-#include "checks/image_warnings.h"
-
 #include <doctest/doctest.h>
 
+#include "checks/find_warnings.h"
 #include "job/run_job.h"
 #include "support/small_mission.h"
 
@@ -9,6 +8,22 @@ using namespace sonarsim;
 using namespace sonarsim::test;
 
 namespace {
+
+using Sentences = std::vector<std::string>;
+
+Sentences sentences(const std::vector<Warning>& warnings) {
+    Sentences out;
+    for (const Warning& warning : warnings)
+        out.push_back(sentence(warning));
+    return out;
+}
+
+/// The warnings without a ping, but for W01: the tank's materials have no real speed of sound.
+std::vector<Warning> before_pings(const Mission& mission, const Assembly& assembly) {
+    std::vector<Warning> out = warnings_before_pings(mission, assembly);
+    std::erase_if(out, [](const Warning& w) { return w.code == WarningCode::reading; });
+    return out;
+}
 
 /// The tank with two sonars, "front" and "left", and ten pings of each that saw enough.
 struct Run {
@@ -27,11 +42,10 @@ struct Run {
     }
 
     /// Sonars as the mission now has them.
-    std::vector<std::string> warnings() {
+    Sentences warnings() {
         assembly = small_assembly(mission, 3);
-        return judge();
+        return sentences(image_warnings(mission, assembly, sensors));
     }
-    std::vector<std::string> judge() const { return image_warnings(mission, assembly, sensors); }
 
     /// "left" saw nothing.
     void blind_left() {
@@ -41,11 +55,9 @@ struct Run {
     }
 };
 
-using Warnings = std::vector<std::string>;
-
 }  // namespace
 
-TEST_SUITE("dataset") {
+TEST_SUITE("checks") {
     TEST_CASE("image warnings: none where all is well, or where nothing was rendered") {
         Run run;
         CHECK(run.warnings().empty());
@@ -56,49 +68,20 @@ TEST_SUITE("dataset") {
     TEST_CASE("image warnings: a blind sensor beside a seeing one") {
         Run run;
         run.blind_left();
-        CHECK(run.warnings() ==
-              Warnings{"sensor 'left' saw no surface in any of its 10 pings: check its mount, the "
-                       "trajectory's attitudes, its field of view and range_max_m"});
-        run.sensors[1].dark_pings = 7;
+        CHECK(
+            run.warnings() ==
+            Sentences{"W12 sensor 'left': 10 of 10 pings are blind: they see no surface within the "
+                      "range; W13 to W17, which sonarsim validate prints, say why; the trajectory "
+                      "may leave the scene"});
         run.sensors[1].brightest = 0.4F;
-        CHECK(run.warnings() ==
-              Warnings{"sensor 'left' saw no surface in 7 of its 10 pings: check the trajectory "
-                       "and the range"});
-        run.sensors[1].dark_pings = 1;
-        CHECK(run.warnings() ==
-              Warnings{"sensor 'left' saw no surface in 1 of its 10 pings: check the trajectory "
-                       "and the range"});
+        for (const std::uint64_t pings : {7U, 1U}) {
+            run.sensors[1].dark_pings = pings;
+            const Sentences some = run.warnings();
+            REQUIRE(some.size() == 1);
+            CHECK(some[0].starts_with(fmt::format("W12 sensor 'left': {} of 10 pings", pings)));
+        }
         run.sensors[1].dark_pings = 0;
         CHECK(run.warnings().empty());
-    }
-
-    TEST_CASE("image warnings: a range band that holds nothing") {
-        Run run;
-        run.blind_left();
-        run.mission.sensors[1].range_min_m = 100.0;
-        run.mission.sensors[1].range_max_m = 110.0;
-        const Warnings beyond = run.warnings();
-        REQUIRE(beyond.size() == 1);
-        CHECK(
-            beyond[0].starts_with("sensor 'left' saw no surface in any of its 10 pings: all of "
-                                  "the scene lies within "));
-        CHECK(beyond[0].ends_with(" m, range_min_m is 100: lower it"));
-
-        for (TimedPose& pose : run.assembly.trajectory)
-            pose.T_world_vehicle.translation.x() += 1000.0;
-        const Warnings away = run.judge();
-        REQUIRE(away.size() == 1);
-        CHECK(away[0].find("the scene is never nearer than ") != std::string::npos);
-        CHECK(
-            away[0].ends_with("range_max_m is 110: check the trajectory's coordinates or raise "
-                              "range_max_m"));
-
-        run.mission.sensors[1].range_min_m = 2.0;
-        run.sensors[1].counts.echoes = run.sensors[1].counts.out_of_range = 640;
-        CHECK(run.warnings() ==
-              Warnings{"sensor 'left' saw no surface in any of its 10 pings: all of the 640 echoes "
-                       "in its field of view lie outside 2 to 110 m: check range_min_m and "
-                       "range_max_m"});
     }
 
     TEST_CASE("image warnings: range noise that pushes echoes out of the range") {
@@ -106,15 +89,53 @@ TEST_SUITE("dataset") {
         run.mission.sensors[0].noise.range_lambda_m = 1e6;
         run.sensors[0].counts.out_of_range = 996;
         CHECK(run.warnings() ==
-              Warnings{"sensor 'front': 99.6 % of its echoes were dropped outside the range: "
-                       "noise.range_lambda_m shifts them by 1e+06 m on average, and the range is "
-                       "9.9 m long; lower it"});
-        // As many echoes outside the range, but not for the noise.
+              Sentences{"W31 sensor 'front': 99.6 % of its echoes were dropped outside the range: "
+                        "noise.range_lambda_m shifts them by 1e+06 m on average, and the range is "
+                        "9.9 m long; lower noise.range_lambda_m"});
+        // As many echoes outside the range, but not because of the noise.
         run.mission.sensors[0].noise.range_lambda_m = 0.05;
         CHECK(run.warnings().empty());
     }
 
-    TEST_CASE("image warnings: a material as the water") {
+    TEST_CASE("image warnings: goals that were missed, samples that were dropped") {
+        Run run;
+        run.sensors[0].missed_goals = 3;
+        run.sensors[0].worst_l1 = 0.25;
+        run.sensors[1].counts.dropped_samples = 1000;
+        const Sentences found = run.warnings();
+        REQUIRE(found.size() == 2);
+        CHECK(found[0].starts_with(
+            "W29 sensor 'front': 3 of 10 pings miss accuracy.relative_l1 of "));
+        CHECK(found[1].starts_with("W30 sensor 'left': 1000 of 2000 pieces of surface"));
+    }
+
+    TEST_CASE("image warnings: a full scale far above or below what is seen") {
+        Run run;
+        run.mission.output.full_scale = 1e6;
+        const Sentences dark = run.warnings();
+        REQUIRE(dark.size() == 2);
+        CHECK(
+            dark[0] ==
+            "W20 sensor 'front': its brightest pixel is 0.4, which is grey level 0 of 255 in fans; "
+            "lower output.full_scale (1e+06), or write auto");
+        // 255 sqrt(0.4 / full_scale) = 16 at a full scale of 101.6.
+        run.mission.output.full_scale = 101.0;
+        CHECK(run.warnings().empty());
+        run.mission.output.full_scale = 102.0;
+        CHECK(run.warnings().size() == 2);
+        // 5 % of the 500 lit bins are 25.
+        run.mission.output.full_scale = 0.1;
+        run.sensors[1].clipped_pixels = 25;
+        CHECK(run.warnings().empty());
+        run.sensors[1].clipped_pixels = 26;
+        CHECK(
+            run.warnings() ==
+            Sentences{"W19 sensor 'left': 5.2 % of its lit bins are above output.full_scale (0.1) "
+                      "and white in pictures; the brightest is 0.4; raise output.full_scale, or "
+                      "write auto"});
+    }
+
+    TEST_CASE("warnings before pings: a material as the water") {
         Run run;
         run.assembly = small_assembly(run.mission, 1);
         Material& material = run.assembly.scene.materials[0];
@@ -122,50 +143,54 @@ TEST_SUITE("dataset") {
         material.density_kg_m3 = 998.0;
         material.sound_speed_m_s = 1480.0;
         material.reflection = 2.5e-7F;
-        CHECK(run.judge() ==
-              Warnings{"material 'Jelly' (998 kg/m^3, 1480 m/s) reflects 2.5e-07 of the power in "
-                       "this water (997 kg/m^3, 1480 m/s) and is as good as invisible: check the "
-                       "materials' CSV and the water block"});
+        CHECK(sentences(before_pings(run.mission, run.assembly)) ==
+              Sentences{"W09 material 'Jelly': it (998 kg/m^3, 1480 m/s) reflects 2.5e-07 of the "
+                        "power in this water (997 kg/m^3, 1480 m/s): its impedance is that of the "
+                        "water; check the materials' CSV and the water block"});
         material.reflection = 1e-4F;
-        CHECK(run.judge().empty());
-        run.sensors[0].brightest = 0.0F;
-        CHECK(run.judge() ==
-              Warnings{"sensor 'front' saw surface in 500 bins, and all of its images are black: "
-                       "the materials there reflect nothing in this water"});
+        CHECK(before_pings(run.mission, run.assembly).empty());
     }
 
-    TEST_CASE("image warnings: a full scale far above or below what is seen") {
-        Run run;
-        run.mission.output.full_scale = 1e6;
-        const Warnings dark = run.warnings();
-        REQUIRE(dark.size() == 2);
-        CHECK(dark[0] ==
-              "sensor 'front': its brightest pixel is 0.4, grey level 0 of 65535 in images and 0 "
-              "of 255 in fans: lower output.full_scale from 1e+06 to about 0.4");
-        // 255 sqrt(0.4 / full_scale) = 16 at a full scale of 101.6.
-        run.mission.output.full_scale = 101.0;
-        CHECK(run.warnings().empty());
-        run.mission.output.full_scale = 102.0;
-        CHECK(run.warnings().size() == 2);
-        run.mission.output.full_scale = 0.1;
-        run.sensors[1].clipped_pixels = 77;
-        CHECK(run.warnings() == Warnings{"sensor 'left': 77 pixels are above output.full_scale "
-                                         "(0.1) and white in the PNG files; the brightest is 0.4"});
-    }
-
-    TEST_CASE("image warnings: a sector thinner than a pixel of its fan") {
+    TEST_CASE("warnings before pings: a sector thinner than a pixel of its fan") {
         Run run;
         run.mission.sensors[0].azimuth_deg = 0.001;
-        const Warnings thin = run.warnings();
+        run.assembly = small_assembly(run.mission, 1);
+        const Sentences thin = sentences(before_pings(run.mission, run.assembly));
         REQUIRE(thin.size() == 1);
         CHECK(
-            thin[0].starts_with("sensor 'front': its fans show next to nothing, for azimuth_deg "
-                                "of 0.001 is 0.00017 m wide at range_max_m and a pixel "));
+            thin[0].starts_with("W32 sensor 'front': its fans show next to nothing: azimuth_deg of "
+                                "0.001 is 0.00017 m wide at range_max_m, and a pixel "));
         run.mission.output.fan = false;
-        CHECK(run.warnings().empty());
+        CHECK(before_pings(run.mission, run.assembly).empty());
     }
 
-    TEST_CASE("image warnings: a run counts what they are made from") {
+    TEST_CASE("split warnings: fewer variants than parts") {
+        SplitConfig config;
+        config.train = 0.0;
+        config.val = config.test = 0.5;
+        const std::vector<Warning> few = split_warnings(config, 1);
+        REQUIRE(few.size() == 1);
+        CHECK(
+            few[0].what ==
+            "the mission has fewer variants (1) than the split has parts (2): all of them are put "
+            "into 'val'");
+        CHECK(split_warnings(config, 2).empty());
+    }
+
+    TEST_CASE("warnings: every row of the table has its number, a limit and a reason") {
+        for (const WarningText& row : warning_table()) {
+            const std::string number = number_of(row.code);
+            CAPTURE(number);
+            CHECK(row.what != std::string());
+            CHECK(row.limit != std::string());
+            CHECK(row.reason != std::string());
+        }
+        // In the docs "N" stands for a number and "..." for a text.
+        CHECK(warning_table_markdown().find("| W11 | in N of N pings it is inside of '...' | move "
+                                            "the trajectory or the object |") != std::string::npos);
+    }
+
+    TEST_CASE("image warnings: a run counts blind pings") {
         Mission mission = small_mission("out");
         mission.sensors[1].range_min_m = 100.0;
         mission.sensors[1].range_max_m = 101.0;

@@ -21,7 +21,7 @@ SonarConfig line_array() {
 
 }  // namespace
 
-TEST_SUITE("survey") {
+TEST_SUITE("checks") {
     TEST_CASE("memory: the key that would bring it down is what takes most") {
         SonarConfig config = line_array();
         CHECK(ping_memory(make_sonar(config, {})).key == "range_bins");
@@ -37,7 +37,7 @@ TEST_SUITE("survey") {
         config.azimuth_deg = 1.0;
         config.azimuth_bins = 512;
         config.instrument.beam.view_azimuth_deg = 179.0;
-        // Of a degree the array has 2.7 columns: 2 x 237 beams, not 91,136.
+        // The array resolves a degree with 2.7 columns: 2 x 237 beams, not 91,136.
         const Sonar sonar = make_sonar(config, {});
         CHECK(sonar.settings.guard_beams.count > 200);
         CHECK(sonar.settings.guard_beams.count < 280);

@@ -1,9 +1,8 @@
-#include "checks/trajectory_warnings.h"
-
 #include <doctest/doctest.h>
 
 #include <cmath>
 
+#include "checks/find_warnings.h"
 #include "core/units.h"
 #include "trajectory/files.h"
 
@@ -40,7 +39,7 @@ Trajectory misread(const Trajectory& poses) {
 
 }  // namespace
 
-TEST_SUITE("survey") {
+TEST_SUITE("checks") {
     TEST_CASE("trajectory warnings: headings along the way are sound") {
         CHECK(judge(circle(1.0)).empty());
     }
@@ -49,7 +48,7 @@ TEST_SUITE("survey") {
         // A heading of 1.57 to 3.37 degrees, 90 to 193 off the way; as radians it is right.
         const std::vector<Warning> warnings = judge(circle(pi / 180.0));
         REQUIRE(warnings.size() == 1);
-        CHECK(warnings[0].doubt == Doubt::radians);
+        CHECK(warnings[0].code == WarningCode::radians);
     }
 
     TEST_CASE("trajectory warnings: a quarter turn in radians, on the spot") {
@@ -64,7 +63,7 @@ TEST_SUITE("survey") {
         // or sides until psi comes near to 180.
         const std::vector<Warning> warnings = judge(misread(circle(0.2)));
         REQUIRE(warnings.size() == 1);
-        CHECK(warnings[0].doubt == Doubt::quaternion_order);
+        CHECK(warnings[0].code == WarningCode::quaternion_order);
         // A vehicle that does lie on its nose is so in both orders.
         Trajectory down = circle(1.0);
         for (TimedPose& pose : down)

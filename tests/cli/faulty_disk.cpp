@@ -1,6 +1,5 @@
 // A disk that fails, for the tests of the command line: a library to be loaded before the others
-// (LD_PRELOAD) that stands in front of the C library's calls for writing. What it does is told by
-// the environment:
+// (LD_PRELOAD) that replaces the C library's calls for writing. The environment says what it does:
 //   FAULTY_DISK_BELOW  only files below this folder count
 //   FAULTY_DISK_LOG    a line for each call that counts: its name and the file's
 //   FAULTY_DISK_CALL   the number, from 1, of the call that is the first to fail; 0: none does
@@ -43,7 +42,7 @@ Function* next(Function*, const char* name) {
 
 #define NEXT(function) next(&::function, #function)
 
-/// Which open files lie below the folder.
+/// The open files below the folder.
 std::array<std::atomic<bool>, 4096> watched;
 std::atomic<long> calls = 0;
 
@@ -92,14 +91,14 @@ bool fails(const char* call, int fd) {
     return fails(call, path.data());
 }
 
-/// Whether the file or folder lies below the watched one, whichever way it was opened.
+/// True if the file or folder lies below the watched one, whichever way it was opened.
 bool is_below_open(int fd) {
     std::array<char, 4096> path{};
     const std::string link = "/proc/self/fd/" + std::to_string(fd);
     return readlink(link.c_str(), path.data(), path.size() - 1) > 0 && is_below(path.data());
 }
 
-/// What a write of `size` bytes is cut down to; 0: it is interrupted, and errno is set.
+/// The number of bytes that a write of `size` bytes takes; 0: it is interrupted, and errno is set.
 std::size_t taken(std::size_t size) {
     if (setting("FAULTY_DISK_MODE") == "short") return (size + 1) / 2;
     if (setting("FAULTY_DISK_MODE") != "interrupted" || calls % 3 != 0) return size;

@@ -39,7 +39,7 @@ std::string setting(const char* name) {
     return value ? value : "";
 }
 
-/// What a write changed in a file that was there before: the bytes it replaced.
+/// The bytes that a write replaced in a file that was there before.
 struct Overwritten {
     std::int64_t offset;
     std::string before;
@@ -47,11 +47,11 @@ struct Overwritten {
 
 /// A name that is not durable yet.
 struct Pending {
-    std::optional<std::string> before;     ///< what the name stood for; nothing: it was free
+    std::optional<std::string> before;     ///< former content of the name; nothing: it was free
     bool data_durable = false;             ///< the bytes are safe, the name alone is not
     bool renamed = false;                  ///< it may still stand for what it stood for before
     std::vector<Overwritten> overwritten;  ///< in a file whose name is durable
-    std::int64_t durable_size = -1;        ///< of such a file
+    std::int64_t durable_size = -1;        ///< size that survives a power cut
 };
 
 /// All that the library knows. It is never destroyed: files may be closed at the very end.

@@ -71,7 +71,7 @@ class Collection(Sandbox):
         shutil.copytree(self.folder / "a", self.folder / "all/pool")
         result = self.run_sonarsim("verify", "all")
         self.assertEqual(result.returncode, 1)
-        self.assertIn("pool/SHA256SUMS: is not what SHA256SUMS of the collection tells",
+        self.assertIn("pool/SHA256SUMS: differs from SHA256SUMS of the collection",
                       result.stderr)
         (self.folder / "all/SHA256SUMS").unlink()
         result = self.run_sonarsim("verify", "all")

@@ -1,4 +1,4 @@
-"""`sonarsim keys`, and the tables of docs/mission.md that are made from it."""
+"""`sonarsim keys` and `sonarsim warnings`, and the tables of the docs that they print."""
 import json
 import os
 import pathlib
@@ -7,24 +7,26 @@ import subprocess
 import unittest
 
 SONARSIM = os.environ["SONARSIM"]
-PAGE = pathlib.Path(__file__).parents[2] / "docs" / "mission.md"
+DOCS = pathlib.Path(__file__).parents[2] / "docs"
 
 
-def keys(*options):
-    return subprocess.run([SONARSIM, "keys", *options], text=True, capture_output=True, timeout=60,
+def printed(*arguments):
+    return subprocess.run([SONARSIM, *arguments], text=True, capture_output=True, timeout=60,
                           check=True).stdout
 
 
 class Keys(unittest.TestCase):
     maxDiff = None
 
-    def test_the_page_shows_what_the_program_knows(self):
-        page = re.search(r"<!-- begin keys -->\n\n(.*)\n<!-- end keys -->", PAGE.read_text(), re.DOTALL)
-        self.assertEqual(page.group(1), keys(), "run ./scripts/write_keys.sh")
+    def test_the_pages_show_the_tables_of_the_program(self):
+        for page, table in (("mission.md", "keys"), ("warnings.md", "warnings")):
+            marks = rf"<!-- begin {table} -->\n\n(.*)\n<!-- end {table} -->"
+            found = re.search(marks, (DOCS / page).read_text(), re.DOTALL)
+            self.assertEqual(found.group(1), printed(table), "run ./scripts/write_keys.sh")
 
     def test_json(self):
         sections = {(s["path"], s["form"]): {k["name"]: k for k in s["keys"]}
-                    for s in json.loads(keys("--json"))}
+                    for s in json.loads(printed("keys", "--json"))}
         bins = sections["sensors.NAME", ""]["range_bins"]
         self.assertEqual((bins["low"], bins["high"]), (1, 8192))
         self.assertEqual(bins["default_by_kind"]["echosounder"], 200)

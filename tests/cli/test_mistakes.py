@@ -201,6 +201,7 @@ class Mistakes(Sandbox):
         self.assertAlmostEqual(seen["first_echo_m"][0], 5 / math.sin(math.radians(40)), delta=0.3)
         self.assertEqual(set(seen["seen_most"]), {"sand", "mine"})
         self.assertGreater(told["hours"], 0)
+        self.assertGreater(told["set_up_seconds"], 0)
         self.assertGreater(told["bytes"], 0)
         self.assertFalse(self.out.exists())
 
@@ -211,7 +212,8 @@ class Mistakes(Sandbox):
                 self.make(spoilt.get("files", {}))
                 settings = [word for one in spoilt.get("set", ()) for word in ("--set", one)]
                 result = self.validate("--strict", *settings)
-                messages = [json.loads(line)["message"] for line in result.stderr.splitlines()]
+                lines = [json.loads(line) for line in result.stderr.splitlines()]
+                messages = [line["message"] for line in lines]
                 if number == "error":
                     self.assertEqual(result.returncode, 2, result.stderr)
                     self.assertTrue(any(words in message for message in messages), messages)
@@ -219,6 +221,7 @@ class Mistakes(Sandbox):
                 self.assertEqual(result.returncode, 3, result.stderr)
                 mine = [m for m in messages if m.startswith(number) and words in m]
                 self.assertEqual(len(mine), 1, messages)
+                self.assertIn((number, mine[0]), [(line["code"], line["message"]) for line in lines])
                 told = [w for w in json.loads(result.stdout)["warnings"] if w["number"] == number]
                 self.assertTrue(told, result.stdout)
 
@@ -242,7 +245,10 @@ class Mistakes(Sandbox):
         self.make({"path.csv": path(offset=(45.0, 0.0))})
         result = self.run_sonarsim("render", "mission.yaml", "--no-files", "--strict", "-q")
         self.assertEqual(result.returncode, 3, result.stderr)
-        self.assertRegex(result.stderr, "sensor 'fls' saw no surface in [0-9] of its 10 pings")
+        self.assertRegex(result.stderr, "W12 sensor 'fls': [0-9] of 10 pings are blind")
+        result = self.run_sonarsim("render", "mission.yaml", "--no-files", "--json",
+                                   "--set", "water.density_kg_m3=1.025")
+        self.assertEqual([text[:3] for text in json.loads(result.stdout)["warnings"]], ["W06", "W12"])
         self.make({})
         result = self.run_sonarsim("render", "mission.yaml", "--no-files", "--strict", "-q")
         self.assertEqual((result.returncode, result.stderr), (0, ""))

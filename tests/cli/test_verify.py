@@ -22,12 +22,12 @@ class Verify(Sandbox):
         return self.run_sonarsim("verify", "out", *arguments)
 
     def assert_fault(self, *fragments, count=1):
-        """So many lines of faults, exit code 1, nothing changed; what the message says."""
+        """So many lines of errors, exit code 1, nothing changed; what the message says."""
         before = digest(self.out)
         result = self.verify()
         self.assertEqual(result.returncode, 1, result.stderr)
-        faults = [line for line in result.stderr.splitlines() if line.startswith("error:")]
-        self.assertEqual(len(faults), count, result.stderr)
+        errors = [line for line in result.stderr.splitlines() if line.startswith("error:")]
+        self.assertEqual(len(errors), count, result.stderr)
         for fragment in fragments:
             self.assertIn(fragment, result.stderr)
         self.assertEqual(digest(self.out), before)
@@ -48,7 +48,7 @@ class Verify(Sandbox):
         verdict = json.loads(self.verify("--json").stdout)
         self.assertEqual(verdict["whole"], True)
         self.assertEqual(verdict["files"], len(listed))
-        self.assertEqual((verdict["faults"], verdict["strangers"]), ([], []))
+        self.assertEqual((verdict["errors"], verdict["unknown_files"]), ([], []))
         self.assertEqual(self.verify("--quiet", "-j1").stderr, "")
 
     def test_an_older_dataset_does_not_describe_its_arrays(self):
@@ -141,7 +141,7 @@ class Verify(Sandbox):
         self.write("out/fls/polar/000003.npy", "one too many")
         result = self.verify("--json")
         self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertEqual(json.loads(result.stdout)["strangers"], ["fls/polar/000003.npy", "notes.txt"])
+        self.assertEqual(json.loads(result.stdout)["unknown_files"], ["fls/polar/000003.npy", "notes.txt"])
         self.assertIn("notes.txt", result.stderr)
 
     def test_unfinished(self):
@@ -176,7 +176,7 @@ class Verify(Sandbox):
         self.write("out/dataset.json", json.dumps(told))
         result = self.verify()
         self.assertEqual(result.returncode, 1)
-        self.assertIn("more faults", result.stderr)
+        self.assertIn("more errors", result.stderr)
         for value in (10 ** 18, "many"):
             told["sensors"][0]["pings"] = value
             self.write("out/dataset.json", json.dumps(told))
@@ -249,13 +249,13 @@ class EveryFile(Sandbox):
         self.done("merge", "--different", "packed", "other", "out")
         self.check_every_file()
 
-    def test_strangers_beside_variants(self):
+    def test_unknown_files_beside_variants(self):
         self.done("render", "variants.yaml")
         self.write("out/notes.txt", "mine")
         self.write("out/split/more.txt", "mine")
         result = self.run_sonarsim("verify", "out", "--json")
         self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertEqual(json.loads(result.stdout)["strangers"], ["notes.txt", "split/more.txt"])
+        self.assertEqual(json.loads(result.stdout)["unknown_files"], ["notes.txt", "split/more.txt"])
 
     def test_the_cure_cures_variants(self):
         self.done("render", "variants.yaml")

@@ -31,7 +31,7 @@ void list_values(Json& json, std::vector<Json*>& values) {
         list_values(inner, values);
 }
 
-/// What somebody might put in the place of a value.
+/// Values that somebody might put in place of another.
 Json foreign_value(std::mt19937_64& random) {
     static const std::vector<Json> values{nullptr,
                                           true,
@@ -103,7 +103,7 @@ TEST_SUITE("dataset") {
             CHECK_MESSAGE(numbered(pattern, 7).empty(), pattern);
     }
 
-    TEST_CASE("dataset file: what is sound is read, and each fault is told with its key") {
+    TEST_CASE("dataset file: sound keys are read, and each error names its key") {
         const TemporaryFolder folder;
         run(small_mission(folder.path / "out"));
         const Json sound = sound_description(folder.path / "out");
@@ -189,7 +189,7 @@ TEST_SUITE("dataset") {
             write_file(out / "dataset.json", json_text(json));
             const std::atomic<bool> go(false);
             expect_input_error("verify", json, [&] { verify_dataset(out, 1, nullptr, go); });
-            expect_input_error("status", json, [&] { read_status({out}, 0.0); });
+            expect_input_error("status", json, [&] { read_status({out}); });
             expect_input_error("gallery", json, [&] { write_gallery(out); });
             const std::filesystem::path merged = folder.path / "merged";
             expect_input_error("merge", json, [&] { merge_datasets({out}, merged, 1, {}, go); });

@@ -1,10 +1,9 @@
-#include "dataset/finite_image.h"
-
 #include <doctest/doctest.h>
 
 #include <limits>
 #include <stdexcept>
 
+#include "dataset/encode_ping.h"
 #include "job/run_job.h"
 #include "support/small_mission.h"
 #include "support/sonars.h"

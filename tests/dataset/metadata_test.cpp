@@ -15,7 +15,7 @@ using namespace sonarsim::test;
 using Json = nlohmann::ordered_json;
 
 TEST_SUITE("dataset") {
-    TEST_CASE("metadata: dataset.json tells what the files are and where every bin lies") {
+    TEST_CASE("metadata: dataset.json holds the files and the edges of every bin") {
         const Mission mission = small_mission("out");
         Assembly assembly = small_assembly(mission, 7);
         assembly.scene.rejects = {3, 2, 1};
@@ -31,7 +31,7 @@ TEST_SUITE("dataset") {
         CHECK(json.at("mission_hash") == mission_hash(mission, sonar_keys()));
         CHECK(json.at("seed").get<std::uint64_t>() == 18446744073709551615U);
         CHECK(json.at("poses") == 7);
-        // What was dropped is on record, also where it is nothing.
+        // Dropped parts are counted, also if there are none.
         const Json& scene = json.at("scene");
         CHECK(scene.at("triangles") == assembly.scene.triangles.size());
         CHECK(scene.at("vertex_rounding_m") == 0.25);
@@ -65,7 +65,7 @@ TEST_SUITE("dataset") {
               doctest::Approx(fan.at("height_px").get<double>()));
     }
 
-    TEST_CASE("metadata: a ping tells when, from where and with which draws it was made") {
+    TEST_CASE("metadata: a ping has its time, pose and draws") {
         const Mission mission = small_mission("out");
         Assembly assembly = small_assembly(mission, 7);
         // The vehicle at (1, 2, 3), turned by 90 degrees to port: its bow, and with it the sonar

@@ -46,7 +46,7 @@ void edit(const fs::path& path, const std::string& from, const std::string& to) 
 
 }  // namespace
 
-TEST_SUITE("dataset") {
+TEST_SUITE("job") {
     TEST_CASE("folder: an empty folder and one with a crash's first breath are fresh") {
         const TemporaryFolder temporary;
         const Mission mission = small_mission(temporary.path);

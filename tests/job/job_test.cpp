@@ -26,7 +26,7 @@ RenderSummary run_until(const Mission& mission, std::uint64_t count) {
 
 }  // namespace
 
-TEST_SUITE("dataset") {
+TEST_SUITE("job") {
     TEST_CASE("job: progress counts up to the total") {
         const TemporaryFolder temporary;
         const Mission mission = small_mission(temporary.path / "out");

@@ -34,7 +34,7 @@ std::vector<std::uint16_t> read_pixels(const fs::path& path) {
 
 }  // namespace
 
-TEST_SUITE("dataset") {
+TEST_SUITE("job") {
     TEST_CASE("job: a render writes every file, and they agree with each other") {
         const TemporaryFolder temporary;
         const fs::path out = temporary.path / "deep" / "out";

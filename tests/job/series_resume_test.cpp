@@ -22,7 +22,7 @@ RenderSummary run(const Mission& mission, const RenderOptions& options = {}) {
 
 }  // namespace
 
-TEST_SUITE("dataset") {
+TEST_SUITE("job") {
     TEST_CASE("series: bytes depend neither on threads nor on interruptions nor on shards") {
         const TemporaryFolder temporary;
         const auto whole = [&] {
@@ -38,7 +38,7 @@ TEST_SUITE("dataset") {
             stopped, small_assembly(stopped, poses), {.threads = 1},
             [&](const RenderSummary& so_far, std::uint64_t) { stop = so_far.pings >= 9; }, stop);
         CHECK(first.stopped);
-        // What is there can be opened; what is not yet is zero; products come at the end.
+        // Record files can be opened at once; missing records are zero; products come at the end.
         const auto part =
             data_of<float>(temporary.path / "stopped/sss/waterfall.npy", {"<f4", {7, 192}});
         CHECK(std::any_of(part.begin(), part.begin() + 192, [](float v) { return v > 0.0F; }));

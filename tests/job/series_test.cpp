@@ -52,7 +52,7 @@ std::vector<T> pixels_of(const fs::path& path, int width, int height, int channe
 
 }  // namespace
 
-TEST_SUITE("dataset") {
+TEST_SUITE("job") {
     TEST_CASE("series: every file is there and says what the pings say") {
         const TemporaryFolder temporary;
         const fs::path out = temporary.path / "out";

@@ -7,7 +7,7 @@ using namespace sonarsim;
 using namespace sonarsim::test;
 namespace fs = std::filesystem;
 
-TEST_SUITE("dataset") {
+TEST_SUITE("job") {
     TEST_CASE("job: shards share a folder, and the last one completes it") {
         const TemporaryFolder temporary;
         const fs::path out = temporary.path / "out";

@@ -24,7 +24,7 @@ inline bool is_complete(const std::filesystem::path& folder) {
     return nlohmann::json::parse(read_file(folder / "dataset.json", 1 << 20)).at("complete");
 }
 
-/// What a whole render of the small mission gives.
+/// The result of a whole render of the small mission.
 inline std::map<std::string, std::string> whole_dataset() {
     const TemporaryFolder folder;
     run(small_mission(folder.path / "out"));

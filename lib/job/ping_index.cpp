@@ -1,4 +1,4 @@
-#include "job/told_pings.h"
+#include "job/ping_index.h"
 
 #include <algorithm>
 #include <cstring>
@@ -12,8 +12,8 @@ namespace {
 constexpr std::size_t sum_bytes = 32;
 constexpr std::string_view digits = "0123456789abcdef";
 
-/// Words that are packed as a number and a sum, or as they are after their length.
-enum class WordKind : char { text, entry };
+/// An entry of a file is packed as its size and sum, other fields as their length and text.
+enum class FieldKind : char { text, entry };
 
 template <class T>
 void put(std::string& out, T value) {
@@ -28,12 +28,12 @@ T take(std::string_view& rest) {
     return value;
 }
 
-/// Whether the word says again what is packed of it.
-bool is_plain_entry(const std::string& word) {
-    const auto entry = parse_entry(word);
+/// True if packing and unpacking gives the same field again.
+bool is_plain_entry(const std::string& field) {
+    const auto entry = parse_entry(field);
     return entry && entry->sha256.size() == 2 * sum_bytes &&
            entry->sha256.find_first_not_of(digits) == std::string::npos &&
-           entry_text(*entry) == word;
+           entry_text(*entry) == field;
 }
 
 void put_entry(std::string& out, const FileEntry& entry) {
@@ -68,49 +68,49 @@ std::optional<FileEntry> parse_entry(std::string_view text) {
     return FileEntry{*bytes, std::string(text.substr(colon + 1))};
 }
 
-void ToldPings::add(const PingId& ping, const std::vector<std::string>& words) {
-    places_.push_back({ping, packed_.size()});
-    put(packed_, static_cast<std::uint32_t>(words.size()));
-    for (const std::string& word : words) {
-        const bool entry = is_plain_entry(word);
-        put(packed_, entry ? WordKind::entry : WordKind::text);
+void PingIndex::add(const PingId& ping, const std::vector<std::string>& fields) {
+    entries_.push_back({ping, packed_.size()});
+    put(packed_, static_cast<std::uint32_t>(fields.size()));
+    for (const std::string& field : fields) {
+        const bool entry = is_plain_entry(field);
+        put(packed_, entry ? FieldKind::entry : FieldKind::text);
         if (entry) {
-            put_entry(packed_, *parse_entry(word));
+            put_entry(packed_, *parse_entry(field));
         } else {
-            put(packed_, static_cast<std::uint32_t>(word.size()));
-            packed_ += word;
+            put(packed_, static_cast<std::uint32_t>(field.size()));
+            packed_ += field;
         }
     }
 }
 
-void ToldPings::sort() {
-    // The last of those of one ping comes first, and `unique` keeps it.
-    std::ranges::sort(places_, [](const Place& a, const Place& b) {
+void PingIndex::sort() {
+    // The last one of a ping is sorted to the front of its equals, and `unique` keeps it.
+    std::ranges::sort(entries_, [](const Entry& a, const Entry& b) {
         return a.ping != b.ping ? a.ping < b.ping : a.begin > b.begin;
     });
-    const auto same = [](const Place& a, const Place& b) { return a.ping == b.ping; };
-    places_.erase(std::unique(places_.begin(), places_.end(), same), places_.end());
+    const auto same = [](const Entry& a, const Entry& b) { return a.ping == b.ping; };
+    entries_.erase(std::unique(entries_.begin(), entries_.end(), same), entries_.end());
 }
 
-std::optional<std::vector<std::string>> ToldPings::find(const PingId& ping) const {
-    const auto place = std::ranges::lower_bound(places_, ping, {}, &Place::ping);
-    if (place == places_.end() || place->ping != ping) return std::nullopt;
-    return unpacked(place->begin);
+std::optional<std::vector<std::string>> PingIndex::find(const PingId& ping) const {
+    const auto found = std::ranges::lower_bound(entries_, ping, {}, &Entry::ping);
+    if (found == entries_.end() || found->ping != ping) return std::nullopt;
+    return unpacked(found->begin);
 }
 
-std::vector<std::string> ToldPings::unpacked(std::uint64_t begin) const {
+std::vector<std::string> PingIndex::unpacked(std::uint64_t begin) const {
     std::string_view rest = std::string_view(packed_).substr(begin);
-    std::vector<std::string> words(take<std::uint32_t>(rest));
-    for (std::string& word : words) {
-        if (take<WordKind>(rest) == WordKind::entry) {
-            word = entry_text(take_entry(rest));
+    std::vector<std::string> fields(take<std::uint32_t>(rest));
+    for (std::string& field : fields) {
+        if (take<FieldKind>(rest) == FieldKind::entry) {
+            field = entry_text(take_entry(rest));
         } else {
             const auto size = take<std::uint32_t>(rest);
-            word = rest.substr(0, size);
+            field = rest.substr(0, size);
             rest.remove_prefix(size);
         }
     }
-    return words;
+    return fields;
 }
 
 }  // namespace sonarsim
