@@ -7,6 +7,7 @@
 
 #include "calibrated/levels.h"
 #include "core/units.h"
+#include "trace/arrivals.h"
 
 namespace sonarsim {
 
@@ -110,8 +111,8 @@ std::uint64_t find_columns(const ArrayBeams& beams, const PatchBlock& pieces, Po
     const auto last_column = static_cast<float>(grid.columns - 1);
     int outside = 0;
     for (int k = 0; k < echoes.count; ++k) {
-        const float inverse = 1.0F / echoes.range_m[k];
-        const float column = (pieces.y[k] * inverse - first_sine) * per_step;
+        const float sine = piece_sine(pieces.y[k], echoes.range_m[k]);
+        const float column = (sine - first_sine) * per_step;
         const bool inside = column >= 0.0F && column < last_column;
         outside += echoes.power[k] > 0.0F && !inside ? 1 : 0;
         echoes.power[k] = inside ? echoes.power[k] : 0.0F;

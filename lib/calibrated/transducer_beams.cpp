@@ -7,6 +7,7 @@
 #include "calibrated/normals.h"
 #include "calibrated/piston.h"
 #include "core/units.h"
+#include "trace/arrivals.h"
 
 namespace sonarsim {
 
@@ -31,18 +32,18 @@ void find_weights(const TransducerBeams& beams, int beam, const PatchBlock& piec
         const float x = pieces.x[k];
         const float y = pieces.y[k];
         const float z = pieces.z[k];
-        const float inverse = 1.0F / echoes.range_m[k];
+        const float range = echoes.range_m[k];
         if (beams.sides.empty()) {
             const bool disc = beams.aperture == Aperture::piston;
             const float off = disc ? std::sqrt(std::fma(y, y, z * z)) : y;
-            out.re[k] = beams.pattern.at(off * inverse);
+            out.re[k] = beams.pattern.at(piece_sine(off, range));
             out.im[k] = 0.0F;
             continue;
         }
         const TransducerBeams::Axis axis = beams.sides[beam];
         const bool ahead = std::fma(x, axis.x, y * axis.y) > 0.0F;
-        const float across = (y * axis.x - x * axis.y) * inverse;
-        const std::complex<float> along = beams.along.at(z * inverse, echoes.range_m[k]);
+        const float across = piece_sine(y * axis.x - x * axis.y, range);
+        const std::complex<float> along = beams.along.at(piece_sine(z, range), range);
         const float weight = ahead ? beams.pattern.at(across) : 0.0F;
         out.re[k] = weight * along.real();
         out.im[k] = weight * along.imag();

@@ -55,4 +55,10 @@ inline __m256 piece_range(__m256 x, __m256 y, __m256 z) {
     return _mm256_sqrt_ps(_mm256_fmadd_ps(x, x, _mm256_fmadd_ps(y, y, _mm256_mul_ps(z, z))));
 }
 
+/// The direction of a piece along one axis of the sensor, by its coordinate on that axis: the sine
+/// of its angle to the plane across the axis.
+inline float piece_sine(float coordinate_m, float range_m) {
+    return coordinate_m * (1.0F / range_m);
+}
+
 }  // namespace sonarsim

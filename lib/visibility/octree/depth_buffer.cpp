@@ -57,8 +57,8 @@ class ColumnDepths {
 DepthBuffer::DepthBuffer(const ProjectionGrid& grid)
     : grid_(grid), depth_(static_cast<std::size_t>(grid.columns) * grid.rows, 0.0F) {}
 
-void DepthBuffer::draw(const ProjectedFacet& facet, const Outline& outline) {
-    const auto& [beams_u, beams_v, rows_u, rows_v] = outline;
+void DepthBuffer::draw(const ProjectedFacet& facet) {
+    const auto& [beams_u, beams_v, rows_u, rows_v] = facet.outline;
     const auto per_beam = static_cast<float>(grid_.columns_per_beam);
     const float u = per_beam * beams_u;
     const float v = per_beam * beams_v;
@@ -127,6 +127,39 @@ bool DepthBuffer::is_clear(const ProjectedFacet& facet) const {
     return true;
 }
 
+DepthBuffer::VisibleRows DepthBuffer::visible_rows(const ProjectedFacet& facet, int beam, float low,
+                                                   float high) const {
+    const auto b = static_cast<float>(beam);
+    const auto per_beam = static_cast<float>(grid_.columns_per_beam);
+    const float left = per_beam * std::max(b, facet.beam - facet.half_beams);
+    const float right = per_beam * std::min(b + 1.0F, facet.beam + facet.half_beams);
+    const int columns_begin =
+        std::max(static_cast<int>(std::floor(left)), beam * grid_.columns_per_beam);
+    const int columns_end =
+        std::min(static_cast<int>(std::floor(right)) + 1, (beam + 1) * grid_.columns_per_beam);
+    const int begin = index_in(low, grid_.rows);
+    const int end = index_in(std::floor(high) + 1.0F, grid_.rows);
+    VisibleRows seen{.area = 0.0F, .moment = 0.0F, .least = high, .most = low};
+    for (int column = columns_begin; column < columns_end; ++column) {
+        const float* const pixels = pixels_of(column);
+        const float width = std::min(right, static_cast<float>(column + 1)) -
+                            std::max(left, static_cast<float>(column));
+        const ColumnDepths depths(facet, column, per_beam);
+        for (int r = begin; r < end; ++r) {
+            if (pixels[r] > depths.at(r)) continue;
+            const float bottom = std::max(low, static_cast<float>(r));
+            const float top = std::min(high, static_cast<float>(r + 1));
+            const float weight = width * (top - bottom);
+            seen.area += weight;
+            seen.moment += weight * 0.5F * (bottom + top);
+            seen.least = std::min(seen.least, bottom);
+            seen.most = std::max(seen.most, top);
+        }
+    }
+    seen.share = seen.area / ((right - left) * (high - low));
+    return seen;
+}
+
 DepthBuffer::Visibility DepthBuffer::visible_part(const ProjectedFacet& facet, int beam, bool clear,
                                                   VisiblePart& part) const {
     const auto b = static_cast<float>(beam);
@@ -151,46 +184,17 @@ DepthBuffer::Visibility DepthBuffer::visible_part(const ProjectedFacet& facet, i
     const float row = facet.row + part.u * facet.rows_u;
     const float low = row - facet.half_rows;
     const float high = row + facet.half_rows;
-    const int begin = index_in(low, grid_.rows);
-    const int end = index_in(std::floor(high) + 1.0F, grid_.rows);
-    const auto per_beam = static_cast<float>(grid_.columns_per_beam);
-    const float left = per_beam * std::max(b, facet.beam - facet.half_beams);
-    const float right = per_beam * std::min(b + 1.0F, facet.beam + facet.half_beams);
-    const int columns_begin =
-        std::max(static_cast<int>(std::floor(left)), beam * grid_.columns_per_beam);
-    const int columns_end =
-        std::min(static_cast<int>(std::floor(right)) + 1, (beam + 1) * grid_.columns_per_beam);
-    float sum = 0.0F;
-    float moment = 0.0F;
-    float least = high;
-    float most = low;
-    for (int column = columns_begin; column < columns_end; ++column) {
-        const float* const pixels = pixels_of(column);
-        const float width = std::min(right, static_cast<float>(column + 1)) -
-                            std::max(left, static_cast<float>(column));
-        const ColumnDepths depths(facet, column, per_beam);
-        for (int r = begin; r < end; ++r) {
-            if (pixels[r] > depths.at(r)) continue;
-            const float bottom = std::max(low, static_cast<float>(r));
-            const float top = std::min(high, static_cast<float>(r + 1));
-            const float weight = width * (top - bottom);
-            sum += weight;
-            moment += weight * 0.5F * (bottom + top);
-            least = std::min(least, bottom);
-            most = std::max(most, top);
-        }
-    }
-    if (!(sum > 0.0F)) return Visibility::hidden;
-    const float whole = (right - left) * (high - low);
-    part.share = part.half_u * std::min(sum / whole, 1.0F);
-    const bool fills_rows = well_projected && least > low && most < high;
+    const VisibleRows seen = visible_rows(facet, beam, low, high);
+    if (!(seen.area > 0.0F)) return Visibility::hidden;
+    part.share = part.half_u * std::min(seen.share, 1.0F);
+    const bool fills_rows = well_projected && seen.least > low && seen.most < high;
     if (!(wide && (fills_beam || fills_rows || part.share > least_share)))
         return Visibility::too_small;
     const float per_rows = 1.0F / facet.half_rows;
-    part.v = (moment / sum - row) * per_rows;
+    part.v = (seen.moment / seen.area - row) * per_rows;
     // The visible rows are contiguous, or nearly so: half_v follows from the first and the last of
     // them.
-    part.half_v = 0.5F * (most - least) * per_rows;
+    part.half_v = 0.5F * (seen.most - seen.least) * per_rows;
     return Visibility::visible;
 }
 

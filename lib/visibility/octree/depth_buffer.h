@@ -23,7 +23,7 @@ class DepthBuffer {
     explicit DepthBuffer(const ProjectionGrid& grid);
 
     /// Draws a facet as an occluder.
-    void draw(const ProjectedFacet& facet, const Outline& outline);
+    void draw(const ProjectedFacet& facet);
 
     /// Hides everything outside a cone of this full angle.
     void mask_cone(double opening_rad);
@@ -39,6 +39,15 @@ class DepthBuffer {
                             VisiblePart& part) const;
 
   private:
+    /// The visible rows of a facet in one beam.
+    struct VisibleRows {
+        float area;          ///< in pixels
+        float moment;        ///< integral of the row over the area
+        float least, most;   ///< ends of the rows
+        float share = 0.0F;  ///< area / area of the facet in the beam
+    };
+    VisibleRows visible_rows(const ProjectedFacet& facet, int beam, float low, float high) const;
+
     const float* pixels_of(int column) const {
         return depth_.data() + static_cast<std::size_t>(column) * grid_.rows;
     }

@@ -57,9 +57,9 @@ Sample sample_of(const ProjectedFacet& facet, const VisiblePart& part, const Sce
 
 /// Draws a facet, and once for each end if it crosses the half plane behind the sonar, where
 /// azimuths jump.
-void add(const ProjectedFacet& facet, const Outline& outline, const ProjectionGrid& grid,
-         DepthBuffer& depths, std::vector<ProjectedFacet>& facets) {
-    depths.draw(facet, outline);
+void add(const ProjectedFacet& facet, const ProjectionGrid& grid, DepthBuffer& depths,
+         std::vector<ProjectedFacet>& facets) {
+    depths.draw(facet);
     facets.push_back(facet);
     // So near the axis the facet covers all azimuths, and its ends are meaningless.
     if (facet.half_beams > 0.5F * grid.beams_per_revolution) return;
@@ -69,7 +69,7 @@ void add(const ProjectedFacet& facet, const Outline& outline, const ProjectionGr
         if (other.beam + other.half_beams <= 0.0F ||
             other.beam - other.half_beams >= static_cast<float>(grid.beams))
             continue;
-        depths.draw(other, outline);
+        depths.draw(other);
         facets.push_back(other);
     }
 }
@@ -77,21 +77,20 @@ void add(const ProjectedFacet& facet, const Outline& outline, const ProjectionGr
 LeafParts find_parts(const Octree& tree, const Scene& scene, const PreparedView& prepared) {
     const View& view = prepared.view;
     const auto middle = static_cast<float>(0.5 * view.range_max_m);
-    const ProjectionGrid grid = projection_grid(view, prepared.leaf_size.at(middle) / middle);
+    const ProjectionGrid grid = projection_grid(prepared, prepared.leaf_size.at(middle) / middle);
     DepthBuffer depths(grid);
     std::vector<ProjectedFacet> facets;
     LeafParts parts;
-    tree.visit_leaves(prepared, [&](const Visit&, float edge_m,
-                                    std::span<const LeafFacet> leaf_facets) {
-        for (const LeafFacet& leaf : leaf_facets) {
-            ProjectedFacet facet;
-            Outline outline;
-            const Projection result = project(leaf, edge_m, prepared.volume, grid, facet, outline);
-            parts.dropped += result == Projection::on_axis;
-            if (result != Projection::in_view) continue;
-            add(facet, outline, grid, depths, facets);
-        }
-    });
+    tree.visit_leaves(prepared,
+                      [&](const Visit&, float edge_m, std::span<const LeafFacet> leaf_facets) {
+                          for (const LeafFacet& leaf : leaf_facets) {
+                              ProjectedFacet facet;
+                              const Projection result = project(leaf, edge_m, grid, facet);
+                              parts.dropped += result == Projection::on_axis;
+                              if (result != Projection::in_view) continue;
+                              add(facet, grid, depths, facets);
+                          }
+                      });
     if (view.shape == ViewShape::cone) depths.mask_cone(view.azimuth_rad);
 
     parts.samples.reserve(2 * facets.size());

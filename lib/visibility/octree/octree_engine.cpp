@@ -1,5 +1,6 @@
 #include "visibility/octree/octree_engine.h"
 
+#include <algorithm>
 #include <cmath>
 #include <mutex>
 #include <optional>
@@ -37,126 +38,113 @@ bool same_pose(const Pose& a, const Pose& b) {
     return a.rotation.coeffs() == b.rotation.coeffs() && a.translation == b.translation;
 }
 
-class GrowingOctreeEngine final : public OctreeEngine {
+/// Parts that an engine shares with those that are prepared for some pings.
+struct OctreeParts {
+    OctreeParts(const Scene& of_scene, const OctreeOptions& with, bool covered)
+        : scene(of_scene),
+          options(with),
+          caster(scene),
+          coverage(scene, covered),
+          tree(scene, caster, options) {}
+
+    const Scene& scene;
+    OctreeOptions options;
+    Caster caster;
+    SceneCoverage coverage;
+    std::mutex preparing;  ///< guards changes of the tree and of the goal check; pings only read
+    Octree tree;
+    GoalCheck goal_check;
+};
+
+class OctreeEngineWithPings final : public OctreeEngine {
   public:
-    GrowingOctreeEngine(const Scene& scene, const OctreeOptions& options, bool coverage)
-        : scene_(&scene),
-          options_(options),
-          caster_(scene),
-          coverage_(scene, coverage),
-          tree_(scene, caster_, options) {}
+    OctreeEngineWithPings(std::shared_ptr<OctreeParts> parts, std::vector<ReadyPing> pings)
+        : parts_(std::move(parts)), pings_(std::move(pings)) {}
 
-    ReadyPing ready(const Sight& sight) const {
-        const Pose T_local_sensor{sight.T_world_sensor.rotation,
-                                  sight.T_world_sensor.translation - scene_->origin};
-        const LeafSize leaf_size(sight.view, options_.leaf_m);
-        const std::scoped_lock alone(preparing_);
-        ReadyPing ping{sight, tree_.prepare(sight.view, T_local_sensor, leaf_size), {}, {}};
-        if (options_.literal) return ping;
-        ping.error = goal_check_.place_for(sight.view, sight.T_world_sensor);
-        if (ping.error) ping.coarse = tree_.prepare(sight.view, T_local_sensor, leaf_size.twice());
-        return ping;
-    }
-
-    Samples visible_surface(const ReadyPing& ping) const {
-        if (options_.literal) return literal_samples(tree_, *scene_, ping.leaves);
-        Samples samples = leaf_samples(tree_, caster_, *scene_, ping.leaves);
-        if (ping.coarse) {
-            const View& view = ping.sight.view;
-            const Samples coarse = leaf_samples(tree_, caster_, *scene_, *ping.coarse);
-            *ping.error = error_per_change * image_change(mean_echoes(*scene_, view, coarse),
-                                                          mean_echoes(*scene_, view, samples));
-        }
-        return samples;
-    }
-
+    /// Takes no locks for the pings that are ready.
     Samples visible_surface(const View& view, const Pose& T_world_sensor) const override {
-        return visible_surface(ready({view, T_world_sensor}));
+        const auto ping = std::ranges::find_if(pings_, [&](const ReadyPing& one) {
+            return one.sight.view == view && same_pose(one.sight.T_world_sensor, T_world_sensor);
+        });
+        return see(ping != pings_.end() ? *ping : ready({view, T_world_sensor}));
     }
 
-    std::unique_ptr<VisibilityEngine> prepared(std::span<const Sight> sights) const override;
+    std::unique_ptr<VisibilityEngine> prepared(std::span<const Sight> sights) const override {
+        std::vector<ReadyPing> pings;
+        for (const Sight& sight : sights)
+            pings.push_back(ready(sight));
+        return std::make_unique<OctreeEngineWithPings>(parts_, std::move(pings));
+    }
 
     void intersect(const Pose& T_world_sensor, std::span<const Ray> rays,
                    std::span<Intersection> intersections) const override {
-        intersect_rays(caster_, scene_->origin, T_world_sensor, rays, intersections);
+        intersect_rays(parts_->caster, parts_->scene.origin, T_world_sensor, rays, intersections);
     }
 
     std::vector<std::uint8_t> covered_bins(const View& view,
                                            const Pose& T_world_sensor) const override {
-        return coverage_.bins(view, T_world_sensor);
+        return parts_->coverage.bins(view, T_world_sensor);
     }
 
     std::vector<std::string> warnings() const override {
-        const std::scoped_lock alone(preparing_);
-        std::vector<std::string> all = goal_check_.warnings(options_.leaf_m);
-        const double needed_mb = std::ceil(static_cast<double>(tree_.statistics().ping_bytes) /
-                                           static_cast<double>(1U << 20U));
-        if (needed_mb <= static_cast<double>(options_.memory_mb)) return all;
+        const std::scoped_lock alone(parts_->preparing);
+        std::vector<std::string> all = parts_->goal_check.warnings(parts_->options.leaf_m);
+        const double needed_mb =
+            std::ceil(static_cast<double>(parts_->tree.statistics().ping_bytes) /
+                      static_cast<double>(1U << 20U));
+        const std::size_t memory_mb = parts_->options.memory_mb;
+        if (needed_mb <= static_cast<double>(memory_mb)) return all;
         all.push_back(
-            "octree.memory_mb: " + std::to_string(options_.memory_mb) +
-            " is too little: one ping needs " + number_text(needed_mb) +
+            "octree.memory_mb: " + std::to_string(memory_mb) + " is too little: one ping needs " +
+            number_text(needed_mb) +
             " MB, so its tiles are dropped before the next ping can use them; set it to " +
             number_text(needed_mb) + " or more");
         return all;
     }
 
     OctreeStatistics statistics() const override {
-        const std::scoped_lock alone(preparing_);
-        return tree_.statistics();
+        const std::scoped_lock alone(parts_->preparing);
+        return parts_->tree.statistics();
     }
 
   private:
-    const Scene* scene_;
-    OctreeOptions options_;
-    Caster caster_;
-    SceneCoverage coverage_;
-    mutable std::mutex preparing_;  ///< guards changes of the members below; pings only read
-    mutable Octree tree_;
-    mutable GoalCheck goal_check_;
-};
+    ReadyPing ready(const Sight& sight) const {
+        auto& [scene, options, caster, coverage, preparing, tree, goal_check] = *parts_;
+        const Pose T_local_sensor{sight.T_world_sensor.rotation,
+                                  sight.T_world_sensor.translation - scene.origin};
+        const LeafSize leaf_size(sight.view, options.leaf_m);
+        const std::scoped_lock alone(preparing);
+        ReadyPing ping{sight, tree.prepare(sight.view, T_local_sensor, leaf_size), {}, {}};
+        if (options.literal) return ping;
+        ping.error = goal_check.place_for(sight.view, sight.T_world_sensor);
+        if (ping.error) ping.coarse = tree.prepare(sight.view, T_local_sensor, leaf_size.twice());
+        return ping;
+    }
 
-/// The engine with some pings ready. It takes no locks.
-class PreparedOctreeEngine final : public VisibilityEngine {
-  public:
-    PreparedOctreeEngine(const GrowingOctreeEngine& engine, std::vector<ReadyPing> pings)
-        : engine_(engine), pings_(std::move(pings)) {}
-
-    Samples visible_surface(const View& view, const Pose& T_world_sensor) const override {
-        for (const ReadyPing& ping : pings_) {
-            if (ping.sight.view == view && same_pose(ping.sight.T_world_sensor, T_world_sensor))
-                return engine_.visible_surface(ping);
+    Samples see(const ReadyPing& ping) const {
+        const Scene& scene = parts_->scene;
+        const Octree& tree = parts_->tree;
+        if (parts_->options.literal) return literal_samples(tree, scene, ping.leaves);
+        Samples samples = leaf_samples(tree, parts_->caster, scene, ping.leaves);
+        if (ping.coarse) {
+            const View& view = ping.sight.view;
+            const Samples coarse = leaf_samples(tree, parts_->caster, scene, *ping.coarse);
+            *ping.error = error_per_change * image_change(mean_echoes(scene, view, coarse),
+                                                          mean_echoes(scene, view, samples));
         }
-        return engine_.visible_surface(view, T_world_sensor);
+        return samples;
     }
 
-    void intersect(const Pose& T_world_sensor, std::span<const Ray> rays,
-                   std::span<Intersection> intersections) const override {
-        engine_.intersect(T_world_sensor, rays, intersections);
-    }
-
-    std::vector<std::uint8_t> covered_bins(const View& view,
-                                           const Pose& T_world_sensor) const override {
-        return engine_.covered_bins(view, T_world_sensor);
-    }
-
-  private:
-    const GrowingOctreeEngine& engine_;
+    std::shared_ptr<OctreeParts> parts_;
     std::vector<ReadyPing> pings_;
 };
-
-std::unique_ptr<VisibilityEngine> GrowingOctreeEngine::prepared(
-    std::span<const Sight> sights) const {
-    std::vector<ReadyPing> pings;
-    for (const Sight& sight : sights)
-        pings.push_back(ready(sight));
-    return std::make_unique<PreparedOctreeEngine>(*this, std::move(pings));
-}
 
 }  // namespace
 
 std::unique_ptr<OctreeEngine> make_octree_engine(const Scene& scene, const OctreeOptions& options,
                                                  bool coverage) {
-    return std::make_unique<GrowingOctreeEngine>(scene, options, coverage);
+    return std::make_unique<OctreeEngineWithPings>(
+        std::make_shared<OctreeParts>(scene, options, coverage), std::vector<ReadyPing>{});
 }
 
 }  // namespace sonarsim

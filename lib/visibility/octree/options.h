@@ -14,7 +14,6 @@ struct OctreeOptions {
 struct OctreeStatistics {
     std::uint64_t nodes = 0;
     std::uint64_t leaves = 0;  ///< nodes without children
-    std::uint64_t facets = 0;  ///< pieces of surface held by all nodes
     std::uint64_t bytes = 0;
     std::uint64_t ping_bytes = 0;  ///< memory of the tiles of the most demanding ping
     std::uint64_t evictions = 0;   ///< tiles dropped so far

@@ -43,8 +43,11 @@ bool is_in_view(const ProjectedFacet& facet, const ProjectionGrid& grid) {
 
 }  // namespace
 
-ProjectionGrid projection_grid(const View& view, float leaf_rad) {
+ProjectionGrid projection_grid(const PreparedView& prepared, float leaf_rad) {
+    const View& view = prepared.view;
     ProjectionGrid grid{};
+    grid.R_sensor_local = prepared.volume.R_sensor_local();
+    grid.sensor = grid.R_sensor_local * prepared.volume.position().cast<float>();
     grid.beams = view.beams;
     const double pixel_rad = std::min(leaf_rad / pixels_per_leaf, view.elevation_rad / least_rows);
     const double beam = view.azimuth_rad / view.beams;
@@ -63,15 +66,14 @@ ProjectionGrid projection_grid(const View& view, float leaf_rad) {
     return grid;
 }
 
-Projection project(const LeafFacet& leaf, float leaf_m, const ViewVolume& volume,
-                   const ProjectionGrid& grid, ProjectedFacet& facet, Outline& outline) {
-    const Eigen::Matrix3f& R = volume.R_sensor_local();
-    const Eigen::Vector3f at = R * volume.position().cast<float>();
+Projection project(const LeafFacet& leaf, float leaf_m, const ProjectionGrid& grid,
+                   ProjectedFacet& facet) {
+    const Eigen::Matrix3f& R = grid.R_sensor_local;
     // The order of the sums is part of the result.
     const auto turned = [&R](const Eigen::Vector3f& v) {
         return Eigen::Vector3f(R.col(0) * v.x() + R.col(1) * v.y() + R.col(2) * v.z());
     };
-    facet.centre = turned(leaf.centre) - at;
+    facet.centre = turned(leaf.centre) - grid.sensor;
     const Eigen::Vector3f u = turned(leaf.edge_u);
     const Eigen::Vector3f v = turned(leaf.edge_v);
     const float x = facet.centre.x();
@@ -87,11 +89,11 @@ Projection project(const LeafFacet& leaf, float leaf_m, const ViewVolume& volume
     const float slope = facet.centre.z() * per_rho;
     const float rho_u = per_rho * (x * u.x() + y * u.y());
     const float rho_v = per_rho * (x * v.x() + y * v.y());
-    outline = {grid.beams_per_rad * per_rho2 * (x * u.y() - y * u.x()),
-               grid.beams_per_rad * per_rho2 * (x * v.y() - y * v.x()),
-               grid.rows_per_slope * per_rho * (u.z() - slope * rho_u),
-               grid.rows_per_slope * per_rho * (v.z() - slope * rho_v)};
-    const auto& [beams_u, beams_v, rows_u, rows_v] = outline;
+    facet.outline = {grid.beams_per_rad * per_rho2 * (x * u.y() - y * u.x()),
+                     grid.beams_per_rad * per_rho2 * (x * v.y() - y * v.x()),
+                     grid.rows_per_slope * per_rho * (u.z() - slope * rho_u),
+                     grid.rows_per_slope * per_rho * (v.z() - slope * rho_v)};
+    const auto& [beams_u, beams_v, rows_u, rows_v] = facet.outline;
     const auto beams = static_cast<float>(grid.beams);
     const auto rows = static_cast<float>(grid.rows);
     facet.half_beams = std::sqrt(beams_u * beams_u + beams_v * beams_v) + 1e-6F;

@@ -13,6 +13,8 @@ namespace sonarsim {
 /// in z / rho at constant azimuth. Each beam is divided into columns; a pixel is one row of a
 /// column.
 struct ProjectionGrid {
+    Eigen::Matrix3f R_sensor_local;
+    Eigen::Vector3f sensor;  ///< scene-local position in the axes of the sensor, m
     int beams;
     int columns_per_beam;
     int columns;
@@ -26,7 +28,12 @@ struct ProjectionGrid {
 };
 
 /// `leaf_rad` is the angle that a leaf spans as seen from the sonar.
-ProjectionGrid projection_grid(const View& view, float leaf_rad);
+ProjectionGrid projection_grid(const PreparedView& prepared, float leaf_rad);
+
+/// A parallelogram in pixel coordinates: its half edges.
+struct Outline {
+    float beams_u, beams_v, rows_u, rows_v;
+};
 
 /// A facet in the coordinates of the sonar's view.
 struct ProjectedFacet {
@@ -46,15 +53,8 @@ struct ProjectedFacet {
     float depth_beam;   ///< derivative by beam
     float depth_row;    ///< derivative by row
     float depth_range;  ///< largest difference of depth between the facet and its centre
+    Outline outline;    ///< the occluder: the leaf's facet
     float slack;        ///< surface that is nearer by less does not hide the facet
-};
-
-/// The outline of a facet as an occluder: half edges of a parallelogram.
-struct Outline {
-    float beams_u;
-    float beams_v;
-    float rows_u;
-    float rows_v;
 };
 
 enum class Projection {
@@ -63,9 +63,9 @@ enum class Projection {
     on_axis,  ///< in view, but the sensor's z axis is so near that the azimuth is rounding
 };
 
-/// Projects a facet in local axes, of a leaf with edges of `leaf_m`. Sets `facet` and `outline` if
-/// the result is `in_view`, which is not certain.
-Projection project(const LeafFacet& leaf, float leaf_m, const ViewVolume& volume,
-                   const ProjectionGrid& grid, ProjectedFacet& facet, Outline& outline);
+/// Projects a facet in local axes, of a leaf with edges of `leaf_m`. Sets `facet` if the result
+/// is `in_view`, which is not certain.
+Projection project(const LeafFacet& leaf, float leaf_m, const ProjectionGrid& grid,
+                   ProjectedFacet& facet);
 
 }  // namespace sonarsim

@@ -217,7 +217,6 @@ OctreeStatistics Octree::statistics() const {
         const bool has_leaves = node.own && node.children == 0;
         for (const Level* level = node.finest.get(); level; level = level->coarser.get()) {
             out.nodes += level->nodes.size() - 1;
-            out.facets += level->facets.size();
             if (!has_leaves || level != node.finest.get()) continue;
             out.leaves += level->nodes.size() - 1;
             for (const LeafFacet& facet : level->facets)
