@@ -5,7 +5,6 @@
 
 #include "core/file.h"
 #include "dataset/shared_products.h"
-#include "gallery/foreign_json.h"
 
 namespace sonarsim {
 

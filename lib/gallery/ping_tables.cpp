@@ -7,7 +7,6 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "dataset/file_names.h"
-#include "gallery/foreign_json.h"
 
 namespace sonarsim {
 

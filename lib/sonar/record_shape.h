@@ -45,9 +45,11 @@ template <class T>
 std::vector<T> record_values(const RecordShape& shape, const SonarConfig& config,
                              const std::vector<T>& image, T blank) {
     if (!shape.bins) return image;
-    std::vector<T> values;
-    for (const std::int32_t bin : shape.bins(config))
-        values.push_back(bin < 0 ? blank : image[static_cast<std::size_t>(bin)]);
+    const std::vector<std::int32_t> bins = shape.bins(config);
+    std::vector<T> values(bins.size(), blank);
+    for (std::size_t k = 0; k < bins.size(); ++k) {
+        if (bins[k] >= 0) values[k] = image[static_cast<std::size_t>(bins[k])];
+    }
     return values;
 }
 
