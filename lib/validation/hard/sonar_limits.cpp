@@ -159,7 +159,7 @@ std::vector<HardCase> hard_sonar_limits() {
              .trial = over_seam,
              .truth = seam_law,
              .bounds = {0.02, 0.05},
-             .known = {"", "", "the seam lies between two slices of a wide beam"}}};
+             .known = {"", "", "within a beam, a seam to a surface of R = 0 is misplaced"}}};
 }
 
 }  // namespace sonarsim
