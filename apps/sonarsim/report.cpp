@@ -22,7 +22,6 @@
 #include "logging.h"
 #include "mission_options.h"
 #include "validation/hard/cases.h"
-#include "validation/hard/orders.h"
 
 namespace sonarsim {
 
@@ -63,7 +62,6 @@ int report_hard(const ReportArguments& arguments) {
         }
     }
     fmt::print("{}", hard_table(results));
-    if (arguments.hard_name.empty()) fmt::print("\n{}", orders_table(convergence_orders()));
     return all_hold ? exit_done : exit_failed;
 }
 

@@ -36,10 +36,6 @@ void add_sphere(Scene& scene, const Eigen::Vector3f& centre, float radius, std::
 void add_pole(Scene& scene, const Eigen::Vector3f& foot, float radius, float height,
               std::uint32_t material, int n = 64);
 
-/// A sea floor of waves about z = 0, |x|, |y| <= 30 m: swell of half a metre, ripples of 4 cm, two
-/// materials. For comparisons with a reference.
-Scene rough_floor();
-
 /// A tank of 8 x 6 x 3 m, floor at z = 0, with a pole, a box, a crate and a sphere in it.
 Scene tank();
 

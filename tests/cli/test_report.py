@@ -103,7 +103,8 @@ class Report(Sandbox):
         result = self.run_sonarsim("report", "--hard", "UTM", "--quiet")
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
         self.assertIn("UTM, off the grid", result.stdout)
-        self.assertIn("6 verdicts: 0 fail", result.stdout)
+        # Two cases with three engines and both echo models.
+        self.assertIn("12 verdicts: 0 fail", result.stdout)
 
     def test_engines(self):
         result = self.run_sonarsim("report", "mission.yaml", "--quick", "--quiet", "--engines",

@@ -22,6 +22,7 @@ void check(const std::vector<HardCase>& cases) {
         for (const HardResult& result : run_hard_case(hard)) {
             CAPTURE(result.name);
             CAPTURE(result.engine);
+            CAPTURE(result.model);
             CAPTURE(result.sonar);
             CAPTURE(result.error);
             CAPTURE(result.bound);
@@ -65,7 +66,7 @@ TEST_CASE("hard cases: what a mission would be refused for") {
     hard.octree_may_refuse = true;
     const std::vector<HardResult> results = run_hard_case(hard);
     CHECK(results[0].refused.empty());
-    CHECK(results[1].refused.find("octree takes opening_deg up to 160, not 180") !=
+    CHECK(results[1].refused.find("octree takes elevation_deg up to 160, not 180") !=
           std::string::npos);
     CHECK(results[1].holds());
     // A refusal that the case does not allow is a failure.
@@ -81,7 +82,7 @@ TEST_CASE("hard cases: what a mission would be refused for") {
 }
 
 TEST_CASE("hard cases: the table names every case and says when one fails") {
-    HardResult result{"a case", "a thing", "dark", "rays", "imaging"};
+    HardResult result{"a case", "a thing", "dark", "rays", "paper", "imaging"};
     result.error = 0.5;
     result.bound = 0.1;
     CHECK(hard_table({result}).find("FAILS") != std::string::npos);

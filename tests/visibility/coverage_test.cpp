@@ -18,8 +18,8 @@ TEST_CASE("coverage: the same whether it was asked for at the start or not") {
     const View view{radians(60.0), radians(60.0), 0.5, 10.0, 100, 8, 0.03};
     const Pose pose{rotation_from_rpy(0.0, radians(60.0), 0.0), {0.0, 0.0, 2.0}};
     std::vector<std::uint8_t> first;
-    for (const EngineType type :
-         {EngineType::automatic, EngineType::rays, EngineType::slices, EngineType::octree}) {
+    for (const EngineKind type :
+         {EngineKind::automatic, EngineKind::rays, EngineKind::slices, EngineKind::octree}) {
         for (const bool coverage : {true, false}) {
             EngineSettings settings{.type = type, .octree = {}};
             settings.coverage = coverage;

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "core/units.h"
+#include "sonar/kinds.h"
 #include "validation/hard/tools.h"
 #include "validation/shapes.h"
 
@@ -34,9 +35,9 @@ NoiseConfig pixel_noise(double sigma) {
 
 /// For kinds whose range noise changes nothing here: the image without it.
 std::vector<float> without_noise_where_nothing_fades(const HardContext& context) {
-    const bool fades = context.kind == SonarKind::imaging || context.kind == SonarKind::profiling;
-    if (fades) return std::vector<float>(context.ping.intensity.size(), unchecked);
-    return image_of(context.scene, in_tank(context.kind), context.engine);
+    if (kind_of(context.kind).range_noise_fades)
+        return std::vector<float>(context.ping.intensity.size(), unchecked);
+    return image_of(context.scene, in_tank(context.kind), context.engine, context.model);
 }
 
 /// P(w < 10 m) = 1e-8 at lambda = 1e9 m: sonars with range noise see nothing.
@@ -60,7 +61,8 @@ std::function<HardTrial(SonarKind)> with_streaks(StreakMode mode) {
 /// [0, 1] however bright the noise is. Only pixels above 1 count as errors here.
 std::vector<float> at_most_one(const HardContext& context) {
     std::vector<float> truth(context.ping.intensity.size(), unchecked);
-    const std::vector<float> clean = image_of(context.scene, in_tank(context.kind), context.engine);
+    const std::vector<float> clean =
+        image_of(context.scene, in_tank(context.kind), context.engine, context.model);
     const auto beams = static_cast<std::size_t>(context.ping.beams);
     for (std::size_t row = 0; row < truth.size(); row += beams) {
         bool lit = false;
@@ -86,14 +88,13 @@ void clusters(SonarConfig& config) {
 /// The multipath of the original tank. If scene and sonar are moved or scaled together, the image
 /// must not change.
 std::vector<float> multipath_in_unmoved_tank(const HardContext& context) {
-    return image_of(tank(), in_tank(context.kind, clusters), context.engine);
+    return image_of(tank(), in_tank(context.kind, clusters), context.engine, context.model);
 }
 
 HardTrial multipath_along(SonarKind kind) {
     HardTrial trial = over_floor(kind, clusters);
-    trial.T_world_vehicle = {
-        rotation_from_rpy(0.0, kind == SonarKind::imaging ? radians(30.0) : 0.0, 0.0),
-        {0.0, 0.39, 3.0}};
+    trial.T_world_vehicle = {rotation_from_rpy(0.0, looks_forward(kind) ? radians(30.0) : 0.0, 0.0),
+                             {0.0, 0.39, 3.0}};
     return trial;
 }
 
@@ -126,7 +127,8 @@ std::vector<HardCase> hard_noise() {
              .trial = tank_with(pixel_noise(0.0)),
              .truth =
                  [](const HardContext& context) {
-                     return image_of(context.scene, in_tank(context.kind), context.engine);
+                     return image_of(context.scene, in_tank(context.kind), context.engine,
+                                     context.model);
                  },
              .bounds = {0, 0}},
             {.name = "sigma 1e9",

@@ -78,14 +78,12 @@ std::vector<HardCase> hard_places() {
                              add_material(scene, 0.5F));
                      return scene;
                  },
-             .trial = plain_sonar_over_floor,
              .truth = dark,
              .bounds = {0.0, 0.0}},
             {.name = "empty scene",
              .stresses = "no triangle",
              .expected = "dark",
              .scene = [] { return empty_scene(); },
-             .trial = plain_sonar_over_floor,
              .truth = dark,
              .bounds = {0, 0}},
             {.name = "empty field of view",
@@ -97,7 +95,6 @@ std::vector<HardCase> hard_places() {
                      add_floor(scene, 30.0F, 8.0F, add_material(scene, 0.5F));
                      return scene;
                  },
-             .trial = plain_sonar_over_floor,
              .truth = dark,
              .bounds = {0, 0}},
             {.name = "a closed mesh from inside",

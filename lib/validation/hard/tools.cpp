@@ -30,6 +30,7 @@ SonarConfig hard_sonar(SonarKind kind) {
     config.range_bins = 128;
     config.azimuth_bins = 48;
     if (kind == SonarKind::imaging) config.azimuth_deg = 60.0;
+    config.sector_deg = config.step_deg = 0.01;  // the head of a scanning sonar looks ahead
     if (kind == SonarKind::sidescan) config.elevation_deg = 0.5;
     // A narrow cone over a floor fills two bins, and one bin more or less would dominate the error.
     config.opening_deg = 90.0;
@@ -42,13 +43,17 @@ Sonar without_gain(const SonarConfig& config) {
     return make_sonar(with_gain_1, {});
 }
 
+bool looks_forward(SonarKind kind) {
+    return !kind_of(kind).looks_down;
+}
+
 HardTrial over_floor(SonarKind kind, const ConfigChange& change) {
-    return at(kind, change, {0.31, 0.17, 3.0}, kind == SonarKind::imaging ? 30.0 : 0.0, 10.0);
+    return at(kind, change, {0.31, 0.17, 3.0}, looks_forward(kind) ? 30.0 : 0.0, 10.0);
 }
 
 HardTrial in_tank(SonarKind kind, const ConfigChange& change) {
-    return at(kind, change, {kind == SonarKind::imaging ? -2.4 : 1.7, -0.4, 1.5},
-              kind == SonarKind::imaging ? 15.0 : 0.0, 4.0);
+    return at(kind, change, {looks_forward(kind) ? -2.4 : 1.7, -0.4, 1.5},
+              looks_forward(kind) ? 15.0 : 0.0, 4.0);
 }
 
 HardTrial plain_sonar_over_floor(SonarKind kind) {
@@ -119,8 +124,7 @@ std::vector<float> floor_law(const HardContext& context) {
 
 std::vector<float> reference_of(const HardContext& context, const ReferenceGoal& goal) {
     const Caster caster(context.scene);
-    const Pose T_world_sensor =
-        context.trial.T_world_vehicle * context.trial.sonar.T_vehicle_sensor;
+    const Pose T_world_sensor = sensor_pose(context.trial.sonar, context.trial.T_world_vehicle, 0);
     return cast_reference(caster, context.scene, context.trial.sonar.settings.view, T_world_sensor,
                           goal)
         .intensity;
@@ -134,10 +138,13 @@ std::vector<float> dark(const HardContext& context) {
     return std::vector<float>(context.ping.intensity.size(), 0.0F);
 }
 
-std::vector<float> image_of(const Scene& scene, const HardTrial& trial, EngineKind engine_kind) {
+std::vector<float> image_of(const Scene& scene, const HardTrial& trial, EngineKind engine_kind,
+                            ModelKind model) {
     const std::unique_ptr<VisibilityEngine> engine =
         make_engine(scene, engine_settings(engine_kind));
-    return render_ping(trial.sonar, scene, *engine, trial.T_world_vehicle, {1, 0}).intensity;
+    return render_ping(with_model(trial, model).sonar, scene, *engine, trial.T_world_vehicle,
+                       {1, 0}, compared_terms(model))
+        .intensity;
 }
 
 }  // namespace sonarsim

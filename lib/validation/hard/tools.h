@@ -17,9 +17,11 @@ Sonar without_gain(const SonarConfig& config);
 /// A change that a case makes to hard_sonar().
 using ConfigChange = std::function<void(SonarConfig&)>;
 
-/// A sonar three metres over z = 0; an imaging sonar is pitched down by 30 degrees.
+/// True for a sonar whose default mount looks forward.
+bool looks_forward(SonarKind kind);
+
+/// A sonar three metres over z = 0; one that looks forward is pitched down by 30 degrees.
 HardTrial over_floor(SonarKind kind, const ConfigChange& change = {});
-HardTrial plain_sonar_over_floor(SonarKind kind);
 
 /// A sonar in the tank of shapes.h.
 HardTrial in_tank(SonarKind kind, const ConfigChange& change = {});
@@ -56,7 +58,8 @@ std::vector<float> settled_reference(const HardContext& context);
 
 std::vector<float> dark(const HardContext& context);
 
-/// The image of another scene with the same engine.
-std::vector<float> image_of(const Scene& scene, const HardTrial& trial, EngineKind engine);
+/// The image of any scene with an engine and an echo model, to compare others with.
+std::vector<float> image_of(const Scene& scene, const HardTrial& trial, EngineKind engine,
+                            ModelKind model = ModelKind::paper);
 
 }  // namespace sonarsim
