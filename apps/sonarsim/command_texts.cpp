@@ -2,6 +2,8 @@
 
 #include <sstream>
 
+#include "commands.h"
+
 namespace sonarsim {
 
 namespace {
@@ -34,6 +36,13 @@ OptionText text_of(const CLI::Option& option) {
 }
 
 }  // namespace
+
+void add_examples(CLI::App& command, std::initializer_list<const char*> lines) {
+    std::string text = "Examples:";
+    for (const char* line : lines)
+        text += std::string("\n  ") + line;
+    command.footer(text);
+}
 
 std::vector<CommandText> command_texts(const CLI::App& app) {
     std::vector<CommandText> commands;

@@ -26,7 +26,4 @@ struct CommandText {
 /// The commands as in --help, for the manual page and the completions.
 std::vector<CommandText> command_texts(const CLI::App& app);
 
-/// Adds the examples at the end of --help to each command and to the program.
-void add_examples(CLI::App& app);
-
 }  // namespace sonarsim

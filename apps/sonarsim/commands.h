@@ -1,10 +1,14 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <initializer_list>
 
 #include "exit_codes.h"
 
 namespace sonarsim {
+
+/// Adds examples at the end of --help.
+void add_examples(CLI::App& command, std::initializer_list<const char*> lines);
 
 // Each function adds one subcommand, which stores its exit code in `exit_code` and may throw.
 

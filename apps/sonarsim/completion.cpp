@@ -155,6 +155,9 @@ void add_completion(CLI::App& app, int& exit_code) {
     static const std::map<std::string, Write> shells{{"bash", bash}, {"fish", fish}, {"zsh", zsh}};
     CLI::App& command = *app.add_subcommand(
         "completion", "Prints the script that completes command lines in a shell");
+    add_examples(
+        command,
+        {"sonarsim completion bash > ~/.local/share/bash-completion/completions/sonarsim"});
     auto shell = std::make_shared<std::string>();
     command.add_option("shell", *shell, "The shell")
         ->required()

@@ -29,6 +29,7 @@ int gallery(const GalleryArguments& arguments) {
 void add_gallery(CLI::App& app, int& exit_code) {
     CLI::App& command = *app.add_subcommand(
         "gallery", "Writes a page to look through a dataset, index.html in its folder");
+    add_examples(command, {"sonarsim gallery out/hull"});
     auto arguments = std::make_shared<GalleryArguments>();
     command.add_option("folder", arguments->folder, "The folder of the dataset")->required();
     add_log_options(command, arguments->log);

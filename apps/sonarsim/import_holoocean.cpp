@@ -44,6 +44,8 @@ void import_scenario(const ImportArguments& arguments) {
 void add_import_holoocean(CLI::App& app, int& exit_code) {
     CLI::App& command = *app.add_subcommand(
         "import-holoocean", "Writes a mission from the sonars and poses of a HoloOcean scenario");
+    add_examples(command,
+                 {"sonarsim import-holoocean scenario.json --out mission.yaml --scene hull.glb"});
     auto arguments = std::make_shared<ImportArguments>();
     command.add_option("scenario", arguments->scenario, "The scenario, a JSON file")->required();
     command.add_option("--out", arguments->out, "The mission (default: standard output)")

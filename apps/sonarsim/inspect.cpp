@@ -103,6 +103,7 @@ int inspect(const InspectArguments& arguments) {
 void add_inspect(CLI::App& app, int& exit_code) {
     CLI::App& command = *app.add_subcommand(
         "inspect", "Prints bounds, triangles, materials and instances of a scene");
+    add_examples(command, {"sonarsim inspect hull.glb"});
     auto arguments = std::make_shared<InspectArguments>();
     command.add_option("scene", arguments->scene, "The scene, a .gltf or .glb file")->required();
     command.add_option("--materials", arguments->materials,

@@ -62,6 +62,7 @@ Json reference_json(const std::vector<SectionReference>& sections) {
 void add_schema(CLI::App& app, int& exit_code) {
     CLI::App& command = *app.add_subcommand(
         "schema", "Prints the JSON Schema of a mission, for editors that complete and check");
+    add_examples(command, {"sonarsim schema > sonarsim.schema.json"});
     command.callback([&exit_code] {
         fmt::print("{}\n", mission_json_schema(sonar_keys()).dump(1));
         exit_code = exit_done;
@@ -71,6 +72,7 @@ void add_schema(CLI::App& app, int& exit_code) {
 void add_warnings(CLI::App& app, int& exit_code) {
     CLI::App& command = *app.add_subcommand(
         "warnings", "Prints every warning with its number, its cure, its limit and the reason");
+    add_examples(command, {"sonarsim warnings"});
     command.callback([&exit_code] {
         fmt::print("{}", warning_table_markdown());
         exit_code = exit_done;
@@ -80,6 +82,7 @@ void add_warnings(CLI::App& app, int& exit_code) {
 void add_keys(CLI::App& app, int& exit_code) {
     CLI::App& command = *app.add_subcommand(
         "keys", "Prints every key of a mission with its default, range and meaning");
+    add_examples(command, {"sonarsim keys --json"});
     auto json = std::make_shared<bool>(false);
     command.add_flag("--json", *json, "Prints JSON instead of Markdown");
     command.callback([json, &exit_code] {

@@ -13,7 +13,6 @@
 #include <system_error>
 #include <vector>
 
-#include "command_texts.h"
 #include "commands.h"
 #include "core/build_info.h"
 #include "core/error.h"
@@ -94,7 +93,7 @@ int run(int argc, char** argv) {
     add_import_holoocean(app, exit_code);
     add_completion(app, exit_code);
     add_man(app, exit_code);
-    add_examples(app);
+    add_examples(app, {"sonarsim render mission.yaml", "sonarsim render --help"});
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

@@ -99,6 +99,7 @@ std::string manual_page(const CLI::App& app) {
 
 void add_man(CLI::App& app, int& exit_code) {
     CLI::App& command = *app.add_subcommand("man", "Prints the manual page, for man");
+    add_examples(command, {"sonarsim man | man -l -"});
     command.callback([&app, &exit_code] {
         fmt::print("{}", manual_page(app));
         exit_code = exit_done;

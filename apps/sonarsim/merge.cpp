@@ -91,6 +91,7 @@ int merge(const MergeArguments& arguments) {
 void add_merge(CLI::App& app, int& exit_code) {
     CLI::App& command = *app.add_subcommand(
         "merge", "Joins the shards of one mission that were rendered into folders of their own");
+    add_examples(command, {"sonarsim merge out/part1 out/part2 out/hull"});
     auto arguments = std::make_shared<MergeArguments>();
     command
         .add_option("folders", arguments->folders,

@@ -60,6 +60,7 @@ int preview(const PreviewArguments& arguments) {
 void add_preview(CLI::App& app, int& exit_code) {
     CLI::App& command = *app.add_subcommand(
         "preview", "Draws one picture of a mission: what the sonars see, and from where");
+    add_examples(command, {"sonarsim preview mission.yaml --ping 20"});
     auto arguments = std::make_shared<PreviewArguments>();
     add_mission_options(command, arguments->mission, MissionOutput::other);
     command

@@ -218,6 +218,11 @@ int render(RenderArguments arguments) {
 void add_render(CLI::App& app, int& exit_code) {
     CLI::App& command = *app.add_subcommand(
         "render", "Renders a mission into its dataset, or goes on with an interrupted one");
+    add_examples(
+        command,
+        {"sonarsim render mission.yaml",
+         "sonarsim render mission.yaml --out out/noisy --set sensors.fls.noise.add_sigma=0.2",
+         "sonarsim render mission.yaml --shard 2/8 --out out/part2"});
     auto arguments = std::make_shared<RenderArguments>();
     add_mission_options(command, arguments->mission);
     add_threads_option(command, arguments->render.threads);

@@ -133,6 +133,7 @@ int report(const ReportArguments& arguments) {
 void add_report(CLI::App& app, int& exit_code) {
     CLI::App& command = *app.add_subcommand(
         "report", "Measures what each engine costs this mission, in time and in error");
+    add_examples(command, {"sonarsim report mission.yaml", "sonarsim report --hard"});
     auto arguments = std::make_shared<ReportArguments>();
     add_mission_options(command, arguments->mission);
     command.get_option("mission")->required(false);

@@ -138,6 +138,7 @@ int status(const StatusArguments& arguments) {
 void add_status(CLI::App& app, int& exit_code) {
     CLI::App& command = *app.add_subcommand(
         "status", "Prints the progress of a job that is running, was interrupted or is complete");
+    add_examples(command, {"sonarsim status out/part1 out/part2"});
     auto arguments = std::make_shared<StatusArguments>();
     command
         .add_option("folders", arguments->folders,

@@ -16,7 +16,6 @@
 #include <variant>
 
 #include "checks/find_warnings.h"
-#include "checks/memory.h"
 #include "commands.h"
 #include "core/clock.h"
 #include "core/machine_memory.h"
@@ -271,6 +270,9 @@ void add_validate(CLI::App& app, int& exit_code) {
     CLI::App& command = *app.add_subcommand(
         "validate",
         "Checks a mission and all it names, and looks at it through its sonars; writes nothing");
+    add_examples(command,
+                 {"sonarsim validate mission.yaml", "sonarsim validate mission.yaml --json",
+                  "sonarsim validate mission.yaml --strict"});
     auto arguments = std::make_shared<ValidateArguments>();
     add_mission_options(command, arguments->mission);
     command.add_flag("--overwrite", arguments->overwrite, "Allow any output folder, as in render");

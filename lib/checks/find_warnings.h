@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "assembly/assemble.h"
@@ -49,6 +50,20 @@ std::vector<Warning> image_warnings(const Mission& mission, const Assembly& asse
 std::vector<Warning> unseen_objects(const Mission& mission, const Assembly& assembly,
                                     std::span<const SonarSurvey> sonars,
                                     const VisibilityEngine& rays);
+
+/// An estimate of the memory of one ping of a sonar.
+struct PingMemory {
+    double bytes = 0.0;
+    std::string_view key;  ///< the key of the sensor that would reduce it most
+};
+PingMemory ping_memory(const Sonar& sonar);
+
+/// W26 for every sonar whose pings on `threads` threads take more than the `available` bytes.
+std::vector<Warning> memory_warnings(const std::vector<Sonar>& sonars, int threads,
+                                     double available);
+
+/// True if one ping of any of the sonars takes more than the `available` bytes.
+bool exceeds_memory(const std::vector<Sonar>& sonars, double available);
 
 /// A split with more parts than the mission has variants.
 std::vector<Warning> split_warnings(const SplitConfig& config, std::size_t variants);

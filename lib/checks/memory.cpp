@@ -1,6 +1,6 @@
-#include "checks/memory.h"
-
 #include <algorithm>
+
+#include "checks/find_warnings.h"
 
 namespace sonarsim {
 

@@ -65,17 +65,6 @@ struct MergeContext {
     Assembly assembly;
 };
 
-/// The white of each sensor's pictures. It was derived from the scene, which is not needed here.
-std::vector<double> full_scales_of(const DatasetFile& dataset, const std::string& file) {
-    std::vector<double> scales;
-    for (const DescribedSensor& sensor : dataset.sensors) {
-        if (sensor.full_scale <= 0.0)
-            throw InputError({file}, "sensor '" + sensor.name + "' has no full_scale above 0");
-        scales.push_back(sensor.full_scale);
-    }
-    return scales;
-}
-
 MergeContext read_context(const fs::path& part, const CommonFiles& common, const fs::path& out) {
     MergeContext context;
     const std::string file = (part / mission_name).string();
@@ -93,7 +82,14 @@ MergeContext read_context(const fs::path& part, const CommonFiles& common, const
     for (const SonarConfig& sensor : context.mission.sensors)
         context.assembly.sonars.push_back(
             make_sonar(sensor, context.mission.accuracy, context.mission.water));
-    context.assembly.full_scales = full_scales_of(dataset, (part / description_name).string());
+    // The white of pictures was derived from the scene, which is not needed here.
+    for (const DescribedSensor& sensor : dataset.sensors) {
+        if (sensor.full_scale <= 0.0) {
+            throw InputError({(part / description_name).string()},
+                             "sensor '" + sensor.name + "' has no full_scale above 0");
+        }
+        context.assembly.full_scales.push_back(sensor.full_scale);
+    }
     if (context.assembly.full_scales.size() != context.assembly.sonars.size())
         throw InputError({(part / description_name).string()}, "lists other sensors");
     return context;

@@ -1,7 +1,6 @@
-#include "checks/memory.h"
-
 #include <doctest/doctest.h>
 
+#include "checks/find_warnings.h"
 #include "sonar/kinds.h"
 #include "sonar/sonar.h"
 
