@@ -45,7 +45,7 @@ __attribute__((target("sha"))) void blocks_by_sha_instructions(State& state, con
         const __m128i abef_before = abef;
         const __m128i cdgh_before = cdgh;
         __m128i words[16];
-        for (int i = 0; i < 16; ++i) {  // four rounds each
+        for (std::ptrdiff_t i = 0; i < 16; ++i) {  // four rounds each
             if (i < 4) {
                 words[i] = _mm_shuffle_epi8(load(blocks + 16 * i), big_endian);
             } else {
@@ -92,7 +92,7 @@ std::uint32_t big_endian_word(const char* bytes) {
 void sha256_blocks_portable(State& state, const char* blocks, std::size_t count) {
     for (; count > 0; --count, blocks += 64) {
         std::uint32_t w[64];
-        for (int i = 0; i < 16; ++i)
+        for (std::ptrdiff_t i = 0; i < 16; ++i)
             w[i] = big_endian_word(blocks + 4 * i);
         for (int i = 16; i < 64; ++i) {
             const std::uint32_t s0 =

@@ -53,7 +53,7 @@ struct DescribedLabels {
 };
 
 /// A dataset.json whose keys were checked.
-struct DatasetFile {
+struct DatasetFile {              // NOLINT(bugprone-exception-escape): moving JSON throws nothing
     nlohmann::ordered_json json;  ///< all of it
     bool complete = false;
     std::string mission;  ///< fit for the name of a folder

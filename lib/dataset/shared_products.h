@@ -13,8 +13,8 @@ namespace sonarsim {
 enum class CocoPicture {
     polar,
     fan,
-    record,  ///< of all pings of a sensor: waterfalls and echograms
-    scan,    ///< of the sweeps of a scanning sonar
+    record,  ///< all pings of a sensor: waterfalls and echograms
+    scan,    ///< sweeps of a scanning sonar
 };
 
 /// A file that is made of the pings of all sonars once all of them are rendered.

@@ -63,7 +63,7 @@ struct PingFile {
     std::string extension;  ///< with the dot
     PingArray array = PingArray::none;
     std::string ids = {};    ///< its values are ids of this list of `labels` in dataset.json
-    std::string title = {};  ///< of a picture for people; "": it is none
+    std::string title = {};  ///< title of a picture for people; "": it is none
 };
 
 /// A record per ping, in one file for all pings of the sensor.
@@ -71,7 +71,7 @@ struct PingRecord {  // NOLINT(bugprone-exception-escape): moving JSON throws no
     std::string file;
     NpyFormat format;
     nlohmann::ordered_json axes;  ///< the meaning of the indices, for dataset.json
-    std::string label = {};       ///< of the values: a label, "raw", or "" for the echoes
+    std::string label = {};       ///< kind of the values: a label, "raw", or "" for the echoes
     std::string ids = {};         ///< as in PingFile
 };
 

@@ -13,7 +13,7 @@ using namespace sonarsim;
 
 namespace {
 
-/// Whether the path stays in the folder that it starts from.
+/// True if the path stays in the folder that it starts from.
 bool stays_below(const std::string& name) {
     const std::filesystem::path path(name);
     if (name.empty() || name.find('\0') != std::string::npos || !path.is_relative()) return false;
