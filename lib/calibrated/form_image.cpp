@@ -13,8 +13,8 @@ namespace sonarsim {
 
 namespace {
 
-// Patches may be twice as deep if speckle is drawn for each ping: on the tank the expected image is
-// then off by 1.8 %.
+// The factor on the size of patches in range if speckle is drawn for each ping. With it, the
+// expected image of the tank has an error of 1.8 %.
 constexpr float deeper_patches = 2.0F;
 
 std::vector<Backscatter> scattering_of(const Scene& scene) {
@@ -26,7 +26,7 @@ std::vector<Backscatter> scattering_of(const Scene& scene) {
     return out;
 }
 
-/// The steps of an image, for beams of either kind, and what they share.
+/// The steps that form an image, and their common data. `Beams`: ArrayBeams or TransducerBeams.
 template <class Beams>
 class ImageFormer {
   public:
@@ -44,7 +44,7 @@ class ImageFormer {
           speckle_gain_(model.amplitude_taps.scalloping_gain * scalloping_gain(beams)),
           ping_(ping) {}
 
-    /// Fills the image. The numbers are the sections of docs/calibrated.md.
+    /// Fills the image. Numbers in the comments are sections of docs/calibrated.md.
     void form(const TracedPing& traced) {
         EchoGrid grid(model_.equation.rows, columns_of(beams_));
         const bool of_powers = speckle_ == SpeckleMode::none;
@@ -56,7 +56,7 @@ class ImageFormer {
         }
         if (context_.terms.multipath) add_multipath(specular_paths(traced, context_.scene), grid);
 
-        // 2. Speckle. With `speckle: scene` it is in the amplitudes of the scatterers.
+        // 2. Speckle. With `speckle: scene` the amplitudes of step 1 already have it.
         if (speckle_ == SpeckleMode::ping) draw_speckle(grid, speckle_gain_, ping_draws_);
 
         // 3. Pulse.
@@ -69,7 +69,7 @@ class ImageFormer {
     }
 
   private:
-    /// Finds the echoes of a block of patches, and their places in the grid.
+    /// Computes the echoes of a block of patches: levels, range bins and columns of the grid.
     void find(const PatchBlock& patches) {
         ping_.counts.echoes += patches.count;
         ping_.counts.out_of_range +=
@@ -79,7 +79,8 @@ class ImageFormer {
             add_clutter(patches, model_.clutter, sonar_, scene_draws_, echoes_);
     }
 
-    /// Adds amplitudes of the scene's scatterers or, where speckle is not the scene's, powers.
+    /// Adds the echoes of a surface to the grid: with `speckle: scene` the amplitudes of its
+    /// scatterers, else the powers of its patches.
     void add_surface(std::span<const Sample> surface, EchoGrid& grid) {
         if (speckle_ == SpeckleMode::scene) {
             Scatterers block;
@@ -101,9 +102,9 @@ class ImageFormer {
         });
     }
 
-    /// Adds the specular paths. Where speckle is the scene's, its amplitudes are drawn
-    /// for the ping: their phase follows the shape of the mirror to a fraction of a wavelength,
-    /// which no mesh has.
+    /// Adds the echoes of the specular paths. With `speckle: scene` their amplitudes are drawn for
+    /// each ping: their phase depends on the shape of the reflector to a fraction of a wavelength,
+    /// and no mesh is as exact as that.
     void add_multipath(const std::vector<SpecularPath>& paths, EchoGrid& grid) {
         if (paths.empty()) return;
         ping_.counts.echoes += 2 * paths.size();
@@ -125,7 +126,7 @@ class ImageFormer {
     SonarInScene sonar_;
     std::vector<Backscatter> materials_;
     SpeckleMode speckle_;
-    float speckle_gain_;  ///< keeps the mean power where speckle is drawn per cell of the grid
+    float speckle_gain_;  ///< restores the mean power where the grid's cells draw the speckle
     PointEchoes echoes_;
     Ping& ping_;
 };

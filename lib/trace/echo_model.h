@@ -22,45 +22,45 @@ struct FormContext {
 };
 
 /// An echo model: PaperModel (paper/paper_model.h) or CalibratedModel (calibrated/model.h). It
-/// turns what a sonar saw into an image. Models are immutable; any number of threads may form
+/// turns the trace of a ping into an image. Models are immutable; any number of threads may form
 /// images at once.
 class EchoModel {
   public:
     virtual ~EchoModel() = default;
 
-    /// Fills the image [range bins, beams] of `ping`, which is 0, its counts and its seconds. A
-    /// pure function: the same arguments give the same bytes.
+    /// Fills the image [range bins, beams] of `ping`, its counts and its seconds. The image must be
+    /// 0 before. The same arguments give the same bytes.
     virtual void form(const TracedPing& traced, const FormContext& context, Ping& ping) const = 0;
-    /// The names of its random terms, in the order in which they enter an image.
+    /// The names of the model's random terms, in the order in which they enter an image.
     virtual std::span<const std::string_view> random_terms() const = 0;
 
-    /// The guard beams that it needs.
+    /// The guard beams that the model needs.
     virtual GuardBeams guard_beams() const { return {}; }
-    /// True if paths are needed that the second surface mirrors away from the sonar: a rough
-    /// surface scatters sound back along them.
+    /// True if the model needs the multipath paths whose second surface reflects the sound away
+    /// from the sonar. A rough surface scatters sound back along them.
     virtual bool needs_scattered_paths() const { return false; }
-    /// The error goal at which this view has to be seen by rays; 0: any engine will do.
+    /// The error goal for the rays, if this view needs the engine `rays`; 0: any engine will do.
     virtual double rays_goal(const View& /*view*/) const { return 0.0; }
-    /// True if a bin is the sum of its echoes' energies, and not their mean.
+    /// True if a bin is the sum of the energies of its echoes; false if it is a mean.
     virtual bool energies_add() const { return false; }
     /// True if an image takes so long that previews and checks of a mission form fewer of them.
     virtual bool is_slow() const { return false; }
-    /// The memory that it needs while it forms an image, besides the image, bytes.
+    /// The memory in bytes that the model needs to form an image, without the image itself.
     virtual double working_bytes(bool /*multipath*/) const { return 0.0; }
 
-    /// The mean signal of a pixel and the deviation of its noise. `clean` is the pixel without the
-    /// random terms of pixels, `noisy` the pixel with them.
+    /// The signal of a pixel and the size of its noise. `clean` is the value of the pixel without
+    /// the noise of pixels, `noisy` its value with that noise.
     struct SignalAndNoise {
         double signal, noise;
     };
     virtual SignalAndNoise signal_and_noise(float clean, float noisy, int range_bin,
                                             int beam) const = 0;
 
-    /// Adds what the numbers of an image mean to the sensor's block in dataset.json.
+    /// Adds the meaning of an image's values to the sensor's block in dataset.json.
     virtual void describe(nlohmann::ordered_json& /*sensor*/) const {}
-    /// The bits of the numbers in raw/ and raw.npy; 0: the model has none.
+    /// The number of bits of a value in raw/ and raw.npy; 0: the model has no raw values.
     virtual int raw_bits() const { return 0; }
-    /// The numbers that the instrument delivers, [range bins, beams].
+    /// The integers that the instrument delivers (raw/ and raw.npy), [range bins, beams].
     virtual std::vector<std::uint16_t> raw(const Ping& /*ping*/) const { return {}; }
 };
 
