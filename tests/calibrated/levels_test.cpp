@@ -120,7 +120,7 @@ TEST_SUITE("calibrated") {
             const double share = std::uniform_real_distribution<>(0.0, 1.0)(draw);
             return which == 0 ? low : which == 1 ? high : low + share * (high - low);
         };
-        for (int trial = 0; trial < (test::sanitized ? 30 : 200); ++trial) {
+        for (int trial = 0; trial < (test::sanitized ? 30 : 100); ++trial) {
             SonarConfig config = sonar_of(kinds[draw() % kinds.size()]);
             InstrumentConfig& instrument = config.instrument;
             config.range_min_m = 0.0;
