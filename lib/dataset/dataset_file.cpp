@@ -230,7 +230,7 @@ DescribedLabels read_labels(const CheckedJson& json) {
 void check_version(const CheckedJson& json, const std::string& file) {
     const CheckedJson format = json.at("format");
     if (format.text() != dataset_format) format.refuse(dataset_format);
-    const Json& version = json.at("format_version").json();
+    const Json version = json.at("format_version").json();
     if (version == dataset_format_version) return;
     throw InputError({file}, "has format_version " + version.dump(-1, ' ', true, replace_bytes) +
                                  ", and this program knows " +

@@ -31,7 +31,7 @@ double error_of(const std::vector<Interval>& surfaces) {
 
 }  // namespace
 
-TEST_CASE("slices: bins that surface only just facet_extents count as errors") {
+TEST_CASE("slices: bins that surface only just reaches count as errors") {
     // The surface fills bins 2 to 4, the last with 0.0005, 0.002 or half a bin.
     CHECK(error_of({{2.5F, 4.0005F}}) == doctest::Approx(0.7 / 3.0).epsilon(1e-3));
     CHECK(error_of({{2.5F, 4.002F}}) == doctest::Approx(0.3 / 3.0).epsilon(1e-3));
@@ -43,7 +43,7 @@ TEST_CASE("slices: bins that surface only just facet_extents count as errors") {
     CHECK(error_of({}) == 0.0);
 }
 
-TEST_CASE("slices: the error of edge_bins is that of the beams so far") {
+TEST_CASE("slices: the error of edge bins is that of the beams so far") {
     EdgeBinError bins(ten_bins());
     bins.begin_beam(0);
     bins.add({2.5F, 4.0005F}, 1.5005F, 4.0005F, 1.0F);
