@@ -24,7 +24,7 @@ BANNED = {
     r"by way of": "over, through or by",
     r"(?:is|are|was|were|be|been) told\b": "reports, names or warns",
     r"heard?\b": "insonified, received or visible",
-    r"lit places?": "occupied cells",
+    r"lit (?:bins?|cells?|places?)": "occupied bins or cells",
     r"by so much": "the quantity",
     r"sees? anew": "again",
     r"doubt(?:s|ful|ed)?\b": "warning",

@@ -58,8 +58,8 @@ std::string survey_text(const SonarSurvey& found, const Scene& scene) {
     std::string text =
         line(fmt::format("altitude {}, roll {}, pitch {}", text_of(found.altitude_m, "m"),
                          text_of(roll, "deg"), text_of(pitch, "deg")));
-    text += line(fmt::format("{} of {} pings tried are blind, {:.1f} % of the bins are lit",
-                             found.blind, found.pings, 100.0 * found.lit_share));
+    text += line(fmt::format("{} of {} pings tried are blind, {:.1f} % of the bins are occupied",
+                             found.blind, found.pings, 100.0 * found.occupied_share));
     if (found.first_echo_m.empty()) return text;
     text += line(fmt::format("first echo at {}, last at {}", text_of(found.first_echo_m, "m"),
                              text_of(found.last_echo_m, "m")));
@@ -71,8 +71,9 @@ std::string survey_text(const SonarSurvey& found, const Scene& scene) {
                             100.0 * share);
     }
     text += line("sees most of " + seen);
-    return text + line(fmt::format("signal {:.3g}, noise {:.3g}, {:.1f} % of the lit bins white",
-                                   found.signal, found.noise, 100.0 * found.white_share));
+    return text +
+           line(fmt::format("signal {:.3g}, noise {:.3g}, {:.1f} % of the occupied bins white",
+                            found.signal, found.noise, 100.0 * found.white_share));
 }
 
 Json survey_json(const SonarSurvey& found, const Scene& scene) {
@@ -84,7 +85,7 @@ Json survey_json(const SonarSurvey& found, const Scene& scene) {
             {"altitude_m", json_of(found.altitude_m)},
             {"roll_deg", json_of(found.roll_deg)},
             {"pitch_deg", json_of(found.pitch_deg)},
-            {"lit_share", found.lit_share},
+            {"occupied_share", found.occupied_share},
             {"first_echo_m", json_of(found.first_echo_m)},
             {"last_echo_m", json_of(found.last_echo_m)},
             {"seen_most", seen},

@@ -20,7 +20,7 @@ constexpr std::size_t most_pings_for_white = 8;  // per sonar
 constexpr std::size_t most_slow = 3;             // per sonar with a slow echo model
 constexpr std::size_t most_bins = 1U << 24;      // in all probes of a sonar
 constexpr double coarse_l1 = 0.1;                // brightness needs no fine sampling
-constexpr double share_below_white = 0.99;       // quantile of the lit bins
+constexpr double share_below_white = 0.99;       // quantile of the occupied bins
 // A few glints far above all other echoes, as in the calibrated model, are allowed to saturate.
 constexpr double share_usual = 0.9;
 constexpr double most_above_usual = 10.0;
@@ -46,9 +46,10 @@ float quantile(std::vector<float>& values, double share) {
 }
 
 /// Appends the intensities of the bins that see surface.
-void append_lit(const Ping& clean, const Ping& ping, std::vector<float>& lit) {
+void append_occupied(const Ping& clean, const Ping& ping, std::vector<float>& occupied) {
     for (std::size_t i = 0; i < ping.intensity.size(); ++i) {
-        if (clean.intensity[i] > 0.0F && ping.intensity[i] > 0.0F) lit.push_back(ping.intensity[i]);
+        if (clean.intensity[i] > 0.0F && ping.intensity[i] > 0.0F)
+            occupied.push_back(ping.intensity[i]);
     }
 }
 
@@ -60,19 +61,19 @@ double find_full_scale(const Mission& mission, const Scene& scene, const Traject
     const auto bins = static_cast<std::size_t>(view.range_bins) * view.beams;
     const std::size_t most = sonar.settings.model->is_slow() ? most_slow : most_pings_for_white;
     const std::size_t probes = std::clamp<std::size_t>(most_bins / bins, 1, most);
-    std::vector<float> lit;
+    std::vector<float> occupied;
     for (const std::uint32_t pose : sample_pings(trajectory.size(), sonar.config.every, probes)) {
         const TimedPose& at = trajectory[pose];
         const SonarAtPose then(mission, sonar, pose);
         const TracedPing traced =
             trace(*then, scene, *engine_at(engine, motions, at.t_s), at.T_world_vehicle, pose);
         const PingKey key{mission.seed, pose};
-        append_lit(form_image(traced, then->settings, scene, key, direct_echoes_alone),
-                   form_image(traced, then->settings, scene, key), lit);
+        append_occupied(form_image(traced, then->settings, scene, key, direct_echoes_alone),
+                        form_image(traced, then->settings, scene, key), occupied);
     }
-    if (lit.empty()) return nothing_seen;
-    const double white = std::min<double>(quantile(lit, share_below_white),
-                                          most_above_usual * quantile(lit, share_usual));
+    if (occupied.empty()) return nothing_seen;
+    const double white = std::min<double>(quantile(occupied, share_below_white),
+                                          most_above_usual * quantile(occupied, share_usual));
     return std::isfinite(white) ? two_digits_up(white) : nothing_seen;
 }
 

@@ -11,10 +11,10 @@
 namespace sonarsim {
 
 /// The intensity that becomes white in pictures, by sonar: output.full_scale, or for `auto` the 99
-/// % quantile of the lit bins of a few pings spread over the trajectory, at most ten times their 90
-/// % quantile, rounded up to two digits; 1 if these pings see nothing. It does not depend on the
-/// shard, the number of threads or the engine, since the probes always use rays. `motions` are
-/// those of the scene's bodies.
+/// % quantile of the occupied bins of a few pings spread over the trajectory, at most ten times
+/// their 90 % quantile, rounded up to two digits; 1 if these pings see nothing. It does not depend
+/// on the shard, the number of threads or the engine, since the probes always use rays. `motions`
+/// are those of the scene's bodies.
 std::vector<double> find_full_scales(const Mission& mission, const Scene& scene,
                                      const Trajectory& trajectory,
                                      std::span<const Trajectory> motions,

@@ -43,14 +43,14 @@ std::size_t EchoGrid::convolve_pulse(const RangeTaps& taps) {
     const std::size_t lines = (length + floats_per_line - 1) / floats_per_line;
     std::vector<float> padded(lines * floats_per_line + 2 * beside);
     float* const middle = padded.data() + beside;
-    std::size_t lit = 0;
+    std::size_t occupied = 0;
     for (int c = 0; c < columns_; ++c) {
         float* const values = column(c);
         std::copy_n(values, length, middle);
         int echoes = 0;
         for (std::size_t i = 0; i < length; i += 2)
             echoes += values[i] != 0.0F || values[i + 1] != 0.0F ? 1 : 0;
-        lit += echoes;
+        occupied += echoes;
         if (echoes == 0) continue;
         for (std::size_t i = 0; i < lines * floats_per_line; i += floats_per_line) {
             Floats8 one = 0.0F;
@@ -65,7 +65,7 @@ std::size_t EchoGrid::convolve_pulse(const RangeTaps& taps) {
             other.store(values + i + lanes);
         }
     }
-    return lit;
+    return occupied;
 }
 
 }  // namespace sonarsim

@@ -7,7 +7,7 @@ namespace sonarsim {
 namespace {
 
 // docs/warnings.md says why these are the limits.
-constexpr double many_white = 0.05;  // a share of the lit bins
+constexpr double many_white = 0.05;  // a share of the occupied bins
 constexpr double faint = 0.25;       // a share of the noise's deviation
 constexpr double fewest_greys = 16.0;
 constexpr double many_lost = 0.5;   // a share of the echoes, or of the samples

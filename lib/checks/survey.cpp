@@ -156,7 +156,7 @@ void take_samples(const View& view, const Samples& samples, SonarSurvey& out) {
 /// Sums over the bins of a sonar's pings.
 struct BinSums {
     std::size_t bins = 0;
-    std::size_t lit = 0;
+    std::size_t with_surface = 0;
     std::size_t white = 0;
     std::size_t occupied = 0;
     double signal = 0.0;
@@ -170,7 +170,7 @@ void add_bins(const Sonar& sonar, double full_scale, const Ping& clean, const Pi
         const float value = ping.intensity[i];
         out.brightest = std::max(out.brightest, value);
         if (clean.intensity[i] <= 0.0F) continue;
-        ++sums.lit;
+        ++sums.with_surface;
         sums.white += value > full_scale;
         const auto [signal, noise] = sonar.settings.model->signal_and_noise(
             clean.intensity[i], value, static_cast<int>(i) / ping.beams,
@@ -183,12 +183,12 @@ void add_bins(const Sonar& sonar, double full_scale, const Ping& clean, const Pi
 }
 
 void finish(const BinSums& sums, SonarSurvey& out) {
-    if (sums.bins == 0 || sums.lit == 0) return;
-    const auto lit = static_cast<double>(sums.lit);
-    out.lit_share = static_cast<double>(sums.occupied) / static_cast<double>(sums.bins);
-    out.white_share = static_cast<double>(sums.white) / lit;
-    out.noise = sums.noise / lit;
-    out.signal = sums.signal / lit;
+    if (sums.bins == 0 || sums.with_surface == 0) return;
+    const auto with_surface = static_cast<double>(sums.with_surface);
+    out.occupied_share = static_cast<double>(sums.occupied) / static_cast<double>(sums.bins);
+    out.white_share = static_cast<double>(sums.white) / with_surface;
+    out.noise = sums.noise / with_surface;
+    out.signal = sums.signal / with_surface;
 }
 
 SonarSurvey survey_sonar(const Mission& mission, const Assembly& assembly, Sonar sonar,

@@ -41,7 +41,7 @@ struct NoReturnReasons {
 /// A sonar's view of the scene in a few of its pings along the trajectory.
 struct SonarSurvey {
     std::size_t pings = 0;  ///< number of pings that were tried
-    std::size_t blind = 0;  ///< pings without a lit bin
+    std::size_t blind = 0;  ///< pings without an occupied bin
     NoReturnReasons no_return;
     std::size_t below_surface = 0;  ///< pings with surface above and none below
     std::size_t enclosed = 0;       ///< pings from within one instance of several
@@ -51,10 +51,10 @@ struct SonarSurvey {
     Interval pitch_deg;
     Interval first_echo_m;  ///< one value for each ping that saw anything
     Interval last_echo_m;
-    double lit_share = 0.0;    ///< a share of the bins of all pings
-    double white_share = 0.0;  ///< share of the lit bins above the white of pictures
+    double occupied_share = 0.0;    ///< a share of the bins of all pings
+    double white_share = 0.0;  ///< share of the occupied bins above the white of pictures
     float brightest = 0.0F;
-    double signal = 0.0;          ///< mean intensity of the lit bins without pixel noise
+    double signal = 0.0;          ///< mean intensity of the occupied bins without pixel noise
     double noise = 0.0;           ///< mean deviation of the noise that is added to them
     std::vector<double> seen_m2;  ///< visible surface, by Scene::instances
 };

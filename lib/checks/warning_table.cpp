@@ -96,16 +96,17 @@ constexpr std::array table{
                 "in {0} of {1} pings there is no surface within the range in any direction; {2:s}",
                 "check the coordinates of the trajectory against the bounds of the scene",
                 "one blind ping", "as W12"},
-    WarningText{WarningCode::below_noise,
-                "its echoes are lost in its noise: their mean over the lit bins is {0:.3g}, and "
-                "the standard deviation of the noise is {1:.3g}",
-                "lower noise.add_sigma, or with the calibrated model the receiver's noise",
-                "a mean echo below a quarter of the noise's deviation",
-                "the mean of 16 bins is then at most one deviation above zero"},
+    WarningText{
+        WarningCode::below_noise,
+        "its echoes are lost in its noise: their mean over the occupied bins is {0:.3g}, and "
+        "the standard deviation of the noise is {1:.3g}",
+        "lower noise.add_sigma, or with the calibrated model the receiver's noise",
+        "a mean echo below a quarter of the noise's deviation",
+        "the mean of 16 bins is then at most one deviation above zero"},
     WarningText{WarningCode::saturated,
-                "{0:.1f} % of its lit bins are above output.full_scale ({1:.4g}) and white in "
+                "{0:.1f} % of its occupied bins are above output.full_scale ({1:.4g}) and white in "
                 "pictures; the brightest is {2:.3g}",
-                "raise output.full_scale, or write auto", "more than 5 % of the lit bins",
+                "raise output.full_scale, or write auto", "more than 5 % of the occupied bins",
                 "auto leaves 1 % white"},
     WarningText{WarningCode::dim,
                 "its brightest pixel is {0:.3g}, which is grey level {1:.0f} of 255 in fans",
@@ -116,7 +117,7 @@ constexpr std::array table{
                 "{2:s}",
                 "an object with a name or a class that none of four pings of each sonar sees, "
                 "those that look at it most directly",
-                "each try takes a ping, and few objects are visible from aside alone; the first "
+                "each try takes a ping, and few objects are visible only from the side; the first "
                 "200 objects are looked for"},
     WarningText{WarningCode::radians,
                 "its attitudes are all within {0:.4g} degrees and look like radians ({1:s})",

@@ -72,18 +72,18 @@ void ElevationFinder::find(std::span<const Sample> samples, std::span<float> ele
     float* const __restrict elevation = elevation_rad.data();
     float* const __restrict spread = spread_rad.data();
     const auto find_bin = [=](int i) {
-        const bool lit = echo[i] > 0.0;
-        const double total = lit ? echo[i] : 1.0;
+        const bool occupied = echo[i] > 0.0;
+        const double total = occupied ? echo[i] : 1.0;
         const double sine = std::clamp(first[i] / total, -1.0, 1.0);
         const double cosine = std::sqrt((1.0 - sine) * (1.0 + sine));
         const float angle = arctan2_float(static_cast<float>(sine), static_cast<float>(cosine));
         // d(theta) = d(sin theta) / cos(theta); where cos is 0, no more than a half circle.
         const double deviation = std::sqrt(std::max(second[i] / total - sine * sine, 0.0));
         const double least = std::max(std::max(cosine, deviation / pi), 1e-9);
-        elevation[i] = lit ? angle : none;
-        spread[i] = lit ? static_cast<float>(deviation / least) : none;
+        elevation[i] = occupied ? angle : none;
+        spread[i] = occupied ? static_cast<float>(deviation / least) : none;
     };
-    // Between what is lit there is a lot of water.
+    // Most bins between occupied ones hold water.
     constexpr int block = 16;
     for (int from = first_bin_; from < last_bin_; from += block) {
         const int end = std::min(from + block, last_bin_);

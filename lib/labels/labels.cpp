@@ -121,7 +121,7 @@ class BeamLabeller {
 
     /// 1 for the bins of beam j that show surface, 0 for others. `labelled`: label() was called for
     /// this beam. If not, this takes half of the time of label().
-    std::span<const std::uint8_t> lit(int j, bool labelled) {
+    std::span<const std::uint8_t> occupied(int j, bool labelled) {
         lit_.assign(bins_.count + 1, 0);
         if (labelled) {
             for (int i = shares_.first; i < shares_.last; ++i)
@@ -239,7 +239,7 @@ PingLabels label_ping(const TracedPing& traced, const PingSettings& settings, co
                                           view.range_bins);
         };
         if (shares) labeller.label(j, labels);
-        if (request.shadow) shadows.find(j, labeller.lit(j, shares), own(labels.shadow));
+        if (request.shadow) shadows.find(j, labeller.occupied(j, shares), own(labels.shadow));
         if (request.elevation) {
             elevations.find(traced.samples.beam(j), own(labels.elevation_rad),
                             own(labels.elevation_spread_rad));

@@ -212,16 +212,17 @@ std::span<const std::uint16_t> ShadowFinder::nearest_owners(int j) {
     return owners(j);
 }
 
-void ShadowFinder::find(int j, std::span<const std::uint8_t> lit, std::span<std::uint16_t> shadow) {
+void ShadowFinder::find(int j, std::span<const std::uint8_t> occupied,
+                        std::span<std::uint16_t> shadow) {
     std::ranges::fill(shadow, 0);
     const std::uint8_t* covered = &covered_[static_cast<std::size_t>(j) * bins_.count];
     bool dark = false;
     for (int i = 0; i < bins_.count; ++i)
-        dark |= covered[i] > lit[i];
+        dark |= covered[i] > occupied[i];
     if (!dark || hidden_.empty()) return;
     std::span<const std::uint16_t> owner = owners(j);
     for (int i = 0; i < bins_.count; ++i) {
-        if (covered[i] <= lit[i]) continue;
+        if (covered[i] <= occupied[i]) continue;
         if (owner[i] == 0) owner = nearest_owners(j);
         if (owner[i] == 0) return;  // no line ends anywhere
         shadow[i] = owner[i];

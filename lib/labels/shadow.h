@@ -21,8 +21,8 @@ class ShadowFinder {
                  const VisibilityEngine& engine, bool on);
 
     /// Fills `shadow` [range bins] of beam j with 1 + the index of the object that hides, or 0.
-    /// `lit` is 1 for the bins that show surface, else 0.
-    void find(int j, std::span<const std::uint8_t> lit, std::span<std::uint16_t> shadow);
+    /// `occupied` is 1 for the bins that show surface, else 0.
+    void find(int j, std::span<const std::uint8_t> occupied, std::span<std::uint16_t> shadow);
 
     /// The share of each object's solid angle within the range that nothing hides; NaN for an
     /// object that no sight line meets. An object does not hide itself.

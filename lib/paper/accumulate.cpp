@@ -133,7 +133,7 @@ std::uint64_t accumulate(const Echoes& echoes, std::size_t begin, std::size_t en
 }
 
 void mark_lit(const Echoes& echoes, std::size_t begin, std::size_t end, const RangeBins& bins,
-              std::span<std::uint8_t> lit) {
+              std::span<std::uint8_t> occupied) {
     Boxes boxes;
     for (std::size_t from = begin; from < end; from += boxes_per_block) {
         const std::size_t count = std::min(boxes_per_block, end - from);
@@ -142,12 +142,12 @@ void mark_lit(const Echoes& echoes, std::size_t begin, std::size_t end, const Ra
             if (!(boxes.density[k].first > 0.0F)) continue;
             const int first = boxes.first[k];
             const int last = boxes.last[k];
-            lit[first] = 1;
+            occupied[first] = 1;
             // Again the first one where the box ends in it: a branch would often be mispredicted.
-            lit[first + (boxes.share[k].second > 0.0F ? 1 : 0)] = 1;
+            occupied[first + (boxes.share[k].second > 0.0F ? 1 : 0)] = 1;
             for (int i = first + 2; i < last; ++i)
-                lit[i] = 1;
-            if (last - first > 1 && boxes.last_share[k] > 0.0F) lit[last] = 1;
+                occupied[i] = 1;
+            if (last - first > 1 && boxes.last_share[k] > 0.0F) occupied[last] = 1;
         }
     }
 }

@@ -49,10 +49,10 @@ std::uint64_t accumulate(const Echoes& echoes, const RangeBins& bins, BinSums& s
 std::uint64_t accumulate(const Echoes& echoes, std::size_t begin, std::size_t end,
                          const RangeBins& bins, BinSums& sums);
 
-/// Sets `lit` to 1 in the bins to which accumulate() would add weight. It has one place more than
-/// there are bins, which stays 0.
+/// Sets `occupied` to 1 in the bins to which accumulate() would add weight. It has one place more
+/// than there are bins, which stays 0.
 void mark_lit(const Echoes& echoes, std::size_t begin, std::size_t end, const RangeBins& bins,
-              std::span<std::uint8_t> lit);
+              std::span<std::uint8_t> occupied);
 
 /// The area-weighted mean of each bin, Eq. 9; 0 where it saw no surface. Returns how many did.
 std::uint64_t mean_of_bins(const BinSums& sums, std::span<float> intensity);

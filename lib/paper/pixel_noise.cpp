@@ -64,10 +64,10 @@ void draw_normal(std::uint32_t block, PhiloxKey key, Lane& out) {
 
 bool any_signal(std::span<const float> pixels) {
     // Without an early return: the whole block in vectors is faster than stopping at the first.
-    int lit = 0;
+    int occupied = 0;
     for (const float pixel : pixels)
-        lit |= pixel != 0.0F ? 1 : 0;
-    return lit != 0;
+        occupied |= pixel != 0.0F ? 1 : 0;
+    return occupied != 0;
 }
 
 /// s sigma_a of the pixels from number `first` on.

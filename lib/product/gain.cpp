@@ -24,15 +24,15 @@ void Gain::add(std::span<const float> intensity) {
 }
 
 double Gain::white() const {
-    std::uint64_t lit = 0;
+    std::uint64_t occupied = 0;
     for (const std::uint64_t count : counts_)
-        lit += count;
-    if (lit == 0) return 1.0;
+        occupied += count;
+    if (occupied == 0) return 1.0;
     std::uint64_t above = 0;
     for (std::size_t cell = cells; cell-- > 0;) {
         above += counts_[cell];
         const auto upper = static_cast<std::uint32_t>(cell + 1) << dropped_bits;
-        if (100 * above >= lit) return std::bit_cast<float>(upper);
+        if (100 * above >= occupied) return std::bit_cast<float>(upper);
     }
     return 1.0;
 }

@@ -29,12 +29,12 @@ Sounding sound(const Sonar& sonar, std::span<const double> beam) {
 }  // namespace
 
 int lit_beams(const Ping& ping) {
-    std::vector<char> lit(ping.beams);
+    std::vector<char> occupied(ping.beams);
     for (int i = 0; i < ping.range_bins; ++i) {
         for (int j = 0; j < ping.beams; ++j)
-            lit[j] |= ping.at(i, j) > 0.0F ? 1 : 0;
+            occupied[j] |= ping.at(i, j) > 0.0F ? 1 : 0;
     }
-    return static_cast<int>(std::ranges::count(lit, 1));
+    return static_cast<int>(std::ranges::count(occupied, 1));
 }
 
 std::vector<Sounding> find_soundings(const Sonar& sonar, const Pose& T_world_vehicle,

@@ -70,9 +70,9 @@ Reference settled(const View& view, const ReferenceGoal& goal,
         // The two directions are doubled in turn; the image has settled when neither changes it.
         const double moved = image_error(reference.intensity, now.both).relative_l1;
         reference.moved = std::max({moved, std::exchange(last_moved, moved), reference.apart});
-        const auto lit = std::ranges::count_if(now.both, [](float x) { return x > 0.0F; });
+        const auto occupied = std::ranges::count_if(now.both, [](float x) { return x > 0.0F; });
         reference.rays_per_bin =
-            lit > 0 ? static_cast<double>(now.hits) / static_cast<double>(lit) : 0.0;
+            occupied > 0 ? static_cast<double>(now.hits) / static_cast<double>(occupied) : 0.0;
         reference.intensity = std::move(now.both);
         const bool met = reference.moved < goal.moved &&
                          (now.hits == 0 || reference.rays_per_bin >= goal.rays_per_bin);

@@ -123,16 +123,16 @@ TEST_SUITE("checks") {
         CHECK(run.warnings().empty());
         run.mission.output.full_scale = 102.0;
         CHECK(run.warnings().size() == 2);
-        // 5 % of the 500 lit bins are 25.
+        // 5 % of the 500 occupied bins are 25.
         run.mission.output.full_scale = 0.1;
         run.sensors[1].clipped_pixels = 25;
         CHECK(run.warnings().empty());
         run.sensors[1].clipped_pixels = 26;
-        CHECK(
-            run.warnings() ==
-            Sentences{"W19 sensor 'left': 5.2 % of its lit bins are above output.full_scale (0.1) "
-                      "and white in pictures; the brightest is 0.4; raise output.full_scale, or "
-                      "write auto"});
+        CHECK(run.warnings() ==
+              Sentences{
+                  "W19 sensor 'left': 5.2 % of its occupied bins are above output.full_scale (0.1) "
+                  "and white in pictures; the brightest is 0.4; raise output.full_scale, or "
+                  "write auto"});
     }
 
     TEST_CASE("warnings before pings: a material as the water") {

@@ -155,7 +155,8 @@ TEST_CASE("labels: two things in one bin share its echo by area and reflection")
     }
 }
 
-TEST_CASE("labels: lit bins are those of the clean image, multipath bins those of its ghosts") {
+TEST_CASE(
+    "labels: occupied bins are those of the clean image, multipath bins those of its ghosts") {
     const TankWithGhosts the_tank;
     std::uint64_t ghosts = 0;
     for (const Pose& pose : tank_poses()) {

@@ -65,10 +65,10 @@ std::vector<float> at_most_one(const HardContext& context) {
         image_of(context.scene, in_tank(context.kind), context.engine, context.model);
     const auto beams = static_cast<std::size_t>(context.ping.beams);
     for (std::size_t row = 0; row < truth.size(); row += beams) {
-        bool lit = false;
+        bool occupied = false;
         for (std::size_t k = row; k < row + beams; ++k)
-            lit = lit || clean[k] > 0.0F;
-        for (std::size_t k = row; lit && k < row + beams; ++k)
+            occupied = occupied || clean[k] > 0.0F;
+        for (std::size_t k = row; occupied && k < row + beams; ++k)
             truth[k] = std::min(context.ping.intensity[k], 1.0F);
     }
     return truth;

@@ -81,8 +81,8 @@ std::vector<std::string> GoalCheck::warnings(double fixed_leaf_m) const {
         if (worst <= view.relative_l1) continue;
         const double mean = sum / known;
         all.push_back(
-            "engine: octree misses accuracy.relative_l1 (" + percent_text(view.relative_l1) +
-            ") in " + std::to_string(above) + " of the " + std::to_string(known) +
+            "octree misses accuracy.relative_l1 (" + percent_text(view.relative_l1) + ") in " +
+            std::to_string(above) + " of the " + std::to_string(known) +
             " pings that were checked in views of " + name_of_view(view) + ": off by about " +
             percent_text(mean) + " on average and " + percent_text(worst) + " at worst; " +
             (fixed_leaf_m > 0.0
