@@ -205,21 +205,6 @@ class SchemaBuilder {
         return json;
     }
 
-    /// Adds the missing keys to `all`, and also to the sections that both have: the beam of a
-    /// side-scan sonar has other keys than the beam of an imaging sonar.
-    static void add_missing_keys(const SchemaJson& own, SchemaJson& all) {
-        for (const auto& [key, value] : own.items()) {
-            const bool section = value.contains("properties");
-            if (!all.contains(key)) {
-                all[key] = value;
-                // Other kinds have other defaults.
-                if (!section) all[key].erase("default");
-            } else if (section) {
-                add_missing_keys(value["properties"], all[key]["properties"]);
-            }
-        }
-    }
-
     /// A sonar's keys depend on its kind and model. A preset may give these, so that with a preset
     /// all keys of all kinds are allowed.
     SchemaJson sonar_json() const {

@@ -38,4 +38,17 @@ SchemaJson numbers_json(std::size_t count, const Limits& limits) {
     return json;
 }
 
+void add_missing_keys(const SchemaJson& own, SchemaJson& all) {
+    for (const auto& [key, value] : own.items()) {
+        const bool section = value.contains("properties");
+        if (!all.contains(key)) {
+            all[key] = value;
+            // Other kinds have other defaults.
+            if (!section) all[key].erase("default");
+        } else if (section) {
+            add_missing_keys(value["properties"], all[key]["properties"]);
+        }
+    }
+}
+
 }  // namespace sonarsim

@@ -25,6 +25,10 @@ SchemaJson list_json(SchemaJson items, std::size_t fewest);
 
 SchemaJson numbers_json(std::size_t count, const Limits& limits);
 
+/// Adds the keys of `own` that `all` lacks, and also those of the sections that both have: the beam
+/// of a side-scan sonar has other keys than the beam of an imaging sonar.
+void add_missing_keys(const SchemaJson& own, SchemaJson& all);
+
 template <std::size_t N>
 SchemaJson list_of(const std::array<double, N>& values) {
     SchemaJson list = SchemaJson::array();

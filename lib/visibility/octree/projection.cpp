@@ -41,6 +41,55 @@ bool is_in_view(const ProjectedFacet& facet, const ProjectionGrid& grid) {
     return grid.rows_per_slope * lowest < 0.5F * static_cast<float>(grid.rows) * farthest;
 }
 
+/// The centre of a facet about the sensor's z axis: 1 / rho, z / rho, and the half extents in rho
+/// along u and v.
+struct AxisDistance {
+    float per_rho, slope, rho_u, rho_v;
+};
+
+/// Sets the normal, and 1 / rho with its slopes over the picture. The centre and the outline are
+/// set before.
+void set_depth(const LeafFacet& leaf, float leaf_m, const Eigen::Vector3f& normal,
+               const AxisDistance& at, const ProjectionGrid& grid, ProjectedFacet& facet) {
+    const auto& [per_rho, slope, rho_u, rho_v] = at;
+    const float per_rho2 = per_rho * per_rho;
+    const float x = facet.centre.x();
+    const float y = facet.centre.y();
+    const float signed_height = -(normal.x() * x + normal.y() * y + normal.z() * facet.centre.z());
+    const float facing = signed_height < 0.0F ? -1.0F : 1.0F;
+    facet.normal = facing * normal;
+    const float height = std::max(facing * signed_height, grid.least_height_m);
+    // 1 / rho = -(n . (cos azimuth, sin azimuth, slope)) / height.
+    const float per_height = 1.0F / height;
+    facet.depth = per_rho;
+    facet.depth_row = -facet.normal.z() * per_height / grid.rows_per_slope;
+    facet.depth_beam =
+        (facet.normal.x() * y - facet.normal.y() * x) * per_rho * per_height / grid.beams_per_rad;
+    const float leaf_depth = leaf_m * per_rho2;
+    facet.depth_range = per_rho2 * (std::fabs(rho_u) + std::fabs(rho_v)) + 0.5F * leaf_depth;
+    const float cosine = std::max(height * per_rho / std::sqrt(1.0F + slope * slope), 0.1F);
+    const float pixel_slope =
+        std::fabs(facet.depth_row) +
+        std::fabs(facet.depth_beam) / static_cast<float>(grid.columns_per_beam);
+    facet.slack = slack_leaves * leaf_depth + per_rho2 * leaf.thickness_m / cosine +
+                  std::min(0.5F * pixel_slope, 0.25F * leaf_depth);
+}
+
+/// Sets the half edges: `u` and `v` rotated into each other as conjugate half edges, which keeps
+/// the second moments.
+void set_edges(const Eigen::Vector3f& u, const Eigen::Vector3f& v, ProjectedFacet& facet) {
+    const auto& [beams_u, beams_v, rows_u, rows_v] = facet.outline;
+    const float a = beams_u / facet.half_beams;
+    const float b = beams_v / facet.half_beams;
+    facet.edge_u = a * u + b * v;
+    facet.edge_v = a * v - b * u;
+    facet.rows_u = a * rows_u + b * rows_v;
+    const float rows_along_v = a * rows_v - b * rows_u;
+    // Rows must grow along edge_v, so that a part's v follows from its rows.
+    if (rows_along_v < 0.0F) facet.edge_v = -facet.edge_v;
+    facet.half_rows = std::max(std::fabs(rows_along_v), 1e-4F);
+}
+
 }  // namespace
 
 ProjectionGrid projection_grid(const PreparedView& prepared, float leaf_rad) {
@@ -104,36 +153,8 @@ Projection project(const LeafFacet& leaf, float leaf_m, const ProjectionGrid& gr
                          facet.row > -tall && facet.row - tall < rows;
     if (!in_view) return Projection::out_of_view;
 
-    const Eigen::Vector3f normal = turned(leaf.normal);
-    const float signed_height = -(normal.x() * x + normal.y() * y + normal.z() * facet.centre.z());
-    const float facing = signed_height < 0.0F ? -1.0F : 1.0F;
-    facet.normal = facing * normal;
-    const float height = std::max(facing * signed_height, grid.least_height_m);
-    // 1 / rho = -(n . (cos azimuth, sin azimuth, slope)) / height.
-    const float per_height = 1.0F / height;
-    facet.depth = per_rho;
-    facet.depth_row = -facet.normal.z() * per_height / grid.rows_per_slope;
-    facet.depth_beam =
-        (facet.normal.x() * y - facet.normal.y() * x) * per_rho * per_height / grid.beams_per_rad;
-    const float leaf_depth = leaf_m * per_rho2;
-    facet.depth_range = per_rho2 * (std::fabs(rho_u) + std::fabs(rho_v)) + 0.5F * leaf_depth;
-    const float cosine = std::max(height * per_rho / std::sqrt(1.0F + slope * slope), 0.1F);
-    const float pixel_slope =
-        std::fabs(facet.depth_row) +
-        std::fabs(facet.depth_beam) / static_cast<float>(grid.columns_per_beam);
-    facet.slack = slack_leaves * leaf_depth + per_rho2 * leaf.thickness_m / cosine +
-                  std::min(0.5F * pixel_slope, 0.25F * leaf_depth);
-
-    // Rotating conjugate half edges into each other keeps the second moments.
-    const float a = beams_u / facet.half_beams;
-    const float b = beams_v / facet.half_beams;
-    facet.edge_u = a * u + b * v;
-    facet.edge_v = a * v - b * u;
-    facet.rows_u = a * rows_u + b * rows_v;
-    const float rows_along_v = a * rows_v - b * rows_u;
-    // Rows must grow along edge_v, so that a part's v follows from its rows.
-    if (rows_along_v < 0.0F) facet.edge_v = -facet.edge_v;
-    facet.half_rows = std::max(std::fabs(rows_along_v), 1e-4F);
+    set_depth(leaf, leaf_m, turned(leaf.normal), {per_rho, slope, rho_u, rho_v}, grid, facet);
+    set_edges(u, v, facet);
     facet.area_m2 = leaf.area_m2;
     facet.thickness_m = leaf.thickness_m;
     facet.triangle = leaf.triangle;

@@ -26,14 +26,28 @@ constexpr float area_rounding = 1.01F;
 
 /// The area of a quadrilateral on a plane at most, m^2. On a plane dA = X^3 du dw / h.
 /// QuadPoints lie within the range of their triangle. Where the quadrilateral reaches beyond its
-/// triangle, this moves corners off the plane. If the surface is nearly edge-on and two u are nearly
-/// equal, the four corners span an area along the line of sight that does not exist. It was up to
-/// hundreds of times the area of the triangle, and dominated the mean of a bin.
+/// triangle, this moves corners off the plane. If the surface is nearly edge-on and two u are
+/// nearly equal, the four corners span an area along the line of sight that does not exist. It was
+/// up to hundreds of times the area of the triangle, and dominated the mean of a bin.
 float most_area(const QuadPoints& p, float height_m) {
     const float picture =
         std::fabs((p.u[2] - p.u[0]) * (p.w[3] - p.w[1]) - (p.u[3] - p.u[1]) * (p.w[2] - p.w[0]));
     const float X = p.X.maxCoeff();
     return 0.5F * picture * X * X * X / height_m;
+}
+
+RangeLine range_line(const Eigen::Vector3f& from, const Eigen::Vector3f& to) {
+    RangeLine line;
+    line.from = from;
+    line.length = (to - from).norm();
+    line.along = line.length > 0.0F ? Eigen::Vector3f((to - from) / line.length) : from;
+    line.s0 = from.dot(line.along);
+    line.s1 = line.s0 + line.length;
+    line.h2 = std::max(from.squaredNorm() - line.s0 * line.s0, 0.0F);
+    const float nearest = line.s0 > 0.0F ? line.s0 : line.s1 < 0.0F ? -line.s1 : 0.0F;
+    line.near2 = line.h2 + nearest * nearest;
+    line.far2 = line.h2 + std::max(line.s0 * line.s0, line.s1 * line.s1);
+    return line;
 }
 
 }  // namespace
@@ -64,54 +78,23 @@ void QuadSampler::add(const Quad& quad) {
     const float w_low = quad.middle_low();
     const float w_high = quad.middle_high();
     const QuadPoints ends = quad.points({u, u, u, u}, {w_low, w_high, w_low, w_high});
-    const Eigen::Vector3f from = ends.at(0);
-    const Eigen::Vector3f to = ends.at(1);
-    // Along the line between them the range is sqrt(h^2 + s^2).
-    const float length = (to - from).norm();
-    const Eigen::Vector3f along = length > 0.0F ? Eigen::Vector3f((to - from) / length) : from;
-    const float s0 = from.dot(along);
-    const float s1 = s0 + length;
-    const float h2 = std::max(from.squaredNorm() - s0 * s0, 0.0F);
-    const float nearest = s0 > 0.0F ? s0 : s1 < 0.0F ? -s1 : 0.0F;
+    const RangeLine line = range_line(ends.at(0), ends.at(1));
     const float reach2 = limits_.range_max_m * limits_.range_max_m;
-    const float near2 = h2 + nearest * nearest;
-    const float far2 = h2 + std::max(s0 * s0, s1 * s1);
-    if (near2 > reach2) return;
+    if (line.near2 > reach2) return;
     const auto sag = [&](float step, float range2) {
-        return step * step * h2 <= 8.0F * limits_.sag_m * range2 * std::sqrt(range2);
+        return step * step * line.h2 <= 8.0F * limits_.sag_m * range2 * std::sqrt(range2);
     };
-    if (length <= limits_.shortest_m ||
-        (sag(length, near2) && far2 <= longest_ratio * longest_ratio * near2 && far2 <= reach2)) {
+    if (line.length <= limits_.shortest_m ||
+        (sag(line.length, line.near2) && line.far2 <= longest_ratio * longest_ratio * line.near2 &&
+         line.far2 <= reach2)) {
         add_narrow(quad, 0.0F, 1.0F);
         return;
     }
-    // Steps outward from the nearest point, then in order.
-    const float reach = std::sqrt(std::max(reach2 - h2, 0.0F)) + limits_.shortest_m;
-    const auto outward = [&](float begin, float end) {
-        end = std::min(end, reach);
-        for (float s = begin; s < end;) {
-            const float range2 = h2 + s * s;
-            const float range = std::sqrt(range2);
-            const float bend = std::sqrt(8.0F * limits_.sag_m * range2 * range / h2);
-            const float step =
-                std::max(std::min(bend, (longest_ratio - 1.0F) * range), limits_.shortest_m);
-            s = s + 1.25F * step < end ? s + step : end;
-            cuts_.push_back(s);
-        }
-    };
-    cuts_.clear();
-    if (s0 < 0.0F) {
-        outward(std::max(-s1, 0.0F), -s0);
-        std::ranges::reverse(cuts_);
-        for (float& s : cuts_)
-            s = -s;
-    }
-    cuts_.push_back(std::clamp(0.0F, s0, s1));
-    if (s1 > 0.0F) outward(std::max(s0, 0.0F), s1);
+    cut(line);
     // Converts positions along the line to shares of the way between the borders.
     const float per_w = 1.0F / (w_high - w_low);
     const auto share = [&](float s) {
-        const Eigen::Vector3f p = from + (s - s0) * along;
+        const Eigen::Vector3f p = line.from + (s - line.s0) * line.along;
         return std::clamp((p.z() / p.x() - w_low) * per_w, 0.0F, 1.0F);
     };
     float last = share(cuts_.front());
@@ -120,6 +103,34 @@ void QuadSampler::add(const Quad& quad) {
         if (next > last) add_narrow(quad, last, next);
         last = next;
     }
+}
+
+/// Fills `cuts_` with positions along the line, so that the range bends little between two of them:
+/// steps outward from the nearest point, then in order.
+void QuadSampler::cut(const RangeLine& line) {
+    const float reach2 = limits_.range_max_m * limits_.range_max_m;
+    const float reach = std::sqrt(std::max(reach2 - line.h2, 0.0F)) + limits_.shortest_m;
+    const auto outward = [&](float begin, float end) {
+        end = std::min(end, reach);
+        for (float s = begin; s < end;) {
+            const float range2 = line.h2 + s * s;
+            const float range = std::sqrt(range2);
+            const float bend = std::sqrt(8.0F * limits_.sag_m * range2 * range / line.h2);
+            const float step =
+                std::max(std::min(bend, (longest_ratio - 1.0F) * range), limits_.shortest_m);
+            s = s + 1.25F * step < end ? s + step : end;
+            cuts_.push_back(s);
+        }
+    };
+    cuts_.clear();
+    if (line.s0 < 0.0F) {
+        outward(std::max(-line.s1, 0.0F), -line.s0);
+        std::ranges::reverse(cuts_);
+        for (float& s : cuts_)
+            s = -s;
+    }
+    cuts_.push_back(std::clamp(0.0F, line.s0, line.s1));
+    if (line.s1 > 0.0F) outward(std::max(line.s0, 0.0F), line.s1);
 }
 
 /// A cheap bound: true if the sag along w is below the limit of add(). The foot of the

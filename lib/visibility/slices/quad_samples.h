@@ -12,6 +12,17 @@
 
 namespace sonarsim {
 
+/// A line on a plane, from one border of a quadrilateral to the other. At the position s along it
+/// the range is sqrt(h2 + s^2).
+struct RangeLine {
+    Eigen::Vector3f from;
+    Eigen::Vector3f along;  ///< unit
+    float length;
+    float s0, s1;       ///< positions of its ends, m
+    float h2;           ///< squared distance of the sonar from the line, m^2
+    float near2, far2;  ///< squared ranges, m^2
+};
+
 /// Converts quadrilaterals of the picture plane to samples, and reports them to `edge_bins`.
 class QuadSampler {
   public:
@@ -23,6 +34,7 @@ class QuadSampler {
 
   private:
     bool is_small(const QuadPoints& corners) const;
+    void cut(const RangeLine& line);
     void add_narrow(const Quad& quad, float from, float to);
     void add_patch(const Quad& quad, float from, float to);
     void add_patch(const Quad& quad, const QuadPoints& corners, float from, float to);
