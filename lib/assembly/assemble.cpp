@@ -175,6 +175,10 @@ Assembly assemble(const Mission& mission, SceneFiles& models) {
     }
     const std::string refusal = unsupported(settings, assembly.scene);
     if (!refusal.empty()) throw InputError(refusal);
+    for (Sonar& sonar : assembly.sonars) {
+        if (auto prepared = sonar.settings.model->prepared(assembly.scene))
+            sonar.settings.model = std::move(prepared);
+    }
     assembly.inputs = inputs_of(mission);
     assembly.full_scales = find_full_scales(mission, assembly.scene, assembly.trajectory,
                                             assembly.motions, assembly.sonars);
