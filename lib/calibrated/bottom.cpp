@@ -1,5 +1,7 @@
 #include "calibrated/bottom.h"
 
+#include <algorithm>
+
 #include "calibrated/decibel.h"
 #include "core/units.h"
 
@@ -12,6 +14,41 @@ Backscatter backscatter(double lambert_db, double reflection, double slope_rms) 
     const double two_s2 = 2.0 * slope_rms * slope_rms;
     out.facet = static_cast<float>(reflection / (4.0 * pi * two_s2));
     out.inverse_slope2 = static_cast<float>(1.0 / two_s2);
+    return out;
+}
+
+Backscatter backscatter(const SeafloorScattering& sea_bed) {
+    Backscatter out;
+    for (int k = 0; k < AngularTable::size; ++k) {
+        const double root = std::min(1.0, static_cast<double>(k) / AngularTable::steps);
+        const double grazing_rad = arcsin(1.0 - root * root);
+        out.diffuse.push_back(static_cast<float>(sea_bed.diffuse(grazing_rad)));
+        out.specular.push_back(static_cast<float>(sea_bed.specular(grazing_rad)));
+    }
+    return out;
+}
+
+Scattering scattering_of(std::span<const Material> materials, double frequency_hz,
+                         const Water& water) {
+    const double wavenumber = 2.0 * pi * frequency_hz / water.sound_speed_m_s;
+    Scattering out;
+    for (const Material& material : materials) {
+        if (is_sea_bed(material)) {
+            out.materials.push_back(
+                backscatter(SeafloorScattering(sea_bed_of(material, water), wavenumber)));
+        } else {
+            const SinCos slope = sincos(radians(material.slope_rms_deg));
+            out.materials.push_back(
+                backscatter(material.lambert_db, material.reflection, slope.sin / slope.cos));
+        }
+    }
+    if (std::ranges::none_of(materials, is_sea_bed)) return out;
+    for (const Backscatter& material : out.materials) {
+        for (std::size_t k = 0; k < AngularTable::size; ++k) {
+            const bool tabled = !material.diffuse.empty();
+            out.sea_beds.push_back(tabled ? material.diffuse[k] + material.specular[k] : 0.0F);
+        }
+    }
     return out;
 }
 

@@ -1,25 +1,32 @@
 #pragma once
 
 #include <algorithm>
+#include <span>
+#include <vector>
 
+#include "calibrated/seafloor_scattering.h"
 #include "core/elementary.h"
+#include "scene/scene.h"
 
 namespace sonarsim {
 
 /// The backscatter of a material per unit of area and solid angle: the scattering cross-section
-/// sigma, whose 10 log is the backscattering strength S.
+/// sigma, whose 10 log is the backscattering strength S. It follows either Lambert's rule and
+/// facets or, for a sea bed, tables.
 struct Backscatter {
     float lambert = 0.0F;         ///< mu of Lambert's rule, sigma = mu sin^2(grazing angle)
     float facet = 0.0F;           ///< sigma of the specular echo at normal incidence
     float inverse_slope2 = 0.0F;  ///< 1 / (2 s^2), s the root mean square slope of the facets
+    /// [AngularTable::size] The parts D and K of sigma of a sea bed; empty: the above holds.
+    std::vector<float> diffuse, specular;
 
-    /// sigma where `sine` is that of the grazing angle, v . n:
+    /// sigma where `sine` is that of the grazing angle, v . n. By Lambert's rule and facets it is
     ///
     ///     mu sin^2 + R / (8 pi s^2 sin^4) exp(-1 / (2 s^2 tan^2))
     ///
     /// The first is Lambert's rule (Mackenzie 1961), the second the high-frequency limit of the
     /// Kirchhoff integral over a surface of Gaussian slopes (e.g. Jackson and Richardson,
-    /// "High-Frequency Seafloor Acoustics", Springer 2007, chapter 13).
+    /// "High-Frequency Seafloor Acoustics", Springer 2007, chapter 13). A sea bed has D + K.
     float at(float sine) const;
 
     /// sigma of sound that comes and goes at grazing angles of these sines, and whose facets face
@@ -27,13 +34,35 @@ struct Backscatter {
     ///
     ///     mu sin_in sin_out + R / (8 pi s^2 half^4) exp(-(1 - half^2) / (2 s^2 half^2))
     ///
-    /// Both ways along one direction it is at(sine).
+    /// A sea bed has sqrt(D(sine_in) D(sine_out)) + K(half). Both ways along one direction it is
+    /// at(sine).
     float between(float sine_in, float sine_out, float half) const;
 };
+
+/// Values by the sine of the grazing angle. They are dense where the Kirchhoff integral is steep,
+/// near normal incidence: entry k has the sine 1 - (k / steps)^2.
+struct AngularTable {
+    static constexpr int steps = 1024;
+    static constexpr int size = steps + 2;  ///< the last two are the same, for interpolation
+
+    static float value(const std::vector<float>& entries, float sine);
+};
+
+/// The scattering of the materials of a scene.
+struct Scattering {
+    std::vector<Backscatter> materials;
+    /// [materials, AngularTable::size] at() of sea beds, 0 of other materials; empty: no sea beds.
+    std::vector<float> sea_beds;
+};
+
+/// Sound of `frequency_hz` in `water`.
+Scattering scattering_of(std::span<const Material> materials, double frequency_hz,
+                         const Water& water);
 
 /// The material with `lambert_db` = 10 log mu, power reflection R at normal incidence and facets of
 /// slope s; s = 0 has no facets.
 Backscatter backscatter(double lambert_db, double reflection, double slope_rms);
+Backscatter backscatter(const SeafloorScattering& sea_bed);
 
 /// `exp_neg` is 0 from here on. Facets need no more: a power of 1e-19 is left.
 inline constexpr float fades_at = 43.0F;
@@ -53,13 +82,28 @@ inline float exp_neg(float x, float longest = fades_at) {
     return x < longest ? value : 0.0F;
 }
 
+inline float AngularTable::value(const std::vector<float>& entries, float sine) {
+    // In this order of arguments NaN becomes 0.
+    const float at = std::sqrt(std::min(1.0F, std::max(0.0F, 1.0F - sine))) * steps;
+    const float whole = std::floor(at);
+    const auto k = static_cast<std::size_t>(whole);
+    return std::fma(at - whole, entries[k + 1] - entries[k], entries[k]);
+}
+
 inline float Backscatter::between(float sine_in, float sine_out, float half) const {
+    if (!diffuse.empty()) {
+        return std::sqrt(AngularTable::value(diffuse, sine_in) *
+                         AngularTable::value(diffuse, sine_out)) +
+               AngularTable::value(specular, half);
+    }
     const float near = std::max(1e-6F, half * half);
     return lambert * sine_in * sine_out +
            facet / (near * near) * exp_neg(inverse_slope2 * (1.0F - near) / near);
 }
 
 inline float Backscatter::at(float sine) const {
+    if (!diffuse.empty())
+        return AngularTable::value(diffuse, sine) + AngularTable::value(specular, sine);
     const float s2 = sine * sine;
     const float near = std::max(1e-6F, s2);
     return lambert * s2 + facet / (near * near) * exp_neg(inverse_slope2 * (1.0F - near) / near);

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "calibrated/gamma_function.h"
 #include "core/elementary.h"
-#include "core/units.h"
 
 namespace sonarsim {
 
@@ -27,17 +27,6 @@ double gamma_probability(double a, double x, double log_gamma) {
     for (int n = 200; n >= 1; --n)
         tail = n * (n - a) / (x + 2.0 * n + 1.0 - a - tail);
     return 1.0 - factor / (x + 1.0 - a - tail);
-}
-
-/// ln Gamma(a) of a > 0, by Stirling's series at a + 10.
-double log_gamma(double a) {
-    double product = 1.0;
-    for (int n = 0; n < 10; ++n)
-        product *= a + n;
-    const double b = a + 10.0;
-    const double series =
-        1.0 / (12.0 * b) - 1.0 / (360.0 * b * b * b) + 1.0 / (1260.0 * b * b * b * b * b);
-    return (b - 0.5) * logarithm(b) - b + 0.5 * logarithm(2.0 * pi) + series - logarithm(product);
 }
 
 }  // namespace

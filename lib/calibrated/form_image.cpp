@@ -7,7 +7,6 @@
 #include "calibrated/scatterer_search.h"
 #include "calibrated/speckle.h"
 #include "core/clock.h"
-#include "core/units.h"
 
 namespace sonarsim {
 
@@ -16,15 +15,6 @@ namespace {
 // The factor on the size of patches in range if speckle is drawn for each ping. With it, the
 // expected image of the tank has an error of 1.8 %.
 constexpr float deeper_patches = 2.0F;
-
-std::vector<Backscatter> scattering_of(const Scene& scene) {
-    std::vector<Backscatter> out;
-    for (const Material& material : scene.materials) {
-        const SinCos slope = sincos(radians(material.slope_rms_deg));
-        out.push_back(backscatter(material.lambert_db, material.reflection, slope.sin / slope.cos));
-    }
-    return out;
-}
 
 /// The steps that form an image, and their common data. `Beams`: ArrayBeams or TransducerBeams.
 template <class Beams>
@@ -39,7 +29,10 @@ class ImageFormer {
           ping_draws_(context.draws.of(Stream::speckle)),
           sonar_{traced.T_world_sensor.rotation.toRotationMatrix().cast<float>(),
                  traced.T_world_sensor.translation - context.scene.origin},
-          materials_(scattering_of(context.scene)),
+          unprepared_(model.prepared_materials == context.scene.materials
+                          ? Scattering{}
+                          : model.scattering_of(context.scene.materials)),
+          scattering_(unprepared_.materials.empty() ? model.scattering : unprepared_),
           speckle_(context.terms.random > 0 ? model.speckle : SpeckleMode::none),
           speckle_gain_(model.amplitude_taps.scalloping_gain * scalloping_gain(beams)),
           ping_(ping) {}
@@ -73,7 +66,7 @@ class ImageFormer {
     void find(const PatchBlock& patches) {
         ping_.counts.echoes += patches.count;
         ping_.counts.out_of_range +=
-            apply_sonar_equation(patches, materials_, model_.equation, echoes_);
+            apply_sonar_equation(patches, scattering_, model_.equation, echoes_);
         ping_.counts.out_of_range += find_columns(beams_, patches, echoes_);
         if (speckle_ != SpeckleMode::none)
             add_clutter(patches, model_.clutter, sonar_, scene_draws_, echoes_);
@@ -110,7 +103,7 @@ class ImageFormer {
         ping_.counts.echoes += 2 * paths.size();
         const auto add_to = [&](EchoGrid& powers) {
             ping_.counts.out_of_range += add_mirrored_powers(
-                beams_, paths, materials_, model_.equation, model_.limits, powers);
+                beams_, paths, scattering_.materials, model_.equation, model_.limits, powers);
         };
         if (speckle_ != SpeckleMode::scene) return add_to(grid);
         EchoGrid mirrored(grid.rows(), grid.columns());
@@ -124,7 +117,8 @@ class ImageFormer {
     const FormContext& context_;
     PhiloxKey scene_draws_, ping_draws_;
     SonarInScene sonar_;
-    std::vector<Backscatter> materials_;
+    Scattering unprepared_;  ///< the scattering if the model was not prepared for this scene
+    const Scattering& scattering_;
     SpeckleMode speckle_;
     float speckle_gain_;  ///< restores the mean power where the grid's cells draw the speckle
     PointEchoes echoes_;

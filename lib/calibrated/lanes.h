@@ -114,6 +114,9 @@ inline Floats8 least(Floats8 a, Floats8 b) {
 inline Floats8 greatest(Floats8 a, Floats8 b) {
     return _mm256_max_ps(a.v, b.v);
 }
+inline Floats8 sqrt(Floats8 a) {
+    return _mm256_sqrt_ps(a.v);
+}
 inline Floats8 floor(Floats8 a) {
     return _mm256_floor_ps(a.v);
 }

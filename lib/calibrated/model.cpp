@@ -79,6 +79,7 @@ CalibratedModel calibrated_model(const InstrumentConfig& instrument, const Water
     model.power_taps = range_taps(resolution_bins, side_lobe_db, true);
     model.speckle = instrument.speckle.mode;
     model.sound_speed_m_s = water.sound_speed_m_s;
+    model.water_density_kg_m3 = water.density_kg_m3;
     model.wavelength_m = water.sound_speed_m_s / instrument.frequency_hz;
     model.absorption_db_per_m =
         absorption_db_per_m(instrument.frequency_hz,

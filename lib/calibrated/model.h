@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <variant>
 #include <vector>
@@ -35,7 +36,14 @@ struct CalibratedModel final : EchoModel {
     double sound_speed_m_s = 0.0;
     double absorption_db_per_m = 0.0;
     double wavelength_m = 0.0;
+    double water_density_kg_m3 = 0.0;
+    std::vector<Material>
+        prepared_materials;  ///< the scene that the model was prepared for has them
+    Scattering scattering;   ///< the scattering of these
 
+    Scattering scattering_of(std::span<const Material> materials) const;
+
+    std::shared_ptr<const EchoModel> prepared(const Scene& scene) const override;
     void form(const TracedPing& traced, const FormContext& context, Ping& ping) const override;
     std::span<const std::string_view> random_terms() const override;
     GuardBeams guard_beams() const override { return guard; }

@@ -20,6 +20,18 @@ constexpr double share_along_track = 1.0 / 3.0;
 
 }  // namespace
 
+Scattering CalibratedModel::scattering_of(std::span<const Material> materials) const {
+    return sonarsim::scattering_of(materials, instrument.frequency_hz,
+                                   {water_density_kg_m3, sound_speed_m_s});
+}
+
+std::shared_ptr<const EchoModel> CalibratedModel::prepared(const Scene& scene) const {
+    auto out = std::make_shared<CalibratedModel>(*this);
+    out->prepared_materials = scene.materials;
+    out->scattering = scattering_of(scene.materials);
+    return out;
+}
+
 std::span<const std::string_view> CalibratedModel::random_terms() const {
     return calibrated_terms;
 }

@@ -53,12 +53,20 @@ class MaterialTable {
 /// `Backscatter::at`, 8 at a time.
 class BackscatterTable {
   public:
-    explicit BackscatterTable(std::span<const Backscatter> materials)
-        : lambert_(materials, &Backscatter::lambert),
-          facet_(materials, &Backscatter::facet),
-          inverse_slope2_(materials, &Backscatter::inverse_slope2) {}
+    explicit BackscatterTable(const Scattering& scattering)
+        : lambert_(scattering.materials, &Backscatter::lambert),
+          facet_(scattering.materials, &Backscatter::facet),
+          inverse_slope2_(scattering.materials, &Backscatter::inverse_slope2),
+          sea_beds_(scattering.sea_beds.empty() ? nullptr : scattering.sea_beds.data()) {}
 
+    /// Adds two ways to scatter; the one that a material does not follow is 0.
     Floats8 at(const std::uint32_t* numbers, Floats8 sine) const {
+        const Floats8 simple = by_rule(numbers, sine);
+        return sea_beds_ != nullptr ? simple + by_table(numbers, sine) : simple;
+    }
+
+  private:
+    Floats8 by_rule(const std::uint32_t* numbers, Floats8 sine) const {
         const Floats8 s2 = sine * sine;
         const Floats8 inverse = Floats8(1.0F) / greatest(s2, 1e-6F);
         const Floats8 steepness = inverse_slope2_.at(numbers) * (inverse - 1.0F);
@@ -66,8 +74,19 @@ class BackscatterTable {
         return fma(lambert_.at(numbers), s2, facets);
     }
 
-  private:
+    Floats8 by_table(const std::uint32_t* numbers, Floats8 sine) const {
+        const Ints8 material = Ints8::load(reinterpret_cast<const std::int32_t*>(numbers));
+        // In this order of arguments NaN becomes 0.
+        const Floats8 root = sqrt(least(greatest(Floats8(1.0F) - sine, 0.0F), 1.0F));
+        const Floats8 at = root * (1.0F * AngularTable::steps);
+        const Floats8 whole = floor(at);
+        const auto [here, next] =
+            table_entries(sea_beds_, material * AngularTable::size + to_ints(whole));
+        return fma(at - whole, next - here, here);
+    }
+
     MaterialTable lambert_, facet_, inverse_slope2_;
+    const float* sea_beds_;  ///< null: none
 };
 
 }  // namespace
@@ -104,12 +123,12 @@ void weigh_by_elevation(const ElevationPattern& pattern, const PatchBlock& piece
     }
 }
 
-std::uint64_t apply_sonar_equation(const PatchBlock& pieces, std::span<const Backscatter> materials,
+std::uint64_t apply_sonar_equation(const PatchBlock& pieces, const Scattering& scattering,
                                    const SonarEquation& equation, PointEchoes& echoes) {
     const int count = (pieces.count + lanes - 1) / lanes * lanes;
     echoes.count = count;
     const float per_bin = 1.0F / equation.bin_m;
-    const BackscatterTable scattering(materials);
+    const BackscatterTable strengths(scattering);
     for (int k = 0; k < count; k += lanes) {
         const auto read = [&](const PatchBlock::Array<float>& from) {
             return Floats8::load(from.data() + k);
@@ -120,7 +139,7 @@ std::uint64_t apply_sonar_equation(const PatchBlock& pieces, std::span<const Bac
         const Floats8 sine = least(read(pieces.height_m) * inverse, 1.0F);
         const Floats8 received = read(pieces.area_m2) * (spreading * spreading);
         const Floats8 loss = exp_neg(fms(equation.loss_per_m, range, equation.raised), least_loss);
-        const Floats8 power = scattering.at(pieces.material.data() + k, sine) * loss * received;
+        const Floats8 power = strengths.at(pieces.material.data() + k, sine) * loss * received;
         range.store(echoes.range_m.data() + k);
         // In this order of arguments NaN stays NaN.
         least(most_echo, power).store(echoes.power.data() + k);

@@ -61,7 +61,7 @@ void weigh_by_elevation(const ElevationPattern& pattern, const PatchBlock& piece
 
 /// Fills all of `echoes` but their columns. What lies outside the range has power 0; returns how
 /// many do.
-std::uint64_t apply_sonar_equation(const PatchBlock& pieces, std::span<const Backscatter> materials,
+std::uint64_t apply_sonar_equation(const PatchBlock& pieces, const Scattering& scattering,
                                    const SonarEquation& equation, PointEchoes& echoes);
 
 }  // namespace sonarsim

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string_view>
@@ -33,6 +34,10 @@ class EchoModel {
     virtual void form(const TracedPing& traced, const FormContext& context, Ping& ping) const = 0;
     /// The names of the model's random terms, in the order in which they enter an image.
     virtual std::span<const std::string_view> random_terms() const = 0;
+
+    /// This model with all that it needs of the scene but not of a ping, found once for all pings;
+    /// nullptr if it needs nothing. A model that was not prepared forms the same images, slower.
+    virtual std::shared_ptr<const EchoModel> prepared(const Scene& /*scene*/) const { return {}; }
 
     /// The guard beams that the model needs.
     virtual GuardBeams guard_beams() const { return {}; }

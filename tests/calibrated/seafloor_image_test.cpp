@@ -1,0 +1,218 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include "calibrated/decibel.h"
+#include "calibrated/model.h"
+#include "calibrated/piston.h"
+#include "core/units.h"
+#include "support/calibrated.h"
+
+using namespace sonarsim;
+using namespace sonarsim::test;
+
+namespace {
+
+/// Material 0 is sand, 1 is steel, 2 scatters nothing.
+Scene scene_of_beds() {
+    Scene scene;
+    Material sand{.name = "sand"};
+    sand.grain_phi = 1.5;
+    scene.materials = {sand,
+                       {.name = "steel", .reflection = 0.8F},
+                       {.name = "mirror", .lambert_db = -300.0, .slope_rms_deg = 0.0}};
+    return scene;
+}
+
+/// The image without noise and speckle of patches of `scene`.
+std::vector<float> image_of(const CalibratedModel& model, const Scene& scene, const View& view,
+                            const std::vector<Sample>& patches) {
+    TracedPing traced;
+    traced.samples.items = patches;
+    Ping ping;
+    ping.intensity.resize(static_cast<std::size_t>(view.range_bins) * view.beams);
+    model.form(traced, {.view = view, .scene = scene, .draws = {1, 2, 0}, .terms = {}}, ping);
+    return ping.intensity;
+}
+
+double sum_of(const std::vector<float>& image) {
+    return std::accumulate(image.begin(), image.end(), 0.0);
+}
+
+/// A square patch, level if the normal is along z.
+Sample patch(const Eigen::Vector3f& at, const Eigen::Vector3f& normal, float side_m) {
+    const Eigen::Vector3f u = normal.unitOrthogonal();
+    return {.position = at,
+            .edge_u = 0.5F * side_m * u,
+            .edge_v = 0.5F * side_m * normal.cross(u),
+            .normal = normal,
+            .height_m = std::fabs(normal.dot(at)),
+            .area_m2 = side_m * side_m,
+            .material = 0,
+            .instance = 0};
+}
+
+/// sigma of sand by the formulas of the report.
+double sand(double sine, double frequency_hz, double sound_speed_m_s) {
+    const SeafloorScattering bed(sea_bed_of_grain_size(1.5),
+                                 2.0 * pi * frequency_hz / sound_speed_m_s);
+    return bed.diffuse(std::asin(sine)) + bed.specular(std::asin(sine));
+}
+
+constexpr View fan_view{.azimuth_rad = 0.6,
+                        .elevation_rad = 1.2,
+                        .range_min_m = 3.0,
+                        .range_max_m = 5.0,
+                        .range_bins = 200,
+                        .beams = 65};
+
+CalibratedModel fan_model() {
+    InstrumentConfig config = bare({});
+    config.frequency_hz = 4e5;
+    config.beam.width_deg = 1.0;
+    std::vector<double> sines;
+    for (int j = 0; j < fan_view.beams; ++j)
+        sines.push_back(std::sin(((j + 0.5) / fan_view.beams - 0.5) * fan_view.azimuth_rad));
+    return calibrated_model(config, {}, fan_view, sines);
+}
+
+/// A strip of floor straight ahead, from 3.3 to 4.7 m.
+std::vector<Sample> strip(float depth_m, std::uint32_t material = 0) {
+    std::vector<Sample> floor;
+    for (float x = 3.3F; x < 4.7F; x += 0.01F) {
+        for (float y = -0.1F; y < 0.1F; y += 0.01F) {
+            floor.push_back(patch({x, y, -depth_m}, {0.0F, 0.0F, 1.0F}, 0.01F));
+            floor.back().material = material;
+        }
+    }
+    return floor;
+}
+
+}  // namespace
+
+TEST_SUITE("calibrated") {
+    TEST_CASE("sea bed: the level of a floor in an imaging sonar") {
+        // The energy of an image is the sum of sigma A r^-4 10^(-0.2 alpha r) over the floor, times
+        // what the receiver makes of a point. A plate that faces the sonar has the latter.
+        const CalibratedModel model = fan_model();
+        const Scene scene = scene_of_beds();
+        const auto received = [&](double range) {
+            return std::pow(range, -4.0) * std::pow(10.0, -0.2 * model.absorption_db_per_m * range);
+        };
+        const auto sigma = [&](double sine) { return sand(sine, 4e5, model.sound_speed_m_s); };
+        const double of_plate =
+            sum_of(image_of(model, scene, fan_view,
+                            {patch({4.0F, 0.0F, 0.0F}, {-1.0F, 0.0F, 0.0F}, 0.001F)})) /
+            (sigma(1.0) * 1e-6 * received(4.0));
+        for (const float depth : {0.3F, 0.8F, 1.5F}) {
+            const std::vector<Sample> floor = strip(depth);
+            double expected = 0.0;
+            for (const Sample& piece : floor) {
+                const double range = piece.position.norm();
+                expected += sigma(depth / range) * piece.area_m2 * received(range);
+            }
+            const double found = sum_of(image_of(model, scene, fan_view, floor));
+            CAPTURE(depth);
+            CHECK(std::fabs(db_of_power(found / (expected * of_plate))) < 0.1);
+        }
+    }
+
+    TEST_CASE("sea bed: the level of a floor in an echosounder") {
+        // At depth h the floor at range r is a ring of area 2 pi r dr, seen at a grazing angle of
+        // sine h / r. The two-way pattern of the disc is its fourth power by amplitude.
+        constexpr double depth = 5.0;
+        constexpr double width_rad = radians(30.0);
+        InstrumentConfig config = bare({});
+        config.frequency_hz = 1e5;
+        config.beam.aperture = Aperture::piston;
+        config.beam.width_deg = degrees(width_rad);
+        config.pulse.resolution_m = 0.05;
+        constexpr View view{.azimuth_rad = 1.2,
+                            .elevation_rad = 1.2,
+                            .range_min_m = 0.5,
+                            .range_max_m = 10.0,
+                            .range_bins = 190,
+                            .beams = 1};
+        const CalibratedModel model = calibrated_model(config, {}, view, {});
+        const Scene scene = scene_of_beds();
+        const auto received = [&](double range) {
+            return std::pow(range, -4.0) * std::pow(10.0, -0.2 * model.absorption_db_per_m * range);
+        };
+        const auto sigma = [&](double sine) { return sand(sine, 1e5, model.sound_speed_m_s); };
+        std::vector<Sample> floor;
+        for (float y = -3.5F; y < 3.5F; y += 0.03F) {
+            for (float z = -3.5F; z < 3.5F; z += 0.03F)
+                floor.push_back(
+                    patch({static_cast<float>(depth), y, z}, {-1.0F, 0.0F, 0.0F}, 0.03F));
+        }
+        const double of_plate =
+            sum_of(image_of(model, scene, view,
+                            {patch({4.0F, 0.0F, 0.0F}, {-1.0F, 0.0F, 0.0F}, 0.001F)})) /
+            (sigma(1.0) * 1e-6 * received(4.0));
+        const double most = std::sqrt(depth * depth + 3.4 * 3.4);
+        double expected = 0.0;
+        constexpr double step = 1e-3;
+        for (double range = depth + 0.5 * step; range < most; range += step) {
+            const double sine = depth / range;
+            const double off = std::sqrt(1.0 - sine * sine);
+            const double pattern = piston_pattern(piston_scale(width_rad) * off);
+            expected +=
+                sigma(sine) * 2.0 * pi * range * step * received(range) * std::pow(pattern, 4.0);
+        }
+        const double found = sum_of(image_of(model, scene, view, floor));
+        CHECK(std::fabs(db_of_power(found / (expected * of_plate))) < 0.1);
+    }
+
+    TEST_CASE(
+        "sea bed: other materials keep every bit beside it, and a prepared model is the same") {
+        const CalibratedModel model = fan_model();
+        const Scene mixed = scene_of_beds();
+        Scene steel_alone;
+        steel_alone.materials = {mixed.materials[1]};
+        CHECK(image_of(model, mixed, fan_view, strip(0.8F, 1)) ==
+              image_of(model, steel_alone, fan_view, strip(0.8F, 0)));
+
+        const auto prepared =
+            std::dynamic_pointer_cast<const CalibratedModel>(model.prepared(mixed));
+        REQUIRE(prepared != nullptr);
+        CHECK(prepared->prepared_materials == mixed.materials);
+        CHECK(image_of(*prepared, mixed, fan_view, strip(0.8F)) ==
+              image_of(model, mixed, fan_view, strip(0.8F)));
+        // A model that was prepared for another scene takes this scene's materials.
+        CHECK(image_of(*prepared, steel_alone, fan_view, strip(0.8F)) ==
+              image_of(model, steel_alone, fan_view, strip(0.8F)));
+    }
+
+    TEST_CASE("sea bed: in a scene of many materials each scatters as if it were alone") {
+        // More than the eight that a register holds.
+        const CalibratedModel model = fan_model();
+        Scene many;
+        for (int k = 0; k < 6; ++k) {
+            many.materials.push_back({.name = "plain", .lambert_db = -20.0 - k});
+            many.materials.push_back({.name = "bed"});
+            many.materials.back().grain_phi = 1.5 * k;
+        }
+        for (std::uint32_t k = 0; k < many.materials.size(); ++k) {
+            Scene alone;
+            alone.materials = {many.materials[k]};
+            CHECK(image_of(model, many, fan_view, strip(0.8F, k)) ==
+                  image_of(model, alone, fan_view, strip(0.8F, 0)));
+        }
+    }
+
+    TEST_CASE("a material that scatters nothing makes an image of zeros") {
+        const CalibratedModel model = fan_model();
+        for (const float value : image_of(model, scene_of_beds(), fan_view, strip(0.8F, 2)))
+            CHECK(std::fabs(value) < 1e-25F);
+        // With facets it is a mirror: their echo alone is left, at normal incidence.
+        Scene mirror;
+        mirror.materials = {
+            {.name = "mirror", .reflection = 1.0F, .lambert_db = -300.0, .slope_rms_deg = 5.0}};
+        const std::vector<Sample> plate{patch({4.0F, 0.0F, 0.0F}, {-1.0F, 0.0F, 0.0F}, 0.01F)};
+        const double facing = sum_of(image_of(model, mirror, fan_view, plate));
+        CHECK(facing > 0.0);
+        CHECK(sum_of(image_of(model, mirror, fan_view, strip(0.4F))) < 1e-20 * facing);
+    }
+}
