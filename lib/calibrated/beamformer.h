@@ -14,7 +14,7 @@ namespace sonarsim {
 struct ElementNoise {
     float element_sigma = 0.0F;      ///< real and imaginary part each, per element
     float common_mode_sigma = 0.0F;  ///< each part, in the beam straight ahead
-    std::vector<float> taps{1.0F};   ///< of the filter along range, as noise_taps() has them
+    std::vector<float> taps{1.0F};   ///< the filter along range, by noise_taps()
 };
 
 /// The noise of one ping at the elements.

@@ -44,7 +44,7 @@ class FilteredNoise {
     std::vector<float> taps_;
     PhiloxKey key_;
     int reach_;
-    int length_;  ///< of a window, in bins; a multiple of 8
+    int length_;  ///< bins of a window, a multiple of 8
     int next_row_ = std::numeric_limits<int>::min();
     std::vector<float> windows_;  ///< [channels][real, imaginary][length]: white noise
     std::vector<std::uint32_t> a_, b_;
