@@ -80,12 +80,12 @@ void write_rows(const std::vector<Lanes>& beams, int row, std::span<const float>
     }
 }
 
-void form_beams(const Beamformer& former, const EchoGrid* grid, const ElementNoise& noise,
-                PhiloxKey key, std::span<const float> row_gain, std::span<float> image, bool add) {
+void form_beams(const Beamformer& former, const EchoGrid* grid, ElementNoiseOfPing* noise,
+                std::span<const float> row_gain, std::span<float> image, bool add) {
     Beamformer::Scratch scratch(former);
     std::vector<Lanes> beams(former.beams());
     for (int row = 0; row < std::ssize(row_gain); row += lanes_at_once) {
-        former.form(grid, row, noise, key, scratch, beams.data());
+        former.form(grid, row, noise, scratch, beams.data());
         write_rows(beams, row, row_gain, image, add);
     }
 }
@@ -93,7 +93,7 @@ void form_beams(const Beamformer& former, const EchoGrid* grid, const ElementNoi
 }  // namespace
 
 ArrayBeams array_beams(const BeamConfig& beam, const std::vector<double>& beam_sines, double noise,
-                       double common_mode) {
+                       double common_mode, const std::vector<float>& taps) {
     const LineArray array = receiving_array(beam);
     ArrayBeams out{.amplitudes = Beamformer(array, beam_sines, false),
                    .powers = Beamformer(array, beam_sines, true),
@@ -101,6 +101,7 @@ ArrayBeams array_beams(const BeamConfig& beam, const std::vector<double>& beam_s
     out.noise.element_sigma =
         static_cast<float>(std::sqrt(noise)) * out.amplitudes.element_sigma_of_unit();
     out.noise.common_mode_sigma = static_cast<float>(std::sqrt(0.5 * common_mode));
+    out.noise.taps = taps;
     return out;
 }
 
@@ -141,13 +142,13 @@ void add_amplitudes(const ArrayBeams& /*beams*/, const PatchBlock& /*pieces*/,
 
 void beamform(const ArrayBeams& beams, const EchoGrid& grid, bool powers, bool noisy, PhiloxKey key,
               std::span<const float> row_gain, std::span<float> image) {
-    const ElementNoise noise = noisy ? beams.noise : ElementNoise{};
-    if (!powers) {
-        form_beams(beams.amplitudes, &grid, noise, key, row_gain, image, false);
+    if (powers) form_beams(beams.powers, &grid, nullptr, row_gain, image, false);
+    if (!noisy) {
+        if (!powers) form_beams(beams.amplitudes, &grid, nullptr, row_gain, image, false);
         return;
     }
-    form_beams(beams.powers, &grid, {}, {}, row_gain, image, false);
-    if (noisy) form_beams(beams.amplitudes, nullptr, noise, key, row_gain, image, true);
+    ElementNoiseOfPing noise = beams.amplitudes.noise_of_ping(beams.noise, key);
+    form_beams(beams.amplitudes, powers ? nullptr : &grid, &noise, row_gain, image, powers);
 }
 
 }  // namespace sonarsim

@@ -18,9 +18,10 @@ struct ArrayBeams {
 };
 
 /// `beam_sines`: of the azimuths that the beams look at. `noise`: its power in a beam;
-/// `common_mode`: of what all elements share, in the beam straight ahead.
+/// `common_mode`: of what all elements share, in the beam straight ahead; `taps`: of the noise's
+/// filter along range.
 ArrayBeams array_beams(const BeamConfig& beam, const std::vector<double>& beam_sines, double noise,
-                       double common_mode);
+                       double common_mode, const std::vector<float>& taps);
 
 inline int columns_of(const ArrayBeams& beams) {
     return beams.amplitudes.grid().columns;

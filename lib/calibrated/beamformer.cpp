@@ -6,7 +6,6 @@
 #include <cmath>
 #include <complex>
 
-#include "calibrated/normals.h"
 #include "core/elementary.h"
 #include "core/units.h"
 
@@ -185,60 +184,47 @@ Beamformer::Beamformer(const LineArray& array, const std::vector<double>& beam_s
 }
 
 Beamformer::Scratch::Scratch(const Beamformer& beams)
-    : data(beams.fourier_.size()),
-      spare(beams.fourier_.size()),
-      a(static_cast<std::size_t>((beams.elements() + 1) / 2) * lanes_at_once),
-      b(a.size()) {}
+    : data(beams.fourier_.size()), spare(beams.fourier_.size()) {}
 
-/// Adds the noise of bins `row` to `row` + 7: that of an element depends on its number, the bin and
-/// the key alone. One counter serves two elements.
-void Beamformer::add_noise(const ElementNoise& noise, int row, PhiloxKey key,
-                           Scratch& scratch) const {
+ElementNoiseOfPing Beamformer::noise_of_ping(const ElementNoise& levels, PhiloxKey key) const {
+    // One counter serves two elements.
+    const int pairs = (elements() + 1) / 2;
+    const NoiseChannels channels{.firsts = pairs,
+                                 .seconds = elements() - pairs,
+                                 .common_mode = levels.common_mode_sigma > 0.0F};
+    return {.levels = levels, .drawn = FilteredNoise(channels, levels.taps, key)};
+}
+
+/// Adds the noise of the bins `row` to `row` + 7.
+void Beamformer::add_noise(ElementNoiseOfPing& noise, int row, Scratch& scratch) const {
+    noise.drawn.go_to(row);
     const int elements = this->elements();
-    const int pairs = (elements + 1) / 2;
-    for (int pair = 0; pair < pairs; ++pair) {
-        for (int lane = 0; lane < lanes_at_once; ++lane) {
-            scratch.a[pair * lanes_at_once + lane] = static_cast<std::uint32_t>(row + lane);
-            scratch.b[pair * lanes_at_once + lane] = static_cast<std::uint32_t>(pair);
-        }
-    }
-    philox_pairs(scratch.a.data(), scratch.b.data(),
-                 static_cast<std::size_t>(pairs) * lanes_at_once, key);
-    Lanes re, im;
     for (int e = 0; e < elements; ++e) {
-        const std::vector<std::uint32_t>& words = e < pairs ? scratch.a : scratch.b;
-        complex_normals(words.data() + static_cast<std::ptrdiff_t>(e % pairs) * lanes_at_once, re,
-                        im);
+        const ComplexLanes drawn = noise.drawn.of(e);
         ComplexLanes z = scratch.data[weights_[e].index];
-        const float sigma = noise.element_sigma * weights_[e].noise_scale;
+        const float sigma = noise.levels.element_sigma * weights_[e].noise_scale;
         for (int lane = 0; lane < lanes_at_once; ++lane) {
-            z.re[lane] = std::fma(sigma, re[lane], z.re[lane]);
-            z.im[lane] = std::fma(sigma, im[lane], z.im[lane]);
+            z.re[lane] = std::fma(sigma, drawn.re[lane], z.re[lane]);
+            z.im[lane] = std::fma(sigma, drawn.im[lane], z.im[lane]);
         }
         scratch.data[weights_[e].index] = z;
     }
-    if (noise.common_mode_sigma == 0.0F) return;
-    std::array<std::uint32_t, lanes_at_once> a, b;
-    for (int lane = 0; lane < lanes_at_once; ++lane) {
-        a[lane] = static_cast<std::uint32_t>(row + lane);
-        b[lane] = 0xFFFFFFFFU;
-    }
-    philox_pairs(a.data(), b.data(), lanes_at_once, key);
-    complex_normals(a.data(), re, im);
+    if (noise.levels.common_mode_sigma == 0.0F) return;
+    const ComplexLanes common = noise.drawn.of(elements);
     for (const Weight& w : weights_) {
         ComplexLanes z = scratch.data[w.index];
-        const float ahead_re = noise.common_mode_sigma * w.noise_scale * w.ahead_re;
-        const float ahead_im = noise.common_mode_sigma * w.noise_scale * w.ahead_im;
+        const float ahead_re = noise.levels.common_mode_sigma * w.noise_scale * w.ahead_re;
+        const float ahead_im = noise.levels.common_mode_sigma * w.noise_scale * w.ahead_im;
         for (int lane = 0; lane < lanes_at_once; ++lane) {
-            z.re[lane] += re[lane] * ahead_re - im[lane] * ahead_im;
-            z.im[lane] += re[lane] * ahead_im + im[lane] * ahead_re;
+            z.re[lane] += common.re[lane] * ahead_re - common.im[lane] * ahead_im;
+            z.im[lane] += common.re[lane] * ahead_im + common.im[lane] * ahead_re;
         }
         scratch.data[w.index] = z;
     }
 }
 
-void Beamformer::form(const EchoGrid* grid, int row, const ElementNoise& noise, PhiloxKey key,
-                      Scratch& scratch, Lanes* out) const {
+void Beamformer::form(const EchoGrid* grid, int row, ElementNoiseOfPing* noise, Scratch& scratch,
+                      Lanes* out) const {
     ComplexLanes* const data = scratch.data.data();
     const int size = fourier_.size();
     if (grid) {
@@ -249,7 +235,7 @@ void Beamformer::form(const EchoGrid* grid, int row, const ElementNoise& noise, 
     } else {
         std::fill(data, data + size, ComplexLanes{});
     }
-    if (noise.element_sigma > 0.0F) add_noise(noise, row, key, scratch);
+    if (noise) add_noise(*noise, row, scratch);
 
     // The transform has more elements than the aperture; the others receive nothing.
     const auto reach = static_cast<int>(weights_.size() / 2);

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "calibrated/echo_grid.h"
+#include "calibrated/filtered_noise.h"
 #include "calibrated/fourier.h"
 #include "calibrated/line_array.h"
 #include "core/random.h"
@@ -13,6 +14,13 @@ namespace sonarsim {
 struct ElementNoise {
     float element_sigma = 0.0F;      ///< real and imaginary part each, per element
     float common_mode_sigma = 0.0F;  ///< each part, in the beam straight ahead
+    std::vector<float> taps{1.0F};   ///< the filter along range, by noise_taps()
+};
+
+/// The noise of one ping at the elements.
+struct ElementNoiseOfPing {
+    ElementNoise levels;
+    FilteredNoise drawn;
 };
 
 /// Turns what arrives at a line array into beams. A grid of sines is the array's aperture seen
@@ -35,12 +43,12 @@ class Beamformer {
     struct Scratch {
         explicit Scratch(const Beamformer& beams);
         std::vector<ComplexLanes> data, spare;
-        std::vector<std::uint32_t> a, b;
     };
+    ElementNoiseOfPing noise_of_ping(const ElementNoise& levels, PhiloxKey key) const;
     /// Forms the beams of 8 bins from `row` on: `out` [beams][8], the power of each. Without a grid
-    /// there are no echoes.
-    void form(const EchoGrid* grid, int row, const ElementNoise& noise, PhiloxKey key,
-              Scratch& scratch, Lanes* out) const;
+    /// there are no echoes. `noise` may be null.
+    void form(const EchoGrid* grid, int row, ElementNoiseOfPing* noise, Scratch& scratch,
+              Lanes* out) const;
 
   private:
     static constexpr int most_taps = 8;
@@ -52,7 +60,7 @@ class Beamformer {
         float ahead_re, ahead_im;  ///< signal of a source straight ahead
     };
 
-    void add_noise(const ElementNoise& noise, int row, PhiloxKey key, Scratch& scratch) const;
+    void add_noise(ElementNoiseOfPing& noise, int row, Scratch& scratch) const;
 
     bool powers_;
     SineGrid grid_;

@@ -77,6 +77,7 @@ CalibratedModel calibrated_model(const InstrumentConfig& instrument, const Water
     model.clutter = gamma_clutter(instrument.speckle.clutter_shape, instrument.speckle.clutter_m);
     model.amplitude_taps = range_taps(resolution_bins, side_lobe_db, false);
     model.power_taps = range_taps(resolution_bins, side_lobe_db, true);
+    const std::vector<float> of_noise = noise_taps(resolution_bins, side_lobe_db);
     model.speckle = instrument.speckle.mode;
     model.sound_speed_m_s = water.sound_speed_m_s;
     model.water_density_kg_m3 = water.density_kg_m3;
@@ -93,10 +94,11 @@ CalibratedModel calibrated_model(const InstrumentConfig& instrument, const Water
     const double noise = power_of_db(noise_db + raised_db);
     const double common_mode = has_common_mode ? power_of_db(common_mode_db + raised_db) : 0.0;
     if (beam.aperture == Aperture::line) {
-        model.beams = array_beams(beam, beam_sines, noise, common_mode);
+        model.beams = array_beams(beam, beam_sines, noise, common_mode, of_noise);
         model.guard = guard_beams_of(beam, view);
     } else {
-        model.beams = transducer_beams(beam, view, model.wavelength_m, noise + common_mode);
+        model.beams =
+            transducer_beams(beam, view, model.wavelength_m, noise + common_mode, of_noise);
     }
     model.limits = point_limits(beam, view, model.beams);
     model.equation = {.range_min_m = static_cast<float>(view.range_min_m),

@@ -3,12 +3,33 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/elementary.h"
+#include "core/units.h"
+
 namespace sonarsim {
 
 namespace {
 
 /// The half-power width at which line_array() is asked for a band: any small angle will do.
 constexpr double unit_width = 1e-3;
+
+// Pulses longer than this many bins are cut off at it.
+constexpr double most_reach = 64.0;
+
+/// The bins to either side of a pulse's middle that have its main lobe and two side lobes.
+int reach_of(double resolution_bins) {
+    return static_cast<int>(std::clamp(std::ceil(3.0 * resolution_bins), 2.0, most_reach));
+}
+
+/// The square root of the spectrum that noise of a band has in bins, `frequency` in cycles per
+/// bin. The band is `width` cycles per bin wide, and what is beyond half a cycle folds.
+double folded_amplitude(const LineArray& band, double width, double frequency) {
+    const double most = std::ceil(0.5 * width);
+    double sum = 0.0;
+    for (double k = -most; k <= most; k += 1.0)
+        sum += std::norm(band.weight((frequency + k) / width));
+    return std::sqrt(sum);
+}
 
 /// Solves t[m-1] / 6 + 2 t[m] / 3 + t[m+1] / 6 = b[m]: the products of neighbouring triangles.
 std::vector<double> solve_triangles(std::vector<double> b) {
@@ -35,8 +56,7 @@ RangeTaps range_taps(double resolution_bins, double side_lobe_db, bool squared) 
         return squared ? h * h : h;
     };
     RangeTaps out;
-    // The main lobe and two side lobes, but not so many that a wide pulse takes all the time.
-    out.reach = static_cast<int>(std::clamp(std::ceil(3.0 * resolution_bins), 2.0, 64.0));
+    out.reach = reach_of(resolution_bins);
     std::vector<double> products;
     constexpr int steps = 64;
     for (int m = -out.reach; m <= out.reach; ++m) {
@@ -68,6 +88,44 @@ RangeTaps range_taps(double resolution_bins, double side_lobe_db, bool squared) 
         out.taps.push_back(static_cast<float>(scale * tap));
     out.scalloping_gain = static_cast<float>((2.0 / 3.0 * power + 1.0 / 3.0 * neighbours) / power);
     return out;
+}
+
+std::vector<float> noise_taps(double resolution_bins, double side_lobe_db) {
+    // A shorter pulse has white noise as well.
+    const double pulse_bins = std::max(resolution_bins, 0.1);
+    const LineArray band = line_array(unit_width, side_lobe_db);
+    const double width = band.wavelengths * unit_width / pulse_bins;
+    constexpr int steps = 512;
+    std::vector<double> one_side;  // from the middle on
+    double energy = 0.0;
+    for (int m = 0; m <= reach_of(pulse_bins); ++m) {
+        double tap = 0.0;
+        if (width <= 1.0) {
+            tap = line_pattern(band, m / pulse_bins * unit_width);
+        } else {
+            for (int k = 0; k < steps; ++k) {
+                const double frequency = 0.5 * (k + 0.5) / steps;
+                tap += folded_amplitude(band, width, frequency) *
+                       sincos(2.0 * pi * m * frequency).cos / steps;
+            }
+        }
+        one_side.push_back(tap);
+        energy += (m == 0 ? 1.0 : 2.0) * tap * tap;
+    }
+    // Taps are left out from the ends on, up to a thousandth of the energy.
+    double left_out = 0.0;
+    while (one_side.size() > 1) {
+        const double more = 2.0 * one_side.back() * one_side.back();
+        if (left_out + more > 1e-3 * energy) break;
+        left_out += more;
+        one_side.pop_back();
+    }
+    std::vector<float> taps;
+    const double scale = 1.0 / std::sqrt(energy - left_out);
+    const int reach = static_cast<int>(one_side.size()) - 1;
+    for (int m = -reach; m <= reach; ++m)
+        taps.push_back(static_cast<float>(scale * one_side[std::abs(m)]));
+    return taps;
 }
 
 }  // namespace sonarsim

@@ -20,4 +20,11 @@ struct RangeTaps {
 /// shape of the beam of a line array with the same taper. `squared`: of powers, not of amplitudes.
 RangeTaps range_taps(double resolution_bins, double side_lobe_db, bool squared);
 
+/// The filter along range that gives white noise of the bins the band of that pulse: taps at whole
+/// bins from -reach to reach, with a sum of squares of 1. Noise passes the receiver's filter alone,
+/// whose response has the band of the pulse, so its correlation between bins is the pulse
+/// correlated with itself. A band wider than one cycle per bin folds; folded often it is white, and
+/// the only tap is 1.
+std::vector<float> noise_taps(double resolution_bins, double side_lobe_db);
+
 }  // namespace sonarsim

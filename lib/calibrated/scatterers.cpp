@@ -17,6 +17,9 @@ using Words = PatchBlock::Array<std::uint32_t>;
 // of the cell, which would otherwise show as speckle that is longer than the pulse.
 constexpr double most_of_resolution = 0.75;
 
+// Cells in a resolution cell where there are fewer scatterers than one in it.
+constexpr double cells_for_few = 4.0;
+
 // Levels that cells are larger by where sound meets a surface head-on than where it grazes it.
 constexpr int steep_levels = 1;
 
@@ -87,12 +90,32 @@ void find_phases(const Scatterers& block, int count, const SonarInScene& sonar, 
     }
 }
 
+/// The strengths of scatterers that stand for many: exponential.
+void find_strengths_of_many(const Words& words, int count, Floats& strength) {
+    for (int k = 0; k < count; ++k)
+        strength[k] = -natural_log(unit_float(words[k]));
+}
+
+/// The strengths of few scatterers. A cell of the area A holds one with the probability n A, n of
+/// them being on a square metre, and its strength is one over that.
+void find_strengths_of_few(const Words& words, int count, const PatchBlock& pieces,
+                           const PointEchoes& echoes, float per_m2, Floats& strength) {
+    for (int k = 0; k < count; ++k) {
+        // In this order of arguments NaN becomes 1.
+        const float share = std::min(1.0F, per_m2 * pieces.area_m2[k] / echoes.range_m[k]);
+        const float draw = static_cast<float>(static_cast<std::int32_t>(words[k] >> 1)) * 0x1p-31F;
+        strength[k] = draw < share ? 1.0F / share : 0.0F;
+    }
+}
+
 }  // namespace
 
 ScattererCells scatterer_cells(double per_cell, double resolution_m, double width_rad,
                                double range_min_m, double wavelength_m) {
     const double greatest = most_of_resolution * resolution_m;
-    const double per_root_range = std::sqrt(resolution_m * width_rad / per_cell);
+    const bool few = per_cell < 1.0;
+    const double in_cell = few ? cells_for_few : per_cell;
+    const double per_root_range = std::sqrt(resolution_m * width_rad / in_cell);
     const double least = per_root_range * std::sqrt(std::max(range_min_m, 1e-3));
     ScattererCells out;
     out.levels = 1;
@@ -107,6 +130,7 @@ ScattererCells scatterer_cells(double per_cell, double resolution_m, double widt
     out.greatest_depth_m = static_cast<float>(greatest);
     out.width_rad = static_cast<float>(width_rad);
     out.turns_per_m = 2.0 / wavelength_m;
+    if (few) out.few_per_m2 = static_cast<float>(per_cell / (resolution_m * width_rad));
     return out;
 }
 
@@ -133,9 +157,15 @@ void draw_amplitudes(const Scatterers& block, const PointEchoes& echoes,
     name_cells(block, count, for_strength, for_phase);
     philox_pairs(for_strength.data(), for_phase.data(), count, key);
     find_phases(block, count, sonar, cells.turns_per_m, turns);
+    Floats strength;
+    if (cells.few_per_m2 > 0.0F) {
+        find_strengths_of_few(for_strength, count, block.pieces, echoes, cells.few_per_m2,
+                              strength);
+    } else {
+        find_strengths_of_many(for_strength, count, strength);
+    }
     for (int k = 0; k < count; ++k) {
-        const float strength = -natural_log(unit_float(for_strength[k]));
-        const float amplitude = std::sqrt(echoes.power[k] * strength);
+        const float amplitude = std::sqrt(echoes.power[k] * strength[k]);
         const SinCosFloat phase = sincos_turns(unit_float(for_phase[k]) + turns[k]);
         out.re[k] = amplitude * phase.cos;
         out.im[k] = amplitude * phase.sin;

@@ -14,6 +14,10 @@ namespace sonarsim {
 /// The scatterers of a scene as one sonar resolves them: one to each cell of a world-aligned
 /// lattice of cubes. A cell's scatterer has a place within the cell, a strength and a phase of its
 /// own, all by the cell's number. Their edge doubles from one level to the next.
+///
+/// With one scatterer in a resolution cell or more, each stands for many: its strength is
+/// exponential. With fewer, some cells of the lattice have none, and the others have all the same
+/// strength per m^2 of the surface.
 struct ScattererCells {
     float least_edge_m = 0.0F;         ///< level 0
     float edge_per_root_range = 0.0F;  ///< m per sqrt(m), at grazing incidence
@@ -21,12 +25,15 @@ struct ScattererCells {
     float width_rad = 0.0F;            ///< width of a resolution cell
     int levels = 1;
     double turns_per_m = 0.0;  ///< two-way phase: 2 / wavelength
+    /// Scatterers per m^2 at a range of 1 m, by one over the range at others; 0: one in each cell.
+    float few_per_m2 = 0.0F;
 
     float edge_of(int level) const { return least_edge_m * static_cast<float>(1 << level); }
 };
 
 /// Cells with `per_cell` scatterers to a resolution cell of `resolution_m` in range and `width_rad`
-/// across, but no longer in range than the resolution.
+/// across, but no longer in range than the resolution. For less than one, cells with four, of which
+/// as many are empty as it takes.
 ScattererCells scatterer_cells(double per_cell, double resolution_m, double width_rad,
                                double range_min_m, double wavelength_m);
 

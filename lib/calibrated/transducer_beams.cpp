@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calibrated/filtered_noise.h"
 #include "calibrated/levels.h"
-#include "calibrated/normals.h"
 #include "calibrated/piston.h"
 #include "core/units.h"
 #include "trace/arrivals.h"
@@ -72,8 +72,9 @@ float SineTable::at(float sine) const {
 }
 
 TransducerBeams transducer_beams(const BeamConfig& beam, const View& view, double wavelength_m,
-                                 double noise) {
+                                 double noise, const std::vector<float>& taps) {
     TransducerBeams out;
+    out.noise_taps = taps;
     out.aperture = beam.aperture;
     out.noise_sigma = static_cast<float>(std::sqrt(0.5 * noise));
     if (beam.aperture == Aperture::piston) {
@@ -161,17 +162,13 @@ void beamform(const TransducerBeams& beams, const EchoGrid& grid, bool powers, b
               PhiloxKey key, std::span<const float> row_gain, std::span<float> image) {
     const int count = beams.beams();
     const float sigma = noisy ? beams.noise_sigma : 0.0F;
-    std::array<std::uint32_t, lanes_at_once> a, b;
-    Lanes re, im;
-    for (int beam = 0; beam < count; ++beam) {
-        const float* const column = grid.column(beam);
-        for (int row = 0; row < grid.rows(); row += lanes_at_once) {
-            for (int lane = 0; lane < lanes_at_once; ++lane)
-                a[lane] = static_cast<std::uint32_t>(row + lane);
-            b.fill(static_cast<std::uint32_t>(beam));
-            philox_pairs(a.data(), b.data(), lanes_at_once, key);
-            complex_normals(a.data(), re, im);
-            const int lanes = std::min(lanes_at_once, grid.rows() - row);
+    FilteredNoise noise({.firsts = count}, beams.noise_taps, key);
+    for (int row = 0; row < grid.rows(); row += lanes_at_once) {
+        if (noisy) noise.go_to(row);
+        const int lanes = std::min(lanes_at_once, grid.rows() - row);
+        for (int beam = 0; beam < count; ++beam) {
+            const float* const column = grid.column(beam);
+            const auto [re, im] = noisy ? noise.of(beam) : ComplexLanes{};
             for (int lane = 0; lane < lanes; ++lane) {
                 const float* const place = column + static_cast<std::ptrdiff_t>(2) * (row + lane);
                 // Without speckle the energies of echo and noise add.

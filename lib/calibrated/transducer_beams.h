@@ -35,13 +35,14 @@ struct TransducerBeams {
     /// Two-way amplitude of a side across the track, of a disc off its axis, of a head in azimuth.
     SineTable pattern;
     float noise_sigma = 0.0F;  ///< real and imaginary part each
+    std::vector<float> noise_taps{1.0F};
 
     int beams() const { return sides.empty() ? 1 : static_cast<int>(sides.size()); }
 };
 
-/// `noise` is the power of the noise in a beam.
+/// `noise` is the power of the noise in a beam, `taps` are those of its filter along range.
 TransducerBeams transducer_beams(const BeamConfig& beam, const View& view, double wavelength_m,
-                                 double noise);
+                                 double noise, const std::vector<float>& taps);
 
 inline int columns_of(const TransducerBeams& beams) {
     return beams.beams();

@@ -73,7 +73,8 @@ void describe(Visitor& v, SpeckleConfig& c) {
     v.choice("mode", c.mode, speckle_modes,
              "`scene`: scatterers stay in place in the scene; `ping`: scatterers are drawn anew "
              "for every ping, which is faster; `none`: no speckle, the mean power");
-    v.number("per_cell", c.per_cell, between(1, 30), "number of scatterers in a resolution cell");
+    v.number("per_cell", c.per_cell, between(0.01, 30),
+             "number of scatterers in a resolution cell; below 1 they are seen one by one");
     v.number("clutter_shape", c.clutter_shape, between(0, 100),
              "shape nu of K-distributed clutter; 0 means Rayleigh");
     // At much smaller shapes nearly all cells draw a power of 0.

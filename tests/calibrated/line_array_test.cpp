@@ -66,4 +66,27 @@ TEST_SUITE("calibrated") {
             CHECK(std::fabs(at(0.0) - 1.0) < 0.1);
         }
     }
+
+    TEST_CASE("pulse: the half-power widths of its spline, as the documents have them") {
+        struct Width {
+            double of_pulse, of_spline;  // bins
+        };
+        for (const Width& w :
+             {Width{0.1, 0.47}, Width{0.5, 0.52}, Width{1.0, 0.67}, Width{1.5, 1.13},
+              Width{2.0, 1.87}, Width{3.0, 2.87}, Width{5.0, 4.92}}) {
+            CAPTURE(w.of_pulse);
+            const RangeTaps taps = range_taps(w.of_pulse, -30.0, false);
+            const auto power_at = [&](double x) {
+                const auto k = static_cast<std::size_t>(x);
+                const float* const tap = taps.taps.data() + taps.reach + k;
+                const double amplitude =
+                    std::lerp(static_cast<double>(tap[0]), tap[1], x - std::floor(x));
+                return amplitude * amplitude;
+            };
+            double half = 0.0;
+            while (power_at(half) > 0.5 * power_at(0.0))
+                half += 1e-3;
+            CHECK(std::fabs(2.0 * half - w.of_spline) < 0.01);
+        }
+    }
 }

@@ -65,7 +65,7 @@ TEST_SUITE("calibrated") {
             grid.column(column)[2 * 2] = 1.0F;
             Beamformer::Scratch scratch(beams);
             std::vector<Lanes> out(beams.beams());
-            beams.form(&grid, 0, {}, {}, scratch, out.data());
+            beams.form(&grid, 0, nullptr, scratch, out.data());
             const double at = beams.grid().first + column * beams.grid().step;
             for (int j = 0; j < beams.beams(); ++j) {
                 const double b = line_pattern(array, sines[j] - at);
@@ -85,13 +85,14 @@ TEST_SUITE("calibrated") {
         const Beamformer beams(array, sines, false);
         Beamformer::Scratch scratch(beams);
         std::vector<Lanes> out(beams.beams());
-        const ElementNoise noise{.element_sigma = beams.element_sigma_of_unit()};
+        ElementNoiseOfPing noise =
+            beams.noise_of_ping({.element_sigma = beams.element_sigma_of_unit()}, {5, 6});
         double sum = 0.0;
         double squares = 0.0;
         double products = 0.0;
         double count = 0.0;
         for (int row = 0; row < 2000; row += lanes_at_once) {
-            beams.form(nullptr, row, noise, {5, 6}, scratch, out.data());
+            beams.form(nullptr, row, &noise, scratch, out.data());
             for (int j = 20; j < 235; ++j) {
                 for (int lane = 0; lane < lanes_at_once; ++lane) {
                     const double p = out[j][lane];

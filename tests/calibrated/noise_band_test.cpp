@@ -1,0 +1,231 @@
+#include <doctest/doctest.h>
+
+#include <array>
+#include <cmath>
+#include <complex>
+#include <vector>
+
+#include "calibrated/decibel.h"
+#include "calibrated/filtered_noise.h"
+#include "calibrated/normals.h"
+#include "calibrated/range_response.h"
+#include "core/units.h"
+#include "support/calibrated.h"
+#include "support/statistics.h"
+
+using namespace sonarsim;
+using namespace sonarsim::test;
+
+namespace {
+
+constexpr PhiloxKey noise_key{11, 12};
+
+/// The correlation of noise `lag` bins apart that has passed a band. The band has the taper W of a
+/// line array whose pattern is the pulse. The spectrum of the noise is W^2, so its correlation is
+///
+///     integral of W(x)^2 cos(2 pi x B lag) dx / integral of W(x)^2 dx,    -1/2 < x < 1/2,
+///
+/// with B the width of the band in cycles per bin. It holds at whole bins even if B is above 1.
+double band_correlation(double resolution_bins, double side_lobe_db, int lag) {
+    constexpr double unit = 1e-3;
+    const LineArray band = line_array(unit, side_lobe_db);
+    const double width = band.wavelengths * unit / resolution_bins;
+    double sum = 0.0;
+    double power = 0.0;
+    constexpr int steps = 4000;
+    for (int k = 0; k < steps; ++k) {
+        const double x = (k + 0.5) / steps - 0.5;
+        const double w2 = std::norm(band.weight(x));
+        sum += w2 * std::cos(2.0 * pi * x * width * lag);
+        power += w2;
+    }
+    return sum / power;
+}
+
+/// The correlation that taps give white noise.
+double tap_correlation(const std::vector<float>& taps, std::size_t lag) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k + lag < taps.size(); ++k)
+        sum += static_cast<double>(taps[k]) * taps[k + lag];
+    return sum;
+}
+
+/// A sonar of 400 bins of 4 cm with this pulse, whose image is noise of mean 1.
+Sonar noisy_sonar(SonarKind kind, double resolution_m, double common_mode_db = -300.0) {
+    SonarConfig config = calibrated(default_sonar(kind), 2e5);
+    config.azimuth_deg = kind == SonarKind::sidescan ? 170.0 : 60.0;
+    config.range_min_m = 1.0;
+    config.range_max_m = 17.0;
+    config.range_bins = 400;
+    config.azimuth_bins = 61;
+    InstrumentConfig& instrument = config.instrument;
+    instrument.pulse.resolution_m = resolution_m;
+    instrument.pulse.side_lobe_db = -20.0;
+    instrument.receiver.noise_db = -90.0;
+    instrument.receiver.common_mode_db = common_mode_db;
+    instrument.receiver.full_scale_db = -90.0;
+    instrument.receiver.tvg_log = 0.0;
+    instrument.receiver.tvg_absorption = false;
+    return make_sonar(config, {});
+}
+
+/// Noise of many pings, of all beams or of one whose power should be `expected`. A ping's
+/// correlation of powers is over its bins and beams, about that power.
+struct NoiseOfPings {
+    static constexpr int lags = 6;
+    std::array<std::vector<double>, lags + 1> products;  ///< [lag][ping]
+    std::vector<double> power;                           ///< [ping]
+
+    NoiseOfPings(const Sonar& sonar, std::uint32_t pings, int one_beam = -1,
+                 double expected = 1.0) {
+        const CalibratedModel& model = calibrated_model_of(sonar);
+        const View& view = sonar.settings.view;
+        for (std::uint32_t ping = 0; ping < pings; ++ping) {
+            const std::vector<float> image =
+                image_of_samples(model, view, {}, {.random = 2}, {}, {5, 6, ping});
+            const std::size_t beams = image.size() / static_cast<std::size_t>(view.range_bins);
+            std::vector<double> of_mean;
+            for (std::size_t k = 0; k < image.size(); ++k) {
+                if (one_beam < 0 || k % beams == static_cast<std::size_t>(one_beam))
+                    of_mean.push_back(image[k] / expected);
+            }
+            power.push_back(mean(of_mean));
+            const std::size_t step = one_beam < 0 ? beams : 1;
+            for (std::size_t lag = 0; lag <= lags; ++lag) {
+                double sum = 0.0;
+                const std::size_t end = of_mean.size() - lag * step;
+                for (std::size_t k = 0; k < end; ++k)
+                    sum += (of_mean[k] - 1.0) * (of_mean[k + lag * step] - 1.0);
+                products[lag].push_back(sum / static_cast<double>(end));
+            }
+        }
+    }
+};
+
+/// The mean is 0 dB within 0.05 dB. The powers of Gaussian amplitudes have the square of the
+/// amplitudes' correlation (Siegert's relation), within 4.5 standard errors: 36 such tests fail
+/// once in 4000 runs by chance.
+void check_noise(const NoiseOfPings& noise) {
+    const double mean_db = db_of_power(mean(noise.power));
+    MESSAGE("mean power ", mean_db, " dB, correlation of powers at 4 bins ",
+            mean(noise.products[4]));
+    CHECK(std::fabs(mean_db) < 0.05);
+    const std::vector<float> taps = noise_taps(5.0, -20.0);
+    for (int lag = 1; lag <= NoiseOfPings::lags; ++lag) {
+        const double rho = tap_correlation(taps, lag);
+        const double found = mean(noise.products[lag]);
+        CAPTURE(lag);
+        CHECK(std::fabs(found - rho * rho) < 4.5 * standard_error(noise.products[lag]));
+    }
+}
+
+}  // namespace
+
+TEST_SUITE("calibrated") {
+    TEST_CASE("noise: its taps have the band of the pulse and keep the power") {
+        for (const double bins : {0.8, 1.0, 1.3, 2.0, 3.5, 5.0, 12.0}) {
+            for (const double side_lobe_db : {-13.3, -20.0, -30.0, -40.0}) {
+                CAPTURE(bins);
+                CAPTURE(side_lobe_db);
+                const std::vector<float> taps = noise_taps(bins, side_lobe_db);
+                CHECK(std::fabs(tap_correlation(taps, 0) - 1.0) < 1e-6);
+                for (const int lag : {1, 2, 3, 4, 6}) {
+                    // A pulse without taper has side lobes without end; the taps stop after three
+                    // widths, as those of the echoes do.
+                    const double off =
+                        tap_correlation(taps, lag) - band_correlation(bins, side_lobe_db, lag);
+                    CHECK(std::fabs(off) < (side_lobe_db < -25.0 ? 0.035 : 0.14));
+                }
+            }
+        }
+    }
+
+    TEST_CASE("noise: it is white where the pulse is shorter than a bin") {
+        for (const double bins : {1e-9, 0.05, 0.1, 0.3})
+            CHECK(noise_taps(bins, -30.0) == std::vector<float>{1.0F});
+        // One tap leaves the draws as they are.
+        FilteredNoise noise({.firsts = 3, .seconds = 2, .common_mode = true}, {1.0F}, noise_key);
+        std::array<std::uint32_t, lanes_at_once> a, b;
+        Lanes re, im;
+        for (const int row : {0, 8, 4096}) {
+            noise.go_to(row);
+            for (int channel = 0; channel < 6; ++channel) {
+                for (int lane = 0; lane < lanes_at_once; ++lane) {
+                    a[lane] = static_cast<std::uint32_t>(row + lane);
+                    b[lane] = channel == 5 ? 0xFFFFFFFFU : static_cast<std::uint32_t>(channel % 3);
+                }
+                philox_pairs(a.data(), b.data(), lanes_at_once, noise_key);
+                complex_normals(channel < 3 || channel == 5 ? a.data() : b.data(), re, im);
+                CHECK(noise.of(channel).re == re);
+                CHECK(noise.of(channel).im == im);
+            }
+        }
+    }
+
+    TEST_CASE("noise: that of a bin does not depend on the bins before it") {
+        const std::vector<float> taps = noise_taps(5.0, -25.0);
+        const NoiseChannels channels{.firsts = 4, .seconds = 3, .common_mode = true};
+        FilteredNoise all(channels, taps, noise_key);
+        for (int row = 0; row <= 40; row += lanes_at_once)
+            all.go_to(row);
+        FilteredNoise one(channels, taps, noise_key);
+        one.go_to(40);
+        for (int channel = 0; channel < channels.count(); ++channel)
+            CHECK(all.of(channel).re == one.of(channel).re);
+    }
+
+    TEST_CASE("noise: complex amplitudes of neighbouring bins have the correlation of the taps") {
+        for (const double bins : {1.0, 2.0, 5.0}) {
+            CAPTURE(bins);
+            const std::vector<float> taps = noise_taps(bins, -25.0);
+            // Every channel gives an independent estimate from its 1000 bins.
+            const NoiseChannels channels{.firsts = 100, .seconds = 100, .common_mode = true};
+            FilteredNoise noise(channels, taps, noise_key);
+            constexpr int length = 1000;
+            std::vector<std::vector<std::complex<double>>> of(channels.count());
+            for (int row = 0; row < length; row += lanes_at_once) {
+                noise.go_to(row);
+                for (int channel = 0; channel < channels.count(); ++channel) {
+                    const ComplexLanes z = noise.of(channel);
+                    for (int lane = 0; lane < lanes_at_once; ++lane)
+                        of[channel].emplace_back(z.re[lane], z.im[lane]);
+                }
+            }
+            for (int lag = 0; lag <= 6; ++lag) {
+                std::vector<double> re, im;
+                for (const std::vector<std::complex<double>>& z : of) {
+                    std::complex<double> sum = 0.0;
+                    for (int k = 0; k + lag < length; ++k)
+                        sum += std::conj(z[k]) * z[k + lag];
+                    sum /= 2.0 * (length - lag);  // both parts have variance 1
+                    re.push_back(sum.real());
+                    im.push_back(sum.imag());
+                }
+                // 4.5 standard errors: 42 such tests fail once in 3000 runs by chance.
+                const double off = mean(re) - tap_correlation(taps, lag);
+                CHECK(std::fabs(off) < 4.5 * standard_error(re));
+                if (lag > 0) CHECK(std::fabs(mean(im)) < 4.5 * standard_error(im));
+            }
+        }
+    }
+
+    TEST_CASE("noise: the powers of every kind of sonar, correlated along range as the band is") {
+        // Bins of 4 cm and a pulse of 20 cm.
+        struct Case {
+            SonarKind kind;
+            std::uint32_t pings;
+        };
+        for (const Case& c : {Case{SonarKind::imaging, 40}, Case{SonarKind::profiling, 40},
+                              Case{SonarKind::sidescan, 1500}, Case{SonarKind::echosounder, 3000},
+                              Case{SonarKind::scanning, 3000}}) {
+            CAPTURE(static_cast<int>(c.kind));
+            check_noise(NoiseOfPings(noisy_sonar(c.kind, 0.2), c.pings));
+        }
+    }
+
+    TEST_CASE("noise: so is that which all elements share, in the beam straight ahead") {
+        // 30 dB above the elements' noise: beam 30 of 61 has 1 + 1000 times their power.
+        const Sonar sonar = noisy_sonar(SonarKind::imaging, 0.2, -60.0);
+        check_noise(NoiseOfPings(sonar, 1000, 30, 1001.0));
+    }
+}
