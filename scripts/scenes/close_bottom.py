@@ -22,15 +22,15 @@ def material_at(x, y, ragged, draw):
     distance = math.hypot(x, y)
     bend = (azimuth / 30) ** 2
     if distance < 0.4 + 0.4 * bend:
-        return "mud"
+        return "fitted_mud"
     if ((distance - 0.96) / 0.14) ** 2 + ((azimuth - 4) / 7) ** 2 < 1 + 15 * ragged(x, y):
-        return "silt"
+        return "fitted_silt"
     stone = draw(0, 1)
     if distance < 1.07 - 0.08 * bend + ragged(x, y):
-        return "limestone" if stone < 0.34 else "silt"
+        return "fitted_pebble" if stone < 0.34 else "fitted_silt"
     if x > step_at(y) + 0.04:
-        return "rock" if stone < 0.6 else "limestone"
-    return "sand" if bend < 0.25 + 6 * ragged(x, y) else "silt"
+        return "fitted_rock" if stone < 0.6 else "fitted_pebble"
+    return "fitted_sand" if bend < 0.25 + 6 * ragged(x, y) else "fitted_silt"
 
 
 def build():
@@ -46,7 +46,7 @@ def build():
         below = 0.035 * math.exp(-(x / 0.35) ** 2)
         return -0.53 + 0.06 * y * y - below + swell(x, y) + stones(x, y) + rise
 
-    bottom = Part("bottom", "mud")
+    bottom = Part("bottom", "fitted_mud")
     columns, rows = range(-32, 481), range(-230, 231)
     numbers = {(i, j): bottom.add_vertex(CELL_M * i, CELL_M * j, height(CELL_M * i, CELL_M * j))
                for j in rows for i in columns}

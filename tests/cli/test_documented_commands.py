@@ -85,6 +85,7 @@ INSTEAD = {
         f"sonarsim render configs/tank_detection.yaml --set trajectory.rate_hz=8 {TINY} --out OUT",
     "sonarsim inspect crane.glb --materials crane.csv":
         "cp scenes/materials.csv crane.csv; sonarsim inspect crane.glb --materials crane.csv",
+    "sonarsim materials FILE.csv": "sonarsim materials scenes/materials.csv",
     "for n in 0 1 2 3; do scripts/make_scenes.py lifeboat --quarterings $n --out out/lifeboat_$n; done":
         "for n in 0 3; do "
         "scripts/make_scenes.py lifeboat --quarterings $((n / 3)) --out out/lifeboat_$n; done",

@@ -46,5 +46,38 @@ class Inspect(Sandbox):
         self.assertNotIn("looks like", self.run_sonarsim("validate", "mission.yaml").stderr)
 
 
+class Scattering(Sandbox):
+    """`sonarsim materials`. At 20 degrees of grazing the model has -24.5 dB for medium sand at 400 kHz,
+    Lambert's rule -30 + 20 log sin 20 = -39.3 dB."""
+
+    def setUp(self):
+        super().setUp()
+        self.write("beds.csv", "material,density_kg_m3,sound_speed_m_s,grain_phi,lambert_db,slope_rms_deg\n"
+                               "sand,1900,1650,1.5,,\nplain,1900,1650,,-30,0\n")
+
+    def test_a_table(self):
+        result = self.run_sonarsim("materials", "beds.csv")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        title, degrees, *rows = result.stdout.splitlines()
+        self.assertIn("400 kHz", title)
+        at_20 = degrees.split().index("20") + 1
+        self.assertEqual({row.split()[0]: row.split()[at_20] for row in rows},
+                         {"sand": "-24.5", "plain": "-39.3"})
+
+    def test_json(self):
+        for khz, strength in ((400, -24.5), (100, -25.0)):
+            told = json.loads(self.run_sonarsim("materials", "beds.csv", "--json", "--frequency-khz",
+                                                str(khz)).stdout)
+            self.assertEqual(told["grazing_deg"], list(range(1, 91)))
+            self.assertAlmostEqual(told["strength_db"]["sand"][19], strength, delta=0.1)
+            self.assertAlmostEqual(told["strength_db"]["plain"][89], -30, delta=0.001)
+
+    def test_what_is_refused(self):
+        self.write("beds.csv", "material,density_kg_m3,sound_speed_m_s,grain_phi\nsand,1900,1650,12\n")
+        self.assert_refused(self.run_sonarsim("materials", "beds.csv"),
+                            "beds.csv:2: grain_phi is 12; expected a number from -10 to 9")
+        self.assertEqual(self.run_sonarsim("materials", "beds.csv", "--frequency-khz", "0").returncode, 2)
+
+
 if __name__ == "__main__":
     unittest.main()
