@@ -96,14 +96,14 @@ std::vector<float> noise_taps(double resolution_bins, double side_lobe_db) {
     const double pulse_bins = std::max(resolution_bins, 0.1);
     const LineArray band = line_array(unit_width, side_lobe_db);
     const double width = band.wavelengths * unit_width / pulse_bins;
-    const double end = 0.5 * std::min(width, 1.0);  // of the frequencies
+    const double most_frequency = 0.5 * std::min(width, 1.0);
     constexpr int steps = 512;
     std::vector<double> one_side;  // from the middle on
     double energy = 0.0;
     for (int m = 0; m <= reach_of(pulse_bins); ++m) {
         double tap = 0.0;
         for (int k = 0; k < steps; ++k) {
-            const double frequency = end * (k + 0.5) / steps;
+            const double frequency = most_frequency * (k + 0.5) / steps;
             tap += noise_amplitude(band, width, frequency) * sincos(2.0 * pi * m * frequency).cos /
                    steps;
         }
