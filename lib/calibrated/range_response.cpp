@@ -21,13 +21,14 @@ int reach_of(double resolution_bins) {
     return static_cast<int>(std::clamp(std::ceil(3.0 * resolution_bins), 2.0, most_reach));
 }
 
-/// The square root of the spectrum that noise of a band has in bins, `frequency` in cycles per
-/// bin. The band is `width` cycles per bin wide, and what is beyond half a cycle folds.
-double folded_amplitude(const LineArray& band, double width, double frequency) {
+/// The square root of the spectrum that noise has in bins behind a matched filter, `frequency` in
+/// cycles per bin. The pulse's band is `width` cycles per bin wide, and what is beyond half a cycle
+/// folds.
+double noise_amplitude(const LineArray& band, double width, double frequency) {
     const double most = std::ceil(0.5 * width);
     double sum = 0.0;
     for (double k = -most; k <= most; k += 1.0)
-        sum += std::norm(band.weight((frequency + k) / width));
+        sum += std::abs(band.weight((frequency + k) / width));
     return std::sqrt(sum);
 }
 
@@ -95,19 +96,16 @@ std::vector<float> noise_taps(double resolution_bins, double side_lobe_db) {
     const double pulse_bins = std::max(resolution_bins, 0.1);
     const LineArray band = line_array(unit_width, side_lobe_db);
     const double width = band.wavelengths * unit_width / pulse_bins;
+    const double most_frequency = 0.5 * std::min(width, 1.0);
     constexpr int steps = 512;
     std::vector<double> one_side;  // from the middle on
     double energy = 0.0;
     for (int m = 0; m <= reach_of(pulse_bins); ++m) {
         double tap = 0.0;
-        if (width <= 1.0) {
-            tap = line_pattern(band, m / pulse_bins * unit_width);
-        } else {
-            for (int k = 0; k < steps; ++k) {
-                const double frequency = 0.5 * (k + 0.5) / steps;
-                tap += folded_amplitude(band, width, frequency) *
-                       sincos(2.0 * pi * m * frequency).cos / steps;
-            }
+        for (int k = 0; k < steps; ++k) {
+            const double frequency = most_frequency * (k + 0.5) / steps;
+            tap += noise_amplitude(band, width, frequency) * sincos(2.0 * pi * m * frequency).cos /
+                   steps;
         }
         one_side.push_back(tap);
         energy += (m == 0 ? 1.0 : 2.0) * tap * tap;

@@ -20,11 +20,13 @@ struct RangeTaps {
 /// shape of the beam of a line array with the same taper. `squared`: of powers, not of amplitudes.
 RangeTaps range_taps(double resolution_bins, double side_lobe_db, bool squared);
 
-/// The filter along range that gives white noise of the bins the band of that pulse: taps at whole
-/// bins from -reach to reach, with a sum of squares of 1. Noise passes the receiver's filter alone,
-/// whose response has the band of the pulse, so its correlation between bins is the pulse
-/// correlated with itself. A band wider than one cycle per bin folds; folded often it is white, and
-/// the only tap is 1.
+/// The filter along range that gives white noise of the bins the spectrum that it has behind the
+/// filter matched to that pulse: taps at whole bins from -reach to reach, with a sum of squares of
+/// 1. With S the spectrum of the transmitted signal, that of the filter is its conjugate, and the
+/// compressed pulse has |S|^2. White noise behind the filter has the power spectrum |S|^2, too. So
+/// the correlation of noise l bins apart is the amplitude of the compressed pulse l bins off its
+/// peak (e.g. Turin, "An introduction to matched filters", 1960). A band wider than one cycle per
+/// bin folds. Folded often it is white, and the only tap is 1.
 std::vector<float> noise_taps(double resolution_bins, double side_lobe_db);
 
 }  // namespace sonarsim
