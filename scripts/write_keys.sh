@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# ./scripts/write_keys.sh [program]: writes the tables of keys in docs/mission.md and the table of
-# docs/warnings.md, as the program (default: build/sonarsim) prints them. A test fails while they
-# differ.
+# ./scripts/write_keys.sh [program]: writes the tables of keys in docs/mission.md, the table of
+# docs/warnings.md and that of presets in docs/calibrated.md, as the program (default: build/sonarsim)
+# prints them. A test fails while they differ.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 program=${1:-$root/build/sonarsim}
@@ -9,5 +9,7 @@ tables=$(mktemp -d)
 trap 'rm -rf "$tables"' EXIT
 "$program" keys > "$tables/keys"
 "$program" warnings > "$tables/warnings"
+"$program" preset > "$tables/presets"
 python3 "$root/scripts/insert_tables.py" "$root/docs/mission.md" "keys=$tables/keys"
 python3 "$root/scripts/insert_tables.py" "$root/docs/warnings.md" "warnings=$tables/warnings"
+python3 "$root/scripts/insert_tables.py" "$root/docs/calibrated.md" "presets=$tables/presets"

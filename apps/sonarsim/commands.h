@@ -20,6 +20,7 @@ void add_preview(CLI::App& app, int& exit_code);
 void add_gallery(CLI::App& app, int& exit_code);
 void add_inspect(CLI::App& app, int& exit_code);
 void add_materials(CLI::App& app, int& exit_code);
+void add_preset(CLI::App& app, int& exit_code);
 void add_report(CLI::App& app, int& exit_code);
 void add_status(CLI::App& app, int& exit_code);
 void add_keys(CLI::App& app, int& exit_code);

@@ -86,6 +86,7 @@ int run(int argc, char** argv) {
     add_gallery(app, exit_code);
     add_inspect(app, exit_code);
     add_materials(app, exit_code);
+    add_preset(app, exit_code);
     add_report(app, exit_code);
     add_status(app, exit_code);
     add_keys(app, exit_code);

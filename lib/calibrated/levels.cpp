@@ -17,17 +17,14 @@ double raised_by_db(double noise_db, double common_mode_db) {
     return std::min(at_least, most_noise_db - std::max(noise_db, common_mode_db));
 }
 
-std::vector<float> row_gains(const InstrumentConfig& instrument, const View& view,
-                             double absorption_db_per_m, double raised_db) {
-    const ReceiverConfig& receiver = instrument.receiver;
+std::vector<float> row_gains(const ReceiverConfig& receiver, const InstrumentLevels& levels,
+                             const View& view, double absorption_db_per_m, double raised_db) {
     std::vector<float> out;
     for (int i = 0; i < view.range_bins; ++i) {
-        const double range =
-            std::max(view.range_min_m + (i + 0.5) * view.bin_m(), receiver.tvg_from_m);
-        const double tvg_db = receiver.tvg_log / 10.0 * db_of_power(range) +
-                              (receiver.tvg_absorption ? 2.0 * absorption_db_per_m * range : 0.0);
-        const double gain_db =
-            instrument.source_level_db + tvg_db - receiver.full_scale_db - raised_db;
+        const double range = view.range_min_m + (i + 0.5) * view.bin_m();
+        const double gain_db = levels.source_level_db +
+                               tvg_db(receiver, absorption_db_per_m, range) - levels.full_scale_db -
+                               raised_db;
         out.push_back(static_cast<float>(power_of_db(std::min(gain_db, most_gain_db))));
     }
     return out;

@@ -5,8 +5,8 @@
 #include <limits>
 #include <vector>
 
+#include "calibrated/instrument_levels.h"
 #include "mission/instrument.h"
-#include "mission/mission.h"
 #include "visibility/view.h"
 
 namespace sonarsim {
@@ -30,8 +30,8 @@ inline constexpr float most_value = 1e30F;
 
 /// The factors from powers of the grid to values of the image, by bin: source level, gain and full
 /// scale. Those beyond 370 dB are 370 dB: they lift the least noise, -300 dB, above full scale.
-std::vector<float> row_gains(const InstrumentConfig& instrument, const View& view,
-                             double absorption_db_per_m, double raised_db);
+std::vector<float> row_gains(const ReceiverConfig& receiver, const InstrumentLevels& levels,
+                             const View& view, double absorption_db_per_m, double raised_db);
 
 /// The value of a power. NaN stays NaN.
 inline float value_of(float gain, float power, float before = 0.0F) {

@@ -86,10 +86,11 @@ CalibratedModel calibrated_model(const InstrumentConfig& instrument, const Water
         absorption_db_per_m(instrument.frequency_hz,
                             {water.temperature_c, water.salinity_psu, water.depth_m, water.ph});
 
-    const double noise_db = receiver.noise_db - instrument.source_level_db;
+    model.levels = instrument_levels(instrument, water, view);
+    const double noise_db = model.levels.noise_db - model.levels.source_level_db;
     const bool has_common_mode = receiver.common_mode_db > no_common_mode_db;
     const double common_mode_db =
-        has_common_mode ? receiver.common_mode_db - instrument.source_level_db : noise_db;
+        has_common_mode ? receiver.common_mode_db - model.levels.source_level_db : noise_db;
     const double raised_db = raised_by_db(noise_db, common_mode_db);
     const double noise = power_of_db(noise_db + raised_db);
     const double common_mode = has_common_mode ? power_of_db(common_mode_db + raised_db) : 0.0;
@@ -110,7 +111,7 @@ CalibratedModel calibrated_model(const InstrumentConfig& instrument, const Water
                                                      beam.elevation_side_lobe_db)};
     model.cells = scatterer_cells(instrument.speckle.per_cell, std::max(resolution_m, 0.5 * bin_m),
                                   radians(beam.width_deg), view.range_min_m, model.wavelength_m);
-    model.row_gain = row_gains(instrument, view, model.absorption_db_per_m, raised_db);
+    model.row_gain = row_gains(receiver, model.levels, view, model.absorption_db_per_m, raised_db);
     return model;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "calibrated/array_beams.h"
+#include "calibrated/instrument_levels.h"
 #include "calibrated/scatterers.h"
 #include "calibrated/sonar_equation.h"
 #include "calibrated/specular_path.h"
@@ -23,6 +24,7 @@ namespace sonarsim {
 /// into the echo levels that it measures.
 struct CalibratedModel final : EchoModel {
     InstrumentConfig instrument;
+    InstrumentLevels levels;
     SonarEquation equation;
     PointLimits limits;  ///< for pieces that are not scatterers of the scene
     ScattererCells cells;

@@ -57,12 +57,14 @@ EchoModel::SignalAndNoise CalibratedModel::signal_and_noise(float clean, float n
 
 void CalibratedModel::describe(nlohmann::ordered_json& sensor) const {
     const ReceiverConfig& receiver = instrument.receiver;
-    const bool absolute = instrument.source_level_db != 0.0;
+    const bool absolute = levels.source_level_db != 0.0;
     sensor["instrument"] = {
         {"echo_level", std::string("full_scale_db + 10 log10(polar) - tvg_log log10(range_m)") +
                            (receiver.tvg_absorption ? " - 2 absorption_db_per_m range_m" : "")},
         {"echo_level_unit", absolute ? "dB re 1 uPa" : "dB re the source level, per uPa at 1 m"},
-        {"full_scale_db", receiver.full_scale_db},
+        {"source_level_db", levels.source_level_db},
+        {"noise_db", levels.noise_db},
+        {"full_scale_db", levels.full_scale_db},
         {"tvg_log", receiver.tvg_log},
         {"absorption_db_per_m", absorption_db_per_m},
         {"tvg_makes_up_for_absorption", receiver.tvg_absorption},

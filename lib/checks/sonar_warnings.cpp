@@ -50,6 +50,22 @@ void judge_brightness(const OutputConfig& output, const std::string& about, doub
     }
 }
 
+/// The key to change, and by how much, until the mean echo is as strong as the noise.
+std::string cure_of_noise(const SonarConfig& config, const SonarSurvey& found) {
+    if (config.model == ModelKind::paper) return "lower noise.add_sigma";
+    const ReceiverConfig& receiver = config.instrument.receiver;
+    const double below_db = 10.0 * std::log10(found.noise / found.signal);
+    const std::string by = found.signal > 0.0 ? fmt::format("by {:.0f} dB", std::ceil(below_db))
+                                              : "until echoes are above the noise";
+    if (receiver.noise_db)
+        return fmt::format("lower instrument.receiver.noise_db ({:.4g}) {}", *receiver.noise_db,
+                           by);
+    return fmt::format(
+        "raise instrument.source_level_db or instrument.power_w {}, or lower "
+        "range_max_m; sonarsim preset prints the ranges at which the sonar sees",
+        by);
+}
+
 double share(std::uint64_t part, std::uint64_t whole) {
     return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 0.0;
 }
@@ -91,8 +107,10 @@ std::vector<Warning> sonar_warnings(const OutputConfig& output, const Sonar& son
                                    found.enclosed_by));
     }
     if (found.blind == found.pings) return out;
-    if (found.signal < faint * found.noise)
-        out.push_back(make_warning(WarningCode::below_noise, about, found.signal, found.noise));
+    if (found.signal < faint * found.noise) {
+        out.push_back(make_warning(WarningCode::below_noise, about, found.signal, found.noise,
+                                   cure_of_noise(sonar.config, found)));
+    }
     judge_brightness(output, about, full_scale, found.white_share, found.brightest, out);
     return out;
 }

@@ -100,7 +100,7 @@ constexpr std::array table{
         WarningCode::below_noise,
         "its echoes are lost in its noise: their mean over the occupied bins is {0:.3g}, and "
         "the standard deviation of the noise is {1:.3g}",
-        "lower noise.add_sigma, or with the calibrated model the receiver's noise",
+        "lower the noise or raise the source: {2:s}",
         "a mean echo below a quarter of the noise's deviation",
         "the mean of 16 bins is then at most one deviation above zero"},
     WarningText{WarningCode::saturated,

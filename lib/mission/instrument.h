@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 namespace sonarsim {
 
@@ -43,6 +44,7 @@ struct BeamConfig {
 
 struct PulseConfig {
     double resolution_m = 0.0;    ///< half-power width of a point target in range; 0: one bin
+    double duration_s = 0.0;      ///< transmitted pulse; 0: that of a pulse without a code
     double side_lobe_db = -30.0;  ///< highest range side lobe after compression
 
     bool operator==(const PulseConfig&) const = default;
@@ -58,12 +60,15 @@ struct SpeckleConfig {
 };
 
 struct ReceiverConfig {
-    double noise_db = -100.0;        ///< noise power in a beam
+    std::optional<double> noise_db;  ///< noise power in a beam; without it by instrument_levels()
+    double efficiency = 0.5;         ///< transducer: sound out by electric power in
+    double noise_figure_db = 6.0;    ///< electronics
     double common_mode_db = -300.0;  ///< power of the noise that all elements share
     double tvg_log = 40.0;           ///< spreading factor k of k log10 r
     bool tvg_absorption = true;      ///< TVG has the term 2 alpha r
     double tvg_from_m = 0.0;         ///< TVG is constant at shorter ranges
-    double full_scale_db = 0.0;      ///< highest echo level after TVG that is not clipped
+    /// Highest echo level after TVG that is not clipped; without it by instrument_levels().
+    std::optional<double> full_scale_db;
     Companding companding = Companding::gamma;
     double gamma = 0.5;            ///< value = (amplitude / full scale)^gamma
     double dynamic_range_db = 60;  ///< for Companding::log
@@ -72,9 +77,28 @@ struct ReceiverConfig {
     bool operator==(const ReceiverConfig&) const = default;
 };
 
+/// Echoes and noise of the sea lie above 0 dB re 1 uPa, so a level below it is one relative to the
+/// source. -300 means none.
+constexpr bool is_relative_level(double level_db) {
+    return level_db < 0.0 && level_db > -300.0;
+}
+
+constexpr bool has_relative_level(const ReceiverConfig& receiver) {
+    return is_relative_level(receiver.noise_db.value_or(0.0)) ||
+           is_relative_level(receiver.full_scale_db.value_or(0.0)) ||
+           is_relative_level(receiver.common_mode_db);
+}
+
+/// 120 dB re 1 uPa at 1 m are 8 microwatts of sound. Less is no source level but the number that
+/// levels are relative to.
+constexpr bool is_relative_source(double source_level_db) {
+    return source_level_db < 120.0;
+}
+
 struct InstrumentConfig {
     double frequency_hz = 1e6;
-    double source_level_db = 0.0;
+    std::optional<double> source_level_db;  ///< without it by instrument_levels()
+    double power_w = 100.0;                 ///< electric power of the transmitter
     BeamConfig beam;
     PulseConfig pulse;
     SpeckleConfig speckle;

@@ -64,6 +64,9 @@ void describe(Visitor& v, PulseConfig& c) {
     // Speckle cells have this length. Much shorter ones overflow their number.
     v.require(c.resolution_m == 0.0 || c.resolution_m >= 1e-6, {"resolution_m"},
               "resolution_m is 0, for one range bin, or at least 1e-6");
+    v.number("duration_s", c.duration_s, between(0, 10),
+             "length of the transmitted pulse, for noise_db: auto. A pulse that is longer than its "
+             "resolution is coded, and its noise is that of the long pulse; 0 means no code");
     v.number("side_lobe_db", c.side_lobe_db, side_lobes_db,
              "highest range side lobe of the compressed pulse");
 }
@@ -86,8 +89,14 @@ void describe(Visitor& v, SpeckleConfig& c) {
 
 template <class Visitor>
 void describe(Visitor& v, ReceiverConfig& c) {
-    v.number("noise_db", c.noise_db, any_level_db,
-             "noise level in a beam before TVG, in the unit of source_level_db");
+    v.number_or_auto("noise_db", c.noise_db, any_level_db,
+                     "noise level in a beam before TVG, in the unit of source_level_db; `auto` "
+                     "computes it from frequency, pulse, beam and water.wind_m_s; -300 means none");
+    v.number("efficiency", c.efficiency, between(1e-3, 1),
+             "efficiency of the transducer, for the levels that are `auto`; the default is a rule "
+             "of thumb");
+    v.number("noise_figure_db", c.noise_figure_db, between(0, 60),
+             "noise figure of the electronics, for noise_db: auto; the default is a rule of thumb");
     v.number(
         "common_mode_db", c.common_mode_db, any_level_db,
         "level of the noise that all elements share, in the beam straight ahead; -300 means none");
@@ -95,8 +104,10 @@ void describe(Visitor& v, ReceiverConfig& c) {
     v.flag("tvg_absorption", c.tvg_absorption, "TVG compensates absorption");
     v.number("tvg_from_m", c.tvg_from_m, at_least(0),
              "range at which TVG starts; at shorter ranges the gain is constant");
-    v.number("full_scale_db", c.full_scale_db, any_level_db,
-             "echo level after TVG that becomes the largest value of raw/");
+    v.number_or_auto("full_scale_db", c.full_scale_db, any_level_db,
+                     "echo level after TVG that becomes the largest value of raw/; with `auto` a "
+                     "bottom of sand at half of the range is a third of that value, or less if the "
+                     "noise at range_max_m would else be above two thirds");
     v.choice(
         "companding", c.companding, compandings,
         "law that turns an amplitude A into a value of raw/: A^gamma, the decibels of A, or A");
@@ -106,15 +117,30 @@ void describe(Visitor& v, ReceiverConfig& c) {
     v.integer("bits", c.bits, between(4, 16), "bits of raw/; more than 8 make 16-bit files");
 }
 
+/// Levels are in one unit: all in dB re 1 uPa, or all relative to the source level.
+template <class Visitor>
+void require_one_unit(Visitor& v, const InstrumentConfig& c) {
+    const bool absolute = c.source_level_db && !is_relative_source(*c.source_level_db);
+    v.require(!absolute || !has_relative_level(c.receiver), {"source_level_db", "receiver"},
+              "source_level_db is in dB re 1 uPa, where a noise_db, full_scale_db or "
+              "common_mode_db below 0 makes no sense: give them in dB re 1 uPa or leave them out; "
+              "or give source_level_db: 0, to which they are then relative");
+}
+
 template <class Visitor>
 void describe(Visitor& v, InstrumentConfig& c) {
     v.number("frequency_hz", c.frequency_hz, between(1e3, 1e7), "frequency of the sound");
-    v.number("source_level_db", c.source_level_db, any_level_db,
-             "source level, re 1 uPa at 1 m; with 0 all levels are relative to it");
+    v.number_or_auto("source_level_db", c.source_level_db, any_level_db,
+                     "source level, re 1 uPa at 1 m; with 0 all levels are relative to it. `auto` "
+                     "computes it from power_w; if another level is below 0 dB, it is 0");
+    v.number("power_w", c.power_w, between(1e-6, 1e9),
+             "electric power of the transmitter, for source_level_db: auto; the default is a rule "
+             "of thumb");
     v.section("beam", c.beam, "beam pattern");
     v.section("pulse", c.pulse, "the pulse after compression");
     v.section("speckle", c.speckle, "interference of the echoes of many scatterers");
     v.section("receiver", c.receiver, "noise, TVG and the values of raw/");
+    require_one_unit(v, c);
 }
 
 }  // namespace sonarsim

@@ -30,9 +30,13 @@ class SchemaBuilder {
         add(key, "number", within_limits("number", limits), meaning, presence, number_json(value));
     }
     void number_or_auto(const char* key, double value, const Limits& limits, const char* meaning) {
+        number_or_auto(key, value == 0.0 ? std::nullopt : std::optional(value), limits, meaning);
+    }
+    void number_or_auto(const char* key, const std::optional<double>& value, const Limits& limits,
+                        const char* meaning) {
         const SchemaJson either{{"anyOf", {{{"const", "auto"}}, within_limits("number", limits)}}};
         add(key, "number", either, meaning, Presence::optional,
-            value == 0.0 ? SchemaJson("auto") : number_json(value));
+            value ? number_json(*value) : SchemaJson("auto"));
     }
     void integer(const char* key, int value, const Limits& limits, const char* meaning) {
         add(key, "whole number", within_limits("integer", limits), meaning, Presence::optional,

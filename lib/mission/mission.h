@@ -30,6 +30,8 @@ struct WaterConfig {
     double salinity_psu = 35.0;
     double depth_m = 10.0;
     double ph = 8.0;
+    // A gentle breeze. Above 100 kHz the noise of wind lies below that of heat.
+    double wind_m_s = 5.0;
 
     bool operator==(const WaterConfig&) const = default;
 };

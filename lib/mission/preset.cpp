@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <string>
 #include <system_error>
+#include <vector>
 
 #include "core/file.h"
 
@@ -26,15 +28,22 @@ void fill_in(YamlNode& section, const YamlNode& preset) {
     }
 }
 
-/// The path of a preset that comes with the program, "sensors/NAME.yaml": installed below share/,
-/// or in the checkout that holds the build folder. Empty if there is none.
-std::filesystem::path shipped_preset(const std::filesystem::path& name) {
+/// The folders with files that come with the program: share/ of an installation, or the checkout
+/// that holds the build folder.
+std::vector<std::filesystem::path> shipped_folders() {
     std::error_code unknown;
     const auto program = std::filesystem::read_symlink("/proc/self/exe", unknown);
-    if (unknown || name.is_absolute()) return {};
+    if (unknown) return {};
     const std::filesystem::path above = program.parent_path().parent_path();
-    for (const char* folder : {"share/sonarsim/configs", "configs"}) {
-        const std::filesystem::path path = above / folder / name;
+    return {above / "share/sonarsim/configs", above / "configs"};
+}
+
+/// The path of a preset that comes with the program, "sensors/NAME.yaml". Empty if there is none.
+std::filesystem::path shipped_preset(const std::filesystem::path& name) {
+    std::error_code unknown;
+    if (name.is_absolute()) return {};
+    for (const std::filesystem::path& folder : shipped_folders()) {
+        const std::filesystem::path path = folder / name;
         if (std::filesystem::is_regular_file(path, unknown)) return path;
     }
     return {};
@@ -65,6 +74,18 @@ YamlNode read_preset(const YamlNode& name, const std::filesystem::path& base_fol
 }
 
 }  // namespace
+
+std::vector<std::string> shipped_presets() {
+    std::vector<std::string> names;
+    std::error_code unknown;
+    for (const std::filesystem::path& folder : shipped_folders()) {
+        for (const auto& file : std::filesystem::directory_iterator(folder / "sensors", unknown)) {
+            if (file.path().extension() == ".yaml") names.push_back(file.path().stem().string());
+        }
+    }
+    std::ranges::sort(names);
+    return names;
+}
 
 void fill_in_presets(YamlNode& mission, const std::filesystem::path& base_folder) {
     YamlNode* const sensors =

@@ -1,10 +1,15 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "mission/document.h"
 
 namespace sonarsim {
+
+/// The presets that come with the program, as "oculus_m750d_750khz", sorted.
+std::vector<std::string> shipped_presets();
 
 /// Fills the sections `sensors.NAME` with the keys of the files that `sensors.NAME.preset` names,
 /// and removes the key `preset`. Keys that a section already has stay as they are. Relative paths

@@ -77,6 +77,19 @@ void MissionReader::number_or_auto(const char* key, double& value, const Limits&
     });
 }
 
+void MissionReader::number_or_auto(const char* key, std::optional<double>& value,
+                                   const Limits& limits, const char* /*meaning*/) {
+    read_key(key, Presence::optional, [&](const YamlNode& node) {
+        if (node.kind == YamlNode::Kind::scalar && node.text == "auto") {
+            value.reset();
+            return;
+        }
+        const bool is_number = is_plain(node) && parse_number(node.text);
+        if (!is_number) refuse_type(node, key, "auto or a number");
+        value = read_number(node, key, limits);
+    });
+}
+
 void MissionReader::integer(const char* key, int& value, const Limits& limits,
                             const char* /*meaning*/) {
     read_key(key, Presence::optional, [&](const YamlNode& node) {

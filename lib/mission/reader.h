@@ -34,6 +34,9 @@ class MissionReader {
                 Presence presence = Presence::optional);
     /// Reads `auto` as 0.
     void number_or_auto(const char* key, double& value, const Limits& limits, const char* meaning);
+    /// Reads `auto` as nothing.
+    void number_or_auto(const char* key, std::optional<double>& value, const Limits& limits,
+                        const char* meaning);
     void integer(const char* key, int& value, const Limits& limits, const char* meaning);
     void integer(const char* key, std::uint64_t& value, const char* meaning);
     void flag(const char* key, bool& value, const char* meaning);

@@ -45,6 +45,8 @@ void describe(Visitor& v, WaterConfig& c) {
     v.number("salinity_psu", c.salinity_psu, between(0, 45), "salinity, for the same");
     v.number("depth_m", c.depth_m, between(0, 12000), "depth below the surface, for the same");
     v.number("ph", c.ph, between(6, 9), "acidity, for the absorption of the calibrated model");
+    v.number("wind_m_s", c.wind_m_s, between(0, 100),
+             "speed of the wind, for the noise of the sea in receiver.noise_db: auto");
 }
 
 template <class Visitor>

@@ -16,6 +16,11 @@ void MissionWriter::number_or_auto(const char* key, double value, const Limits&,
     line(key, value == 0.0 ? "auto" : number_text(value));
 }
 
+void MissionWriter::number_or_auto(const char* key, const std::optional<double>& value,
+                                   const Limits&, const char* /*meaning*/) {
+    line(key, value ? number_text(*value) : "auto");
+}
+
 void MissionWriter::integer(const char* key, int value, const Limits&, const char* /*meaning*/) {
     line(key, std::to_string(value));
 }

@@ -28,6 +28,8 @@ class MissionWriter {
     void number(const char* key, double value, const Limits&, const char* meaning,
                 Presence = Presence::optional);
     void number_or_auto(const char* key, double value, const Limits&, const char* meaning);
+    void number_or_auto(const char* key, const std::optional<double>& value, const Limits&,
+                        const char* meaning);
     void integer(const char* key, int value, const Limits&, const char* meaning);
     void integer(const char* key, std::uint64_t value, const char* meaning);
     void flag(const char* key, bool value, const char* meaning);

@@ -1,4 +1,4 @@
-"""`sonarsim keys` and `sonarsim warnings`, and the tables of the docs that they print."""
+"""`sonarsim keys`, `sonarsim warnings` and `sonarsim preset`, and the tables of the docs that they print."""
 import json
 import os
 import pathlib
@@ -19,10 +19,12 @@ class Keys(unittest.TestCase):
     maxDiff = None
 
     def test_the_pages_show_the_tables_of_the_program(self):
-        for page, table in (("mission.md", "keys"), ("warnings.md", "warnings")):
+        for page, table, command in (("mission.md", "keys", "keys"),
+                                     ("warnings.md", "warnings", "warnings"),
+                                     ("calibrated.md", "presets", "preset")):
             marks = rf"<!-- begin {table} -->\n\n(.*)\n<!-- end {table} -->"
             found = re.search(marks, (DOCS / page).read_text(), re.DOTALL)
-            self.assertEqual(found.group(1), printed(table), "run ./scripts/write_keys.sh")
+            self.assertEqual(found.group(1), printed(command), "run ./scripts/write_keys.sh")
 
     def test_json(self):
         sections = {(s["path"], s["form"]): {k["name"]: k for k in s["keys"]}

@@ -27,12 +27,14 @@ scene: {{file: box.gltf, materials: materials.csv}}
 trajectory: {{file: path.csv}}
 sensors:
   sss: {{kind: sidescan, model: calibrated, elevation_deg: 4, range_min_m: 1, range_max_m: 6,
-        range_bins: 20, instrument: {{receiver: {{full_scale_db: -20, companding: gamma}}}}}}
+        range_bins: 20, instrument: {{receiver: {{noise_db: -100, full_scale_db: -20,
+        companding: gamma}}}}}}
   sounder: {{kind: echosounder, model: calibrated, range_max_m: 6, range_bins: 16, instrument:
-            {{receiver: {{full_scale_db: -5, companding: linear, bits: 16}}}}}}
+            {{receiver: {{noise_db: -100, full_scale_db: -5, companding: linear, bits: 16}}}}}}
   head: {{kind: scanning, model: calibrated, azimuth_deg: 10, step_deg: {360 // STEPS},
          range_max_m: 6, range_bins: 16, instrument: {{beam: {{width_deg: 3}}, receiver:
-         {{full_scale_db: -20, companding: log, dynamic_range_db: 90, bits: 12}}}}}}
+         {{noise_db: -100, full_scale_db: -20, companding: log, dynamic_range_db: 90,
+         bits: 12}}}}}}
 output: {{folder: out}}
 """
 

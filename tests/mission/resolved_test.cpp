@@ -82,6 +82,7 @@ water:
   salinity_psu: 35
   depth_m: 10
   ph: 8
+  wind_m_s: 5
 scene:
   file: "/base/a.glb"
   materials: "/base/a.csv"

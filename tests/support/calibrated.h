@@ -12,6 +12,8 @@ namespace sonarsim::test {
 /// An instrument whose image is the mean echo: no noise, no TVG, no speckle.
 inline InstrumentConfig bare(InstrumentConfig instrument) {
     instrument.receiver.noise_db = -300.0;
+    if (!instrument.receiver.full_scale_db) instrument.receiver.full_scale_db = 0.0;
+    if (!instrument.source_level_db) instrument.source_level_db = 0.0;
     instrument.receiver.tvg_log = 0.0;
     instrument.receiver.tvg_absorption = false;
     instrument.speckle.mode = SpeckleMode::none;

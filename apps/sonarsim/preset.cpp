@@ -1,0 +1,203 @@
+#include "mission/preset.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "calibrated/example_bottoms.h"
+#include "calibrated/expected_echo.h"
+#include "calibrated/model.h"
+#include "commands.h"
+#include "core/text.h"
+#include "core/units.h"
+#include "logging.h"
+#include "mission/parse.h"
+#include "sonar/kinds.h"
+#include "sonar/sonar.h"
+
+namespace sonarsim {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double sphere_db = -20.0;
+
+/// The file that an argument means: a path, or the name of a preset that comes with the program.
+/// InputError if it is neither.
+std::string preset_path(const std::string& name) {
+    std::error_code unknown;
+    if (std::filesystem::is_regular_file(name, unknown))
+        return std::filesystem::absolute(name).string();
+    const std::vector<std::string> known = shipped_presets();
+    if (std::ranges::find(known, name) != known.end()) return "sensors/" + name + ".yaml";
+    std::string all;
+    for (const std::string& one : known)
+        all += (all.empty() ? "" : ", ") + one;
+    throw InputError(Location{name},
+                     "is no file, and no preset of this name came with the program" +
+                         did_you_mean(name, known) + "; there are: " + all);
+}
+
+/// A mission of the preset alone, whose scene is never opened.
+Mission mission_of(const std::string& name, const std::vector<std::string>& settings) {
+    const std::string text =
+        "scene: {file: none.glb, materials: none.csv}\n"
+        "trajectory: {file: none.csv}\n"
+        "sensors: {sonar: {preset: " +
+        quoted_text(preset_path(name)) + "}}\n";
+    Mission mission = parse_mission(text, name, {}, settings, sonar_keys());
+    if (mission.sensors.front().model != ModelKind::calibrated) {
+        throw InputError(Location{name}, "has no levels: they belong to model: calibrated");
+    }
+    return mission;
+}
+
+/// The ranges at which mean echoes are as strong as the noise in a beam.
+Json noise_ranges(const ExpectedEcho& echo, const InstrumentLevels& levels) {
+    const double level_db = levels.noise_db - levels.source_level_db;
+    Json ranges;
+    for (const Material& bottom : example_bottoms()) {
+        ranges[bottom.name] =
+            range_of_level([&](double r) { return bottom_echo_db(echo, bottom, r); }, level_db);
+    }
+    ranges["sphere"] =
+        range_of_level([&](double r) { return target_echo_db(echo, sphere_db, r); }, level_db);
+    return ranges;
+}
+
+Json preset_json(const std::string& name, const Mission& mission) {
+    const Sonar sonar = make_sonar(mission.sensors.front(), mission.accuracy, mission.water);
+    const SonarConfig& config = sonar.config;
+    const auto& model = dynamic_cast<const CalibratedModel&>(*sonar.settings.model);
+    const InstrumentLevels& levels = model.levels;
+    const InstrumentConfig& instrument = config.instrument;
+    const ExpectedEcho echo = expected_echo(instrument, mission.water, sonar.settings.view);
+    Json ranges = noise_ranges(echo, levels);
+    const auto given = [](const std::optional<double>& value) { return value ? "given" : "auto"; };
+    return {{"preset", name},
+            {"frequency_hz", instrument.frequency_hz},
+            {"range_max_m", config.range_max_m},
+            {"level_unit", levels.relative ? "dB re the source level" : "dB re 1 uPa"},
+            {"source_level_db", levels.source_level_db},
+            {"source_level", given(instrument.source_level_db)},
+            {"noise_db", levels.noise_db},
+            {"noise", given(instrument.receiver.noise_db)},
+            {"full_scale_db", levels.full_scale_db},
+            {"full_scale", given(instrument.receiver.full_scale_db)},
+            {"thermal_noise_db", levels.thermal_noise_db},
+            {"wind_noise_db", levels.wind_noise_db},
+            {"noise_bandwidth_hz", levels.noise_hz},
+            {"receiving_directivity_db", levels.receiving_directivity_db},
+            {"transmitting_directivity_db", levels.transmitting_directivity_db},
+            {"absorption_db_per_m", model.absorption_db_per_m},
+            {"grazing_angle_deg", degrees(echo.grazing_rad)},
+            {"noise_range_m", std::move(ranges)}};
+}
+
+std::string number(const Json& value, const char* unit) {
+    return fmt::format("{:.4g} {}", value.get<double>(), unit);
+}
+
+void print_preset(const Json& preset) {
+    const auto print = [](const char* head, const std::string& rest) {
+        fmt::print("{}", result_line(head, rest));
+    };
+    const auto level = [&](const char* key, const char* origin) {
+        return fmt::format("{:.1f} {}, {}", preset[key].get<double>(),
+                           preset["level_unit"].get<std::string>(),
+                           preset[origin].get<std::string>());
+    };
+    const bool upright = preset["grazing_angle_deg"] == 90.0;
+    print("preset", preset["preset"].get<std::string>());
+    print("frequency", number(preset["frequency_hz"], "Hz"));
+    print("range", number(preset["range_max_m"], "m"));
+    print("source", level("source_level_db", "source_level"));
+    print("noise", level("noise_db", "noise"));
+    print("", fmt::format("spectrum: thermal {:.1f}, wind {:.1f} dB re 1 uPa^2/Hz",
+                          preset["thermal_noise_db"].get<double>(),
+                          preset["wind_noise_db"].get<double>()));
+    print("", "bandwidth " + number(preset["noise_bandwidth_hz"], "Hz") +
+                  ", directivity index: receiver " +
+                  number(preset["receiving_directivity_db"], "dB") + ", transmitter " +
+                  number(preset["transmitting_directivity_db"], "dB"));
+    print("full scale", level("full_scale_db", "full_scale"));
+    print("absorption", number(preset["absorption_db_per_m"], "dB/m"));
+    print("", fmt::format("Mean echo and noise are equal at (bottoms {})",
+                          upright ? "at normal incidence" : "at 20 degrees of grazing"));
+    for (const auto& [what, range] : preset["noise_range_m"].items()) {
+        print(what.c_str(), number(range, "m") + (what == "sphere" ? ", of -20 dB" : ""));
+    }
+}
+
+/// The table of docs/calibrated.md.
+std::string presets_markdown(const std::vector<Json>& presets) {
+    std::string text =
+        "| preset | source level | noise | directivity | band, Hz | full scale | mud, m | sand, m "
+        "| "
+        "rock, m | sphere, m | range, m |\n|---|---|---|---|---|---|---|---|---|---|---|\n";
+    for (const Json& preset : presets) {
+        const auto level = [&](const char* key, const char* origin) {
+            return fmt::format("{:.1f}{}", preset[key].get<double>(),
+                               preset[origin] == "given" ? " *" : "");
+        };
+        text += fmt::format(
+            "| {} | {} | {} | {:.1f} | {:.3g} | {} |", preset["preset"].get<std::string>(),
+            level("source_level_db", "source_level"), level("noise_db", "noise"),
+            preset["receiving_directivity_db"].get<double>(),
+            preset["noise_bandwidth_hz"].get<double>(), level("full_scale_db", "full_scale"));
+        for (const Json& range : preset["noise_range_m"])
+            text += fmt::format(" {:.3g} |", range.get<double>());
+        text += fmt::format(" {:.4g} |\n", preset["range_max_m"].get<double>());
+    }
+    return text;
+}
+
+struct PresetArguments {
+    std::string name;  ///< "": all that come with the program
+    std::vector<std::string> settings;
+    bool json = false;
+};
+
+void print_presets(const PresetArguments& arguments) {
+    const bool one = !arguments.name.empty();
+    std::vector<Json> presets;
+    for (const std::string& name : one ? std::vector{arguments.name} : shipped_presets())
+        presets.push_back(preset_json(name, mission_of(name, arguments.settings)));
+    if (arguments.json) {
+        fmt::print("{}", json_line(one ? presets.front() : Json(presets)));
+    } else if (one) {
+        print_preset(presets.front());
+    } else {
+        fmt::print("{}", presets_markdown(presets));
+    }
+}
+
+}  // namespace
+
+void add_preset(CLI::App& app, int& exit_code) {
+    CLI::App& command = *app.add_subcommand(
+        "preset", "Prints the levels of an instrument and the ranges at which it sees");
+    add_examples(command, {"sonarsim preset gemini_720is", "sonarsim preset mine.yaml --json",
+                           "sonarsim preset"});
+    auto arguments = std::make_shared<PresetArguments>();
+    command.add_option("preset", arguments->name,
+                       "A file of a sensor's keys, or the name of a preset of configs/sensors "
+                       "(default: a table of all of them)");
+    command
+        .add_option("--set", arguments->settings,
+                    "Sets a key, as water.temperature_c=20 or sensors.sonar.range_max_m=20")
+        ->allow_extra_args(false)
+        ->type_name("KEY=VALUE");
+    command.add_flag("--json", arguments->json, "Prints JSON instead of text");
+    command.callback([arguments, &exit_code] {
+        print_presets(*arguments);
+        exit_code = exit_done;
+    });
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,88 @@
+#include "calibrated/instrument_levels.h"
+
+#include <algorithm>
+
+#include "calibrated/ambient_noise.h"
+#include "calibrated/decibel.h"
+#include "calibrated/directivity.h"
+#include "calibrated/example_bottoms.h"
+#include "calibrated/expected_echo.h"
+#include "calibrated/pulse_band.h"
+
+namespace sonarsim {
+
+namespace {
+
+/// The pressure at 1 m of a watt of sound that spreads evenly, 10 log(rho c / (4 pi)) re 1 uPa.
+constexpr double watt_db = 170.8;
+
+// Shares of the largest value of raw/. At a third, speckle, which is rarely more than 10 dB above
+// its mean, is not clipped.
+constexpr double share_of_sand = 1.0 / 3.0;
+constexpr double most_share_of_noise = 2.0 / 3.0;
+
+/// The decibels from a share of the largest value of raw/ to that value.
+double headroom_db(const ReceiverConfig& receiver, double share) {
+    switch (receiver.companding) {
+        case Companding::log:
+            return (1.0 - share) * receiver.dynamic_range_db;
+        case Companding::linear:
+            return -2.0 * db_of_power(share);
+        default:
+            return -2.0 * db_of_power(share) / receiver.gamma;
+    }
+}
+
+double full_scale_by_rule(const InstrumentConfig& instrument, const WaterConfig& water,
+                          const View& view, const InstrumentLevels& levels) {
+    const ExpectedEcho echo = expected_echo(instrument, water, view);
+    const auto gain_db = [&](double range_m) {
+        return tvg_db(instrument.receiver, echo.absorption_db_per_m, range_m);
+    };
+    const double half_m = 0.5 * view.range_max_m;
+    const double sand_db =
+        levels.source_level_db + bottom_echo_db(echo, example_sand(), half_m) + gain_db(half_m);
+    const double noise_db = levels.noise_db + gain_db(view.range_max_m);
+    return std::max(sand_db + headroom_db(instrument.receiver, share_of_sand),
+                    noise_db + headroom_db(instrument.receiver, most_share_of_noise));
+}
+
+}  // namespace
+
+double tvg_db(const ReceiverConfig& receiver, double absorption_db_per_m, double range_m) {
+    const double range = std::max(range_m, receiver.tvg_from_m);
+    return receiver.tvg_log / 10.0 * db_of_power(range) +
+           (receiver.tvg_absorption ? 2.0 * absorption_db_per_m * range : 0.0);
+}
+
+InstrumentLevels instrument_levels(const InstrumentConfig& instrument, const WaterConfig& water,
+                                   const View& view) {
+    const ReceiverConfig& receiver = instrument.receiver;
+    const double resolution_m =
+        instrument.pulse.resolution_m > 0.0 ? instrument.pulse.resolution_m : view.bin_m();
+    InstrumentLevels out;
+    out.noise_hz = pulse_band(instrument.pulse, resolution_m, water.sound_speed_m_s).noise_hz;
+    out.receiving_directivity_db = db_of_power(receiving_directivity(instrument.beam));
+    out.transmitting_directivity_db = db_of_power(transmitting_directivity(instrument.beam, view));
+    out.thermal_noise_db = thermal_noise_db(instrument.frequency_hz);
+    out.wind_noise_db = wind_noise_db(instrument.frequency_hz, water.wind_m_s);
+
+    const double efficiency_db = db_of_power(receiver.efficiency);
+    const double source_db =
+        watt_db + db_of_power(instrument.power_w) + efficiency_db + out.transmitting_directivity_db;
+    const double sea_db =
+        db_of_power(power_of_db(out.thermal_noise_db + receiver.noise_figure_db - efficiency_db) +
+                    power_of_db(out.wind_noise_db));
+    const double noise_db = sea_db + db_of_power(out.noise_hz) - out.receiving_directivity_db;
+
+    out.source_level_db =
+        instrument.source_level_db.value_or(has_relative_level(receiver) ? 0.0 : source_db);
+    out.relative = is_relative_source(out.source_level_db);
+    const double offset_db = out.relative ? out.source_level_db - source_db : 0.0;
+    out.noise_db = receiver.noise_db.value_or(noise_db + offset_db);
+    out.full_scale_db = receiver.full_scale_db ? *receiver.full_scale_db
+                                               : full_scale_by_rule(instrument, water, view, out);
+    return out;
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,22 @@
+#include "calibrated/pulse_band.h"
+
+#include <algorithm>
+
+#include "calibrated/directivity.h"
+#include "calibrated/line_array.h"
+
+namespace sonarsim {
+
+PulseBand pulse_band(const PulseConfig& pulse, double resolution_m, double sound_speed_m_s) {
+    // An array of any small half-power width: lengths in wavelengths by it are k.
+    constexpr double unit_width = 1e-3;
+    const LineArray band = line_array(unit_width, pulse.side_lobe_db);
+    const double k = band.wavelengths * unit_width;
+    PulseBand out;
+    out.sweep_hz = k * sound_speed_m_s / (2.0 * resolution_m);
+    out.noise_hz = taper_loss(band) / std::max(pulse.duration_s, 1.0 / out.sweep_hz);
+    out.length_m = taper_loss(band) * resolution_m / k;
+    return out;
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "mission/instrument.h"
+
+namespace sonarsim {
+
+/// The compressed pulse of range_taps(), for the power of noise and of echoes of surface. Its
+/// spectrum is a band of width B with the weights w of a line array, and its half-power width in
+/// range is the factor k (0.886 for uniform weights) times c / (2 B).
+struct PulseBand {
+    double sweep_hz = 0.0;  ///< B
+    /// The power of noise is this times its spectrum. A pulse of length T and energy E is detected
+    /// by a filter with the ratio E / N0 to white noise, and weights lose mean(w^2) / mean(w)^2 of
+    /// it. So it is that loss over T, where T is 1 / B for a pulse without a code.
+    double noise_hz = 0.0;
+    /// The echo of surface has the energy of this length of it: the integral of the squared pulse.
+    double length_m = 0.0;
+};
+
+/// `resolution_m` is that of the pulse, or a range bin.
+PulseBand pulse_band(const PulseConfig& pulse, double resolution_m, double sound_speed_m_s);
+
+}  // namespace sonarsim

@@ -1,0 +1,127 @@
+#include "calibrated/expected_echo.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "calibrated/decibel.h"
+#include "calibrated/example_bottoms.h"
+#include "calibrated/preset_fixtures.h"
+#include "support/scenes.h"
+
+using namespace sonarsim;
+using namespace sonarsim::test;
+
+namespace {
+
+ExpectedEcho echo_of(const Sonar& sonar) {
+    return expected_echo(sonar.config.instrument, {}, sonar.settings.view);
+}
+
+/// The mean echo of sand over the noise, dB.
+double sand_over_noise_db(const Sonar& sonar, double range_m) {
+    const InstrumentLevels& levels = calibrated_model_of(sonar).levels;
+    return levels.source_level_db + bottom_echo_db(echo_of(sonar), example_sand(), range_m) -
+           levels.noise_db;
+}
+
+/// A floor of sand that meets the axis of a sonar at the origin at 20 degrees of grazing.
+Scene sand_at(double range_m) {
+    Scene scene = empty_scene();
+    const std::uint32_t sand = add_material(scene, 0.1F);
+    scene.materials[sand] = example_sand();
+    add_floor(scene, static_cast<float>(2.0 * range_m),
+              static_cast<float>(-range_m * std::sin(radians(20.0))), sand, 4);
+    return scene;
+}
+
+/// The mean of the rows about a range.
+double mean_at(const Sonar& sonar, const std::vector<float>& image, double range_m, int rows) {
+    const View& view = sonar.settings.view;
+    const int middle = static_cast<int>((range_m - view.range_min_m) / view.bin_m());
+    double sum = 0.0;
+    int count = 0;
+    for (int row = middle - rows; row <= middle + rows; ++row) {
+        // Off the middle a beam is a cone, and meets the floor at another angle.
+        for (int beam = view.beams / 4; beam < view.beams - view.beams / 4; ++beam, ++count)
+            sum += image[static_cast<std::size_t>(row) * view.beams + beam];
+    }
+    return sum / count;
+}
+
+}  // namespace
+
+TEST_SUITE("calibrated") {
+    // The noise is the mean of 81 rows or more. The mean of exponential powers is known to 0.5 dB,
+    // and the gain of those rows differs by less than that of their middle.
+    TEST_CASE("presets: a flat floor in the picture is as far above the noise as by closed form") {
+        struct Case {
+            std::string preset, keys;
+            double pitch_deg, range_m;
+        };
+        for (const Case& c :
+             {Case{"gemini_720is", "    azimuth_deg: 10\n    azimuth_bins: 21\n", 20.0, 20.0},
+              Case{"micron", "    sector_deg: 1\n    step_deg: 1\n", 20.0, 40.0},
+              Case{"sidescan_900khz", "", 0.0, 20.0}}) {
+            CAPTURE(c.preset);
+            const Sonar sonar = preset_sonar(c.preset, c.keys);
+            const CalibratedModel& model = calibrated_model_of(sonar);
+            const Scene scene = sand_at(c.range_m);
+            EngineSettings settings;
+            settings.type = EngineKind::rays;
+            const auto engine = make_engine(scene, settings);
+            const Pose pose{rotation_from_rpy(0.0, radians(c.pitch_deg), 0.0),
+                            Eigen::Vector3d::Zero()};
+            const std::vector<float> echo = render_ping(sonar, scene, *engine, pose,
+                                                        {.seed = 1, .ping = 0}, direct_echoes_alone)
+                                                .intensity;
+            const std::vector<float> noise =
+                image_of_samples(model, sonar.settings.view, {}, {.random = 2});
+            const double over_noise_db = db_of_power(mean_at(sonar, echo, c.range_m, 2) /
+                                                     mean_at(sonar, noise, c.range_m, 40));
+            const double closed_db = sand_over_noise_db(sonar, c.range_m);
+            MESSAGE(c.preset, ": ", over_noise_db, " dB, by closed form ", closed_db);
+            CHECK(std::fabs(over_noise_db - closed_db) < 1.0);
+            const double range_m =
+                range_of_level([&](double r) { return sand_over_noise_db(sonar, r); }, closed_db);
+            CHECK(std::fabs(range_m / c.range_m - 1.0) < 1e-6);
+        }
+    }
+
+    TEST_CASE("presets: none drowns sand at half of its range") {
+        int presets = 0;
+        for (const auto& file : std::filesystem::directory_iterator(
+                 std::filesystem::path(SONARSIM_SOURCE_DIR) / "configs" / "sensors")) {
+            const Sonar sonar = preset_sonar(file.path().stem().string(), "");
+            CAPTURE(file.path().stem().string());
+            CHECK(sand_over_noise_db(sonar, 0.5 * sonar.config.range_max_m) > 0.0);
+            ++presets;
+        }
+        CHECK(presets >= 16);
+    }
+
+    TEST_CASE("presets: every one gives an image of sand that is neither black nor white") {
+        for (const auto& file : std::filesystem::directory_iterator(
+                 std::filesystem::path(SONARSIM_SOURCE_DIR) / "configs" / "sensors")) {
+            const Sonar sonar = preset_sonar(file.path().stem().string(), "");
+            CAPTURE(file.path().stem().string());
+            const InstrumentLevels& levels = calibrated_model_of(sonar).levels;
+            const ExpectedEcho echo = echo_of(sonar);
+            const double half_m = 0.5 * sonar.config.range_max_m;
+            const double sand_db =
+                levels.source_level_db + bottom_echo_db(echo, example_sand(), half_m) +
+                tvg_db(sonar.config.instrument.receiver, echo.absorption_db_per_m, half_m) -
+                levels.full_scale_db;
+            Ping ping;
+            ping.intensity = {static_cast<float>(power_of_db(sand_db))};
+            const int largest = (1 << sonar.config.instrument.receiver.bits) - 1;
+            const double grey = 255.0 * calibrated_model_of(sonar).raw(ping)[0] / largest;
+            CHECK(grey > 12.0);
+            CHECK(grey < 200.0);
+        }
+    }
+}

@@ -1,0 +1,247 @@
+#include "calibrated/instrument_levels.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "calibrated/ambient_noise.h"
+#include "calibrated/decibel.h"
+#include "calibrated/directivity.h"
+#include "calibrated/model.h"
+#include "calibrated/piston.h"
+#include "calibrated/pulse_band.h"
+#include "calibrated/range_response.h"
+#include "core/units.h"
+#include "support/calibrated.h"
+
+using namespace sonarsim;
+using namespace sonarsim::test;
+
+namespace {
+
+constexpr int steps = 4000;
+
+/// Integral over [-1, 1] of a function of the sine.
+template <class Function>
+double over_sines(const Function& value) {
+    double sum = 0.0;
+    for (int k = 0; k < steps; ++k)
+        sum += value(2.0 * (k + 0.5) / steps - 1.0) * 2.0 / steps;
+    return sum;
+}
+
+SonarConfig imaging() {
+    SonarConfig config = calibrated(default_sonar(SonarKind::imaging), 9e5);
+    config.azimuth_deg = 60.0;
+    config.range_min_m = 1.0;
+    config.range_max_m = 21.0;
+    config.range_bins = 100;
+    config.azimuth_bins = 16;
+    config.instrument.beam.elevation_width_deg = 12.0;
+    return config;
+}
+
+InstrumentLevels levels_of(const SonarConfig& config, const WaterConfig& water = {}) {
+    return calibrated_model_of(make_sonar(config, {}, water)).levels;
+}
+
+/// A plate of 1 cm^2, 5 m ahead.
+Samples plate() {
+    Samples out;
+    out.items = {{.position = {5.0F, 0.0F, 0.0F},
+                  .edge_u = {0.0F, 0.005F, 0.0F},
+                  .edge_v = {0.0F, 0.0F, 0.005F},
+                  .normal = {-1.0F, 0.0F, 0.0F},
+                  .height_m = 5.0F,
+                  .area_m2 = 1e-4F,
+                  .material = 0,
+                  .instance = 0}};
+    return out;
+}
+
+/// The image with speckle and noise.
+std::vector<float> image_of(const SonarConfig& config) {
+    const Sonar sonar = make_sonar(config, {});
+    return image_of_samples(calibrated_model_of(sonar), sonar.settings.view, plate(),
+                            {.random = 2});
+}
+
+std::vector<std::uint16_t> raw_of(const SonarConfig& config) {
+    Ping ping;
+    ping.intensity = image_of(config);
+    return calibrated_model_of(make_sonar(config, {})).raw(ping);
+}
+
+double index_db(double directivity) {
+    return db_of_power(directivity);
+}
+
+}  // namespace
+
+TEST_SUITE("calibrated") {
+    // -15 + 20 log f, and 50 + 7.5 sqrt(w) + 20 log f - 40 log(f + 0.4), worked out by hand.
+    TEST_CASE("levels: noise of heat and of the wind at three frequencies") {
+        CHECK(std::fabs(thermal_noise_db(1e5) - 25.0) < 1e-9);
+        CHECK(std::fabs(thermal_noise_db(4e5) - 37.0412) < 1e-3);
+        CHECK(std::fabs(thermal_noise_db(1e6) - 45.0) < 1e-9);
+        CHECK(std::fabs(wind_noise_db(1e3, 0.0) - 44.1549) < 1e-3);
+        CHECK(std::fabs(wind_noise_db(1e4, 5.0) - 46.0891) < 1e-3);
+        CHECK(std::fabs(wind_noise_db(3.8e4, 4.0) - 33.2221) < 1e-3);
+    }
+
+    // 4 pi over the integral of the pattern over all directions. With u and v the sines along the
+    // two sides a direction has du dv / sqrt(1 - u^2 - v^2).
+    TEST_CASE("levels: directivity of line, rectangle and disc is the integral of the pattern") {
+        for (const double side_lobe_db : {-13.3, -26.8, -42.0}) {
+            CAPTURE(side_lobe_db);
+            const LineArray line = line_array(radians(4.0), side_lobe_db);
+            const double of_line = 2.0 * pi * over_sines([&](double u) {
+                                       return std::pow(line_pattern(line, u), 2.0);
+                                   });
+            CHECK(std::fabs(index_db(line_directivity(line) * of_line / (4.0 * pi))) < 0.05);
+            const LineArray across = line_array(radians(20.0), side_lobe_db);
+            const double of_rectangle = over_sines([&](double u) {
+                const double along = std::pow(line_pattern(line, u), 2.0);
+                double sum = 0.0;
+                for (int k = 0; k < 400; ++k) {  // over the angle whose sine is v, over its part
+                    const double v = 2.0 * (k + 0.5) / 400 - 1.0;
+                    const double rest = 1.0 - u * u - v * v;
+                    if (rest > 1e-4)
+                        sum += std::pow(line_pattern(across, v), 2.0) / std::sqrt(rest) * 2.0 / 400;
+                }
+                return along * sum;
+            });
+            CHECK(std::fabs(index_db(rectangle_directivity(line, across) * of_rectangle /
+                                     (4.0 * pi))) < 0.2);
+        }
+        for (const double width_deg : {3.0, 7.0, 15.0}) {
+            CAPTURE(width_deg);
+            const double scale = piston_scale(radians(width_deg));
+            double sum = 0.0;
+            for (int k = 0; k < steps; ++k) {
+                const double angle = 0.5 * pi * (k + 0.5) / steps;
+                sum += 2.0 * pi * std::pow(piston_pattern(scale * std::sin(angle)), 2.0) *
+                       std::sin(angle) * 0.5 * pi / steps;
+            }
+            CHECK(std::fabs(index_db(piston_directivity(radians(width_deg)) * sum / (4.0 * pi))) <
+                  0.2);
+        }
+    }
+
+    TEST_CASE("levels: the pulse's band and length are those of the range response") {
+        for (const double side_lobe_db : {-20.0, -30.0, -42.0}) {
+            CAPTURE(side_lobe_db);
+            constexpr double bins = 12.0;  // wide, so that the spline follows the pulse
+            const PulseConfig pulse{.side_lobe_db = side_lobe_db};
+            const PulseBand band = pulse_band(pulse, 0.1, 1500.0);
+            const RangeTaps taps = range_taps(bins, side_lobe_db, false);
+            double energy = 0.0;
+            for (std::size_t m = 0; m < taps.taps.size(); ++m) {
+                energy += 2.0 / 3.0 * taps.taps[m] * taps.taps[m];
+                if (m > 0) energy += 1.0 / 3.0 * taps.taps[m] * taps.taps[m - 1];
+            }
+            CHECK(std::fabs(band.length_m / (0.1 / bins * energy) - 1.0) < 0.02);
+            // Parseval: the energy of a pulse in time is that of its band.
+            CHECK(std::fabs(band.noise_hz /
+                                (band.sweep_hz * band.sweep_hz * 2.0 * band.length_m / 1500.0) -
+                            1.0) < 1e-9);
+        }
+        const PulseConfig uniform{.side_lobe_db = -13.0};
+        CHECK(std::fabs(pulse_band(uniform, 0.1, 1500.0).noise_hz - 0.8859 * 7500.0) < 10.0);
+        const PulseConfig coded{.duration_s = 1e-3, .side_lobe_db = -13.0};
+        CHECK(std::fabs(pulse_band(coded, 0.1, 1500.0).noise_hz - 1000.0) < 1e-6);
+    }
+
+    // 170.8 + 10 log 50 + DI. The transmitter sends into 60 degrees, and into sqrt(2) times 12
+    // degrees of elevation, of which a uniform aperture has 0.886 lambda / W.
+    TEST_CASE("levels: those of an instrument by hand") {
+        SonarConfig config = imaging();
+        config.instrument.beam.width_deg = 1.0;
+        config.instrument.pulse = {.resolution_m = 0.1, .duration_s = 1e-3, .side_lobe_db = -13.3};
+        const InstrumentLevels levels = levels_of(config, {.wind_m_s = 0.0});
+        const double height = 0.8859 / radians(12.0 * std::sqrt(2.0));
+        const double length = 0.8859 / radians(1.0);
+        const double source_db =
+            170.8 + db_of_power(50.0) + db_of_power(4.0 * pi * height / radians(60.0));
+        CHECK(std::fabs(levels.source_level_db - source_db) < 0.05);
+        const double noise_db = -15.0 + 2.0 * db_of_power(900.0) + 6.0 + db_of_power(2.0) + 30.0 -
+                                db_of_power(4.0 * pi * length * height);
+        CHECK(std::fabs(levels.noise_db - noise_db) < 0.05);
+        CHECK(levels_of(config, {.wind_m_s = 20.0}).noise_db > levels.noise_db);
+    }
+
+    TEST_CASE("levels: auto is the number that it comes to") {
+        SonarConfig config = imaging();
+        const std::vector<float> by_rule = image_of(config);
+        const InstrumentLevels levels = levels_of(config);
+        config.instrument.source_level_db = levels.source_level_db;
+        config.instrument.receiver.noise_db = levels.noise_db;
+        config.instrument.receiver.full_scale_db = levels.full_scale_db;
+        CHECK(image_of(config) == by_rule);
+        CHECK(levels_of(config).full_scale_db == levels.full_scale_db);
+    }
+
+    TEST_CASE("levels: a louder source with a higher full scale gives the same numbers") {
+        SonarConfig config = imaging();
+        InstrumentConfig& instrument = config.instrument;
+        instrument.source_level_db = 200.0;
+        instrument.receiver.noise_db = 60.0;
+        instrument.receiver.full_scale_db = 130.0;
+        const std::vector<std::uint16_t> before = raw_of(config);
+        CHECK(*std::ranges::max_element(before) > 0);
+        instrument.source_level_db = 206.0;
+        instrument.receiver.noise_db = 66.0;
+        instrument.receiver.full_scale_db = 136.0;
+        CHECK(raw_of(config) == before);
+        // Auto follows the source level by itself where sand is louder than the noise.
+        instrument.receiver.noise_db.reset();
+        instrument.receiver.full_scale_db.reset();
+        const InstrumentLevels loud = levels_of(config);
+        instrument.source_level_db = 200.0;
+        const InstrumentLevels quiet = levels_of(config);
+        CHECK(loud.noise_db == quiet.noise_db);
+        CHECK(std::fabs(loud.full_scale_db - quiet.full_scale_db - 6.0) < 1e-9);
+    }
+
+    TEST_CASE("levels: relative ones are as far below the source as absolute ones") {
+        SonarConfig config = imaging();
+        const InstrumentLevels absolute = levels_of(config);
+        CHECK(!absolute.relative);
+        config.instrument.source_level_db = 0.0;
+        const InstrumentLevels relative = levels_of(config);
+        CHECK(relative.relative);
+        CHECK(std::fabs(relative.noise_db - absolute.noise_db + absolute.source_level_db) < 1e-9);
+        CHECK(std::fabs(relative.full_scale_db - absolute.full_scale_db +
+                        absolute.source_level_db) < 1e-9);
+        // A noise below 0 dB says that levels are relative.
+        config.instrument.source_level_db.reset();
+        config.instrument.receiver.noise_db = -110.0;
+        CHECK(levels_of(config).source_level_db == 0.0);
+    }
+
+    TEST_CASE("levels: full scale puts sand at a third of the largest value, noise at two thirds at most") {
+        SonarConfig config = imaging();
+        ReceiverConfig& receiver = config.instrument.receiver;
+        receiver.noise_db = 150.0;  // louder than sand
+        for (const Companding companding :
+             {Companding::gamma, Companding::log, Companding::linear}) {
+            CAPTURE(static_cast<int>(companding));
+            receiver.companding = companding;
+            receiver.full_scale_db.reset();
+            const Sonar sonar = make_sonar(config, {});
+            const CalibratedModel& model = calibrated_model_of(sonar);
+            const double noise_db = 150.0 + tvg_db(receiver, model.absorption_db_per_m, 21.0);
+            Ping ping;
+            ping.intensity = {
+                static_cast<float>(power_of_db(noise_db - model.levels.full_scale_db))};
+            CHECK(model.raw(ping)[0] == 170);
+        }
+        // Less noise than sand does not change it.
+        receiver.noise_db = 30.0;
+        const double full_scale_db = levels_of(config).full_scale_db;
+        receiver.noise_db = 20.0;
+        CHECK(levels_of(config).full_scale_db == full_scale_db);
+    }
+}
