@@ -11,12 +11,6 @@
 
 namespace sonarsim {
 
-namespace {
-
-// The factor on the size of patches in range if speckle is drawn for each ping. With it, the
-// expected image of the tank has an error of 1.8 %.
-constexpr float deeper_patches = 2.0F;
-
 std::vector<Backscatter> scattering_of(const Scene& scene) {
     std::vector<Backscatter> out;
     for (const Material& material : scene.materials) {
@@ -25,6 +19,12 @@ std::vector<Backscatter> scattering_of(const Scene& scene) {
     }
     return out;
 }
+
+namespace {
+
+// The factor on the size of patches in range if speckle is drawn for each ping. With it, the
+// expected image of the tank has an error of 1.8 %.
+constexpr float deeper_patches = 2.0F;
 
 /// The steps that form an image, and their common data. `Beams`: ArrayBeams or TransducerBeams.
 template <class Beams>

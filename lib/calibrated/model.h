@@ -31,12 +31,15 @@ struct CalibratedModel final : EchoModel {
     /// [range bins] The factor from the power of an echo to the value of the image.
     std::vector<float> row_gain;
     GuardBeams guard;
+    ConeBeams cones;  ///< the beams of a line array
     SpeckleMode speckle = SpeckleMode::scene;
     double sound_speed_m_s = 0.0;
     double absorption_db_per_m = 0.0;
     double wavelength_m = 0.0;
 
     void form(const TracedPing& traced, const FormContext& context, Ping& ping) const override;
+    SurfaceEchoes surface_echoes(const TracedPing& traced, const View& view, const Scene& scene,
+                                 bool patches) const override;
     std::span<const std::string_view> random_terms() const override;
     GuardBeams guard_beams() const override { return guard; }
     bool needs_scattered_paths() const override { return true; }
@@ -51,9 +54,16 @@ struct CalibratedModel final : EchoModel {
     std::vector<std::uint16_t> raw(const Ping& ping) const override;
 };
 
-/// Sets up the instrument of a sonar with this view; `beam_sines` are the sines of the azimuths
-/// that the beams of a fan look at.
+/// The sines of the azimuths that the beams of a fan look at, and of the edges between them.
+struct BeamSines {
+    std::vector<double> middles, edges;  ///< the edges are one more
+};
+
+/// Sets up the instrument of a sonar with this view; `sines` are needed for a line array alone.
 CalibratedModel calibrated_model(const InstrumentConfig& instrument, const WaterConfig& water,
-                                 const View& view, const std::vector<double>& beam_sines);
+                                 const View& view, const BeamSines& sines);
+
+/// The scattering of a scene's materials.
+std::vector<Backscatter> scattering_of(const Scene& scene);
 
 }  // namespace sonarsim
