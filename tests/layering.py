@@ -24,7 +24,7 @@ ALLOWED = {
     "paper": {"core", "mission", "scene", "visibility", "trace"},
     "calibrated": {"core", "mission", "scene", "visibility", "trace"},
     "ping": {"core", "mission", "scene", "visibility", "trace"},
-    "labels": {"core", "scene", "visibility", "trace", "paper", "ping"},
+    "labels": {"core", "scene", "visibility", "trace", "ping"},
     "product": {"core", "mission", "trace", "paper", "ping", "labels"},
     "sonar": {"core", "mission", "scene", "visibility", "trace", "paper", "calibrated", "ping", "labels", "product"},
     "assembly": {"core", "mission", "scene", "trajectory", "visibility", "trace", "paper", "calibrated", "ping",

@@ -85,18 +85,12 @@ void warn_of_empty_scatter(const Mission& mission, Scene& scene) {
     }
 }
 
-/// Makes a sonar. Throws InputError if the mission's engine or labels do not support it.
+/// Makes a sonar. Throws InputError if the mission's engine does not support it.
 Sonar checked_sonar(const Mission& mission, const SonarConfig& sensor,
                     const EngineSettings& settings) {
     Sonar sonar = make_sonar(sensor, mission.accuracy, mission.water);
     const std::string refusal = unsupported(settings, sonar.settings.view);
     if (!refusal.empty()) throw InputError("sensor '" + sensor.name + "': " + refusal);
-    if (sonar.equal_sine && !mission.output.labels.empty()) {
-        throw InputError(mission.output.labels_place.location,
-                         "sensor '" + sensor.name +
-                             "': labels need beams of equal azimuth; leave out output.labels, or "
-                             "write instrument.beam.spread: angle");
-    }
     return sonar;
 }
 

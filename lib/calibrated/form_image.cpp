@@ -29,10 +29,7 @@ class ImageFormer {
           ping_draws_(context.draws.of(Stream::speckle)),
           sonar_{traced.T_world_sensor.rotation.toRotationMatrix().cast<float>(),
                  traced.T_world_sensor.translation - context.scene.origin},
-          unprepared_(model.prepared_materials == context.scene.materials
-                          ? Scattering{}
-                          : model.scattering_of(context.scene.materials)),
-          scattering_(unprepared_.materials.empty() ? model.scattering : unprepared_),
+          scattering_(model, context.scene),
           speckle_(context.terms.random > 0 ? model.speckle : SpeckleMode::none),
           speckle_gain_(model.amplitude_taps.scalloping_gain * scalloping_gain(beams)),
           ping_(ping) {}
@@ -66,7 +63,7 @@ class ImageFormer {
     void find(const PatchBlock& patches) {
         ping_.counts.echoes += patches.count;
         ping_.counts.out_of_range +=
-            apply_sonar_equation(patches, scattering_, model_.equation, echoes_);
+            apply_sonar_equation(patches, *scattering_, model_.equation, echoes_);
         ping_.counts.out_of_range += find_columns(beams_, patches, echoes_);
         if (speckle_ != SpeckleMode::none)
             add_clutter(patches, model_.clutter, sonar_, scene_draws_, echoes_);
@@ -103,7 +100,7 @@ class ImageFormer {
         ping_.counts.echoes += 2 * paths.size();
         const auto add_to = [&](EchoGrid& powers) {
             ping_.counts.out_of_range += add_mirrored_powers(
-                beams_, paths, scattering_.materials, model_.equation, model_.limits, powers);
+                beams_, paths, scattering_->materials, model_.equation, model_.limits, powers);
         };
         if (speckle_ != SpeckleMode::scene) return add_to(grid);
         EchoGrid mirrored(grid.rows(), grid.columns());
@@ -117,8 +114,7 @@ class ImageFormer {
     const FormContext& context_;
     PhiloxKey scene_draws_, ping_draws_;
     SonarInScene sonar_;
-    Scattering unprepared_;  ///< the scattering if the model was not prepared for this scene
-    const Scattering& scattering_;
+    ScatteringOfScene scattering_;
     SpeckleMode speckle_;
     float speckle_gain_;  ///< restores the mean power where the grid's cells draw the speckle
     PointEchoes echoes_;

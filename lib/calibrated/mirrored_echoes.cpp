@@ -19,11 +19,14 @@ struct Ends {
 };
 
 /// A block of pieces that are small enough to be points.
-struct MirroredBlock {
+struct PiecesOfPaths {
     int count = 0;
     Ends points, images;
     PatchBlock::Array<float> power{}, row{};
+    PatchBlock::Array<std::uint32_t> path{};
 };
+
+using UseBlock = std::function<void(const MirroredBlock&)>;
 
 void put_place(Ends& ends, int k, const SpecularPath::Place& place, float s, float t) {
     const Eigen::Vector3f p = place.at + s * place.u + t * place.v;
@@ -43,21 +46,19 @@ void direct_ends(Ends& ends, int count, const ElevationPattern& pattern) {
 }
 
 /// The echoes that go out to some ends and come back from the others.
-template <class Beams>
-std::uint64_t add_reciprocal_path(const Beams& beams, const MirroredBlock& block, const Ends& out,
-                                  Ends& back, EchoGrid& grid) {
+void use_reciprocal_path(const PiecesOfPaths& block, const Ends& out, Ends& back,
+                         const UseBlock& use) {
     for (int k = 0; k < block.count; ++k) {
         back.echoes.power[k] = block.power[k] * out.sent[k];
         back.echoes.row[k] = block.row[k];
     }
-    const std::uint64_t outside = find_columns(beams, back.places, back.echoes);
-    add_bistatic_powers(beams, {out.places, out.echoes}, {back.places, back.echoes}, grid);
-    return outside;
+    use({.out = {out.places, out.echoes},
+         .places = back.places,
+         .echoes = back.echoes,
+         .path = std::span(block.path).first(block.count)});
 }
 
-template <class Beams>
-std::uint64_t add_block(const Beams& beams, const SonarEquation& equation, MirroredBlock& block,
-                        EchoGrid& grid) {
+std::uint64_t use_block(const SonarEquation& equation, PiecesOfPaths& block, const UseBlock& use) {
     direct_ends(block.points, block.count, equation.elevation);
     direct_ends(block.images, block.count, equation.elevation);
     std::uint64_t outside = 0;
@@ -75,8 +76,8 @@ std::uint64_t add_block(const Beams& beams, const SonarEquation& equation, Mirro
         block.row[k] = inside ? row : 0.0F;
         outside += inside ? 0 : 2;
     }
-    outside += add_reciprocal_path(beams, block, block.images, block.points, grid);
-    outside += add_reciprocal_path(beams, block, block.points, block.images, grid);
+    use_reciprocal_path(block, block.images, block.points, use);
+    use_reciprocal_path(block, block.points, block.images, use);
     block.count = 0;
     return outside;
 }
@@ -95,33 +96,46 @@ int pieces_of_both(const SpecularPath& piece, const Eigen::Vector3f SpecularPath
 
 }  // namespace
 
-template <class Beams>
-std::uint64_t add_mirrored_powers(const Beams& beams, std::span<const SpecularPath> pieces,
-                                  std::span<const Backscatter> materials,
-                                  const SonarEquation& equation, const PointLimits& limits,
-                                  EchoGrid& grid) {
-    MirroredBlock block;
+std::uint64_t find_mirrored(std::span<const SpecularPath> paths,
+                            std::span<const Backscatter> materials, const SonarEquation& equation,
+                            const PointLimits& limits, const UseBlock& use) {
+    PiecesOfPaths block;
     std::uint64_t outside = 0;
-    for (const SpecularPath& piece : pieces) {
-        const int rows = pieces_of_both(piece, &SpecularPath::Place::u, limits);
-        const int columns = pieces_of_both(piece, &SpecularPath::Place::v, limits);
-        const float power = materials[piece.material].between(
-                                piece.sine_of_point, piece.sine_of_image, piece.sine_between) *
-                            piece.reflection * piece.area_m2 / static_cast<float>(rows * columns);
+    for (std::uint32_t number = 0; number < paths.size(); ++number) {
+        const SpecularPath& path = paths[number];
+        const int rows = pieces_of_both(path, &SpecularPath::Place::u, limits);
+        const int columns = pieces_of_both(path, &SpecularPath::Place::v, limits);
+        const float power = materials[path.material].between(path.sine_of_point, path.sine_of_image,
+                                                             path.sine_between) *
+                            path.reflection * path.area_m2 / static_cast<float>(rows * columns);
         for (int i = 0; i < rows; ++i) {
             const float s = (2.0F * static_cast<float>(i) + 1.0F) / static_cast<float>(rows) - 1.0F;
             for (int j = 0; j < columns; ++j) {
                 const float t =
                     (2.0F * static_cast<float>(j) + 1.0F) / static_cast<float>(columns) - 1.0F;
-                put_place(block.points, block.count, piece.point, s, t);
-                put_place(block.images, block.count, piece.image_source, s, t);
+                put_place(block.points, block.count, path.point, s, t);
+                put_place(block.images, block.count, path.image_source, s, t);
+                block.path[block.count] = number;
                 block.power[block.count] = power;
-                if (++block.count == PatchBlock::most)
-                    outside += add_block(beams, equation, block, grid);
+                if (++block.count == PatchBlock::most) outside += use_block(equation, block, use);
             }
         }
     }
-    return outside + add_block(beams, equation, block, grid);
+    return outside + use_block(equation, block, use);
+}
+
+template <class Beams>
+std::uint64_t add_mirrored_powers(const Beams& beams, std::span<const SpecularPath> pieces,
+                                  std::span<const Backscatter> materials,
+                                  const SonarEquation& equation, const PointLimits& limits,
+                                  EchoGrid& grid) {
+    std::uint64_t outside_beams = 0;
+    const std::uint64_t outside_range =
+        find_mirrored(pieces, materials, equation, limits, [&](const MirroredBlock& block) {
+            outside_beams += find_columns(beams, block.places, block.echoes);
+            add_bistatic_powers(beams, block.out, {block.places, block.echoes}, grid);
+        });
+    return outside_range + outside_beams;
 }
 
 template std::uint64_t add_mirrored_powers(const TransducerBeams&, std::span<const SpecularPath>,

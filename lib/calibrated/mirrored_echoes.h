@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 
 #include "calibrated/array_beams.h"
@@ -10,7 +11,16 @@
 
 namespace sonarsim {
 
-/// Adds the powers of the echoes over a mirror to the real parts of the grid. With the
+/// A block of echoes that come back from other places than they were sent to, with powers and range
+/// bins as PointEchoes has them.
+struct MirroredBlock {
+    PathEndpoint out;    ///< the ranges of its echoes are those of the places
+    PatchBlock& places;  ///< the echoes come back from these
+    PointEchoes& echoes;
+    std::span<const std::uint32_t> path;  ///< index into the paths
+};
+
+/// Finds the echoes over a mirror, and calls `use` for blocks of them. With the
 /// piece at the range r and its image at the range s,
 ///
 ///     EL = SL + S + 10 log R + 10 log A + D - 20 log r - 20 log s - alpha (r + s)    dB,
@@ -21,7 +31,14 @@ namespace sonarsim {
 /// and back from the piece, and the reverse. D is the sonar's pattern towards where it sends,
 /// times the one towards where it hears.
 ///
-/// Returns how many of these echoes lie outside the range or the beams.
+/// Returns how many of these echoes lie outside the range.
+std::uint64_t find_mirrored(std::span<const SpecularPath> paths,
+                            std::span<const Backscatter> materials, const SonarEquation& equation,
+                            const PointLimits& limits,
+                            const std::function<void(const MirroredBlock&)>& use);
+
+/// Adds the powers of these echoes to the real parts of the grid. Returns how many of them lie
+/// outside the range or the beams.
 template <class Beams>
 std::uint64_t add_mirrored_powers(const Beams& beams, std::span<const SpecularPath> pieces,
                                   std::span<const Backscatter> materials,

@@ -64,7 +64,7 @@ PointLimits point_limits(const BeamConfig& beam, const View& view,
 }  // namespace
 
 CalibratedModel calibrated_model(const InstrumentConfig& instrument, const WaterConfig& water,
-                                 const View& view, const std::vector<double>& beam_sines) {
+                                 const View& view, const BeamSines& sines) {
     const double bin_m = view.bin_m();
     const double resolution_m =
         instrument.pulse.resolution_m > 0.0 ? instrument.pulse.resolution_m : bin_m;
@@ -95,7 +95,8 @@ CalibratedModel calibrated_model(const InstrumentConfig& instrument, const Water
     const double noise = power_of_db(noise_db + raised_db);
     const double common_mode = has_common_mode ? power_of_db(common_mode_db + raised_db) : 0.0;
     if (beam.aperture == Aperture::line) {
-        model.beams = array_beams(beam, beam_sines, noise, common_mode, of_noise);
+        model.beams = array_beams(beam, sines.middles, noise, common_mode, of_noise);
+        model.cones = ConeBeams(sines.edges);
         model.guard = guard_beams_of(beam, view);
     } else {
         model.beams =

@@ -34,6 +34,7 @@ struct CalibratedModel final : EchoModel {
     /// [range bins] The factor from the power of an echo to the value of the image.
     std::vector<float> row_gain;
     GuardBeams guard;
+    ConeBeams cones;  ///< the beams of a line array
     SpeckleMode speckle = SpeckleMode::scene;
     double sound_speed_m_s = 0.0;
     double absorption_db_per_m = 0.0;
@@ -47,6 +48,8 @@ struct CalibratedModel final : EchoModel {
 
     std::shared_ptr<const EchoModel> prepared(const Scene& scene) const override;
     void form(const TracedPing& traced, const FormContext& context, Ping& ping) const override;
+    SurfaceEchoes surface_echoes(const TracedPing& traced, const View& view, const Scene& scene,
+                                 bool patches) const override;
     std::span<const std::string_view> random_terms() const override;
     GuardBeams guard_beams() const override { return guard; }
     bool needs_scattered_paths() const override { return true; }
@@ -61,9 +64,32 @@ struct CalibratedModel final : EchoModel {
     std::vector<std::uint16_t> raw(const Ping& ping) const override;
 };
 
-/// Sets up the instrument of a sonar with this view; `beam_sines` are the sines of the azimuths
-/// that the beams of a fan look at.
+/// The sines of the azimuths that the beams of a fan look at, and of the edges between them.
+struct BeamSines {
+    std::vector<double> middles, edges;  ///< the edges are one more
+};
+
+/// Sets up the instrument of a sonar with this view; `sines` are needed for a line array alone.
 CalibratedModel calibrated_model(const InstrumentConfig& instrument, const WaterConfig& water,
-                                 const View& view, const std::vector<double>& beam_sines);
+                                 const View& view, const BeamSines& sines);
+
+/// The scattering of a scene's materials: that of the model if it was prepared for them, else one
+/// of its own.
+class ScatteringOfScene {
+  public:
+    ScatteringOfScene(const CalibratedModel& model, const Scene& scene)
+        : own_(model.prepared_materials == scene.materials ? Scattering{}
+                                                           : model.scattering_of(scene.materials)),
+          used_(own_.materials.empty() ? &model.scattering : &own_) {}
+    ScatteringOfScene(const ScatteringOfScene&) = delete;
+    ScatteringOfScene& operator=(const ScatteringOfScene&) = delete;
+
+    const Scattering& operator*() const { return *used_; }
+    const Scattering* operator->() const { return used_; }
+
+  private:
+    Scattering own_;
+    const Scattering* used_;
+};
 
 }  // namespace sonarsim

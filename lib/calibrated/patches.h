@@ -23,6 +23,7 @@ struct PatchBlock {
     Array<float> area_m2{};
     Array<float> height_m{};  ///< the sonar's height above the piece's plane
     Array<std::uint32_t> material{};
+    Array<std::uint32_t> sample{};  ///< index into the samples that are cut, if they are
 };
 
 /// The greatest size of a piece. In every direction the least of these holds.
@@ -56,7 +57,8 @@ template <class Use>
 void subdivide(std::span<const Sample> samples, const PointLimits& limits, PatchBlock& pieces,
                Use use) {
     pieces.count = 0;
-    for (const Sample& sample : samples) {
+    for (std::uint32_t number = 0; number < samples.size(); ++number) {
+        const Sample& sample = samples[number];
         const auto [range, departure, direction] = arrival_of(sample.position);
         if (!(range > 0.0F)) continue;
         const int rows = patches_along(sample.edge_u, direction, range, limits);
@@ -85,6 +87,7 @@ void subdivide(std::span<const Sample> samples, const PointLimits& limits, Patch
                 std::fill_n(pieces.area_m2.data() + at, PatchBlock::spare, area);
                 std::fill_n(pieces.height_m.data() + at, PatchBlock::spare, sample.height_m);
                 std::fill_n(pieces.material.data() + at, PatchBlock::spare, sample.material);
+                std::fill_n(pieces.sample.data() + at, PatchBlock::spare, number);
                 pieces.count += std::min(columns - first, PatchBlock::spare);
             }
         }

@@ -28,6 +28,7 @@ struct SpecularPath {
     float sine_of_point = 0.0F, sine_of_image = 0.0F, sine_between = 0.0F;
     float reflection = 0.0F;     ///< share of the power that the mirrors on the path reflect
     std::uint32_t material = 0;  ///< index into Scene::materials
+    std::uint32_t sample = 0;    ///< the piece of the mirror: index into Samples::items
 };
 
 /// The pieces of second surfaces that a ping's samples mirror sound to. With t the length of the

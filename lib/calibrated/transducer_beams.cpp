@@ -140,6 +140,14 @@ void add_amplitudes(const TransducerBeams& beams, const PatchBlock& pieces,
     }
 }
 
+void find_gains(const TransducerBeams& beams, int beam, const PatchBlock& pieces,
+                const PointEchoes& echoes, PatchBlock::Array<float>& gains) {
+    Amplitudes weights;
+    find_weights(beams, beam, pieces, echoes, weights);
+    for (int k = 0; k < pieces.count; ++k)
+        gains[k] = std::fma(weights.re[k], weights.re[k], weights.im[k] * weights.im[k]);
+}
+
 void add_bistatic_powers(const TransducerBeams& beams, const PathEndpoint& out,
                          const PathEndpoint& back, EchoGrid& grid) {
     Amplitudes sent, heard;

@@ -63,6 +63,10 @@ void add_powers(const TransducerBeams& beams, const PatchBlock& pieces, const Po
 void add_amplitudes(const TransducerBeams& beams, const PatchBlock& pieces,
                     const PointEchoes& echoes, const Amplitudes& amplitudes, EchoGrid& grid);
 
+/// Finds the power with which a beam receives an echo of power 1 from each piece, both ways.
+void find_gains(const TransducerBeams& beams, int beam, const PatchBlock& pieces,
+                const PointEchoes& echoes, PatchBlock::Array<float>& gains);
+
 /// Adds the powers of echoes that come back from other places than they were sent to: each beam
 /// hears what it has sent itself. The powers and bins are those of `back`.
 void add_bistatic_powers(const TransducerBeams& beams, const PathEndpoint& out,

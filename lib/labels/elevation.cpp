@@ -6,22 +6,22 @@
 #include <limits>
 
 #include "core/elementary.h"
-#include "paper/range_path.h"
+#include "labels/range_path.h"
 #include "trace/arrivals.h"
 
 namespace sonarsim {
 
 namespace {
 
-/// The variance of sin(theta) in a footprint at one range.
-double spread_at_one_range(const Sample& sample) {
-    const auto [range, departure, d] = arrival_of(sample.position);
-    const float u = d.dot(sample.edge_u);
-    const float v = d.dot(sample.edge_v);
+/// The variance of sin(theta) in a patch at one range.
+double spread_at_one_range(const EchoPatch& patch) {
+    const auto [range, departure, d] = arrival_of(patch.position);
+    const float u = d.dot(patch.edge_u);
+    const float v = d.dot(patch.edge_v);
     // Over the parallelogram, (s, t) in [-1, 1]^2, sin(theta) = z / r changes by
     // (dz - (z / r) dr) / r along an edge. What goes with range is not spread at one range.
-    const double sine_u = (sample.edge_u.z() - d.z() * u) / range;
-    const double sine_v = (sample.edge_v.z() - d.z() * v) / range;
+    const double sine_u = (patch.edge_u.z() - d.z() * u) / range;
+    const double sine_v = (patch.edge_v.z() - d.z() * v) / range;
     const double depth_2 = static_cast<double>(u) * u + static_cast<double>(v) * v;
     const double with = sine_u * u + sine_v * v;
     const double explained = depth_2 > 0.0 ? with * with / depth_2 : 0.0;
@@ -30,11 +30,11 @@ double spread_at_one_range(const Sample& sample) {
 
 }  // namespace
 
-void ElevationFinder::add(const Sample& sample) {
-    const RangePath path = range_path(sample, Eigen::Vector3f::UnitZ());
-    const double echo = echo_of(sample, path.range_m, materials_[sample.material]);
+void ElevationFinder::add(const EchoPatch& patch) {
+    const RangePath path = range_path(patch, Eigen::Vector3f::UnitZ());
+    const double echo = patch.echo;
     if (!(echo > 0.0)) return;
-    const double besides = spread_at_one_range(sample);
+    const double besides = spread_at_one_range(patch);
     const auto sine_at = [&](double r) { return std::clamp(rise_at(path, r) / r, -1.0, 1.0); };
     for_each_covered(path, bins_, sine_at, [&](const CoveredBins& covered) {
         first_bin_ = std::min(first_bin_, covered.first);
@@ -53,15 +53,15 @@ void ElevationFinder::add(const Sample& sample) {
     });
 }
 
-void ElevationFinder::find(std::span<const Sample> samples, std::span<float> elevation_rad,
+void ElevationFinder::find(std::span<const EchoPatch> patches, std::span<float> elevation_rad,
                            std::span<float> spread_rad) {
     const std::array sums{&moments_.echo, &moments_.first, &moments_.second};
     for (std::vector<double>* const sum : sums)
         sum->resize(bins_.count);
     first_bin_ = bins_.count;
     last_bin_ = 0;
-    for (const Sample& sample : samples)
-        add(sample);
+    for (const EchoPatch& patch : patches)
+        add(patch);
     constexpr float none = std::numeric_limits<float>::quiet_NaN();
     std::ranges::fill(elevation_rad, none);
     std::ranges::fill(spread_rad, none);

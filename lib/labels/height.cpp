@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "paper/range_path.h"
+#include "labels/range_path.h"
 
 namespace sonarsim {
 
@@ -16,18 +16,18 @@ constexpr double on_bottom = 1e-4;
 
 }  // namespace
 
-void HeightFinder::add(const Sample& sample, const Eigen::Vector3f& up) {
-    const RangePath path = range_path(sample, up);
-    const double echo = echo_of(sample, path.range_m, materials_[sample.material]);
+void HeightFinder::add(const EchoPatch& patch, const Eigen::Vector3f& up) {
+    const RangePath path = range_path(patch, up);
+    const double echo = patch.echo;
     if (!(echo > 0.0)) return;
     const Eigen::Vector3d at =
-        T_world_sensor_.rotation * sample.position.cast<double>() + T_world_sensor_.translation;
+        T_world_sensor_.rotation * patch.position.cast<double>() + T_world_sensor_.translation;
     const double tolerance = on_bottom * path.range_m;
     std::optional<double> below = bottom_->highest_below(at, tolerance);
     if (!below) {
         // A wall on the border of the bottom: the bottom begins before it.
         const Eigen::Vector3d before =
-            at + tolerance * (T_world_sensor_.rotation * sample.normal.cast<double>());
+            at + tolerance * (T_world_sensor_.rotation * patch.sample->normal.cast<double>());
         below = bottom_->highest_below(before, tolerance);
     }
     if (!below) return;
@@ -48,7 +48,7 @@ void HeightFinder::add(const Sample& sample, const Eigen::Vector3f& up) {
     });
 }
 
-void HeightFinder::find(std::span<const Sample> samples, std::span<float> height_m) {
+void HeightFinder::find(std::span<const EchoPatch> patches, std::span<float> height_m) {
     std::ranges::fill(height_m, std::numeric_limits<float>::quiet_NaN());
     if (bottom_ == nullptr) return;
     sums_.resize(bins_.count);
@@ -56,8 +56,8 @@ void HeightFinder::find(std::span<const Sample> samples, std::span<float> height
     last_bin_ = 0;
     const Eigen::Vector3f up =
         (T_world_sensor_.rotation.conjugate() * Eigen::Vector3d::UnitZ()).cast<float>();
-    for (const Sample& sample : samples)
-        add(sample, up);
+    for (const EchoPatch& patch : patches)
+        add(patch, up);
     for (int i = first_bin_; i < last_bin_; ++i) {
         const Sums sums = std::exchange(sums_[i], {});
         if (sums.echo > 0.0) height_m[i] = static_cast<float>(sums.height / sums.echo);

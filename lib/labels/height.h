@@ -4,34 +4,30 @@
 #include <vector>
 
 #include "core/pose.h"
-#include "paper/accumulate.h"
 #include "scene/placing/bottom.h"
-#include "scene/scene.h"
-#include "visibility/engine.h"
+#include "trace/surface_echoes.h"
 
 namespace sonarsim {
 
 /// Finds the height above the bottom of the surface in the bins of a beam.
 class HeightFinder {
   public:
-    /// All but the pose must outlive the finder. Without a bottom nothing has a height.
-    HeightFinder(std::span<const Material> materials, const RangeBins& bins, const Bottom* bottom,
-                 const Pose& T_world_sensor)
-        : materials_(materials), bins_(bins), bottom_(bottom), T_world_sensor_(T_world_sensor) {}
+    /// The bottom must outlive the finder. Without a bottom nothing has a height.
+    HeightFinder(const RangeBins& bins, const Bottom* bottom, const Pose& T_world_sensor)
+        : bins_(bins), bottom_(bottom), T_world_sensor_(T_world_sensor) {}
 
-    /// The mean height of the echo of each bin, m, weighted with area times intensity: the distance
-    /// to the next surface of the bottom straight below. 0 for the bottom itself, NaN in bins
-    /// without an echo or without a bottom below. The bottom below one sample is taken as level.
-    void find(std::span<const Sample> samples, std::span<float> height_m);
+    /// The mean height of the echo of each bin, m, weighted with the echo: the distance to the next
+    /// surface of the bottom straight below. 0 for the bottom itself, NaN in bins
+    /// without an echo or without a bottom below. The bottom below one patch is taken as level.
+    void find(std::span<const EchoPatch> patches, std::span<float> height_m);
 
   private:
     struct Sums {
         double echo = 0.0, height = 0.0;
     };
 
-    void add(const Sample& sample, const Eigen::Vector3f& up);
+    void add(const EchoPatch& patch, const Eigen::Vector3f& up);
 
-    std::span<const Material> materials_;
     RangeBins bins_;
     const Bottom* bottom_;
     Pose T_world_sensor_;

@@ -44,10 +44,9 @@ struct PingLabels {
     std::size_t size() const { return static_cast<std::size_t>(range_bins) * beams; }
 };
 
-/// Finds the source of the echo of every bin of a traced ping, without noise: echoes are those of
-/// form_image() without its random terms, spread over the bins in the same way, and count by area
-/// times intensity, the numerator of Eq. 9. A multipath echo counts for the surface that it left
-/// first. A pure function of its arguments; one ping on one thread.
+/// Finds the origin of the echo of every bin of a traced ping, without noise: the echoes are those
+/// of EchoModel::surface_echoes(). A multipath echo counts for the surface that mirrors the sound.
+/// A pure function of its arguments; one ping on one thread.
 PingLabels label_ping(const TracedPing& traced, const PingSettings& settings, const Scene& scene,
                       const SceneObjects& objects, const VisibilityEngine& engine,
                       const LabelRequest& request);

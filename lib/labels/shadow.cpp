@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "labels/sight_lines.h"
 #include "trace/arrivals.h"
 
 namespace sonarsim {
@@ -16,21 +17,6 @@ constexpr int most_surfaces_behind = 8;
 // rounding of floats and far below a bin.
 constexpr float step_behind = 1e-5F;
 
-// Surface that is seen along its plane covers all ranges; its extent is limited to this share of
-// its range.
-constexpr float longest_half = 0.1F;
-
-/// A sight line behind the visible surface.
-struct SightLine {
-    Eigen::Vector3f direction;
-    float before_m;  ///< range of its sample
-    float range_m;   ///< length so far
-    float solid_angle;
-    std::uint32_t sample;
-    std::uint32_t beam;
-    std::uint32_t passed;  ///< the last node of its way
-};
-
 /// An object that a sight line has met, and the node before it. The first one of a way is its own.
 struct WayNode {
     std::uint32_t object, before;
@@ -41,44 +27,6 @@ bool has_met(const std::vector<WayNode>& nodes, std::uint32_t node, std::uint32_
     while (nodes[node].object != object && nodes[node].before != node)
         node = nodes[node].before;
     return nodes[node].object == object;
-}
-
-std::vector<SightLine> sight_lines(const Samples& samples, int beams) {
-    std::vector<SightLine> lines;
-    lines.reserve(samples.items.size());
-    for (int j = 0; j < beams; ++j) {
-        for (std::uint32_t k = samples.beam_begin[j]; k < samples.beam_begin[j + 1]; ++k) {
-            const Sample& sample = samples.items[k];
-            const auto [range, departure, direction] = arrival_of(sample.position);
-            lines.push_back(
-                {.direction = departure,
-                 .before_m = range,
-                 .range_m = range,
-                 .solid_angle = sample.area_m2 * sample.height_m / (range * range * range),
-                 .sample = k,
-                 .beam = static_cast<std::uint32_t>(j),
-                 .passed = k});
-        }
-    }
-    return lines;
-}
-
-/// The change of a plane's range along the half edge of the footprint before it.
-float range_along(const Eigen::Vector3f& edge, const Eigen::Vector3f& direction, float before_m,
-                  const Eigen::Vector3f& normal, float range_m) {
-    const Eigen::Vector3f turn = (edge - direction * direction.dot(edge)) / before_m;
-    return std::fabs(range_m * normal.dot(turn) / normal.dot(direction));
-}
-
-/// Half the extent in range of the surface that a sight line meets, a piece of the plane with this
-/// normal.
-float half_extent(const SightLine& line, const Sample& sample, float range_m,
-                  const Eigen::Vector3f& normal) {
-    const float half = range_along(sample.edge_u, line.direction, line.before_m, normal, range_m) +
-                       range_along(sample.edge_v, line.direction, line.before_m, normal, range_m);
-    const float most = longest_half * range_m;
-    // The quotient may be no number for a plane that is seen edge-on.
-    return half < most ? half : most;
 }
 
 /// Gives each 0 the value that stands nearest to it; of two the lower one. False: all are 0.
@@ -99,17 +47,16 @@ bool fill_gaps(std::span<std::uint16_t> ids) {
 
 }  // namespace
 
-ShadowFinder::ShadowFinder(const TracedPing& traced, const View& view, const SceneObjects& objects,
-                           const VisibilityEngine& engine, bool on)
+ShadowFinder::ShadowFinder(const TracedPing& traced, const ConeBeams& cones, const View& view,
+                           const SceneObjects& objects, const VisibilityEngine& engine, bool on)
     : bins_(range_bins(view)) {
     if (!on) return;
-    const Samples& samples = traced.samples;
-    std::vector<SightLine> lines = sight_lines(samples, view.beams);
+    std::vector<SightLine> lines = sight_lines(traced, cones, view.beams);
     std::vector<WayNode> nodes;
     nodes.reserve(lines.size());
     solid_angles_.resize(objects.objects.size());
     for (const SightLine& line : lines) {
-        nodes.push_back({objects.object_of(samples.items[line.sample].instance), line.sample});
+        nodes.push_back({objects.object_of(line.sample->instance), line.first});
         solid_angles_[nodes.back().object].visible += line.solid_angle;
     }
     std::vector<Ray> rays;
@@ -128,10 +75,10 @@ ShadowFinder::ShadowFinder(const TracedPing& traced, const View& view, const Sce
             SightLine line = lines[k];
             line.range_m = line.range_m * (1.0F + step_behind) + met[k].distance_m;
             if (!(line.range_m < range_max)) continue;
-            const float half_m =
-                half_extent(line, samples.items[line.sample], line.range_m, met[k].normal);
-            hidden_.push_back(
-                {line.beam, nodes[line.sample].object, line.range_m, half_m, line.solid_angle});
+            const Hidden hidden{line.beam, nodes[line.first].object, line.range_m,
+                                half_extent(line, line.range_m, met[k].normal), line.solid_angle};
+            cones.exist() ? add_to_cones(line, hidden, met[k].normal, cones)
+                          : hidden_.push_back(hidden);
             const std::uint32_t object = objects.object_of(met[k].instance);
             if (!has_met(nodes, line.passed, object)) {
                 solid_angles_[object].hidden += line.solid_angle;
@@ -144,7 +91,57 @@ ShadowFinder::ShadowFinder(const TracedPing& traced, const View& view, const Sce
     }
     sort_into_beams(view.beams);
     owners_.resize(view.beams);
-    covered_ = engine.covered_bins(view, traced.T_world_sensor);
+    covered_ =
+        cones.exist() ? hidden_bins(view.beams) : engine.covered_bins(view, traced.T_world_sensor);
+}
+
+void ShadowFinder::add_to_cones(const SightLine& line, const Hidden& whole,
+                                const Eigen::Vector3f& normal, const ConeBeams& cones) {
+    const Sample& sample = *line.sample;
+    const int rows = beams_along(sample.edge_u, line, cones);
+    const int columns = beams_along(sample.edge_v, line, cones);
+    if (rows * columns == 1) return hidden_.push_back(whole);
+    const auto share = 1.0F / static_cast<float>(rows * columns);
+    const float least_m = whole.range_m - whole.half_m;
+    const float greatest_m = whole.range_m + whole.half_m;
+    const float along = normal.dot(line.direction);
+    for (int i = 0; i < rows; ++i) {
+        for (int j = 0; j < columns; ++j) {
+            const Eigen::Vector3f to =
+                sample.position +
+                ((2.0F * static_cast<float>(i) + 1.0F) / static_cast<float>(rows) - 1.0F) *
+                    sample.edge_u +
+                ((2.0F * static_cast<float>(j) + 1.0F) / static_cast<float>(columns) - 1.0F) *
+                    sample.edge_v;
+            const Eigen::Vector3f direction = arrival_of(to).direction;
+            const int beam = cones.beam(direction.y());
+            if (beam < 0) continue;
+            Hidden piece = whole;
+            piece.beam = static_cast<std::uint32_t>(beam);
+            // The quotient may be no number for a plane that is seen edge-on; fmax() leaves that out.
+            const float range_m = whole.range_m * along / normal.dot(direction);
+            piece.range_m = std::fmin(std::fmax(range_m, least_m), greatest_m);
+            piece.half_m = whole.half_m / static_cast<float>(std::max(rows, columns));
+            piece.solid_angle = whole.solid_angle * share;
+            hidden_.push_back(piece);
+        }
+    }
+}
+
+std::vector<std::uint8_t> ShadowFinder::hidden_bins(int beams) const {
+    std::vector<std::uint8_t> covered(static_cast<std::size_t>(beams) * bins_.count);
+    const auto bin_at = [&](float range_m) {
+        const float bin = (range_m - bins_.min_m) / bins_.bin_m;
+        return static_cast<int>(std::clamp(bin, -1.0F, static_cast<float>(bins_.count)));
+    };
+    for (const Hidden& hidden : hidden_) {
+        std::uint8_t* const own = &covered[static_cast<std::size_t>(hidden.beam) * bins_.count];
+        const int first = std::max(bin_at(hidden.range_m - hidden.half_m), 0);
+        const int last = std::min(bin_at(hidden.range_m + hidden.half_m), bins_.count - 1);
+        for (int i = first; i <= last; ++i)
+            own[i] = 1;
+    }
+    return covered;
 }
 
 void ShadowFinder::sort_into_beams(int beams) {
@@ -185,7 +182,7 @@ void ShadowFinder::find_owners(int j, std::span<std::uint16_t> owners) {
     for (std::size_t a = 0, b = 0; a < own.size(); a = b) {
         while (b < own.size() && own[b].object == own[a].object)
             ++b;
-        echoes_.resize(b - a, false);
+        echoes_.resize(b - a);
         for (std::size_t k = a; k < b; ++k) {
             const Hidden& hidden = hidden_[own[k].at];
             echoes_.range_m[k - a] = hidden.range_m;
@@ -193,7 +190,8 @@ void ShadowFinder::find_owners(int j, std::span<std::uint16_t> owners) {
             echoes_.weight[k - a] = hidden.solid_angle;
             echoes_.intensity[k - a] = 1.0F;
         }
-        shares_.add(own[a].object, echoes_, 0, echoes_.size(), bins_);
+        const EchoRange all{0, static_cast<std::uint32_t>(echoes_.size())};
+        shares_.add(own[a].object, echoes_, {&all, 1}, bins_);
     }
     finder_.find(
         shares_, Ranks::first, [](std::uint32_t object) { return object; }, strongest_);

@@ -7,8 +7,11 @@
 #include "labels/shares.h"
 #include "ping/form_image.h"
 #include "scene/objects.h"
+#include "trace/cone_beams.h"
 
 namespace sonarsim {
+
+struct SightLine;
 
 /// Finds the bins in shadow: surface falls into them, and none of it is visible. Sight lines
 /// continue behind the first surface that they meet; the surface that they meet there is hidden. A
@@ -17,8 +20,8 @@ namespace sonarsim {
 class ShadowFinder {
   public:
     /// Traces the hidden surface, where `on`. The arguments must outlive the finder.
-    ShadowFinder(const TracedPing& traced, const View& view, const SceneObjects& objects,
-                 const VisibilityEngine& engine, bool on);
+    ShadowFinder(const TracedPing& traced, const ConeBeams& cones, const View& view,
+                 const SceneObjects& objects, const VisibilityEngine& engine, bool on);
 
     /// Fills `shadow` [range bins] of beam j with 1 + the index of the object that hides, or 0.
     /// `occupied` is 1 for the bins that show surface, else 0.
@@ -48,6 +51,12 @@ class ShadowFinder {
             default;  // NOLINT(modernize-use-nullptr): no pointer
     };
 
+    /// Adds the pieces of hidden surface that lie in different beams of a line array. `whole` is
+    /// all the surface that the line meets, a piece of the plane with this normal.
+    void add_to_cones(const SightLine& line, const Hidden& whole, const Eigen::Vector3f& normal,
+                      const ConeBeams& cones);
+    /// 1 for the bins [beams, range bins] that hold hidden surface.
+    std::vector<std::uint8_t> hidden_bins(int beams) const;
     void sort_into_beams(int beams);
     void find_owners(int j, std::span<std::uint16_t> owners);
     std::span<const std::uint16_t> nearest_owners(int j);
@@ -66,7 +75,7 @@ class ShadowFinder {
     BeamShares shares_;
     StrongestFinder finder_;
     Strongest strongest_;
-    Echoes echoes_;
+    RangeBoxes echoes_;
 };
 
 }  // namespace sonarsim

@@ -13,12 +13,14 @@ struct Reach {
 };
 
 /// The bins that echoes can touch. Those that are no numbers touch none.
-Reach reach_of(const Echoes& echoes, std::size_t begin, std::size_t end, const RangeBins& bins) {
+Reach reach_of(const RangeBoxes& echoes, std::span<const EchoRange> ranges, const RangeBins& bins) {
     float low = bins.min_m + bins.bin_m * static_cast<float>(bins.count);
     float high = bins.min_m;
-    for (std::size_t k = begin; k < end; ++k) {
-        low = std::min(low, echoes.range_m[k] - echoes.half_m[k]);
-        high = std::max(high, echoes.range_m[k] + echoes.half_m[k]);
+    for (const EchoRange& range : ranges) {
+        for (std::uint32_t k = range.begin; k < range.end; ++k) {
+            low = std::min(low, echoes.range_m[k] - echoes.half_m[k]);
+            high = std::max(high, echoes.range_m[k] + echoes.half_m[k]);
+        }
     }
     // accumulate() rounds otherwise, and widens an echo without depth: a bin more to either side.
     const auto count = static_cast<float>(bins.count);
@@ -71,11 +73,12 @@ void BeamShares::clear(int bins) {
     first = last = 0;
 }
 
-void BeamShares::add(std::uint32_t key, const Echoes& echoes, std::size_t begin, std::size_t end,
+void BeamShares::add(std::uint32_t key, const RangeBoxes& echoes, std::span<const EchoRange> ranges,
                      const RangeBins& bins) {
-    const Reach reach = reach_of(echoes, begin, end, bins);
+    const Reach reach = reach_of(echoes, ranges, bins);
     if (reach.first >= reach.last) return;
-    accumulate(echoes, begin, end, bins, sums_);
+    for (const EchoRange& range : ranges)
+        accumulate(echoes, range.begin, range.end, bins, sums_);
     const std::size_t offset = echo.size();
     const int count = reach.last - reach.first;
     echo.resize(offset + count);

@@ -4,9 +4,14 @@
 #include <span>
 #include <vector>
 
-#include "paper/accumulate.h"
+#include "trace/range_boxes.h"
 
 namespace sonarsim {
+
+/// The echoes [begin, end) of a list.
+struct EchoRange {
+    std::uint32_t begin, end;
+};
 
 /// The parts of the echo of a beam's bins that several sources (objects, say) add.
 struct BeamShares {
@@ -17,14 +22,14 @@ struct BeamShares {
         std::size_t offset;  ///< index of the bin `first` in `echo`
     };
     std::vector<Source> sources;  ///< several may have one key
-    std::vector<float> echo;      ///< area times intensity
-    std::vector<float> weight;    ///< area of all sources, by bin
+    std::vector<float> echo;      ///< weight times intensity
+    std::vector<float> weight;    ///< sum over all sources, by bin
     std::vector<float> total;     ///< echo of all sources, by bin
     int first = 0, last = 0;      ///< outside [first, last) no bin has an echo
 
     void clear(int bins);
-    /// Adds the echoes [begin, end) of one source, spread over the bins as accumulate() does.
-    void add(std::uint32_t key, const Echoes& echoes, std::size_t begin, std::size_t end,
+    /// Adds the echoes of one source, spread over the bins as accumulate() does.
+    void add(std::uint32_t key, const RangeBoxes& echoes, std::span<const EchoRange> ranges,
              const RangeBins& bins);
 
   private:

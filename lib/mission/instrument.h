@@ -2,6 +2,7 @@
 
 #include <array>
 #include <optional>
+#include <vector>
 
 namespace sonarsim {
 
@@ -33,6 +34,7 @@ struct BeamConfig {
     /// Phase errors at the ends of the aperture: quadratic, cubic, quartic.
     std::array<double, 3> aberration_rad{};
     BeamSpacing spread = BeamSpacing::equal_angle;
+    std::vector<double> azimuths_deg;  ///< the middles of a fan's beams; empty: as `spread` says
     double view_azimuth_deg = 0.0;  ///< full azimuth that a line array insonifies; 0: azimuth_deg
     double elevation_width_deg = 0.0;  ///< two-way half-power width; 0: constant pattern
     double elevation_side_lobe_db = -13.3;

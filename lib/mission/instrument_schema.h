@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <functional>
 
 #include "mission/limits.h"
 #include "mission/mission.h"
@@ -42,6 +44,12 @@ void describe(Visitor& v, BeamConfig& c) {
                   "phase error at the ends of the array: quadratic, cubic and quartic part");
         v.choice("spread", c.spread, beam_spacings,
                  "beam spacing: equal steps of the angle, or of its sine");
+        v.numbers("azimuths_deg", c.azimuths_deg, between(-90, 90),
+                  "middles of the beams, one for each of azimuth_bins, increasing from starboard "
+                  "to port, in place of `spread`");
+        const bool increase = std::ranges::adjacent_find(c.azimuths_deg, std::greater_equal()) ==
+                              c.azimuths_deg.end();
+        v.require(increase, {"azimuths_deg"}, "azimuths_deg must increase from beam to beam");
         v.number(
             "view_azimuth_deg", c.view_azimuth_deg, between(0, 180),
             "full azimuth of the surface that is insonified; 0 means azimuth_deg. A beam of a line "

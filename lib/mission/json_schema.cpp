@@ -90,6 +90,10 @@ class SchemaBuilder {
         add(key, std::to_string(N) + " numbers", numbers_json(N, limits), meaning, presence,
             list_of(values));
     }
+    void numbers(const char* key, const std::vector<double>&, const Limits& limits,
+                 const char* meaning) {
+        add(key, "list of numbers", list_json(within_limits("number", limits), 0), meaning);
+    }
     template <std::size_t N>
     void optional_numbers(const char* key, const std::optional<std::array<double, N>>&,
                           const Limits& limits, const char* meaning) {

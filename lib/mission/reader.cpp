@@ -125,6 +125,15 @@ void MissionReader::text(const char* key, std::string& value, const char* /*mean
     read_key(key, presence, [&](const YamlNode& node) { value = read_text(node, key); });
 }
 
+void MissionReader::numbers(const char* key, std::vector<double>& values, const Limits& limits,
+                            const char* /*meaning*/) {
+    read_key(key, Presence::optional, [&](const YamlNode& node) {
+        if (node.kind != YamlNode::Kind::list) refuse_type(node, key, "a list of numbers");
+        values.resize(node.items.size());
+        read_numbers(node, key, values.data(), values.size(), limits);
+    });
+}
+
 void MissionReader::texts(const char* key, std::vector<std::string>& values,
                           const char* /*meaning*/) {
     read_key(key, Presence::optional, [&](const YamlNode& node) {

@@ -65,6 +65,10 @@ class MissionReader {
                  [&](const YamlNode& node) { read_numbers(node, key, values.data(), N, limits); });
     }
 
+    /// Reads a list of any number of numbers.
+    void numbers(const char* key, std::vector<double>& values, const Limits& limits,
+                 const char* meaning);
+
     template <std::size_t N>
     void optional_numbers(const char* key, std::optional<std::array<double, N>>& values,
                           const Limits& limits, const char* /*meaning*/) {

@@ -37,6 +37,24 @@ void describe(Visitor& v, MultipathConfig& c) {
              "largest angle between the normals within a cluster");
 }
 
+/// Checks that a table of beams fits the other keys of a sonar.
+template <class Visitor>
+void require_table_of_beams(Visitor& v, const SonarConfig& c) {
+    const std::vector<double>& table = c.instrument.beam.azimuths_deg;
+    if (table.empty()) return;
+    v.require(std::ssize(table) == c.azimuth_bins, {"azimuth_bins", "instrument"},
+              "instrument.beam.azimuths_deg needs one azimuth for each of azimuth_bins");
+    const double half = 0.5 * c.azimuth_deg;
+    const double first_gap = table.size() > 1 ? table[1] - table[0] : c.azimuth_deg;
+    const double last_gap = table.size() > 1 ? table.back() - table[table.size() - 2] : first_gap;
+    v.require(table.front() > -half && table.back() < half, {"azimuth_deg", "instrument"},
+              "instrument.beam.azimuths_deg must lie within azimuth_deg / 2 to either side");
+    v.require(table.front() + half <= first_gap && half - table.back() <= last_gap,
+              {"azimuth_deg", "instrument"},
+              "azimuth_deg must end within one beam spacing of the first and the last beam of "
+              "instrument.beam.azimuths_deg");
+}
+
 /// Checks that the angles of a calibrated sonar hold its beam.
 template <class Visitor>
 void require_insonified(Visitor& v, const SonarConfig& c) {
@@ -101,6 +119,7 @@ void describe(Visitor& v, SonarConfig& c) {
     if (c.model == ModelKind::calibrated) {
         v.section("instrument", c.instrument, "the instrument of the calibrated model");
         require_insonified(v, c);
+        require_table_of_beams(v, c);
     }
     if (c.model == ModelKind::paper) {
         v.section("noise", c.noise, "the random terms of the paper's model");

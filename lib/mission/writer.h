@@ -52,6 +52,11 @@ class MissionWriter {
         write_list(key, values.data(), N);
     }
 
+    void numbers(const char* key, const std::vector<double>& values, const Limits&,
+                 const char* /*meaning*/) {
+        if (!values.empty()) write_list(key, values.data(), values.size());
+    }
+
     template <std::size_t N>
     void optional_numbers(const char* key, const std::optional<std::array<double, N>>& values,
                           const Limits&, const char* /*meaning*/) {

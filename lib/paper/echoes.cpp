@@ -91,10 +91,7 @@ void write_pieces(const Footprints& f, std::size_t k, int count, const Target& t
 }  // namespace
 
 void Echoes::resize(std::size_t count, bool cells) {
-    range_m.resize(count);
-    half_m.resize(count);
-    weight.resize(count);
-    intensity.resize(count);
+    RangeBoxes::resize(count);
     if (cells) {
         cell_low.resize(count);
         cell_high.resize(count);
@@ -102,7 +99,9 @@ void Echoes::resize(std::size_t count, bool cells) {
 }
 
 void direct_echoes(std::span<const Sample> samples, std::span<const Material> materials,
-                   float bin_m, const ScattererLattice& lattice, Echoes& echoes) {
+                   float bin_m, const ScattererLattice& lattice, Echoes& echoes,
+                   std::vector<std::uint32_t>* ends) {
+    if (ends) ends->clear();
     const bool named = lattice.exists();
     std::size_t end = 0;
     Footprints footprints;
@@ -118,6 +117,7 @@ void direct_echoes(std::span<const Sample> samples, std::span<const Material> ma
             }
             write_pieces(footprints, k, count, target_at(echoes, end, named));
             end += count;
+            if (ends) ends->push_back(static_cast<std::uint32_t>(end));
         }
     }
     echoes.resize(end, named);

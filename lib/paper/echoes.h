@@ -6,26 +6,23 @@
 
 #include "paper/scatterers.h"
 #include "scene/scene.h"
+#include "trace/range_boxes.h"
 #include "visibility/engine.h"
 
 namespace sonarsim {
 
-/// The echoes of one beam, one entry per piece of surface. Arrays, so that loops vectorise.
-struct Echoes {
-    std::vector<float> range_m;                      ///< slant range, of the middle of its extent
-    std::vector<float> half_m;                       ///< half its extent in range
-    std::vector<float> weight;                       ///< area of its surface, m^2
-    std::vector<float> intensity;                    ///< I, Eq. 6
+/// Echoes of the paper's model: their weights are areas.
+struct Echoes : RangeBoxes {
     std::vector<std::uint32_t> cell_low, cell_high;  ///< CellName, when there is noise
 
-    std::size_t size() const { return range_m.size(); }
     void resize(std::size_t count, bool cells);
 };
 
 /// Turns the samples of a beam into echoes of intensity I = R (v . n), Eq. 4-6. A footprint that
 /// spans several bins or scatterer cells is cut into pieces, each of them an echo that is spread
-/// evenly over [range - half, range + half].
+/// evenly over [range - half, range + half]. `ends`: where the echoes of each sample end.
 void direct_echoes(std::span<const Sample> samples, std::span<const Material> materials,
-                   float bin_m, const ScattererLattice& lattice, Echoes& echoes);
+                   float bin_m, const ScattererLattice& lattice, Echoes& echoes,
+                   std::vector<std::uint32_t>* ends = nullptr);
 
 }  // namespace sonarsim

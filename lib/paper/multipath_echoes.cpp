@@ -19,6 +19,7 @@ constexpr float most_bounce_pieces_per_bin = 16.0F;
 /// A part of a bounce that counts for one beam and one scatterer cell.
 struct Piece {
     std::uint32_t beam;
+    std::uint32_t sample;
     float range_m;
     float half_m;
     float weight;
@@ -56,6 +57,7 @@ void add_pieces(const BouncePath& b, const Sample& sample, const View& view,
     const float step_u = 1.0F / static_cast<float>(n_u);
     const float step_v = 1.0F / static_cast<float>(n_v);
     Piece piece{};
+    piece.sample = b.sample;
     // The box has the variance of the two edges' boxes together.
     piece.half_m = std::sqrt(b.range_u * b.range_u * step_u * step_u +
                              b.range_v * b.range_v * step_v * step_v);
@@ -93,8 +95,10 @@ MultipathEchoes sorted_by_beam(const std::vector<Piece>& pieces, int beams, bool
     MultipathEchoes out;
     out.beam_begin = std::move(groups.begin);
     out.echoes.resize(pieces.size(), cells);
+    out.sample.resize(pieces.size());
     for (std::size_t k = 0; k < pieces.size(); ++k) {
         const Piece& piece = pieces[groups.items[k]];
+        out.sample[k] = piece.sample;
         out.echoes.range_m[k] = piece.range_m;
         out.echoes.half_m[k] = piece.half_m;
         out.echoes.weight[k] = piece.weight;

@@ -1,5 +1,7 @@
 #include "ping/sonar.h"
 
+#include <algorithm>
+
 #include "core/elementary.h"
 
 namespace sonarsim {
@@ -12,10 +14,14 @@ double head_angle_rad(const Sonar& sonar, std::uint32_t pose) {
 
 double column_at(const Sonar& sonar, double azimuth_rad) {
     const View& view = sonar.settings.view;
-    const double half = 0.5 * view.azimuth_rad;
-    const double share =
-        sonar.equal_sine ? sincos(azimuth_rad).sin / sincos(half).sin : azimuth_rad / half;
-    return 0.5 * (1.0 + share) * view.beams;
+    if (sonar.equal_azimuth)
+        return 0.5 * (1.0 + azimuth_rad / (0.5 * view.azimuth_rad)) * view.beams;
+    const std::vector<double>& edges = sonar.azimuth_edges_rad;
+    const auto above = std::upper_bound(edges.begin() + 1, edges.end() - 1, azimuth_rad);
+    // A line array's beams are about even in sine.
+    const double low = sincos(above[-1]).sin;
+    const double share = (sincos(azimuth_rad).sin - low) / (sincos(above[0]).sin - low);
+    return static_cast<double>(above - edges.begin()) - 1.0 + share;
 }
 
 Pose sensor_pose(const Sonar& sonar, const Pose& T_world_vehicle, std::uint32_t pose) {

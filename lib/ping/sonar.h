@@ -16,8 +16,8 @@ struct Sonar {
     PingSettings settings;
     std::vector<double> range_edges_m;      ///< range_bins + 1
     std::vector<double> azimuth_edges_rad;  ///< fan only: beams + 1, from starboard (-) to port (+)
-    bool equal_sine = false;  ///< the columns of a fan's image are equal in the sine of azimuth
-    std::vector<float> noise_growth;  ///< per range bin: (r / range_max)^2 of Eq. 10, or 1
+    std::vector<double> beam_azimuths_rad;  ///< fan only: the azimuths that the beams look at
+    bool equal_azimuth = true;              ///< the beams of a fan are equal in azimuth
     /// The angles of a head that turns from ping to ping about the sensor's z axis, positive to
     /// port; they repeat. Empty for a fixed sonar.
     std::vector<double> head_angles_rad;

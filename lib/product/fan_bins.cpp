@@ -8,10 +8,11 @@ namespace sonarsim {
 namespace {
 
 /// -1 outside the sector.
-std::int32_t bin_at(const View& view, const FanPlace& place) {
+std::int32_t bin_at(const Sonar& sonar, const FanPlace& place) {
+    const View& view = sonar.settings.view;
     if (!is_inside_sector(view, place)) return -1;
     const double bins = (place.range_m - view.range_min_m) / view.bin_m();
-    const double beams = (place.azimuth_rad / view.azimuth_rad + 0.5) * view.beams;
+    const double beams = column_at(sonar, place.azimuth_rad);
     // A point on the last edge, exactly or by rounding, belongs to the bin before it.
     const int i = std::clamp(static_cast<int>(bins), 0, view.range_bins - 1);
     const int j = std::clamp(static_cast<int>(beams), 0, view.beams - 1);
@@ -31,8 +32,8 @@ FanBins make_fan_bins(const Sonar& sonar, int width_px) {
     for (std::size_t row = 0; row < height; ++row) {
         for (std::size_t column = 0; column < width; ++column) {
             const std::int32_t bin =
-                bin_at(view, fan_place(fan.frame, view.range_max_m, static_cast<double>(column),
-                                       static_cast<double>(row)));
+                bin_at(sonar, fan_place(fan.frame, view.range_max_m, static_cast<double>(column),
+                                        static_cast<double>(row)));
             fan.by_row[row * width + column] = bin;
             fan.by_column[column * height + row] = bin;
         }

@@ -67,12 +67,14 @@ std::optional<double> level_around(const SeenObject& seen, const PingLabels& lab
 /// The bounding box of each object's visible footprints.
 std::vector<Eigen::AlignedBox3f> seen_boxes(const SceneObjects& objects, const TracedPing& traced) {
     std::vector<Eigen::AlignedBox3f> boxes(objects.objects.size());
-    for (const Sample& sample : traced.samples.items) {
+    const auto extend = [&](const Sample& sample) {
         const Eigen::Vector3f reach = sample.edge_u.cwiseAbs() + sample.edge_v.cwiseAbs();
         Eigen::AlignedBox3f& box = boxes[objects.object_of(sample.instance)];
         box.extend(sample.position - reach);
         box.extend(sample.position + reach);
-    }
+    };
+    std::ranges::for_each(traced.samples.items, extend);
+    std::ranges::for_each(traced.outside_sector, extend);
     return boxes;
 }
 

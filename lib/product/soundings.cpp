@@ -40,16 +40,15 @@ int lit_beams(const Ping& ping) {
 std::vector<Sounding> find_soundings(const Sonar& sonar, const Pose& T_world_vehicle,
                                      const Ping& ping) {
     const Pose T_world_sensor = T_world_vehicle * sonar.T_vehicle_sensor;
-    const std::vector<float>& growth = sonar.noise_growth;
+    const std::span<const float> growth = sonar.settings.model->noise_growth();
     std::vector<Sounding> soundings(ping.beams);
     std::vector<double> beam(ping.range_bins);
     for (int j = 0; j < ping.beams; ++j) {
         for (int i = 0; i < ping.range_bins; ++i)
-            beam[i] = static_cast<double>(ping.at(i, j)) / growth[i];
+            beam[i] = static_cast<double>(ping.at(i, j)) / (growth.empty() ? 1.0F : growth[i]);
         soundings[j] = sound(sonar, beam);
         if (std::isnan(soundings[j].range_m)) continue;
-        const SinCos azimuth =
-            sincos(0.5 * (sonar.azimuth_edges_rad[j] + sonar.azimuth_edges_rad[j + 1]));
+        const SinCos azimuth = sincos(sonar.beam_azimuths_rad[j]);
         const Eigen::Vector3d ray(azimuth.cos, azimuth.sin, 0.0);
         soundings[j].position =
             T_world_sensor.rotation * (soundings[j].range_m * ray) + T_world_sensor.translation;

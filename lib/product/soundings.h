@@ -25,7 +25,7 @@ int lit_beams(const Ping& ping);
 
 /// Makes one sounding per beam, in the order of the beams.
 ///
-/// A beam is divided by the growth of the additive noise with range, Eq. 10, so that the noise is
+/// A beam is divided by the growth of the echo model's noise with range, so that the noise is
 /// uniform. The range is the middle of its detect_return(), less the bias due to range noise
 /// (range_bias_m). The position lies on the beam's axis, at elevation 0.
 std::vector<Sounding> find_soundings(const Sonar& sonar, const Pose& T_world_vehicle,

@@ -61,44 +61,73 @@ Sonar common_sonar(const SonarConfig& config, const AccuracyConfig& accuracy,
     settings.multipath = {.on = multipath.method != MultipathMethod::none,
                           .cluster = {.epsilon_bins = exact ? 0 : multipath.epsilon_bins,
                                       .delta_cosine = cosine_of(multipath.delta_deg)}};
-    sonar.noise_growth.assign(config.range_bins, 1.0F);
-    for (int i = 0; config.noise.scale_with_range && i < config.range_bins; ++i) {
-        const double middle = 0.5 * (sonar.range_edges_m[i] + sonar.range_edges_m[i + 1]);
-        const double r = middle / config.range_max_m;
-        sonar.noise_growth[i] = static_cast<float>(r * r);
-    }
     return sonar;
 }
 
 void add_azimuth(Sonar& sonar) {
     const double half = 0.5 * sonar.settings.view.azimuth_rad;
-    sonar.azimuth_edges_rad = edges(-half, half, sonar.settings.view.beams);
+    std::vector<double>& borders = sonar.azimuth_edges_rad;
+    borders = edges(-half, half, sonar.settings.view.beams);
+    sonar.beam_azimuths_rad.clear();
+    for (std::size_t j = 0; j + 1 < borders.size(); ++j)
+        sonar.beam_azimuths_rad.push_back(0.5 * (borders[j] + borders[j + 1]));
 }
 
 namespace {
 
-/// The middles of the beams of a fan; empty for other sonars.
-std::vector<double> beam_azimuths(const Sonar& sonar, const KindOfSonar& kind) {
-    std::vector<double> middles;
-    for (int j = 0; kind.keys.azimuth_bins && j < sonar.settings.view.beams; ++j)
-        middles.push_back(0.5 * (sonar.azimuth_edges_rad[j] + sonar.azimuth_edges_rad[j + 1]));
-    return middles;
+/// (r / range_max)^2 of Eq. 10 by range bin, or 1.
+std::vector<float> growth_with_range(const Sonar& sonar) {
+    const SonarConfig& config = sonar.config;
+    std::vector<float> growth(config.range_bins, 1.0F);
+    for (int i = 0; config.noise.scale_with_range && i < config.range_bins; ++i) {
+        const double middle = 0.5 * (sonar.range_edges_m[i] + sonar.range_edges_m[i + 1]);
+        const double r = middle / config.range_max_m;
+        growth[i] = static_cast<float>(r * r);
+    }
+    return growth;
 }
 
-/// Sets the azimuth edges, too, if beams are spaced by sine.
+/// The beams of a line array in the order of their azimuths. Edges lie midway between the sines of
+/// two beams, where both receive the same; the first and the last one lie on the view's borders.
+BeamSines sines_of_table(const std::vector<double>& azimuths_deg, double half_azimuth_rad) {
+    BeamSines sines;
+    sines.edges.push_back(-sincos(half_azimuth_rad).sin);
+    for (const double azimuth : azimuths_deg) {
+        const double sine = sincos(radians(azimuth)).sin;
+        if (!sines.middles.empty()) sines.edges.push_back(0.5 * (sines.middles.back() + sine));
+        sines.middles.push_back(sine);
+    }
+    sines.edges.push_back(sincos(half_azimuth_rad).sin);
+    return sines;
+}
+
+BeamSines beam_sines(const BeamConfig& beam, const View& view) {
+    const double half = 0.5 * view.azimuth_rad;
+    if (!beam.azimuths_deg.empty()) return sines_of_table(beam.azimuths_deg, half);
+    const bool equal_sine = beam.spread == BeamSpacing::equal_sine;
+    const auto sine_at = [&](double share) {
+        return equal_sine ? share * sincos(half).sin : sincos(share * half).sin;
+    };
+    BeamSines sines;
+    for (int j = 0; j < view.beams; ++j)
+        sines.middles.push_back(sine_at((2.0 * j + 1.0) / view.beams - 1.0));
+    for (int j = 0; j <= view.beams; ++j)
+        sines.edges.push_back(sine_at(2.0 * j / view.beams - 1.0));
+    return sines;
+}
+
+/// Sets the azimuths of beams that are not equal in azimuth, too.
 CalibratedModel instrument_model(Sonar& sonar, const WaterConfig& water) {
     const InstrumentConfig& instrument = sonar.config.instrument;
+    const BeamConfig& beam = instrument.beam;
     const View& view = sonar.settings.view;
-    std::vector<double> sines;
-    if (instrument.beam.aperture == Aperture::line) {
-        const double half = 0.5 * view.azimuth_rad;
-        sonar.equal_sine = instrument.beam.spread == BeamSpacing::equal_sine;
-        for (int j = 0; j < view.beams; ++j) {
-            const double share = (2.0 * j + 1.0) / view.beams - 1.0;
-            sines.push_back(sonar.equal_sine ? share * sincos(half).sin : sincos(share * half).sin);
-        }
-        for (int j = 0; sonar.equal_sine && j <= view.beams; ++j)
-            sonar.azimuth_edges_rad[j] = arcsin((2.0 * j / view.beams - 1.0) * sincos(half).sin);
+    if (beam.aperture != Aperture::line) return calibrated_model(instrument, water, view, {});
+    const BeamSines sines = beam_sines(beam, view);
+    sonar.equal_azimuth = beam.azimuths_deg.empty() && beam.spread == BeamSpacing::equal_angle;
+    if (!sonar.equal_azimuth) {
+        std::ranges::transform(sines.middles, sonar.beam_azimuths_rad.begin(), arcsin);
+        std::transform(sines.edges.begin() + 1, sines.edges.end() - 1,
+                       sonar.azimuth_edges_rad.begin() + 1, arcsin);
     }
     return calibrated_model(instrument, water, view, sines);
 }
@@ -112,8 +141,8 @@ std::shared_ptr<const EchoModel> make_echo_model(Sonar& sonar, const KindOfSonar
             return std::make_shared<PaperModel>(
                 paper_model(sonar.config, {.gain = kind.gain,
                                            .range_noise_fades = kind.range_noise_fades,
-                                           .range_scale = sonar.noise_growth,
-                                           .beam_azimuths_rad = beam_azimuths(sonar, kind),
+                                           .range_scale = growth_with_range(sonar),
+                                           .beam_azimuths_rad = sonar.beam_azimuths_rad,
                                            .beams = sonar.settings.view.beams}));
         case ModelKind::calibrated:
             return std::make_shared<CalibratedModel>(instrument_model(sonar, water));

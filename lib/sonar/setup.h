@@ -18,9 +18,9 @@ namespace sonarsim {
 /// `bins` + 1 equally spaced values from `low` to `high`, both exact.
 std::vector<double> edges(double low, double high, int bins);
 
-/// Sets T_vehicle_sensor: the default mount of the kind, turned by the mission's roll, pitch and yaw
-/// and moved by its translation. Sonars that look down have x along the vehicle's -z and z along
-/// its x, so that azimuth runs from starboard (-) to port (+).
+/// Sets T_vehicle_sensor: the default mount of the kind, turned by the mission's roll, pitch and
+/// yaw and moved by its translation. Sonars that look down have x along the vehicle's -z and z
+/// along its x, so that azimuth runs from starboard (-) to port (+).
 void set_mount(Sonar& sonar, const KindOfSonar& kind);
 
 /// The mount, the view and the range edges of a sonar, by its configuration and its kind.
@@ -31,7 +31,7 @@ Sonar common_sonar(const SonarConfig& config, const AccuracyConfig& accuracy,
 void add_azimuth(Sonar& sonar);
 
 /// The echo model that the sonar's configuration names. For the calibrated model it also sets the
-/// azimuth edges of beams that are spaced by sine.
+/// azimuths of beams that are not equal in azimuth.
 std::shared_ptr<const EchoModel> make_echo_model(Sonar& sonar, const KindOfSonar& kind,
                                                  const WaterConfig& water);
 

@@ -9,6 +9,7 @@
 
 #include "scene/scene.h"
 #include "trace/ping.h"
+#include "trace/surface_echoes.h"
 #include "trace/terms.h"
 #include "trace/traced_ping.h"
 
@@ -32,6 +33,10 @@ class EchoModel {
     /// Fills the image [range bins, beams] of `ping`, its counts and its seconds. The image must be
     /// 0 before. The same arguments give the same bytes.
     virtual void form(const TracedPing& traced, const FormContext& context, Ping& ping) const = 0;
+    /// The echoes of a traced ping and the surface that each comes from, for labels. `patches`: the
+    /// visible surface as well.
+    virtual SurfaceEchoes surface_echoes(const TracedPing& traced, const View& view,
+                                         const Scene& scene, bool patches) const = 0;
     /// The names of the model's random terms, in the order in which they enter an image.
     virtual std::span<const std::string_view> random_terms() const = 0;
 
@@ -53,6 +58,8 @@ class EchoModel {
     /// The memory in bytes that the model needs to form an image, without the image itself.
     virtual double working_bytes(bool /*multipath*/) const { return 0.0; }
 
+    /// The factor by which the noise grows with range, by range bin; empty: it does not grow.
+    virtual std::span<const float> noise_growth() const { return {}; }
     /// The signal of a pixel and the size of its noise. `clean` is the value of the pixel without
     /// the noise of pixels, `noisy` its value with that noise.
     struct SignalAndNoise {

@@ -108,23 +108,27 @@ TEST_SUITE("assembly") {
         CHECK(survey.front().T_world_vehicle.translation.z() == doctest::Approx(3.0));
     }
 
-    TEST_CASE("assemble: beams even in sine have no labels, and say so") {
+    TEST_CASE("assemble: a table of beams sets their azimuths, and the edges between them") {
         const MissionOnDisk disk;
-        const std::vector<std::string> settings{"sensors.fls.model=calibrated",
-                                                "sensors.fls.instrument.beam.spread=sine",
-                                                "output.labels=[instance]"};
-        const auto load = [&](std::size_t count) {
-            return disk.load("{file: poses.csv}", std::span(settings).first(count));
-        };
-        CHECK_NOTHROW(assemble(load(2)));
-        CHECK_THROWS_WITH_AS(
-            assemble(load(3)),
-            "--set output.labels=[instance]: sensor 'fls': labels need beams of equal azimuth; "
-            "leave out output.labels, or write instrument.beam.spread: angle",
-            InputError);
-        Mission even_angles = load(3);
-        even_angles.sensors[0].instrument.beam.spread = BeamSpacing::equal_angle;
-        CHECK_NOTHROW(assemble(even_angles));
+        Mission mission = disk.load("{file: poses.csv}");
+        SonarConfig& config = mission.sensors[0];
+        config.model = ModelKind::calibrated;
+        config.azimuth_bins = 3;
+        config.azimuth_deg = 60.0;
+        config.instrument.beam.azimuths_deg = {-25.0, -10.0, 20.0};
+        mission.output.labels = {Label::instance};
+        const Sonar sonar = assemble(mission).sonars[0];
+        const double between =
+            std::asin(0.5 * (std::sin(radians(-10.0)) + std::sin(radians(20.0))));
+        REQUIRE(sonar.azimuth_edges_rad.size() == 4);
+        CHECK(sonar.azimuth_edges_rad[0] == doctest::Approx(radians(-30.0)));
+        CHECK(sonar.azimuth_edges_rad[2] == doctest::Approx(between));
+        CHECK(sonar.azimuth_edges_rad[3] == doctest::Approx(radians(30.0)));
+        CHECK(sonar.beam_azimuths_rad[2] == doctest::Approx(radians(20.0)));
+        // Beams are drawn where they lie: column_at() is linear in the sine between their edges.
+        CHECK(column_at(sonar, sonar.azimuth_edges_rad[2]) == doctest::Approx(2.0));
+        CHECK(column_at(sonar, std::asin(0.5 * (std::sin(between) + 0.5))) == doctest::Approx(2.5));
+        CHECK(column_at(sonar, radians(30.0)) == doctest::Approx(3.0));
     }
 
     TEST_CASE("assemble: the octree refuses a view that its cells cannot hold") {

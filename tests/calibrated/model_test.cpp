@@ -43,7 +43,7 @@ CalibratedModel model_of(const InstrumentConfig& config) {
     std::vector<double> sines;
     for (int j = 0; j < beams_of_fan; ++j)
         sines.push_back(std::sin(((j + 0.5) / beams_of_fan - 0.5) * fan_rad));
-    return calibrated_model(config, {}, view_of_fan(), sines);
+    return calibrated_model(config, {}, view_of_fan(), {.middles = sines, .edges = {}});
 }
 
 /// A small plate that faces the sonar straight ahead.

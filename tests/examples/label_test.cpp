@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "paper/accumulate.h"
 #include "support/scenes.h"
 #include "support/sonars.h"
 #include "visibility/make_engine.h"
@@ -13,35 +12,38 @@ using namespace sonarsim::test;
 
 namespace {
 
-/// Finds the mean cosine of the angle of incidence of a beam's bins, weighted by area.
+/// Finds the mean cosine of the angle of incidence of a beam's bins, weighted by the echo.
 class IncidenceFinder {
   public:
-    IncidenceFinder(std::size_t materials, const RangeBins& bins)
-        : mirrors_(materials), bins_(bins) {
-        for (Material& material : mirrors_)
-            material.reflection = 1.0F;
+    IncidenceFinder(const SurfaceEchoes& echoes, const RangeBins& bins)
+        : echoes_(echoes.direct), boxes_(echoes_.boxes), bins_(bins) {
+        for (std::size_t k = 0; k < boxes_.size(); ++k) {
+            boxes_.weight[k] *= boxes_.intensity[k];
+            // v . n of a plane is the sonar's height above it over the range.
+            boxes_.intensity[k] = echoes_.sample[k]->height_m / boxes_.range_m[k];
+        }
     }
 
     /// `cosine` by range bin; 0: no surface.
-    void find(std::span<const Sample> samples, std::span<float> cosine) {
-        // With a reflection of 1 the intensity of an echo is v . n, Eq. 6.
-        direct_echoes(samples, mirrors_, bins_.bin_m, ScattererLattice{}, echoes_);
+    void find(int beam, std::span<float> cosine) {
         sums_.clear(bins_.count);
-        accumulate(echoes_, bins_, sums_);
-        mean_of_bins(sums_, cosine);
+        accumulate(boxes_, echoes_.beam_begin[beam], echoes_.beam_begin[beam + 1], bins_, sums_);
+        for (std::size_t i = 0; i < cosine.size(); ++i)
+            cosine[i] = sums_.weight(i) > 0.0F ? sums_.echo(i) / sums_.weight(i) : 0.0F;
     }
 
   private:
-    std::vector<Material> mirrors_;
+    const BeamEchoes& echoes_;
+    RangeBoxes boxes_;
     RangeBins bins_;
-    Echoes echoes_;
     BinSums sums_;
 };
 
 }  // namespace
 
-/// The cosine is H / r on a level floor at the depth H, and the area of a sector of it grows with
-/// r dr. The mean over a bin is int (H / r) r dr / int r dr = H / r_mid.
+/// The cosine is H / r on a level floor at the depth H, the area of a sector of it grows with r dr,
+/// and its echo with (H / r) r dr. The mean over a bin from r to s is H ln(s / r) / (s - r), which
+/// is H / r_mid up to ((s - r) / r_mid)^2 / 12.
 TEST_CASE("example of a label: the incidence on a level floor") {
     constexpr double depth_m = 2.0;
     Scene scene = empty_scene();
@@ -52,9 +54,10 @@ TEST_CASE("example of a label: the incidence on a level floor") {
     const TracedPing traced = trace(sonar, scene, *engine, tilted, 0);
 
     const View& view = sonar.settings.view;
-    IncidenceFinder finder(scene.materials.size(), range_bins(view));
+    const SurfaceEchoes echoes = sonar.settings.model->surface_echoes(traced, view, scene, false);
+    IncidenceFinder finder(echoes, range_bins(view));
     std::vector<float> cosine(view.range_bins);
-    finder.find(traced.samples.beam(view.beams / 2), cosine);
+    finder.find(view.beams / 2, cosine);
     int bins = 0;
     for (int i = 1; i + 1 < view.range_bins; ++i) {
         if (cosine[i - 1] == 0.0F || cosine[i] == 0.0F || cosine[i + 1] == 0.0F) continue;

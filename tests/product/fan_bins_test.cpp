@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <utility>
 
 #include "core/units.h"
 #include "sonar/sonar.h"
@@ -11,7 +12,7 @@ using namespace sonarsim;
 
 namespace {
 
-Sonar fan_sonar(double azimuth_deg) {
+Sonar fan_sonar(double azimuth_deg, bool equal_azimuth = true) {
     SonarConfig config;
     config.name = "test";
     config.azimuth_deg = azimuth_deg;
@@ -19,6 +20,10 @@ Sonar fan_sonar(double azimuth_deg) {
     config.range_max_m = 10.0;
     config.range_bins = 90;
     config.azimuth_bins = 40;
+    if (!equal_azimuth) {
+        config.model = ModelKind::calibrated;
+        config.instrument.beam.spread = BeamSpacing::equal_sine;
+    }
     return make_sonar(config, {});
 }
 
@@ -26,9 +31,11 @@ Sonar fan_sonar(double azimuth_deg) {
 
 TEST_SUITE("product") {
     TEST_CASE("fan of ids: a pixel has the bin that its centre lies in") {
-        for (const double azimuth_deg : {30.0, 120.0, 270.0, 360.0}) {
+        for (const auto& [azimuth_deg, equal_azimuth] :
+             {std::pair{30.0, true}, {120.0, true}, {120.0, false}, {270.0, true}, {360.0, true}}) {
             CAPTURE(azimuth_deg);
-            const Sonar sonar = fan_sonar(azimuth_deg);
+            CAPTURE(equal_azimuth);
+            const Sonar sonar = fan_sonar(azimuth_deg, equal_azimuth);
             const FanBins fan = make_fan_bins(sonar, 200);
             std::size_t inside = 0;
             for (int row = 0; row < fan.frame.height; ++row) {

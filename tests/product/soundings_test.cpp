@@ -90,6 +90,29 @@ TEST_SUITE("product") {
         CHECK(lost == 0);
     }
 
+    TEST_CASE("soundings: noise that does not grow with range does not hide a bottom that is far") {
+        // The noise of a calibrated sonar is the same at all ranges. Divided by (r / r_max)^2, that
+        // of the first bins would stand 4e4 above that of the last ones.
+        SonarConfig config = three_beams(true).config;
+        config.model = ModelKind::calibrated;
+        const Sonar sonar = make_sonar(config, {});
+        std::mt19937 random(3);
+        std::uniform_real_distribution<double> unit(1e-9, 1.0);
+        for (int trial = 0; trial < 100; ++trial) {
+            Ping ping = dark(sonar);
+            for (int i = 0; i < 100; ++i) {
+                for (int j = 0; j < 3; ++j) {
+                    const double noise = -0.001 * std::log(unit(random));
+                    ping.intensity[i * 3 + j] = static_cast<float>(noise + (i == 90 ? 0.05 : 0.0));
+                }
+            }
+            for (const Sounding& sounding : find_soundings(sonar, Pose{}, ping)) {
+                CHECK(sounding.range_m == doctest::Approx(9.05).epsilon(0.006));
+                CHECK(sounding.quality > map_quality);
+            }
+        }
+    }
+
     TEST_CASE("bathymetry: means per cell, north up") {
         SoundingBounds bounds;
         const Eigen::Vector3d points[] = {
@@ -142,7 +165,7 @@ TEST_SUITE("product") {
         const auto at = [&](int column, int row) {
             return picture.row(10 + 30 * row + 15)[10 + 30 * column + 15];
         };
-        CHECK(at(15, 5) == backdrop);         // not seen
+        CHECK(at(15, 5) == backdrop);      // not seen
         CHECK(at(1, 5).b > at(1, 5).r);    // deep: blue
         CHECK(at(28, 5).r > at(28, 5).b);  // shallow: red
         CHECK(draw_bathymetry({}).width > 0);

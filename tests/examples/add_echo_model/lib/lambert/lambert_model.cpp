@@ -6,6 +6,17 @@
 
 namespace sonarsim {
 
+namespace {
+
+float echo_of(const Sample& sample, const Scene& scene) {
+    const float range = arrival_range(sample.position);
+    const float cosine = sample.height_m / range;
+    const float reflection = scene.materials[sample.material].reflection;
+    return reflection * cosine * cosine * sample.area_m2 / (range * range * range * range);
+}
+
+}  // namespace
+
 void LambertModel::form(const TracedPing& traced, const FormContext& context, Ping& ping) const {
     if (!context.terms.direct) return;
     const View& view = context.view;
@@ -15,13 +26,29 @@ void LambertModel::form(const TracedPing& traced, const FormContext& context, Pi
             const auto bin =
                 static_cast<int>(std::floor((range - view.range_min_m) / view.bin_m()));
             if (bin < 0 || bin >= ping.range_bins) continue;
-            const float cosine = sample.height_m / range;
-            const float reflection = context.scene.materials[sample.material].reflection;
             ping.intensity[static_cast<std::size_t>(bin) * ping.beams + beam] +=
-                reflection * cosine * cosine * sample.area_m2 / (range * range * range * range);
+                echo_of(sample, context.scene);
             ++ping.counts.echoes;
         }
     }
+}
+
+SurfaceEchoes LambertModel::surface_echoes(const TracedPing& traced, const View& view,
+                                           const Scene& scene, bool patches) const {
+    SurfaceEchoes out;
+    for (const Sample& sample : traced.samples.items) {
+        const float echo = echo_of(sample, scene);
+        out.direct.boxes.range_m.push_back(arrival_range(sample.position));
+        out.direct.boxes.half_m.push_back(0.0F);
+        out.direct.boxes.weight.push_back(echo);
+        out.direct.boxes.intensity.push_back(1.0F);
+        out.direct.sample.push_back(&sample);
+        if (patches)
+            out.patches.push_back({sample.position, sample.edge_u, sample.edge_v, echo, &sample});
+    }
+    out.direct.beam_begin = out.patch_begin = traced.samples.beam_begin;
+    out.multipath.beam_begin.resize(view.beams + 1);
+    return out;
 }
 
 }  // namespace sonarsim

@@ -8,6 +8,8 @@ namespace sonarsim {
 /// area / range^4 to the bin of its centre. Multipath is left out.
 struct LambertModel final : EchoModel {
     void form(const TracedPing& traced, const FormContext& context, Ping& ping) const override;
+    SurfaceEchoes surface_echoes(const TracedPing& traced, const View& view, const Scene& scene,
+                                 bool patches) const override;
     std::span<const std::string_view> random_terms() const override { return {}; }
     bool energies_add() const override { return true; }
     SignalAndNoise signal_and_noise(float clean, float /*noisy*/, int /*range_bin*/,

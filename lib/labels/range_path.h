@@ -5,12 +5,11 @@
 #include <array>
 #include <cmath>
 
-#include "paper/accumulate.h"
-#include "visibility/engine.h"
+#include "trace/surface_echoes.h"
 
 namespace sonarsim {
 
-/// The footprint of a sample as a way through the bins, and how far it rises along an axis.
+/// A patch of surface as a way through the bins, and how far it rises along an axis.
 struct RangePath {
     double range_m, rise_m;    ///< centre; the rise is relative to the sensor
     double before_m, after_m;  ///< extent of its range on either side
@@ -20,7 +19,7 @@ struct RangePath {
 };
 
 /// `axis` is a unit vector in the sensor's frame.
-RangePath range_path(const Sample& sample, const Eigen::Vector3f& axis);
+RangePath range_path(const EchoPatch& patch, const Eigen::Vector3f& axis);
 
 /// The rise of the footprint at range r. Along p + t e, where d . e = 1, the range is
 /// r^2 = r_0^2 + 2 r_0 t + e^2 t^2: a flat piece may span many bins, and its rise is not linear.
@@ -30,9 +29,6 @@ inline double rise_at(const RangePath& path, double r) {
     const double t = std::clamp(more / (path.range_m + root), -path.depth_m, path.depth_m);
     return path.rise_m + path.slope * t;
 }
-
-/// Area times intensity of a sample, the numerator of Eq. 9.
-double echo_of(const Sample& sample, double range_m, const Material& material);
 
 /// Successive bins that a footprint covers.
 struct CoveredBins {

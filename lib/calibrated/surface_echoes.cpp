@@ -1,0 +1,213 @@
+#include "trace/surface_echoes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "calibrated/mirrored_echoes.h"
+#include "calibrated/model.h"
+#include "calibrated/patches.h"
+#include "core/groups.h"
+#include "trace/arrivals.h"
+
+namespace sonarsim {
+
+namespace {
+
+// Patches may be deeper than those of an image, since their echoes are spread over the bins. Over a
+// depth d at the range r the power changes by the share 4 d / r.
+constexpr float most_depth_in_bins = 4.0F;
+constexpr float most_sine_by_beam = 1.0F;
+
+// A point's echo needs a width across the beams as well.
+constexpr float least_half_sine = 1e-6F;
+
+/// The greatest size of a patch of labels.
+PointLimits label_limits(const CalibratedModel& model) {
+    PointLimits limits = model.limits;
+    limits.depth_m = most_depth_in_bins * model.equation.bin_m;
+    if (model.cones.exist())
+        limits.sine = std::max(limits.sine, most_sine_by_beam * model.cones.mean_width());
+    return limits;
+}
+
+struct FoundEcho {
+    std::uint32_t beam;
+    float range_m, half_m, power;
+    const Sample* sample;
+};
+
+/// The order of echoes by beam.
+Groups order_by_beam(const std::vector<FoundEcho>& found, int beams) {
+    std::vector<std::uint32_t> beam(found.size());
+    std::ranges::transform(found, beam.begin(), &FoundEcho::beam);
+    return sort_into_groups(beam, beams);
+}
+
+BeamEchoes in_order(const std::vector<FoundEcho>& found, const Groups& order) {
+    BeamEchoes out;
+    out.boxes.resize(found.size());
+    out.sample.resize(found.size());
+    for (std::size_t k = 0; k < found.size(); ++k) {
+        const FoundEcho& echo = found[order.items[k]];
+        out.boxes.range_m[k] = echo.range_m;
+        out.boxes.half_m[k] = echo.half_m;
+        out.boxes.weight[k] = echo.power;
+        out.boxes.intensity[k] = 1.0F;
+        out.sample[k] = echo.sample;
+    }
+    out.beam_begin = order.begin;
+    return out;
+}
+
+/// A sample as subdivide() cuts it.
+struct CutSample {
+    const Sample* sample = nullptr;
+    float rows = 1.0F, columns = 1.0F;
+    float half_m = 0.0F;     ///< half the extent of a piece in range
+    float half_sine = 0.0F;  ///< and across the beams
+};
+
+CutSample cut_of(const Sample& sample, const PointLimits& limits) {
+    const auto [range, departure, direction] = arrival_of(sample.position);
+    CutSample out{.sample = &sample};
+    out.rows = static_cast<float>(patches_along(sample.edge_u, direction, range, limits));
+    out.columns = static_cast<float>(patches_along(sample.edge_v, direction, range, limits));
+    out.half_m = std::fabs(direction.dot(sample.edge_u)) / out.rows +
+                 std::fabs(direction.dot(sample.edge_v)) / out.columns;
+    const auto across = [&](const Eigen::Vector3f& edge) {
+        return std::fabs(edge.y() - direction.y() * direction.dot(edge)) / range;
+    };
+    out.half_sine = across(sample.edge_u) / out.rows + across(sample.edge_v) / out.columns;
+    return out;
+}
+
+/// Finds the echoes of a ping as an image has them, but for speckle. `Beams`: ArrayBeams or
+/// TransducerBeams.
+template <class Beams>
+class SurfaceEchoFinder {
+  public:
+    SurfaceEchoFinder(const CalibratedModel& model, const Beams& beams, const Scene& scene,
+                      bool patches)
+        : model_(model),
+          beams_(beams),
+          limits_(label_limits(model)),
+          scattering_(model, scene),
+          patches_(patches) {}
+
+    void add_surface(std::span<const Sample> surface) {
+        CutSample cut;
+        const auto cut_at = [&](int k) -> const CutSample& {
+            const Sample& sample = surface[pieces_.sample[k]];
+            if (cut.sample != &sample) cut = cut_of(sample, limits_);
+            return cut;
+        };
+        const auto half_sine = [&](int k) { return cut_at(k).half_sine; };
+        subdivide(surface, limits_, pieces_, [&](const PatchBlock& pieces) {
+            apply_sonar_equation(pieces, *scattering_, model_.equation, echoes_);
+            for_each_beam(pieces, echoes_, nullptr, half_sine, [&](int beam, int k, float power) {
+                const CutSample& of = cut_at(k);
+                direct_.push_back({static_cast<std::uint32_t>(beam), echoes_.range_m[k], of.half_m,
+                                   power, of.sample});
+                if (patches_) found_.push_back(patch_of(pieces, k, of, power));
+            });
+        });
+    }
+
+    void add_multipath(const TracedPing& traced, const std::vector<SpecularPath>& paths) {
+        const SonarEquation& equation = model_.equation;
+        const auto use = [&](const MirroredBlock& block) {
+            const auto add = [&](int beam, int k, float power) {
+                const float range_m =
+                    equation.range_min_m + (block.echoes.row[k] + 0.5F) * equation.bin_m;
+                multipath_.push_back({static_cast<std::uint32_t>(beam), range_m, 0.0F, power,
+                                      &traced.samples.items[paths[block.path[k]].sample]});
+            };
+            const auto point = [](int) { return 0.0F; };
+            for_each_beam(block.places, block.echoes, &block.out, point, add);
+        };
+        find_mirrored(paths, scattering_->materials, equation, model_.limits, use);
+    }
+
+    SurfaceEchoes take(int beams) {
+        SurfaceEchoes out;
+        const Groups order = order_by_beam(direct_, beams);
+        out.direct = in_order(direct_, order);
+        out.multipath = in_order(multipath_, order_by_beam(multipath_, beams));
+        out.cones = model_.cones;
+        if (!patches_) return out;
+        out.patch_begin = order.begin;
+        out.patches.reserve(found_.size());
+        for (const std::uint32_t k : order.items)
+            out.patches.push_back(found_[k]);
+        return out;
+    }
+
+  private:
+    static EchoPatch patch_of(const PatchBlock& pieces, int k, const CutSample& cut, float power) {
+        return {.position = {pieces.x[k], pieces.y[k], pieces.z[k]},
+                .edge_u = cut.sample->edge_u / cut.rows,
+                .edge_v = cut.sample->edge_v / cut.columns,
+                .echo = power,
+                .sample = cut.sample};
+    }
+
+    /// Calls use(beam, piece, power) for every beam that receives a piece's echo. A line array
+    /// receives it in the beams of its sines, which span `half_sine` of the piece to either side:
+    /// the array's side lobes are left out. `out`: where the sound was sent to, if not to the
+    /// pieces.
+    template <class HalfSine, class Use>
+    void for_each_beam(const PatchBlock& pieces, const PointEchoes& echoes, const PathEndpoint* out,
+                       HalfSine half_sine, Use use) {
+        if constexpr (std::is_same_v<Beams, ArrayBeams>) {
+            for (int k = 0; k < pieces.count; ++k) {
+                const float power = echoes.power[k];
+                if (!(power > 0.0F)) continue;
+                const float sine = piece_sine(pieces.y[k], echoes.range_m[k]);
+                const float half = std::max(half_sine(k), least_half_sine);
+                model_.cones.for_each(sine - half, sine + half,
+                                      [&](int beam, float share) { use(beam, k, share * power); });
+            }
+        } else {
+            for (int beam = 0; beam < beams_.beams(); ++beam) {
+                find_gains(beams_, beam, pieces, echoes, received_);
+                if (out) find_gains(beams_, beam, out->places, out->echoes, sent_);
+                for (int k = 0; k < pieces.count; ++k) {
+                    // A gain is that of both ways.
+                    const float gain = out ? std::sqrt(sent_[k] * received_[k]) : received_[k];
+                    const float power = echoes.power[k] * gain;
+                    if (power > 0.0F) use(beam, k, power);
+                }
+            }
+        }
+    }
+
+    const CalibratedModel& model_;
+    const Beams& beams_;
+    PointLimits limits_;  ///< for direct echoes
+    ScatteringOfScene scattering_;
+    bool patches_;
+    PatchBlock pieces_;
+    PointEchoes echoes_;
+    PatchBlock::Array<float> sent_{}, received_{};
+    std::vector<FoundEcho> direct_, multipath_;
+    std::vector<EchoPatch> found_;  ///< one for each of direct_
+};
+
+}  // namespace
+
+SurfaceEchoes CalibratedModel::surface_echoes(const TracedPing& traced, const View& view,
+                                              const Scene& scene, bool patches) const {
+    return std::visit(
+        [&]<class Beams>(const Beams& of_model) {
+            SurfaceEchoFinder<Beams> finder(*this, of_model, scene, patches);
+            finder.add_surface(traced.samples.items);
+            finder.add_surface(traced.outside_sector);
+            finder.add_multipath(traced, specular_paths(traced, scene));
+            return finder.take(view.beams);
+        },
+        beams);
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,147 @@
+#include "trace/range_boxes.h"
+
+#include <immintrin.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace sonarsim {
+
+namespace {
+
+constexpr std::size_t boxes_per_block = 64;
+
+struct Pair {
+    float first, second;
+};
+
+/// The boxes of a block of echoes.
+struct Boxes {
+    std::array<int, boxes_per_block> first, last;   ///< bin
+    std::array<Pair, boxes_per_block> density;      ///< per bin: area, and area times intensity
+    std::array<Pair, boxes_per_block> share;        ///< shares of the first and the second bin
+    std::array<float, boxes_per_block> last_share;  ///< share of the last bin
+};
+
+/// The boxes of the echoes [begin, begin + count). Those wholly outside the range add 0 to the
+/// first bin; returns how many they are. No branches, so that the loop becomes vectors; inlined, so
+/// that compilers see that `boxes` is not among the echoes.
+[[gnu::always_inline]] inline int find_boxes(const RangeBoxes& echoes, std::size_t begin,
+                                             std::size_t count, const RangeBins& bins,
+                                             Boxes& boxes) {
+    const float per_bin = 1.0F / bins.bin_m;
+    const float range_min_m = bins.min_m;
+    const auto end = static_cast<float>(bins.count);
+    // In bins: an echo without depth still needs a width to be divided by.
+    constexpr float least_half = 1e-3F;
+    const float* const __restrict range_m = echoes.range_m.data() + begin;
+    const float* const __restrict half_m = echoes.half_m.data() + begin;
+    const float* const __restrict weight = echoes.weight.data() + begin;
+    const float* const __restrict intensity = echoes.intensity.data() + begin;
+    int outside = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+        const float centre = (range_m[k] - range_min_m) * per_bin;
+        const float half = std::max(half_m[k] * per_bin, least_half);
+        const float low = std::max(centre - half, 0.0F);
+        const float high = std::min(centre + half, end);
+        const bool inside = low < high;
+        outside += inside ? 0 : 1;
+        const float from = inside ? low : 0.0F;
+        const float to = inside ? high : 0.0F;
+        // An echo whose range is NaN is outside as well; its weight must not reach a bin.
+        const float density = inside ? weight[k] / (2.0F * half) : 0.0F;
+        const float echo = inside ? density * intensity[k] : 0.0F;
+        const float first = std::floor(from);
+        const float last = std::min(std::floor(to), end - 1.0F);
+        // A box that lies within one bin has no tail.
+        const float head = std::min(first + 1.0F, to) - from;
+        const float tail = first < last ? to - last : 0.0F;
+        const float next = last - first > 1.0F ? 1.0F : tail;
+        boxes.first[k] = static_cast<int>(first);
+        boxes.last[k] = static_cast<int>(last);
+        boxes.density[k] = {density, echo};
+        boxes.share[k] = {head, next};
+        boxes.last_share[k] = tail;
+    }
+    return outside;
+}
+
+/// Adds the parts of box k that lie in its first two bins: four products and four sums at once, by
+/// intrinsics, since compilers turn the plain code into two additions or four single loads.
+void add_two(const Boxes& boxes, std::size_t k, BinSum& to) {
+    const auto twice = [](const Pair& pair) {
+        return _mm_castpd_ps(_mm_loaddup_pd(reinterpret_cast<const double*>(&pair)));
+    };
+    const __m128 density = twice(boxes.density[k]);
+    const __m128 share = _mm_permute_ps(twice(boxes.share[k]), _MM_SHUFFLE(1, 1, 0, 0));
+    _mm_store_ps(&to.weight, _mm_add_ps(_mm_load_ps(&to.weight), _mm_mul_ps(density, share)));
+}
+
+/// Adds the part of box k that lies beyond its first two bins. `first` is its first bin.
+void add_rest(const Boxes& boxes, std::size_t k, BinSum* first) {
+    const int more = boxes.last[k] - boxes.first[k];
+    for (int i = 2; i <= more; ++i) {
+        const float share = i < more ? 1.0F : boxes.last_share[k];
+        first[i].weight += boxes.density[k].first * share;
+        first[i].echo += boxes.density[k].second * share;
+    }
+}
+
+}  // namespace
+
+void RangeBoxes::resize(std::size_t count) {
+    range_m.resize(count);
+    half_m.resize(count);
+    weight.resize(count);
+    intensity.resize(count);
+}
+
+void BinSums::clear(int bins) {
+    begins.assign(bins + 1, BinSum{});
+}
+
+std::uint64_t accumulate(const RangeBoxes& echoes, const RangeBins& bins, BinSums& sums) {
+    return accumulate(echoes, 0, echoes.size(), bins, sums);
+}
+
+std::uint64_t accumulate(const RangeBoxes& echoes, std::size_t begin, std::size_t end,
+                         const RangeBins& bins, BinSums& sums) {
+    std::uint64_t outside = 0;
+    Boxes boxes;
+    BinSum* const bin_0 = sums.begins.data() + 1;
+    for (std::size_t from = begin; from < end; from += boxes_per_block) {
+        const std::size_t count = std::min(boxes_per_block, end - from);
+        outside += find_boxes(echoes, from, count, bins, boxes);
+        // The sums have to be added to one by one. Most boxes cover two bins or one, which is the
+        // same here: to tell them apart would be mispredicted half the time.
+        for (std::size_t k = 0; k < count; ++k) {
+            BinSum* const first = bin_0 + boxes.first[k];
+            add_two(boxes, k, *first);
+            if (boxes.last[k] - boxes.first[k] > 1) add_rest(boxes, k, first);
+        }
+    }
+    return outside;
+}
+
+void mark_occupied(const RangeBoxes& echoes, std::size_t begin, std::size_t end,
+                   const RangeBins& bins, std::span<std::uint8_t> occupied) {
+    Boxes boxes;
+    for (std::size_t from = begin; from < end; from += boxes_per_block) {
+        const std::size_t count = std::min(boxes_per_block, end - from);
+        find_boxes(echoes, from, count, bins, boxes);
+        for (std::size_t k = 0; k < count; ++k) {
+            if (!(boxes.density[k].first > 0.0F)) continue;
+            const int first = boxes.first[k];
+            const int last = boxes.last[k];
+            occupied[first] = 1;
+            // Again the first one where the box ends in it: a branch would often be mispredicted.
+            occupied[first + (boxes.share[k].second > 0.0F ? 1 : 0)] = 1;
+            for (int i = first + 2; i < last; ++i)
+                occupied[i] = 1;
+            if (last - first > 1 && boxes.last_share[k] > 0.0F) occupied[last] = 1;
+        }
+    }
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,404 @@
+// Labels of the calibrated model: where its beams, which are cones, receive the echo.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <random>
+#include <vector>
+
+#include "core/units.h"
+#include "support/calibrated.h"
+#include "support/labelled.h"
+#include "support/sanitized.h"
+#include "support/scenes.h"
+#include "visibility/angles.h"
+
+using namespace sonarsim;
+using namespace sonarsim::test;
+
+namespace {
+
+enum class Spacing { angle, sine, table };
+constexpr std::array spacings{Spacing::angle, Spacing::sine, Spacing::table};
+
+/// Uniform numbers; std::uniform_real_distribution differs between libraries.
+class Uniform {
+  public:
+    explicit Uniform(std::uint32_t seed) : bits_(seed) {}
+    double between(double low, double high) {
+        return low + (high - low) * (bits_() / 4294967296.0);
+    }
+
+  private:
+    std::mt19937 bits_;
+};
+
+/// 90 degrees of azimuth and of elevation, 1 to 9 m in 320 bins, 160 narrow beams, no noise.
+Sonar wide_fan(Spacing spacing) {
+    SonarConfig config = calibrated(default_sonar(SonarKind::imaging), 1e6);
+    config.name = "fls";
+    config.azimuth_deg = 90.0;
+    config.elevation_deg = 90.0;
+    config.range_min_m = 1.0;
+    config.range_max_m = 9.0;
+    config.range_bins = 320;
+    config.azimuth_bins = 160;
+    config.instrument = bare(config.instrument);
+    BeamConfig& beam = config.instrument.beam;
+    beam.width_deg = 0.5;
+    beam.side_lobe_db = -40.0;
+    beam.view_azimuth_deg = 150.0;
+    if (spacing == Spacing::sine) beam.spread = BeamSpacing::equal_sine;
+    if (spacing == Spacing::table) {
+        // From steps of 0.4 degrees at starboard to 0.72 degrees at port.
+        for (int j = 0; j < config.azimuth_bins; ++j) {
+            const double t = (j + 0.5) / config.azimuth_bins;
+            beam.azimuths_deg.push_back(-45.0 + 90.0 * (0.71 * t + 0.29 * t * t));
+        }
+    }
+    return make_sonar(config, {0.02});
+}
+
+/// Half-open; empty: last = first.
+struct Box {
+    int bin_first = 1 << 20, bin_last = 0, beam_first = 1 << 20, beam_last = 0;
+
+    void add(int bin, int beam) {
+        bin_first = std::min(bin_first, bin);
+        bin_last = std::max(bin_last, bin + 1);
+        beam_first = std::min(beam_first, beam);
+        beam_last = std::max(beam_last, beam + 1);
+    }
+    int bins() const { return std::max(bin_last - bin_first, 0); }
+    int beams() const { return std::max(beam_last - beam_first, 0); }
+    double area() const { return static_cast<double>(bins()) * beams(); }
+};
+
+double overlap(const Box& a, const Box& b) {
+    Box both = a;
+    both.bin_first = std::max(a.bin_first, b.bin_first);
+    both.bin_last = std::min(a.bin_last, b.bin_last);
+    both.beam_first = std::max(a.beam_first, b.beam_first);
+    both.beam_last = std::min(a.beam_last, b.beam_last);
+    return both.area() / (a.area() + b.area() - both.area());
+}
+
+int beam_at(const Sonar& sonar, double sine) {
+    const std::vector<double>& edges = sonar.azimuth_edges_rad;
+    const auto above = std::ranges::upper_bound(edges, std::asin(sine));
+    return above == edges.begin() || above == edges.end()
+               ? -1
+               : static_cast<int>(above - edges.begin()) - 1;
+}
+
+/// A thing with its middle in some direction of the sensor, and a sonar that is pitched.
+struct Thing {
+    Scene scene = empty_scene();
+    Pose pose;
+    Eigen::Vector3d middle;  ///< sensor frame
+};
+
+Thing draw_thing(Uniform& draw) {
+    Thing out;
+    const double tilt = radians(draw.between(0.0, 40.0));
+    const double elevation = radians(draw.between(-38.0, 38.0));
+    const double azimuth = radians(draw.between(-40.0, 40.0));
+    const double range = draw.between(3.0, 7.0);
+    out.pose = {rotation_from_rpy(0.0, tilt, 0.0), Eigen::Vector3d::Zero()};
+    out.middle = range * direction_of(azimuth, elevation);
+    const Eigen::Vector3f at = (out.pose.rotation * out.middle).cast<float>();
+    const std::uint32_t m = add_material(out.scene, 0.4F);
+    out.scene.materials[m].slope_rms_deg = 0.0F;  // Lambert's law alone
+    if (draw.between(0.0, 1.0) < 0.5) {
+        add_sphere(out.scene, at, static_cast<float>(draw.between(0.6, 1.0)), m, 32);
+        return out;
+    }
+    const auto side = [&] { return static_cast<float>(draw.between(0.4, 0.8)); };
+    const Eigen::Vector3f half(side(), side(), side());
+    add_box(out.scene, at - half, at + half, m);
+    return out;
+}
+
+/// The energy by Lambert's law in each bin, [range bins, beams]: of many points of each sample, for
+/// each of which range and sine say where the array receives it.
+std::vector<double> energies_of_points(const TracedPing& traced, const Sonar& sonar) {
+    constexpr int points = 16;
+    const View& view = sonar.settings.view;
+    std::vector<double> energies(static_cast<std::size_t>(view.range_bins) * view.beams);
+    std::vector<Sample> samples = traced.samples.items;
+    samples.insert(samples.end(), traced.outside_sector.begin(), traced.outside_sector.end());
+    for (const Sample& sample : samples) {
+        for (int k = 0; k < points * points; ++k) {
+            const float s = (2.0F * static_cast<float>(k / points) + 1.0F) / points - 1.0F;
+            const float t = (2.0F * static_cast<float>(k % points) + 1.0F) / points - 1.0F;
+            const Eigen::Vector3f p = sample.position + s * sample.edge_u + t * sample.edge_v;
+            const double r = p.norm();
+            const int beam = beam_at(sonar, p.y() / r);
+            if (beam < 0 || r < view.range_min_m || r >= view.range_max_m) continue;
+            const double sine = sample.height_m / r;
+            energies[static_cast<std::size_t>(bin_at(sonar, r)) * view.beams + beam] +=
+                sample.area_m2 * sine * sine / (r * r * r * r * points * points);
+        }
+    }
+    return energies;
+}
+
+/// The energies of the echoes that labels are made of, likewise.
+std::vector<double> energies_of_labels(const SurfaceEchoes& echoes, const View& view) {
+    std::vector<double> energies(static_cast<std::size_t>(view.range_bins) * view.beams);
+    const BeamEchoes& direct = echoes.direct;
+    BinSums sums;
+    for (int j = 0; j < view.beams; ++j) {
+        sums.clear(view.range_bins);
+        accumulate(direct.boxes, direct.beam_begin[j], direct.beam_begin[j + 1], range_bins(view),
+                   sums);
+        for (int i = 0; i < view.range_bins; ++i)
+            energies[static_cast<std::size_t>(i) * view.beams + j] = sums.echo(i);
+    }
+    return energies;
+}
+
+/// The box of the bins above some energy, of those in the mask if there is one.
+Box box_above(const std::vector<double>& energies, double least, int beams,
+              const std::vector<bool>& mask = {}) {
+    Box box;
+    for (std::size_t at = 0; at < energies.size(); ++at) {
+        if (energies[at] > least && (mask.empty() || mask[at]))
+            box.add(static_cast<int>(at) / beams, static_cast<int>(at) % beams);
+    }
+    return box;
+}
+
+/// The box nearest to `box` that holds `least` and lies within `most`.
+Box between(const Box& box, const Box& least, const Box& most) {
+    return {std::clamp(box.bin_first, most.bin_first, least.bin_first),
+            std::clamp(box.bin_last, least.bin_last, most.bin_last),
+            std::clamp(box.beam_first, most.beam_first, least.beam_first),
+            std::clamp(box.beam_last, least.beam_last, most.beam_last)};
+}
+
+/// The correlation of a mask with an image in decibels above its noise, where the mask is moved by
+/// some beams. All such masks are of one size: those that correlate best cover most decibels.
+double decibels_in(const std::vector<bool>& mask, int shift, const Ping& image, double noise) {
+    double sum = 0.0;
+    for (std::size_t at = 0; at < mask.size(); ++at) {
+        const int beam = static_cast<int>(at % image.beams) + shift;
+        if (!mask[at] || beam < 0 || beam >= image.beams) continue;
+        const double value = image.intensity[at + shift];
+        if (value > noise) sum += std::log(value / noise);
+    }
+    return sum;
+}
+
+/// The sums of all echoes, direct and by multipath.
+struct Sums {
+    double direct, multipath;
+};
+
+Sums sums_of_labels(const TracedPing& traced, const Sonar& sonar, const Scene& scene) {
+    const SurfaceEchoes echoes =
+        sonar.settings.model->surface_echoes(traced, sonar.settings.view, scene, false);
+    const auto sum = [](const BeamEchoes& of) {
+        return std::inner_product(of.boxes.weight.begin(), of.boxes.weight.end(),
+                                  of.boxes.intensity.begin(), 0.0);
+    };
+    return {sum(echoes.direct), sum(echoes.multipath)};
+}
+
+Sums sums_of_images(const TracedPing& traced, const Sonar& sonar, const Scene& scene) {
+    const auto sum = [&](const Terms& terms) {
+        const Ping ping = form_image(traced, sonar.settings, scene, {}, terms);
+        return std::accumulate(ping.intensity.begin(), ping.intensity.end(), 0.0);
+    };
+    return {sum(direct_echoes_alone), sum(multipath_alone)};
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("ping");
+
+TEST_CASE("cone labels: a point at azimuth 30, elevation 40 is at the sine of the array") {
+    // sin(a) cos(e) = sin(b): its echo and its labels lie at b = 22.5 degrees.
+    Thing thing;
+    thing.middle = 5.0 * direction_of(radians(30.0), radians(40.0));
+    add_sphere(thing.scene, thing.middle.cast<float>(), 0.01F, add_material(thing.scene, 0.4F));
+    const double sine = std::sin(radians(30.0)) * std::cos(radians(40.0));
+    CHECK(degrees(std::asin(sine)) == doctest::Approx(22.52).epsilon(1e-3));
+    for (const Spacing spacing : spacings) {
+        const Sonar sonar = wide_fan(spacing);
+        const Labelled out = label(thing.scene, sonar, Pose{}, EngineKind::rays);
+        const int beam = beam_at(sonar, sine);
+        const int bin = bin_at(sonar, 4.99);
+        const auto brightest = std::ranges::max_element(out.clean.intensity);
+        const auto at = static_cast<int>(brightest - out.clean.intensity.begin());
+        CHECK(std::abs(at % out.clean.beams - beam) <= 1);
+        CHECK(std::abs(at / out.clean.beams - bin) <= 1);
+        int labelled = 0;
+        for (int j = 0; j < out.labels.beams; ++j) {
+            for (int i = 0; i < out.labels.range_bins; ++i) {
+                if (out.labels.object[out.at(i, j)] == 0) continue;
+                ++labelled;
+                CHECK(std::abs(j - beam) <= 1);
+                CHECK(std::abs(i - bin) <= 1);
+                CHECK(degrees(out.labels.elevation_rad[out.at(i, j)]) ==
+                      doctest::Approx(40.0).epsilon(0.005));
+            }
+        }
+        CHECK(labelled > 0);
+    }
+}
+
+TEST_CASE("cone labels: masks of 500 things lie on their echoes" * doctest::skip(test::sanitized)) {
+    Uniform draw(7);
+    std::array<Sonar, 3> sonars;
+    for (const Spacing spacing : spacings)
+        sonars[static_cast<std::size_t>(spacing)] = wide_fan(spacing);
+    constexpr double noise = 1e-4;  // relative to the brightest bin
+    int measured = 0;
+    for (int n = 0; n < 500; ++n) {
+        CAPTURE(n);
+        const Thing thing = draw_thing(draw);
+        const Sonar& sonar = sonars[static_cast<std::size_t>(n % 3)];
+        const View& view = sonar.settings.view;
+        const auto engine = make_engine(thing.scene, {.type = EngineKind::slices, .octree = {}});
+        const TracedPing traced = trace(sonar, thing.scene, *engine, thing.pose, 0);
+        const SceneObjects objects = group_objects(thing.scene, {});
+        const PingLabels labels =
+            label_ping(traced, sonar.settings, thing.scene, objects, *engine, {.objects = true});
+        std::vector<bool> mask;
+        for (int i = 0; i < view.range_bins; ++i) {
+            for (int j = 0; j < view.beams; ++j)
+                mask.push_back(labels.object[static_cast<std::size_t>(j) * view.range_bins + i] >
+                               0);
+        }
+        // A bin within 3 dB of the noise may count or not.
+        const std::vector<double> by_points = energies_of_points(traced, sonar);
+        const double least = noise * *std::ranges::max_element(by_points);
+        const Box loud = box_above(by_points, 2.0 * least, view.beams);
+        const Box faint = box_above(by_points, 0.5 * least, view.beams);
+        if (loud.bins() < 20 || loud.beams() < 20) continue;  // a bin more or less tells nothing
+        ++measured;
+        const SurfaceEchoes echoes =
+            sonar.settings.model->surface_echoes(traced, view, thing.scene, false);
+        const std::vector<double> by_labels = energies_of_labels(echoes, view);
+        const auto sum = [](const std::vector<double>& of) {
+            return std::accumulate(of.begin(), of.end(), 0.0);
+        };
+        // Both have all of the energy, in another unit.
+        const double unit = sum(by_labels) / sum(by_points);
+        const Box box = box_above(by_labels, unit * least, view.beams, mask);
+        const double o = overlap(box, between(box, loud, faint));
+        CHECK(o >= 0.95);
+        if (o < 0.95) MESSAGE("X ", n, " ", o);
+        const Ping clean =
+            form_image(traced, sonar.settings, thing.scene, {}, without_random_terms);
+        const double quiet = noise * *std::ranges::max_element(clean.intensity);
+        const double here = decibels_in(mask, 0, clean, quiet);
+        for (int shift = 1; shift <= 20; ++shift) {
+            CHECK(here >= decibels_in(mask, shift, clean, quiet));
+            CHECK(here >= decibels_in(mask, -shift, clean, quiet));
+        }
+    }
+    CHECK(measured > 450);
+}
+
+TEST_CASE("cone labels: the shadow of a box lies where rays of its beams are hidden") {
+    // A box on a floor, seen from above under 30 degrees and 25 degrees aside.
+    Scene scene = empty_scene();
+    const std::uint32_t m = add_material(scene, 0.4F);
+    add_floor(scene, 20.0F, -2.0F, m);
+    add_box(scene, {3.0F, 1.3F, -2.0F}, {3.4F, 1.9F, -1.4F}, m);
+    const Pose pose{rotation_from_rpy(0.0, radians(30.0), 0.0), Eigen::Vector3d::Zero()};
+    for (const Spacing spacing : spacings) {
+        const Sonar sonar = wide_fan(spacing);
+        const View& view = sonar.settings.view;
+        const Labelled out = label(scene, sonar, pose, EngineKind::slices);
+        const auto engine = make_engine(scene, {});
+        // Rays even in the sines of the array and of elevation: the box hides what they meet next.
+        std::vector<std::uint8_t> seen(out.labels.size()), hidden(out.labels.size());
+        constexpr int across = 1200;
+        for (int n = 0; n < across; ++n) {
+            std::vector<Ray> rays;
+            const double b = 0.75 * (2.0 * n + 1.0 - across) / across;
+            const int beam = beam_at(sonar, b);
+            if (beam < 0) continue;
+            for (int k = 0; k < across; ++k) {
+                const double c = 0.7 * (2.0 * k + 1.0 - across) / across;
+                if (b * b + c * c >= 1.0) continue;
+                const Eigen::Vector3d to(std::sqrt(1.0 - b * b - c * c), b, c);
+                rays.push_back({Eigen::Vector3f::Zero(), to.cast<float>()});
+            }
+            std::vector<Intersection> met(rays.size());
+            for (int layer = 0; layer < 3; ++layer) {
+                engine->intersect(pose, rays, met);
+                for (std::size_t k = 0; k < rays.size(); ++k) {
+                    const float r = rays[k].origin.norm() + met[k].distance_m;
+                    if (r >= view.range_min_m && r < view.range_max_m)
+                        (layer == 0 ? seen : hidden)[out.at(bin_at(sonar, r), beam)] = 1;
+                    rays[k].origin = rays[k].direction * std::min(r * 1.00001F, 1e3F);
+                }
+            }
+        }
+        int expected = 0, found = 0, both = 0;
+        for (std::size_t k = 0; k < out.labels.size(); ++k) {
+            const bool dark = hidden[k] > 0 && seen[k] == 0;
+            const bool told = out.labels.shadow[k] > 0;
+            expected += dark;
+            found += told;
+            both += dark && told;
+            if (told) CHECK(out.labels.shadow[k] >= 2);  // a side of the box
+        }
+        CHECK(expected > 300);
+        MESSAGE("shadow ", expected, " ", found, " ", both);
+        CHECK(both > 0.95 * std::max(expected, found));
+    }
+}
+
+TEST_CASE("cone labels: the echoes of all kinds have the energies of the image") {
+    // Two planes that mirror sound to each other, as the sides of a roof seen from below, 50
+    // degrees from the view's axis. A sonar's image is its labels' echoes times one factor, direct
+    // or by multipath: of a fan that of its grid, else the pulse's.
+    for (const SonarKind kind :
+         {SonarKind::imaging, SonarKind::sidescan, SonarKind::echosounder, SonarKind::scanning}) {
+        CAPTURE(static_cast<int>(kind));
+        SonarConfig config = calibrated(default_sonar(kind), 3e5);
+        config.name = "x";
+        config.range_max_m = 12.0;
+        config.range_bins = 300;
+        config.multipath.method = MultipathMethod::exact;
+        config.instrument = bare(config.instrument);
+        const bool looks_down = kind == SonarKind::sidescan || kind == SonarKind::echosounder;
+        if (kind == SonarKind::imaging) config.elevation_deg = 60.0;
+        if (kind == SonarKind::sidescan) config.elevation_deg = 4.0;
+        if (kind == SonarKind::echosounder) config.opening_deg = 50.0;
+        if (kind == SonarKind::scanning) {
+            config.azimuth_deg = 8.0;
+            config.sector_deg = config.step_deg = 1.0;
+        }
+        const Sonar sonar = make_sonar(config, {0.02});
+        Scene scene = empty_scene();
+        const std::uint32_t m = add_material(scene, 0.4F);
+        for (const float side : {-1.0F, 1.0F}) {
+            // Along the view's axis, across, and along the ridge.
+            const auto at = [&](float out, float along) -> Eigen::Vector3f {
+                const Eigen::Vector3f p(8.0F - 0.84F * out, side * out, along);
+                return looks_down ? Eigen::Vector3f(p.z(), p.y(), -p.x())
+                                  : Eigen::Vector3f(p.x(), p.z(), p.y());
+            };
+            add_quad(scene, at(0, -4), at(4, -4), at(4, 4), at(0, 4), m);
+        }
+        const auto engine = make_engine(scene, {.type = EngineKind::rays, .octree = {}});
+        const Pose pose;
+        const TracedPing traced = trace(sonar, scene, *engine, pose, 0);
+        const Sums labels = sums_of_labels(traced, sonar, scene);
+        const Sums image = sums_of_images(traced, sonar, scene);
+        REQUIRE(labels.direct > 0.0);
+        REQUIRE(labels.multipath > 0.0);
+        const double factor = image.direct / labels.direct;
+        MESSAGE(factor, " ", image.multipath / labels.multipath);
+        CHECK(image.multipath / labels.multipath == doctest::Approx(factor).epsilon(0.02));
+    }
+}
+
+TEST_SUITE_END();
