@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "calibrated/model.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "core/units.h"
@@ -125,6 +126,17 @@ TEST_SUITE("assembly") {
         Mission even_angles = load(3);
         even_angles.sensors[0].instrument.beam.spread = BeamSpacing::equal_angle;
         CHECK_NOTHROW(assemble(even_angles));
+    }
+
+    TEST_CASE("assemble: calibrated sonars know the scene's materials before the first ping") {
+        const MissionOnDisk disk;
+        const std::vector<std::string> settings{"sensors.fls.model=calibrated"};
+        const Assembly assembly = assemble(disk.load("{file: poses.csv}", settings));
+        const auto& model =
+            dynamic_cast<const CalibratedModel&>(*assembly.sonars[0].settings.model);
+        CHECK(!assembly.scene.materials.empty());
+        CHECK(model.prepared_materials == assembly.scene.materials);
+        CHECK(model.scattering.materials.size() == assembly.scene.materials.size());
     }
 
     TEST_CASE("assemble: the octree refuses a view that its cells cannot hold") {
