@@ -18,12 +18,16 @@ Backscatter backscatter(double lambert_db, double reflection, double slope_rms) 
 }
 
 Backscatter backscatter(const SeafloorScattering& sea_bed) {
+    // Over all directions the specular part is R / 4. A peak that is narrower than the first entry,
+    // a tent of the radius sqrt(2) / steps, has no more than that.
+    constexpr double tent = pi / 3.0 * 2.0 / (AngularTable::steps * AngularTable::steps);
+    const double most = 0.25 * sea_bed.reflection() / tent;
     Backscatter out;
     for (int k = 0; k < AngularTable::size; ++k) {
         const double root = std::min(1.0, static_cast<double>(k) / AngularTable::steps);
         const double grazing_rad = arcsin(1.0 - root * root);
         out.diffuse.push_back(static_cast<float>(sea_bed.diffuse(grazing_rad)));
-        out.specular.push_back(static_cast<float>(sea_bed.specular(grazing_rad)));
+        out.specular.push_back(static_cast<float>(std::min(most, sea_bed.specular(grazing_rad))));
     }
     return out;
 }

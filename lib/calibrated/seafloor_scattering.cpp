@@ -138,8 +138,8 @@ SeafloorScattering::SeafloorScattering(const SeaBed& bed, double wavenumber)
                      (alpha_ * (1.0 - alpha_) * gamma_function(1.0 + alpha_)) *
                      power(wavenumber, 2.0 * (1.0 - alpha_));
     const Complex impedance = bed.density_ratio / root(index2_);
-    const double reflection = std::norm((impedance - 1.0) / (impedance + 1.0));
-    peak_ = b * q * reflection / (8.0 * pi);
+    reflection_ = std::norm((impedance - 1.0) / (impedance + 1.0));
+    peak_ = b * q * reflection_ / (8.0 * pi);
     flatness_ = a * q * q;
     power_ = (1.0 + alpha_) / (2.0 * alpha_);
 
@@ -173,10 +173,9 @@ double SeafloorScattering::perturbation(double grazing_rad) const {
     const double rho = bed_.density_ratio;
     const Complex contrast = (squared((rho - 1.0) * angle.cos) + rho * rho - index2_) /
                              squared(rho * angle.sin + vertical_wavenumber(angle.sin));
-    const double least_k = 0.1;  // rad/m; the spectrum has no pole
-    const double spectrum =
-        bed_.spectral_strength *
-        power(std::max(2.0 * wavenumber_ * angle.cos, least_k), -bed_.spectral_exponent);
+    // The spectrum has no pole at normal incidence.
+    const double horizontal = wavenumber_ * std::max(2.0 * angle.cos, 0.1);
+    const double spectrum = bed_.spectral_strength * power(horizontal, -bed_.spectral_exponent);
     return 4.0 * squared(squared(wavenumber_ * angle.sin)) * std::norm(contrast) * spectrum;
 }
 

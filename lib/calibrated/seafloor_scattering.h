@@ -42,6 +42,8 @@ class SeafloorScattering {
     double diffuse(double grazing_rad) const;
     /// The Kirchhoff integral, near normal incidence.
     double specular(double grazing_rad) const;
+    /// The power reflection coefficient at normal incidence.
+    double reflection() const { return reflection_; }
 
   private:
     /// In the sediment, as a ratio to the wave number in the water.
@@ -56,7 +58,8 @@ class SeafloorScattering {
     SeaBed bed_;
     double wavenumber_;
     std::complex<double> index2_;  ///< square of the wave number in the sediment by that in water
-    double slope_;                 ///< RMS slope along a line of the roughness that is resolved
+    double reflection_;
+    double slope_;  ///< RMS slope along a line of the roughness that is resolved
     /// Kirchhoff's integral is peak / (cos^(4 alpha) + flatness sin^4)^power.
     double alpha_, peak_, flatness_, power_;
     double joint_rad_ = 0.0;  ///< grazing angle where the two parts join

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "calibrated/model.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "core/units.h"
@@ -129,6 +130,17 @@ TEST_SUITE("assembly") {
         CHECK(column_at(sonar, sonar.azimuth_edges_rad[2]) == doctest::Approx(2.0));
         CHECK(column_at(sonar, std::asin(0.5 * (std::sin(between) + 0.5))) == doctest::Approx(2.5));
         CHECK(column_at(sonar, radians(30.0)) == doctest::Approx(3.0));
+    }
+
+    TEST_CASE("assemble: calibrated sonars know the scene's materials before the first ping") {
+        const MissionOnDisk disk;
+        const std::vector<std::string> settings{"sensors.fls.model=calibrated"};
+        const Assembly assembly = assemble(disk.load("{file: poses.csv}", settings));
+        const auto& model =
+            dynamic_cast<const CalibratedModel&>(*assembly.sonars[0].settings.model);
+        CHECK(!assembly.scene.materials.empty());
+        CHECK(model.prepared_materials == assembly.scene.materials);
+        CHECK(model.scattering.materials.size() == assembly.scene.materials.size());
     }
 
     TEST_CASE("assemble: the octree refuses a view that its cells cannot hold") {

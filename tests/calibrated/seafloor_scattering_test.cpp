@@ -102,7 +102,7 @@ Material random_bed(std::mt19937& random) {
     material.density_kg_m3 = by_decades(-9.0, 9.0);
     material.sound_speed_m_s = by_decades(-9.0, 9.0);
     material.loss_parameter = by_decades(-6.0, 0.0);
-    material.spectral_strength_cm4 = by_decades(-6.0, 0.0);
+    material.spectral_strength_cm4 = by_decades(-9.0, 1.0);
     material.spectral_exponent = within(2.4, 3.9);
     material.volume_parameter = within(0.0, 1.0);
     return material;
@@ -276,6 +276,34 @@ TEST_SUITE("calibrated") {
         own = sea_bed_of(material, water);
         CHECK(own.spectral_strength * std::pow(100.0, -3.0) ==
               doctest::Approx(sand.spectral_strength * std::pow(100.0, -3.25)));
+    }
+
+    TEST_CASE("sea bed: however smooth it is, it sends back a quarter of what it reflects") {
+        // The peak of the smoothest is far narrower than an entry of the table.
+        Material smooth = of_grain_size(5.5);
+        for (const double w2_cm4 : {1e-3, 1e-5, 1e-7, 1e-9}) {
+            for (const double exponent : {2.5, 3.25, 3.8}) {
+                smooth.spectral_strength_cm4 = w2_cm4;
+                smooth.spectral_exponent = exponent;
+                for (const double frequency_hz : {1e3, 1e4, 1e5, 1e6}) {
+                    const SeafloorScattering formula(sea_bed_of(smooth, {1000.0, 1500.0}),
+                                                     2.0 * pi * frequency_hz / 1500.0);
+                    const Backscatter bed = backscatter(formula);
+                    double sum = 0.0;
+                    constexpr double step = 1e-4;
+                    for (double theta = 0.5 * step; theta < 0.5 * pi; theta += step) {
+                        const auto sine = static_cast<float>(std::cos(theta));
+                        sum += AngularTable::value(bed.specular, sine) * 2.0 * pi *
+                               std::sin(theta) * step;
+                    }
+                    CAPTURE(w2_cm4);
+                    CAPTURE(exponent);
+                    CAPTURE(frequency_hz);
+                    CHECK(sum < 1.15 * 0.25 * formula.reflection());
+                    CHECK(sum > 0.25 * 0.25 * formula.reflection());
+                }
+            }
+        }
     }
 
     TEST_CASE("sea bed: no legal numbers give a strength that is not finite") {

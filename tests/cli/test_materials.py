@@ -1,8 +1,12 @@
 """Materials: a CSV to fill in, what `inspect` says of them, and units that are not ours."""
 import json
+import pathlib
+import subprocess
 import unittest
 
-from sandbox import Sandbox, box_gltf
+from sandbox import SONARSIM, Sandbox, box_gltf, python_with
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
 class Inspect(Sandbox):
@@ -71,6 +75,32 @@ class Scattering(Sandbox):
             self.assertEqual(told["grazing_deg"], list(range(1, 91)))
             self.assertAlmostEqual(told["strength_db"]["sand"][19], strength, delta=0.1)
             self.assertAlmostEqual(told["strength_db"]["plain"][89], -30, delta=0.001)
+
+    def test_the_tables_in_the_docs(self):
+        """Every row of docs/calibrated.md under `| 100 kHz |` and `| 400 kHz |` is what is printed."""
+        rows = [[cell.strip() for cell in line.strip("|").split("|")]
+                for line in (ROOT / "docs" / "calibrated.md").read_text().splitlines()
+                if line.startswith("|")]
+        for khz in (100, 400):
+            start = [row[0] for row in rows].index(f"{khz} kHz")
+            printed = self.run_sonarsim("materials", str(ROOT / "scenes" / "materials.csv"),
+                                        "--frequency-khz", str(khz)).stdout.splitlines()
+            self.assertEqual(printed[1].split(), rows[start][1:])
+            told = {line.split()[0]: line.split()[1:] for line in printed[2:]}
+            for name, *strengths in rows[start + 2:start + 7]:
+                self.assertEqual(told[name], strengths, f"{name} at {khz} kHz")
+
+    @unittest.skipUnless(python_with("matplotlib"), "needs matplotlib")
+    def test_the_picture_in_the_docs(self):
+        script = ROOT / "scripts" / "plot_scattering.py"
+        done = subprocess.run([python_with("matplotlib"), script, SONARSIM,
+                               ROOT / "scenes" / "materials.csv", self.folder / "picture.svg"],
+                              text=True, capture_output=True, timeout=120, check=False)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        picture = (self.folder / "picture.svg").read_text()
+        for name in ("mud", "silt", "sand", "gravel", "rock", "100 kHz"):
+            self.assertIn(name, picture)
+        self.assertLess(len(picture), 60000)
 
     def test_what_is_refused(self):
         self.write("beds.csv", "material,density_kg_m3,sound_speed_m_s,grain_phi\nsand,1900,1650,12\n")
