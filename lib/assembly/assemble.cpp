@@ -173,6 +173,7 @@ Assembly assemble(const Mission& mission, SceneFiles& models) {
         if (auto prepared = sonar.settings.model->prepared(assembly.scene))
             sonar.settings.model = std::move(prepared);
     }
+    find_targets(assembly.sonars, assembly.scene);
     assembly.inputs = inputs_of(mission);
     assembly.full_scales = find_full_scales(mission, assembly.scene, assembly.trajectory,
                                             assembly.motions, assembly.sonars);

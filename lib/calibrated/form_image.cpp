@@ -1,12 +1,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 
 #include "calibrated/mirrored_echoes.h"
 #include "calibrated/model.h"
 #include "calibrated/scatterer_search.h"
 #include "calibrated/speckle.h"
+#include "calibrated/target_pieces.h"
+#include "calibrated/target_scatterers.h"
 #include "core/clock.h"
+#include "core/elementary.h"
+#include "core/units.h"
 
 namespace sonarsim {
 
@@ -15,6 +20,24 @@ namespace {
 // The factor on the size of patches in range if speckle is drawn for each ping. With it, the
 // expected image of the tank has an error of 1.8 %.
 constexpr float deeper_patches = 2.0F;
+
+std::vector<float> slopes_of(const Scene& scene) {
+    std::vector<float> out;
+    for (const Material& material : scene.materials) {
+        const SinCos slope = sincos(radians(material.slope_rms_deg));
+        out.push_back(static_cast<float>(slope.sin / slope.cos));
+    }
+    return out;
+}
+
+/// The samples of what is no target.
+std::vector<Sample> without_targets(std::span<const Sample> samples, const TargetSurface& targets) {
+    std::vector<Sample> out;
+    out.reserve(samples.size());
+    std::ranges::copy_if(samples, std::back_inserter(out),
+                         [&](const Sample& sample) { return !targets.has(sample.instance); });
+    return out;
+}
 
 /// The steps that form an image, and their common data. `Beams`: ArrayBeams or TransducerBeams.
 template <class Beams>
@@ -30,6 +53,7 @@ class ImageFormer {
           sonar_{traced.T_world_sensor.rotation.toRotationMatrix().cast<float>(),
                  traced.T_world_sensor.translation - context.scene.origin},
           scattering_(model, context.scene),
+          slopes_(slopes_of(context.scene)),
           speckle_(context.terms.random > 0 ? model.speckle : SpeckleMode::none),
           speckle_gain_(model.amplitude_taps.scalloping_gain * scalloping_gain(beams)),
           ping_(ping) {}
@@ -41,13 +65,15 @@ class ImageFormer {
 
         // 1. Sonar equation: surface in view, surface in the guard beams, multipath.
         if (context_.terms.direct) {
-            add_surface(traced.samples.items, grid);
-            add_surface(traced.outside_sector, grid);
+            add_surface(traced.samples.items, traced.targets, grid);
+            add_surface(traced.outside_sector, traced.targets, grid);
+            if (of_powers) add_target_powers(traced.targets, grid);
         }
         if (context_.terms.multipath) add_multipath(specular_paths(traced, context_.scene), grid);
 
         // 2. Speckle. With `speckle: scene` the amplitudes of step 1 already have it.
         if (speckle_ == SpeckleMode::ping) draw_speckle(grid, speckle_gain_, ping_draws_);
+        if (context_.terms.direct && !of_powers) add_target_amplitudes(traced.targets, grid);
 
         // 3. Pulse.
         ping_.counts.occupied_bins =
@@ -67,6 +93,13 @@ class ImageFormer {
         ping_.counts.out_of_range += find_columns(beams_, patches, echoes_);
         if (speckle_ != SpeckleMode::none)
             add_clutter(patches, model_.clutter, sonar_, scene_draws_, echoes_);
+    }
+
+    /// Adds the echoes of a surface without its targets.
+    void add_surface(std::span<const Sample> surface, const TargetSurface& targets,
+                     EchoGrid& grid) {
+        if (targets.instances.empty()) return add_surface(surface, grid);
+        add_surface(without_targets(surface, targets), grid);
     }
 
     /// Adds the echoes of a surface to the grid: with `speckle: scene` the amplitudes of its
@@ -92,6 +125,46 @@ class ImageFormer {
         });
     }
 
+    /// Hands the echoes of targets to `use`, a block of pieces at a time.
+    template <class Use>
+    void find_targets(const TargetSurface& targets, Use use) {
+        // Pieces that are joined to a cell need not be smaller than it.
+        const TargetCells& cells = model_.target_cells;
+        const PointLimits limits =
+            speckle_ == SpeckleMode::none
+                ? model_.limits
+                : PointLimits{cells.depth_m, cells.sine_y,
+                              cells.sine_z > 0.0F ? cells.sine_z : model_.limits.elevation_sine};
+        TargetPieces pieces;
+        cut_targets(targets.facets, limits, slopes_, pieces, [&](const TargetPieces& cut) {
+            ping_.counts.echoes += cut.points.count;
+            ping_.counts.out_of_range +=
+                apply_sonar_equation(cut.points, *scattering_, model_.equation, echoes_);
+            use(cut);
+        });
+    }
+
+    void add_target_powers(const TargetSurface& targets, EchoGrid& grid) {
+        find_targets(targets, [&](const TargetPieces& cut) {
+            ping_.counts.out_of_range += find_columns(beams_, cut.points, echoes_);
+            add_powers(beams_, cut.points, echoes_, grid);
+        });
+    }
+
+    void add_target_amplitudes(const TargetSurface& targets, EchoGrid& grid) {
+        TargetScatterers scatterers;
+        find_targets(targets, [&](const TargetPieces& cut) {
+            scatterers.add(cut, echoes_, targets.facets, slopes_);
+        });
+        scatterers.finish(
+            model_.target_cells, model_.equation,
+            speckle_ == SpeckleMode::ping ? ping_draws_ : scene_draws_,
+            [&](const PatchBlock& points, PointEchoes& echoes, const Amplitudes& amplitudes) {
+                ping_.counts.out_of_range += find_columns(beams_, points, echoes);
+                add_amplitudes(beams_, points, echoes, amplitudes, grid);
+            });
+    }
+
     /// Adds the echoes of the specular paths. With `speckle: scene` their amplitudes are drawn for
     /// each ping: their phase depends on the shape of the reflector to a fraction of a wavelength,
     /// and no mesh is as exact as that.
@@ -115,6 +188,7 @@ class ImageFormer {
     PhiloxKey scene_draws_, ping_draws_;
     SonarInScene sonar_;
     ScatteringOfScene scattering_;
+    std::vector<float> slopes_;
     SpeckleMode speckle_;
     float speckle_gain_;  ///< restores the mean power where the grid's cells draw the speckle
     PointEchoes echoes_;

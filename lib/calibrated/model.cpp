@@ -61,6 +61,27 @@ PointLimits point_limits(const BeamConfig& beam, const View& view,
     return limits;
 }
 
+/// A resolution cell, or less where the pattern of a transducer bends within it.
+TargetCells target_cells(const BeamConfig& beam, double resolution_m, double wavelength_m) {
+    TargetCells cells{.depth_m = static_cast<float>(resolution_m),
+                      .turns_per_m = 2.0 / wavelength_m};
+    const auto width = static_cast<float>(radians(beam.width_deg));
+    switch (beam.aperture) {
+        case Aperture::line:
+        case Aperture::head:
+            cells.sine_y = width;
+            break;
+        case Aperture::port_starboard:
+            cells.sine_y = 0.25F * static_cast<float>(radians(beam.across_width_deg));
+            cells.sine_z = width;
+            break;
+        case Aperture::piston:
+            cells.sine_y = cells.sine_z = 0.25F * width;
+            break;
+    }
+    return cells;
+}
+
 }  // namespace
 
 CalibratedModel calibrated_model(const InstrumentConfig& instrument, const WaterConfig& water,
@@ -112,6 +133,8 @@ CalibratedModel calibrated_model(const InstrumentConfig& instrument, const Water
                                                      beam.elevation_side_lobe_db)};
     model.cells = scatterer_cells(instrument.speckle.per_cell, std::max(resolution_m, 0.5 * bin_m),
                                   radians(beam.width_deg), view.range_min_m, model.wavelength_m);
+    model.target_cells =
+        target_cells(beam, std::max(resolution_m, 0.5 * bin_m), model.wavelength_m);
     model.row_gain = row_gains(receiver, model.levels, view, model.absorption_db_per_m, raised_db);
     return model;
 }

@@ -11,6 +11,7 @@
 #include "calibrated/scatterers.h"
 #include "calibrated/sonar_equation.h"
 #include "calibrated/specular_path.h"
+#include "calibrated/target_scatterers.h"
 #include "calibrated/transducer_beams.h"
 #include "core/pose.h"
 #include "mission/mission.h"
@@ -28,6 +29,7 @@ struct CalibratedModel final : EchoModel {
     SonarEquation equation;
     PointLimits limits;  ///< for pieces that are not scatterers of the scene
     ScattererCells cells;
+    TargetCells target_cells;
     Clutter clutter;
     RangeTaps amplitude_taps, power_taps;
     std::variant<TransducerBeams, ArrayBeams> beams;

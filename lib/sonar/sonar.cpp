@@ -1,5 +1,8 @@
 #include "sonar/sonar.h"
 
+#include <algorithm>
+#include <memory>
+
 #include "mission/ping_draws.h"
 #include "sonar/kinds.h"
 #include "sonar/setup.h"
@@ -20,6 +23,15 @@ Sonar make_sonar(const KindOfSonar& kind, const SonarConfig& config, const Accur
     settings.guard_beams = settings.model->guard_beams();
     settings.multipath.scattered = settings.model->needs_scattered_paths();
     return sonar;
+}
+
+void find_targets(std::span<Sonar> sonars, const Scene& scene) {
+    const auto needs = [](const Sonar& sonar) { return sonar.settings.model->energies_add(); };
+    if (std::ranges::none_of(sonars, needs)) return;
+    const std::shared_ptr<const TargetShapes> targets = find_target_shapes(scene);
+    for (Sonar& sonar : sonars) {
+        if (needs(sonar)) sonar.settings.targets = targets;
+    }
 }
 
 std::optional<Sonar> drawn_sonar(const Mission& mission, const Sonar& sonar, std::uint32_t pose) {

@@ -1,11 +1,14 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "core/pose.h"
 #include "scene/scene.h"
 #include "trace/counters.h"
 #include "trace/multipath.h"
+#include "trace/target_shapes.h"
+#include "trace/target_surface.h"
 #include "trace/terms.h"
 #include "trace/visible_surface.h"
 #include "visibility/engine.h"
@@ -17,6 +20,8 @@ struct TraceSettings {
     View view;
     GuardBeams guard_beams;
     Multipath multipath;
+    /// Objects that the trace samples itself where an engine's samples cannot; null: none.
+    std::shared_ptr<const TargetShapes> targets;
 };
 
 /// The surface that a sonar insonified from one pose. It holds no noise: any number of images may
@@ -25,6 +30,7 @@ struct TracedPing {
     Pose T_world_sensor;
     Samples samples;                     ///< the visible surface
     std::vector<Sample> outside_sector;  ///< the visible surface in the guard beams
+    TargetSurface targets;               ///< takes the place of the samples of its instances
     std::vector<BouncePath> bounces;     ///< multipath paths from `samples`
     PingCounts counts;
     PingSeconds seconds;

@@ -85,6 +85,9 @@ class VisibilityEngine {
         throw std::logic_error("this engine does not know of bodies that move");
     }
 
+    /// The poses of Scene::bodies that at() was given; empty without them. World.
+    virtual std::span<const Pose> body_poses() const { return {}; }
+
     /// The engine with everything ready that visible_surface() needs for these sights, so that
     /// these calls take no locks. It must not outlive this engine. Null if there is nothing to make
     /// ready.

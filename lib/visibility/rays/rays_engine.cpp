@@ -49,6 +49,8 @@ class RaysEngine final : public VisibilityEngine {
                                             T_world_body);
     }
 
+    std::span<const Pose> body_poses() const override { return T_world_body_; }
+
   private:
     Eigen::Vector3d origin_;
     Caster caster_;

@@ -1,0 +1,125 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <span>
+
+#include "calibrated/patches.h"
+#include "trace/cut_triangle.h"
+#include "trace/target_surface.h"
+
+// The highlight of a smooth curved surface. With incidence angles t off the normal and facets of
+// RMS slope s, a sphere of radius a sends back
+//
+//     integral of R / (8 pi s^2 cos^4 t) exp(-tan^2 t / (2 s^2)) dA,   dA = 2 pi a^2 sin t dt.
+//
+// With u = tan t it is R a^2 / (4 s^2) times the integral of u sqrt(1 + u^2) exp(-u^2 / (2 s^2))
+// du, that is R a^2 / 4 (1 + s^2 + ...): the target strength 20 log(a / 2) + 10 log R for any small
+// slope. The highlight has the size a s. Any surface with two radii of curvature likewise gives
+// R a b / 4: area counts by how fast the normal turns in it.
+//
+// A mesh of flat triangles whose normals n = sum w_i n_i are interpolated has that area if each
+// piece counts by more than its own. On a sphere the corners' normals point along the corners, so
+// n / |n| points along the piece's place p in the triangle, |p| = a |n|. Seen from the centre, the
+// piece dA of the triangle, whose normal is N, covers the solid angle (N . n / |n|) dA / |p|^2,
+// which on the sphere has the area
+//
+//     dA (N . n / |n|) / |n|^2,   at the place p + a (1 - |n|) n / |n|.
+//
+// On a cylinder of k sides this is too much by up to 1 / cos(pi / k), 0.15 dB at 12 sides.
+
+namespace sonarsim {
+
+/// Facets further off the direction to the sonar than this many slopes send back nothing: 54 dB
+/// less than at its middle.
+inline constexpr float highlight_slopes = 5.0F;
+
+/// Pieces of targets, and the facets that they are parts of.
+struct TargetPieces {
+    PatchBlock points;
+    PatchBlock::Array<std::uint32_t> facet{};  ///< index into TargetSurface::facets
+};
+
+/// The size of an edge of a piece, 1 if it is small enough: the piece is a point to the beams and
+/// bins, and, where the facet may send back a highlight, the normal turns by at most 0.7 slopes
+/// in it.
+class PieceSize {
+  public:
+    PieceSize(const TargetFacet& facet, const PointLimits& limits, float slope) {
+        constexpr float turn_by_slope = 0.7F;
+        const FacetTurn turn(facet);
+        if (slope > 0.0F && turn.least <= highlight_slopes * slope) {
+            turn_u_ = turn.along_u / (turn_by_slope * slope);
+            turn_v_ = turn.along_v / (turn_by_slope * slope);
+        }
+        const Arrival arrival = arrival_of(facet.corners[0]);
+        const auto by_limits = [&](const Eigen::Vector3f& edge) -> Eigen::Vector3f {
+            const float depth = edge.dot(arrival.direction);
+            const auto per = [&](float limit, float scale) {
+                return limit > 0.0F ? scale / limit : 0.0F;
+            };
+            const float per_range = 1.0F / arrival.range_m;
+            return {
+                depth * per(limits.depth_m, 1.0F),
+                (edge.y() - depth * arrival.direction.y()) * per(limits.sine, per_range),
+                (edge.z() - depth * arrival.direction.z()) * per(limits.elevation_sine, per_range)};
+        };
+        limits_u_ = by_limits(facet.corners[1] - facet.corners[0]);
+        limits_v_ = by_limits(facet.corners[2] - facet.corners[0]);
+    }
+
+    float operator()(float u, float v) const {
+        const Eigen::Vector3f by_limits = u * limits_u_ + v * limits_v_;
+        const float turn = (u * turn_u_ + v * turn_v_).norm();
+        return std::max(by_limits.cwiseAbs().maxCoeff(), turn);
+    }
+
+  private:
+    Eigen::Vector3f limits_u_, limits_v_;  ///< edges by the limits: in range, across, in elevation
+    Eigen::Vector3f turn_u_ = Eigen::Vector3f::Zero();
+    Eigen::Vector3f turn_v_ = Eigen::Vector3f::Zero();
+};
+
+/// Cuts facets into pieces and hands these to `use`, a block at a time. `slopes`: RMS slopes of the
+/// materials' facets.
+template <class Use>
+void cut_targets(std::span<const TargetFacet> facets, const PointLimits& limits,
+                 std::span<const float> slopes, TargetPieces& pieces, Use use) {
+    PatchBlock& points = pieces.points;
+    points.count = 0;
+    for (std::uint32_t f = 0; f < facets.size(); ++f) {
+        const TargetFacet& facet = facets[f];
+        const Eigen::Vector3f u = facet.corners[1] - facet.corners[0];
+        const Eigen::Vector3f v = facet.corners[2] - facet.corners[0];
+        const Eigen::Vector3f n_u = facet.normals[1] - facet.normals[0];
+        const Eigen::Vector3f n_v = facet.normals[2] - facet.normals[0];
+        const float area = 0.5F * u.cross(v).norm();
+        const PieceSize size(facet, limits, slopes[facet.material]);
+        cut_triangle(size, [&](const TrianglePart& part) {
+            const auto [s, t] = part.centroid;
+            if (points.count == PatchBlock::most) {
+                use(pieces);
+                points.count = 0;
+            }
+            const int at = points.count++;
+            const Eigen::Vector3f n = facet.normals[0] + s * n_u + t * n_v;
+            const float length = n.norm();
+            const Eigen::Vector3f unit = n / length;
+            const Eigen::Vector3f place =
+                facet.corners[0] + s * u + t * v + facet.curvature_m * (1.0F - length) * unit;
+            points.x[at] = place.x();
+            points.y[at] = place.y();
+            points.z[at] = place.z();
+            points.area_m2[at] =
+                part.share * area * std::max(facet.normal.dot(unit), 0.0F) / (length * length);
+            points.height_m[at] = std::max(-place.dot(unit), 0.0F);
+            points.material[at] = facet.material;
+            pieces.facet[at] = f;
+        });
+    }
+    if (points.count > 0) use(pieces);
+}
+
+}  // namespace sonarsim

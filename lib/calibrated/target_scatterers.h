@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "calibrated/sonar_equation.h"
+#include "calibrated/target_pieces.h"
+#include "core/random.h"
+
+namespace sonarsim {
+
+/// The size in which the pieces of a target are joined to scatterers; 0: any size.
+struct TargetCells {
+    float depth_m = 0.0F;      ///< in range
+    float sine_y = 0.0F;       ///< y / range
+    float sine_z = 0.0F;       ///< z / range
+    double turns_per_m = 0.0;  ///< two-way phase: 2 / wavelength
+};
+
+/// Joins the echoes of pieces to scatterers, each with one phase.
+///
+/// The pieces of one smooth surface of a target that lie within a resolution cell make one
+/// scatterer. The cells are counted from the middle of the highlight, where facets face the sonar.
+/// So a highlight smaller than a cell is one scatterer, at its place, with the highlight's energy,
+/// and does not flicker as the sonar moves. The scatterers of a larger highlight, and those of
+/// other surface, have exponential strengths, with all shades between the two. A scatterer keeps
+/// its phase and its draw from ping to ping.
+class TargetScatterers {
+  public:
+    using ScattererUse = std::function<void(const PatchBlock&, PointEchoes&, Amplitudes&)>;
+
+    /// Adds the echoes of a block of pieces.
+    void add(const TargetPieces& pieces, const PointEchoes& echoes,
+             std::span<const TargetFacet> facets, std::span<const float> slopes);
+
+    /// Hands the scatterers to `use`, a block at a time, with their amplitudes and all of the
+    /// echoes but the columns.
+    void finish(const TargetCells& cells, const SonarEquation& equation, PhiloxKey key,
+                const ScattererUse& use);
+
+  private:
+    struct Echo {
+        std::uint32_t instance, region;
+        Eigen::Vector3f place;
+        float range_m, power;
+        bool highlight;
+    };
+    /// The echoes of one smooth surface, and the middle of its highlight.
+    struct Surface {
+        std::size_t first, end;
+        Eigen::Vector3f middle;
+        float range_m;
+        float highlight_power;
+    };
+    Surface surface_from(std::size_t first) const;
+
+    std::vector<Echo> echoes_;
+};
+
+}  // namespace sonarsim

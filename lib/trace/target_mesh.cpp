@@ -1,0 +1,267 @@
+#include "trace/target_mesh.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <unordered_map>
+#include <utility>
+
+namespace sonarsim {
+
+namespace {
+
+// The cosine of 30 degrees, between the normals of two triangles that meet.
+constexpr float crease_cosine = 0.8660254F;
+// Meshes of curved surfaces have neighbours of about equal size.
+constexpr float most_height_ratio = 5.0F;
+// Vertices closer than this share of the object's size are one.
+constexpr float weld_share = 1e-5F;
+
+using Corners = std::array<std::uint32_t, 3>;
+
+/// Sets of numbers that are joined two at a time.
+class Joined {
+  public:
+    explicit Joined(std::size_t size) : parent_(size) {
+        std::iota(parent_.begin(), parent_.end(), 0U);
+    }
+    std::uint32_t of(std::uint32_t k) {
+        while (parent_[k] != k)
+            k = parent_[k] = parent_[parent_[k]];
+        return k;
+    }
+    void join(std::uint32_t a, std::uint32_t b) { parent_[of(a)] = of(b); }
+
+  private:
+    std::vector<std::uint32_t> parent_;
+};
+
+void find_ball(std::span<const Eigen::Vector3f> vertices, std::span<const Corners> triangles,
+               TargetShape& shape) {
+    Eigen::AlignedBox3f box;
+    for (const Corners& triangle : triangles) {
+        for (const std::uint32_t corner : triangle)
+            box.extend(vertices[corner]);
+    }
+    shape.centre = box.center();
+    for (const Corners& triangle : triangles) {
+        for (const std::uint32_t corner : triangle)
+            shape.radius_m = std::max(shape.radius_m, (vertices[corner] - shape.centre).norm());
+    }
+}
+
+/// Gives corners at one place one number. Files repeat vertices at seams of their textures.
+void weld(std::span<const Eigen::Vector3f> vertices, std::vector<Corners>& triangles,
+          TargetShape& shape) {
+    const float per_cell = 1.0F / (weld_share * std::max(shape.radius_m, 1e-6F));
+    std::unordered_map<std::uint64_t, std::uint32_t> known;
+    const auto number_of = [&](const Eigen::Vector3f& p) {
+        std::uint64_t cell = 0;
+        for (int axis = 0; axis < 3; ++axis) {
+            const long at = std::lround((p[axis] - shape.centre[axis]) * per_cell);
+            cell = cell << 21U | (static_cast<std::uint64_t>(at) & 0x1FFFFFU);
+        }
+        const auto [place, is_new] =
+            known.try_emplace(cell, static_cast<std::uint32_t>(shape.vertices.size()));
+        if (is_new) shape.vertices.push_back(p);
+        return place->second;
+    };
+    for (Corners& triangle : triangles) {
+        for (std::uint32_t& corner : triangle)
+            corner = number_of(vertices[corner]);
+    }
+}
+
+Eigen::Vector3d cross_of(const TargetShape& shape, const Corners& c) {
+    const Eigen::Vector3d a = shape.vertices[c[0]].cast<double>();
+    return (shape.vertices[c[1]].cast<double>() - a).cross(shape.vertices[c[2]].cast<double>() - a);
+}
+
+/// Adds the triangles to the shape: each once, none without area. A triangle that is there twice,
+/// with its two sides, is one surface and has one echo.
+void add_triangles(const std::vector<Corners>& triangles, std::span<const std::uint32_t> materials,
+                   TargetShape& shape) {
+    std::vector<std::pair<Corners, std::size_t>> sorted;
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+        Corners c = triangles[t];
+        std::ranges::sort(c);
+        sorted.emplace_back(c, t);
+    }
+    std::ranges::sort(sorted);
+    std::vector<bool> kept(triangles.size(), true);
+    for (std::size_t k = 1; k < sorted.size(); ++k) {
+        if (sorted[k].first == sorted[k - 1].first) kept[sorted[k].second] = false;
+    }
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+        const Corners& corners = triangles[t];
+        const Eigen::Vector3d cross = cross_of(shape, corners);
+        if (!kept[t] || !(cross.norm() > 0.0)) continue;
+        const Eigen::Vector3f normal = cross.normalized().cast<float>();
+        shape.triangles.push_back({.corners = corners,
+                                   .normals = {normal, normal, normal},
+                                   .normal = normal,
+                                   .curvature_m = 0.0F,
+                                   .material = materials[t],
+                                   .region = 0});
+    }
+}
+
+/// A side of a triangle, from corner `side` to the next.
+struct MeshEdge {
+    std::uint32_t low, high;  ///< vertices
+    std::uint32_t triangle;
+    std::uint32_t side;
+    bool forward;  ///< from the low vertex to the high one
+};
+
+std::vector<MeshEdge> sorted_edges(const TargetShape& shape) {
+    std::vector<MeshEdge> edges;
+    for (std::uint32_t t = 0; t < shape.triangles.size(); ++t) {
+        const Corners& c = shape.triangles[t].corners;
+        for (std::uint32_t side = 0; side < 3; ++side) {
+            const std::uint32_t from = c[side];
+            const std::uint32_t to = c[(side + 1) % 3];
+            edges.push_back({std::min(from, to), std::max(from, to), t, side, from < to});
+        }
+    }
+    std::ranges::stable_sort(edges, {}, [](const MeshEdge& e) { return std::pair(e.low, e.high); });
+    return edges;
+}
+
+/// The distance of a triangle's third corner from one of its sides.
+float height_over(const TargetShape& shape, const MeshEdge& edge) {
+    const Corners& c = shape.triangles[edge.triangle].corners;
+    const Eigen::Vector3f along =
+        (shape.vertices[edge.high] - shape.vertices[edge.low]).normalized();
+    const Eigen::Vector3f to = shape.vertices[c[(edge.side + 2) % 3]] - shape.vertices[edge.low];
+    return (to - to.dot(along) * along).norm();
+}
+
+bool is_smooth(const TargetShape& shape, const MeshEdge& a, const MeshEdge& b) {
+    const float cosine = shape.triangles[a.triangle].normal.dot(shape.triangles[b.triangle].normal);
+    const float of_a = height_over(shape, a);
+    const float of_b = height_over(shape, b);
+    return cosine >= crease_cosine && of_a < most_height_ratio * of_b &&
+           of_b < most_height_ratio * of_a;
+}
+
+/// The pairs of triangles that share an edge, from sorted edges; `use` gets both sides of it. Edges
+/// of one triangle, of three or more, and those whose triangles wind in different senses are left
+/// out. Returns whether there are none of these.
+template <class Use>
+bool each_shared_edge(const std::vector<MeshEdge>& edges, Use use) {
+    bool all = true;
+    for (std::size_t k = 0; k < edges.size();) {
+        std::size_t end = k + 1;
+        while (end < edges.size() && edges[end].low == edges[k].low &&
+               edges[end].high == edges[k].high)
+            ++end;
+        const bool pair = end == k + 2 && edges[k].forward != edges[k + 1].forward;
+        if (pair) use(edges[k], edges[k + 1]);
+        all = all && pair;
+        k = end;
+    }
+    return all;
+}
+
+/// Turns the normals of each closed part of a closed mesh outwards: its volume is positive then.
+void turn_outwards(TargetShape& shape, const std::vector<MeshEdge>& edges) {
+    Joined parts(shape.triangles.size());
+    each_shared_edge(
+        edges, [&](const MeshEdge& a, const MeshEdge& b) { parts.join(a.triangle, b.triangle); });
+    std::vector<double> volume(shape.triangles.size(), 0.0);
+    for (std::uint32_t t = 0; t < shape.triangles.size(); ++t) {
+        const Corners& c = shape.triangles[t].corners;
+        volume[parts.of(t)] +=
+            cross_of(shape, c).dot((shape.vertices[c[0]] - shape.centre).cast<double>());
+    }
+    for (std::uint32_t t = 0; t < shape.triangles.size(); ++t) {
+        TargetTriangle& triangle = shape.triangles[t];
+        if (volume[parts.of(t)] >= 0.0) continue;
+        triangle.normal = -triangle.normal;
+        for (Eigen::Vector3f& normal : triangle.normals)
+            normal = -normal;
+    }
+}
+
+/// The normal of a triangle times its weight at a corner with the edges a and b: a x b / (|a|^2
+/// |b|^2). On a sphere the sum over the triangles around a vertex has exactly the sphere's
+/// direction, however the sphere is cut (N. Max, "Weights for computing vertex normals from facet
+/// normals", Journal of Graphics Tools 4 (1999), 1-6).
+Eigen::Vector3f weighted_normal(const TargetShape& shape, const TargetTriangle& triangle,
+                                int corner) {
+    const Corners& c = triangle.corners;
+    const Eigen::Vector3f p = shape.vertices[c[corner]];
+    const Eigen::Vector3f a = shape.vertices[c[(corner + 1) % 3]] - p;
+    const Eigen::Vector3f b = shape.vertices[c[(corner + 2) % 3]] - p;
+    const float least = 1e-30F;
+    const float edges2 = std::max(a.squaredNorm() * b.squaredNorm(), least);
+    return a.cross(b).norm() / edges2 * triangle.normal;
+}
+
+/// The radius R of the sphere or cylinder that fits best: along an edge the normal turns by the
+/// edge over R.
+float curvature_of(const TargetShape& shape, const TargetTriangle& triangle) {
+    float along = 0.0F;
+    float turned2 = 0.0F;
+    for (int k = 0; k < 3; ++k) {
+        const int next = (k + 1) % 3;
+        const Eigen::Vector3f turn = triangle.normals[next] - triangle.normals[k];
+        along +=
+            turn.dot(shape.vertices[triangle.corners[next]] - shape.vertices[triangle.corners[k]]);
+        turned2 += turn.squaredNorm();
+    }
+    return turned2 > 1e-8F ? along / turned2 : 0.0F;
+}
+
+/// Sets the normals at corners: weighted means over the triangles that join smoothly there.
+void bend(TargetShape& shape, const std::vector<MeshEdge>& edges) {
+    Joined regions(shape.triangles.size());
+    Joined corners(3 * shape.triangles.size());
+    each_shared_edge(edges, [&](const MeshEdge& a, const MeshEdge& b) {
+        if (!is_smooth(shape, a, b)) return;
+        regions.join(a.triangle, b.triangle);
+        const auto corner = [](const MeshEdge& edge, bool low) {
+            const bool first = edge.forward == low;
+            return 3 * edge.triangle + (first ? edge.side : (edge.side + 1) % 3);
+        };
+        corners.join(corner(a, true), corner(b, true));
+        corners.join(corner(a, false), corner(b, false));
+    });
+    std::vector<Eigen::Vector3f> sum(3 * shape.triangles.size(), Eigen::Vector3f::Zero());
+    for (std::uint32_t t = 0; t < shape.triangles.size(); ++t) {
+        for (int k = 0; k < 3; ++k)
+            sum[corners.of(3 * t + k)] += weighted_normal(shape, shape.triangles[t], k);
+    }
+    for (std::uint32_t t = 0; t < shape.triangles.size(); ++t) {
+        TargetTriangle& triangle = shape.triangles[t];
+        triangle.region = regions.of(t);
+        for (int k = 0; k < 3; ++k) {
+            const Eigen::Vector3f mean = sum[corners.of(3 * t + k)].normalized();
+            // At the tip of a cone no normal stands for all of its sides.
+            if (mean.dot(triangle.normal) >= crease_cosine) triangle.normals[k] = mean;
+        }
+        triangle.curvature_m = curvature_of(shape, triangle);
+    }
+}
+
+}  // namespace
+
+TargetShape target_shape(const TargetMesh& mesh) {
+    TargetShape shape;
+    std::vector<Corners> triangles = mesh.triangles;
+    find_ball(mesh.vertices, triangles, shape);
+    weld(mesh.vertices, triangles, shape);
+    add_triangles(triangles, mesh.materials, shape);
+    const std::vector<MeshEdge> edges = sorted_edges(shape);
+    shape.closed = each_shared_edge(edges, [](const MeshEdge&, const MeshEdge&) {});
+    if (shape.closed) turn_outwards(shape, edges);
+    bend(shape, edges);
+    for (const TargetTriangle& triangle : shape.triangles)
+        shape.curvature_m = std::max(shape.curvature_m, std::fabs(triangle.curvature_m));
+    shape.curvature_m = std::min(shape.curvature_m, shape.radius_m);
+    return shape;
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace sonarsim {
+
+/// A triangle of an object, as part of the curved surface that its mesh stands for.
+struct TargetTriangle {
+    std::array<std::uint32_t, 3> corners;    ///< indices into TargetShape::vertices
+    std::array<Eigen::Vector3f, 3> normals;  ///< unit, of the curved surface at the corners
+    Eigen::Vector3f normal;                  ///< unit, of the triangle, on the same side
+    float curvature_m;                       ///< radius of curvature, negative if hollow; 0: flat
+    std::uint32_t material;                  ///< index into Scene::materials
+    std::uint32_t region;                    ///< triangles that join smoothly have one number
+};
+
+/// The surface of an object, in its own frame.
+struct TargetShape {
+    std::vector<Eigen::Vector3f> vertices;  ///< m
+    std::vector<TargetTriangle> triangles;
+    Eigen::Vector3f centre = Eigen::Vector3f::Zero();  ///< centre of a ball around it
+    float radius_m = 0.0F;                             ///< radius of that ball
+    /// Greatest radius of curvature of its triangles; 0: it has flat faces alone.
+    float curvature_m = 0.0F;
+    bool closed = false;  ///< normals point outwards, and the back of a triangle is never seen
+};
+
+/// The triangles of an object by their corners and materials.
+struct TargetMesh {
+    std::span<const Eigen::Vector3f> vertices;
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    std::vector<std::uint32_t> materials;
+};
+
+/// Normals are interpolated over edges at which two triangles meet at less than 30 degrees, so a
+/// coarse mesh of a sphere is a sphere, and a cube keeps its faces. An edge is a crease nonetheless
+/// if one of the triangles reaches much further off it than the other: a large face beside a narrow
+/// bevel is flat. Triangles that occur twice are kept once.
+TargetShape target_shape(const TargetMesh& mesh);
+
+}  // namespace sonarsim

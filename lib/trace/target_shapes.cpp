@@ -1,0 +1,104 @@
+#include "trace/target_shapes.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <map>
+#include <span>
+#include <utility>
+
+#include "core/elementary.h"
+#include "core/groups.h"
+#include "core/units.h"
+
+namespace sonarsim {
+
+namespace {
+
+// With more triangles an object would take longer than the rest of a ping.
+constexpr std::size_t most_target_triangles = 20'000;
+constexpr float most_target_radius_m = 5.0F;
+
+/// Adds the shape of a mesh, if it may be a target, and returns its index.
+std::optional<std::uint32_t> add_shape(const TargetMesh& mesh, float scale, TargetShapes& out) {
+    if (mesh.triangles.empty() || mesh.triangles.size() > most_target_triangles)
+        return std::nullopt;
+    Eigen::AlignedBox3f box;
+    for (const auto& triangle : mesh.triangles) {
+        for (const std::uint32_t corner : triangle)
+            box.extend(mesh.vertices[corner]);
+    }
+    if (0.5F * scale * box.diagonal().norm() > most_target_radius_m) return std::nullopt;
+    out.shapes.push_back(target_shape(mesh));
+    return static_cast<std::uint32_t>(out.shapes.size() - 1);
+}
+
+void add_instances(const Scene& scene, TargetShapes& out) {
+    const Groups groups = sort_into_groups(scene.triangle_instance, scene.instances.size());
+    for (std::uint32_t instance = 0; instance < scene.instances.size(); ++instance) {
+        const std::span<const std::uint32_t> triangles(
+            groups.items.data() + groups.begin[instance],
+            groups.items.data() + groups.begin[instance + 1]);
+        if (triangles.size() > most_target_triangles) continue;
+        TargetMesh mesh{.vertices = scene.vertices, .triangles = {}, .materials = {}};
+        for (const std::uint32_t t : triangles) {
+            mesh.triangles.push_back(scene.triangles[t]);
+            mesh.materials.push_back(scene.triangle_material[t]);
+        }
+        const std::optional<std::uint32_t> shape = add_shape(mesh, 1.0F, out);
+        if (shape) out.placed.push_back({*shape, instance, {}, Eigen::Affine3f::Identity()});
+    }
+}
+
+void add_bodies(const Scene& scene, TargetShapes& out) {
+    for (std::uint32_t k = 0; k < scene.bodies.size(); ++k) {
+        const Body& body = scene.bodies[k];
+        const std::optional<std::uint32_t> shape =
+            add_shape({body.vertices, body.triangles, body.triangle_material}, 1.0F, out);
+        if (shape) out.placed.push_back({*shape, body.instance, k, Eigen::Affine3f::Identity()});
+    }
+}
+
+void add_copies(const Scene& scene, TargetShapes& out) {
+    std::map<std::uint32_t, std::optional<std::uint32_t>> shape_of_mesh;
+    for (const MeshCopy& copy : scene.copies) {
+        const auto [place, is_new] = shape_of_mesh.try_emplace(copy.mesh);
+        const auto scale = static_cast<float>(copy.T_world_mesh.linear().col(0).norm());
+        if (is_new) {
+            const SharedMesh& mesh = scene.shared_meshes[copy.mesh];
+            place->second =
+                add_shape({mesh.vertices, mesh.triangles, mesh.triangle_material}, 0.0F, out);
+        }
+        if (!place->second || scale * out.shapes[*place->second].radius_m > most_target_radius_m)
+            continue;
+        Eigen::Affine3d T_local_mesh = copy.T_world_mesh;
+        T_local_mesh.translation() -= scene.origin;
+        out.placed.push_back({*place->second, copy.instance, {}, T_local_mesh.cast<float>()});
+    }
+}
+
+float least_slope(std::span<const Material> materials, const TargetShape& shape) {
+    float least = 1.0F;
+    for (const TargetTriangle& triangle : shape.triangles) {
+        const SinCos slope = sincos(radians(materials[triangle.material].slope_rms_deg));
+        if (slope.sin > 0.0) least = std::min(least, static_cast<float>(slope.sin / slope.cos));
+    }
+    return least;
+}
+
+}  // namespace
+
+std::shared_ptr<const TargetShapes> find_target_shapes(const Scene& scene) {
+    auto out = std::make_shared<TargetShapes>();
+    add_instances(scene, *out);
+    add_bodies(scene, *out);
+    add_copies(scene, *out);
+    if (out->placed.empty()) return nullptr;
+    std::vector<float> slopes;
+    for (const TargetShape& shape : out->shapes)
+        slopes.push_back(least_slope(scene.materials, shape));
+    for (PlacedTarget& placed : out->placed)
+        placed.least_slope = slopes[placed.shape];
+    return out;
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,254 @@
+#include "trace/target_surface.h"
+
+#include <cmath>
+#include <optional>
+#include <span>
+
+#include "trace/arrivals.h"
+#include "trace/cut_triangle.h"
+
+namespace sonarsim {
+
+namespace {
+
+// A target's size, or that of its highlight, is less than this many resolution cells. Engines take
+// one to a few samples in a cell.
+constexpr float most_cells = 8.0F;
+// Sonars of one or two beams have views that are many times as wide as their beam.
+constexpr double least_parts = 32.0;
+// The sonar is outside of the ball around a target.
+constexpr float least_distance_by_radius = 1.05F;
+// Shares of a target's diameter: sizes of the parts whose visibility is found by one ray.
+constexpr float coarsest_part = 1.0F / 8.0F;
+constexpr float finest_part = 1.0F / 16.0F;
+
+/// The width in which a view resolves directions, or an engine samples them, rad.
+double resolved_width(const View& view) {
+    const double parts = std::max<double>(least_parts, view.beams);
+    if (view.shape == ViewShape::fan) return view.azimuth_rad / parts;
+    return view.elevation_rad / least_parts;
+}
+
+/// A target in the sensor frame.
+struct Target {
+    const PlacedTarget* placed;
+    const TargetShape* shape;
+    Eigen::Affine3f T_sensor_shape;
+    float scale;
+    float part_m;  ///< size of the parts whose visibility is found by one ray
+};
+
+class TargetSampler {
+  public:
+    TargetSampler(const View& view, const GuardBeams& guard_beams)
+        : view_(view),
+          guarded_(guard_beams.count > 0),
+          widened_(widened_view(view, guard_beams)),
+          field_(widened_) {}
+
+    /// The object as a target of this view; nothing if it lies outside or is large enough for an
+    /// engine's samples.
+    std::optional<Target> target(const TargetShape& shape, const PlacedTarget& placed,
+                                 const Eigen::Affine3f& T_sensor_shape) const {
+        const float scale = T_sensor_shape.linear().col(0).norm();
+        const Eigen::Vector3f centre = T_sensor_shape * shape.centre;
+        const float radius = scale * shape.radius_m;
+        const float range = arrival_range(centre);
+        if (range - radius > static_cast<float>(view_.range_max_m) ||
+            range < least_distance_by_radius * radius || !may_be_in_view(centre, range, radius))
+            return std::nullopt;
+        const float cell = std::max(static_cast<float>(resolved_width(view_)) * range,
+                                    static_cast<float>(view_.bin_m()));
+        const float highlight =
+            shape.curvature_m > 0.0F ? scale * shape.curvature_m * placed.least_slope : radius;
+        if (highlight > most_cells * cell) return std::nullopt;
+        const float part =
+            std::clamp(0.5F * cell, finest_part * 2.0F * radius, coarsest_part * 2.0F * radius);
+        return Target{&placed, &shape, T_sensor_shape, scale, part};
+    }
+
+    void add(const Target& target) {
+        const TargetShape& shape = *target.shape;
+        vertices_.clear();
+        for (const Eigen::Vector3f& p : shape.vertices)
+            vertices_.push_back(target.T_sensor_shape * p);
+        const Eigen::Matrix3f R = target.T_sensor_shape.linear() / target.scale;
+        last_point_.reset();
+        for (const TargetTriangle& triangle : shape.triangles) {
+            Eigen::Vector3f normal = R * triangle.normal;
+            const float height = -normal.dot(vertices_[triangle.corners[0]]);
+            if (shape.closed && !(height > 0.0F)) continue;
+            const float side = height < 0.0F ? -1.0F : 1.0F;
+            TargetFacet facet{.corners = {},
+                              .normals = {},
+                              .normal = side * normal,
+                              .curvature_m = side * target.scale * triangle.curvature_m,
+                              .material = triangle.material,
+                              .instance = target.placed->instance,
+                              .region = triangle.region};
+            for (int k = 0; k < 3; ++k) {
+                facet.corners[k] = vertices_[triangle.corners[k]];
+                facet.normals[k] = side * (R * triangle.normals[k]);
+            }
+            add_parts(facet, target);
+        }
+    }
+
+    /// The parts that are seen.
+    std::vector<TargetFacet> seen(const VisibilityEngine& engine, const Pose& T_world_sensor) {
+        std::vector<Intersection> hits(rays_.size());
+        engine.intersect(T_world_sensor, rays_, hits);
+        std::vector<TargetFacet> out;
+        out.reserve(parts_.size());
+        for (std::size_t k = 0; k < parts_.size(); ++k) {
+            if (is_reached(aims_[ray_of_[k]], hits[ray_of_[k]])) out.push_back(parts_[k]);
+        }
+        return out;
+    }
+
+  private:
+    /// The part that a ray should reach.
+    struct Aim {
+        float range_m;
+        float cosine;   ///< cosine of the angle between the ray and the normal
+        float slack_m;  ///< greatest distance of the part from the surface
+    };
+
+    static bool is_reached(const Aim& aim, const Intersection& hit) {
+        if (!std::isfinite(hit.distance_m)) return true;  // it slipped past the edge of the part
+        const float slack = (hit.rounding_m + aim.slack_m) / std::max(aim.cosine, 1e-3F);
+        return hit.distance_m + slack >= aim.range_m;
+    }
+
+    bool may_be_in_view(const Eigen::Vector3f& centre, float range, float radius) const {
+        const float beside = radius / range;  // below 1
+        const auto angle = [&](float half) { return half + std::asin(beside); };
+        if (view_.shape == ViewShape::cone) {
+            const float off = std::atan2(std::hypot(centre.y(), centre.z()), centre.x());
+            return off <= angle(static_cast<float>(0.5 * view_.azimuth_rad));
+        }
+        const float up = std::asin(std::clamp(centre.z() / range, -1.0F, 1.0F));
+        const float ground = std::hypot(centre.x(), centre.y());
+        if (std::fabs(up) > angle(static_cast<float>(0.5 * widened_.elevation_rad))) return false;
+        if (ground <= radius) return true;
+        return std::fabs(std::atan2(centre.y(), centre.x())) <=
+               static_cast<float>(0.5 * widened_.azimuth_rad) + std::asin(radius / ground);
+    }
+
+    bool is_in_view(const Eigen::Vector3f& p) const {
+        if (field_.beam(p, arrival_range(p)) < 0.0F) return false;
+        return !guarded_ || sonarsim::is_reached(view_, p);
+    }
+
+    /// Cuts a facet into parts. Where there may be a highlight, the normal turns by a slope in
+    /// each.
+    void add_parts(const TargetFacet& facet, const Target& target) {
+        const Eigen::Vector3f u = facet.corners[1] - facet.corners[0];
+        const Eigen::Vector3f v = facet.corners[2] - facet.corners[0];
+        const float slope = target.placed->least_slope;
+        const FacetTurn turn(facet);
+        const bool glints = facet.curvature_m != 0.0F && turn.least <= 3.0F * slope;
+        const float per_turn = glints ? 1.0F / slope : 0.0F;
+        const float alike_m =
+            0.5F * (glints ? std::min(std::fabs(facet.curvature_m) * slope, target.part_m)
+                           : target.part_m);
+        const float per_part = 1.0F / target.part_m;
+        const auto size = [&](float du, float dv) {
+            return std::max(per_part * (du * u + dv * v).norm(),
+                            per_turn * (du * turn.along_u + dv * turn.along_v).norm());
+        };
+        TargetFacet part = facet;
+        const auto corner = [&](int to, const TrianglePlace& place) {
+            const auto mean = [&](const std::array<Eigen::Vector3f, 3>& of) -> Eigen::Vector3f {
+                return of[0] + place.u * (of[1] - of[0]) + place.v * (of[2] - of[0]);
+            };
+            part.corners[to] = mean(facet.corners);
+            part.normals[to] = mean(facet.normals);
+        };
+        cut_triangle(size, [&](const TrianglePart& cut) {
+            const Eigen::Vector3f middle =
+                facet.corners[0] + cut.centroid.u * u + cut.centroid.v * v;
+            if (!is_in_view(middle)) return;
+            find_ray(middle, facet.normal, target, alike_m);
+            corner(0, cut.corners[0]);
+            corner(1, cut.corners[1]);
+            corner(2, cut.corners[2]);
+            add_part(part);
+            if (cut.corners[0].u == cut.corners[3].u && cut.corners[0].v == cut.corners[3].v)
+                return;
+            corner(1, cut.corners[2]);
+            corner(2, cut.corners[3]);
+            add_part(part);
+        });
+    }
+
+    void add_part(const TargetFacet& part) {
+        parts_.push_back(part);
+        ray_of_.push_back(static_cast<std::uint32_t>(rays_.size() - 1));
+    }
+
+    /// Aims a ray at a part, unless the last one arrives within `near_m` of it.
+    void find_ray(const Eigen::Vector3f& middle, const Eigen::Vector3f& normal,
+                  const Target& target, float near_m) {
+        const bool shares = last_point_ && (middle - *last_point_).norm() < near_m &&
+                            normal.dot(last_normal_) > 0.9F;
+        if (shares) return;
+        const float range = arrival_range(middle);
+        const Eigen::Vector3f direction = middle / range;
+        rays_.push_back({Eigen::Vector3f::Zero(), direction});
+        aims_.push_back({range, std::fabs(normal.dot(direction)),
+                         weld_slack * target.scale * target.shape->radius_m});
+        last_point_ = middle;
+        last_normal_ = normal;
+    }
+
+    /// Vertices are moved by up to this share of a target's radius when they are joined.
+    static constexpr float weld_slack = 2e-5F;
+
+    const View& view_;
+    bool guarded_;
+    View widened_;
+    BeamLocator field_;
+    std::vector<Eigen::Vector3f> vertices_;
+    std::vector<TargetFacet> parts_;
+    std::vector<std::uint32_t> ray_of_;
+    std::vector<Ray> rays_;
+    std::vector<Aim> aims_;
+    std::optional<Eigen::Vector3f> last_point_;
+    Eigen::Vector3f last_normal_ = Eigen::Vector3f::Zero();
+};
+
+Eigen::Affine3f in_sensor_frame(const PlacedTarget& placed, const Scene& scene,
+                                std::span<const Pose> T_world_body, const Pose& T_world_sensor) {
+    const auto affine = [](const Pose& pose) {
+        return Eigen::Affine3d(Eigen::Translation3d(pose.translation) * pose.rotation);
+    };
+    const Eigen::Affine3d T_world_shape =
+        placed.body ? affine(T_world_body[*placed.body])
+                    : Eigen::Translation3d(scene.origin) * placed.T_local_shape.cast<double>();
+    return (affine(T_world_sensor).inverse(Eigen::Isometry) * T_world_shape).cast<float>();
+}
+
+}  // namespace
+
+TargetSurface target_surface(const TargetShapes& shapes, const View& view,
+                             const GuardBeams& guard_beams, const Scene& scene,
+                             const VisibilityEngine& engine, const Pose& T_world_sensor) {
+    TargetSurface out;
+    TargetSampler sampler(view, guard_beams);
+    const std::span<const Pose> bodies = engine.body_poses();
+    for (const PlacedTarget& placed : shapes.placed) {
+        if (placed.body && bodies.empty()) continue;  // without a pose it is invisible
+        const std::optional<Target> target =
+            sampler.target(shapes.shapes[placed.shape], placed,
+                           in_sensor_frame(placed, scene, bodies, T_world_sensor));
+        if (!target) continue;
+        out.instances.push_back(placed.instance);
+        sampler.add(*target);
+    }
+    std::ranges::sort(out.instances);
+    if (!out.instances.empty()) out.facets = sampler.seen(engine, T_world_sensor);
+    return out;
+}
+
+}  // namespace sonarsim
