@@ -62,8 +62,9 @@ Json noise_ranges(const ExpectedEcho& echo, const InstrumentLevels& levels) {
     const double level_db = levels.noise_db - levels.source_level_db;
     Json ranges;
     for (const Material& bottom : example_bottoms()) {
-        ranges[bottom.name] =
-            range_of_level([&](double r) { return bottom_echo_db(echo, bottom, r); }, level_db);
+        const double strength_db = bottom_strength_db(echo, bottom);
+        ranges[bottom.name] = range_of_level(
+            [&](double r) { return bottom_echo_db(echo, strength_db, r); }, level_db);
     }
     ranges["sphere"] =
         range_of_level([&](double r) { return target_echo_db(echo, sphere_db, r); }, level_db);
@@ -103,6 +104,10 @@ std::string number(const Json& value, const char* unit) {
     return fmt::format("{:.4g} {}", value.get<double>(), unit);
 }
 
+std::string kilohertz(const Json& hertz) {
+    return fmt::format("{:.4g} kHz", 1e-3 * hertz.get<double>());
+}
+
 void print_preset(const Json& preset) {
     const auto print = [](const char* head, const std::string& rest) {
         fmt::print("{}", result_line(head, rest));
@@ -114,14 +119,14 @@ void print_preset(const Json& preset) {
     };
     const bool upright = preset["grazing_angle_deg"] == 90.0;
     print("preset", preset["preset"].get<std::string>());
-    print("frequency", number(preset["frequency_hz"], "Hz"));
+    print("frequency", kilohertz(preset["frequency_hz"]));
     print("range", number(preset["range_max_m"], "m"));
     print("source", level("source_level_db", "source_level"));
     print("noise", level("noise_db", "noise"));
     print("", fmt::format("spectrum: thermal {:.1f}, wind {:.1f} dB re 1 uPa^2/Hz",
                           preset["thermal_noise_db"].get<double>(),
                           preset["wind_noise_db"].get<double>()));
-    print("", "bandwidth " + number(preset["noise_bandwidth_hz"], "Hz") +
+    print("", "bandwidth " + kilohertz(preset["noise_bandwidth_hz"]) +
                   ", directivity index: receiver " +
                   number(preset["receiving_directivity_db"], "dB") + ", transmitter " +
                   number(preset["transmitting_directivity_db"], "dB"));
@@ -137,7 +142,7 @@ void print_preset(const Json& preset) {
 /// The table of docs/calibrated.md.
 std::string presets_markdown(const std::vector<Json>& presets) {
     std::string text =
-        "| preset | source level | noise | directivity | band, Hz | full scale | mud, m | sand, m "
+        "| preset | source level | noise | directivity | band, kHz | full scale | mud, m | sand, m "
         "| "
         "rock, m | sphere, m | range, m |\n|---|---|---|---|---|---|---|---|---|---|---|\n";
     for (const Json& preset : presets) {
@@ -145,11 +150,12 @@ std::string presets_markdown(const std::vector<Json>& presets) {
             return fmt::format("{:.1f}{}", preset[key].get<double>(),
                                preset[origin] == "given" ? " *" : "");
         };
-        text += fmt::format(
-            "| {} | {} | {} | {:.1f} | {:.3g} | {} |", preset["preset"].get<std::string>(),
-            level("source_level_db", "source_level"), level("noise_db", "noise"),
-            preset["receiving_directivity_db"].get<double>(),
-            preset["noise_bandwidth_hz"].get<double>(), level("full_scale_db", "full_scale"));
+        text += fmt::format("| {} | {} | {} | {:.1f} | {:.3g} | {} |",
+                            preset["preset"].get<std::string>(),
+                            level("source_level_db", "source_level"), level("noise_db", "noise"),
+                            preset["receiving_directivity_db"].get<double>(),
+                            1e-3 * preset["noise_bandwidth_hz"].get<double>(),
+                            level("full_scale_db", "full_scale"));
         for (const Json& range : preset["noise_range_m"])
             text += fmt::format(" {:.3g} |", range.get<double>());
         text += fmt::format(" {:.4g} |\n", preset["range_max_m"].get<double>());

@@ -84,8 +84,6 @@ ExpectedEcho expected_echo(const InstrumentConfig& instrument, const WaterConfig
                            const View& view) {
     const BeamConfig& beam = instrument.beam;
     const double width = radians(beam.width_deg);
-    const double resolution_m =
-        instrument.pulse.resolution_m > 0.0 ? instrument.pulse.resolution_m : view.bin_m();
     ExpectedEcho out;
     out.aperture = beam.aperture;
     out.along = line_array(width, beam.side_lobe_db);
@@ -94,7 +92,7 @@ ExpectedEcho expected_echo(const InstrumentConfig& instrument, const WaterConfig
     out.absorption_db_per_m =
         absorption_db_per_m(instrument.frequency_hz,
                             {water.temperature_c, water.salinity_psu, water.depth_m, water.ph});
-    out.pulse_length_m = pulse_band(instrument.pulse, resolution_m, water.sound_speed_m_s).length_m;
+    out.pulse_length_m = pulse_band(instrument.pulse, view.bin_m(), water.sound_speed_m_s).length_m;
     out.grazing_rad = radians(beam.aperture == Aperture::piston ? 90.0 : grazing_deg);
     const auto two_way = [&](double u) { return square(square(line_pattern(out.along, u))); };
     if (beam.aperture == Aperture::piston) {
@@ -114,10 +112,13 @@ ExpectedEcho expected_echo(const InstrumentConfig& instrument, const WaterConfig
     return out;
 }
 
-double bottom_echo_db(const ExpectedEcho& echo, const Material& material, double range_m) {
-    const double strength =
-        scattering_strength(material, echo.frequency_hz, sincos(echo.grazing_rad).sin);
-    return db_of_power(strength * cell_area_m2(echo, range_m)) -
+double bottom_strength_db(const ExpectedEcho& echo, const Material& material) {
+    return db_of_power(
+        scattering_strength(material, echo.frequency_hz, sincos(echo.grazing_rad).sin));
+}
+
+double bottom_echo_db(const ExpectedEcho& echo, double strength_db, double range_m) {
+    return strength_db + db_of_power(cell_area_m2(echo, range_m)) -
            spreading_and_absorption_db(echo, range_m);
 }
 

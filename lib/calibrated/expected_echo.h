@@ -29,8 +29,11 @@ struct ExpectedEcho {
 ExpectedEcho expected_echo(const InstrumentConfig& instrument, const WaterConfig& water,
                            const View& view);
 
+/// The backscattering strength S of a bottom at the grazing angle, dB.
+double bottom_strength_db(const ExpectedEcho& echo, const Material& material);
+
 /// The mean echo of a bottom in a range bin: S + 10 log A - 40 log r - 2 alpha r.
-double bottom_echo_db(const ExpectedEcho& echo, const Material& material, double range_m);
+double bottom_echo_db(const ExpectedEcho& echo, double strength_db, double range_m);
 
 /// The echo of a target on the axis: TS - 40 log r - 2 alpha r, less what a side-scan array that is
 /// not focused loses in its near field.

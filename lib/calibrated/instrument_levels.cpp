@@ -40,8 +40,9 @@ double full_scale_by_rule(const InstrumentConfig& instrument, const WaterConfig&
         return tvg_db(instrument.receiver, echo.absorption_db_per_m, range_m);
     };
     const double half_m = 0.5 * view.range_max_m;
-    const double sand_db =
-        levels.source_level_db + bottom_echo_db(echo, example_sand(), half_m) + gain_db(half_m);
+    const double sand_db = levels.source_level_db +
+                           bottom_echo_db(echo, bottom_strength_db(echo, example_sand()), half_m) +
+                           gain_db(half_m);
     const double noise_db = levels.noise_db + gain_db(view.range_max_m);
     return std::max(sand_db + headroom_db(instrument.receiver, share_of_sand),
                     noise_db + headroom_db(instrument.receiver, most_share_of_noise));
@@ -58,10 +59,8 @@ double tvg_db(const ReceiverConfig& receiver, double absorption_db_per_m, double
 InstrumentLevels instrument_levels(const InstrumentConfig& instrument, const WaterConfig& water,
                                    const View& view) {
     const ReceiverConfig& receiver = instrument.receiver;
-    const double resolution_m =
-        instrument.pulse.resolution_m > 0.0 ? instrument.pulse.resolution_m : view.bin_m();
     InstrumentLevels out;
-    out.noise_hz = pulse_band(instrument.pulse, resolution_m, water.sound_speed_m_s).noise_hz;
+    out.noise_hz = pulse_band(instrument.pulse, view.bin_m(), water.sound_speed_m_s).noise_hz;
     out.receiving_directivity_db = db_of_power(receiving_directivity(instrument.beam));
     out.transmitting_directivity_db = db_of_power(transmitting_directivity(instrument.beam, view));
     out.thermal_noise_db = thermal_noise_db(instrument.frequency_hz);

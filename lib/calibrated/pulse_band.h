@@ -17,7 +17,7 @@ struct PulseBand {
     double length_m = 0.0;
 };
 
-/// `resolution_m` is that of the pulse, or a range bin.
-PulseBand pulse_band(const PulseConfig& pulse, double resolution_m, double sound_speed_m_s);
+/// A pulse whose resolution is 0 has that of a range bin.
+PulseBand pulse_band(const PulseConfig& pulse, double bin_m, double sound_speed_m_s);
 
 }  // namespace sonarsim

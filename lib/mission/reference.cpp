@@ -23,7 +23,8 @@ std::string unit_of(std::string_view key) {
     constexpr std::array units{Unit{"_kg_m3", "kg/m^3"}, Unit{"_db", "dB"},   Unit{"_rad", "rad"},
                                Unit{"_c", "Celsius"},    Unit{"_psu", "psu"}, Unit{"_m_s", "m/s"},
                                Unit{"_deg", "deg"},      Unit{"_hz", "Hz"},   Unit{"_mb", "MB"},
-                               Unit{"_px", "pixels"},    Unit{"_m", "m"}};
+                               Unit{"_px", "pixels"},    Unit{"_m", "m"},     Unit{"_s", "s"},
+                               Unit{"_w", "W"}};
     for (const auto& [ending, unit] : units) {
         if (key.ends_with(ending)) return unit;
     }

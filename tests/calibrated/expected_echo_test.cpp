@@ -25,7 +25,9 @@ ExpectedEcho echo_of(const Sonar& sonar) {
 /// The mean echo of sand over the noise, dB.
 double sand_over_noise_db(const Sonar& sonar, double range_m) {
     const InstrumentLevels& levels = calibrated_model_of(sonar).levels;
-    return levels.source_level_db + bottom_echo_db(echo_of(sonar), example_sand(), range_m) -
+    const ExpectedEcho echo = echo_of(sonar);
+    return levels.source_level_db +
+           bottom_echo_db(echo, bottom_strength_db(echo, example_sand()), range_m) -
            levels.noise_db;
 }
 
@@ -92,6 +94,29 @@ TEST_SUITE("calibrated") {
         }
     }
 
+    // The pulse, 19 cm, holds the whole beam: at its edge the bottom is 2 cm farther.
+    TEST_CASE("presets: the bottom below an echosounder is as loud as by closed form") {
+        const Sonar sonar =
+            preset_sonar("echosounder_200khz", "    range_max_m: 25\n    range_bins: 500\n");
+        constexpr double depth_m = 12.525;
+        const Scene scene = sand_at(depth_m / std::sin(radians(20.0)));
+        EngineSettings settings;
+        settings.type = EngineKind::rays;
+        const auto engine = make_engine(scene, settings);
+        const std::vector<float> image =
+            render_ping(sonar, scene, *engine, {}, {.seed = 1, .ping = 0}, direct_echoes_alone)
+                .intensity;
+        const ExpectedEcho echo = echo_of(sonar);
+        const InstrumentLevels& levels = calibrated_model_of(sonar).levels;
+        const double closed_db =
+            levels.source_level_db - levels.full_scale_db +
+            bottom_echo_db(echo, bottom_strength_db(echo, example_sand()), depth_m) +
+            tvg_db(sonar.config.instrument.receiver, echo.absorption_db_per_m, depth_m);
+        const double found_db = db_of_power(*std::ranges::max_element(image));
+        MESSAGE("echosounder: ", found_db, " dB, by closed form ", closed_db);
+        CHECK(std::fabs(found_db - closed_db) < 1.0);
+    }
+
     TEST_CASE("presets: none drowns sand at half of its range") {
         int presets = 0;
         for (const auto& file : std::filesystem::directory_iterator(
@@ -113,7 +138,8 @@ TEST_SUITE("calibrated") {
             const ExpectedEcho echo = echo_of(sonar);
             const double half_m = 0.5 * sonar.config.range_max_m;
             const double sand_db =
-                levels.source_level_db + bottom_echo_db(echo, example_sand(), half_m) +
+                levels.source_level_db +
+                bottom_echo_db(echo, bottom_strength_db(echo, example_sand()), half_m) +
                 tvg_db(sonar.config.instrument.receiver, echo.absorption_db_per_m, half_m) -
                 levels.full_scale_db;
             Ping ping;
