@@ -7,6 +7,15 @@
 
 namespace sonarsim {
 
+std::vector<float> slopes_of(std::span<const Material> materials) {
+    std::vector<float> out;
+    for (const Material& material : materials) {
+        const SinCos slope = sincos(radians(material.slope_rms_deg));
+        out.push_back(static_cast<float>(slope.sin / slope.cos));
+    }
+    return out;
+}
+
 Backscatter backscatter(double lambert_db, double reflection, double slope_rms) {
     Backscatter out;
     out.lambert = static_cast<float>(power_of_db(lambert_db));

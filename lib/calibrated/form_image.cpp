@@ -10,8 +10,6 @@
 #include "calibrated/target_pieces.h"
 #include "calibrated/target_scatterers.h"
 #include "core/clock.h"
-#include "core/elementary.h"
-#include "core/units.h"
 
 namespace sonarsim {
 
@@ -20,15 +18,6 @@ namespace {
 // The factor on the size of patches in range if speckle is drawn for each ping. With it, the
 // expected image of the tank has an error of 1.8 %.
 constexpr float deeper_patches = 2.0F;
-
-std::vector<float> slopes_of(const Scene& scene) {
-    std::vector<float> out;
-    for (const Material& material : scene.materials) {
-        const SinCos slope = sincos(radians(material.slope_rms_deg));
-        out.push_back(static_cast<float>(slope.sin / slope.cos));
-    }
-    return out;
-}
 
 /// The samples of what is no target.
 std::vector<Sample> without_targets(std::span<const Sample> samples, const TargetSurface& targets) {
@@ -53,7 +42,7 @@ class ImageFormer {
           sonar_{traced.T_world_sensor.rotation.toRotationMatrix().cast<float>(),
                  traced.T_world_sensor.translation - context.scene.origin},
           scattering_(model, context.scene),
-          slopes_(slopes_of(context.scene)),
+          slopes_(slopes_of(context.scene.materials)),
           speckle_(context.terms.random > 0 ? model.speckle : SpeckleMode::none),
           speckle_gain_(model.amplitude_taps.scalloping_gain * scalloping_gain(beams)),
           ping_(ping) {}

@@ -1,5 +1,6 @@
 #include "trace/surface_echoes.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,6 +9,7 @@
 #include "calibrated/mirrored_echoes.h"
 #include "calibrated/model.h"
 #include "calibrated/patches.h"
+#include "calibrated/target_pieces.h"
 #include "core/groups.h"
 #include "trace/arrivals.h"
 
@@ -83,6 +85,25 @@ CutSample cut_of(const Sample& sample, const PointLimits& limits) {
     return out;
 }
 
+/// A sample for each facet of the targets: labels read its material, instance and normal.
+std::vector<Sample> samples_of(const TargetSurface& targets) {
+    std::vector<Sample> out;
+    out.reserve(targets.facets.size());
+    for (const TargetFacet& facet : targets.facets) {
+        const auto& [a, b, c] = facet.corners;
+        const Eigen::Vector3f middle = (a + b + c) / 3.0F;
+        out.push_back({.position = middle,
+                       .edge_u = 0.5F * (b - a),
+                       .edge_v = 0.5F * (c - a),
+                       .normal = facet.normal,
+                       .height_m = std::max(-middle.dot(facet.normal), 0.0F),
+                       .area_m2 = 0.5F * (b - a).cross(c - a).norm(),
+                       .material = facet.material,
+                       .instance = facet.instance});
+    }
+    return out;
+}
+
 /// Finds the echoes of a ping as an image has them, but for speckle. `Beams`: ArrayBeams or
 /// TransducerBeams.
 template <class Beams>
@@ -96,7 +117,8 @@ class SurfaceEchoFinder {
           scattering_(model, scene),
           patches_(patches) {}
 
-    void add_surface(std::span<const Sample> surface) {
+    /// Adds the echoes of a surface without its targets.
+    void add_surface(std::span<const Sample> surface, const TargetSurface& targets) {
         CutSample cut;
         const auto cut_at = [&](int k) -> const CutSample& {
             const Sample& sample = surface[pieces_.sample[k]];
@@ -108,11 +130,34 @@ class SurfaceEchoFinder {
             apply_sonar_equation(pieces, *scattering_, model_.equation, echoes_);
             for_each_beam(pieces, echoes_, nullptr, half_sine, [&](int beam, int k, float power) {
                 const CutSample& of = cut_at(k);
+                if (targets.has(of.sample->instance)) return;
                 direct_.push_back({static_cast<std::uint32_t>(beam), echoes_.range_m[k], of.half_m,
                                    power, of.sample});
                 if (patches_) found_.push_back(patch_of(pieces, k, of, power));
             });
         });
+    }
+
+    void add_targets(const TargetSurface& targets, std::span<const float> slopes) {
+        target_samples_ = samples_of(targets);
+        TargetPieces cut_pieces;
+        const auto point = [](int) { return 0.0F; };
+        cut_targets(
+            targets.facets, model_.limits, slopes, cut_pieces, [&](const TargetPieces& cut) {
+                const PatchBlock& points = cut.points;
+                apply_sonar_equation(points, *scattering_, model_.equation, echoes_);
+                for_each_beam(points, echoes_, nullptr, point, [&](int beam, int k, float power) {
+                    const Sample* const sample = &target_samples_[cut.facet[k]];
+                    direct_.push_back({static_cast<std::uint32_t>(beam), echoes_.range_m[k], 0.0F,
+                                       power, sample});
+                    if (!patches_) return;
+                    found_.push_back({.position = {points.x[k], points.y[k], points.z[k]},
+                                      .edge_u = Eigen::Vector3f::Zero(),
+                                      .edge_v = Eigen::Vector3f::Zero(),
+                                      .echo = power,
+                                      .sample = sample});
+                });
+            });
     }
 
     void add_multipath(const TracedPing& traced, const std::vector<SpecularPath>& paths) {
@@ -136,6 +181,7 @@ class SurfaceEchoFinder {
         out.direct = in_order(direct_, order);
         out.multipath = in_order(multipath_, order_by_beam(multipath_, beams));
         out.cones = model_.cones;
+        out.target_samples = std::move(target_samples_);
         if (!patches_) return out;
         out.patch_begin = order.begin;
         out.patches.reserve(found_.size());
@@ -191,6 +237,7 @@ class SurfaceEchoFinder {
     PatchBlock pieces_;
     PointEchoes echoes_;
     PatchBlock::Array<float> sent_{}, received_{};
+    std::vector<Sample> target_samples_;
     std::vector<FoundEcho> direct_, multipath_;
     std::vector<EchoPatch> found_;  ///< one for each of direct_
 };
@@ -202,8 +249,9 @@ SurfaceEchoes CalibratedModel::surface_echoes(const TracedPing& traced, const Vi
     return std::visit(
         [&]<class Beams>(const Beams& of_model) {
             SurfaceEchoFinder<Beams> finder(*this, of_model, scene, patches);
-            finder.add_surface(traced.samples.items);
-            finder.add_surface(traced.outside_sector);
+            finder.add_surface(traced.samples.items, traced.targets);
+            finder.add_surface(traced.outside_sector, traced.targets);
+            finder.add_targets(traced.targets, slopes_of(scene.materials));
             finder.add_multipath(traced, specular_paths(traced, scene));
             return finder.take(view.beams);
         },

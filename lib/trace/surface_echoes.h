@@ -28,13 +28,18 @@ struct EchoPatch {
 
 /// The echoes of a traced ping where a beam and a bin receive them, before beam pattern and pulse
 /// spread them and without random terms: what labels are made of. Echoes of one bin are in one
-/// unit. Samples are those of the traced ping, which must outlive this.
+/// unit. Samples are those of the traced ping, which must outlive this, or of
+/// `target_samples`.
 struct SurfaceEchoes {
+    SurfaceEchoes() = default;
+    SurfaceEchoes(SurfaceEchoes&&) = default;  ///< a copy would point into the original
+
     BeamEchoes direct;
     BeamEchoes multipath;  ///< the samples are those that mirror the sound
     /// The visible surface, sorted by beam; empty if it was not asked for.
     std::vector<EchoPatch> patches;
     std::vector<std::uint32_t> patch_begin;  ///< beams + 1 offsets into `patches`
+    std::vector<Sample> target_samples;      ///< one for each facet of TracedPing::targets
     /// The beams of a line array; empty: those of the view.
     ConeBeams cones;
 

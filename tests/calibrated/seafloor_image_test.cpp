@@ -72,9 +72,14 @@ CalibratedModel fan_model() {
     InstrumentConfig config = bare({});
     config.frequency_hz = 4e5;
     config.beam.width_deg = 1.0;
-    std::vector<double> sines;
-    for (int j = 0; j < fan_view.beams; ++j)
-        sines.push_back(std::sin(((j + 0.5) / fan_view.beams - 0.5) * fan_view.azimuth_rad));
+    const auto sine_at = [](double beam) {
+        return std::sin((beam / fan_view.beams - 0.5) * fan_view.azimuth_rad);
+    };
+    BeamSines sines;
+    for (int j = 0; j <= fan_view.beams; ++j) {
+        sines.edges.push_back(sine_at(j));
+        if (j < fan_view.beams) sines.middles.push_back(sine_at(j + 0.5));
+    }
     return calibrated_model(config, {}, fan_view, sines);
 }
 
