@@ -23,6 +23,11 @@ struct Joint {
         range += more * range_m;
         place += more * at;
     }
+    void add(const Joint& more) {
+        power += more.power;
+        range += more.range;
+        place += more.place;
+    }
     float range_m() const { return range / power; }
     Eigen::Vector3f middle() const { return place / power; }
 };
@@ -39,6 +44,13 @@ std::uint64_t cell_word(std::int32_t i, std::int32_t j, std::int32_t l) {
     const auto bits = [](std::int32_t k) { return static_cast<std::uint64_t>(k) & 0x1FFFFFU; };
     return bits(i) << 42U | bits(j) << 21U | bits(l);
 }
+
+/// Echoes of a surface in one cell.
+struct CellEchoes {
+    std::uint64_t cell;
+    Joint all;
+    float highlight;  ///< power of the highlight
+};
 
 /// A block of scatterers, handed on when it is full.
 class ScattererBlock {
@@ -126,30 +138,35 @@ TargetScatterers::Surface TargetScatterers::surface_from(std::size_t first) cons
 
 void TargetScatterers::finish(const TargetCells& cells, const SonarEquation& equation,
                               PhiloxKey key, const ScattererUse& use) {
-    std::ranges::stable_sort(
-        echoes_, {}, [](const Echo& echo) { return std::pair(echo.instance, echo.region); });
     ScattererBlock block(cells, equation, use);
+    std::vector<CellEchoes> parts;
     std::vector<std::pair<std::uint64_t, std::uint32_t>> order;
     for (std::size_t first = 0; first < echoes_.size();) {
         const Surface surface = surface_from(first);
-        order.clear();
+        parts.clear();
         for (std::size_t k = first; k < surface.end; ++k) {
             const Echo& echo = echoes_[k];
             const Eigen::Vector3f off = (echo.place - surface.middle) / surface.range_m;
-            order.emplace_back(
+            const std::uint64_t cell =
                 cell_word(cell_at(echo.range_m - surface.range_m, cells.depth_m),
-                          cell_at(off.y(), cells.sine_y), cell_at(off.z(), cells.sine_z)),
-                static_cast<std::uint32_t>(k));
+                          cell_at(off.y(), cells.sine_y), cell_at(off.z(), cells.sine_z));
+            // Pieces of one cell often come one after the other.
+            if (parts.empty() || parts.back().cell != cell) parts.push_back({cell, {}, 0.0F});
+            parts.back().all.add(echo.power, echo.range_m, echo.place);
+            if (echo.highlight) parts.back().highlight += echo.power;
         }
+        order.clear();
+        for (std::uint32_t k = 0; k < parts.size(); ++k)
+            order.emplace_back(parts[k].cell, k);
         std::ranges::sort(order);
         for (std::size_t k = 0; k < order.size();) {
             const std::uint64_t cell = order[k].first;
             Joint joint;
             float highlight = 0.0F;
             for (; k < order.size() && order[k].first == cell; ++k) {
-                const Echo& echo = echoes_[order[k].second];
-                joint.add(echo.power, echo.range_m, echo.place);
-                if (echo.highlight) highlight += echo.power;
+                const CellEchoes& part = parts[order[k].second];
+                joint.add(part.all);
+                highlight += part.highlight;
             }
             const PhiloxBlock words =
                 philox({echoes_[first].instance, echoes_[first].region,

@@ -32,7 +32,7 @@ class TargetScatterers {
   public:
     using ScattererUse = std::function<void(const PatchBlock&, PointEchoes&, Amplitudes&)>;
 
-    /// Adds the echoes of a block of pieces.
+    /// Adds the echoes of a block of pieces, which come surface after surface.
     void add(const TargetPieces& pieces, const PointEchoes& echoes,
              std::span<const TargetFacet> facets, std::span<const float> slopes);
 

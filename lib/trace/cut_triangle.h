@@ -27,6 +27,11 @@ void cut_triangle(Size size, Use use) {
     constexpr std::array<TrianglePlace, 3> corners{{{0.0F, 0.0F}, {1.0F, 0.0F}, {0.0F, 1.0F}}};
     // The size of the side opposite to each corner.
     const std::array<float, 3> sizes{size(-1.0F, 1.0F), size(0.0F, -1.0F), size(1.0F, 0.0F)};
+    if (*std::ranges::max_element(sizes) <= 1.0F) {
+        constexpr float third = 1.0F / 3.0F;
+        return use(
+            TrianglePart{{corners[0], corners[1], corners[2], corners[0]}, {third, third}, 1.0F});
+    }
     const auto tip = static_cast<std::size_t>(std::ranges::min_element(sizes) - sizes.begin());
     const TrianglePlace t = corners[tip];
     const TrianglePlace a = corners[(tip + 1) % 3];

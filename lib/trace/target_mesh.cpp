@@ -258,6 +258,7 @@ TargetShape target_shape(const TargetMesh& mesh) {
     shape.closed = each_shared_edge(edges, [](const MeshEdge&, const MeshEdge&) {});
     if (shape.closed) turn_outwards(shape, edges);
     bend(shape, edges);
+    std::ranges::stable_sort(shape.triangles, {}, &TargetTriangle::region);
     for (const TargetTriangle& triangle : shape.triangles)
         shape.curvature_m = std::max(shape.curvature_m, std::fabs(triangle.curvature_m));
     shape.curvature_m = std::min(shape.curvature_m, shape.radius_m);

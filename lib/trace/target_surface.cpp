@@ -3,9 +3,11 @@
 #include <cmath>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "trace/arrivals.h"
 #include "trace/cut_triangle.h"
+#include "visibility/view_volume.h"
 
 namespace sonarsim {
 
@@ -35,7 +37,9 @@ struct Target {
     const TargetShape* shape;
     Eigen::Affine3f T_sensor_shape;
     float scale;
+    float cell_m;  ///< size of a resolution cell there
     float part_m;  ///< size of the parts whose visibility is found by one ray
+    bool inside;   ///< it lies in the view with all of its parts
 };
 
 class TargetSampler {
@@ -55,8 +59,10 @@ class TargetSampler {
         const float radius = scale * shape.radius_m;
         const float range = arrival_range(centre);
         if (range - radius > static_cast<float>(view_.range_max_m) ||
-            range < least_distance_by_radius * radius || !may_be_in_view(centre, range, radius))
+            range < least_distance_by_radius * radius)
             return std::nullopt;
+        const Containment contained = containment(centre, range, radius);
+        if (contained == Containment::outside) return std::nullopt;
         const float cell = std::max(static_cast<float>(resolved_width(view_)) * range,
                                     static_cast<float>(view_.bin_m()));
         const float highlight =
@@ -64,7 +70,8 @@ class TargetSampler {
         if (highlight > most_cells * cell) return std::nullopt;
         const float part =
             std::clamp(0.5F * cell, finest_part * 2.0F * radius, coarsest_part * 2.0F * radius);
-        return Target{&placed, &shape, T_sensor_shape, scale, part};
+        return Target{
+            &placed, &shape, T_sensor_shape, scale, cell, part, contained == Containment::inside};
     }
 
     void add(const Target& target) {
@@ -74,6 +81,7 @@ class TargetSampler {
             vertices_.push_back(target.T_sensor_shape * p);
         const Eigen::Matrix3f R = target.T_sensor_shape.linear() / target.scale;
         last_point_.reset();
+        parts_.reserve(parts_.size() + 2 * shape.triangles.size());
         for (const TargetTriangle& triangle : shape.triangles) {
             Eigen::Vector3f normal = R * triangle.normal;
             const float height = -normal.dot(vertices_[triangle.corners[0]]);
@@ -95,15 +103,17 @@ class TargetSampler {
     }
 
     /// The parts that are seen.
-    std::vector<TargetFacet> seen(const VisibilityEngine& engine, const Pose& T_world_sensor) {
+    std::vector<TargetFacet> take_seen(const VisibilityEngine& engine, const Pose& T_world_sensor) {
         std::vector<Intersection> hits(rays_.size());
         engine.intersect(T_world_sensor, rays_, hits);
-        std::vector<TargetFacet> out;
-        out.reserve(parts_.size());
+        std::size_t kept = 0;
         for (std::size_t k = 0; k < parts_.size(); ++k) {
-            if (is_reached(aims_[ray_of_[k]], hits[ray_of_[k]])) out.push_back(parts_[k]);
+            if (!is_reached(aims_[ray_of_[k]], hits[ray_of_[k]])) continue;
+            if (kept != k) parts_[kept] = parts_[k];
+            ++kept;
         }
-        return out;
+        parts_.resize(kept);
+        return std::move(parts_);
     }
 
   private:
@@ -120,19 +130,30 @@ class TargetSampler {
         return hit.distance_m + slack >= aim.range_m;
     }
 
-    bool may_be_in_view(const Eigen::Vector3f& centre, float range, float radius) const {
-        const float beside = radius / range;  // below 1
-        const auto angle = [&](float half) { return half + std::asin(beside); };
+    /// The position of a ball that does not hold the sonar, relative to the view.
+    Containment containment(const Eigen::Vector3f& centre, float range, float radius) const {
+        const auto compare = [](float angle, double full, float beside) {
+            const auto half = static_cast<float>(0.5 * full);
+            if (angle > half + beside) return Containment::outside;
+            return angle + beside < half ? Containment::inside : Containment::partly;
+        };
+        const float beside = std::asin(radius / range);
         if (view_.shape == ViewShape::cone) {
             const float off = std::atan2(std::hypot(centre.y(), centre.z()), centre.x());
-            return off <= angle(static_cast<float>(0.5 * view_.azimuth_rad));
+            return compare(off, view_.azimuth_rad, beside);
         }
         const float up = std::asin(std::clamp(centre.z() / range, -1.0F, 1.0F));
         const float ground = std::hypot(centre.x(), centre.y());
-        if (std::fabs(up) > angle(static_cast<float>(0.5 * widened_.elevation_rad))) return false;
-        if (ground <= radius) return true;
-        return std::fabs(std::atan2(centre.y(), centre.x())) <=
-               static_cast<float>(0.5 * widened_.azimuth_rad) + std::asin(radius / ground);
+        const Containment by_elevation = compare(std::fabs(up), widened_.elevation_rad, beside);
+        const Containment by_azimuth =
+            ground <= radius ? Containment::partly
+                             : compare(std::fabs(std::atan2(centre.y(), centre.x())),
+                                       widened_.azimuth_rad, std::asin(radius / ground));
+        if (by_elevation == Containment::outside || by_azimuth == Containment::outside)
+            return Containment::outside;
+        const bool inside =
+            by_elevation == Containment::inside && by_azimuth == Containment::inside && !guarded_;
+        return inside ? Containment::inside : Containment::partly;
     }
 
     bool is_in_view(const Eigen::Vector3f& p) const {
@@ -148,10 +169,11 @@ class TargetSampler {
         const float slope = target.placed->least_slope;
         const FacetTurn turn(facet);
         const bool glints = facet.curvature_m != 0.0F && turn.least <= 3.0F * slope;
-        const float per_turn = glints ? 1.0F / slope : 0.0F;
-        const float alike_m =
-            0.5F * (glints ? std::min(std::fabs(facet.curvature_m) * slope, target.part_m)
-                           : target.part_m);
+        const float radius = std::fabs(facet.curvature_m);
+        const float highlight_m = std::clamp(1.5F * radius * slope, 0.25F * target.cell_m,
+                                             std::max(target.part_m, 0.25F * target.cell_m));
+        const float per_turn = glints ? radius / highlight_m : 0.0F;
+        const float alike_m = 0.5F * (glints ? highlight_m : target.part_m);
         const float per_part = 1.0F / target.part_m;
         const auto size = [&](float du, float dv) {
             return std::max(per_part * (du * u + dv * v).norm(),
@@ -168,7 +190,7 @@ class TargetSampler {
         cut_triangle(size, [&](const TrianglePart& cut) {
             const Eigen::Vector3f middle =
                 facet.corners[0] + cut.centroid.u * u + cut.centroid.v * v;
-            if (!is_in_view(middle)) return;
+            if (!target.inside && !is_in_view(middle)) return;
             find_ray(middle, facet.normal, target, alike_m);
             corner(0, cut.corners[0]);
             corner(1, cut.corners[1]);
@@ -247,7 +269,7 @@ TargetSurface target_surface(const TargetShapes& shapes, const View& view,
         sampler.add(*target);
     }
     std::ranges::sort(out.instances);
-    if (!out.instances.empty()) out.facets = sampler.seen(engine, T_world_sensor);
+    if (!out.instances.empty()) out.facets = sampler.take_seen(engine, T_world_sensor);
     return out;
 }
 

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -35,16 +36,21 @@ struct FacetTurn {
     float least;                       ///< length: no part of the facet is nearer than this
 
     explicit FacetTurn(const TargetFacet& facet) {
+        const auto& p = facet.corners;
+        const float per_range = 3.0F / arrival_range(p[0] + p[1] + p[2]);
         std::array<Eigen::Vector3f, 3> off;
-        for (int k = 0; k < 3; ++k)
-            off[k] = facet.normals[k].normalized() + arrival_of(facet.corners[k]).departure;
+        for (int k = 0; k < 3; ++k) {
+            // Nearly of unit length: normals are at least 0.9 long.
+            const float to_unit = 1.5F - 0.5F * facet.normals[k].squaredNorm();
+            off[k] = to_unit * facet.normals[k] + per_range * p[k];
+        }
         const Eigen::Vector3f middle = (off[0] + off[1] + off[2]) / 3.0F;
-        float spread = 0.0F;
+        float spread2 = 0.0F;
         for (const Eigen::Vector3f& corner : off)
-            spread = std::max(spread, (corner - middle).norm());
+            spread2 = std::max(spread2, (corner - middle).squaredNorm());
         along_u = off[1] - off[0];
         along_v = off[2] - off[0];
-        least = middle.norm() - spread;
+        least = middle.norm() - std::sqrt(spread2);
     }
 };
 
@@ -52,7 +58,7 @@ struct FacetTurn {
 /// not for the image.
 struct TargetSurface {
     std::vector<std::uint32_t> instances;  ///< ascending
-    std::vector<TargetFacet> facets;       ///< instance after instance
+    std::vector<TargetFacet> facets;       ///< instance after instance, region after region
 
     bool has(std::uint32_t instance) const {
         return std::ranges::binary_search(instances, instance);

@@ -1,27 +1,56 @@
 #include "validation/energy_reference.h"
 
 #include <Eigen/Geometry>
+#include <stdexcept>
 
+#include "trace/target_surface.h"
 #include "trace/visible_surface.h"
 #include "validation/reference_cast.h"
+#include "visibility/intersect.h"
 #include "visibility/local_pose.h"
 
 namespace sonarsim {
 
 namespace {
 
+/// Casts rays for targets, and nothing else.
+class TargetRays final : public VisibilityEngine {
+  public:
+    TargetRays(const Caster& caster, const Eigen::Vector3d& origin)
+        : caster_(caster), origin_(origin) {}
+
+    Samples visible_surface(const View& /*view*/, const Pose& /*T_world_sensor*/) const override {
+        throw std::logic_error("the reference samples no surface by an engine");
+    }
+    void intersect(const Pose& T_world_sensor, std::span<const Ray> rays,
+                   std::span<Intersection> intersections) const override {
+        intersect_rays(caster_, origin_, T_world_sensor, rays, intersections);
+    }
+    std::vector<std::uint8_t> covered_bins(const View& /*view*/,
+                                           const Pose& /*T_world_sensor*/) const override {
+        return {};
+    }
+
+  private:
+    const Caster& caster_;
+    const Eigen::Vector3d& origin_;
+};
+
 /// Images of points, added in parts: the expected powers of the parts sum to the image of all.
 class EnergyImage {
   public:
-    EnergyImage(const Scene& scene, const PingSettings& settings, const Pose& T_world_sensor)
+    EnergyImage(const Scene& scene, const PingSettings& settings, const Pose& T_world_sensor,
+                const TargetSurface& targets)
         : scene_(scene),
           settings_(settings),
           R_sensor_local_(local_pose(T_world_sensor, scene.origin).rotation.transpose()),
           sum_(static_cast<std::size_t>(settings.view.range_bins) * settings.view.beams) {
         traced_.T_world_sensor = T_world_sensor;
+        traced_.targets = targets;
     }
 
     void add(const SurfacePoint& point) {
+        if (traced_.targets.has(point.facet.instance)) return;
         const auto range = static_cast<float>(point.range_m);
         const Eigen::Vector3f position = range * (R_sensor_local_ * point.direction);
         if (settings_.guard_beams.count > 0 && !is_reached(settings_.view, position)) return;
@@ -51,7 +80,7 @@ class EnergyImage {
 
     void form() {
         const auto count = static_cast<std::uint32_t>(traced_.samples.items.size());
-        if (count == 0) return;
+        if (count == 0 && traced_.targets.facets.empty()) return;
         // The calibrated model assigns samples to beams itself, so all of them belong to the first
         // beam here.
         traced_.samples.beam_begin.assign(static_cast<std::size_t>(settings_.view.beams) + 1,
@@ -61,6 +90,7 @@ class EnergyImage {
         for (std::size_t k = 0; k < sum_.size(); ++k)
             sum_[k] += static_cast<double>(ping.intensity[k]);
         traced_.samples.items.clear();
+        traced_.targets.facets.clear();
     }
 
     const Scene& scene_;
@@ -79,12 +109,17 @@ Reference cast_energy_reference(const Caster& caster, const Scene& scene,
     const View view = widened_view(settings.view, settings.guard_beams);
     const LocalPose pose = local_pose(T_world_sensor, scene.origin);
     const std::vector<SurfaceShare> shares = surface_shares(scene, view, pose);
+    TargetSurface targets;
+    if (settings.targets) {
+        targets = target_surface(*settings.targets, settings.view, settings.guard_beams, scene,
+                                 TargetRays(caster, scene.origin), T_world_sensor);
+    }
     const ReferenceView looking{caster, scene, view, pose, shares};
     return settled(settings.view, goal, [&](int per_beam, int count) {
         CastResult cast;
         std::vector<double> mean;
         for (const std::uint32_t start : {0U, 1U}) {
-            EnergyImage image(scene, settings, T_world_sensor);
+            EnergyImage image(scene, settings, T_world_sensor, targets);
             cast.rays += cast_over_surface(looking, {per_beam, count, start},
                                            [&](const SurfacePoint& point) { image.add(point); });
             const std::vector<double> sum = image.take();

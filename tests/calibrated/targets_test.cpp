@@ -293,6 +293,47 @@ TEST_SUITE("calibrated") {
         }
     }
 
+    TEST_CASE("targets: bodies that move and copies of a mesh are sampled where they are") {
+        const Sonar sonar = sonar_of(SonarKind::imaging);
+        const Ball still({8.0, 0.3, 0.2}, 0.15, 32);
+        const double expected = energy_by(with_targets(sonar, still.scene), still.scene,
+                                          *engine_of(still.scene, EngineKind::rays));
+        // The sphere about the origin of its own frame, with half of the radius for the copy.
+        const Ball ball({0.0, 0.0, 0.0}, 0.15, 32);
+        const Ball half({0.0, 0.0, 0.0}, 0.075, 32);
+        const auto without_sphere = [&] {
+            Scene scene = still.scene;
+            const auto last = static_cast<std::ptrdiff_t>(scene.triangles.size() - 2);
+            scene.triangles.erase(scene.triangles.begin(), scene.triangles.begin() + last);
+            scene.triangle_material.resize(2);
+            scene.triangle_instance.erase(scene.triangle_instance.begin(),
+                                          scene.triangle_instance.begin() + last);
+            return scene;
+        };
+        const std::size_t count = ball.scene.triangles.size() - 2;
+        const auto triangles = [&](const Ball& of) {
+            return std::vector(of.scene.triangles.begin(),
+                               of.scene.triangles.begin() + static_cast<std::ptrdiff_t>(count));
+        };
+        const std::vector<std::uint32_t> materials(count, 0);
+
+        Scene moving = without_sphere();
+        moving.bodies.push_back({0, ball.scene.vertices, triangles(ball), materials});
+        const auto engine = engine_of(moving, EngineKind::rays);
+        const Pose there{rotation_from_rpy(0.0, 0.0, 0.7), {8.0, 0.3, 0.2}};
+        CHECK(energy_by(with_targets(sonar, moving), moving, *engine->at({&there, 1})) ==
+              doctest::Approx(expected).epsilon(0.01));
+
+        Scene copied = without_sphere();
+        copied.shared_meshes.push_back({half.scene.vertices, triangles(half), materials});
+        MeshCopy copy{.mesh = 0, .instance = 0};
+        copy.T_world_mesh = Eigen::Translation3d(8.0, 0.3, 0.2) * Eigen::Scaling(2.0);
+        copied.copies.push_back(copy);
+        CHECK(
+            energy_by(with_targets(sonar, copied), copied, *engine_of(copied, EngineKind::rays)) ==
+            doctest::Approx(expected).epsilon(0.01));
+    }
+
     TEST_CASE("targets: a scene without them has the image of its engine") {
         const Sonar sonar = sonar_of(SonarKind::imaging);
         Scene scene = empty_scene();
