@@ -17,20 +17,15 @@ namespace sonarsim {
 
 namespace {
 
-// Patches may be deeper than those of an image, since their echoes are spread over the bins. Over a
-// depth d at the range r the power changes by the share 4 d / r.
-constexpr float most_depth_in_bins = 4.0F;
-constexpr float most_sine_by_beam = 1.0F;
-
-// A point's echo needs a width across the beams as well.
-constexpr float least_half_sine = 1e-6F;
+// Patches may be larger than those of an image, since their echoes are spread over bins and beams.
+// Over a depth d at the range r the power changes by the share 4 d / r.
+constexpr float most_depth_in_bins = 2.0F;
 
 /// The greatest size of a patch of labels.
 PointLimits label_limits(const CalibratedModel& model) {
     PointLimits limits = model.limits;
     limits.depth_m = most_depth_in_bins * model.equation.bin_m;
-    if (model.cones.exist())
-        limits.sine = std::max(limits.sine, most_sine_by_beam * model.cones.mean_width());
+    if (model.cones.exist()) limits.sine = std::max(limits.sine, model.cones.mean_width());
     return limits;
 }
 
@@ -211,9 +206,13 @@ class SurfaceEchoFinder {
                 const float power = echoes.power[k];
                 if (!(power > 0.0F)) continue;
                 const float sine = piece_sine(pieces.y[k], echoes.range_m[k]);
-                const float half = std::max(half_sine(k), least_half_sine);
-                model_.cones.for_each(sine - half, sine + half,
-                                      [&](int beam, float share) { use(beam, k, share * power); });
+                const float low = sine - half_sine(k);
+                const float high = sine + half_sine(k);
+                const auto add = [&](int beam, float share) { use(beam, k, share * power); };
+                if (high > low)
+                    model_.cones.for_each(low, high, add);
+                else if (const int beam = model_.cones.beam(sine); beam >= 0)
+                    add(beam, 1.0F);
             }
         } else {
             for (int beam = 0; beam < beams_.beams(); ++beam) {

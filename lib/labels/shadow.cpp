@@ -118,7 +118,8 @@ void ShadowFinder::add_to_cones(const SightLine& line, const Hidden& whole,
             if (beam < 0) continue;
             Hidden piece = whole;
             piece.beam = static_cast<std::uint32_t>(beam);
-            // The quotient may be no number for a plane that is seen edge-on; fmax() leaves that out.
+            // The quotient may be no number for a plane that is seen edge-on; fmax() leaves that
+            // out.
             const float range_m = whole.range_m * along / normal.dot(direction);
             piece.range_m = std::fmin(std::fmax(range_m, least_m), greatest_m);
             piece.half_m = whole.half_m / static_cast<float>(std::max(rows, columns));

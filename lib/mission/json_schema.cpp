@@ -92,7 +92,8 @@ class SchemaBuilder {
     }
     void numbers(const char* key, const std::vector<double>&, const Limits& limits,
                  const char* meaning) {
-        add(key, "list of numbers", list_json(within_limits("number", limits), 0), meaning);
+        add(key, "list of numbers", list_json(within_limits("number", limits), 0), meaning,
+            Presence::optional, SchemaJson::array());
     }
     template <std::size_t N>
     void optional_numbers(const char* key, const std::optional<std::array<double, N>>&,

@@ -35,7 +35,7 @@ std::string unit_of(std::string_view key) {
 std::string yaml_text(const Json& value) {
     if (value.is_string()) return value.get<std::string>();
     if (value.is_number_float()) return number_text(value.get<double>());
-    if (!value.is_array()) return value.dump();
+    if (!value.is_array() || value.empty()) return value.dump();
     std::string list;
     for (const Json& item : value)
         list += (list.empty() ? "[" : ", ") + number_text(item.get<double>());

@@ -84,7 +84,7 @@ def section(draw, keys, path, wild, share, kind=None):
         name, what = key["name"], key["type"]
         if what in ("number", "whole number"):
             out[name] = number(draw, key, wild)
-        elif what.endswith(" numbers"):
+        elif what.endswith(" numbers") and what != "list of numbers":
             one = {**key, "type": "number", "default": 1.0}
             out[name] = [number(draw, one, wild) for _ in range(int(what.split()[0]))]
         elif what == "true or false":
@@ -148,6 +148,10 @@ def instrument(draw, keys, kind, wild, sonar):
     sonar[view] = angle
     if 0 < beam.get("view_azimuth_deg", 0) < angle:
         beam["view_azimuth_deg"] = draw.choice([angle, 179.95, 180])
+    if kind in ("imaging", "profiling") and draw.random() < 0.3:
+        bins = sonar.get("azimuth_bins", default["azimuth_bins"])
+        sonar["instrument"].setdefault("beam", beam)["azimuths_deg"] = [
+            angle * ((j + 0.5 + draw.uniform(-0.1, 0.1)) / bins - 0.5) for j in range(bins)]
 
 
 def trajectory(draw, size, at, folder):
