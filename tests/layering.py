@@ -31,7 +31,8 @@ ALLOWED = {
                  "labels", "product", "sonar"},
     "format": {"core"},
 }
-for upper in ("dataset", "checks", "job", "validation", "benchmark", "preview", "gallery"):
+for upper in ("dataset", "checks", "job", "validation", "benchmark", "preview", "gallery",
+              "export"):
     ALLOWED[upper] = set(ALLOWED)
 
 # The parts of the folders that have subfolders, from the bottom up; those in one row do not know
