@@ -2,13 +2,15 @@
 
 #include <spdlog/spdlog.h>
 
-#include <map>
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <utility>
+#include <string>
+#include <vector>
 
 #include "commands.h"
 #include "core/error.h"
+#include "core/text.h"
 #include "logging.h"
 #include "progress.h"
 #include "signals.h"
@@ -20,9 +22,18 @@ namespace {
 struct ExportArguments {
     std::filesystem::path folder;
     std::filesystem::path dest;
+    std::string format;
     ExportOptions options;
     LogOptions log;
 };
+
+ExportKind kind_named(const std::string& name) {
+    const std::vector<std::string> names{"yolo", "coco", "masks", "imagefolder", "webdataset"};
+    const auto found = std::ranges::find(names, name);
+    if (found != names.end()) return static_cast<ExportKind>(found - names.begin());
+    throw InputError("--format: there is no '" + printable(name) + "'" + did_you_mean(name, names) +
+                     "; there are: yolo, coco, masks, imagefolder, webdataset");
+}
 
 void require_sound(const ExportOptions& options) {
     if (options.overlap_px > 0 && options.overlap_px >= options.tile_px)
@@ -69,8 +80,9 @@ void tell(const ExportArguments& arguments, const ExportSummary& summary) {
                  summary.without_objects);
 }
 
-int export_all(const ExportArguments& arguments) {
+int export_all(ExportArguments& arguments) {
     start_logging(arguments.log);
+    arguments.options.kind = kind_named(arguments.format);
     require_sound(arguments.options);
     const std::atomic<bool>& stop = stop_on_signal(
         warning_line(arguments.log, "stopped at once; the same command run again begins anew"));
@@ -98,15 +110,15 @@ void add_export(CLI::App& app, int& exit_code) {
                            "--overlap 64"});
     auto arguments = std::make_shared<ExportArguments>();
     ExportOptions& options = arguments->options;
-    const std::map<std::string, ExportKind> formats{{"yolo", ExportKind::yolo}};
     command
         .add_option("folder", arguments->folder,
                     "The folder of a dataset, of variants or of a collection")
         ->required();
     command.add_option("dest", arguments->dest, "The folder to write")->required();
-    command.add_option("--format", options.kind, "The layout")
+    command
+        .add_option("--format", arguments->format,
+                    "The layout: yolo, coco, masks, imagefolder or webdataset")
         ->required()
-        ->transform(CLI::CheckedTransformer(formats))
         ->type_name("FORMAT");
     command.add_option("--sensor", options.sensors, "Only this sensor; may be repeated")
         ->allow_extra_args(false);
@@ -127,6 +139,9 @@ void add_export(CLI::App& app, int& exit_code) {
         .add_option("--least-share", options.least_share,
                     "Pieces of an object in a tile below this share of its pixels are left out")
         ->check(CLI::Range(0.0, 1.0))
+        ->capture_default_str();
+    command
+        .add_option("--licence", options.licence, "Licence of the data, for an image folder's card")
         ->capture_default_str();
     add_log_options(command, arguments->log);
     command.callback([arguments, &exit_code] { exit_code = export_all(*arguments); });

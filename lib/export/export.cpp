@@ -15,7 +15,18 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 std::unique_ptr<ExportFormat> make_export(const ExportContext& context) {
-    if (context.options.kind == ExportKind::yolo) return make_yolo_export(context);
+    switch (context.options.kind) {
+        case ExportKind::yolo:
+            return make_yolo_export(context);
+        case ExportKind::coco:
+            return make_coco_export(context);
+        case ExportKind::masks:
+            return make_masks_export(context);
+        case ExportKind::imagefolder:
+            return make_imagefolder_export(context);
+        case ExportKind::webdataset:
+            return make_webdataset_export(context);
+    }
     throw std::logic_error("an unknown format");
 }
 

@@ -5,6 +5,7 @@
 
 namespace sonarsim {
 
+/// In the order of the names of --format.
 enum class ExportKind { yolo, coco, masks, imagefolder, webdataset };
 
 /// The options of an export.

@@ -1,85 +1,16 @@
-"""sonarsim export: what each format holds, checked by rules of our own, tiles, and what is refused."""
-import json
+"""sonarsim export: pictures, tiles, parts, and what is refused; each format is in test_export_formats.py."""
 import os
 import shutil
-import struct
 import unittest
-import zlib
 
-from labelled import Labelled, box_of, mask_of, read_png
+from exported import Exported, check_yolo
+from labelled import box_of, mask_of, read_png
 from sandbox import digest
 
 SPLIT = "\n  split: {train: 0.5, val: 0.5, gap: 0}"
 
 
-def shape_of(path):
-    """Width, height, bits and colour type of a PNG file; its check sums must be right."""
-    data = path.read_bytes()
-    at = 8
-    while at < len(data):
-        length, kind = struct.unpack(">I4s", data[at:at + 8])
-        crc, = struct.unpack(">I", data[at + 8 + length:at + 12 + length])
-        assert crc == zlib.crc32(data[at + 4:at + 8 + length]), path
-        at += 12 + length
-    return struct.unpack(">IIBB", data[16:26])
-
-
-def names_of_yaml(text):
-    """The classes of data.yaml, in order."""
-    lines = text.split("names:\n")[1].splitlines()
-    keys, names = zip(*(line.strip().split(": ", 1) for line in lines))
-    assert list(map(int, keys)) == list(range(len(keys))), lines
-    return [json.loads(name) for name in names]
-
-
-def check_yolo(folder):
-    """What Ultralytics expects. Returns {part: {name: [[class, x, y, w, h or corners]]}}."""
-    names = names_of_yaml((folder / "data.yaml").read_text())
-    found = {}
-    parts = sorted(p.name for p in (folder / "images").iterdir())
-    assert parts == sorted(p.name for p in (folder / "labels").iterdir())
-    for part in parts:
-        assert f"{part}: images/{part}\n" in (folder / "data.yaml").read_text()
-        pictures = {p.stem for p in (folder / "images" / part).iterdir()}
-        labels = {p.stem for p in (folder / "labels" / part).iterdir()}
-        assert pictures == labels, pictures ^ labels
-        found[part] = {}
-        for name in sorted(pictures):
-            width, height, bits, colours = shape_of(folder / "images" / part / (name + ".png"))
-            assert bits == 8 and colours in (0, 2), name
-            lines = [line.split() for line in
-                     (folder / "labels" / part / (name + ".txt")).read_text().splitlines()]
-            for one in lines:
-                assert 0 <= int(one[0]) < len(names), one
-                values = [float(v) for v in one[1:]]
-                assert all(0 <= v <= 1 for v in values), one
-                if len(values) == 4:
-                    x, y, w, h = values
-                    assert w > 0 and h > 0, one
-                    assert -1e-5 < x - w / 2 and x + w / 2 < 1 + 1e-5, one
-                    assert -1e-5 < y - h / 2 and y + h / 2 < 1 + 1e-5, one
-                else:
-                    assert len(values) >= 6 and len(values) % 2 == 0, one
-            found[part][name] = [(int(a), *(round(float(v) * s, 2) for v, s in zip(
-                b, (width, height) * len(b)))) for a, *b in lines]
-    return names, found
-
-
-class Export(Labelled):
-    def setUp(self):
-        super().setUp()
-        self.edit("mission.yaml", "labels: true", "labels: [coco]")
-        self.dest = self.folder / "dest"
-
-    def export(self, *arguments, form="yolo", source="out", dest="dest"):
-        return self.run_sonarsim("export", source, dest, "--format", form, *arguments)
-
-    def assert_exports(self, *arguments, **options):
-        result = self.export(*arguments, **options)
-        self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertFalse((self.folder / "dest.part").exists())
-        return result
-
+class Export(Exported):
     def coco_boxes(self, name, sensor=None):
         """{stem of the picture: [(class from 0 on, middle x, y, width, height)]}."""
         coco = self.load(f"labels/{name}.json")
@@ -149,12 +80,6 @@ class Export(Labelled):
                 xs, ys = own[1::2], own[2::2]
                 self.assertAlmostEqual(min(xs), box[1] - box[3] / 2, delta=0.02)
                 self.assertAlmostEqual(max(ys), box[2] + box[4] / 2, delta=0.02)
-
-    def long_path(self):
-        """Fifty pings past the first pillar."""
-        self.write("path.csv", "\n".join(
-            ["t_s,x_m,y_m,z_m,roll_deg,pitch_deg,yaw_deg",
-             *(f"{0.2 * k:.1f},{-0.9 + 0.05 * k:.2f},0,1.2,0,0,0" for k in range(50))]) + "\n")
 
     def sides_of(self, image, coco):
         """{(instance, class, side): pixels} of a waterfall."""
@@ -248,7 +173,7 @@ class Export(Labelled):
         self.assert_refused(self.export("--bins", "--without", "pilar"), "--without",
                             "did you mean 'pillar'?")
         self.assert_refused(self.export("--tile", "20", "--overlap", "20"), "--overlap")
-        self.assert_refused(self.export(form="yolov8"), "yolo")
+        self.assert_refused(self.export(form="yolo8"), "did you mean 'yolo'?", "imagefolder")
         self.assert_refused(self.export(source="nothing"), "nothing", "is no dataset")
         self.assert_refused(self.export("--bins", dest="out/exported"), "lies in the dataset")
         self.assert_renders("--overwrite", "--set", "output.labels=[instance]")
