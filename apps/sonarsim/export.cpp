@@ -69,7 +69,7 @@ void tell(const ExportArguments& arguments, const ExportSummary& summary) {
                      summary.left_out.pictures);
     }
     if (summary.left_out.pieces > 0) {
-        spdlog::info("left out {} pieces of objects that are smaller than --least-share",
+        spdlog::info("left out {} objects or pieces below --least-share or --least-pixels",
                      summary.left_out.pieces);
     }
     const bool one_part = summary.pictures.size() == 1;
@@ -135,6 +135,11 @@ void add_export(CLI::App& app, int& exit_code) {
     command.add_option("--overlap", options.overlap_px, "Pixels that neighbouring tiles share")
         ->check(CLI::Range(0, 1 << 16))
         ->type_name("PIXELS");
+    command
+        .add_option("--least-pixels", options.least_pixels,
+                    "Objects with fewer pixels in a picture are left out")
+        ->check(CLI::Range(1, 1 << 30))
+        ->capture_default_str();
     command
         .add_option("--least-share", options.least_share,
                     "Pieces of an object in a tile below this share of its pixels are left out")

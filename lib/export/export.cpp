@@ -42,6 +42,7 @@ Json identity_of(const ExportSource& source, const ExportOptions& options) {
                  {"tile_px", options.tile_px},
                  {"overlap_px", options.overlap_px},
                  {"least_share", options.least_share},
+                 {"least_pixels", options.least_pixels},
                  {"licence", options.licence}};
     json["datasets"] = Json::array();
     for (const SourceDataset& dataset : source.datasets)

@@ -9,6 +9,8 @@
 #include "dataset/coco/reader.h"
 #include "dataset/file_names.h"
 #include "dataset/shared_products.h"
+#include "mission/dataset_names.h"
+#include "trajectory/interpolate.h"
 
 namespace sonarsim {
 
@@ -71,11 +73,10 @@ SplitPart part_of_pings(const std::vector<SplitPart>& parts, std::uint64_t every
 
 class PictureLister {
   public:
-    PictureLister(const DatasetFile& file, std::optional<SplitPart> part,
-                  const ExportOptions& options, SourceDataset& dataset)
+    PictureLister(const DatasetFile& file, std::optional<SplitPart> part, SourceDataset& dataset)
         : file_(file),
-          options_(options),
           dataset_(dataset),
+          place_((dataset.folder / description_name).string()),
           parts_(parts_of_poses(file, dataset.folder, part)) {}
 
     /// Lists the pictures of a sort, which these sensors must have.
@@ -146,9 +147,10 @@ class PictureLister {
         const Json& sensor = file_.json["sensors"][index];
         const Json& described = *picture_per(sensor, "sensor");
         picture.kind = SourcePicture::Kind::strip;
-        picture.rows_are_pings = described.value("pings_along", "y") == "y";
+        picture.rows_are_pings = described.value("pings_along", Json("y")) == "y";
         if (sensor["kind"] == "sidescan") picture.nadir = picture.width / 2;
-        const auto each = described.value("pings_per_pixel", std::uint64_t{1});
+        const auto of_pixel = CheckedJson(described, place_).find("pings_per_pixel");
+        const std::uint64_t each = of_pixel ? of_pixel->whole(1, most_poses) : 1;
         const auto rows =
             static_cast<std::uint64_t>(picture.rows_are_pings ? picture.height : picture.width);
         const std::uint64_t pings = file_.sensors[index].pings;
@@ -174,8 +176,8 @@ class PictureLister {
     }
 
     const DatasetFile& file_;
-    const ExportOptions& options_;
     SourceDataset& dataset_;
+    std::string place_;             ///< dataset.json, for messages
     std::vector<SplitPart> parts_;  ///< the part of each pose
     std::set<std::uint64_t> ids_;
 };
@@ -212,7 +214,7 @@ void add_pictures(const DatasetFile& file, std::optional<SplitPart> part,
                           "pictures of its bins with --bins");
         }
     }
-    PictureLister lister(file, part, options, dataset);
+    PictureLister lister(file, part, dataset);
     lister.list(options.bins ? CocoPicture::polar : CocoPicture::fan, imaging);
     lister.list(CocoPicture::record, strips);
     lister.list(CocoPicture::scan, sweeps);

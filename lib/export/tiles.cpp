@@ -42,7 +42,12 @@ SplitPart part_of_frame(const SourcePicture& source, const Frame& frame) {
 }
 
 std::vector<SourceObject> objects_in(const SourcePicture& source, const std::vector<Sided>& sided,
-                                     const Frame& frame, double least_share, LeftOut& left_out) {
+                                     const Frame& frame, const ExportOptions& options,
+                                     LeftOut& left_out) {
+    // A map of classes has pixels of objects of any size.
+    const bool is_map = options.kind == ExportKind::masks;
+    const double least_share = is_map ? 0.0 : options.least_share;
+    const auto least_pixels = static_cast<std::uint64_t>(is_map ? 1 : options.least_pixels);
     std::vector<SourceObject> objects;
     for (const Sided& one : sided) {
         const ObjectMask& whole = one.object.mask;
@@ -51,7 +56,9 @@ std::vector<SourceObject> objects_in(const SourcePicture& source, const std::vec
         if (!meets) continue;
         const ObjectMask piece = cut_mask(whole, source.height, frame, one.from, one.to);
         if (piece.area == 0) continue;
-        if (static_cast<double>(piece.area) < least_share * static_cast<double>(whole.area)) {
+        const bool is_small =
+            static_cast<double>(piece.area) < least_share * static_cast<double>(whole.area);
+        if (is_small || piece.area < least_pixels) {
             ++left_out.pieces;
             continue;
         }
@@ -82,8 +89,6 @@ void for_each_exported(const SourcePicture& source, const std::vector<SourceObje
     const std::vector<Sided> sided = on_sides(source, objects);
     std::string bytes = reader.file(source);
     const Pixels pixels = reader.read(source, bytes);
-    // A map of classes has pixels of pieces of any size.
-    const double least_share = options.kind == ExportKind::masks ? 0.0 : options.least_share;
     for (const Frame& frame : frames) {
         ExportedPicture picture;
         picture.part = part_of_frame(source, frame);
@@ -95,7 +100,7 @@ void for_each_exported(const SourcePicture& source, const std::vector<SourceObje
         if (frames.size() > 1) picture.name += fmt::format("-y{:05}-x{:05}", frame.top, frame.left);
         picture.width = frame.width();
         picture.height = frame.height();
-        picture.objects = objects_in(source, sided, frame, least_share, left_out);
+        picture.objects = objects_in(source, sided, frame, options, left_out);
         const bool is_file = frames.size() == 1 && !pixels.is_changed;
         picture.png = is_file ? std::move(bytes) : png_of(pixels, frame);
         if (is_file && source.member.empty()) picture.original = source.file;

@@ -11,7 +11,7 @@ namespace sonarsim {
 /// The pictures and objects that are not in an export.
 struct LeftOut {
     std::uint64_t pictures = 0;  ///< pictures or tiles whose pings are not in one part of the split
-    std::uint64_t pieces = 0;    ///< pieces of objects below the least share
+    std::uint64_t pieces = 0;    ///< objects, or pieces of them, that are too small
 };
 
 /// Calls `visit` with the pictures that an export makes of one of a dataset: the picture itself, or

@@ -1,4 +1,5 @@
 """sonarsim export: pictures, tiles, parts, and what is refused; each format is in test_export_formats.py."""
+import json
 import os
 import shutil
 import unittest
@@ -42,6 +43,17 @@ class Export(Exported):
                 sensor, number = name.split("-")
                 self.assertEqual((self.dest / f"images/{part}/{name}.png").read_bytes(),
                                  (self.out / f"{sensor}/fan/{number}.png").read_bytes())
+
+    def test_specks_are_left_out(self):
+        self.assert_renders()
+        coco = self.load("labels/coco_fan.json")
+        areas = sorted(one["area"] for one in coco["annotations"])
+        least = areas[len(areas) // 2] + 1
+        few = [area for area in areas if area < least]
+        result = self.assert_exports("--sensor", "fls", "--sensor", "mbes", "--least-pixels", least)
+        self.assertIn(f"left out {len(few)} objects", result.stderr)
+        _, found = check_yolo(self.dest)
+        self.assertEqual(sum(map(len, found["train"].values())), len(areas) - len(few))
 
     def test_packs_variants_and_collections(self):
         self.assert_renders()
@@ -166,6 +178,10 @@ class Export(Exported):
         again, _ = read_png(self.folder / "arrays/images/train/fls-000000.png")
         self.assertTrue(all(abs(a - b) <= 1 for x, y in zip(own, again) for a, b in zip(x, y)))
 
+        self.assert_renders("--set", "output.pack=tar", "--out", "packed")
+        self.assert_exports("--sensor", "fls", "--bins", source="packed", dest="unpacked")
+        self.assertEqual(digest(self.folder / "unpacked/images"), digest(self.folder / "arrays/images"))
+
     def test_what_is_refused_leaves_nothing(self):
         self.assert_renders("--set", "output.fan=false")
         self.assert_refused(self.export(), "sensor 'fls' has no fans", "output.fan: true", "--bins")
@@ -231,6 +247,15 @@ class Export(Exported):
                 self.assert_refused(self.export(), fragment)
                 self.assertEqual([p.name for p in self.folder.glob("dest*")], [])
         path.write_text(sound)
+        described = (self.out / "dataset.json").read_text()
+        told = json.loads(described)
+        picture = next(one for one in told["sensors"] if one["name"] == "sss")["pictures"][0]
+        for along, each in ((None, 0), (None, "x"), ("y", 2)):
+            picture.pop("pings_along", None)
+            picture.update({"pings_per_pixel": each, **({"pings_along": along} if along else {})})
+            self.write("out/dataset.json", json.dumps(told))
+            self.assert_refused(self.export(), "out/")
+        self.write("out/dataset.json", described)
         fan = self.out / "fls/fan/000000.png"
         data = fan.read_bytes()
         fan.write_bytes(data[:-20])
