@@ -49,6 +49,24 @@ def open_dataset(folder):
     return Dataset(pathlib.Path(folder))
 
 
+def open_datasets(folder):
+    """The datasets in a folder: its own, the variants of a mission in order, or those of a
+    collection. ValueError as open_dataset()."""
+    folder = pathlib.Path(folder)
+    for file, key in (("variants.json", "variants"), ("collection.json", "datasets")):
+        if not (folder / file).is_file():
+            continue
+        try:
+            names = [one["folder"] for one in json.loads((folder / file).read_text())[key]]
+            sound = all(name not in ("", ".", "..") and "/" not in name for name in names)
+        except (ValueError, RecursionError, KeyError, TypeError) as fault:
+            raise ValueError(f"{folder / file}: is damaged: {fault!r}") from fault
+        if not sound:
+            raise ValueError(f"{folder / file}: names a folder that does not lie in this one")
+        return [open_dataset(folder / name) for name in names]
+    return [open_dataset(folder)]
+
+
 class Dataset:
     """A dataset: `sensors` by name, and its dataset.json as `description`."""
 

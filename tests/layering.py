@@ -31,7 +31,8 @@ ALLOWED = {
                  "labels", "product", "sonar"},
     "format": {"core"},
 }
-for upper in ("dataset", "checks", "job", "validation", "benchmark", "preview", "gallery"):
+for upper in ("dataset", "checks", "job", "validation", "benchmark", "preview", "gallery",
+              "export"):
     ALLOWED[upper] = set(ALLOWED)
 
 # The parts of the folders that have subfolders, from the bottom up; those in one row do not know
@@ -40,7 +41,8 @@ PARTS = {
     "dataset": [["*"], ["writers/"], ["writers"], ["layout"], ["metadata"], ["dataset_file"],
                 ["description", "ping_file_reader"], ["coco/"], ["encode_ping"], ["shared_files"]],
     "job": [["*"], ["folder_lock"], ["journal"], ["checksums"], ["folder"], ["listed_files", "resume"],
-            ["ping_files"], ["ping_cost"], ["completion"], ["collection", "run_job", "merge", "verify"],
+            ["ping_files"], ["ping_cost"], ["completion", "joined_labels"],
+            ["collection", "run_job", "merge", "verify"],
             ["variants"], ["status", "variants_check", "collection_check"]],
     "scene": [["*"], ["gltf/", "placing/"]],
     "validation": [["*"], ["hard/"]],

@@ -2,7 +2,6 @@
 
 #include "core/error.h"
 #include "dataset/layout.h"
-#include "dataset/split.h"
 #include "mission/files.h"
 #include "mission/parse.h"
 #include "mission/variants.h"
@@ -63,8 +62,6 @@ Mission load(const MissionOptions& options) {
 
 std::vector<Mission> load_variants(const MissionOptions& options, const Mission& mission) {
     if (mission.variants == 0) return {};
-    if (mission.output.split.is_on())
-        split_variants(mission.output.split, static_cast<std::size_t>(mission.variants));
     return draw_variants(mission, source_of(options), sonar_keys());
 }
 

@@ -1,5 +1,7 @@
 #include "checks/find_warnings.h"
 
+#include <algorithm>
+#include <string>
 #include <utility>
 
 #include "dataset/split.h"
@@ -61,10 +63,15 @@ std::vector<Warning> find_warnings(const Mission& mission, const Assembly& assem
 
 std::vector<Warning> split_warnings(const SplitConfig& config, std::size_t variants) {
     if (!config.is_on()) return {};
-    const std::vector<SplitPart> parts = parts_of(config);
-    if (variants >= parts.size()) return {};
-    return {make_warning(WarningCode::few_variants, config.place.location.text(), variants,
-                         parts.size(), split_part_names[static_cast<std::size_t>(parts.front())])};
+    const std::vector<SplitPart> part_of_variant = split_variants(config, variants);
+    std::string empty;
+    for (const SplitPart part : parts_of(config)) {
+        if (std::ranges::find(part_of_variant, part) != part_of_variant.end()) continue;
+        empty += (empty.empty() ? "'" : ", '") +
+                 std::string(split_part_names[static_cast<std::size_t>(part)]) + "'";
+    }
+    if (variants == 0 || empty.empty()) return {};
+    return {make_warning(WarningCode::few_variants, config.place.location.text(), variants, empty)};
 }
 
 }  // namespace sonarsim

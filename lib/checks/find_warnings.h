@@ -65,7 +65,7 @@ std::vector<Warning> memory_warnings(const std::vector<Sonar>& sonars, int threa
 /// True if one ping of any of the sonars takes more than the `available` bytes.
 bool exceeds_memory(const std::vector<Sonar>& sonars, double available);
 
-/// A split with more parts than the mission has variants.
+/// W27 for a split with a part that gets none of the variants.
 std::vector<Warning> split_warnings(const SplitConfig& config, std::size_t variants);
 
 }  // namespace sonarsim

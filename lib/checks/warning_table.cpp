@@ -151,10 +151,9 @@ constexpr std::array table{
         "the process",
         "the memory of a ping is estimated with 4 samples a bin, as with surface in all of them. "
         "If not even one ping has room, validate makes none to measure its time"},
-    WarningText{WarningCode::few_variants,
-                "the mission has fewer variants ({0}) than the split has parts ({1}): all of them "
-                "are put into '{2:s}'",
-                "", "fewer variants than parts", "a part would be empty"},
+    WarningText{WarningCode::few_variants, "of {0} variants none is left for {1:s}",
+                "render more, or leave the part out", "a part of the split gets no variant",
+                "nothing can be trained or tested with it"},
     WarningText{WarningCode::no_locks,
                 "the disk of this folder has no locks, so that a second run into it would not be "
                 "refused and would mix its files with these",

@@ -29,9 +29,8 @@ std::vector<SplitPart> parts_of(const SplitConfig& config) {
 
 namespace {
 
-/// Splits `poses` things; `what` is their name in messages.
-std::vector<SplitPart> split(const SplitConfig& config, std::size_t poses,
-                             const std::string& what) {
+/// Splits `poses` things. A part may get none.
+std::vector<SplitPart> split(const SplitConfig& config, std::size_t poses) {
     const std::vector<SplitPart> parts = parts_of(config);
     std::vector<SplitPart> of_pose(poses, SplitPart::none);
     std::vector<std::size_t> borders;
@@ -59,20 +58,21 @@ std::vector<SplitPart> split(const SplitConfig& config, std::size_t poses,
         std::fill(of_pose.begin() + static_cast<std::ptrdiff_t>(first),
                   of_pose.begin() + static_cast<std::ptrdiff_t>(end), SplitPart::none);
     }
-    for (const SplitPart part : parts) {
-        if (std::ranges::find(of_pose, part) != of_pose.end()) continue;
-        throw InputError(config.place.location,
-                         "of " + std::to_string(poses) + " " + what + " none is left for '" +
-                             std::string(split_part_names[static_cast<std::size_t>(part)]) +
-                             "': take a smaller gap, fewer rounds, or leave the part out");
-    }
     return of_pose;
 }
 
 }  // namespace
 
 std::vector<SplitPart> split_poses(const SplitConfig& config, std::size_t poses) {
-    return split(config, poses, "poses");
+    std::vector<SplitPart> of_pose = split(config, poses);
+    for (const SplitPart part : parts_of(config)) {
+        if (std::ranges::find(of_pose, part) != of_pose.end()) continue;
+        throw InputError(config.place.location,
+                         "of " + std::to_string(poses) + " poses none is left for '" +
+                             std::string(split_part_names[static_cast<std::size_t>(part)]) +
+                             "': take a smaller gap, fewer rounds, or leave the part out");
+    }
+    return of_pose;
 }
 
 std::vector<SplitPart> split_variants(const SplitConfig& config, std::size_t variants) {
@@ -80,7 +80,7 @@ std::vector<SplitPart> split_variants(const SplitConfig& config, std::size_t var
     if (variants < parts.size()) return std::vector(variants, parts.front());
     SplitConfig without_gap = config;
     without_gap.gap = 0;
-    return split(without_gap, variants, "variants");
+    return split(without_gap, variants);
 }
 
 }  // namespace sonarsim

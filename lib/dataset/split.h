@@ -32,7 +32,8 @@ std::vector<SplitPart> parts_of(const SplitConfig& config);
 std::vector<SplitPart> split_poses(const SplitConfig& config, std::size_t poses);
 
 /// The part of each variant, as split_poses() but without gaps, since variants have no neighbours.
-/// If there are fewer variants than parts, the first part gets all of them.
+/// A part whose share is too small for a variant gets none. If there are fewer variants than parts,
+/// the first part gets all of them.
 std::vector<SplitPart> split_variants(const SplitConfig& config, std::size_t variants);
 
 }  // namespace sonarsim

@@ -1,8 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace sonarsim {
 
@@ -11,5 +14,9 @@ namespace sonarsim {
 /// that more groups follow. From the fourth number on, the difference from the one before the last
 /// is written.
 std::string coco_counts(std::span<const std::uint32_t> runs);
+
+/// The runs of such a text; nothing unless they are runs of this many pixels (at most 2^31), of
+/// which only the first may be 0.
+std::optional<std::vector<std::uint32_t>> coco_runs(std::string_view counts, std::uint64_t pixels);
 
 }  // namespace sonarsim

@@ -12,6 +12,7 @@
 #include "core/ordered_pipeline.h"
 #include "core/sha256.h"
 #include "core/text.h"
+#include "dataset/coco/join.h"
 #include "dataset/dataset_file.h"
 #include "dataset/layout.h"
 #include "dataset/ping_metadata.h"
@@ -67,7 +68,7 @@ std::vector<Member> read_members(const std::vector<fs::path>& parts) {
         return std::tuple(d.mission, d.mission_hash, d.inputs_hash);
     };
     std::ranges::stable_sort(members, {}, key);
-    std::set<std::string> taken{collection_name, checksums_name};
+    std::set<std::string> taken{collection_name, checksums_name, labels_folder_name};
     for (std::size_t k = 0; k < members.size(); ++k) {
         Member& member = members[k];
         if (k > 0 && key(members[k - 1]) == key(member)) {
@@ -146,6 +147,7 @@ void require_no_links(const fs::path& out, const std::vector<Member>& members) {
                 folders.insert(path.parent_path());
         }
     }
+    folders.insert(labels_folder_name);
     for (const fs::path& folder : folders)
         require_no_link(out / folder, "a collection");
 }
@@ -162,6 +164,22 @@ FolderLock begin_collection(const fs::path& out, const Json& description) {
     if (!fs::is_empty(out)) throw InputError({out.string()}, "is not empty; choose another folder");
     write_file_durably(out / collection_name, json_text(description));
     return lock;
+}
+
+/// Writes the COCO files of all datasets together. Returns their lines of SHA256SUMS.
+std::string write_labels(const fs::path& out, const std::vector<Member>& members,
+                         const Json& description) {
+    std::vector<CocoMember> joined;
+    for (const Member& member : members)
+        joined.push_back(coco_member(member.description, member.folder, SplitPart::none));
+    std::vector<std::string> classes;
+    for (const Json& one : description.at("classes"))
+        classes.push_back(one.at("name"));
+    write_joined_coco(out, joined, classes, collection_format);
+    std::string sums;
+    for (const std::string& file : joined_coco_files(joined))
+        sums += checksum_line(sha256_of_file(out / file), file);
+    return sums;
 }
 
 /// Returns false when the file was there already.
@@ -211,6 +229,7 @@ CollectionSummary collect_datasets(const std::vector<fs::path>& parts, const fs:
             });
     });
     if (summary.files + summary.skipped < copies.size()) return summary;
+    sums += write_labels(out, members, description);
     description["complete"] = true;
     const std::string text = json_text(description);
     sync_file_system(out);

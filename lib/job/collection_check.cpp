@@ -71,7 +71,12 @@ std::vector<std::string> collection_errors(const fs::path& folder) {
             check(prefix + name, sum);
     }
     for (const auto& [name, sum] : sums) {
-        if (fs::is_regular_file(folder / name)) continue;
+        if (fs::is_regular_file(folder / name)) {
+            const bool is_joined = name.starts_with(std::string(labels_folder_name) + "/");
+            if (is_joined && sha256_of_file(folder / name) != sum)
+                errors.push_back(name + ": differs from SHA256SUMS of the collection" + cure);
+            continue;
+        }
         errors.push_back(name + ": is missing, and SHA256SUMS of the collection lists it" + cure);
     }
     return errors;

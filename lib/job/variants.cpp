@@ -17,6 +17,7 @@
 #include "job/checksums.h"
 #include "job/folder.h"
 #include "job/folder_lock.h"
+#include "job/joined_labels.h"
 #include "mission/resolved.h"
 #include "mission/variants.h"
 #include "scene/gltf/scene_files.h"
@@ -54,6 +55,7 @@ void remove_files_beside(const fs::path& folder) {
         fs::remove(folder / split_file_of(part));
     std::error_code not_empty;
     fs::remove(folder / split_folder_name, not_empty);
+    remove_label_files(folder);
 }
 
 /// Writes a file only if it differs: the disk of a complete dataset may be read-only.
@@ -63,17 +65,32 @@ void keep_or_write(const fs::path& file, const std::string& text) {
     write_file_durably(file, text);
 }
 
-/// Writes variants.json, the lists of its parts and the sums of both.
-void write_files_beside(const fs::path& folder, const Json& json) {
-    std::string sums;
-    const auto write = [&](const std::string& name, const std::string& text) {
-        keep_or_write(folder / name, text);
-        sums += checksum_line(sha256(text), name);
-    };
-    write(variants_name, json_text(json));
+/// The texts of variants.json and of the lists of its parts by file, in the order of SHA256SUMS.
+std::vector<std::pair<std::string, std::string>> files_beside(const Json& json) {
+    std::vector<std::pair<std::string, std::string>> files{{variants_name, json_text(json)}};
     for (const auto& [name, lines] : split_lists(json))
-        write(name, lines);
-    keep_or_write(folder / checksums_name, sums);
+        files.emplace_back(name, lines);
+    return files;
+}
+
+/// The lines of SHA256SUMS for these files.
+std::string sums_beside(const Json& json) {
+    std::string sums;
+    for (const auto& [name, text] : files_beside(json))
+        sums += checksum_line(sha256(text), name);
+    return sums;
+}
+
+/// Writes variants.json, the lists of its parts and the sums of both. SHA256SUMS keeps the lines of
+/// the joined labels.
+void write_files_beside(const fs::path& folder, const Json& json) {
+    for (const auto& [name, text] : files_beside(json))
+        keep_or_write(folder / name, text);
+    const fs::path file = folder / checksums_name;
+    const std::string sums = sums_beside(json);
+    const bool is_begun =
+        fs::is_regular_file(file) && read_file(file, largest_index).starts_with(sums);
+    if (!is_begun) write_file_durably(file, sums);
 }
 
 /// Locks the folder of all variants for a run and makes it ready: alone, or with other shards,
@@ -127,6 +144,7 @@ void check_variants(const Json& json, const std::string& file) {
 void require_no_links(const fs::path& folder, const Json& json) {
     std::vector<fs::path> folders = folders_of_variants(folder, json);
     folders.push_back(folder / split_folder_name);
+    folders.push_back(folder / labels_folder_name);
     for (const fs::path& one : folders)
         require_no_link(one, "a variant");
 }
@@ -200,6 +218,10 @@ void begin_variants(const fs::path& folder, const Json& json, std::span<const Mi
     write_files_beside(folder, json);
 }
 
+void finish_variants(const fs::path& folder, const Json& json) {
+    write_label_files(folder, json, folders_of_variants(folder, json), sums_beside(json));
+}
+
 std::map<std::string, std::string> split_lists(const Json& json) {
     std::map<std::string, std::string> lists;
     for (const Json& variant : json.at("variants")) {
@@ -259,6 +281,7 @@ RenderSummary run_variants(const Mission& mission, std::span<const Mission> vari
     }
     for (std::size_t i = 0; i < variants.size(); ++i)
         all.complete = all.complete && (is_ours(i) || is_complete(variants[i].output.folder));
+    if (all.complete) finish_variants(folder, json);
     all.seconds = watch.lap();
     return all;
 }

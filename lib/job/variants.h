@@ -17,6 +17,9 @@
 //
 //     OUT/variants.json         what was drawn for each of them
 //     OUT/split/train.txt       with output.split: the variants of a part; also val.txt, test.txt
+//     OUT/labels/coco.json      with the label coco: COCO files of all variants, once all of them
+//     are
+//                               there, see job/joined_labels.h
 //     OUT/SHA256SUMS            of the files above
 //     OUT/variant_0000/         a dataset like any other
 //
@@ -41,6 +44,12 @@ std::map<std::string, std::string> split_lists(const nlohmann::ordered_json& jso
 /// something else; with `overwrite` removes those that another variants.json names.
 void begin_variants(const std::filesystem::path& folder, const nlohmann::ordered_json& json,
                     std::span<const Mission> variants, bool overwrite);
+
+/// Writes the joined labels of variants that are all complete.
+void finish_variants(const std::filesystem::path& folder, const nlohmann::ordered_json& json);
+
+/// True if the folder holds a dataset that is complete.
+bool is_complete(const std::filesystem::path& dataset);
 
 /// Called before a variant is rendered, with its assembly.
 using VariantCallback = std::function<void(const Mission& variant, const Assembly& assembly)>;

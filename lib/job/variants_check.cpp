@@ -3,10 +3,12 @@
 
 #include "core/error.h"
 #include "core/sha256.h"
+#include "dataset/coco/join.h"
 #include "dataset/layout.h"
 #include "dataset/ping_metadata.h"
 #include "job/checksums.h"
 #include "job/folder_lock.h"
+#include "job/joined_labels.h"
 #include "job/variants.h"
 
 namespace sonarsim {
@@ -26,11 +28,26 @@ Json require_variants(const fs::path& folder) {
                      "has no variants.json; give output folders of one mission with variants");
 }
 
-/// Compares the files beside the variants with the sums of them.
-void check_files_beside(const fs::path& folder, const Json& json, DatasetCheck& check) {
-    std::set<std::string> expected{variants_name};
+/// The files beside the variants but SHA256SUMS. The joined labels are there once all variants are.
+std::set<std::string> names_beside(const fs::path& folder, const Json& json) {
+    std::set<std::string> names{variants_name};
     for (const auto& [name, lines] : split_lists(json))
-        expected.insert(name);
+        names.insert(name);
+    const std::vector<fs::path> folders = folders_of_variants(folder, json);
+    if (std::ranges::all_of(folders, is_complete)) {
+        for (const std::string& name : label_files_of(json, folders))
+            names.insert(name);
+    }
+    return names;
+}
+
+bool is_label_file(const std::string& name) {
+    return name.starts_with(std::string(labels_folder_name) + "/");
+}
+
+/// Compares the files beside the variants with the sums of them.
+void check_files_beside(const fs::path& folder, const std::set<std::string>& expected,
+                        DatasetCheck& check) {
     const fs::path sums_file = folder / checksums_name;
     if (!fs::is_regular_file(sums_file)) {
         check.errors.push_back(std::string(checksums_name) + ": is missing; " +
@@ -49,23 +66,24 @@ void check_files_beside(const fs::path& folder, const Json& json, DatasetCheck& 
         if (sum == sums.end() || sha256_of_file(folder / name) != sum->second)
             check.errors.push_back(name + ": differs from SHA256SUMS; " + render_variants_again);
     }
+    const bool has_labels = std::ranges::any_of(expected, is_label_file);
     for (const auto& [name, sum] : sums) {
-        if (!expected.contains(name))
+        const bool waits = is_label_file(name) && !has_labels;  // for a variant that is missing
+        if (!expected.contains(name) && !waits)
             check.errors.push_back(name + ": SHA256SUMS lists it, and variants.json does not; " +
                                    render_variants_again);
     }
 }
 
 /// Lists the files beside the variants that do not belong to them.
-void list_unknown_files(const fs::path& folder, const Json& json, DatasetCheck& check) {
-    std::set<std::string> expected{variants_name, checksums_name};
-    for (const auto& [name, lines] : split_lists(json)) {
+void list_unknown_files(const fs::path& folder, const Json& json, std::set<std::string> expected,
+                        DatasetCheck& check) {
+    expected.insert({checksums_name, split_folder_name, labels_folder_name});
+    for (const std::string& name : all_coco_files())
         expected.insert(name);
-        expected.insert(split_folder_name);
-    }
     for (const fs::path& variant : folders_of_variants(folder, json))
         expected.insert(variant.filename().string());
-    for (const fs::path& here : {folder, folder / split_folder_name}) {
+    for (const fs::path& here : {folder, folder / split_folder_name, folder / labels_folder_name}) {
         if (!fs::is_directory(here)) continue;
         for (const fs::directory_entry& entry : fs::directory_iterator(here)) {
             const std::string name = entry.path().lexically_relative(folder).string();
@@ -116,6 +134,7 @@ MergeSummary merge_variants(const std::vector<fs::path>& parts, const fs::path& 
         all.unlocked = all.unlocked || one.unlocked;
         if (progress) progress(i + 1, targets.size());
     }
+    if (all.complete) finish_variants(out, json);
     return all;
 }
 
@@ -124,8 +143,9 @@ DatasetCheck verify_variants(const fs::path& folder, int threads, const Progress
     const Json json = require_variants(folder);
     const std::vector<fs::path> folders = folders_of_variants(folder, json);
     DatasetCheck all;
-    check_files_beside(folder, json, all);
-    list_unknown_files(folder, json, all);
+    const std::set<std::string> names = names_beside(folder, json);
+    check_files_beside(folder, names, all);
+    list_unknown_files(folder, json, names, all);
     for (std::size_t i = 0; i < folders.size() && !all.stopped; ++i) {
         const std::string name = folders[i].filename().string();
         if (!fs::exists(folders[i] / description_name)) {

@@ -37,7 +37,7 @@ def room_gltf():
 
 def read_png(path):
     """Its rows of values, and the colour table if it has one. 8 and 16 bits, grey or with a table,
-    rows stored as they are or as the difference from the one above."""
+    rows stored as they are or as the difference from the row above or the pixel to the left."""
     data = path.read_bytes()
     assert data[:8] == b"\x89PNG\r\n\x1a\n", path
     chunks, at = {}, 8
@@ -55,7 +55,10 @@ def read_png(path):
     above, rows = bytes(stride), []
     for i in range(height):
         kind, *own = raw[i * (stride + 1):(i + 1) * (stride + 1)]
-        assert kind in (0, 2), (path, kind)
+        assert kind in (0, 1, 2), (path, kind)
+        if kind == 1:
+            for k in range(bits // 8, stride):
+                own[k] = (own[k] + own[k - bits // 8]) & 255
         above = bytes((a + b) & 255 for a, b in zip(own, above)) if kind == 2 else bytes(own)
         rows.append(list(above) if bits == 8 else list(struct.unpack(f">{width}H", above)))
     return rows, chunks.get(b"PLTE")

@@ -12,7 +12,7 @@ import zlib
 from sandbox import SONARSIM, Sandbox, digest, path_csv
 
 COMMANDS = (("verify", "out"), ("status", "out"), ("gallery", "out"), ("merge", "out", "merged"),
-            ("merge", "--different", "out", "merged"))
+            ("merge", "--different", "out", "merged"), ("export", "out", "merged", "--format", "yolo"))
 
 
 def png_header(width, height):

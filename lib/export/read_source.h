@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <vector>
+
+#include "export/options.h"
+#include "export/source.h"
+
+namespace sonarsim {
+
+/// Describes what there is to export. InputError, before anything is read for long, when a dataset
+/// is not complete or damaged, has no label `coco`, or has no pictures of 8 bits of a sensor, with
+/// the key to set; when no sensor or class has a name in `options`.
+ExportSource read_export_source(const std::filesystem::path& folder, const ExportOptions& options);
+
+/// The objects in the pictures of a dataset by the ids of these. InputError, with the line, for a
+/// mask that is not that of its picture and box.
+std::map<std::uint64_t, std::vector<SourceObject>> read_source_objects(
+    const ExportSource& source, const SourceDataset& dataset);
+
+}  // namespace sonarsim

@@ -1,0 +1,111 @@
+#include "export/tiles.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+
+namespace sonarsim {
+
+namespace {
+
+/// An object on one side of a picture.
+struct Sided {
+    SourceObject object;
+    int from = 0, to = 0;  ///< columns of the side
+};
+
+std::vector<Sided> on_sides(const SourcePicture& source, const std::vector<SourceObject>& objects) {
+    std::vector<int> borders{0, source.width};
+    if (source.nadir) borders.insert(borders.begin() + 1, *source.nadir);
+    std::vector<Sided> sided;
+    for (const SourceObject& object : objects) {
+        if (object.class_number == 0) continue;
+        for (std::size_t k = 0; k + 1 < borders.size(); ++k) {
+            const ObjectMask part =
+                cut_mask(object.mask, source.height, {0, source.width, 0, source.height},
+                         borders[k], borders[k + 1]);
+            if (part.area > 0)
+                sided.push_back({{object.class_number, part}, borders[k], borders[k + 1]});
+        }
+    }
+    return sided;
+}
+
+/// The part of the pings in a frame; `none` if they are not in one part.
+SplitPart part_of_frame(const SourcePicture& source, const Frame& frame) {
+    if (source.kind != SourcePicture::Kind::strip) return source.parts.front();
+    const auto begin = source.parts.begin() + (source.rows_are_pings ? frame.top : frame.left);
+    const auto end = source.parts.begin() + (source.rows_are_pings ? frame.bottom : frame.right);
+    return std::all_of(begin, end, [&](SplitPart part) { return part == *begin; })
+               ? *begin
+               : SplitPart::none;
+}
+
+std::vector<SourceObject> objects_in(const SourcePicture& source, const std::vector<Sided>& sided,
+                                     const Frame& frame, const ExportOptions& options,
+                                     LeftOut& left_out) {
+    // A map of classes has pixels of objects of any size.
+    const bool is_map = options.kind == ExportKind::masks;
+    const double least_share = is_map ? 0.0 : options.least_share;
+    const auto least_pixels = static_cast<std::uint64_t>(is_map ? 1 : options.least_pixels);
+    std::vector<SourceObject> objects;
+    for (const Sided& one : sided) {
+        const ObjectMask& whole = one.object.mask;
+        const bool meets = whole.left < frame.right && whole.right > frame.left &&
+                           whole.top < frame.bottom && whole.bottom > frame.top;
+        if (!meets) continue;
+        const ObjectMask piece = cut_mask(whole, source.height, frame, one.from, one.to);
+        if (piece.area == 0) continue;
+        const bool is_small =
+            static_cast<double>(piece.area) < least_share * static_cast<double>(whole.area);
+        if (is_small || piece.area < least_pixels) {
+            ++left_out.pieces;
+            continue;
+        }
+        objects.push_back({one.object.class_number, piece});
+    }
+    return objects;
+}
+
+std::vector<Frame> frames_of(const SourcePicture& source, const ExportOptions& options) {
+    const bool is_tiled = options.tile_px > 0 && source.kind != SourcePicture::Kind::ping;
+    if (!is_tiled) return {{0, source.width, 0, source.height}};
+    std::vector<Frame> frames;
+    for (const int top : tile_begins(source.height, options.tile_px, options.overlap_px)) {
+        for (const int left : tile_begins(source.width, options.tile_px, options.overlap_px)) {
+            frames.push_back({left, std::min(left + options.tile_px, source.width), top,
+                              std::min(top + options.tile_px, source.height)});
+        }
+    }
+    return frames;
+}
+
+}  // namespace
+
+void for_each_exported(const SourcePicture& source, const std::vector<SourceObject>& objects,
+                       PixelReader& reader, const ExportOptions& options, LeftOut& left_out,
+                       const std::function<void(const ExportedPicture&)>& visit) {
+    const std::vector<Frame> frames = frames_of(source, options);
+    const std::vector<Sided> sided = on_sides(source, objects);
+    std::string bytes = reader.file(source);
+    const Pixels pixels = reader.read(source, bytes);
+    for (const Frame& frame : frames) {
+        ExportedPicture picture;
+        picture.part = part_of_frame(source, frame);
+        if (picture.part == SplitPart::none) {
+            ++left_out.pictures;
+            continue;
+        }
+        picture.name = source.name;
+        if (frames.size() > 1) picture.name += fmt::format("-y{:05}-x{:05}", frame.top, frame.left);
+        picture.width = frame.width();
+        picture.height = frame.height();
+        picture.objects = objects_in(source, sided, frame, options, left_out);
+        const bool is_file = frames.size() == 1 && !pixels.is_changed;
+        picture.png = is_file ? std::move(bytes) : png_of(pixels, frame);
+        if (is_file && source.member.empty()) picture.original = source.file;
+        visit(picture);
+    }
+}
+
+}  // namespace sonarsim
