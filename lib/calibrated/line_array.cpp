@@ -21,8 +21,8 @@ double side_lobe(double pedestal) {
     double highest = 0.0;
     double last = 1.0;
     bool past_null = false;
-    // The main lobe ends within t = 2, and side lobes fall from there on.
-    for (int k = 1; k <= 1000; ++k) {
+    // The main lobe ends between t = 1 and 2, and side lobes fall soon after.
+    for (int k = 200; k <= 1000; ++k) {
         const double value = pattern(pedestal, 0.005 * k);
         past_null = past_null || value * last <= 0.0;
         if (past_null) highest = std::max(highest, value * value);

@@ -100,8 +100,8 @@ void Echoes::resize(std::size_t count, bool cells) {
 
 void direct_echoes(std::span<const Sample> samples, std::span<const Material> materials,
                    float bin_m, const ScattererLattice& lattice, Echoes& echoes,
-                   std::vector<std::uint32_t>* ends) {
-    if (ends) ends->clear();
+                   std::vector<std::uint32_t>& ends) {
+    ends.clear();
     const bool named = lattice.exists();
     std::size_t end = 0;
     Footprints footprints;
@@ -117,7 +117,7 @@ void direct_echoes(std::span<const Sample> samples, std::span<const Material> ma
             }
             write_pieces(footprints, k, count, target_at(echoes, end, named));
             end += count;
-            if (ends) ends->push_back(static_cast<std::uint32_t>(end));
+            ends.push_back(static_cast<std::uint32_t>(end));
         }
     }
     echoes.resize(end, named);

@@ -26,11 +26,12 @@ struct DirectEchoes {
     const ScattererLattice& lattice;
     const RangeNoise& range_noise;
     PhiloxKey draws;
-    Echoes echoes = {};  ///< the samples that were added last
+    Echoes echoes = {};                    ///< the samples that were added last
+    std::vector<std::uint32_t> ends = {};  ///< the ends of the echoes of each of them
 
     /// Eq. 4-8. Returns how many echoes lie out of range.
     std::uint64_t add(std::span<const Sample> samples, BinSums& sums) {
-        direct_echoes(samples, scene.materials, bins.bin_m, lattice, echoes);
+        direct_echoes(samples, scene.materials, bins.bin_m, lattice, echoes, ends);
         add_range_noise(echoes, range_noise, draws);
         return accumulate(echoes, bins, sums);
     }

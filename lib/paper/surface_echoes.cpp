@@ -23,7 +23,7 @@ BeamEchoes direct_by_beam(const Samples& samples, const View& view, const Scene&
     Echoes echoes;
     std::vector<std::uint32_t> ends;
     direct_echoes(samples.items, scene.materials, static_cast<float>(view.bin_m()),
-                  ScattererLattice{}, echoes, &ends);
+                  ScattererLattice{}, echoes, ends);
     BeamEchoes out;
     out.sample.reserve(echoes.size());
     for (std::size_t k = 0; k < ends.size(); ++k)

@@ -259,8 +259,11 @@ TargetShape target_shape(const TargetMesh& mesh) {
     if (shape.closed) turn_outwards(shape, edges);
     bend(shape, edges);
     std::ranges::stable_sort(shape.triangles, {}, &TargetTriangle::region);
-    for (const TargetTriangle& triangle : shape.triangles)
+    for (const TargetTriangle& triangle : shape.triangles) {
         shape.curvature_m = std::max(shape.curvature_m, std::fabs(triangle.curvature_m));
+        for (const Eigen::Vector3f& normal : triangle.normals)
+            shape.turn = std::max(shape.turn, (normal - triangle.normal).norm());
+    }
     shape.curvature_m = std::min(shape.curvature_m, shape.radius_m);
     return shape;
 }

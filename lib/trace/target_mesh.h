@@ -26,6 +26,7 @@ struct TargetShape {
     float radius_m = 0.0F;                             ///< radius of that ball
     /// Greatest radius of curvature of its triangles; 0: it has flat faces alone.
     float curvature_m = 0.0F;
+    float turn = 0.0F;    ///< greatest angle between the curved surface and a triangle of it, rad
     bool closed = false;  ///< normals point outwards, and the back of a triangle is never seen
 };
 

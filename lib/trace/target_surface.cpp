@@ -15,7 +15,7 @@ namespace {
 
 // A target's size, or that of its highlight, is less than this many resolution cells. Engines take
 // one to a few samples in a cell.
-constexpr float most_cells = 8.0F;
+constexpr float most_cells = 4.0F;
 // Sonars of one or two beams have views that are many times as wide as their beam.
 constexpr double least_parts = 32.0;
 // The sonar is outside of the ball around a target.
@@ -67,7 +67,9 @@ class TargetSampler {
                                     static_cast<float>(view_.bin_m()));
         const float highlight =
             shape.curvature_m > 0.0F ? scale * shape.curvature_m * placed.least_slope : radius;
-        if (highlight > most_cells * cell) return std::nullopt;
+        // On a coarse mesh an engine sees facets where the surface is curved.
+        const bool is_smooth = shape.turn <= placed.least_slope;
+        if (highlight > most_cells * cell && is_smooth) return std::nullopt;
         const float part =
             std::clamp(0.5F * cell, finest_part * 2.0F * radius, coarsest_part * 2.0F * radius);
         return Target{

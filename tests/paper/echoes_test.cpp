@@ -21,7 +21,8 @@ Echoes echoes_of(const Eigen::Vector3f& centre, const Eigen::Vector3f& edge_u,
     Material material;
     material.reflection = 0.25F;
     Echoes echoes;
-    direct_echoes({&sample, 1}, {&material, 1}, bin_m, {}, echoes);
+    std::vector<std::uint32_t> ends;
+    direct_echoes({&sample, 1}, {&material, 1}, bin_m, {}, echoes, ends);
     return echoes;
 }
 
