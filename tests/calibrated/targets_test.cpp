@@ -163,6 +163,30 @@ TEST_SUITE("calibrated") {
     }
 
     // A sphere of 10 cm radius 15 m off a side-scan sonar whose two-way pattern is 9 cm wide there.
+    TEST_CASE("targets: a sphere of few triangles is a sphere, however large it looks") {
+        // Its highlight is seven resolution cells across, enough for an engine's samples; but these
+        // have the normals of the facets.
+        SonarConfig config = calibrated(default_sonar(SonarKind::imaging), 9e5);
+        config.instrument = bare(config.instrument);
+        config.range_min_m = 0.5;
+        config.range_max_m = 12.0;
+        config.range_bins = 1200;
+        config.azimuth_deg = 60.0;
+        config.azimuth_bins = 512;
+        const Sonar sonar = make_sonar(config, {});
+        const Pose T_world_sensor = sensor_pose(sonar, Pose{}, 0);
+        for (const int sides : {12, 16, 24}) {
+            const Ball ball(T_world_sensor.rotation * Eigen::Vector3d(9.6, 0.1, 0.0) +
+                                T_world_sensor.translation,
+                            1.6, sides);
+            const auto engine = engine_of(ball.scene, EngineKind::rays);
+            const double found = energy_by(with_targets(sonar, ball.scene), ball.scene, *engine);
+            const double exact = energy_of_points(sonar, ball);
+            CAPTURE(sides);
+            CHECK(std::fabs(decibels(found / exact)) < 1.0);
+        }
+    }
+
     TEST_CASE("targets: a sphere along track follows the two-way pattern, without dropouts") {
         const Sonar sonar = sonar_of(SonarKind::sidescan);
         const Ball ball({0.0, 13.0, -7.5}, 0.1, 48);
