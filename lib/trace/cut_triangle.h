@@ -36,22 +36,27 @@ void cut_triangle(Size size, Use use) {
     const TrianglePlace t = corners[tip];
     const TrianglePlace a = corners[(tip + 1) % 3];
     const TrianglePlace b = corners[(tip + 2) % 3];
-    const auto wanted = [&](float of_size) { return std::ceil(std::clamp(of_size, 1.0F, most)); };
-    const float strips = wanted(std::max(sizes[(tip + 1) % 3], sizes[(tip + 2) % 3]));
+    const auto wanted = [&](float of_size) {
+        return of_size > 1.0F ? static_cast<int>(std::ceil(std::min(of_size, most))) : 1;
+    };
+    const auto share_of = [](int part, int parts) {
+        return static_cast<float>(part) / static_cast<float>(parts);
+    };
+    const int strips = wanted(std::max(sizes[(tip + 1) % 3], sizes[(tip + 2) % 3]));
     // From the tip by a share of the way to the point at a share of the side a, b.
     const auto place = [&](float along, float across) -> TrianglePlace {
         return {t.u + along * (a.u - t.u + across * (b.u - a.u)),
                 t.v + along * (a.v - t.v + across * (b.v - a.v))};
     };
-    for (float strip = 0.0F; strip < strips; ++strip) {
-        const float near = strip / strips;
-        const float far = (strip + 1.0F) / strips;
-        const float parts = wanted(sizes[tip] * far);
-        const float share = (far * far - near * near) / parts;
+    for (int strip = 0; strip < strips; ++strip) {
+        const float near = share_of(strip, strips);
+        const float far = share_of(strip + 1, strips);
+        const int parts = wanted(sizes[tip] * far);
+        const float share = (far * far - near * near) / static_cast<float>(parts);
         const float middle = 2.0F / 3.0F * (far + near * near / (far + near));
-        for (float part = 0.0F; part < parts; ++part) {
-            const float left = part / parts;
-            const float right = (part + 1.0F) / parts;
+        for (int part = 0; part < parts; ++part) {
+            const float left = share_of(part, parts);
+            const float right = share_of(part + 1, parts);
             use(TrianglePart{
                 {place(near, left), place(far, left), place(far, right), place(near, right)},
                 place(middle, 0.5F * (left + right)),
