@@ -67,14 +67,15 @@ struct CutSample {
 };
 
 CutSample cut_of(const Sample& sample, const PointLimits& limits) {
-    const auto [range, departure, direction] = arrival_of(sample.position);
+    const Arrival at = arrival_of(sample.position);
+    const Eigen::Vector3f& direction = at.direction;
     CutSample out{.sample = &sample};
-    out.rows = static_cast<float>(patches_along(sample.edge_u, direction, range, limits));
-    out.columns = static_cast<float>(patches_along(sample.edge_v, direction, range, limits));
+    out.rows = static_cast<float>(patches_along(sample.edge_u, direction, at.range_m, limits));
+    out.columns = static_cast<float>(patches_along(sample.edge_v, direction, at.range_m, limits));
     out.half_m = std::fabs(direction.dot(sample.edge_u)) / out.rows +
                  std::fabs(direction.dot(sample.edge_v)) / out.columns;
     const auto across = [&](const Eigen::Vector3f& edge) {
-        return std::fabs(edge.y() - direction.y() * direction.dot(edge)) / range;
+        return std::fabs(edge.y() - direction.y() * direction.dot(edge)) / at.range_m;
     };
     out.half_sine = across(sample.edge_u) / out.rows + across(sample.edge_v) / out.columns;
     return out;

@@ -34,7 +34,8 @@ std::vector<Place> places_in(const fs::path& folder) {
         const std::vector<fs::path> variants = folders_of_variants(folder, *json);
         const bool has_split = !split_lists(*json).empty();
         for (std::size_t i = 0; i < variants.size(); ++i) {
-            Place& place = places.emplace_back(variants[i], variants[i].filename().string());
+            Place& place = places.emplace_back(
+                Place{variants[i], variants[i].filename().string(), std::nullopt});
             const std::string part = json->at("variants").at(i).value("split", "none");
             const auto found = std::ranges::find(split_part_names, part);
             if (has_split) place.part = static_cast<SplitPart>(found - split_part_names.begin());

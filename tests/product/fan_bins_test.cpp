@@ -31,8 +31,10 @@ Sonar fan_sonar(double azimuth_deg, bool equal_azimuth = true) {
 
 TEST_SUITE("product") {
     TEST_CASE("fan of ids: a pixel has the bin that its centre lies in") {
-        for (const auto& [azimuth_deg, equal_azimuth] :
+        for (const auto& fan_of :
              {std::pair{30.0, true}, {120.0, true}, {120.0, false}, {270.0, true}, {360.0, true}}) {
+            const double azimuth_deg = fan_of.first;
+            const bool equal_azimuth = fan_of.second;
             CAPTURE(azimuth_deg);
             CAPTURE(equal_azimuth);
             const Sonar sonar = fan_sonar(azimuth_deg, equal_azimuth);
