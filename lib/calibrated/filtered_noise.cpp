@@ -61,9 +61,10 @@ void FilteredNoise::put(int channel, const std::uint32_t* words) {
     complex_normals(words, re, im);
     float* const window = windows_.data() + static_cast<std::ptrdiff_t>(2) * length_ * channel;
     // The last 8 values of the real part are overwritten twice, those of the imaginary part once.
-    std::copy(window + lanes, window + 2 * length_, window);
+    float* const end = window + static_cast<std::ptrdiff_t>(2) * length_;
+    std::copy(window + lanes, end, window);
     std::ranges::copy(re, window + length_ - lanes);
-    std::ranges::copy(im, window + 2 * length_ - lanes);
+    std::ranges::copy(im, end - lanes);
 }
 
 ComplexLanes FilteredNoise::of(int channel) const {
