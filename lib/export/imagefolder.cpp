@@ -5,6 +5,7 @@
 #include "core/file.h"
 #include "core/sha256.h"
 #include "dataset/ping_metadata.h"
+#include "export/croissant.h"
 #include "export/format.h"
 #include "export/objects_json.h"
 
@@ -20,7 +21,7 @@ std::string json_word(const Json& json) {
 }
 
 /// As the image folder of Hugging Face's `datasets`: PART/NAME.png, PART/metadata.jsonl with a line
-/// per picture, and README.md, the card of the dataset.
+/// per picture, README.md, the card of the dataset, and croissant.json.
 class ImageFolderExport final : public ExportFormat {
   public:
     explicit ImageFolderExport(const ExportContext& context) : context_(context) {}
@@ -44,6 +45,7 @@ class ImageFolderExport final : public ExportFormat {
         for (const auto& [part, own] : parts_)
             write_file(context_.folder / part / "metadata.jsonl", own.lines);
         write_file(context_.folder / "README.md", card());
+        write_file(context_.folder / "croissant.json", croissant());
     }
 
   private:
@@ -84,6 +86,18 @@ class ImageFolderExport final : public ExportFormat {
                                 dataset.at("sha256sums").get<std::string>());
         }
         return text;
+    }
+
+    std::string croissant() const {
+        const Json& first = context_.datasets.at(0);
+        CroissantInput input{.name = first.at("mission").get<std::string>(),
+                             .description = "Sonar pictures with labels, simulated by sonarsim",
+                             .licence = context_.options.licence,
+                             .classes = context_.classes,
+                             .parts = {}};
+        for (const auto& [part, own] : parts_)
+            input.parts.emplace_back(part, sha256(own.lines));
+        return croissant_json(input).dump(1, ' ', false, Json::error_handler_t::replace) + '\n';
     }
 
     /// Text from a dataset in a cell of a table: no line break, no bar, no tag.

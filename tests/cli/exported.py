@@ -1,4 +1,5 @@
 """A mission to export, and strict checkers of what sonarsim export writes, by the rules of each format."""
+import hashlib
 import io
 import json
 import struct
@@ -171,6 +172,44 @@ def check_imagefolder(folder):
             shown[one["file_name"].removesuffix(".png")] = check_objects(one["objects"], size,
                                                                          len(classes))
     return classes, found
+
+
+def check_croissant(folder):
+    """The rules of Croissant 1.0 and the files that it names. Returns the classes and {part: the records}."""
+    told = json.loads((folder / "croissant.json").read_text())
+    assert told["@type"] == "sc:Dataset" and told["conformsTo"] == "http://mlcommons.org/croissant/1.0"
+    assert all(isinstance(told[key], str) for key in ("name", "description", "license"))
+    ids = [one["@id"] for one in told["distribution"] + told["recordSet"]]
+    ids += [field["@id"] for one in told["recordSet"] for field in one["field"]]
+    assert len(ids) == len(set(ids))
+    files, pictures = {}, set()
+    for one in told["distribution"]:
+        assert one["@type"] in ("cr:FileObject", "cr:FileSet") and one["encodingFormat"]
+        if one["@type"] == "cr:FileObject":
+            data = (folder / one["contentUrl"]).read_bytes()
+            assert hashlib.sha256(data).hexdigest() == one["sha256"]
+            files[one["@id"]] = [json.loads(line) for line in data.splitlines()]
+        else:
+            found = set(folder.glob(one["includes"]))
+            assert found and not found & pictures
+            pictures |= found
+    assert pictures == set(folder.glob("*/*.png"))
+    sets, classes = {}, None
+    for one in told["recordSet"]:
+        assert one["@type"] == "cr:RecordSet" and one["key"]["@id"] in ids
+        if one["@id"] == "classes":
+            classes = [row["classes/name"] for row in one["data"]]
+            assert [row["classes/number"] for row in one["data"]] == list(range(len(classes)))
+            continue
+        for field in one["field"]:
+            lines = files[field["source"]["fileObject"]["@id"]]
+            path = field["source"]["extract"]["jsonPath"].removeprefix("$.").removesuffix("[*]").split(".")
+            for record, line in zip(sets.setdefault(one["@id"], [{} for _ in lines]), lines, strict=True):
+                for key in path:
+                    line = line[key]
+                assert isinstance(line, list) == field.get("repeated", False)
+                record[field["name"]] = line
+    return classes, sets
 
 
 def check_webdataset(folder):

@@ -4,7 +4,8 @@ import os
 import subprocess
 import unittest
 
-from exported import (Exported, check_coco, check_imagefolder, check_masks, check_webdataset, check_yolo)
+from exported import (Exported, check_coco, check_croissant, check_imagefolder, check_masks,
+                      check_webdataset, check_yolo)
 from labelled import mask_of
 from sandbox import digest, python_with
 
@@ -90,6 +91,14 @@ class Formats(Exported):
                                    "print(json.dumps(yaml.safe_load(sys.stdin)))"],
                                   input=head, text=True, capture_output=True, check=True)
             self.assertEqual(json.loads(read.stdout)["task_categories"], ["object-detection"])
+
+    def test_croissant(self):
+        self.assert_exports("--licence", "https://creativecommons.org/licenses/by/4.0/", form="imagefolder")
+        classes, sets = check_croissant(self.dest)
+        names, expected = check_imagefolder(self.dest)
+        self.assertEqual(classes, names)
+        self.assertEqual({part: {one["file_name"][:-4]: list(zip(one["categories"], one["bbox"], one["area"]))
+                                 for one in records} for part, records in sets.items()}, expected)
 
     def test_the_same_bytes_again(self):
         for form in ("coco", "masks", "imagefolder", "webdataset"):
