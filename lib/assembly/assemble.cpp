@@ -196,6 +196,15 @@ std::string inputs_hash(const Assembly& assembly) {
         text += "\n" + material.name + "\n" + number_text(material.density_kg_m3) + " " +
                 number_text(material.sound_speed_m_s) + " " + number_text(material.lambert_db) +
                 " " + number_text(material.slope_rms_deg);
+        for (const auto& [name, value] :
+             {std::pair{"grain_phi", material.grain_phi},
+              std::pair{"loss_parameter", material.loss_parameter},
+              std::pair{"spectral_strength_cm4", material.spectral_strength_cm4},
+              std::pair{"spectral_exponent", material.spectral_exponent},
+              std::pair{"volume_parameter", material.volume_parameter},
+              std::pair{"roughness_m", material.roughness_m}}) {
+            if (value) text += std::string(" ") + name + " " + number_text(*value);
+        }
     }
     for (const std::string& instance : scene.instances)
         text += "\n" + instance;

@@ -1,6 +1,7 @@
 #include "scene/materials.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <utility>
 
@@ -15,18 +16,53 @@ namespace {
 
 constexpr std::size_t max_file_bytes = 1 << 24;
 
-/// True if the table has the columns for backscatter.
-bool has_scattering(const CsvTable& csv) {
+/// A column that a file may have or not. Its cells may be empty.
+struct OptionalColumn {
+    std::string_view name;
+    double low, high;
+    void (*put)(Material&, double);
+};
+
+constexpr std::array<OptionalColumn, 8> optional_columns{
+    {{"lambert_db", -300.0, 20.0, [](Material& m, double value) { m.lambert_db = value; }},
+     {"slope_rms_deg", 0.0, 45.0, [](Material& m, double value) { m.slope_rms_deg = value; }},
+     {"grain_phi", -10.0, 9.0, [](Material& m, double value) { m.grain_phi = value; }},
+     {"loss_parameter", 1e-6, 1.0, [](Material& m, double value) { m.loss_parameter = value; }},
+     {"spectral_strength_cm4", 1e-9, 10.0,
+      [](Material& m, double value) { m.spectral_strength_cm4 = value; }},
+     {"spectral_exponent", 2.4, 3.9,
+      [](Material& m, double value) { m.spectral_exponent = value; }},
+     {"volume_parameter", 0.0, 1.0, [](Material& m, double value) { m.volume_parameter = value; }},
+     {"roughness_m", 0.0, 10.0, [](Material& m, double value) { m.roughness_m = value; }}}};
+
+/// The optional columns of the table, in its order, from its fourth column on.
+std::vector<OptionalColumn> optional_columns_of(const CsvTable& csv) {
     const std::vector<std::string> ours{"material", "density_kg_m3", "sound_speed_m_s"};
     const std::vector<std::string> holoocean{"Material", "Density kg/m^3", "Speed of Sound m/s"};
-    if (csv.header.fields == ours || csv.header.fields == holoocean) return false;
-    std::vector<std::string> scattering = ours;
-    scattering.insert(scattering.end(), {"lambert_db", "slope_rms_deg"});
-    if (csv.header.fields == scattering) return true;
-    throw InputError(Location{csv.file, csv.header.line},
-                     "expected the header 'material,density_kg_m3,sound_speed_m_s', the same with "
-                     "',lambert_db,slope_rms_deg', or "
-                     "'Material, Density kg/m^3, Speed of Sound m/s'");
+    const Location where{csv.file, csv.header.line};
+    const std::vector<std::string>& names = csv.header.fields;
+    const std::vector<std::string> first(
+        names.begin(), names.begin() + std::min<std::ptrdiff_t>(3, std::ssize(names)));
+    if (first != ours && first != holoocean) {
+        throw InputError(where,
+                         "the first columns must be 'material,density_kg_m3,sound_speed_m_s' or "
+                         "'Material, Density kg/m^3, Speed of Sound m/s'");
+    }
+    std::vector<std::string> known;
+    for (const OptionalColumn& column : optional_columns)
+        known.emplace_back(column.name);
+    std::vector<OptionalColumn> columns;
+    for (auto name = names.begin() + 3; name != names.end(); ++name) {
+        const auto column = std::ranges::find(optional_columns, *name, &OptionalColumn::name);
+        if (column == optional_columns.end()) {
+            throw InputError(where, "unknown column '" + printable(*name) + "'" +
+                                        did_you_mean(*name, known) + "; docs/scenes.md lists them");
+        }
+        if (std::find(names.begin() + 3, name, *name) != name)
+            throw InputError(where, "the column '" + *name + "' occurs twice; leave one out");
+        columns.push_back(*column);
+    }
+    return columns;
 }
 
 double number_within(const std::string& text, const char* quantity, double low, double high,
@@ -46,8 +82,25 @@ double medium_number(const std::string& text, const char* quantity, const Locati
     return number_within(text, quantity, least_medium, largest_medium, where);
 }
 
+/// InputError if the columns of a sea bed have some numbers of the model and lack others.
+void check_sea_bed(const Material& material, const Location& where) {
+    if (material.grain_phi) return;
+    const std::array<std::pair<const char*, bool>, 3> needed{
+        {{"loss_parameter", material.loss_parameter.has_value()},
+         {"spectral_strength_cm4", material.spectral_strength_cm4.has_value()},
+         {"volume_parameter", material.volume_parameter.has_value()}}};
+    const auto given = std::ranges::count_if(needed, [](const auto& n) { return n.second; });
+    if (given == std::ssize(needed) || (given == 0 && !material.spectral_exponent)) return;
+    std::string missing;
+    for (const auto& [name, is_given] : needed) {
+        if (!is_given) missing += (missing.empty() ? "'" : ", '") + std::string(name) + "'";
+    }
+    throw InputError(where, "without a grain_phi a sea bed needs " + missing +
+                                ", too; fill them in, or fill in grain_phi");
+}
+
 MaterialTable to_materials(const CsvTable& csv) {
-    const bool scattering = has_scattering(csv);
+    const std::vector<OptionalColumn> optional = optional_columns_of(csv);
     MaterialTable table;
     table.file = csv.file;
     std::map<std::string, int> line_of;
@@ -63,11 +116,14 @@ MaterialTable to_materials(const CsvTable& csv) {
         }
         material.density_kg_m3 = medium_number(row.fields[1], "density", where);
         material.sound_speed_m_s = medium_number(row.fields[2], "sound speed", where);
-        if (scattering) {
-            material.lambert_db = number_within(row.fields[3], "lambert_db", -80.0, 20.0, where);
-            material.slope_rms_deg =
-                number_within(row.fields[4], "slope_rms_deg", 0.0, 45.0, where);
+        for (std::size_t i = 0; i < optional.size(); ++i) {
+            const OptionalColumn& column = optional[i];
+            const std::string& cell = row.fields[3 + i];
+            if (cell.empty()) continue;
+            column.put(material,
+                       number_within(cell, column.name.data(), column.low, column.high, where));
         }
+        check_sea_bed(material, where);
         table.materials.push_back(std::move(material));
     }
     return table;

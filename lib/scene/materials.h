@@ -18,11 +18,12 @@ struct MaterialTable {
 };
 
 /// Reads `material,density_kg_m3,sound_speed_m_s`, or HoloOcean's header `Material, Density kg/m^3,
-/// Speed of Sound m/s`. Our header may continue with `lambert_db,slope_rms_deg`, the backscattering
-/// strength of the material (calibrated/bottom.h); the defaults are -27 dB, Mackenzie's mean of the
-/// sea floor, and 10 degrees. InputError with file:line for any other header, for a wrong number of
-/// fields, for a density or speed that is not a number within the limits of core/input_limits.h,
-/// and for a material that occurs twice.
+/// Speed of Sound m/s`. Further columns may follow, in any order: the members of Material from
+/// `lambert_db` on, by their names. An empty cell, like a column that is missing, leaves the
+/// default of Material. InputError with file:line for a header with other columns, for a wrong
+/// number of fields, for a number out of its limits (core/input_limits.h has those of densities
+/// and speeds), for a sea bed with neither a grain size nor all numbers that it needs, and for a
+/// material that occurs twice.
 MaterialTable read_materials(const std::filesystem::path& path);
 MaterialTable parse_materials(std::string_view text, const std::string& file_name);
 

@@ -18,9 +18,22 @@ struct Material {
     std::string name;
     double density_kg_m3 = 0.0;
     double sound_speed_m_s = 0.0;
-    float reflection = 0.0F;      ///< power reflection coefficient at normal incidence, Eq. 4
-    double lambert_db = -27.0;    ///< 10 log mu of Lambert's law, for the calibrated model
-    double slope_rms_deg = 10.0;  ///< RMS slope of its facets, likewise; 0: no facets
+    float reflection = 0.0F;  ///< power reflection coefficient at normal incidence, Eq. 4
+
+    // The rest is for the calibrated model (docs/calibrated.md). Lambert's rule and facets:
+    double lambert_db = -27.0;    ///< 10 log mu of Lambert's rule
+    double slope_rms_deg = 10.0;  ///< RMS slope of the facets; 0: no facets
+    // The model of sea beds (calibrated/seafloor_scattering.h), if there is a grain size or a loss
+    // parameter. A value that is empty follows from the grain size.
+    std::optional<double> grain_phi = {};       ///< mean grain size, -log2 of millimetres
+    std::optional<double> loss_parameter = {};  ///< imaginary by real part of the wave number
+    std::optional<double> spectral_strength_cm4 = {};  ///< w2 of the roughness spectrum
+    std::optional<double> spectral_exponent = {};      ///< exponent of that spectrum
+    std::optional<double> volume_parameter = {};       ///< scattering by absorption cross-section
+    /// RMS height of the roughness of a surface that reflects coherently; empty: it does not.
+    std::optional<double> roughness_m = {};
+
+    bool operator==(const Material&) const = default;
 };
 
 /// The power reflection coefficient at normal incidence, ((z - z_w) / (z + z_w))^2 with the

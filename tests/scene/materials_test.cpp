@@ -53,17 +53,61 @@ TEST_SUITE("scene") {
         CHECK(table.materials[0].slope_rms_deg == 8.0);
         const MaterialTable plain = parse_materials(header + "mud,1400,1480\n", "m.csv");
         CHECK(plain.materials[0].lambert_db == -27.0);
+        CHECK(!plain.materials[0].grain_phi);
         check_error(
-            "material,density_kg_m3,sound_speed_m_s,lambert_db,slope_rms_deg\nmud,1400,1480,-90,"
+            "material,density_kg_m3,sound_speed_m_s,lambert_db,slope_rms_deg\nmud,1400,1480,-301,"
             "8\n",
-            "m.csv:2: lambert_db is -90; expected a number from -80 to 20");
+            "m.csv:2: lambert_db is -301; expected a number from -300 to 20");
+    }
+
+    TEST_CASE("materials: optional columns stand in any order, and cells may be empty") {
+        const std::string first = "material,density_kg_m3,sound_speed_m_s,";
+        const MaterialTable table =
+            parse_materials(first +
+                                "roughness_m,grain_phi,slope_rms_deg,lambert_db\n"
+                                "sand,1900,1650,,1.5,,\n"
+                                "plate,7850,5890,1e-6,,0,-300\n",
+                            "m.csv");
+        const Material& sand = table.materials[0];
+        CHECK(sand.grain_phi == 1.5);
+        CHECK(!sand.roughness_m);
+        CHECK(sand.lambert_db == Material{}.lambert_db);
+        CHECK(sand.slope_rms_deg == Material{}.slope_rms_deg);
+        const Material& plate = table.materials[1];
+        CHECK(plate.roughness_m == 1e-6);
+        CHECK(!plate.grain_phi);
+        CHECK(plate.slope_rms_deg == 0.0);
+        CHECK(plate.lambert_db == -300.0);
+
+        const MaterialTable silt = parse_materials(
+            "Material, Density kg/m^3, Speed of Sound m/s, volume_parameter, loss_parameter, "
+            "spectral_exponent, spectral_strength_cm4\nsilt, 1700, 1575, 0.001, 0.004, 3.3, 5e-4\n",
+            "m.csv");
+        CHECK(silt.materials[0].volume_parameter == 0.001);
+        CHECK(silt.materials[0].loss_parameter == 0.004);
+        CHECK(silt.materials[0].spectral_exponent == 3.3);
+        CHECK(silt.materials[0].spectral_strength_cm4 == 5e-4);
+
+        check_error(first + "grain_fi\nsand,1900,1650,1.5\n",
+                    "m.csv:1: unknown column 'grain_fi' (did you mean 'grain_phi'?); "
+                    "docs/scenes.md lists them");
+        check_error(first + "grain_phi,lambert_db,grain_phi\nsand,1900,1650,1.5,,\n",
+                    "m.csv:1: the column 'grain_phi' occurs twice; leave one out");
+        check_error(first + "grain_phi\nsand,1900,1650,11\n",
+                    "m.csv:2: grain_phi is 11; expected a number from -10 to 9");
+        check_error(first + "grain_phi\nsand,1900,1650,nan\n",
+                    "m.csv:2: grain_phi is nan; expected a number from -10 to 9");
+        check_error(first + "roughness_m\nsand,1900,1650,smooth\n",
+                    "m.csv:2: roughness_m 'smooth' is not a number");
+        check_error(first + "loss_parameter\nsand,1900,1650,0.01\n",
+                    "m.csv:2: without a grain_phi a sea bed needs 'spectral_strength_cm4', "
+                    "'volume_parameter', too; fill them in, or fill in grain_phi");
     }
 
     TEST_CASE("materials: errors name file and line") {
         check_error(
             "name,density,speed\n",
-            "m.csv:1: expected the header 'material,density_kg_m3,sound_speed_m_s', the same "
-            "with ',lambert_db,slope_rms_deg', or "
+            "m.csv:1: the first columns must be 'material,density_kg_m3,sound_speed_m_s' or "
             "'Material, Density kg/m^3, Speed of Sound m/s'");
         check_error(header + "steel,7850\n", "m.csv:2: 2 fields, but the header in line 1 has 3");
         check_error(header + "steel,heavy,5900\n", "m.csv:2: density 'heavy' is not a number");
