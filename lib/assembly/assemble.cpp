@@ -175,6 +175,7 @@ Assembly assemble(const Mission& mission, SceneFiles& models) {
     }
     const std::string refusal = unsupported(settings, assembly.scene);
     if (!refusal.empty()) throw InputError(refusal);
+    add_plates(assembly.sonars, assembly.scene);
     assembly.inputs = inputs_of(mission);
     assembly.full_scales = find_full_scales(mission, assembly.scene, assembly.trajectory,
                                             assembly.motions, assembly.sonars);

@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "calibrated/mirrored_echoes.h"
 #include "calibrated/model.h"
+#include "calibrated/plate_image.h"
 #include "calibrated/scatterer_search.h"
 #include "calibrated/speckle.h"
 #include "core/clock.h"
@@ -41,6 +43,11 @@ class ImageFormer {
                  traced.T_world_sensor.translation - context.scene.origin},
           materials_(scattering_of(context.scene)),
           speckle_(context.terms.random > 0 ? model.speckle : SpeckleMode::none),
+          view_(widened_view(context.view, model.guard)),
+          plates_{.plates = traced.plates,
+                  .materials = context.scene.materials,
+                  .view = view_,
+                  .wavelength_m = model.wavelength_m},
           speckle_gain_(model.amplitude_taps.scalloping_gain * scalloping_gain(beams)),
           ping_(ping) {}
 
@@ -51,21 +58,29 @@ class ImageFormer {
 
         // 1. Sonar equation: surface in view, surface in the guard beams, multipath.
         if (context_.terms.direct) {
-            add_surface(traced.samples.items, grid);
-            add_surface(traced.outside_sector, grid);
+            add_incoherent(traced.samples.items, grid);
+            add_incoherent(traced.outside_sector, grid);
         }
         if (context_.terms.multipath) add_multipath(specular_paths(traced, context_.scene), grid);
 
         // 2. Speckle. With `speckle: scene` the amplitudes of step 1 already have it.
         if (speckle_ == SpeckleMode::ping) draw_speckle(grid, speckle_gain_, ping_draws_);
+        std::optional<EchoGrid> coherent;
+        if (context_.terms.direct && !plates_.plates.empty()) {
+            if (of_powers) coherent.emplace(grid.rows(), grid.columns());
+            add_plates(of_powers ? *coherent : grid);
+        }
 
         // 3. Pulse.
         ping_.counts.occupied_bins =
             grid.convolve_pulse(of_powers ? model_.power_taps : model_.amplitude_taps);
 
+        if (coherent) coherent->convolve_pulse(model_.amplitude_taps);
+
         // 3, 4. Beams, the receiver's noise and its gain.
-        beamform(beams_, grid, of_powers, context_.terms.random > 1,
-                 context_.draws.of(Stream::receiver_noise), model_.row_gain, ping_.intensity);
+        beamform(beams_, grid, of_powers, coherent ? &*coherent : nullptr,
+                 context_.terms.random > 1, context_.draws.of(Stream::receiver_noise),
+                 model_.row_gain, ping_.intensity);
     }
 
   private:
@@ -77,6 +92,18 @@ class ImageFormer {
         ping_.counts.out_of_range += find_columns(beams_, patches, echoes_);
         if (speckle_ != SpeckleMode::none)
             add_clutter(patches, model_.clutter, sonar_, scene_draws_, echoes_);
+    }
+
+    /// Adds the coherent echoes of plates.
+    void add_plates(EchoGrid& grid) {
+        ping_.counts.out_of_range +=
+            add_plate_amplitudes(beams_, plates_, model_.equation, model_.limits, grid);
+    }
+
+    /// Adds the echoes of a surface without its coherent ones.
+    void add_incoherent(std::span<const Sample> surface, EchoGrid& grid) {
+        if (plates_.plates.empty()) return add_surface(surface, grid);
+        add_surface(incoherent_samples(surface, plates_), grid);
     }
 
     /// Adds the echoes of a surface to the grid: with `speckle: scene` the amplitudes of its
@@ -126,6 +153,8 @@ class ImageFormer {
     SonarInScene sonar_;
     std::vector<Backscatter> materials_;
     SpeckleMode speckle_;
+    View view_;  ///< with the guard beams
+    PlateScene plates_;
     float speckle_gain_;  ///< restores the mean power where the grid's cells draw the speckle
     PointEchoes echoes_;
     Ping& ping_;

@@ -1,5 +1,8 @@
 #include "sonar/sonar.h"
 
+#include <memory>
+#include <utility>
+
 #include "mission/ping_draws.h"
 #include "sonar/kinds.h"
 #include "sonar/setup.h"
@@ -20,6 +23,15 @@ Sonar make_sonar(const KindOfSonar& kind, const SonarConfig& config, const Accur
     settings.guard_beams = settings.model->guard_beams();
     settings.multipath.scattered = settings.model->needs_scattered_paths();
     return sonar;
+}
+
+void add_plates(std::span<Sonar> sonars, const Scene& scene) {
+    std::vector<ScenePlate> found = find_plates(scene);
+    if (found.empty()) return;
+    const auto plates = std::make_shared<const std::vector<ScenePlate>>(std::move(found));
+    for (Sonar& sonar : sonars) {
+        if (sonar.settings.model->energies_add()) sonar.settings.plates = plates;
+    }
 }
 
 std::optional<Sonar> drawn_sonar(const Mission& mission, const Sonar& sonar, std::uint32_t pose) {

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/pose.h"
@@ -20,6 +21,10 @@ Sonar make_sonar(const SonarConfig& config, const AccuracyConfig& accuracy,
 /// The same for a kind that need not be in the table of sonar/kinds.h.
 Sonar make_sonar(const KindOfSonar& kind, const SonarConfig& config, const AccuracyConfig& accuracy,
                  const WaterConfig& water = {});
+
+/// Gives the sonars whose echo model adds energies the flat faces of the scene that reflect
+/// coherently.
+void add_plates(std::span<Sonar> sonars, const Scene& scene);
 
 /// The sonar at a pose, with the numbers that the mission's `vary` draws for every ping; nothing if
 /// none of them is of this sonar.

@@ -20,6 +20,10 @@ TracedPing trace_ping(const TraceSettings& settings, const Scene& scene,
     traced.outside_sector = std::move(surface.outside_sector);
     traced.counts.samples = traced.samples.items.size() + traced.outside_sector.size();
     traced.counts.dropped_samples = traced.samples.dropped;
+    if (settings.plates) {
+        traced.plates = plates_of_ping(*settings.plates, scene, engine, T_world_sensor,
+                                       widened_view(settings.view, settings.guard_beams));
+    }
     traced.seconds.trace = watch.lap();
 
     // 2. Multipath, Eq. 1-3.

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "core/pose.h"
 #include "scene/scene.h"
 #include "trace/counters.h"
 #include "trace/multipath.h"
+#include "trace/plates.h"
 #include "trace/terms.h"
 #include "trace/visible_surface.h"
 #include "visibility/engine.h"
@@ -17,6 +19,7 @@ struct TraceSettings {
     View view;
     GuardBeams guard_beams;
     Multipath multipath;
+    std::shared_ptr<const std::vector<ScenePlate>> plates;  ///< null: none
 };
 
 /// The surface that a sonar insonified from one pose. It holds no noise: any number of images may
@@ -25,6 +28,7 @@ struct TracedPing {
     Pose T_world_sensor;
     Samples samples;                     ///< the visible surface
     std::vector<Sample> outside_sector;  ///< the visible surface in the guard beams
+    std::vector<PlateOfPing> plates;     ///< flat faces that reflect coherently
     std::vector<BouncePath> bounces;     ///< multipath paths from `samples`
     PingCounts counts;
     PingSeconds seconds;
