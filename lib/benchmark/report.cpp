@@ -134,8 +134,10 @@ void measure_errors(const PingSet& pings, const Trial& trial,
     std::vector<double> samples(poses);
     std::vector<double> estimated_l1(poses);
     in_parallel(poses, [&](std::size_t p) {
-        const Ping ping = render_ping(*pings.at_pose(trial.sonar, p), pings.scene, *engine,
-                                      pings.poses[p], pings.key(p), direct_echoes_alone);
+        Sonar sonar = *pings.at_pose(trial.sonar, p);
+        sonar.settings.coherent = nullptr;  // the reference has no coherent echoes
+        const Ping ping = render_ping(sonar, pings.scene, *engine, pings.poses[p], pings.key(p),
+                                      direct_echoes_alone);
         const ImageError error = image_error(ping.intensity, references[p].intensity);
         l1[p] = error.relative_l1;
         l2[p] = error.relative_l2;

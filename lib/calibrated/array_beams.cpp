@@ -140,15 +140,16 @@ void add_amplitudes(const ArrayBeams& /*beams*/, const PatchBlock& /*pieces*/,
         targets.add_shared(k, alternating(amplitudes.re[k], amplitudes.im[k]), first, stride);
 }
 
-void beamform(const ArrayBeams& beams, const EchoGrid& grid, bool powers, bool noisy, PhiloxKey key,
-              std::span<const float> row_gain, std::span<float> image) {
+void beamform(const ArrayBeams& beams, const EchoGrid& grid, bool powers, const EchoGrid* coherent,
+              bool noisy, PhiloxKey key, std::span<const float> row_gain, std::span<float> image) {
     if (powers) form_beams(beams.powers, &grid, nullptr, row_gain, image, false);
-    if (!noisy) {
-        if (!powers) form_beams(beams.amplitudes, &grid, nullptr, row_gain, image, false);
-        return;
+    const EchoGrid* const amplitudes = powers ? coherent : &grid;
+    if (noisy) {
+        ElementNoiseOfPing noise = beams.amplitudes.noise_of_ping(beams.noise, key);
+        form_beams(beams.amplitudes, amplitudes, &noise, row_gain, image, powers);
+    } else if (amplitudes) {
+        form_beams(beams.amplitudes, amplitudes, nullptr, row_gain, image, powers);
     }
-    ElementNoiseOfPing noise = beams.amplitudes.noise_of_ping(beams.noise, key);
-    form_beams(beams.amplitudes, powers ? nullptr : &grid, &noise, row_gain, image, powers);
 }
 
 }  // namespace sonarsim

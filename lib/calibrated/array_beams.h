@@ -50,8 +50,9 @@ inline void add_bistatic_powers(const ArrayBeams& beams, const PathEndpoint& /*o
 }
 
 /// Fills the image [bins, beams] with the powers of the beams. The grid holds powers or amplitudes;
-/// the noise of the elements belongs to the bin, the element and the key.
-void beamform(const ArrayBeams& beams, const EchoGrid& grid, bool powers, bool noisy, PhiloxKey key,
-              std::span<const float> row_gain, std::span<float> image);
+/// beside powers there may be amplitudes in `coherent`, else null. The noise of the elements
+/// belongs to the bin, the element and the key.
+void beamform(const ArrayBeams& beams, const EchoGrid& grid, bool powers, const EchoGrid* coherent,
+              bool noisy, PhiloxKey key, std::span<const float> row_gain, std::span<float> image);
 
 }  // namespace sonarsim

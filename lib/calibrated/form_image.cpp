@@ -1,10 +1,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
+#include <optional>
 
 #include "calibrated/mirrored_echoes.h"
 #include "calibrated/model.h"
+#include "calibrated/plate_image.h"
 #include "calibrated/scatterer_search.h"
 #include "calibrated/speckle.h"
 #include "calibrated/target_pieces.h"
@@ -18,15 +19,6 @@ namespace {
 // The factor on the size of patches in range if speckle is drawn for each ping. With it, the
 // expected image of the tank has an error of 1.8 %.
 constexpr float deeper_patches = 2.0F;
-
-/// The samples of what is no target.
-std::vector<Sample> without_targets(std::span<const Sample> samples, const TargetSurface& targets) {
-    std::vector<Sample> out;
-    out.reserve(samples.size());
-    std::ranges::copy_if(samples, std::back_inserter(out),
-                         [&](const Sample& sample) { return !targets.has(sample.instance); });
-    return out;
-}
 
 /// The steps that form an image, and their common data. `Beams`: ArrayBeams or TransducerBeams.
 template <class Beams>
@@ -44,6 +36,12 @@ class ImageFormer {
           scattering_(model, context.scene),
           slopes_(slopes_of(context.scene.materials)),
           speckle_(context.terms.random > 0 ? model.speckle : SpeckleMode::none),
+          view_(widened_view(context.view, model.guard)),
+          plates_{.surface = traced.coherent,
+                  .materials = context.scene.materials,
+                  .view = view_,
+                  .wavelength_m = model.wavelength_m},
+          shares_(traced.coherent.faces, context.scene.materials, model.wavelength_m),
           speckle_gain_(model.amplitude_taps.scalloping_gain * scalloping_gain(beams)),
           ping_(ping) {}
 
@@ -63,14 +61,21 @@ class ImageFormer {
         // 2. Speckle. With `speckle: scene` the amplitudes of step 1 already have it.
         if (speckle_ == SpeckleMode::ping) draw_speckle(grid, speckle_gain_, ping_draws_);
         if (context_.terms.direct && !of_powers) add_target_amplitudes(traced.targets, grid);
+        std::optional<EchoGrid> coherent;
+        if (context_.terms.direct && !traced.coherent.plates.empty()) {
+            if (of_powers) coherent.emplace(grid.rows(), grid.columns());
+            add_coherent(of_powers ? *coherent : grid);
+        }
 
         // 3. Pulse.
         ping_.counts.occupied_bins =
             grid.convolve_pulse(of_powers ? model_.power_taps : model_.amplitude_taps);
+        if (coherent) coherent->convolve_pulse(model_.amplitude_taps);
 
         // 3, 4. Beams, the receiver's noise and its gain.
-        beamform(beams_, grid, of_powers, context_.terms.random > 1,
-                 context_.draws.of(Stream::receiver_noise), model_.row_gain, ping_.intensity);
+        beamform(beams_, grid, of_powers, coherent ? &*coherent : nullptr,
+                 context_.terms.random > 1, context_.draws.of(Stream::receiver_noise),
+                 model_.row_gain, ping_.intensity);
     }
 
   private:
@@ -84,11 +89,28 @@ class ImageFormer {
             add_clutter(patches, model_.clutter, sonar_, scene_draws_, echoes_);
     }
 
-    /// Adds the echoes of a surface without its targets.
+    /// Adds the echoes of plates and strips.
+    void add_coherent(EchoGrid& grid) {
+        ping_.counts.out_of_range +=
+            add_plate_amplitudes(beams_, plates_, model_.equation, model_.limits, grid);
+    }
+
+    /// Adds the incoherent echoes of a surface without its targets.
     void add_surface(std::span<const Sample> surface, const TargetSurface& targets,
                      EchoGrid& grid) {
-        if (targets.instances.empty()) return add_surface(surface, grid);
-        add_surface(without_targets(surface, targets), grid);
+        if (targets.instances.empty() && shares_.are_all_one()) return add_surface(surface, grid);
+        std::vector<Sample> left;
+        left.reserve(surface.size());
+        for (const Sample& sample : surface) {
+            if (targets.has(sample.instance)) continue;
+            left.push_back(sample);
+            const float phase2 =
+                shares_.phase2(sample.instance, sample.material, sample.position, sample.normal);
+            if (phase2 == IncoherentShares::incoherent) continue;
+            const float sine = sample.height_m / arrival_range(sample.position);
+            left.back().area_m2 *= IncoherentShares::at(phase2, sine);
+        }
+        add_surface(left, grid);
     }
 
     /// Adds the echoes of a surface to the grid: with `speckle: scene` the amplitudes of its
@@ -114,6 +136,17 @@ class ImageFormer {
         });
     }
 
+    /// Takes their coherent share from the areas of pieces. `phase2`: by facet.
+    static void keep_incoherent(std::span<const float> phase2, TargetPieces& pieces) {
+        PatchBlock& points = pieces.points;
+        for (int k = 0; k < points.count; ++k) {
+            const float of_facet = phase2[pieces.facet[k]];
+            if (of_facet == IncoherentShares::incoherent) continue;
+            const float range = piece_range(points.x[k], points.y[k], points.z[k]);
+            points.area_m2[k] *= IncoherentShares::at(of_facet, points.height_m[k] / range);
+        }
+    }
+
     /// Hands the echoes of targets to `use`, a block of pieces at a time.
     template <class Use>
     void find_targets(const TargetSurface& targets, Use use) {
@@ -124,8 +157,15 @@ class ImageFormer {
                 ? model_.limits
                 : PointLimits{cells.depth_m, cells.sine_y,
                               cells.sine_z > 0.0F ? cells.sine_z : model_.limits.elevation_sine};
+        std::vector<float> phase2;  // by facet
+        if (!shares_.are_all_one()) {
+            for (const TargetFacet& facet : targets.facets)
+                phase2.push_back(
+                    shares_.phase2(facet.instance, facet.material, facet.corners[0], facet.normal));
+        }
         TargetPieces pieces;
-        cut_targets(targets.facets, limits, slopes_, pieces, [&](const TargetPieces& cut) {
+        cut_targets(targets.facets, limits, slopes_, pieces, [&](TargetPieces& cut) {
+            if (!phase2.empty()) keep_incoherent(phase2, cut);
             ping_.counts.echoes += cut.points.count;
             ping_.counts.out_of_range +=
                 apply_sonar_equation(cut.points, *scattering_, model_.equation, echoes_);
@@ -179,6 +219,9 @@ class ImageFormer {
     ScatteringOfScene scattering_;
     std::vector<float> slopes_;
     SpeckleMode speckle_;
+    View view_;  ///< with the guard beams
+    PlateScene plates_;
+    IncoherentShares shares_;
     float speckle_gain_;  ///< restores the mean power where the grid's cells draw the speckle
     PointEchoes echoes_;
     Ping& ping_;

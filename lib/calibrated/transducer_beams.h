@@ -73,8 +73,10 @@ void add_bistatic_powers(const TransducerBeams& beams, const PathEndpoint& out,
                          const PathEndpoint& back, EchoGrid& grid);
 
 /// Fills the image [bins, beams] with the power in the grid, of `powers` or of amplitudes, and the
-/// noise. Noise belongs to the bin, the beam and the key.
-void beamform(const TransducerBeams& beams, const EchoGrid& grid, bool powers, bool noisy,
-              PhiloxKey key, std::span<const float> row_gain, std::span<float> image);
+/// noise. Beside powers there may be amplitudes in `coherent`, else null. Noise belongs to the bin,
+/// the beam and the key.
+void beamform(const TransducerBeams& beams, const EchoGrid& grid, bool powers,
+              const EchoGrid* coherent, bool noisy, PhiloxKey key, std::span<const float> row_gain,
+              std::span<float> image);
 
 }  // namespace sonarsim

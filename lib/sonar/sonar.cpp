@@ -6,6 +6,7 @@
 #include "mission/ping_draws.h"
 #include "sonar/kinds.h"
 #include "sonar/setup.h"
+#include "trace/plates.h"
 
 namespace sonarsim {
 
@@ -29,8 +30,11 @@ void find_targets(std::span<Sonar> sonars, const Scene& scene) {
     const auto needs = [](const Sonar& sonar) { return sonar.settings.model->energies_add(); };
     if (std::ranges::none_of(sonars, needs)) return;
     const std::shared_ptr<const TargetShapes> targets = find_target_shapes(scene);
+    const std::shared_ptr<const CoherentFaces> coherent = find_coherent_faces(scene);
     for (Sonar& sonar : sonars) {
-        if (needs(sonar)) sonar.settings.targets = targets;
+        if (!needs(sonar)) continue;
+        sonar.settings.targets = targets;
+        sonar.settings.coherent = coherent;
     }
 }
 

@@ -22,8 +22,9 @@ Sonar make_sonar(const SonarConfig& config, const AccuracyConfig& accuracy,
 Sonar make_sonar(const KindOfSonar& kind, const SonarConfig& config, const AccuracyConfig& accuracy,
                  const WaterConfig& water = {});
 
-/// Gives the sonars whose echo model adds energies the objects of the scene that may be targets.
-/// Without them the engine alone samples small and shiny objects.
+/// Gives the sonars whose echo model adds energies the objects of the scene that may be targets,
+/// and the faces that reflect coherently. Without them the engine alone samples small and shiny
+/// objects.
 void find_targets(std::span<Sonar> sonars, const Scene& scene);
 
 /// The sonar at a pose, with the numbers that the mission's `vary` draws for every ping; nothing if

@@ -24,6 +24,10 @@ TracedPing trace_ping(const TraceSettings& settings, const Scene& scene,
         traced.targets = target_surface(*settings.targets, settings.view, settings.guard_beams,
                                         scene, engine, T_world_sensor);
     }
+    if (settings.coherent) {
+        traced.coherent = coherent_surface(*settings.coherent, scene, engine, T_world_sensor,
+                                           widened_view(settings.view, settings.guard_beams));
+    }
     traced.seconds.trace = watch.lap();
 
     // 2. Multipath, Eq. 1-3.

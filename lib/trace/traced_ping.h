@@ -5,6 +5,7 @@
 
 #include "core/pose.h"
 #include "scene/scene.h"
+#include "trace/coherent_surface.h"
 #include "trace/counters.h"
 #include "trace/multipath.h"
 #include "trace/target_shapes.h"
@@ -15,6 +16,8 @@
 
 namespace sonarsim {
 
+struct CoherentFaces;
+
 /// The settings of the trace of a ping.
 struct TraceSettings {
     View view;
@@ -22,6 +25,7 @@ struct TraceSettings {
     Multipath multipath;
     /// Objects that the trace samples itself where an engine's samples cannot; null: none.
     std::shared_ptr<const TargetShapes> targets;
+    std::shared_ptr<const CoherentFaces> coherent;  ///< null: none
 };
 
 /// The surface that a sonar insonified from one pose. It holds no noise: any number of images may
@@ -31,6 +35,7 @@ struct TracedPing {
     Samples samples;                     ///< the visible surface
     std::vector<Sample> outside_sector;  ///< the visible surface in the guard beams
     TargetSurface targets;               ///< takes the place of the samples of its instances
+    CoherentSurface coherent;            ///< reflects coherently; samples may lie on it as well
     std::vector<BouncePath> bounces;     ///< multipath paths from `samples`
     PingCounts counts;
     PingSeconds seconds;

@@ -1,0 +1,120 @@
+#include "calibrated/flat_plate.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "core/elementary.h"
+#include "core/units.h"
+
+namespace sonarsim {
+
+namespace {
+
+// Within a piece of an edge the phase departs from a straight line by at most this.
+constexpr double most_bend_rad = 0.1;
+// A piece turns by at most this about the foot of the perpendicular.
+constexpr double most_turn_rad = 0.1;
+constexpr int most_pieces = 100'000;
+
+std::complex<double> turned(double radians) {
+    const SinCos turn = sincos(radians);
+    return {turn.cos, turn.sin};
+}
+
+/// The plate as its sonar sees it.
+struct Geometry {
+    Eigen::Vector3d foot;  ///< the foot of the perpendicular
+    Eigen::Vector3d normal;
+    double height_m;
+    double k;  ///< wave number
+    double amplitude;
+    double roughness_m;
+
+    /// V / (4 pi) H / r^2, with the loss of a rough surface.
+    double weight(double range_m) const {
+        const double loss = k * roughness_m * height_m / range_m;
+        return amplitude / (4.0 * pi) * height_m / (range_m * range_m) *
+               exponential(-2.0 * loss * loss);
+    }
+};
+
+/// The length of the piece of an edge that begins `s` from the point of the edge's line next to the
+/// foot, `d` away from it.
+double piece_length(const Geometry& of, const EdgeLimits& limits, double s, double d) {
+    const double flat2 = s * s + d * d;
+    const double range = std::sqrt(of.height_m * of.height_m + flat2);
+    // The phase 2 k r bends by 2 k (H^2 + d^2) / r^3 at most.
+    double length = std::sqrt(8.0 * most_bend_rad * range / (2.0 * of.k));
+    if (d != 0.0) length = std::min(length, most_turn_rad * flat2 / std::fabs(d));
+    if (limits.sine > 0.0) length = std::min(length, limits.sine * range);
+    if (limits.depth_m > 0.0)
+        length = std::min(length, limits.depth_m * range / (std::fabs(s) + limits.depth_m));
+    return length;
+}
+
+/// Adds the pieces of an edge. Returns the angle that it takes about the foot.
+double add_edge(const Geometry& of, const PlateEdge& edge, const EdgeLimits& limits,
+                std::vector<PlateEcho>& echoes) {
+    const Eigen::Vector3d along = edge.to - edge.from;
+    const double edge_m = along.norm();
+    if (!(edge_m > 0.0)) return 0.0;
+    const Eigen::Vector3d unit = along / edge_m;
+    const Eigen::Vector3d from_foot = edge.from - of.foot;
+    const double begin = from_foot.dot(unit);
+    const double end = begin + edge_m;
+    const double d = of.normal.dot(from_foot.cross(unit));
+    const auto range_at = [&](double s) {
+        return std::sqrt(of.height_m * of.height_m + d * d + s * s);
+    };
+    if (!edge.seen) return arctan2(d * (end - begin), d * d + begin * end);
+    const double least = edge_m / most_pieces;
+    double total = 0.0;
+    double s = begin;
+    double range = range_at(s);
+    while (s < end) {
+        const double step = std::max(least, piece_length(of, limits, s, d));
+        const double next = end - s < 1.5 * step ? end : s + step;
+        const double next_range = range_at(next);
+        // The angle between the directions to (s, d) and (next, d).
+        const double angle = arctan2(d * (next - s), d * d + s * next);
+        const double middle = 0.5 * (s + next);
+        const double middle_range = range_at(middle);
+        // A straight line of phase over the piece, at its mean by Simpson's rule.
+        const double half_turn = of.k * (next_range - range);
+        const double fades = sinc(half_turn / pi);
+        echoes.push_back({edge.from + (middle - begin) * unit, middle_range,
+                          of.weight(middle_range) * angle * fades *
+                              turned(of.k * (range + 4.0 * middle_range + next_range) / 3.0)});
+        total += angle;
+        s = next;
+        range = next_range;
+    }
+    return total;
+}
+
+}  // namespace
+
+void add_plate_echoes(const PlateOfPing& plate, const PlateSurface& surface, double wavelength_m,
+                      const EdgeLimits& limits, std::vector<PlateEcho>& echoes) {
+    double area = 0.0;  // positive if the edges go round the normal
+    for (const PlateEdge& edge : plate.edges)
+        area += 0.5 * plate.normal.dot(edge.from.cross(edge.to));
+    const Geometry geometry{.foot = plate.height_m * plate.normal,
+                            .normal = plate.normal,
+                            .height_m = plate.height_m,
+                            .k = 2.0 * pi / wavelength_m,
+                            .amplitude = std::copysign(std::sqrt(surface.reflection), area),
+                            .roughness_m = surface.roughness_m};
+    double angle = 0.0;
+    for (const PlateEdge& edge : plate.edges)
+        angle += add_edge(geometry, edge, limits, echoes);
+    // Else the foot is beside the plate.
+    if (plate.foot_seen && std::fabs(angle) > 1e-9) {
+        echoes.push_back(
+            {geometry.foot, plate.height_m,
+             -geometry.weight(plate.height_m) * angle * turned(2.0 * geometry.k * plate.height_m)});
+    }
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "core/pose.h"
+#include "scene/scene.h"
+#include "visibility/engine.h"
+#include "visibility/view.h"
+
+// The surface of a ping that reflects coherently, in the sensor frame, m.
+
+namespace sonarsim {
+
+/// A part of a plate's border.
+struct PlateEdge {
+    Eigen::Vector3d from, to;
+    bool seen = true;  ///< it is in view, and the plate beside its middle is not hidden
+};
+
+/// A face from which sound is reflected on its way.
+struct Mirror {
+    std::uint32_t material = 0;  ///< index into Scene::materials
+    double sine = 1.0;           ///< sine of the grazing angle
+};
+
+/// A flat face, or the aperture of a corner.
+struct PlateOfPing {
+    std::vector<PlateEdge> edges;
+    Eigen::Vector3d normal;       ///< unit, away from the sonar
+    double height_m = 0.0;        ///< the sonar's height above its plane
+    bool foot_seen = true;        ///< so is the foot of the perpendicular, if it is on the plate
+    std::uint32_t material = 0;   ///< index into Scene::materials
+    std::vector<Mirror> mirrors;  ///< the faces of a corner; empty: the plate itself reflects
+};
+
+/// A part of the line along a cylinder on which its normal points at the axis through the sonar.
+struct StripOfPing {
+    Eigen::Vector3d from, to;
+    double radius_m = 0.0;       ///< negative if the cylinder is hollow
+    std::uint32_t material = 0;  ///< index into Scene::materials
+};
+
+/// The plane of a face that reflects coherently. What scatters incoherently on it is less.
+struct FaceOfPing {
+    std::uint32_t instance = 0;  ///< index into Scene::instances
+    std::uint32_t material = 0;  ///< index into Scene::materials
+    Eigen::Vector3d normal;      ///< unit, away from the sonar
+    double height_m = 0.0;       ///< the sonar's height above the plane
+};
+
+struct CoherentSurface {
+    std::vector<PlateOfPing> plates;
+    std::vector<StripOfPing> strips;
+    std::vector<FaceOfPing> faces;  ///< instances ascend
+};
+
+struct CoherentFaces;
+
+/// The coherent surface whose planes are within the range of a view. Rays decide what of it is
+/// hidden: for a plate one to the foot of the perpendicular, and eight to every edge.
+CoherentSurface coherent_surface(const CoherentFaces& faces, const Scene& scene,
+                                 const VisibilityEngine& engine, const Pose& T_world_sensor,
+                                 const View& view);
+
+}  // namespace sonarsim
