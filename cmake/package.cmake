@@ -1,7 +1,13 @@
 # `cpack -G DEB` in a build folder, as scripts/package.sh does: sonarsim_*.deb, the program with examples
-# and documents, and libsonarsim-dev_*.deb, the library for find_package(sonarsim).
+# and documents, libsonarsim-dev_*.deb, the library for find_package(sonarsim), and python3-sonarsim_*.deb.
 set(DEBIAN ${PROJECT_BINARY_DIR}/debian)
-foreach(package sonarsim libsonarsim-dev)
+set(SONARSIM_PACKAGES sonarsim libsonarsim-dev)
+set(CPACK_COMPONENTS_ALL program development)
+if(SONARSIM_HAS_PYTHON)
+    list(APPEND SONARSIM_PACKAGES python3-sonarsim)
+    list(APPEND CPACK_COMPONENTS_ALL python)
+endif()
+foreach(package ${SONARSIM_PACKAGES})
     configure_file(cmake/debian/changelog.in ${DEBIAN}/${package}/changelog @ONLY)
     add_custom_command(OUTPUT ${DEBIAN}/${package}/changelog.gz DEPENDS ${DEBIAN}/${package}/changelog
                        VERBATIM COMMAND gzip -9nkf ${DEBIAN}/${package}/changelog)
@@ -9,6 +15,8 @@ foreach(package sonarsim libsonarsim-dev)
     set(component program)
     if(package STREQUAL "libsonarsim-dev")
         set(component development)
+    elseif(package STREQUAL "python3-sonarsim")
+        set(component python)
     endif()
     install(FILES ${DEBIAN}/${package}/changelog.gz cmake/debian/copyright
             DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${package} COMPONENT ${component})
@@ -20,7 +28,6 @@ set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_PACKAGE_CONTACT "the sonarsim authors <sonarsim@users.noreply.github.com>")
 set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
 # The licence is in the copyright file.
-set(CPACK_COMPONENTS_ALL program development)
 set(CPACK_COMPONENTS_GROUPING IGNORE)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_STRIP_FILES ON)
@@ -45,4 +52,18 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "simulator of sonars, as a library
 Headers and a static library, for projects that say find_package(sonarsim)
 in CMake. The package sonarsim holds the program.")
+if(SONARSIM_HAS_PYTHON)
+    # The module is compiled for this version of Python alone.
+    math(EXPR NEXT "${Python3_VERSION_MINOR} + 1")
+    set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-sonarsim)
+    set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+    set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+    set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+        "python3 (>= 3.${Python3_VERSION_MINOR}), python3 (<< 3.${NEXT}), python3-numpy")
+    set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS python3-torch)
+    set(CPACK_DEBIAN_PYTHON_DESCRIPTION "simulator of sonars, for Python
+Renders the pings of a mission into numpy arrays and feeds them to PyTorch,
+with the numbers of the datasets that the program of the package sonarsim
+writes. A reader of such datasets is part of it.")
+endif()
 include(CPack)

@@ -42,7 +42,7 @@ PARTS = {
                 ["description", "ping_file_reader"], ["coco/"], ["encode_ping"], ["shared_files"]],
     "job": [["*"], ["folder_lock"], ["journal"], ["checksums"], ["folder"], ["listed_files", "resume"],
             ["ping_files"], ["ping_cost"], ["completion", "joined_labels"],
-            ["collection", "run_job", "merge", "verify"],
+            ["collection", "run_job", "merge", "verify", "ping_source"],
             ["variants"], ["status", "variants_check", "collection_check"]],
     "scene": [["*"], ["gltf/", "placing/"]],
     "validation": [["*"], ["hard/"]],

@@ -1,8 +1,5 @@
 #include "mission_options.h"
 
-#include "core/error.h"
-#include "dataset/layout.h"
-#include "mission/files.h"
 #include "mission/parse.h"
 #include "mission/variants.h"
 #include "sonar/kinds.h"
@@ -46,15 +43,7 @@ MissionSource source_of(const MissionOptions& options) {
 }  // namespace
 
 Mission load(const MissionOptions& options) {
-    const MissionSource source = source_of(options);
-    const std::filesystem::path own_folder = options.file.parent_path();
-    Mission mission = load_mission(source.file, source.base_folder, source.overrides, sonar_keys());
-    if (options.paths_from.empty() && !std::filesystem::exists(files_of(mission).front()) &&
-        std::filesystem::exists(own_folder / description_name)) {
-        throw InputError({options.file.string()},
-                         "belongs to a dataset, and its paths start at the folder of the scene "
-                         "file; say which that is with --paths-from FOLDER");
-    }
+    Mission mission = load_mission(source_of(options), sonar_keys());
     // Relative paths on the command line start at the current folder.
     if (!options.out.empty()) mission.output.folder = std::filesystem::absolute(options.out);
     return mission;

@@ -54,13 +54,13 @@ float brightest_pixel(const Ping& ping, std::string_view sensor, std::uint32_t p
                              "with the mission");
 }
 
-WrittenPing encode_ping(const Assembly& assembly, const Writers& writers, const LabelPlan& plan,
-                        const RenderedPing& rendered) {
+void finish_ping(const Assembly& assembly, const LabelPlan& plan, const RenderedPing& rendered,
+                 const std::function<void(const FinishedPing&)>& use) {
     const auto& [id, at_pose, engine, traced, ping] = rendered;
     const Sonar& sonar = *at_pose;
-    WrittenPing out;
     const auto white = static_cast<float>(assembly.full_scales[id.sensor]);
-    out.clipped_pixels = std::ranges::count_if(ping.intensity, [&](float v) { return v > white; });
+    const std::uint64_t clipped =
+        std::ranges::count_if(ping.intensity, [&](float v) { return v > white; });
     const auto metadata =
         measured({sonar, assembly.trajectory[id.pose].T_world_vehicle, id.pose, ping}, *engine);
     LabelledPing labels;
@@ -68,10 +68,17 @@ WrittenPing encode_ping(const Assembly& assembly, const Writers& writers, const 
         labels = label_for_writers(plan, label_ping(traced, sonar.settings, assembly.scene,
                                                     assembly.objects, *engine, plan.request));
     }
-    const FinishedPing finished{
-        id, sonar, traced, ping, metadata, out.clipped_pixels, plan.on ? &labels : nullptr};
-    for (const auto& writer : writers)
-        out.parts.push_back(writer->encode(finished));
+    use({id, sonar, traced, ping, metadata, clipped, plan.on ? &labels : nullptr});
+}
+
+WrittenPing encode_ping(const Assembly& assembly, const Writers& writers, const LabelPlan& plan,
+                        const RenderedPing& rendered) {
+    WrittenPing out;
+    finish_ping(assembly, plan, rendered, [&](const FinishedPing& finished) {
+        out.clipped_pixels = finished.clipped_pixels;
+        for (const auto& writer : writers)
+            out.parts.push_back(writer->encode(finished));
+    });
     return out;
 }
 

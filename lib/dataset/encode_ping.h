@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -27,6 +28,10 @@ RenderedPing render_at_pose(const Mission& mission, const Assembly& assembly,
 /// The brightest pixel of a ping. std::runtime_error that names the sensor and the pose when any
 /// pixel is NaN or infinite: such an image must never reach the disk.
 float brightest_pixel(const Ping& ping, std::string_view sensor, std::uint32_t pose);
+
+/// Measures and labels a ping and calls `use` with it; `plan` is that of its sensor.
+void finish_ping(const Assembly& assembly, const LabelPlan& plan, const RenderedPing& rendered,
+                 const std::function<void(const FinishedPing&)>& use);
 
 /// The output of a sensor's writers for a ping.
 struct WrittenPing {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -96,6 +97,26 @@ WriterOutputs record_outputs(std::string file, NpyFormat format, nlohmann::order
 WriterOutputs record_outputs(const WriterContext& context, const std::string& stem,
                              const char* type, int bytes_of_number, std::string label = {});
 
+/// The numbers in a ping's file or record.
+struct PingNumbers {
+    std::variant<std::vector<float>, std::vector<std::uint16_t>, std::vector<std::uint8_t>> values;
+    std::vector<std::size_t> shape;  ///< [rows, columns], or [values] of a record
+};
+
+template <class T>
+PingNumbers make_numbers(std::vector<T> values, int rows, int columns) {
+    return {std::move(values), {static_cast<std::size_t>(rows), static_cast<std::size_t>(columns)}};
+}
+template <class T>
+PingNumbers make_numbers(std::vector<T> record) {
+    const std::size_t size = record.size();
+    return {std::move(record), {size}};
+}
+/// The numbers as the bytes of a record.
+inline std::string record_bytes(const PingNumbers& numbers) {
+    return std::visit([](const auto& values) { return record_bytes(values); }, numbers.values);
+}
+
 /// One output format of one sensor. Writers are immutable: any number of threads may encode at a
 /// time. A resume finds by the journal what is there: by the size of each file and the hash of each
 /// record. It makes products again unless all of them are there.
@@ -106,6 +127,9 @@ class Writer {
     virtual WriterOutputs outputs() const = 0;
     /// The bytes of the ping's file, or of its record.
     virtual std::string encode(const FinishedPing& ping) const = 0;
+    /// The numbers that a reader of those bytes gets; nothing if they are text or a picture for
+    /// people.
+    virtual std::optional<PingNumbers> numbers(const FinishedPing& /*ping*/) const { return {}; }
     /// Makes the products in `folder`, in memory that does not grow with the number of pings.
     virtual void write_products(const RecordFile& /*records*/,
                                 const std::filesystem::path& /*folder*/) const {}

@@ -48,6 +48,16 @@ std::vector<std::size_t> count_pings(const Mission& mission, std::size_t poses) 
     return pings;
 }
 
+Writers make_array_writers(const WriterContext& context) {
+    Writers writers;
+    for (const MakeWriter make : {make_raw_writer, make_raw_records_writer}) {
+        if (auto writer = make(context)) writers.push_back(std::move(writer));
+    }
+    for (auto& writer : make_label_writers(context))
+        writers.push_back(std::move(writer));
+    return writers;
+}
+
 std::vector<Writers> make_writers(const Mission& mission, const Assembly& assembly) {
     check_shared_products(mission, assembly.trajectory.size());
     const std::vector<std::size_t> pings = count_pings(mission, assembly.trajectory.size());

@@ -13,6 +13,9 @@ using Writers = std::vector<std::unique_ptr<Writer>>;
 /// The writers of each sensor. InputError when a sensor of the mission would have no output at all.
 std::vector<Writers> make_writers(const Mission& mission, const Assembly& assembly);
 
+/// The writers of a sensor's raw values and labels alone; empty if the mission asks for neither.
+Writers make_array_writers(const WriterContext& context);
+
 /// The number of pings of each sensor.
 std::vector<std::size_t> count_pings(const Mission& mission, std::size_t poses);
 

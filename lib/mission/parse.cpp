@@ -7,6 +7,8 @@
 
 #include "core/file.h"
 #include "core/text.h"
+#include "mission/dataset_names.h"
+#include "mission/files.h"
 #include "mission/override.h"
 #include "mission/ping_draws.h"
 #include "mission/preset.h"
@@ -21,9 +23,9 @@ namespace {
 constexpr std::size_t largest_file = std::size_t{1} << 20;
 
 YamlNode document_of(std::string_view text, const std::string& file_name,
-                     std::span<const std::string> overrides) {
+                     std::span<const std::string> overrides, Lines lines = Lines::counted) {
     if (text.size() > largest_file) throw InputError({file_name}, "is larger than 1 MiB");
-    YamlNode root = read_document(text, file_name);
+    YamlNode root = read_document(text, file_name, lines);
     for (const std::string& setting : overrides)
         apply_override(root, setting);
     return root;
@@ -125,9 +127,25 @@ Mission parse_mission(std::string_view text, const std::string& file_name,
     return parse_mission(document_of(text, file_name, overrides), file_name, base_folder, sonars);
 }
 
-YamlNode read_mission_document(const std::filesystem::path& file,
-                               std::span<const std::string> overrides) {
-    return document_of(read_file(file, largest_file), file.string(), overrides);
+YamlNode read_mission_document(const MissionSource& source) {
+    const std::string name = source.file.string();
+    if (source.text) return document_of(*source.text, name, source.overrides, Lines::none);
+    return document_of(read_file(source.file, largest_file), name, source.overrides);
+}
+
+Mission load_mission(const MissionSource& source, SonarKeyTable sonars) {
+    Mission mission = parse_mission(read_mission_document(source), source.file.string(),
+                                    source.base_folder, sonars);
+    namespace fs = std::filesystem;
+    const fs::path own_folder = source.file.parent_path();
+    const bool is_of_dataset = !source.text && source.base_folder == own_folder &&
+                               fs::exists(own_folder / description_name);
+    if (is_of_dataset && !fs::exists(files_of(mission).front())) {
+        throw InputError({source.file.string()},
+                         "belongs to a dataset, and its paths start at the folder of the scene "
+                         "file; say which that is with --paths-from FOLDER");
+    }
+    return mission;
 }
 
 Mission parse_mission(const YamlNode& root, const std::string& file_name,

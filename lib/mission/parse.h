@@ -1,15 +1,25 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "mission/document.h"
 #include "mission/mission.h"
 #include "mission/sonar_keys.h"
 
 namespace sonarsim {
+
+/// The source of a mission: a file, or its text in memory.
+struct MissionSource {
+    std::filesystem::path file;         ///< in memory the name for messages
+    std::filesystem::path base_folder;  ///< relative paths of the mission start here
+    std::vector<std::string> overrides;
+    std::optional<std::string> text = {};  ///< in memory; its lines are not in messages
+};
 
 /// Reads and checks a mission, at most 1 MiB of strict YAML. Paths become absolute and normalised;
 /// relative ones start at the folder of the mission file. A mission without a name gets the
@@ -24,14 +34,17 @@ Mission load_mission(const std::filesystem::path& file, std::span<const std::str
 Mission load_mission(const std::filesystem::path& file, const std::filesystem::path& base_folder,
                      std::span<const std::string> overrides, SonarKeyTable sonars);
 
+/// The same for a source. InputError also for the mission of a dataset whose paths start at its own
+/// folder, where its files are not.
+Mission load_mission(const MissionSource& source, SonarKeyTable sonars);
+
 /// The same for a mission in memory. `file_name` is for messages and for the default name.
 Mission parse_mission(std::string_view text, const std::string& file_name,
                       const std::filesystem::path& base_folder,
                       std::span<const std::string> overrides, SonarKeyTable sonars);
 
-/// Reads the document of a mission file and applies the overrides. Checks nothing else.
-YamlNode read_mission_document(const std::filesystem::path& file,
-                               std::span<const std::string> overrides);
+/// Reads the document of a mission and applies the overrides. Checks nothing else.
+YamlNode read_mission_document(const MissionSource& source);
 
 /// Reads the mission in a document. `file_name` is for the default name.
 Mission parse_mission(const YamlNode& root, const std::string& file_name,

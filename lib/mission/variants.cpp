@@ -41,7 +41,7 @@ std::string variant_folder(int index) {
 
 std::vector<Mission> draw_variants(const Mission& mission, const MissionSource& source,
                                    SonarKeyTable sonars) {
-    YamlNode whole = read_mission_document(source.file, source.overrides);
+    YamlNode whole = read_mission_document(source);
     erase_key(whole, "variants");
     keep_rules_of_pings(whole, mission.vary);
     std::vector<Mission> variants;

@@ -1,23 +1,15 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "mission/mission.h"
+#include "mission/parse.h"
 #include "mission/sonar_keys.h"
 
 namespace sonarsim {
-
-/// The source of a mission, as in load_mission().
-struct MissionSource {
-    std::filesystem::path file;
-    std::filesystem::path base_folder;
-    std::vector<std::string> overrides;
-};
 
 /// Draws the variants of a mission: missions with the keys of `vary` drawn. Rules that are drawn
 /// for every ping are kept. The seed of a variant is a function of the mission's seed and the

@@ -25,6 +25,11 @@ def main(build, compiler):
                      "share/sonarsim/scripts/sonarsim_data.py",
                      "share/sonarsim/scripts/slurm/render.sh"):
             assert (prefix / name).exists(), f"not installed: {name}"
+        package = prefix / "lib/python3/dist-packages/sonarsim"
+        if (pathlib.Path(build) / "python/sonarsim").exists():
+            for name in ("__init__.py", "_sonarsim.pyi", "data.py", "data.pyi", "py.typed", "torch.py"):
+                assert (package / name).exists(), f"not installed: {name}"
+            assert len(list(package.glob("_sonarsim.*.so"))) == 1, list(package.iterdir())
         run(prefix / "bin/sonarsim", "validate", prefix / "share/sonarsim/configs/tank_imaging.yaml")
         run("cmake", "-S", consumer, "-B", own, f"-DCMAKE_PREFIX_PATH={prefix}",
             f"-DCMAKE_CXX_COMPILER={compiler}", "-DCMAKE_BUILD_TYPE=Release",

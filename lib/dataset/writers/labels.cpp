@@ -138,6 +138,17 @@ class LabelImageWriter final : public Writer {
                             view_.range_bins);
     }
 
+    std::optional<PingNumbers> numbers(const FinishedPing& finished) const override {
+        const PingLabels& labels = finished.labels->bins;
+        const int rows = view_.range_bins;
+        const int columns = view_.beams;
+        if (file_.terms)
+            return make_numbers(image(context_, finished, *file_.terms), rows, columns);
+        if (file_.floats_of)
+            return make_numbers(rows_of_range(file_.floats_of(labels), labels), rows, columns);
+        return make_numbers(rows_of_range(file_.ids_of(labels), labels), rows, columns);
+    }
+
   private:
     WriterContext context_;
     const View& view_;
@@ -157,12 +168,19 @@ class LabelFanWriter final : public Writer {
     }
 
     std::string encode(const FinishedPing& finished) const override {
-        const Ids values = file_.ids_of(finished.labels->bins);
-        return id_png_bytes(fan_values(finished.labels->fan_bins->by_row, values, std::uint16_t{0}),
-                            frame_.width, frame_.height);
+        return id_png_bytes(pixels(finished), frame_.width, frame_.height);
+    }
+
+    std::optional<PingNumbers> numbers(const FinishedPing& finished) const override {
+        return make_numbers(pixels(finished), frame_.height, frame_.width);
     }
 
   private:
+    Ids pixels(const FinishedPing& finished) const {
+        const Ids values = file_.ids_of(finished.labels->bins);
+        return fan_values(finished.labels->fan_bins->by_row, values, std::uint16_t{0});
+    }
+
     FanFrame frame_;
     const LabelFile& file_;
 };
@@ -182,6 +200,10 @@ class LabelRecordWriter final : public Writer {
     }
 
     std::string encode(const FinishedPing& finished) const override {
+        return record_bytes(*numbers(finished));
+    }
+
+    std::optional<PingNumbers> numbers(const FinishedPing& finished) const override {
         const PingLabels& labels = finished.labels->bins;
         if (file_.terms) return record(image(context_, finished, *file_.terms), 0.0F);
         if (file_.ids_of)
@@ -192,8 +214,8 @@ class LabelRecordWriter final : public Writer {
 
   private:
     template <class T>
-    std::string record(const std::vector<T>& image, T blank) const {
-        return record_bytes(
+    PingNumbers record(const std::vector<T>& image, T blank) const {
+        return make_numbers(
             record_values(context_.kind().record, context_.sonar().config, image, blank));
     }
 

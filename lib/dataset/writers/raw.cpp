@@ -50,6 +50,13 @@ class RawWriter final : public Writer {
         return png_bytes(as_bytes(values), ping.beams, ping.range_bins);
     }
 
+    std::optional<PingNumbers> numbers(const FinishedPing& finished) const override {
+        const Ping& ping = finished.ping;
+        Numbers values = model_.raw(ping);
+        if (bytes_ == 1) return make_numbers(as_bytes(values), ping.range_bins, ping.beams);
+        return make_numbers(std::move(values), ping.range_bins, ping.beams);
+    }
+
   private:
     const View& view_;
     const EchoModel& model_;
@@ -90,9 +97,14 @@ class RawRecordsWriter final : public Writer {
     }
 
     std::string encode(const FinishedPing& finished) const override {
-        const Numbers values =
+        return record_bytes(*numbers(finished));
+    }
+
+    std::optional<PingNumbers> numbers(const FinishedPing& finished) const override {
+        Numbers values =
             record_values<std::uint16_t>(shape_, config_, model_.raw(finished.ping), 0);
-        return bytes_ == 1 ? record_bytes(as_bytes(values)) : record_bytes(values);
+        if (bytes_ == 1) return make_numbers(as_bytes(values));
+        return make_numbers(std::move(values));
     }
 
     void write_products(const RecordFile& records,

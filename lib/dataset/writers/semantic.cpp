@@ -32,12 +32,18 @@ class SemanticWriter final : public Writer {
     }
 
     std::string encode(const FinishedPing& finished) const override {
-        const PingLabels& labels = finished.labels->bins;
-        const Indices pixels = of_fan_ ? in_fan(*finished.labels) : in_image(labels);
-        return palette_png_bytes(pixels, width_, height_, colours_);
+        return palette_png_bytes(pixels(finished), width_, height_, colours_);
+    }
+
+    std::optional<PingNumbers> numbers(const FinishedPing& finished) const override {
+        return make_numbers(pixels(finished), height_, width_);
     }
 
   private:
+    Indices pixels(const FinishedPing& finished) const {
+        return of_fan_ ? in_fan(*finished.labels) : in_image(finished.labels->bins);
+    }
+
     static Indices in_image(const PingLabels& labels) {
         Indices pixels(labels.size());
         for (int i = 0; i < labels.range_bins; ++i) {

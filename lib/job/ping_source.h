@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "assembly/assemble.h"
+#include "dataset/writers.h"
+#include "mission/mission.h"
+#include "visibility/engine.h"
+
+namespace sonarsim {
+
+/// A ping in memory, with the values that its files would hold.
+struct PingInMemory {
+    struct Array {
+        std::string name;
+        PingNumbers numbers;
+    };
+    struct Text {
+        std::string name;
+        std::string extension;  ///< ".json" or ".txt"
+        std::string text;
+    };
+
+    PingNumbers image;          ///< float32: polar/ [range, azimuth], or the record of the kind
+    std::vector<Array> arrays;  ///< raw values and labels, by the names of their files
+    std::vector<Text> texts;    ///< labels that are text
+    std::string metadata;       ///< meta/NNNNNN.json
+};
+
+/// The pings of a mission without files. They are made as run_job() makes them, and do not depend
+/// on which others are asked for.
+class PingSource {
+  public:
+    /// Reads all that the mission names. InputError as assemble(). `models` may be shared by the
+    /// variants of a mission; it is used here only.
+    PingSource(Mission mission, SceneFiles& models);
+    PingSource(const PingSource&) = delete;
+    PingSource& operator=(const PingSource&) = delete;
+
+    const Mission& mission() const { return mission_; }
+    const Assembly& assembly() const { return assembly_; }
+
+    /// Any number of threads may ask at a time. The id must be one of list_pings().
+    /// std::runtime_error as brightest_pixel().
+    PingInMemory ping(const PingId& id) const;
+
+    /// dataset.json of the dataset that run_job() would begin. InputError as make_writers().
+    nlohmann::ordered_json describe() const;
+
+  private:
+    Mission mission_;
+    Assembly assembly_;
+    std::unique_ptr<VisibilityEngine> engine_;
+    std::vector<LabelPlan> plans_;  ///< in the order of the sensors
+    std::vector<Writers> writers_;  ///< likewise, for raw values and labels
+};
+
+}  // namespace sonarsim

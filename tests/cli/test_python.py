@@ -1,0 +1,343 @@
+"""The Python package: the pings of a mission in memory are those of the files of `render`."""
+import copy
+import gc
+import importlib
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import threading
+import time
+import unittest
+
+PACKAGE = os.environ.get("SONARSIM_PYTHON_PACKAGE")
+PYTHON = os.environ.get("SONARSIM_PYTHON_EXECUTABLE", sys.executable)
+if not PACKAGE:
+    print("needs a build with pybind11 and Python's headers")
+    sys.exit(77)
+if os.environ.get("SONARSIM_PYTHON_STARTED") != PYTHON:     # the Python that the module is built for
+    os.environ["SONARSIM_PYTHON_STARTED"] = PYTHON
+    os.execv(PYTHON, [PYTHON, "-B", __file__, *sys.argv[1:]])
+sys.path.insert(0, PACKAGE)
+try:
+    import numpy as np
+except ImportError:
+    print("needs numpy")
+    sys.exit(77)
+
+import sonarsim
+import sonarsim.data
+from sandbox import Sandbox, path_csv
+
+try:
+    import torch
+except ImportError:
+    torch = None
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+KINDS = """\
+name: kinds
+seed: 7
+scene: {file: box.gltf, materials: materials.csv}
+trajectory: {file: path.csv}
+sensors:
+  fls: {kind: imaging, azimuth_deg: 60, range_max_m: 6, range_bins: 40, azimuth_bins: 24,
+        noise: {add_sigma: 0.05, range_lambda_m: 0.02}, multipath: {method: exact}}
+  oculus: {preset: sensors/oculus_m1200d_2100khz_10m.yaml, range_max_m: 6, range_bins: 64}
+  mbes: {kind: profiling, range_max_m: 6, range_bins: 16, azimuth_bins: 8, every: 2}
+  sss: {kind: sidescan, range_max_m: 6, range_bins: 16, noise: {add_sigma: 0.05}}
+  sounder: {kind: echosounder, range_max_m: 6, range_bins: 16}
+  head: {kind: scanning, range_max_m: 6, range_bins: 16}
+  towed: {kind: sidescan, model: calibrated, range_max_m: 6, range_bins: 64}
+output: {folder: out, labels: true}
+"""
+POSES = 5
+# The files of a ping that are pictures for people, or products of several pings.
+PICTURES = {"image", "fan", "stages", "meta", "soundings"}
+IMAGES = {"polar", "waterfall", "echogram", "scan"}
+VARIED = """\
+variants: 3
+vary:
+  - {key: sensors.fls.noise.add_sigma, uniform: [0.01, 0.1]}
+  - {key: vehicle.turn_deg.0, uniform: [-3, 3], per: ping}
+"""
+
+
+def content_of(ping):
+    """What a ping holds, for comparisons."""
+    labels = {name: value.tobytes() if isinstance(value, np.ndarray) else value
+              for name, value in ping.labels.items()}
+    return (ping.sensor, ping.number, ping.variant, ping.image.tobytes(),
+            None if ping.raw is None else ping.raw.tobytes(), labels, ping.metadata)
+
+
+def resident_bytes():
+    return int(pathlib.Path("/proc/self/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+
+
+class Package(Sandbox):
+    def open(self, set=None, **options):
+        return sonarsim.open(self.folder / "mission.yaml", set, **options)
+
+    def assert_same(self, mission, folder):
+        """Every ping has the numbers of its files, and nothing is missing."""
+        dataset = sonarsim.data.open_dataset(folder)
+        self.assertEqual(list(mission.sensors), list(dataset.sensors))
+        np.testing.assert_allclose(mission.poses, dataset.poses(), atol=1e-6)
+        for kind in ("instances", "classes", "materials"):
+            self.assertEqual(getattr(mission, kind), getattr(dataset, kind))
+        seen = set()
+        for name, sensor in dataset.sensors.items():
+            self.assertEqual(mission.sensors[name].pings, sensor.pings)
+            np.testing.assert_array_equal(mission.sensors[name].range_edges_m, sensor.range_edges_m)
+            for sample in sensor:
+                with self.subTest(sample=sample):
+                    self.assert_same_ping(mission.ping(sample.ping, name), sample)
+                seen.update(sample)
+        return seen
+
+    def assert_same_ping(self, ping, sample):
+        arrays = {**ping.labels, **({} if ping.raw is None else {"raw": ping.raw})}
+        arrays.update({name: ping.image for name in IMAGES & set(sample)})
+        self.assertEqual(set(arrays), set(sample) - PICTURES)
+        for name, value in arrays.items():
+            expected = sample[name]
+            if not isinstance(value, np.ndarray):
+                self.assertEqual(value, expected, name)
+                continue
+            self.assertEqual((value.dtype, value.shape), (expected.dtype, expected.shape), name)
+            self.assertEqual(value.tobytes(), np.ascontiguousarray(expected).tobytes(), name)
+        self.assertEqual(ping.metadata, sample["meta"])
+
+
+class SameBytes(Package):
+    def test_all_kinds_and_labels(self):
+        self.write("mission.yaml", KINDS)
+        self.write("path.csv", path_csv(POSES))
+        for preset in ("oculus_m1200d_2100khz_10m.yaml",):
+            self.write(f"sensors/{preset}", (ROOT / "configs/sensors" / preset).read_text())
+        self.assert_renders()
+        mission = self.open()
+        seen = self.assert_same(mission, self.out)
+        self.assertLessEqual({"polar", "raw", "waterfall", "echogram", "scan", "instance", "share",
+                              "elevation", "clean", "shadow", "objects", "semantic", "fan_semantic",
+                              "fan_instance", "yolo"}, seen)
+        self.assertEqual(len(mission), 6 * POSES + 3)
+        pings = list(mission)
+        self.assertEqual([(p.number, p.sensor) for p in pings[:4]],
+                         [(0, "fls"), (0, "oculus"), (0, "mbes"), (0, "sss")])
+        self.assertEqual(len(pings), len(mission))
+        # Another order, more threads and shards change nothing.
+        parts = [list(mission.pings(threads=2, shard=(k, 2))) for k in range(2)]
+        self.assertEqual(len(parts[0]) + len(parts[1]), len(pings))
+        merged = sorted(parts[0] + parts[1], key=lambda p: (p.number, mission.sensor_names.index(p.sensor)))
+        self.assertEqual([content_of(p) for p in merged], [content_of(p) for p in pings])
+
+    def test_variants(self):
+        self.write("mission.yaml", (self.folder / "mission.yaml").read_text() + VARIED)
+        self.edit("mission.yaml", "image: true", "image: true\n  labels: [instance, shadow]")
+        self.assert_renders()
+        mission = self.open()
+        self.assertEqual((len(mission.variants), len(mission)), (3, 18))
+        for variant, dataset in zip(mission.variants, sonarsim.data.open_datasets(self.out), strict=True):
+            self.assert_same(variant, dataset.folder)
+        pings = [content_of(p) for p in mission]
+        self.assertEqual([p[2] for p in pings], [0] * 6 + [1] * 6 + [2] * 6)
+        for count in (2, 5):    # whole variants, and parts of them
+            shards = [list(mission.pings("fls", shard=(k, count))) for k in range(count)]
+            self.assertEqual([len(one) for one in shards],
+                             [mission.count("fls", shard=(k, count)) for k in range(count)])
+            merged = sorted((p for one in shards for p in one), key=lambda p: (p.variant, p.number))
+            self.assertEqual([content_of(p) for p in merged], pings)
+        with self.assertRaisesRegex(ValueError, r"has 3 variants: ask one of them.*variants\[0\]"):
+            mission.ping(0)
+
+    def test_a_dict_and_overrides(self):
+        self.assert_renders("--set", "seed=9", "--set", "sensors.fls.range_bins=40",
+                            "--set", "sensors.fls.noise={add_sigma: 0.2}")
+        changes = {"seed": 9, "sensors.fls.range_bins": np.int64(40), "sensors.fls.noise": {"add_sigma": 0.2}}
+        self.assert_same(self.open(changes), self.out)
+        as_text = {"seed": "9", "sensors.fls.range_bins": "40", "sensors.fls.noise": "{add_sigma: 0.2}"}
+        self.assert_same(self.open(as_text), self.out)
+        written = {
+            "name": "box", "seed": 9,
+            "scene": {"file": pathlib.Path("box.gltf"), "materials": "materials.csv"},
+            "trajectory": {"file": "path.csv"},
+            "sensors": {"fls": {"kind": "imaging", "azimuth_deg": 60, "elevation_deg": 12, "range_max_m": 6,
+                                "range_bins": 40, "azimuth_bins": 32, "noise": {"add_sigma": 0.2}}}}
+        before = copy.deepcopy(written)
+        self.assert_same(sonarsim.open(written, paths_from=self.folder), self.out)
+        self.assertEqual(written, before)
+
+
+class Use(Package):
+    def test_mistakes_have_the_words_of_the_command(self):
+        def said(*settings):
+            with self.assertRaises(sonarsim.InputError) as caught:
+                self.open(dict(setting.split("=", 1) for setting in settings))
+            words = [word for setting in settings for word in ("--set", setting)]
+            result = self.run_sonarsim("render", self.folder / "mission.yaml", *words)
+            self.assertEqual(result.returncode, 2, result.stderr)
+            lines = [f"error: {line}" for line in str(caught.exception).splitlines()]
+            self.assertEqual(lines, result.stderr.splitlines())
+            return str(caught.exception)
+
+        said("sensors.fls.range_bins=none")
+        said("sensors.fls.rang_bins=5", "seed=-1")
+        said("trajectory.file=nowhere.csv")
+        self.edit("mission.yaml", "azimuth_bins: 32", "azimuth_bims: 32")
+        self.assertIn("mission.yaml:15:5:", said())
+        self.edit("mission.yaml", "azimuth_bims: 32", "azimuth_bins: 32")
+        self.write("materials.csv", "material,density_kg_m3,sound_speed_m_s\nSteel,7850,5900\n")
+        self.assertIn("Concrete", said())
+        self.assertTrue(issubclass(sonarsim.InputError, ValueError))
+        with self.assertRaisesRegex(sonarsim.InputError, "nowhere.yaml"):
+            sonarsim.open(self.folder / "nowhere.yaml")
+        with self.assertRaisesRegex(sonarsim.InputError, "range_bins") as caught:
+            sonarsim.open({"sensors": {"fls": {"kind": "imaging", "range_bins": "many"}}})
+        self.assertTrue(str(caught.exception).startswith("mission: "), caught.exception)
+        with self.assertRaisesRegex(TypeError, "cannot hold"):
+            sonarsim.open({"name": object()})
+        self.assertFalse(self.out.exists())
+
+    def test_wrong_numbers_and_names(self):
+        mission = self.open({"sensors.fls.every": 2, "sensors.other": {"kind": "echosounder"}})
+        with self.assertRaisesRegex(ValueError, "sensors fls, other: name one"):
+            mission.ping(0)
+        with self.assertRaisesRegex(KeyError, "'flz', but fls, other"):
+            mission.ping(0, "flz")
+        for number in (-1, 1, 6):
+            with self.assertRaisesRegex(IndexError, "multiple of 2 from 0 to 5"):
+                mission.ping(number, "fls")
+        with self.assertRaisesRegex(ValueError, "shard"):
+            mission.pings(shard=(2, 2))
+
+    def test_a_dataset_is_opened_again(self):
+        self.assert_renders()
+        with self.assertRaisesRegex(sonarsim.InputError, "--paths-from"):
+            sonarsim.open(self.out / "mission.resolved.yaml")
+        self.assert_same(sonarsim.open(self.out / "mission.resolved.yaml", paths_from=self.folder), self.out)
+
+    def test_other_threads_run_meanwhile(self):
+        """One ping of several tenths of a second; a thread counts its own turns meanwhile. A thread that
+        held the lock would leave it none."""
+        mission = self.open({"sensors.fls.range_bins": 3000, "sensors.fls.azimuth_bins": 1500,
+                             "sensors.fls.multipath": {"method": "exact"}})
+        turns, done = [0], threading.Event()
+
+        def count():
+            while not done.wait(0.001):
+                turns[0] += 1
+
+        thread = threading.Thread(target=count)
+        thread.start()
+        time.sleep(0.01)
+        before, began = turns[0], time.monotonic()
+        mission.ping(0)
+        seconds, counted = time.monotonic() - began, turns[0] - before
+        done.set()
+        thread.join()
+        # Of some 900 turns a second a busy machine may take most.
+        self.assertGreater(counted, 20 * seconds, f"{counted} turns in {seconds:.2f} s")
+        self.assertGreater(counted, 3)
+
+    def test_memory_does_not_grow(self):
+        mission = self.open({"output.labels": "[instance, class, objects, clean]"})
+        pings = [mission.ping(k) for k in range(6)]
+
+        def work(times):
+            for k in range(times):
+                self.assertEqual(content_of(mission.ping(k % 6)), content_of(pings[k % 6]))
+            gc.collect()
+            return resident_bytes()
+
+        before = work(100)
+        # A ping takes some 40 kB; 400 of them 16 MB.
+        self.assertLess(work(400) - before, 2 << 20)
+
+    def test_arrays_are_their_own(self):
+        mission = self.open({"output.labels": "[class]"})
+        ping = mission.ping(0)
+        image = ping.image.copy()
+        ping.image[:] = -1
+        ping.pose[:] = -1
+        ping.labels["class"][:] = 7
+        again = mission.ping(0)
+        np.testing.assert_array_equal(again.image, image)
+        self.assertLess(again.labels["class"].max(), 7)
+        self.assertNotEqual(again.pose[0], -1)
+        del mission
+        gc.collect()
+        np.testing.assert_array_equal(again.image, image)
+
+    def test_warnings(self):
+        self.assertEqual(self.open().warnings, [])
+        warned = self.open({"water.density_kg_m3": 1}).warnings
+        self.assertTrue(warned and warned[0].startswith("W06"), warned)
+
+    def test_the_package_is_typed_and_holds_the_reader(self):
+        folder = pathlib.Path(sonarsim.__file__).parent
+        for name in ("py.typed", "_sonarsim.pyi", "data.pyi"):
+            self.assertTrue((folder / name).is_file(), name)
+        self.assertEqual((folder / "data.py").read_bytes(), (ROOT / "scripts/sonarsim_data.py").read_bytes())
+        self.assertEqual(sonarsim.__version__, self.run_sonarsim("--version").stdout.split()[1])
+
+
+class Torch(Package):
+    def test_without_torch(self):
+        kept = {name: sys.modules.pop(name) for name in ("torch", "sonarsim.torch") if name in sys.modules}
+        sys.modules["torch"] = None
+        try:
+            with self.assertRaisesRegex(ImportError, "needs PyTorch.*python3-torch"):
+                importlib.import_module("sonarsim.torch")
+        finally:
+            del sys.modules["torch"]
+            sys.modules.update(kept)
+
+    @unittest.skipIf(torch is None, "needs torch")
+    def test_workers(self):
+        """Two workers make the pings of the files, each its share, also after a fork of a process that has
+        made pings itself."""
+        from sonarsim.torch import PingDataset
+        self.write("mission.yaml", (self.folder / "mission.yaml").read_text() + VARIED)
+        self.edit("mission.yaml", "image: true", "image: true\n  labels: [instance, objects]")
+        self.assert_renders()
+        expected = sorted((one["fls"][k]["polar"].tobytes(), one["fls"][k]["instance"].astype(np.int32).tobytes())
+                          for one in sonarsim.data.open_datasets(self.out) for k in range(6))
+        self.open().variants[0].ping(0)
+        data = PingDataset(self.folder / "mission.yaml", names=("image", "instance"))
+        self.assertEqual(len(data), 18)
+        for workers, options in ((0, {}), (2, {}), (1, {"multiprocessing_context": "spawn"})):
+            loader = torch.utils.data.DataLoader(data, batch_size=None, num_workers=workers, **options)
+            found = [(image.numpy().tobytes(), ids.numpy().tobytes()) for image, ids in loader]
+            self.assertEqual(sorted(found), expected, workers)
+        loader = torch.utils.data.DataLoader(data, batch_size=3)
+        self.assertEqual(next(iter(loader))[0].shape, (3, 48, 32))
+        one = PingDataset(self.folder / "mission.yaml", {"seed": 3}, transform=lambda ping: ping.number, threads=2,
+                          shard=(1, 3))
+        self.assertEqual((list(one), len(one)), ([0, 1, 2, 3, 4, 5], 6))
+        with self.assertRaisesRegex(KeyError, "no 'class', but image, instance, objects"):
+            next(iter(PingDataset(self.folder / "mission.yaml", names=("class",))))
+        with self.assertRaisesRegex(sonarsim.InputError, "nowhere.yaml"):
+            PingDataset("nowhere.yaml")
+
+    @unittest.skipIf(torch is None, "needs torch")
+    def test_the_training_loop_of_the_page(self):
+        page = (ROOT / "docs/python.md").read_text()
+        loop = page.split("<!-- training loop -->\n```python\n")[1].split("```")[0]
+        self.assertLessEqual(len(loop.splitlines()), 35)
+        (self.folder / "configs").symlink_to(ROOT / "configs")
+        (self.folder / "scenes").symlink_to(ROOT / "scenes")
+        (self.folder / "trajectories").symlink_to(ROOT / "trajectories")
+        result = subprocess.run([sys.executable, "-B", "-c", loop], cwd=self.folder, capture_output=True,
+                                text=True, check=False, timeout=300,
+                                env={**os.environ, "PYTHONPATH": PACKAGE, "OMP_NUM_THREADS": "1"})
+        self.assertEqual(result.returncode, 0, result.stderr)
+        losses = [float(line.split()[-1]) for line in result.stdout.splitlines() if "loss" in line]
+        self.assertGreater(len(losses), 1, result.stdout)
+        self.assertLess(losses[-1], losses[0])
+
+
+if __name__ == "__main__":
+    unittest.main()
