@@ -1,7 +1,8 @@
 # The page of `sonarsim gallery`, into the program as text.
 set(SONARSIM_PAGE ${PROJECT_SOURCE_DIR}/lib/gallery/page)
 # One script, in this order.
-set(SONARSIM_PAGE_SCRIPTS data.js images.js canvas.js picture.js plan.js controls.js)
+set(SONARSIM_PAGE_SCRIPTS data.js boxes.js names.js images.js canvas.js picture.js plan.js
+    objects.js controls.js)
 
 function(read_page_files TEXT)
     foreach(PART ${ARGN})

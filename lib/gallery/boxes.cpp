@@ -1,10 +1,13 @@
 #include "gallery/boxes.h"
 
 #include <algorithm>
-#include <cstdint>
+#include <array>
+#include <string_view>
 
-#include "core/file.h"
+#include "dataset/coco/reader.h"
 #include "dataset/shared_products.h"
+#include "format/coco_counts.h"
+#include "gallery/numbers.h"
 
 namespace sonarsim {
 
@@ -13,62 +16,90 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t largest_coco = std::size_t{1} << 30;
+constexpr std::uint64_t largest_size_px = 1U << 20;
+constexpr std::uint64_t largest_id = std::uint64_t{1} << 52;
 
-void add_boxes_of_file(const fs::path& coco, const std::vector<std::string>& texts,
-                       BoxLabels& labels, PictureBoxes& boxes) {
-    if (!fs::is_regular_file(coco)) return;
-    use_json(coco, read_file(coco, largest_coco), [&](const Json& all) {
-        std::map<std::uint64_t, Json*> by_id;
-        for (const Json& image : all.at("images")) {
-            Json& own = boxes[image.at("file_name")];
-            own = Json::array();
-            by_id[image.at("id")] = &own;
-        }
-        for (const Json& annotation : all.at("annotations")) {
-            const auto instance = annotation.at("instance_id").get<std::size_t>();
-            Json box = {labels.index_of(texts.at(instance - 1))};
-            for (const Json& number : annotation.at("bbox")) {
-                number.get<double>();  // throws unless it is one
-                box.push_back(number);
-            }
-            if (box.size() != 5) throw std::out_of_range("a box has four numbers");
-            by_id.at(annotation.at("image_id"))->push_back(std::move(box));
-        }
+/// The keys that are no details: they stand in the box already.
+constexpr std::array<std::string_view, 6> known_keys{"id",   "image_id", "category_id",
+                                                     "ping", "class",    "instance_id"};
+
+Json box_of(const CheckedJson& annotation, const ListedBoxes& picture, const BoxLabels& labels) {
+    Json box = {labels.of_instance(annotation.at("instance_id").whole(1, labels.instances))};
+    const CheckedJson corners = annotation.at("bbox");
+    for (const CheckedJson& number : corners.items()) {
+        number.number();  // throws unless it is one
+        box.push_back(number.json());
+    }
+    if (box.size() != 5) corners.refuse("four numbers");
+    box.push_back(details_of(annotation, annotation.at("segmentation").at("counts"), picture.width,
+                             picture.height));
+    return box;
+}
+
+/// Adds the boxes of a COCO file to the pictures that it lists. `place(image)` makes the place of a
+/// picture.
+template <class Place>
+void add_file(const fs::path& file, const BoxLabels& labels, const Place& place) {
+    if (!fs::is_regular_file(file)) return;
+    std::map<std::uint64_t, ListedBoxes*> by_id;
+    read_coco(file, "images", [&](const CheckedJson& image) {
+        ListedBoxes& own = place(image);
+        own.width = image.at("width").whole(1, largest_size_px);
+        own.height = image.at("height").whole(1, largest_size_px);
+        by_id[image.at("id").whole(1, largest_id)] = &own;
+    });
+    read_coco(file, "annotations", [&](const CheckedJson& annotation) {
+        const auto picture = by_id.find(annotation.at("image_id").whole(1, largest_id));
+        if (picture == by_id.end()) annotation.at("image_id").refuse("the id of an image above");
+        picture->second->boxes.push_back(box_of(annotation, *picture->second, labels));
     });
 }
 
 }  // namespace
 
-std::string object_text(const std::string& name, const std::string& class_name) {
-    return name == class_name ? name : name + " (" + class_name + ")";
+BoxLabels::BoxLabels(const DatasetFile& dataset)
+    : instances(dataset.labels.instances.size()), classes(dataset.labels.classes.size()) {}
+
+std::size_t BoxLabels::of_instance(std::uint64_t id) const {
+    if (id == 0 || id > instances) throw std::out_of_range("no such instance");
+    return id - 1;
 }
 
-std::vector<std::string> object_texts(const Json& description) {
-    std::vector<std::string> texts;
-    if (!description.contains("labels")) return texts;
-    const Json& labels = description["labels"];
-    for (const Json& instance : labels.at("instances")) {
-        const auto class_id = instance.at("class").get<std::size_t>();
-        texts.push_back(
-            object_text(instance.at("name"), labels.at("classes").at(class_id - 1).at("name")));
+std::size_t BoxLabels::of_class(std::uint64_t class_index) const {
+    if (class_index >= classes) throw std::out_of_range("no such class");
+    return instances + class_index;
+}
+
+Json details_of(const CheckedJson& annotation, const CheckedJson& counts, std::uint64_t width,
+                std::uint64_t height) {
+    const std::string mask = counts.text();
+    if (!coco_runs(mask, width * height))
+        counts.refuse("compressed runs of the pixels of the picture");
+    Json details = {{"mask", mask}};
+    for (const auto& [key, value] : annotation.json().items()) {
+        if (!value.is_number() || std::ranges::find(known_keys, key) != known_keys.end()) continue;
+        if (key == "iscrowd" && value == 0) continue;
+        details[key] = short_number(value.get<double>());
     }
-    return texts;
+    return details;
 }
 
-std::size_t BoxLabels::index_of(const std::string& text) {
-    const auto found = std::ranges::find(texts, text);
-    if (found != texts.end()) return static_cast<std::size_t>(found - texts.begin());
-    texts.push_back(text);
-    return texts.size() - 1;
-}
-
-PictureBoxes picture_boxes(const fs::path& folder, const Json& description, BoxLabels& labels) {
-    const std::vector<std::string> texts = object_texts(description);
-    PictureBoxes boxes;
-    for (const CocoPicture picture : {CocoPicture::record, CocoPicture::scan})
-        add_boxes_of_file(folder / coco_file(picture), texts, labels, boxes);
-    return boxes;
+CocoBoxes coco_boxes(const fs::path& folder, const BoxLabels& labels) {
+    CocoBoxes all;
+    for (const CocoPicture picture : {CocoPicture::record, CocoPicture::scan}) {
+        add_file(folder / coco_file(picture), labels,
+                 [&](const CheckedJson& image) -> ListedBoxes& {
+                     return all.of_file[image.at("file_name").text()];
+                 });
+    }
+    const auto of_pings = [](CocoBoxes::OfPings& pings) {
+        return [&pings](const CheckedJson& image) -> ListedBoxes& {
+            return pings[{image.at("sensor").text(), image.at("ping").whole(0, largest_id)}];
+        };
+    };
+    add_file(folder / coco_file(CocoPicture::polar), labels, of_pings(all.in_image));
+    add_file(folder / coco_file(CocoPicture::fan), labels, of_pings(all.in_fan));
+    return all;
 }
 
 }  // namespace sonarsim

@@ -1,14 +1,17 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/error.h"
 #include "dataset/checked_json.h"
+#include "dataset/dataset_file.h"
 
 namespace sonarsim {
 
@@ -26,26 +29,45 @@ void use_json(const std::filesystem::path& file, const std::string& text, const 
     }
 }
 
-/// The name of an object on the page: "drum_3 (drum)", or the name alone if its class has the same
-/// name.
-std::string object_text(const std::string& name, const std::string& class_name);
-
-/// object_text() of the instances that dataset.json lists, by id - 1.
-std::vector<std::string> object_texts(const nlohmann::ordered_json& description);
-
-/// The texts of boxes, each once.
+/// The names that boxes carry: those of the instances in dataset.json, by id - 1, then those of its
+/// classes, for boxes that name a class only.
 struct BoxLabels {
-    std::vector<std::string> texts;
+    explicit BoxLabels(const DatasetFile& dataset);
 
-    std::size_t index_of(const std::string& text);
+    std::size_t of_instance(std::uint64_t id) const;        ///< id from 1 on
+    std::size_t of_class(std::uint64_t class_index) const;  ///< class id - 1
+
+    std::size_t instances = 0;
+    std::size_t classes = 0;
 };
 
-/// The boxes of labels in pictures of several pings, by the picture's path from the dataset's
-/// folder. Each is a list of [label, x, y, width, height], px.
-using PictureBoxes = std::map<std::string, nlohmann::ordered_json>;
+// A box is [label, x, y, width, height, details], px. `details` has the `mask` as COCO's tools
+// compress it, the box of the shadow and the numbers of the annotation.
 
-/// The boxes of the COCO files of records and of sweeps; empty if the dataset has none.
-PictureBoxes picture_boxes(const std::filesystem::path& folder,
-                           const nlohmann::ordered_json& description, BoxLabels& labels);
+/// The details of an annotation or an object. Numbers have five digits. InputError when the mask is
+/// none of a picture of this size, px.
+nlohmann::ordered_json details_of(const CheckedJson& annotation, const CheckedJson& counts,
+                                  std::uint64_t width, std::uint64_t height);
+
+/// The boxes in a picture.
+struct ListedBoxes {
+    std::uint64_t width = 0;  ///< the labelled picture has, px
+    std::uint64_t height = 0;
+    nlohmann::ordered_json boxes = nlohmann::ordered_json::array();
+};
+
+/// The boxes in the COCO files of a dataset, which are those that a network is trained with.
+struct CocoBoxes {
+    /// Boxes in pictures of all pings of a sensor and of sweeps, by the picture's path from the
+    /// dataset's folder.
+    std::map<std::string, ListedBoxes> of_file;
+    /// Boxes in pictures of single pings, by sensor and number of the pose.
+    using OfPings = std::map<std::pair<std::string, std::uint64_t>, ListedBoxes>;
+    OfPings in_image;  ///< beams to the right, ranges down
+    OfPings in_fan;
+};
+
+/// Empty if the dataset has no COCO files. InputError, with the line, when one is damaged.
+CocoBoxes coco_boxes(const std::filesystem::path& folder, const BoxLabels& labels);
 
 }  // namespace sonarsim

@@ -1,12 +1,12 @@
 #include "gallery/ping_tables.h"
 
-#include <charconv>
 #include <optional>
 #include <sstream>
 
 #include "core/error.h"
 #include "core/file.h"
 #include "dataset/file_names.h"
+#include "gallery/numbers.h"
 
 namespace sonarsim {
 
@@ -37,54 +37,82 @@ void for_each_number(const std::string& name, const Json& json, const Visit& vis
         for_each_number(name.empty() ? key : name + "." + key, value, visit);
 }
 
-Json box(std::size_t label, double left, double top, double right, double bottom) {
-    const auto tenth = [](double pixels) { return short_number(pixels); };
-    return {label, tenth(left), tenth(top), tenth(right - left), tenth(bottom - top)};
-}
-
-void add_or_zero(Json& pings, Json&& boxes) {
+void add_or_zero(Json& pings, Json boxes) {
     pings.push_back(boxes.empty() ? Json(0) : std::move(boxes));
 }
 
-/// Adds the boxes of a ping to those of the picture and those of the fan.
-void add_boxes(const Json& objects, BoxLabels& labels, Json& image, Json& fan) {
-    for (const Json& object : objects) {
-        const std::size_t label =
-            labels.index_of(object_text(object.at("name"), object.at("class")));
-        const Json& bins = object.at("box_bins");
-        image.push_back(box(label, bins.at("beam").at(0), bins.at("range").at(0),
-                            bins.at("beam").at(1), bins.at("range").at(1)));
-        if (!object.contains("fan") || object.at("fan").is_null()) continue;
-        const Json& px = object.at("fan").at("box_px");
-        fan.push_back(
-            box(label, px.at("x").at(0), px.at("y").at(0), px.at("x").at(1), px.at("y").at(1)));
+PictureBoxes boxes_of_coco(const Json& sensor, const CocoBoxes::OfPings& pictures) {
+    PictureBoxes all{Json::array(), 0};
+    const auto pings = sensor.at("pings").get<std::uint64_t>();
+    const auto every = sensor.at("every").get<std::uint64_t>();
+    for (std::uint64_t ping = 0; ping < pings; ++ping) {
+        const auto own = pictures.find({sensor.at("name"), ping * every});
+        add_or_zero(all.pings, own == pictures.end() ? Json() : own->second.boxes);
+        if (own != pictures.end()) all.mask_height = own->second.height;
     }
+    return all;
 }
 
-PingBoxes boxes_of_objects(const fs::path& folder, const Json& sensor, BoxLabels& labels) {
-    PingBoxes all{Json::array(), Json::array()};
+/// The frame of the boxes in objects/NNNNNN.json.
+struct ObjectFrame {
+    const char* box;
+    const char* x;
+    const char* y;
+    std::uint64_t width;
+    std::uint64_t height;
+};
+
+/// `shown` is the object itself, or its part `fan`.
+Json box_of_object(const CheckedJson& object, const CheckedJson& shown, const ObjectFrame& frame,
+                   const BoxLabels& labels) {
+    Json box = {labels.of_instance(object.at("id").whole(1, labels.instances))};
+    const CheckedJson corners = shown.at(frame.box);
+    const std::vector<CheckedJson> x = corners.at(frame.x).items();
+    const std::vector<CheckedJson> y = corners.at(frame.y).items();
+    if (x.size() != 2 || y.size() != 2) corners.refuse("two numbers each");
+    box.push_back(short_number(x[0].number()));
+    box.push_back(short_number(y[0].number()));
+    box.push_back(short_number(x[1].number() - x[0].number()));
+    box.push_back(short_number(y[1].number() - y[0].number()));
+    box.push_back(details_of(object, shown.at("mask"), frame.width, frame.height));
+    return box;
+}
+
+PingBoxes boxes_of_objects(const fs::path& folder, const Json& sensor, const BoxLabels& labels) {
+    ObjectFrame image{"box_bins", "beam", "range", sensor.at("azimuth_edges_rad").size() - 1,
+                      sensor.at("range_edges_m").size() - 1};
+    ObjectFrame fan{"box_px", "x", "y", 0, 0};
+    if (sensor.contains("fan")) {
+        fan.width = sensor["fan"].at("width_px");
+        fan.height = sensor["fan"].at("height_px");
+    }
+    PingBoxes all{{Json::array(), image.height}, {Json::array(), fan.height}};
     const auto pings = sensor.at("pings").get<std::uint64_t>();
     for (std::uint64_t ping = 0; ping < pings; ++ping) {
-        Json image = Json::array();
-        Json fan = Json::array();
+        Json in_image = Json::array();
+        Json in_fan = Json::array();
         const fs::path file = file_of(folder, sensor, "objects", ping);
         if (const std::optional<std::string> text = text_of(file)) {
-            use_json(file, *text,
-                     [&](const Json& json) { add_boxes(json.at("objects"), labels, image, fan); });
+            const Json json = parse_json(*text, file.string());
+            const std::string name = file.string();
+            for (const CheckedJson& object : CheckedJson(json, name).at("objects").items()) {
+                in_image.push_back(box_of_object(object, object, image, labels));
+                const std::optional<CheckedJson> shown = object.find("fan");
+                if (shown && !shown->json().is_null())
+                    in_fan.push_back(box_of_object(object, *shown, fan, labels));
+            }
         }
-        add_or_zero(all.in_image, std::move(image));
-        add_or_zero(all.in_fan, std::move(fan));
+        add_or_zero(all.in_image.pings, std::move(in_image));
+        add_or_zero(all.in_fan.pings, std::move(in_fan));
     }
     return all;
 }
 
 /// Lines of class, middle, width and height as shares of a picture of this size.
-Json boxes_of_yolo(const fs::path& folder, const Json& description, const Json& sensor,
-                   const char* kind, double width, double height, BoxLabels& labels) {
-    if (!sensor.at("files").contains(kind)) return nullptr;
-    if (!description.contains("labels")) return nullptr;
-    const Json& classes = description["labels"].at("classes");
-    Json all = Json::array();
+PictureBoxes boxes_of_yolo(const fs::path& folder, const Json& sensor, const char* kind,
+                           double width, double height, const BoxLabels& labels) {
+    if (!sensor.at("files").contains(kind) || labels.classes == 0) return {};
+    PictureBoxes all{Json::array(), 0};
     const auto pings = sensor.at("pings").get<std::uint64_t>();
     for (std::uint64_t ping = 0; ping < pings; ++ping) {
         Json boxes = Json::array();
@@ -96,28 +124,38 @@ Json boxes_of_yolo(const fs::path& folder, const Json& description, const Json& 
         double w = 0.0;
         double h = 0.0;
         while (lines >> number >> x >> y >> w >> h) {
-            if (number >= classes.size()) {
+            if (number >= labels.classes) {
                 throw InputError({file.string()},
                                  "has a class that dataset.json does not; run sonarsim verify");
             }
-            const std::size_t label = labels.index_of(classes[number].at("name"));
-            boxes.push_back(box(label, (x - 0.5 * w) * width, (y - 0.5 * h) * height,
-                                (x + 0.5 * w) * width, (y + 0.5 * h) * height));
+            boxes.push_back({labels.of_class(number), short_number((x - 0.5 * w) * width),
+                             short_number((y - 0.5 * h) * height), short_number(w * width),
+                             short_number(h * height), Json::object()});
         }
-        add_or_zero(all, std::move(boxes));
+        add_or_zero(all.pings, std::move(boxes));
+    }
+    return all;
+}
+
+PingBoxes boxes_of_files(const fs::path& folder, const Json& sensor, const BoxLabels& labels) {
+    const Json& files = sensor.at("files");
+    if (!sensor.contains("azimuth_edges_rad")) return {};
+    if (files.contains("objects")) return boxes_of_objects(folder, sensor, labels);
+    const auto bins = [&](const char* edges) {
+        return static_cast<double>(sensor.at(edges).size()) - 1.0;
+    };
+    PingBoxes all;
+    all.in_image = boxes_of_yolo(folder, sensor, "yolo", bins("azimuth_edges_rad"),
+                                 bins("range_edges_m"), labels);
+    if (sensor.contains("fan")) {
+        const Json& fan = sensor["fan"];
+        all.in_fan = boxes_of_yolo(folder, sensor, "fan_yolo", fan.at("width_px"),
+                                   fan.at("height_px"), labels);
     }
     return all;
 }
 
 }  // namespace
-
-Json short_number(double value) {
-    char text[32];
-    const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, 5);
-    double rounded = 0.0;
-    std::from_chars(text, end.ptr, rounded);
-    return rounded;
-}
 
 Json measured_columns(const fs::path& folder, const Json& sensor) {
     Json columns = Json::object();
@@ -142,23 +180,12 @@ Json measured_columns(const fs::path& folder, const Json& sensor) {
     return columns;
 }
 
-PingBoxes ping_boxes(const fs::path& folder, const Json& description, const Json& sensor,
-                     BoxLabels& labels) {
-    const Json& files = sensor.at("files");
-    if (files.contains("objects")) return boxes_of_objects(folder, sensor, labels);
-    if (!files.contains("yolo") && !files.contains("fan_yolo")) return {};
+PingBoxes ping_boxes(const fs::path& folder, const Json& sensor, const CocoBoxes& coco,
+                     const BoxLabels& labels) {
     PingBoxes all;
-    const auto bins = [&](const char* edges) {
-        return static_cast<double>(sensor.at(edges).size()) - 1.0;
-    };
-    if (!sensor.contains("azimuth_edges_rad")) return {};
-    all.in_image = boxes_of_yolo(folder, description, sensor, "yolo", bins("azimuth_edges_rad"),
-                                 bins("range_edges_m"), labels);
-    if (sensor.contains("fan")) {
-        const Json& fan = sensor["fan"];
-        all.in_fan = boxes_of_yolo(folder, description, sensor, "fan_yolo", fan.at("width_px"),
-                                   fan.at("height_px"), labels);
-    }
+    if (coco.in_image.empty() || coco.in_fan.empty()) all = boxes_of_files(folder, sensor, labels);
+    if (!coco.in_image.empty()) all.in_image = boxes_of_coco(sensor, coco.in_image);
+    if (!coco.in_fan.empty()) all.in_fan = boxes_of_coco(sensor, coco.in_fan);
     return all;
 }
 

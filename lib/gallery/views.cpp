@@ -27,6 +27,7 @@ Json boxes_in_view(const Json& boxes, const Json& picture) {
                                            picture.at("pixel_px").at(axis).get<double>());
             }
         }
+        one.push_back(box.at(5));
         moved.push_back(std::move(one));
     }
     return moved;
@@ -36,29 +37,32 @@ void add_view_of_pings(const Json& picture, const PingBoxes& boxes, Json& view) 
     view["per"] = "ping";
     if (picture.value("ahead", "") == "down") view["turned"] = true;
     if (!picture.contains("boxes_of")) return;
-    const Json& own = picture["boxes_of"] == "fan" ? boxes.in_fan : boxes.in_image;
-    if (!own.is_null()) view["boxes"] = own;
+    const PictureBoxes& own = picture["boxes_of"] == "fan" ? boxes.in_fan : boxes.in_image;
+    if (own.pings.is_null()) return;
+    view["boxes"] = own.pings;
+    view["mask_height"] = own.mask_height;
 }
 
-void add_view_of_sweeps(const Json& picture, std::uint64_t pings, const PictureBoxes& boxes,
+void add_view_of_sweeps(const Json& picture, std::uint64_t pings, const CocoBoxes& coco,
                         Json& view) {
     const auto pings_per_sweep = picture.at("pings").get<std::uint64_t>();
     view["per"] = "sweep";
     view["pings"] = pings_per_sweep;
     view["radius"] = picture.at("radius_px").get<double>() / picture.at("width_px").get<double>();
     const auto boxes_of = [&](std::uint64_t sweep) {
-        return boxes.find(numbered(picture.value("boxes_of", ""), sweep));
+        return coco.of_file.find(numbered(picture.value("boxes_of", ""), sweep));
     };
-    if (boxes_of(0) == boxes.end()) return;
+    if (boxes_of(0) == coco.of_file.end()) return;
+    view["mask_height"] = boxes_of(0)->second.height;
     view["boxes"] = Json::array();
     for (std::uint64_t sweep = 0; sweep * pings_per_sweep < pings; ++sweep) {
         const auto own = boxes_of(sweep);
-        view["boxes"].push_back(own == boxes.end() ? Json::array() : own->second);
+        view["boxes"].push_back(own == coco.of_file.end() ? Json::array() : own->second.boxes);
     }
 }
 
 /// A picture of all pings.
-void add_view_of_sensor(const Json& picture, const PictureBoxes& boxes, Json& view) {
+void add_view_of_sensor(const Json& picture, const CocoBoxes& coco, Json& view) {
     if (!picture.contains("pings_along")) return;
     const std::size_t axis = picture["pings_along"] == "x" ? 0 : 1;
     Json step = picture.at("pixel_px");
@@ -66,14 +70,17 @@ void add_view_of_sensor(const Json& picture, const PictureBoxes& boxes, Json& vi
     view["along"] = picture["pings_along"];
     view["origin"] = picture.at("origin_px");
     view["step"] = std::move(step);
-    const auto own = boxes.find(picture.value("boxes_of", ""));
-    if (own != boxes.end()) view["boxes"] = boxes_in_view(own->second, picture);
+    view["pixel"] = picture.at("pixel_px");
+    const auto own = coco.of_file.find(picture.value("boxes_of", ""));
+    if (own == coco.of_file.end()) return;
+    view["boxes"] = boxes_in_view(own->second.boxes, picture);
+    view["mask_height"] = own->second.height;
 }
 
 }  // namespace
 
-Json views_of(const fs::path& folder, const Json& description, const Json& sensor,
-              const PictureBoxes& picture_boxes, BoxLabels& labels) {
+Json views_of(const fs::path& folder, const Json& sensor, const CocoBoxes& coco,
+              const BoxLabels& labels) {
     if (!sensor.contains("pictures")) {
         throw InputError(
             {(folder / description_name).string()},
@@ -82,13 +89,13 @@ Json views_of(const fs::path& folder, const Json& description, const Json& senso
                 "or render the dataset again");
     }
     Json views = Json::array();
-    const PingBoxes boxes = ping_boxes(folder, description, sensor, labels);
+    const PingBoxes boxes = ping_boxes(folder, sensor, coco, labels);
     for (const Json& picture : sensor["pictures"]) {
         Json view = {{"title", picture.at("title")}, {"file", picture.at("file")}};
         const Json& per = picture.at("per");
         if (per == "ping") add_view_of_pings(picture, boxes, view);
-        if (per == "sweep") add_view_of_sweeps(picture, sensor.at("pings"), picture_boxes, view);
-        if (per == "sensor") add_view_of_sensor(picture, picture_boxes, view);
+        if (per == "sweep") add_view_of_sweeps(picture, sensor.at("pings"), coco, view);
+        if (per == "sensor") add_view_of_sensor(picture, coco, view);
         views.push_back(std::move(view));
     }
     return views;

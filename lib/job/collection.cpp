@@ -68,7 +68,7 @@ std::vector<Member> read_members(const std::vector<fs::path>& parts) {
         return std::tuple(d.mission, d.mission_hash, d.inputs_hash);
     };
     std::ranges::stable_sort(members, {}, key);
-    std::set<std::string> taken{collection_name, checksums_name, labels_folder_name};
+    std::set<std::string> taken{collection_name, checksums_name, labels_folder_name, gallery_name};
     for (std::size_t k = 0; k < members.size(); ++k) {
         Member& member = members[k];
         if (k > 0 && key(members[k - 1]) == key(member)) {

@@ -12,7 +12,7 @@ import urllib.request
 CHROMIUM = shutil.which("chromium")
 CHROMEDRIVER = shutil.which("chromedriver")
 KEYS = {"right": "\ue014", "left": "\ue012", "up": "\ue013", "down": "\ue015", "home": "\ue011",
-        "end": "\ue010"}
+        "end": "\ue010", "escape": "\ue00c"}
 
 
 def available():

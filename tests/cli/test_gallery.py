@@ -20,10 +20,14 @@ output: {folder: out, fan_width_px: 64, image: true, labels: [coco]}
 OBJECT = "walls (wall)"  # what the page calls the only one
 
 
-def dataset_in(page):
-    """The JSON in a page."""
-    text = re.search(r'<script type="application/json" id="dataset">(.*?)</script>', page, re.DOTALL)
+def json_in(page, element):
+    text = re.search(rf'<script type="application/json" id="{element}">(.*?)</script>', page, re.DOTALL)
     return json.loads(text.group(1))
+
+
+def dataset_in(page, number=0):
+    """What the page knows of a dataset."""
+    return json_in(page, f"dataset-{number}")
 
 
 class Gallery(Sandbox):
@@ -64,7 +68,8 @@ class Gallery(Sandbox):
             names = {image["id"]: image["file_name"] for image in told["images"]}
             for annotation in told["annotations"]:
                 ping = int(names[annotation["image_id"]][-10:-4])
-                self.assertIn(annotation["bbox"], [box[1:] for box in boxes[ping]])
+                self.assertIn([annotation["bbox"], annotation["segmentation"]["counts"]],
+                              [[box[1:5], box[5]["mask"]] for box in boxes[ping]])
         # A waterfall and an echogram are shown with axes and margins: boxes move with the pings.
         records = json.loads((self.out / "labels/coco_records.json").read_text())
         for sensor, image in zip(shown["sensors"][1:3], records["images"], strict=True):
@@ -72,18 +77,21 @@ class Gallery(Sandbox):
             told = [a["bbox"] for a in records["annotations"] if a["image_id"] == image["id"]]
             (left, top), (x_step, y_step) = view["origin"], view["step"]
             self.assertEqual([[(x - left) / x_step, (y - top) / y_step, w / x_step, h / y_step]
-                              for _, x, y, w, h in view["boxes"]], told, sensor["name"])
+                              for _, x, y, w, h, _ in view["boxes"]], told, sensor["name"])
         # The boxes of a scanning sonar are those of each sweep.
         scans = json.loads((self.out / "labels/coco_scans.json").read_text())
         view, = shown["sensors"][3]["views"]
         self.assertEqual(
-            [[box[1:] for box in boxes] for boxes in view["boxes"]],
+            [[box[1:5] for box in boxes] for boxes in view["boxes"]],
             [[a["bbox"] for a in scans["annotations"] if a["image_id"] == image["id"]]
              for image in scans["images"]])
         self.assertEqual(len(view["boxes"]), 2)  # six pings, three to a turn
         # One object has one name, in pings, waterfalls, scans and the plan.
-        self.assertEqual(shown["labels"], [OBJECT])
-        self.assertEqual([one["name"] for one in shown["objects"]], [OBJECT])
+        (walls, wall), about = shown["labels"], json_in(page, "page")
+        self.assertEqual((shown["objects"], about["classes"]), (1, ["wall"]))
+        self.assertEqual((walls["name"], walls["class"], wall["name"], wall["class"]),
+                         ("walls", 0, "wall", 0))
+        self.assertEqual(about["datasets"], [{"folder": "", "facts": {}}])
         # A resume leaves the page alone, a new dataset takes it away.
         self.assert_renders()
         self.assertTrue((self.out / "index.html").exists())

@@ -1,7 +1,8 @@
 // Canvases that zoom and move.
 
 // `zoom` times the size at which all of it fits; x and y are what lies in the middle, as shares.
-function movable(canvas, redraw) {
+// `click` gets where the canvas is clicked, in its pixels.
+function movable(canvas, redraw, click) {
   const area = {canvas, zoom: 1, x: 0.5, y: 0.5, span: [1, 1]};
   area.reset = () => { area.zoom = 1; area.x = area.y = 0.5; };
   area.fit = () => {
@@ -30,9 +31,21 @@ function movable(canvas, redraw) {
     if (zoom === 1) area.reset();
     redraw();
   }, {passive: false});
-  canvas.addEventListener('pointerdown', event => canvas.setPointerCapture(event.pointerId));
+  let way = 0;  // that the pointer has moved since it went down, px
+  canvas.addEventListener('pointerdown', event => {
+    canvas.setPointerCapture(event.pointerId);
+    way = 0;
+  });
+  canvas.addEventListener('pointerup', event => {
+    const box = canvas.getBoundingClientRect();
+    if (way > 4) return;
+    click((event.clientX - box.left) / box.width * canvas.width,
+          (event.clientY - box.top) / box.height * canvas.height);
+  });
   canvas.addEventListener('pointermove', event => {
     if (!event.buttons) return;
+    way += Math.abs(event.movementX) + Math.abs(event.movementY);
+    if (way <= 4) return;
     const box = canvas.getBoundingClientRect();
     area.x -= event.movementX / box.width * area.span[0] / area.zoom;
     area.y -= event.movementY / box.height * area.span[1] / area.zoom;
@@ -40,4 +53,16 @@ function movable(canvas, redraw) {
   });
   canvas.addEventListener('dblclick', () => { area.reset(); redraw(); });
   return area;
+}
+
+// The smallest of some areas, [left, top, right, bottom, what], around a point; its `what`, or -1.
+function smallest_at(areas, x, y) {
+  const margin = 4;
+  let [best, size] = [-1, Infinity];
+  for (const [left, top, right, bottom, what] of areas) {
+    const is_in = x >= left - margin && x <= right + margin && y >= top - margin && y <= bottom + margin;
+    const own = (right - left) * (bottom - top);
+    if (is_in && own < size) [best, size] = [what, own];
+  }
+  return best;
 }

@@ -7,6 +7,10 @@ function show_meta() {
   for (const name of ['roll', 'pitch', 'yaw']) rows.push([name, `${track[name][index].toFixed(2)}°`]);
   for (const [name, values] of Object.entries(sensor().columns))
     rows.push([name, values[state.ping] === null ? 'none' : values[state.ping]]);
+  for (const [name, value] of Object.entries(page.datasets[state.dataset].facts)) rows.push([name, value]);
+  const own = boxes_of(view(), state.ping).find(box => box[0] === state.selected);
+  for (const [name, value] of Object.entries(own ? own[5] : {}))
+    if (name !== 'mask') rows.push([`${data.labels[state.selected].name}: ${name}`, value]);
   const table = $('meta');
   table.textContent = '';
   for (const [name, value] of rows) {
@@ -16,7 +20,7 @@ function show_meta() {
   }
   if (!sensor().meta) return;
   const link = document.createElement('a');
-  link.href = numbered(sensor().meta, index);
+  link.href = path_of(numbered(sensor().meta, index));
   link.textContent = link.getAttribute('href');
   table.insertRow().insertCell().append(link);
 }
@@ -26,6 +30,7 @@ function show() {
   $('number').value = pose();
   draw_picture();
   draw_plan();
+  show_chosen();
   show_meta();
   preload();
 }
@@ -58,6 +63,27 @@ function choose_sensor(k) {
   $('note').textContent = sensor().note;
   buttons($('sensors'), data.sensors.map(one => `${one.name} (${one.kind})`), state.sensor, choose_sensor);
   choose_view(0);
+  show_objects();
+}
+
+// Sensor, view, ping and brightness stay as they are if the dataset has them.
+function choose_dataset(k) {
+  if (k < 0 || k >= page.datasets.length) return;
+  const [name, title, ping] = data ? [sensor().name, (view() || {}).title, state.ping] : ['', '', 0];
+  read_dataset(k);
+  state.dataset = k;
+  state.selected = -1;
+  sightings_by_view = new Map();
+  plan.bounds = bounds_of_dataset();
+  plan.reset();
+  $('datasets').value = k;
+  $('facts').textContent = `${data.poses} poses, seed ${data.seed}, sonarsim ${data.program}` +
+                           (data.complete ? '' : ', not complete when this page was made');
+  state.sensor = Math.max(0, data.sensors.findIndex(one => one.name === name));
+  state.ping = Math.min(sensor().pings - 1, ping);
+  show_legend();
+  choose_sensor(state.sensor);
+  choose_view(Math.max(0, sensor().views.findIndex(one => one.title === title)));
 }
 
 function go(ping) {
@@ -93,10 +119,16 @@ const keys = {
   ' ': play,
   v: () => choose_view((state.view + 1) % Math.max(1, sensor().views.length)),
   b: () => { $('boxes').checked = !$('boxes').checked; draw_picture(); },
+  m: () => { $('masks').checked = !$('masks').checked; draw_picture(); },
+  n: () => step_object(1),
+  p: () => step_object(-1),
+  Escape: () => select(-1),
+  ']': () => choose_dataset(state.dataset + 1),
+  '[': () => choose_dataset(state.dataset - 1),
 };
 
 document.addEventListener('keydown', event => {
-  const typing = event.target.type === 'number';
+  const typing = event.target.type === 'number' || event.target === $('datasets');
   if (typing || event.ctrlKey || event.altKey || event.metaKey || !keys[event.key]) return;
   event.preventDefault();
   keys[event.key](event);
@@ -104,12 +136,24 @@ document.addEventListener('keydown', event => {
 $('slider').oninput = () => go(Number($('slider').value));
 $('number').onchange = () => go(Number($('number').value) / sensor().every);
 $('play').onclick = () => { play(); $('play').blur(); };
-$('bright').oninput = $('boxes').onchange = draw_picture;
+$('bright').oninput = $('boxes').onchange = $('masks').onchange = draw_picture;
 $('follow').onchange = draw_plan;
 window.onresize = () => { draw_picture(); draw_plan(); };
 
-document.title = `${data.mission} - sonarsim`;
-$('mission').textContent = data.mission;
-$('facts').textContent = `${data.poses} poses, seed ${data.seed}, sonarsim ${data.program}` +
-                         (data.complete ? '' : ', not complete when this page was made');
-choose_sensor(0);
+$('next').onclick = () => step_object(1);
+$('previous').onclick = () => step_object(-1);
+$('none').onclick = () => select(-1);
+
+// The list of the datasets, where there are several.
+page.datasets.forEach(({folder}, k) => {
+  const option = element('option', folder);
+  option.value = k;
+  $('datasets').append(option);
+});
+$('datasets').hidden = page.datasets.length < 2;
+$('datasets').onchange = () => { choose_dataset(Number($('datasets').value)); $('datasets').blur(); };
+
+document.title = `${page.name} - sonarsim`;
+$('mission').textContent = page.name;
+if (page.missing) $('missing').textContent = `${page.missing} variants were not begun when this page was made`;
+choose_dataset(0);

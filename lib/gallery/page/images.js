@@ -30,9 +30,9 @@ function numbered(pattern, number) {
 
 // The file that a view shows at a ping.
 function url_of(shown, ping) {
-  if (shown.per === 'ping') return numbered(shown.file, ping * sensor().every);
-  if (shown.per === 'sweep') return numbered(shown.file, Math.floor(ping / shown.pings));
-  return shown.file;
+  if (shown.per === 'ping') return path_of(numbered(shown.file, ping * sensor().every));
+  if (shown.per === 'sweep') return path_of(numbered(shown.file, Math.floor(ping / shown.pings)));
+  return path_of(shown.file);
 }
 
 // Once the steps pause: who drags the slider over a thousand pings wants none of their neighbours.

@@ -1,30 +1,53 @@
-// The picture of a view, with boxes over it and a mark where the ping is.
+// The picture of a view, with boxes and masks over it and a mark where the ping is.
 
-const picture = movable($('picture'), draw_picture);
+const picture = movable($('picture'), draw_picture, (x, y) => select(smallest_at(picture.areas, x, y)));
+picture.areas = [];  // of the boxes on the canvas
+picture.names = [];  // that are written
 
-function draw_boxes(context, boxes, shown, pixel) {
-  const names = [];
-  context.lineWidth = 2 * pixel;
-  context.font = `${13 * pixel}px system-ui, sans-serif`;
-  for (const [label, x, y, width, height] of boxes) {
-    context.strokeStyle = context.fillStyle = colours[label % colours.length];
-    context.strokeRect(x, y, width, height);
-    context.save();
-    // A turned picture has its lower right corner at the upper left.
-    context.translate(shown.turned ? x + width : x, shown.turned ? y + height : y);
-    if (shown.turned) context.rotate(Math.PI);
-    context.fillText(data.labels[label], 0, -4 * pixel);
-    context.restore();
-    names.push(data.labels[label]);
+function draw_masks(context, boxes, shown) {
+  const [origin, size] = [shown.origin || [0, 0], shown.pixel || [1, 1]];
+  context.globalAlpha = 0.4;
+  context.imageSmoothingEnabled = false;
+  for (const box of boxes) {
+    if (!box[5].mask) continue;
+    const {canvas, left, top, is_empty} = mask_of(box, shown);
+    if (is_empty) continue;
+    context.drawImage(canvas, origin[0] + left * size[0], origin[1] + top * size[1],
+                      canvas.width * size[0], canvas.height * size[1]);
   }
-  return names;
+  context.globalAlpha = 1;
 }
 
-function boxes_of(shown) {
-  if (!shown.boxes) return [];
-  if (shown.per === 'ping') return shown.boxes[state.ping] || [];
-  if (shown.per === 'sweep') return shown.boxes[Math.floor(state.ping / shown.pings)];
-  return shown.boxes;
+function draw_boxes(context, boxes, pixel) {
+  for (const [label, x, y, width, height] of boxes) {
+    const is_selected = label === state.selected;
+    context.strokeStyle = is_selected ? '#fff' : colour_of(label);
+    context.lineWidth = (is_selected ? 3 : 2) * pixel;
+    context.strokeRect(x, y, width, height);
+  }
+}
+
+// The box on the canvas: [left, top, right, bottom, label].
+function area_of([label, x, y, width, height], matrix) {
+  const corners = [[x, y], [x + width, y + height]].map(([u, v]) => matrix.transformPoint({x: u, y: v}));
+  const [xs, ys] = [corners.map(c => c.x), corners.map(c => c.y)];
+  return [Math.min(...xs), Math.min(...ys), Math.max(...xs), Math.max(...ys), label];
+}
+
+// Small boxes get their names first, the selected one before all.
+function name_boxes(context, boxes) {
+  const matrix = context.getTransform();
+  const {width, height} = picture.canvas;
+  picture.areas = boxes.map(box => area_of(box, matrix));
+  const rank = area => area[4] === state.selected ? -1 : (area[2] - area[0]) * (area[3] - area[1]);
+  const names = [...picture.areas].sort((a, b) => rank(a) - rank(b)).map(area => ({
+    text: label_text(area[4]), box: area,
+    colour: area[4] === state.selected ? '#fff' : colour_of(area[4])}));
+  context.setTransform(1, 0, 0, 1, 0, 0);
+  const line = 13 * (window.devicePixelRatio || 1);
+  context.font = `${line}px system-ui, sans-serif`;
+  picture.names = place_names(context, names, line, width, height);
+  write_names(context, picture.names);
 }
 
 // Where the ping is in a picture of many.
@@ -56,6 +79,7 @@ function draw_picture() {
   const image = shown && image_of(url_of(shown, state.ping));
   if (image && !image.done) return;  // until then the last picture stays
   const context = picture.fit();
+  picture.areas = picture.names = [];
   $('seen').textContent = '';
   if (!shown) return;
   const {width, height} = picture.canvas;
@@ -80,9 +104,13 @@ function draw_picture() {
   context.drawImage(image, 0, 0);
   context.filter = 'none';
   draw_mark(context, shown, image, 1 / scale);
-  if ($('boxes').checked && shown.boxes) {
-    const names = draw_boxes(context, boxes_of(shown), shown, 1 / scale);
-    const word = names.length === 1 ? 'box' : 'boxes';
-    $('seen').textContent = `${names.length} ${word}${names.length ? ': ' : ''}${names.join(', ')}`;
-  }
+  if (!shown.boxes) return;
+  const boxes = shown_boxes();
+  if ($('masks').checked) draw_masks(context, boxes, shown);
+  if (!$('boxes').checked) return;
+  draw_boxes(context, boxes, 1 / scale);
+  name_boxes(context, boxes);
+  const names = boxes.map(box => label_text(box[0]));
+  const word = names.length === 1 ? 'box' : 'boxes';
+  $('seen').textContent = `${names.length} ${word}${names.length ? ': ' : ''}${names.join(', ')}`;
 }

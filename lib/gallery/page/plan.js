@@ -1,6 +1,8 @@
 // The plan: trajectory, objects and what the sonar looks at, y up.
 
-const plan = movable($('plan'), draw_plan);
+const plan = movable($('plan'), draw_plan, (x, y) => select(smallest_at(plan.areas, x, y)));
+plan.areas = [];  // of the objects on the canvas
+plan.names = [];  // that are written
 
 // R = Rz(yaw) Ry(pitch) Rx(roll), degrees.
 function rotation(roll, pitch, yaw) {
@@ -34,7 +36,7 @@ function footprint(one, index) {
   return points;
 }
 
-const bounds = (() => {
+function bounds_of_dataset() {
   const box = [Infinity, Infinity, -Infinity, -Infinity];
   const add = (x, y) => {
     box[0] = Math.min(box[0], x); box[1] = Math.min(box[1], y);
@@ -47,24 +49,33 @@ const bounds = (() => {
       footprint(one, ping * one.every).forEach(([x, y]) => add(x, y));
   }
   return box;
-})();
+}
 
-// Names that would lie over one another are left out, all but the first.
-function name_writer(context) {
-  const written = [];
-  return (name, [x, y]) => {
-    const box = [x, y - 11, x + context.measureText(name).width, y];
-    const meets = other => box[0] < other[2] && other[0] < box[2] && box[1] < other[3] && other[1] < box[3];
-    if (written.some(meets)) return;
-    written.push(box);
-    context.fillText(name, x, y);
-  };
+// The outlines of the objects whose classes are on. The ground, beyond the plan on all sides, has none.
+function draw_objects(context, px) {
+  const [low_x, low_y, high_x, high_y] = plan.bounds;
+  plan.areas = [];
+  const names = [];
+  data.labels.forEach(({min, max}, label) => {
+    if (!min || state.hidden.has(class_of(label))) return;
+    if (max[0] - min[0] > high_x - low_x && max[1] - min[1] > high_y - low_y) return;
+    const [[left, bottom], [right, top]] = [px(...min), px(...max)];
+    const is_selected = label === state.selected;
+    const colour = is_selected ? '#fff' : colour_of(label);
+    plan.areas.push([left, top, right, bottom, label]);
+    names.push({text: data.labels[label].name, box: [left, top, right, bottom], colour, is_selected});
+    context.strokeStyle = colour;
+    context.lineWidth = is_selected ? 2 : 1;
+    context.strokeRect(left, top, right - left, bottom - top);
+  });
+  names.sort((a, b) => b.is_selected - a.is_selected);
+  return names;
 }
 
 function draw_plan() {
   const context = plan.fit();
   const {width, height} = plan.canvas;
-  const [low_x, low_y, high_x, high_y] = bounds;
+  const [low_x, low_y, high_x, high_y] = plan.bounds;
   const size = Math.max(1e-3, (high_x - low_x) / width, (high_y - low_y) / height) * 1.1;
   const index = pose();
   plan.span = [1, 1];
@@ -82,14 +93,8 @@ function draw_plan() {
   };
   context.font = '11px system-ui, sans-serif';
   context.lineWidth = 1;
-  const write = name_writer(context);
-  for (const {name, min, max} of data.objects) {
-    if (max[0] - min[0] > high_x - low_x && max[1] - min[1] > high_y - low_y) continue;  // the ground
-    context.strokeStyle = context.fillStyle = '#7a7a50';
-    line([[min[0], min[1]], [max[0], min[1]], [max[0], max[1]], [min[0], max[1]], [min[0], min[1]]]);
-    context.stroke();
-    write(name, px(min[0], min[1]));
-  }
+  const names = draw_objects(context, px);
+  context.lineWidth = 1;
   context.strokeStyle = '#9a9aa4';
   const stride = Math.max(1, Math.floor(track.x.length / 20000));
   const path = [];
@@ -109,4 +114,6 @@ function draw_plan() {
   const bar = 10 ** Math.floor(Math.log10(size * width / plan.zoom / 2));
   context.fillRect(10, height - 12, bar * scale, 3);
   context.fillText(`${bar} m`, 14 + bar * scale, height - 8);
+  plan.names = place_names(context, names, 11, width, height);
+  write_names(context, plan.names);
 }
