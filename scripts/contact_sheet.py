@@ -24,6 +24,8 @@ def folders_of(out):
     if (out / "variants.json").exists():
         index = json.loads((out / "variants.json").read_text())
         return [one["folder"] for one in index["variants"]]
+    if not (out / "index.csv").exists():
+        sys.exit(f"{out}: holds neither variants nor a sweep: it has no variants.json and no index.csv")
     with open(out / "index.csv", newline="") as file:
         return [row["folder"] for row in csv.DictReader(file)]
 

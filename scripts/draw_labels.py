@@ -7,8 +7,10 @@ Every N-th picture that labels/coco.json and labels/coco_fan.json list, and the 
 of labels/coco_records.json, with masks, boxes and names. The dataset needs the label `coco`, this
 script numpy and PIL."""
 import argparse
+import io
 import json
 import pathlib
+import tarfile
 
 import numpy as np
 from PIL import Image, ImageDraw
@@ -53,6 +55,16 @@ def tinted(picture, mask, colour):
     picture[mask] = (0.6 * picture[mask] + 0.4 * np.array(colour)).astype(np.uint8)
 
 
+def picture_of(path):
+    """The picture of a file, also of one in a pack, as OUT/fls/pack/000000.tar/fls-000000.polar.npy."""
+    if path.parent.suffix == ".tar":
+        with tarfile.open(path.parent) as pack:
+            file = io.BytesIO(pack.extractfile(path.name).read())
+    else:
+        file = path
+    return grey(np.load(file) if path.suffix == ".npy" else Image.open(file))
+
+
 def draw_coco(out, folder, file, every):
     coco = json.loads((out / file).read_text())
     names = {one["id"]: one["name"] for one in coco["categories"]}
@@ -60,8 +72,7 @@ def draw_coco(out, folder, file, every):
     for one in coco["annotations"]:
         of_image.setdefault(one["image_id"], []).append(one)
     for image in coco["images"][::every]:
-        path = out / image["file_name"]
-        picture = grey(np.load(path) if path.suffix == ".npy" else Image.open(path))
+        picture = picture_of(out / image["file_name"])
         annotations = of_image.get(image["id"], [])
         for one in annotations:
             tinted(picture, mask_of(one["segmentation"]), colour_of(one["instance_id"]))
@@ -83,11 +94,15 @@ def main():
     parser.add_argument("--every", type=int, default=1)
     arguments = parser.parse_args()
     out, folder = arguments.dataset, arguments.folder
+    lists = [f"labels/{name}.json" for name in ("coco", "coco_fan", "coco_records", "coco_scans")]
+    lists = [file for file in lists if (out / file).exists()]
+    if not lists:
+        parser.error(f"{out}: nothing to draw: it has no labels/coco*.json; give the folder of a "
+                     "complete dataset that was rendered with output.labels: [coco]")
     folder.mkdir(parents=True, exist_ok=True)
-    for name in ("coco", "coco_fan", "coco_records", "coco_scans"):
-        file = f"labels/{name}.json"
-        if (out / file).exists():
-            draw_coco(out, folder, file, arguments.every if name in ("coco", "coco_fan") else 1)
+    for file in lists:
+        of_pings = file in ("labels/coco.json", "labels/coco_fan.json")
+        draw_coco(out, folder, file, arguments.every if of_pings else 1)
 
 
 if __name__ == "__main__":
