@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the example scenes as .glb files: ./scripts/make_scenes.py [name ...] [--out DIR]
+"""Writes the example scenes as .glb files, one as an .obj: ./scripts/make_scenes.py [name ...] [--out DIR]
 
 tank      a concrete tank, 8 x 6 x 3 m, with a few objects (the default; scenes/tank.glb)
 seafloor  200 x 200 m of sand and silt with a hundred boulders, a million triangles
@@ -9,6 +9,7 @@ close_bottom  a rough bottom half a metre below a sonar; besides it close_bottom
 lifeboat  a hull with rails, ropes and gear, of one material, for comparisons of the engines
 minefield a rippled sandy bottom with rocks, 40 x 40 m, and besides it the objects that a mission
           may place on it: cylinder_mine, cone_mine, tyre, drum, block, rock
+anchor    an anchor as an OBJ in millimetres with z up
 
     ./scripts/make_scenes.py --for mission.yaml [options of sonarsim]
 
@@ -21,9 +22,10 @@ import pathlib
 import subprocess
 import sys
 
-from scenes import close_bottom, lifeboat, minefield, seafloor, tank, wreck
+from scenes import anchor, close_bottom, lifeboat, minefield, seafloor, tank, wreck
 from scenes.glb import write_glb
 from scenes.named import files_named
+from scenes.obj import write_obj
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 GENERATED = ROOT / "scenes" / "generated"
@@ -31,7 +33,7 @@ FOREIGN = "motorbike"  # by foreign_mesh.sh, from a Debian package
 
 
 def builders(cells: int, area: float, quarterings: int) -> dict:
-    """The files of every scene, by name without .glb, with the function that builds each."""
+    """The files of every scene, by name, with the function that builds each."""
     return {
         "tank": {"tank": tank.build},
         "seafloor": {"seafloor": lambda: seafloor.build(cells, area)},
@@ -39,20 +41,25 @@ def builders(cells: int, area: float, quarterings: int) -> dict:
         "close_bottom": {"close_bottom": close_bottom.build, **close_bottom.OBJECTS},
         "lifeboat": {"lifeboat": lambda: lifeboat.build(quarterings)},
         "minefield": {"minefield": minefield.bottom, **minefield.OBJECTS},
+        "anchor": {"anchor": anchor.build},
     }
+
+
+def file_name(name: str) -> str:
+    return name + (".obj" if name == "anchor" else ".glb")
 
 
 def write(path: pathlib.Path, build) -> None:
     path.parent.mkdir(parents=True, exist_ok=True)
     parts = build()
-    size = write_glb(path, parts)
+    size = (write_obj if path.suffix == ".obj" else write_glb)(path, parts)
     triangles = sum(part.triangles() for part in parts)
     print(f"{path}: {len(parts)} objects, {triangles} triangles, {size} bytes", flush=True)
 
 
 def make_for(mission: pathlib.Path, options: list[str], scenes: dict) -> int:
     """Makes the missing files that a mission names; 2 if no script makes one of them."""
-    known = {GENERATED / f"{file}.glb": build for files in scenes.values()
+    known = {GENERATED / file_name(file): build for files in scenes.values()
              for file, build in files.items()}
     known[ROOT / "scenes" / "tank.glb"] = tank.build
     missing = [path for path in files_named(mission, options)
@@ -101,7 +108,7 @@ def main() -> int:
     for name in arguments.names or ["tank"]:
         folder = arguments.out or (ROOT / "scenes" if name == "tank" else GENERATED)
         for file, build in scenes[name].items():
-            write(folder / f"{file}.glb", build)
+            write(folder / file_name(file), build)
     return 0
 
 

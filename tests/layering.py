@@ -44,7 +44,7 @@ PARTS = {
             ["ping_files"], ["ping_cost"], ["completion", "joined_labels"],
             ["collection", "run_job", "merge", "verify", "ping_source"],
             ["variants"], ["status", "variants_check", "collection_check"]],
-    "scene": [["*"], ["gltf/", "placing/"]],
+    "scene": [["*"], ["meshes/"], ["gltf/", "placing/"]],
     "validation": [["*"], ["hard/"]],
     "visibility": [["*"], ["octree/", "rays/", "slices/"], ["auto_engine"], ["make_engine"]],
 }
@@ -55,6 +55,7 @@ RANGE_OF_POSITION = re.compile(r"\bposition\.norm\(\)|\bposition / range\b|arcta
 OWNERS = {
     "yaml-cpp/": "mission",
     "tiny_gltf.h": "scene",
+    "assimp/": "modules",
     "zlib.h": "format",
     "embree3/": "visibility",
     "embree4/": "visibility",

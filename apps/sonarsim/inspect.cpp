@@ -2,15 +2,21 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "assembly/placed_files.h"
 #include "checks/find_warnings.h"
 #include "commands.h"
 #include "logging.h"
+#include "mission/scene_schema.h"
 #include "scene/gltf/load.h"
+#include "scene/gltf/surface_of.h"
 #include "scene/materials.h"
+#include "scene/placing/standing.h"
 #include "scene/summary.h"
+#include "scene/unit_question.h"
 
 namespace sonarsim {
 
@@ -21,6 +27,8 @@ using Json = nlohmann::ordered_json;
 struct InspectArguments {
     std::filesystem::path scene;
     std::filesystem::path materials;  ///< "": none
+    std::string units;                ///< "": not given, metres
+    std::string up;                   ///< "": not given, y
     bool as_csv = false;
     LogOptions log;
 };
@@ -75,9 +83,38 @@ Json acoustics_json(const Scene& scene, const MaterialTable& table) {
     return json;
 }
 
+/// The value of a choice that the command line has checked; `fallback` for "".
+template <class T, std::size_t N>
+T chosen(const std::array<Choice<T>, N>& choices, const std::string& name, T fallback) {
+    for (const Choice<T>& choice : choices) {
+        if (choice.name == name) return choice.value;
+    }
+    return fallback;
+}
+
+/// Questions about options that the user may have forgotten.
+std::vector<std::string> questions_about(const InspectArguments& arguments, const PlacedFile& file,
+                                         const Scene& scene, SceneFiles& models) {
+    std::vector<std::string> questions;
+    const double length_m = (scene.bounds_max - scene.bounds_min).maxCoeff();
+    const std::string units = arguments.units.empty()
+                                  ? unit_question(length_m, file.unit_m, usual_range_m, long_object)
+                                  : "";
+    if (!units.empty()) questions.push_back("it is " + units);
+    const std::string up = arguments.up.empty() ? up_question(file, surface_of(file, models)) : "";
+    if (!up.empty()) questions.push_back(up);
+    return questions;
+}
+
 int inspect(const InspectArguments& arguments) {
     start_logging(arguments.log);
-    const Scene scene = load_scene_geometry(arguments.scene);
+    MeshConfig mesh;
+    mesh.units = chosen(length_units, arguments.units, mesh.units);
+    mesh.up = chosen(up_axes, arguments.up, mesh.up);
+    const PlacedFile file = file_of(arguments.scene, mesh, {});
+    SceneFiles models;
+    const Scene scene = load_scene_geometry(file, models);
+    const std::vector<std::string> questions = questions_about(arguments, file, scene, models);
     MaterialTable table;
     if (!arguments.materials.empty()) table = read_materials(arguments.materials);
     log_warnings(reading_warnings(scene));
@@ -89,9 +126,14 @@ int inspect(const InspectArguments& arguments) {
     } else if (arguments.log.json) {
         Json json = scene_json(scene);
         if (!arguments.materials.empty()) json["acoustics"] = acoustics_json(scene, table);
+        json["questions"] = questions;
         fmt::print("{}", json_line(json));
     } else {
         fmt::print("{}", describe_scene(scene));
+        for (const std::string& question : questions)
+            fmt::print("\nquestion: {}", question);
+        if (!questions.empty())
+            fmt::print("\n(here --units mm and --up z; a mission has the keys units and up)\n");
         if (!arguments.materials.empty())
             fmt::print("{}", describe_materials(scene, table, Water{}));
     }
@@ -103,9 +145,20 @@ int inspect(const InspectArguments& arguments) {
 void add_inspect(CLI::App& app, int& exit_code) {
     CLI::App& command = *app.add_subcommand(
         "inspect", "Prints bounds, triangles, materials and instances of a scene");
-    add_examples(command, {"sonarsim inspect hull.glb"});
+    add_examples(command,
+                 {"sonarsim inspect hull.glb", "sonarsim inspect tyre.stl --units mm --up z"});
     auto arguments = std::make_shared<InspectArguments>();
-    command.add_option("scene", arguments->scene, "The scene, a .gltf or .glb file")->required();
+    command
+        .add_option("scene", arguments->scene, "The scene, a .gltf, .glb, .obj, .stl or .ply file")
+        ->required();
+    command
+        .add_option("--units", arguments->units,
+                    "Unit of the file's lengths, as `units` of a mission (default: m)")
+        ->check(CLI::IsMember(names_of(length_units)));
+    command
+        .add_option("--up", arguments->up,
+                    "Axis of the file that points up, as `up` of a mission (default: y)")
+        ->check(CLI::IsMember(names_of(up_axes)));
     command.add_option("--materials", arguments->materials,
                        "A CSV of materials: shows their reflection coefficients in fresh water");
     command.add_flag("--materials-csv", arguments->as_csv,

@@ -94,7 +94,7 @@ Sonar checked_sonar(const Mission& mission, const SonarConfig& sensor,
     return sonar;
 }
 
-/// Throws InputError for the files of the scene that are no glTF.
+/// Throws InputError for the files of the scene that cannot be read.
 void read_scene_files(const Mission& mission, SceneFiles& models) {
     ErrorList errors;
     const auto read = [&](const std::filesystem::path& file, const MissionPlace& place) {
@@ -157,6 +157,8 @@ Assembly assemble(const Mission& mission, SceneFiles& models) {
     assembly.scene = load_scene(parts.files, models, materials, mission.scene.material_default,
                                 {mission.water.density_kg_m3, mission.water.sound_speed_m_s},
                                 share_beyond(mission.scene.repeats, settings.type));
+    for (std::string& question : parts.questions)
+        assembly.scene.warnings.push_back(std::move(question));
     assembly.motions = std::move(parts.motions);
     assembly.bottom = std::move(parts.bottom);
     add_water_surface(mission, assembly);

@@ -7,6 +7,7 @@
 #include <optional>
 #include <variant>
 
+#include "assembly/placed_files.h"
 #include "assembly/poses.h"
 #include "core/error.h"
 #include "core/named_at.h"
@@ -15,55 +16,15 @@
 #include "scene/gltf/surface_of.h"
 #include "scene/placing/rest.h"
 #include "scene/placing/scatter.h"
+#include "scene/placing/standing.h"
+#include "scene/unit_question.h"
 
 namespace sonarsim {
 
 namespace {
 
-double metres(LengthUnit unit) {
-    switch (unit) {
-        case LengthUnit::mm:
-            return 1e-3;
-        case LengthUnit::cm:
-            return 1e-2;
-        case LengthUnit::km:
-            return 1e3;
-        case LengthUnit::inch:
-            return 0.0254;
-        case LengthUnit::foot:
-            return 0.3048;
-        case LengthUnit::m:
-            break;
-    }
-    return 1.0;
-}
-
-PlacedFile file_of(const std::filesystem::path& path, const MeshConfig& mesh,
-                   const MissionPlace& place) {
-    return {.file = path,
-            .unit_m = metres(mesh.units),
-            .z_up = mesh.up == UpAxis::z,
-            .material = mesh.material,
-            .renamed_materials = mesh.materials_map,
-            .exclude = mesh.exclude,
-            .place = place.location};
-}
-
-PlacedFile file_of(const ObjectConfig& object) {
-    PlacedFile file = file_of(object.file, object.mesh, object.place);
-    file.name = object.name;
-    file.class_name = object.class_name;
-    file.moves = object.trajectory.has_value();
-    return file;
-}
-
 Eigen::Quaterniond attitude_of(const std::array<double, 3>& rpy_deg) {
     return rotation_from_rpy(radians(rpy_deg[0]), radians(rpy_deg[1]), radians(rpy_deg[2]));
-}
-
-std::string title_of(const ObjectConfig& object) {
-    return "'" + printable(object.name.empty() ? object.file.filename().string() : object.name) +
-           "'";
 }
 
 /// The bottom that objects rest on, made at its first use.
@@ -85,6 +46,23 @@ class LazyBottom {
 
     /// True if there is a bottom that does not move.
     bool exists() const { return !scene_.file.empty() || stands_still(scene_.objects.front()); }
+
+    /// "; 'tyre' is 650 m long: millimetres? units: mm" where an object or the bottom may be in
+    /// another unit; "" elsewhere. An object longer than the bottom cannot rest on it.
+    std::string unit_questions(const ObjectConfig& object, const Surface& shape, double range_m) {
+        const double bottom_m = get().area().sizes().maxCoeff();
+        const MeshConfig& mesh = scene_.file.empty() ? scene_.objects.front().mesh : scene_.mesh;
+        std::string out;
+        const auto add = [&](const std::string& title, const std::string& question) {
+            if (!question.empty()) out += "; " + title + " is " + question;
+        };
+        add(title_of(object),
+            unit_question(object.scale * box_of(shape).sizes().maxCoeff(),
+                          metres(object.mesh.units), std::min(range_m, bottom_m / long_object),
+                          long_object));
+        add("the bottom", unit_question(bottom_m, metres(mesh.units), range_m, long_place));
+        return out;
+    }
 
     /// " from (x, y) to (x, y)", for messages.
     std::string reach() {
@@ -147,7 +125,8 @@ class Shapes {
 };
 
 /// The transform of an object of the mission.
-Eigen::Affine3d transform_of(const ObjectConfig& object, const Surface& shape, LazyBottom& bottom) {
+Eigen::Affine3d transform_of(const ObjectConfig& object, const Surface& shape, LazyBottom& bottom,
+                             double range_m) {
     const Eigen::Vector3d position(object.position_m.data());
     const Eigen::Quaterniond attitude = attitude_of(object.rpy_deg);
     if (object.place_on == ObjectPlace::on_bottom) {
@@ -157,7 +136,8 @@ Eigen::Affine3d transform_of(const ObjectConfig& object, const Surface& shape, L
         if (T_world_file) return *T_world_file;
         throw InputError(object.place.location,
                          title_of(object) + " reaches beyond the bottom, which lies" +
-                             bottom.reach() + "; move it by position_m, or place: free");
+                             bottom.reach() + "; move it by position_m, or place: free" +
+                             bottom.unit_questions(object, shape, range_m));
     }
     Eigen::Affine3d T_world_file = Eigen::Affine3d::Identity();
     T_world_file.translation() = position;
@@ -205,10 +185,23 @@ ScatterRule rule_of(const ScatterConfig& config) {
             .place = config.place.location};
 }
 
+/// An object that is turned by more than this is not meant to stand as its file has it.
+constexpr double most_tilt_deg = 45.0;
+
+void note_question(const std::string& question, SceneParts& parts) {
+    if (question.empty() || std::ranges::find(parts.questions, question) != parts.questions.end())
+        return;
+    parts.questions.push_back(question);
+}
+
+bool is_upright(const ObjectConfig& object) {
+    return std::max(std::abs(object.rpy_deg[0]), std::abs(object.rpy_deg[1])) < most_tilt_deg;
+}
+
 /// Scatters the objects of one rule and appends their files.
 void scatter_files(const ScatterConfig& config, std::uint32_t index, std::uint64_t seed,
                    SceneFiles& models, LazyBottom& bottom, std::vector<Hull>& taken,
-                   std::vector<PlacedFile>& files) {
+                   SceneParts& parts) {
     std::vector<PlacedFile> kinds;
     std::vector<Surface> shapes;
     for (const std::filesystem::path& path : config.files) {
@@ -221,6 +214,12 @@ void scatter_files(const ScatterConfig& config, std::uint32_t index, std::uint64
     ScatterRule rule = rule_of(config);
     for (const Surface& shape : shapes)
         rule.shapes.push_back(&shape);
+    const bool upright =
+        std::max({std::abs(config.roll_deg[0]), std::abs(config.roll_deg[1]),
+                  std::abs(config.pitch_deg[0]), std::abs(config.pitch_deg[1])}) < most_tilt_deg;
+    for (std::size_t i = 0; upright && i < kinds.size(); ++i)
+        note_question(up_question(kinds[i], shapes[i]), parts);
+    std::vector<PlacedFile>& files = parts.files;
     std::size_t number = 0;
     for (const ScatteredObject& object : scatter(rule, index, seed, bottom.get(), taken)) {
         PlacedFile& file = files.emplace_back(kinds[object.shape]);
@@ -244,6 +243,7 @@ SceneParts place_scene(const Mission& mission, const Trajectory& vehicle, SceneF
     LazyBottom bottom(scene, models);
     Shapes shapes(models);
     std::vector<Hull> taken;
+    const double range_m = farthest_range_m(mission);
     for (const ObjectConfig& object : scene.objects) {
         PlacedFile& file = parts.files.emplace_back(file_of(object));
         const Surface& shape = shapes.of(file, object.mesh);
@@ -253,7 +253,8 @@ SceneParts place_scene(const Mission& mission, const Trajectory& vehicle, SceneF
                                  (object.mesh.exclude.empty() ? "; name another file"
                                                               : " but what `exclude` leaves out"));
         }
-        file.T_world_file = transform_of(object, shape, bottom);
+        if (is_upright(object)) note_question(up_question(file, shape), parts);
+        file.T_world_file = transform_of(object, shape, bottom, range_m);
         if (object.trajectory) {
             parts.motions.push_back(motion_of(object, vehicle));
             continue;
@@ -272,7 +273,7 @@ SceneParts place_scene(const Mission& mission, const Trajectory& vehicle, SceneF
     }
     for (std::size_t i = 0; i < scene.scatter.size(); ++i) {
         scatter_files(scene.scatter[i], static_cast<std::uint32_t>(i), mission.seed, models, bottom,
-                      taken, parts.files);
+                      taken, parts);
     }
     // Reports a pattern of `bottom` that matches no node, even if no object rests on it.
     if (!scene.bottom.empty()) bottom.get();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "mission/mission.h"
@@ -17,6 +18,7 @@ struct SceneParts {
     std::vector<Trajectory> motions;  ///< motions of the moving objects, in their order; world
     /// The bottom that objects rest on, for the label `height`; null if not needed or not there.
     std::shared_ptr<const Bottom> bottom;
+    std::vector<std::string> questions;  ///< sentences about files that may lie on their side
 };
 
 /// Places all objects of a mission: lowers objects to the bottom and draws the scattered ones.

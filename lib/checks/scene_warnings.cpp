@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "assembly/placed_files.h"
 #include "checks/doubled_triangles.h"
 #include "checks/find_warnings.h"
 #include "core/text.h"
@@ -21,13 +22,6 @@ constexpr double out_of_scale = 20.0;
 // In percent of the scene's surface.
 constexpr double upright_of_an_edge = 50.0;
 constexpr double flat_of_an_edge = 10.0;
-
-double farthest_range_m(const Mission& mission) {
-    double range = 0.0;
-    for (const SonarConfig& sensor : mission.sensors)
-        range = std::max(range, sensor.range_max_m);
-    return range;
-}
 
 double way_m(const Trajectory& trajectory) {
     Eigen::AlignedBox3d box;

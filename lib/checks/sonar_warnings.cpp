@@ -133,6 +133,7 @@ std::vector<Warning> image_warnings(const Mission& mission, const Assembly& asse
                          share(summary.clipped_pixels, summary.counts.occupied_bins),
                          summary.brightest, out);
     }
+    ask_for_units(mission, assembly.scene, out);
     return out;
 }
 

@@ -28,8 +28,9 @@ inline constexpr double largest_scale = 1e6;
 template <class Visitor>
 void describe_mesh(Visitor& v, MeshConfig& c) {
     v.choice("units", c.units, length_units, "unit of the file's lengths");
-    v.choice("up", c.up, up_axes,
-             "axis of the file that points up; glTF says y, and some exporters write z");
+    v.choice(
+        "up", c.up, up_axes,
+        "axis of the file that points up; glTF says y, and STL, PLY and OBJ files often have z");
     v.renaming("materials_map", c.materials_map,
                "materials of the file that have another name in the CSV, as {\"0137_Black\": "
                "rubber}");
@@ -43,7 +44,8 @@ void describe(Visitor& v, ObjectConfig& c) {
     v.text("name", c.name,
            "name of the one instance that all nodes of the file form; without it each node is an "
            "instance of its own");
-    v.path("file", c.file, "a .gltf or .glb file, which several objects may use", required);
+    v.path("file", c.file, "a .glb, .gltf, .obj, .stl or .ply file, which several objects may use",
+           required);
     v.text("class", c.class_name,
            "class of the object, for labels; default: the class in the file");
     v.numbers("position_m", c.position_m, any_position_m,
@@ -76,8 +78,8 @@ template <class Visitor>
 void describe(Visitor& v, ScatterConfig& c) {
     v.place(c.place);
     v.text("name", c.name, "the objects are the instances NAME_1, NAME_2 and so on", required);
-    v.paths("files", c.files, "a .gltf or .glb file, or a list of them, each equally likely",
-            required);
+    v.paths("files", c.files,
+            "a file of a mesh as in `objects`, or a list of them, each equally likely", required);
     v.text("class", c.class_name, "class of the objects, for labels; default: NAME");
     v.range("count", c.count, {0, 1e5}, "number of objects");
     v.numbers("area_min_m", c.area_min_m, any_position_m,
@@ -113,7 +115,8 @@ void describe(Visitor& v, WaterSurfaceConfig& c) {
 template <class Visitor>
 void describe(Visitor& v, SceneConfig& c) {
     v.place(c.place);
-    v.path("file", c.file, "the scene, a .gltf or .glb file; optional if there are objects");
+    v.path("file", c.file,
+           "the scene, a .glb, .gltf, .obj, .stl or .ply file; optional if there are objects");
     v.path("materials", c.materials,
            "CSV with the density and speed of sound of every material of the scene", required);
     v.text("material_default", c.material_default,

@@ -72,18 +72,20 @@ class Examples(unittest.TestCase):
         self.assertEqual(result.returncode, 2)
         self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
         self.assertIn("scenes/generated/reef.glb, which is not there, and no script makes it: "
-                      "scripts/make_scenes.py makes block.glb, close_bottom.glb, ", result.stderr)
+                      "scripts/make_scenes.py makes anchor.obj, block.glb, ", result.stderr)
 
     def test_only_what_is_named_is_made(self):
         """In quotes, in a list, in an option; not in a comment."""
         made = self.clone / "scenes/generated"
         shutil.rmtree(made, ignore_errors=True)
         self.own_mission('file: "scenes/tank.glb"  # not scenes/generated/block.glb\n'
-                         "  objects: [{name: a, file: 'scenes/generated/drum.glb', position_m: [1, 0, 1]}]")
+                         "  objects: [{name: a, file: 'scenes/generated/drum.glb', position_m: [1, 0, 1]},\n"
+                         "    {name: b, file: scenes/generated/anchor.obj, units: mm, up: z, "
+                         "position_m: [-1, 0, 1]}]")
         result = clean_clone.render(self.clone, "--shard", "1/60", "--out", "out/own", "own.yaml",
                                     "--set", "scene.objects.0.file=scenes/generated/rock.glb")
         self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertEqual({path.name for path in made.iterdir()}, {"drum.glb", "rock.glb"})
+        self.assertEqual({path.name for path in made.iterdir()}, {"anchor.obj", "drum.glb", "rock.glb"})
 
 
 if __name__ == "__main__":

@@ -113,7 +113,7 @@ MISTAKES = {
                                "'range_max_m' must be a finite number, not '12m'"),
     "ranges the wrong way round": (set_key("sensors.fls.range_min_m=20"), "error",
                                    "range_min_m must be below range_max_m"),
-    "a mesh of another format": (set_key("scene.file=bottom.obj") | {"files": {"bottom.obj": "v 0 0 0\n"}},
+    "a mesh of another format": (set_key("scene.file=bottom.fbx") | {"files": {"bottom.fbx": "v 0 0 0\n"}},
                                  "error", "convert it: assimp export"),
     "a material that the CSV lacks": (
         spoil_materials(MATERIALS.replace("Sand", "sand bank")), "error", "Sand"),

@@ -1,7 +1,6 @@
 #include <unistd.h>
 
 #include <cstdint>
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -10,33 +9,11 @@
 #include "core/file.h"
 #include "scene/gltf/load.h"
 #include "scene/summary.h"
+#include "scene_promises.h"
 
 // Any bytes as a .gltf or .glb: a scene that keeps its promises, or InputError.
 
 using namespace sonarsim;
-
-namespace {
-
-void require(bool holds) {
-    if (!holds) std::abort();
-}
-
-void check_promises(const Scene& scene) {
-    require(scene.triangle_material.size() == scene.triangles.size());
-    require(scene.triangle_instance.size() == scene.triangles.size());
-    require(scene.origin.allFinite());
-    for (const auto& vertex : scene.vertices)
-        require(vertex.allFinite());
-    for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
-        for (const std::uint32_t vertex : scene.triangles[i]) {
-            require(vertex < scene.vertices.size());
-        }
-        require(scene.triangle_material[i] < scene.materials.size());
-        require(scene.triangle_instance[i] < scene.instances.size());
-    }
-}
-
-}  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     // In a folder of its own, so that no buffer finds a file to read.

@@ -89,7 +89,7 @@ bool contains(std::span<const std::string_view> list, std::string_view word) {
 
 /// Names other mesh formats in the message, since the parser would only call them malformed.
 void check_format(const std::filesystem::path& path, std::string_view bytes) {
-    constexpr std::array<std::string_view, 5> others{".obj", ".stl", ".fbx", ".dae", ".ply"};
+    constexpr std::array<std::string_view, 5> others{".fbx", ".dae", ".3ds", ".blend", ".off"};
     std::string extension = path.extension().string();
     for (char& c : extension)
         c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -97,7 +97,8 @@ void check_format(const std::filesystem::path& path, std::string_view bytes) {
     std::filesystem::path converted = path;
     converted.replace_extension(".glb");
     throw InputError(Location{path.string()},
-                     "is no glTF, the only format that is read; convert it: assimp export " +
+                     "is no glTF, OBJ, STL or PLY, the formats that are read; convert it: assimp "
+                     "export " +
                          path.filename().string() + " " + converted.filename().string());
 }
 

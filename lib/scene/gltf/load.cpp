@@ -194,10 +194,13 @@ Scene load_scene(std::span<const PlacedFile> files, SceneFiles& models, const Ma
     return scene;
 }
 
-Scene load_scene_geometry(const std::filesystem::path& gltf) {
-    SceneFiles models;
-    const PlacedFile file{.file = gltf};
+Scene load_scene_geometry(const PlacedFile& file, SceneFiles& models) {
     return compose({&file, 1}, models, {true, {}, {}}, share_nothing);
+}
+
+Scene load_scene_geometry(const std::filesystem::path& path) {
+    SceneFiles models;
+    return load_scene_geometry({.file = path}, models);
 }
 
 }  // namespace sonarsim

@@ -16,9 +16,9 @@ namespace sonarsim {
 /// For load_scene: no meshes are shared; every copy of a file becomes triangles of the scene.
 inline constexpr std::size_t share_nothing = std::numeric_limits<std::size_t>::max();
 
-/// Reads .gltf or .glb files (their content says which), each where it is placed; those that move
-/// become bodies. The scene equals, bit by bit, that of one file with all their nodes, in their
-/// order and with their transforms.
+/// Reads .gltf or .glb files (their content says which), and .obj, .stl and .ply files as
+/// read_mesh() does, each where it is placed; those that move become bodies. The scene equals, bit
+/// by bit, that of one file with all their nodes, in their order and with their transforms.
 ///
 /// World frame: (x, y, z)_world = (x, -z, y)_gltf, node transforms composed in double precision.
 /// Reads a file's default scene, else its first, else all root nodes. A triangle's material is
@@ -46,6 +46,7 @@ Scene load_scene(std::span<const PlacedFile> files, SceneFiles& models, const Ma
 
 /// Reads one file without a table of materials: materials have only a name, "(no material)" if the
 /// file names none.
-Scene load_scene_geometry(const std::filesystem::path& gltf);
+Scene load_scene_geometry(const PlacedFile& file, SceneFiles& models);
+Scene load_scene_geometry(const std::filesystem::path& path);
 
 }  // namespace sonarsim

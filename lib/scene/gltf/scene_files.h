@@ -10,7 +10,7 @@ class Model;
 
 namespace sonarsim {
 
-/// glTF files that have been read, each once however often a scene uses it. Not thread-safe.
+/// Files of meshes that have been read, each once however often a scene uses it. Not thread-safe.
 class SceneFiles {
   public:
     SceneFiles();
@@ -18,8 +18,8 @@ class SceneFiles {
     SceneFiles(const SceneFiles&) = delete;
     SceneFiles& operator=(const SceneFiles&) = delete;
 
-    /// Reads the file on the first call. InputError as read_gltf, with the place in the mission
-    /// that names the file. The reference stays valid.
+    /// Reads the file on the first call. InputError as read_gltf and read_mesh, with the place in
+    /// the mission that names the file. The reference stays valid.
     const tinygltf::Model& model(const PlacedFile& placed);
 
   private:

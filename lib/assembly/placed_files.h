@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "mission/mission.h"
+#include "scene/placed_file.h"
+
+namespace sonarsim {
+
+/// The length of a unit, m.
+double metres(LengthUnit unit);
+
+/// A file as the mission says it is read, not placed yet.
+PlacedFile file_of(const std::filesystem::path& path, const MeshConfig& mesh,
+                   const MissionPlace& place);
+PlacedFile file_of(const ObjectConfig& object);
+
+/// "'tyre'", or "'tyre.stl'" for an object without a name.
+std::string title_of(const ObjectConfig& object);
+
+/// The farthest that a sonar of the mission sees, m.
+double farthest_range_m(const Mission& mission);
+
+}  // namespace sonarsim

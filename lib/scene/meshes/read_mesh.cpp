@@ -1,0 +1,212 @@
+#include "scene/meshes/read_mesh.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstdint>
+#include <cstring>
+#include <fstream>
+#include <string>
+#include <string_view>
+
+#include "core/child_process.h"
+#include "core/error.h"
+#include "core/file.h"
+#include "core/module.h"
+#include "core/text.h"
+#include "scene/meshes/module.h"
+#include "scene/meshes/whole_file.h"
+
+namespace sonarsim {
+
+namespace {
+
+constexpr std::size_t max_mesh_bytes = std::size_t{1} << 31;
+
+/// "stl" for "Hull.STL".
+std::string format_of(const std::filesystem::path& path) {
+    std::string extension = path.extension().string();
+    for (char& c : extension)
+        c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return extension.empty() ? "" : extension.substr(1);
+}
+
+/// The child hands over this of every part, then its names, positions and corners. The last head
+/// has `is_end`, and the reason as its `node` if the file is faulty.
+struct PartHead {
+    std::uint64_t is_end = 0;
+    std::uint64_t node_bytes = 0;
+    std::uint64_t material_bytes = 0;
+    std::uint64_t vertices = 0;
+    std::uint64_t triangles = 0;
+    std::uint64_t others = 0;
+};
+
+constexpr std::size_t vertex_bytes = 3 * sizeof(float);
+constexpr std::size_t triangle_bytes = 3 * sizeof(std::uint32_t);
+
+void hand_over(void* output, const SonarsimMeshPart* part) {
+    const ChildOutput& write = *static_cast<const ChildOutput*>(output);
+    const PartHead head{0,
+                        std::strlen(part->node),
+                        std::strlen(part->material),
+                        part->vertices,
+                        part->triangles,
+                        part->others};
+    write(&head, sizeof(head));
+    write(part->node, head.node_bytes);
+    write(part->material, head.material_bytes);
+    write(part->positions, head.vertices * vertex_bytes);
+    write(part->corners, head.triangles * triangle_bytes);
+}
+
+/// libassimp's reader. InputError without it.
+SonarsimReadMesh reader_for(const Location& where) {
+    try {
+        return reinterpret_cast<SonarsimReadMesh>(
+            module_symbol(mesh_module, mesh_module_symbol, "libassimp"));
+    } catch (const InputError& error) {
+        throw InputError(where, std::string("cannot be read: ") + error.what());
+    }
+}
+
+/// All parts of the file, as the child hands them over.
+std::string parts_of(const std::string& format, std::string_view bytes, const Location& where) {
+    const SonarsimReadMesh read = reader_for(where);
+    // Many times what a sound file takes, also on a slow machine.
+    const ChildLimits limits{(std::size_t{1} << 29) + 64 * bytes.size(),
+                             30 + static_cast<unsigned long>(bytes.size() / 100'000)};
+    const auto work = [&](const ChildOutput& output) {
+        std::array<char, 400> error{};
+        ChildOutput write = output;
+        const bool failed = read(format.c_str(), bytes.data(), bytes.size(), &hand_over, &write,
+                                 error.data(), error.size()) != 0;
+        const PartHead end{1, failed ? std::strlen(error.data()) : 0, 0, 0, 0, 0};
+        output(&end, sizeof(end));
+        output(error.data(), end.node_bytes);
+    };
+    try {
+        return bytes_of_child(work, limits);
+    } catch (const InputError& error) {
+        throw InputError(where, std::string("is damaged or too large: libassimp ") + error.what() +
+                                    " as it read the file; export it again");
+    }
+}
+
+/// Makes a model of what the child handed over.
+class ModelBuilder {
+  public:
+    explicit ModelBuilder(std::string stem) : stem_(std::move(stem)) {
+        model_.buffers.emplace_back();
+    }
+
+    void add(const PartHead& head, std::string_view& bytes) {
+        std::string name(take(bytes, head.node_bytes));
+        if (name.empty()) name = stem_;
+        const std::string material(take(bytes, head.material_bytes));
+        if (model_.nodes.empty() || model_.nodes.back().name != name) add_node(name);
+        auto& primitives = model_.meshes.back().primitives;
+        const int positions = add_accessor(take(bytes, head.vertices * vertex_bytes), head.vertices,
+                                           TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3);
+        if (head.triangles > 0) {
+            tinygltf::Primitive& primitive = primitives.emplace_back();
+            primitive.mode = TINYGLTF_MODE_TRIANGLES;
+            primitive.attributes["POSITION"] = positions;
+            primitive.indices =
+                add_accessor(take(bytes, head.triangles * triangle_bytes), 3 * head.triangles,
+                             TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, TINYGLTF_TYPE_SCALAR);
+            primitive.material = material.empty() ? -1 : number_of(material);
+        }
+        if (head.others > 0) primitives.emplace_back().mode = TINYGLTF_MODE_POINTS;
+    }
+
+    tinygltf::Model finish() { return std::move(model_); }
+
+    static std::string_view take(std::string_view& bytes, std::size_t count) {
+        if (count > bytes.size()) throw InputError("ended too early");
+        const std::string_view taken = bytes.substr(0, count);
+        bytes.remove_prefix(count);
+        return taken;
+    }
+
+  private:
+    void add_node(const std::string& name) {
+        tinygltf::Node& node = model_.nodes.emplace_back();
+        node.name = name;
+        node.mesh = static_cast<int>(model_.meshes.size());
+        model_.meshes.emplace_back().name = name;
+    }
+
+    int add_accessor(std::string_view bytes, std::size_t count, int component, int type) {
+        auto& data = model_.buffers.front().data;
+        tinygltf::BufferView& view = model_.bufferViews.emplace_back();
+        view.buffer = 0;
+        view.byteOffset = data.size();
+        view.byteLength = bytes.size();
+        data.insert(data.end(), bytes.begin(), bytes.end());
+        tinygltf::Accessor& accessor = model_.accessors.emplace_back();
+        accessor.bufferView = static_cast<int>(model_.bufferViews.size()) - 1;
+        accessor.componentType = component;
+        accessor.count = count;
+        accessor.type = type;
+        return static_cast<int>(model_.accessors.size()) - 1;
+    }
+
+    int number_of(const std::string& material) {
+        auto& known = model_.materials;
+        const auto found = std::ranges::find(known, material, &tinygltf::Material::name);
+        if (found == known.end()) {
+            known.emplace_back().name = material;
+            return static_cast<int>(known.size()) - 1;
+        }
+        return static_cast<int>(found - known.begin());
+    }
+
+    std::string stem_;
+    tinygltf::Model model_;
+};
+
+tinygltf::Model model_of(std::string_view bytes, const std::filesystem::path& path,
+                         const std::string& title) {
+    ModelBuilder builder(path.stem().string());
+    for (bool is_empty = true;; is_empty = false) {
+        PartHead head;
+        std::memcpy(&head, ModelBuilder::take(bytes, sizeof(head)).data(), sizeof(head));
+        if (head.is_end == 0) {
+            builder.add(head, bytes);
+            continue;
+        }
+        if (head.node_bytes > 0) {
+            throw InputError(Location{path.string()},
+                             "is no valid " + title + "; export it again (libassimp says: " +
+                                 printable(ModelBuilder::take(bytes, head.node_bytes)) + ")");
+        }
+        if (!is_empty) return builder.finish();
+        throw InputError(Location{path.string()}, "has no faces; is it an " + title + "?");
+    }
+}
+
+}  // namespace
+
+bool is_mesh_file(const std::filesystem::path& path) {
+    constexpr std::array<std::string_view, 3> formats{"obj", "stl", "ply"};
+    if (std::ranges::find(formats, format_of(path)) == formats.end()) return false;
+    std::array<char, 4> start{};
+    std::ifstream(path, std::ios::binary).read(start.data(), start.size());
+    return std::string_view(start.data(), start.size()) != "glTF";
+}
+
+tinygltf::Model read_mesh(const std::filesystem::path& path) {
+    const std::string file = path.string();
+    const std::string format = format_of(path);
+    const std::string bytes = read_file(path, max_mesh_bytes);
+    std::string_view whole = bytes;
+    if (format == "stl") whole = whole_stl(bytes, file);
+    if (format == "ply") require_whole_ply(bytes, file);
+    std::string title = format;
+    for (char& c : title)
+        c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    return model_of(parts_of(format, whole, Location{file}), path, title);
+}
+
+}  // namespace sonarsim

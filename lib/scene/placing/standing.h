@@ -1,0 +1,22 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+
+#include "scene/placed_file.h"
+#include "scene/surface.h"
+
+namespace sonarsim {
+
+/// True if a surface stands broadly along an axis that is an axis of its frame: the outline of what
+/// lies within a hundredth of its height above its lowest point takes a third of its outline, both
+/// seen along the axis. A box stands, and a tyre on its side; a ball, a lying cylinder and a tyre
+/// on its tread do not.
+bool stands(const Surface& surface, int axis);
+
+/// "tyre.stl lies on its side ...: does its z point up? up: z" for a file that does not say which
+/// axis points up, is read as y up, and stands only with z up; else "". `surface` is that of the
+/// file before it is placed.
+std::string up_question(const PlacedFile& file, const Surface& surface);
+
+}  // namespace sonarsim

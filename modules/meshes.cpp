@@ -1,0 +1,153 @@
+#include <assimp/BaseImporter.h>
+#include <assimp/material.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+
+#include <algorithm>
+#include <assimp/IOStream.hpp>
+#include <assimp/IOSystem.hpp>
+#include <assimp/Importer.hpp>
+#include <cstdio>
+#include <cstring>
+#include <new>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scene/meshes/module.h"
+
+// OBJ, STL and PLY through libassimp. Only triangulation is asked for: whatever else assimp offers
+// joins, sorts or moves vertices.
+
+namespace {
+
+/// Bytes in memory as assimp reads a file.
+class BytesStream final : public Assimp::IOStream {
+  public:
+    explicit BytesStream(std::string_view bytes) : bytes_(bytes) {}
+
+    std::size_t Read(void* to, std::size_t size, std::size_t count) override {
+        if (size == 0) return 0;
+        const std::size_t whole = std::min(count, (bytes_.size() - at_) / size);
+        std::memcpy(to, bytes_.data() + at_, whole * size);
+        at_ += whole * size;
+        return whole;
+    }
+    std::size_t Write(const void*, std::size_t, std::size_t) override { return 0; }
+    aiReturn Seek(std::size_t offset, aiOrigin origin) override {
+        std::size_t from = 0;
+        if (origin == aiOrigin_CUR) from = at_;
+        if (origin == aiOrigin_END) from = bytes_.size();
+        if (offset > bytes_.size() - from) return aiReturn_FAILURE;
+        at_ = from + offset;
+        return aiReturn_SUCCESS;
+    }
+    std::size_t Tell() const override { return at_; }
+    std::size_t FileSize() const override { return bytes_.size(); }
+    void Flush() override {}
+
+  private:
+    std::string_view bytes_;
+    std::size_t at_ = 0;
+};
+
+/// The only file that there is. An .mtl is not: usemtl names the materials, and colours have no
+/// echo. So no file can make assimp open another.
+class OneFile final : public Assimp::IOSystem {
+  public:
+    OneFile(std::string name, std::string_view bytes) : name_(std::move(name)), bytes_(bytes) {}
+
+    bool Exists(const char* name) const override { return name_ == name; }
+    char getOsSeparator() const override { return '/'; }
+    Assimp::IOStream* Open(const char* name, const char*) override {
+        return Exists(name) ? new BytesStream(bytes_) : nullptr;
+    }
+    void Close(Assimp::IOStream* stream) override { delete stream; }
+
+  private:
+    std::string name_;
+    std::string_view bytes_;
+};
+
+/// assimp picks a reader by the end of a file's name, but also by its content.
+void keep_only(Assimp::Importer& importer, const char* format) {
+    const std::size_t kept = importer.GetImporterIndex(format);
+    for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
+        if (i == kept) continue;
+        Assimp::BaseImporter* other = importer.GetImporter(i);
+        importer.UnregisterLoader(other);
+        delete other;
+    }
+}
+
+std::string material_of(const aiScene& scene, const aiMesh& mesh) {
+    if (mesh.mMaterialIndex >= scene.mNumMaterials) return "";
+    const std::string name = scene.mMaterials[mesh.mMaterialIndex]->GetName().C_Str();
+    return name == AI_DEFAULT_MATERIAL_NAME ? "" : name;
+}
+
+/// Names that assimp makes up for what has none.
+std::string name_of(const aiNode& node, std::string_view format) {
+    const std::string name = node.mName.C_Str();
+    const bool made_up =
+        format == "ply" || name == "defaultobject" || name == "mesh.obj" || name.starts_with('<');
+    return made_up ? "" : name;
+}
+
+void add_part(const aiScene& scene, const aiMesh& mesh, const std::string& node,
+              SonarsimAddPart add, void* user) {
+    std::vector<float> positions;
+    positions.reserve(std::size_t{3} * mesh.mNumVertices);
+    for (unsigned i = 0; mesh.mVertices != nullptr && i < mesh.mNumVertices; ++i) {
+        const aiVector3D& p = mesh.mVertices[i];
+        positions.insert(positions.end(), {p.x, p.y, p.z});
+    }
+    std::vector<std::uint32_t> corners;
+    std::size_t others = mesh.mNumFaces == 0 ? 1 : 0;
+    for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
+        const aiFace& face = mesh.mFaces[i];
+        if (face.mNumIndices == 3)
+            corners.insert(corners.end(), face.mIndices, face.mIndices + 3);
+        else
+            ++others;
+    }
+    const std::string material = material_of(scene, mesh);
+    const SonarsimMeshPart part{node.c_str(),
+                                material.c_str(),
+                                positions.data(),
+                                positions.size() / 3,
+                                corners.data(),
+                                corners.size() / 3,
+                                others};
+    add(user, &part);
+}
+
+void add_parts(const aiScene& scene, const aiNode& node, std::string_view format,
+               SonarsimAddPart add, void* user) {
+    for (unsigned i = 0; i < node.mNumMeshes; ++i)
+        add_part(scene, *scene.mMeshes[node.mMeshes[i]], name_of(node, format), add, user);
+    for (unsigned i = 0; i < node.mNumChildren; ++i)
+        add_parts(scene, *node.mChildren[i], format, add, user);
+}
+
+}  // namespace
+
+extern "C" [[gnu::visibility("default")]] int sonarsim_read_mesh_1(
+    const char* format, const char* bytes, std::size_t size, SonarsimAddPart add, void* user,
+    char* error, std::size_t error_size) {
+    try {
+        Assimp::Importer importer;
+        keep_only(importer, format);
+        const std::string name = std::string("mesh.") + format;
+        importer.SetIOHandler(new OneFile(name, {bytes, size}));  // the importer owns it
+        const aiScene* scene = importer.ReadFile(name, aiProcess_Triangulate);
+        if (scene != nullptr && scene->mRootNode != nullptr) {
+            add_parts(*scene, *scene->mRootNode, format, add, user);
+            return 0;
+        }
+        std::snprintf(error, error_size, "%s", importer.GetErrorString());
+    } catch (const std::bad_alloc&) {
+        std::snprintf(error, error_size, "it needs more memory than there is");
+    }
+    return 1;
+}
