@@ -1,5 +1,5 @@
 """A sandy bottom and the things that lie on it, each a file of its own with its origin in its
-middle: a mission places them (configs/minefield_variants.yaml)."""
+middle: a mission places them (configs/minefield_variants.yaml, configs/detection.yaml)."""
 import math
 
 from .boulders import boulders

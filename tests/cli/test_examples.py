@@ -19,7 +19,7 @@ GROUPS = (
     ("close_bottom",),
     ("wreck_imaging", "wreck_calibrated", "wreck_echosounder_calibrated", "seafloor_sidescan",
      "seafloor_sidescan_calibrated"),
-    ("minefield_variants",),
+    ("minefield_variants", "detection"),
     ("lifeboat_imaging",),
     ("tank_imaging", "tank_calibrated", "tank_detection", "tank_echosounder", "tank_labels",
      "tank_multipath", "tank_multipath_calibrated", "tank_scanning"),
