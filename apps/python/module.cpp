@@ -45,15 +45,7 @@ class LoadedMission {
     const Mission& mission() const { return mission_; }
 
     const PingSource& pings() {
-        std::call_once(read_, [&] {
-            if (!models_) {
-                SceneFiles models;
-                pings_ = std::make_unique<PingSource>(mission_, models);
-                return;
-            }
-            const std::lock_guard lock(models_->mutex);
-            pings_ = std::make_unique<PingSource>(mission_, models_->files);
-        });
+        std::call_once(read_, [&] { pings_ = std::make_unique<PingSource>(mission_, assembly()); });
         return *pings_;
     }
 
@@ -72,6 +64,12 @@ class LoadedMission {
     }
 
   private:
+    Assembly assembly() const {
+        if (!models_) return assemble(mission_);
+        const std::lock_guard lock(models_->mutex);
+        return assemble(mission_, models_->files);
+    }
+
     Mission mission_;
     MissionSource source_;
     std::shared_ptr<SharedModels> models_;  ///< null: no other mission shares them
@@ -169,6 +167,7 @@ std::vector<std::pair<std::string, int>> sensors(const LoadedMission& loaded) {
     return all;
 }
 
+// NOLINTNEXTLINE(performance-unnecessary-value-param): pybind11's signature
 void raise_as_os_error(std::exception_ptr thrown) {
     try {
         if (thrown) std::rethrow_exception(thrown);

@@ -33,9 +33,9 @@ PingNumbers take_image(const Sonar& sonar, Ping& ping) {
 
 }  // namespace
 
-PingSource::PingSource(Mission mission, SceneFiles& models)
+PingSource::PingSource(Mission mission, Assembly assembly)
     : mission_(std::move(mission)),
-      assembly_(assemble(mission_, models)),
+      assembly_(std::move(assembly)),
       engine_(make_engine(assembly_.scene, engine_settings(mission_, assembly_))) {
     const std::vector<std::size_t> pings = count_pings(mission_, assembly_.trajectory.size());
     for (std::size_t i = 0; i < pings.size(); ++i) {

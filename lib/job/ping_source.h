@@ -35,9 +35,8 @@ struct PingInMemory {
 /// on which others are asked for.
 class PingSource {
   public:
-    /// Reads all that the mission names. InputError as assemble(). `models` may be shared by the
-    /// variants of a mission; it is used here only.
-    PingSource(Mission mission, SceneFiles& models);
+    /// `assembly` is that of the mission.
+    PingSource(Mission mission, Assembly assembly);
     PingSource(const PingSource&) = delete;
     PingSource& operator=(const PingSource&) = delete;
 

@@ -1,8 +1,9 @@
 """The Python package: the pings of a mission in memory are those of the files of `render`."""
+import ast
 import copy
 import gc
 import importlib
-import json
+import inspect
 import os
 import pathlib
 import subprocess
@@ -259,6 +260,9 @@ class Use(Package):
     def test_arrays_are_their_own(self):
         mission = self.open({"output.labels": "[class]"})
         ping = mission.ping(0)
+        self.assertEqual(repr(ping), "<ping 0 of 'fls': image, class [48, 32]>")
+        self.assertEqual(repr(mission), "<mission 'box': sensors fls>")
+        self.assertEqual(repr(mission.sensors["fls"]), "<sensor 'fls': imaging, 6 pings>")
         image = ping.image.copy()
         ping.image[:] = -1
         ping.pose[:] = -1
@@ -275,6 +279,22 @@ class Use(Package):
         self.assertEqual(self.open().warnings, [])
         warned = self.open({"water.density_kg_m3": 1}).warnings
         self.assertTrue(warned and warned[0].startswith("W06"), warned)
+
+    def test_the_stubs_are_those_of_the_code(self):
+        """Every name of a stub is in the module, and functions have the parameters of the stub."""
+        def compare(body, owner):
+            for node in body:
+                if isinstance(node, ast.ClassDef):
+                    compare(node.body, getattr(owner, node.name))
+                elif isinstance(node, ast.FunctionDef):
+                    found = inspect.getattr_static(owner, node.name)
+                    if inspect.isfunction(found):
+                        self.assertEqual(list(inspect.signature(found).parameters),
+                                         [one.arg for one in node.args.args], node.name)
+
+        for module in (sonarsim.data, sonarsim._sonarsim):
+            stub = pathlib.Path(sonarsim.__file__).parent / (module.__name__.split(".")[1] + ".pyi")
+            compare(ast.parse(stub.read_text()).body, module)
 
     def test_the_package_is_typed_and_holds_the_reader(self):
         folder = pathlib.Path(sonarsim.__file__).parent

@@ -113,6 +113,10 @@ TEST_CASE("variants are missions with other seeds and values") {
     };
     const std::vector<Mission> four = draw({"output.folder=/out"});
     REQUIRE(four.size() == 4);
+    const MissionSource in_memory{
+        "m", folder.path, {"output.folder=/out"}, read_file(file, 10'000)};
+    Mission named = load_mission(in_memory, sonar_keys());
+    CHECK(draw_variants(named, in_memory, sonar_keys()).back().sensors == four.back().sensors);
     for (int i = 0; i < 4; ++i) {
         const Mission& one = four[i];
         CHECK(one.variants == 0);

@@ -64,7 +64,7 @@ def load(mission: Path | Mapping[str, Any], set: Mapping[str, Any] | None = None
     return Mission(_sonarsim.load(file, base, settings, text))
 
 
-@dataclasses.dataclass(frozen=True)
+@dataclasses.dataclass(frozen=True, eq=False, repr=False)
 class Sensor:
     """A sonar of a mission. `description` is its block in dataset.json (docs/dataset.md)."""
 
@@ -77,10 +77,13 @@ class Sensor:
     """From starboard (-) to port (+); None where the kind has none."""
     full_scale: float
     """The intensity that is white in pictures."""
-    description: dict[str, Any] = dataclasses.field(repr=False)
+    description: dict[str, Any]
+
+    def __repr__(self) -> str:
+        return f"<sensor {self.name!r}: {self.kind}, {len(self.pings)} pings>"
 
 
-@dataclasses.dataclass(frozen=True)
+@dataclasses.dataclass(frozen=True, eq=False, repr=False)
 class Ping:
     """A ping of a sonar. The arrays are its own: they may be changed."""
 
@@ -99,13 +102,18 @@ class Ping:
     of `yolo` as text."""
     pose: npt.NDArray[np.float64]
     """The vehicle: t, x, y, z, qx, qy, qz, qw, in seconds and metres."""
-    _metadata: str = dataclasses.field(repr=False)
+    _metadata: str
 
     @functools.cached_property
     def metadata(self) -> dict[str, Any]:
         """The content of meta/NNNNNN.json."""
         metadata: dict[str, Any] = json.loads(self._metadata)
         return metadata
+
+    def __repr__(self) -> str:
+        of = "" if self.variant is None else f" of variant {self.variant}"
+        names = ", ".join(["image", *(["raw"] if self.raw is not None else []), *self.labels])
+        return f"<ping {self.number} of {self.sensor!r}{of}: {names} {list(self.image.shape)}>"
 
 
 class Mission:
