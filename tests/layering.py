@@ -3,8 +3,9 @@
     python3 tests/layering.py <root of the repository>
 
 Rules: a folder of lib/ includes only the folders below it, a part of a folder only the parts below it,
-no files include each other in a circle, and folders after the trace take ranges from
-lib/trace/arrivals.h; x.h and x.cpp count as one. The tables of folders in docs/development.md and
+no files include each other in a circle, folders after the trace take ranges from
+lib/trace/arrivals.h, and folders whose results reach files take elementary functions from
+lib/core/elementary.h; x.h and x.cpp count as one. The tables of folders in docs/development.md and
 README.md name the same folders. Each rule is first tried on made-up files that break it.
 """
 import pathlib
@@ -51,6 +52,9 @@ PARTS = {
 # These folders work with what was traced, and take its ranges from arrivals.
 AFTER_THE_TRACE = {"paper", "calibrated", "ping", "labels", "product", "sonar", "assembly", "dataset", "checks", "job"}
 RANGE_OF_POSITION = re.compile(r"\bposition\.norm\(\)|\bposition / range\b|arctan2\w*\([^)]*position")
+# These folders make values of files, which are the same on every processor.
+SAME_BYTES = {"trace", "paper", "calibrated", "ping", "labels", "product", "sonar"}
+OF_THE_C_LIBRARY = re.compile(r"\bstd::(a?(sin|cos|tan)h?|atan2|exp[2m]?1?|log(2|10|1p)?|pow|cbrt|hypot|erfc?)\(")
 # Which folder alone may use a library.
 OWNERS = {
     "yaml-cpp/": "mission",
@@ -130,6 +134,8 @@ def faults_in_code(root: pathlib.Path) -> tuple[int, list[str]]:
         for number, line in enumerate(path.read_text().splitlines(), 1):
             if here in AFTER_THE_TRACE and RANGE_OF_POSITION.search(line):
                 faults.append(f"{relative}:{number}: take ranges and directions from trace/arrivals.h")
+            if here in SAME_BYTES and OF_THE_C_LIBRARY.search(line):
+                faults.append(f"{relative}:{number}: take elementary functions from core/elementary.h")
             match = re.match(r'\s*#\s*include\s*([<"])([^">]+)[">]', line)
             if not match:
                 continue
@@ -195,6 +201,7 @@ def try_the_rules():
             ("lib/visibility/lamps/lamp.h", "", "does not say where visibility/lamps/ lies"),
             ("lib/lamps/lamp.h", "", "no folder lamps"),
             ("lib/paper/file.h", "float r = sample.position.norm();", "from trace/arrivals.h"),
+            ("lib/labels/file.h", "x = std::asin(y);", "from core/elementary.h"),
             ("lib/core/file.h", '#include "text.h"', 'write "folder/file.h"'),
             ("lib/core/file.h", "#include <yaml-cpp/yaml.h>", "belongs to mission alone"),
     ):

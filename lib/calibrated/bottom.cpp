@@ -4,15 +4,14 @@
 
 #include "calibrated/decibel.h"
 #include "core/units.h"
+#include "scene/materials.h"
 
 namespace sonarsim {
 
 std::vector<float> slopes_of(std::span<const Material> materials) {
     std::vector<float> out;
-    for (const Material& material : materials) {
-        const SinCos slope = sincos(radians(material.slope_rms_deg));
-        out.push_back(static_cast<float>(slope.sin / slope.cos));
-    }
+    for (const Material& material : materials)
+        out.push_back(static_cast<float>(facet_slope(material)));
     return out;
 }
 
@@ -50,9 +49,8 @@ Scattering scattering_of(std::span<const Material> materials, double frequency_h
             out.materials.push_back(
                 backscatter(SeafloorScattering(sea_bed_of(material, water), wavenumber)));
         } else {
-            const SinCos slope = sincos(radians(material.slope_rms_deg));
             out.materials.push_back(
-                backscatter(material.lambert_db, material.reflection, slope.sin / slope.cos));
+                backscatter(material.lambert_db, material.reflection, facet_slope(material)));
         }
     }
     if (std::ranges::none_of(materials, is_sea_bed)) return out;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <vector>
 
 #include "calibrated/decibel.h"
 #include "core/elementary.h"
@@ -11,19 +13,39 @@ namespace sonarsim {
 
 namespace {
 
+/// The pattern of any pedestal at one t: of its even part and of its cosine, each of unit weight.
+struct PatternParts {
+    double even, cosine;
+
+    double at(double pedestal) const {
+        return (pedestal * even + (1.0 - pedestal) * cosine) / (0.5 * (1.0 + pedestal));
+    }
+};
+
+PatternParts pattern_parts(double t) {
+    return {sinc(t), 0.5 * (sinc(t) + 0.5 * (sinc(t + 1.0) + sinc(t - 1.0)))};
+}
+
 double pattern(double pedestal, double t) {
-    const double cosine = 0.5 * (sinc(t) + 0.5 * (sinc(t + 1.0) + sinc(t - 1.0)));
-    return (pedestal * sinc(t) + (1.0 - pedestal) * cosine) / (0.5 * (1.0 + pedestal));
+    return pattern_parts(t).at(pedestal);
+}
+
+/// The pattern where its highest side lobe is. The main lobe ends between t = 1 and 2, and side
+/// lobes fall soon after.
+std::vector<PatternParts> side_lobe_parts() {
+    std::vector<PatternParts> out;
+    for (int k = 200; k <= 1000; ++k)
+        out.push_back(pattern_parts(0.005 * k));
+    return out;
 }
 
 /// The highest side lobe, as a ratio of powers.
-double side_lobe(double pedestal) {
+double side_lobe(std::span<const PatternParts> parts, double pedestal) {
     double highest = 0.0;
     double last = 1.0;
     bool past_null = false;
-    // The main lobe ends between t = 1 and 2, and side lobes fall soon after.
-    for (int k = 200; k <= 1000; ++k) {
-        const double value = pattern(pedestal, 0.005 * k);
+    for (const PatternParts& part : parts) {
+        const double value = part.at(pedestal);
         past_null = past_null || value * last <= 0.0;
         if (past_null) highest = std::max(highest, value * value);
         last = value;
@@ -61,12 +83,13 @@ double line_pattern(const LineArray& array, double u) {
 
 LineArray line_array(double width_rad, double side_lobe_db) {
     const double wanted = power_of_db(side_lobe_db);
+    const std::vector<PatternParts> parts = side_lobe_parts();
     // Below a pedestal of 0.08 (Hamming's) the far side lobes take over from the first.
     double low = 0.08;
     double high = 1.0;
     for (int k = 0; k < 40; ++k) {
         const double middle = 0.5 * (low + high);
-        (side_lobe(middle) > wanted ? high : low) = middle;
+        (side_lobe(parts, middle) > wanted ? high : low) = middle;
     }
     LineArray array;
     array.pedestal = side_lobe_db >= -13.27 ? 1.0 : low;

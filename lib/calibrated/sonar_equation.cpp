@@ -59,19 +59,27 @@ class BackscatterTable {
           inverse_slope2_(scattering.materials, &Backscatter::inverse_slope2),
           sea_beds_(scattering.sea_beds.empty() ? nullptr : scattering.sea_beds.data()) {}
 
-    /// Adds two ways to scatter; the one that a material does not follow is 0.
+    /// Adds two ways to scatter; the one that a material does not follow is 0. Neighbours mostly
+    /// have one material, so that one of the two can be left out.
     Floats8 at(const std::uint32_t* numbers, Floats8 sine) const {
-        const Floats8 simple = by_rule(numbers, sine);
-        return sea_beds_ != nullptr ? simple + by_table(numbers, sine) : simple;
+        const Floats8 lambert = lambert_.at(numbers);
+        const Floats8 facet = facet_.at(numbers);
+        if (sea_beds_ == nullptr) return by_rule(numbers, lambert, facet, sine);
+        constexpr unsigned all = 0xFFU;
+        const unsigned ruled = (Floats8(0.0F) < lambert + facet).bits();
+        if (ruled == all) return by_rule(numbers, lambert, facet, sine);
+        const Floats8 tabled = by_table(numbers, sine);
+        return ruled == 0U ? tabled : by_rule(numbers, lambert, facet, sine) + tabled;
     }
 
   private:
-    Floats8 by_rule(const std::uint32_t* numbers, Floats8 sine) const {
+    Floats8 by_rule(const std::uint32_t* numbers, Floats8 lambert, Floats8 facet,
+                    Floats8 sine) const {
         const Floats8 s2 = sine * sine;
         const Floats8 inverse = Floats8(1.0F) / greatest(s2, 1e-6F);
         const Floats8 steepness = inverse_slope2_.at(numbers) * (inverse - 1.0F);
-        const Floats8 facets = facet_.at(numbers) * (inverse * inverse) * exp_neg(steepness);
-        return fma(lambert_.at(numbers), s2, facets);
+        const Floats8 facets = facet * (inverse * inverse) * exp_neg(steepness);
+        return fma(lambert, s2, facets);
     }
 
     Floats8 by_table(const std::uint32_t* numbers, Floats8 sine) const {

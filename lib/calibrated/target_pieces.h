@@ -38,9 +38,22 @@ inline constexpr float highlight_slopes = 5.0F;
 
 /// Pieces of targets, and the facets that they are parts of.
 struct TargetPieces {
+    using Floats = PatchBlock::Array<float>;
+
     PatchBlock points;
     PatchBlock::Array<std::uint32_t> facet{};  ///< index into TargetSurface::facets
+    // Of a piece until move_to_curve(): the interpolated normal, the triangle's normal and its
+    // radius of curvature.
+    std::array<Floats, 3> normal{}, flat_normal{};
+    Floats curvature_m{};
+    // The half edges of a piece as a parallelogram, if they are asked for.
+    bool with_edges = false;
+    PatchBlock::Array<Eigen::Vector3f> edge_u, edge_v;
 };
+
+/// Moves pieces from their triangles, where `points` has their places and areas, to the curved
+/// surface.
+void move_to_curve(TargetPieces& pieces);
 
 /// The size of an edge of a piece, 1 if it is small enough: the piece is a point to the beams and
 /// bins, and, where the facet may send back a highlight, the normal turns by at most 0.7 slopes
@@ -50,7 +63,8 @@ class PieceSize {
     PieceSize(const TargetFacet& facet, const PointLimits& limits, float slope) {
         constexpr float turn_by_slope = 0.7F;
         const FacetTurn turn(facet);
-        if (slope > 0.0F && turn.least <= highlight_slopes * slope) {
+        glints_ = slope > 0.0F && turn.least <= highlight_slopes * slope;
+        if (glints_) {
             turn_u_ = turn.along_u / (turn_by_slope * slope);
             turn_v_ = turn.along_v / (turn_by_slope * slope);
         }
@@ -72,14 +86,14 @@ class PieceSize {
 
     float operator()(float u, float v) const {
         const Eigen::Vector3f by_limits = u * limits_u_ + v * limits_v_;
-        const float turn = (u * turn_u_ + v * turn_v_).norm();
-        return std::max(by_limits.cwiseAbs().maxCoeff(), turn);
+        const float size = by_limits.cwiseAbs().maxCoeff();
+        return glints_ ? std::max(size, (u * turn_u_ + v * turn_v_).norm()) : size;
     }
 
   private:
     Eigen::Vector3f limits_u_, limits_v_;  ///< edges by the limits: in range, across, in elevation
-    Eigen::Vector3f turn_u_ = Eigen::Vector3f::Zero();
-    Eigen::Vector3f turn_v_ = Eigen::Vector3f::Zero();
+    bool glints_ = false;                  ///< the facet may send back a highlight
+    Eigen::Vector3f turn_u_, turn_v_;  ///< if it does: edges by the turn of the normal in slopes
 };
 
 /// Cuts facets into pieces and hands these to `use`, a block at a time. `slopes`: RMS slopes of the
@@ -89,6 +103,11 @@ void cut_targets(std::span<const TargetFacet> facets, const PointLimits& limits,
                  std::span<const float> slopes, TargetPieces& pieces, Use use) {
     PatchBlock& points = pieces.points;
     points.count = 0;
+    const auto hand_on = [&] {
+        move_to_curve(pieces);
+        use(pieces);
+        points.count = 0;
+    };
     for (std::uint32_t f = 0; f < facets.size(); ++f) {
         const TargetFacet& facet = facets[f];
         const Eigen::Vector3f u = facet.corners[1] - facet.corners[0];
@@ -99,27 +118,32 @@ void cut_targets(std::span<const TargetFacet> facets, const PointLimits& limits,
         const PieceSize size(facet, limits, slopes[facet.material]);
         cut_triangle(size, [&](const TrianglePart& part) {
             const auto [s, t] = part.centroid;
-            if (points.count == PatchBlock::most) {
-                use(pieces);
-                points.count = 0;
-            }
+            if (points.count == PatchBlock::most) hand_on();
             const int at = points.count++;
             const Eigen::Vector3f n = facet.normals[0] + s * n_u + t * n_v;
-            const float length = n.norm();
-            const Eigen::Vector3f unit = n / length;
-            const Eigen::Vector3f place =
-                facet.corners[0] + s * u + t * v + facet.curvature_m * (1.0F - length) * unit;
+            const Eigen::Vector3f place = facet.corners[0] + s * u + t * v;
             points.x[at] = place.x();
             points.y[at] = place.y();
             points.z[at] = place.z();
-            points.area_m2[at] =
-                part.share * area * std::max(facet.normal.dot(unit), 0.0F) / (length * length);
-            points.height_m[at] = std::max(-place.dot(unit), 0.0F);
+            points.area_m2[at] = part.share * area;
             points.material[at] = facet.material;
             pieces.facet[at] = f;
+            pieces.curvature_m[at] = facet.curvature_m;
+            if (pieces.with_edges) {
+                // From the middle of a side to that of the opposite one, for both pairs of sides.
+                const auto& [a, b, c, d] = part.corners;
+                pieces.edge_u[at] =
+                    0.25F * ((b.u + c.u - a.u - d.u) * u + (b.v + c.v - a.v - d.v) * v);
+                pieces.edge_v[at] =
+                    0.25F * ((c.u + d.u - a.u - b.u) * u + (c.v + d.v - a.v - b.v) * v);
+            }
+            for (int axis = 0; axis < 3; ++axis) {
+                pieces.normal[axis][at] = n[axis];
+                pieces.flat_normal[axis][at] = facet.normal[axis];
+            }
         });
     }
-    if (points.count > 0) use(pieces);
+    if (points.count > 0) hand_on();
 }
 
 }  // namespace sonarsim

@@ -1,9 +1,9 @@
 #include "calibrated/target_scatterers.h"
 
 #include <algorithm>
-#include <array>
+#include <bit>
 #include <cmath>
-#include <utility>
+#include <limits>
 
 #include "calibrated/lanes.h"
 #include "core/elementary.h"
@@ -12,44 +12,61 @@ namespace sonarsim {
 
 namespace {
 
-/// Sums of echoes, by power.
-struct Joint {
-    float power = 0.0F;
-    float range = 0.0F;
-    Eigen::Vector3f place = Eigen::Vector3f::Zero();
+using Terms = Eigen::Array<float, 8, 1>;
 
-    void add(float more, float range_m, const Eigen::Vector3f& at) {
-        power += more;
-        range += more * range_m;
-        place += more * at;
-    }
-    void add(const Joint& more) {
-        power += more.power;
-        range += more.range;
-        place += more.place;
-    }
-    float range_m() const { return range / power; }
-    Eigen::Vector3f middle() const { return place / power; }
+/// Places in Terms.
+enum Term : int { power_term, range_term, x_term, y_term, z_term, highlight_term };
+
+/// The number of the cell at an offset from the middle one, 21 bits.
+std::uint64_t cell_at(float offset, float size) {
+    constexpr float most = 1e5F;
+    const float number = std::round(offset / size);
+    const auto whole = static_cast<std::int32_t>(std::min(std::max(number, -most), most));
+    return static_cast<std::uint64_t>(whole) & 0x1FFFFFU;
+}
+
+struct Cell {
+    std::uint64_t number;
+    Terms sums;
 };
 
-/// The number of the cell at an offset from the middle one; size 0: all is one cell.
-std::int32_t cell_at(float offset, float size) {
-    constexpr float most = 1e5F;
-    if (!(size > 0.0F)) return 0;
-    return static_cast<std::int32_t>(std::clamp(std::round(offset / size), -most, most));
-}
+/// Sums the echoes of a surface by cell.
+class CellSums {
+  public:
+    /// The cells in the order of their numbers. `numbers`: of the cell of each echo.
+    std::span<const Cell> find(std::span<const std::uint64_t> numbers,
+                               std::span<const Terms> terms) {
+        cells_.clear();
+        slots_.assign(std::bit_ceil(2 * numbers.size()), no_cell);
+        for (std::size_t k = 0; k < numbers.size();) {
+            // Pieces of one cell often come one after the other.
+            const std::uint64_t number = numbers[k];
+            Terms sums = Terms::Zero();
+            for (; k < numbers.size() && numbers[k] == number; ++k)
+                sums += terms[k];
+            cell_of(number).sums += sums;
+        }
+        std::ranges::sort(cells_, {}, &Cell::number);
+        return cells_;
+    }
 
-/// The numbers of a cell in one word, 21 bits each.
-std::uint64_t cell_word(std::int32_t i, std::int32_t j, std::int32_t l) {
-    const auto bits = [](std::int32_t k) { return static_cast<std::uint64_t>(k) & 0x1FFFFFU; };
-    return bits(i) << 42U | bits(j) << 21U | bits(l);
-}
+  private:
+    static constexpr std::uint32_t no_cell = 0xFFFFFFFFU;
 
-/// Echoes of a surface in one cell.
-struct CellEchoes {
-    std::uint64_t cell;
-    Joint all;
-    float highlight;  ///< power of the highlight
+    Cell& cell_of(std::uint64_t number) {
+        const std::size_t mask = slots_.size() - 1;
+        std::size_t slot = (number * 0x9E3779B97F4A7C15U >> 32U) & mask;
+        while (slots_[slot] != no_cell && cells_[slots_[slot]].number != number)
+            slot = (slot + 1) & mask;
+        if (slots_[slot] == no_cell) {
+            slots_[slot] = static_cast<std::uint32_t>(cells_.size());
+            cells_.push_back({number, Terms::Zero()});
+        }
+        return cells_[slots_[slot]];
+    }
+
+    std::vector<Cell> cells_;
+    std::vector<std::uint32_t> slots_;  ///< places in cells_, by a hash of the number
 };
 
 /// A block of scatterers, handed on when it is full.
@@ -61,13 +78,15 @@ class ScattererBlock {
         : cells_(cells), equation_(equation), use_(use) {}
 
     /// `turns`: the scatterer's own phase.
-    void add(const Joint& joint, float strength, float turns) {
-        const float range = joint.range_m();
+    void add(const Terms& sums, float strength, float turns) {
+        const float power = sums[power_term];
+        const float range = sums[range_term] / power;
         const double way = cells_.turns_per_m * static_cast<double>(range);
         const SinCosFloat phase = sincos_turns(turns + static_cast<float>(way - std::floor(way)));
-        const float amplitude = std::sqrt(joint.power * strength);
+        const float amplitude = std::sqrt(power * strength);
         const int at = points_.count++;
-        put(at, joint.middle(), range, joint.power);
+        const Eigen::Vector3f place = sums.segment<3>(x_term) / power;
+        put(at, place, range, power);
         echoes_.row[at] = (range - equation_.range_min_m) / equation_.bin_m - 0.5F;
         amplitudes_.re[at] = amplitude * phase.cos;
         amplitudes_.im[at] = amplitude * phase.sin;
@@ -108,81 +127,78 @@ void TargetScatterers::add(const TargetPieces& pieces, const PointEchoes& echoes
                            std::span<const TargetFacet> facets, std::span<const float> slopes) {
     const PatchBlock& points = pieces.points;
     for (int k = 0; k < points.count; ++k) {
-        if (!(echoes.power[k] > 0.0F)) continue;
+        const float power = echoes.power[k];
+        if (!(power > 0.0F)) continue;
         const TargetFacet& facet = facets[pieces.facet[k]];
         const float range = echoes.range_m[k];
         const float height = points.height_m[k];
         const float steepest = highlight_slopes * slopes[facet.material] * height;
-        echoes_.push_back({.instance = facet.instance,
-                           .region = facet.region,
-                           .place = {points.x[k], points.y[k], points.z[k]},
-                           .range_m = range,
-                           .power = echoes.power[k],
-                           .highlight = range * range - height * height < steepest * steepest});
+        const bool is_highlight = range * range - height * height < steepest * steepest;
+        const bool goes_on = !surfaces_.empty() && surfaces_.back().instance == facet.instance &&
+                             surfaces_.back().region == facet.region;
+        if (!goes_on) surfaces_.push_back({facet.instance, facet.region, terms_.size()});
+        terms_.push_back(power * Terms(1.0F, range, points.x[k], points.y[k], points.z[k],
+                                       is_highlight ? 1.0F : 0.0F, 0.0F, 0.0F));
+        range_m_.push_back(range);
+        y_.push_back(points.y[k]);
+        z_.push_back(points.z[k]);
     }
 }
 
-TargetScatterers::Surface TargetScatterers::surface_from(std::size_t first) const {
-    Joint highlight, all;
-    std::size_t end = first;
-    for (; end < echoes_.size() && echoes_[end].instance == echoes_[first].instance &&
-           echoes_[end].region == echoes_[first].region;
-         ++end) {
-        const Echo& echo = echoes_[end];
-        all.add(echo.power, echo.range_m, echo.place);
-        if (echo.highlight) highlight.add(echo.power, echo.range_m, echo.place);
+TargetScatterers::Middle TargetScatterers::middle_of(std::size_t first, std::size_t end) const {
+    Terms highlight = Terms::Zero();
+    Terms all = Terms::Zero();
+    for (std::size_t k = first; k < end; ++k) {
+        all += terms_[k];
+        if (terms_[k][highlight_term] > 0.0F) highlight += terms_[k];
     }
-    const Joint& about = highlight.power > 0.0F ? highlight : all;
-    return {first, end, about.middle(), about.range_m(), highlight.power};
+    const Terms& about = highlight[power_term] > 0.0F ? highlight : all;
+    const Terms middle = about / about[power_term];
+    return {middle[range_term], middle[y_term], middle[z_term], highlight[power_term]};
+}
+
+void TargetScatterers::find_cells(std::size_t first, std::size_t end, const Middle& middle,
+                                  const TargetCells& cells) {
+    const auto or_any = [](float size) {
+        return size > 0.0F ? size : std::numeric_limits<float>::infinity();
+    };
+    const float depth = or_any(cells.depth_m);
+    const float sine_y = or_any(cells.sine_y);
+    const float sine_z = or_any(cells.sine_z);
+    for (std::size_t k = first; k < end; ++k) {
+        const std::uint64_t i = cell_at(range_m_[k] - middle.range_m, depth);
+        const std::uint64_t j = cell_at((y_[k] - middle.y) / middle.range_m, sine_y);
+        const std::uint64_t l = cell_at((z_[k] - middle.z) / middle.range_m, sine_z);
+        cell_[k] = i << 42U | j << 21U | l;
+    }
 }
 
 void TargetScatterers::finish(const TargetCells& cells, const SonarEquation& equation,
                               PhiloxKey key, const ScattererUse& use) {
     ScattererBlock block(cells, equation, use);
-    std::vector<CellEchoes> parts;
-    std::vector<std::pair<std::uint64_t, std::uint32_t>> order;
-    for (std::size_t first = 0; first < echoes_.size();) {
-        const Surface surface = surface_from(first);
-        parts.clear();
-        for (std::size_t k = first; k < surface.end; ++k) {
-            const Echo& echo = echoes_[k];
-            const Eigen::Vector3f off = (echo.place - surface.middle) / surface.range_m;
-            const std::uint64_t cell =
-                cell_word(cell_at(echo.range_m - surface.range_m, cells.depth_m),
-                          cell_at(off.y(), cells.sine_y), cell_at(off.z(), cells.sine_z));
-            // Pieces of one cell often come one after the other.
-            if (parts.empty() || parts.back().cell != cell) parts.push_back({cell, {}, 0.0F});
-            parts.back().all.add(echo.power, echo.range_m, echo.place);
-            if (echo.highlight) parts.back().highlight += echo.power;
-        }
-        order.clear();
-        for (std::uint32_t k = 0; k < parts.size(); ++k)
-            order.emplace_back(parts[k].cell, k);
-        std::ranges::sort(order);
-        for (std::size_t k = 0; k < order.size();) {
-            const std::uint64_t cell = order[k].first;
-            Joint joint;
-            float highlight = 0.0F;
-            for (; k < order.size() && order[k].first == cell; ++k) {
-                const CellEchoes& part = parts[order[k].second];
-                joint.add(part.all);
-                highlight += part.highlight;
-            }
+    CellSums sums_by_cell;
+    cell_.resize(terms_.size());
+    for (std::size_t s = 0; s < surfaces_.size(); ++s) {
+        const auto [instance, region, first] = surfaces_[s];
+        const std::size_t end = s + 1 < surfaces_.size() ? surfaces_[s + 1].first : terms_.size();
+        const Middle middle = middle_of(first, end);
+        find_cells(first, end, middle, cells);
+        for (const Cell& cell : sums_by_cell.find(std::span(cell_).subspan(first, end - first),
+                                                  std::span(terms_).subspan(first, end - first))) {
             const PhiloxBlock words =
-                philox({echoes_[first].instance, echoes_[first].region,
-                        static_cast<std::uint32_t>(cell), static_cast<std::uint32_t>(cell >> 32U)},
+                philox({instance, region, static_cast<std::uint32_t>(cell.number),
+                        static_cast<std::uint32_t>(cell.number >> 32U)},
                        key);
+            const float highlight = cell.sums[highlight_term];
             // 1 if the cell holds all of the highlight and nothing else.
-            const float steady =
-                highlight > 0.0F ? highlight / surface.highlight_power * (highlight / joint.power)
-                                 : 0.0F;
-            block.add(joint, steady - (1.0F - steady) * natural_log(unit_float(words.x0)),
+            const float steady = highlight > 0.0F ? highlight / middle.highlight_power *
+                                                        (highlight / cell.sums[power_term])
+                                                  : 0.0F;
+            block.add(cell.sums, steady - (1.0F - steady) * natural_log(unit_float(words.x0)),
                       unit_float(words.x1));
         }
-        first = surface.end;
     }
     block.flush();
-    echoes_.clear();
 }
 
 }  // namespace sonarsim

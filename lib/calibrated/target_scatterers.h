@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -42,22 +43,28 @@ class TargetScatterers {
                 const ScattererUse& use);
 
   private:
-    struct Echo {
-        std::uint32_t instance, region;
-        Eigen::Vector3f place;
-        float range_m, power;
-        bool highlight;
-    };
-    /// The echoes of one smooth surface, and the middle of its highlight.
+    /// Terms of the sums over echoes, each times its power: 1, the range, x, y and z, and 1 for the
+    /// highlight.
+    using Terms = Eigen::Array<float, 8, 1>;
+    /// The echoes of one smooth surface: those from `first` on.
     struct Surface {
-        std::size_t first, end;
-        Eigen::Vector3f middle;
-        float range_m;
+        std::uint32_t instance, region;
+        std::size_t first;
+    };
+    /// The middle of a highlight. The cells of its surface are counted from there.
+    struct Middle {
+        float range_m, y, z;
         float highlight_power;
     };
-    Surface surface_from(std::size_t first) const;
+    Middle middle_of(std::size_t first, std::size_t end) const;
+    void find_cells(std::size_t first, std::size_t end, const Middle& middle,
+                    const TargetCells& cells);
 
-    std::vector<Echo> echoes_;
+    std::vector<Surface> surfaces_;
+    // One entry for each echo.
+    std::vector<float> range_m_, y_, z_;
+    std::vector<Terms> terms_;
+    std::vector<std::uint64_t> cell_;
 };
 
 }  // namespace sonarsim

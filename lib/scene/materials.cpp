@@ -6,9 +6,11 @@
 #include <utility>
 
 #include "core/csv.h"
+#include "core/elementary.h"
 #include "core/error.h"
 #include "core/input_limits.h"
 #include "core/text.h"
+#include "core/units.h"
 
 namespace sonarsim {
 
@@ -193,6 +195,11 @@ std::string materials_csv(const Scene& scene, const MaterialTable& known) {
         csv += "\n";
     }
     return csv;
+}
+
+double facet_slope(const Material& material) {
+    const SinCos slope = sincos(radians(material.slope_rms_deg));
+    return slope.sin / slope.cos;
 }
 
 std::vector<std::string> unit_warnings(std::span<const Material> materials) {

@@ -37,6 +37,9 @@ void resolve_materials(Scene& scene, const MaterialTable& table, const Water& wa
 /// A CSV with a row for each material of the scene, filled in for those that `known` has.
 std::string materials_csv(const Scene& scene, const MaterialTable& known);
 
+/// The RMS slope of a material's facets, as a tangent.
+double facet_slope(const Material& material);
+
 /// One warning for each material whose density looks like g/cm^3 or whose speed looks like km/s: a
 /// density below 30 with a speed of sound above that of any gas, or a speed below 20.
 std::vector<std::string> unit_warnings(std::span<const Material> materials);

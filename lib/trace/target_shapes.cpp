@@ -6,9 +6,8 @@
 #include <span>
 #include <utility>
 
-#include "core/elementary.h"
 #include "core/groups.h"
-#include "core/units.h"
+#include "scene/materials.h"
 
 namespace sonarsim {
 
@@ -79,8 +78,8 @@ void add_copies(const Scene& scene, TargetShapes& out) {
 float least_slope(std::span<const Material> materials, const TargetShape& shape) {
     float least = 1.0F;
     for (const TargetTriangle& triangle : shape.triangles) {
-        const SinCos slope = sincos(radians(materials[triangle.material].slope_rms_deg));
-        if (slope.sin > 0.0) least = std::min(least, static_cast<float>(slope.sin / slope.cos));
+        const auto slope = static_cast<float>(facet_slope(materials[triangle.material]));
+        if (slope > 0.0F) least = std::min(least, slope);
     }
     return least;
 }

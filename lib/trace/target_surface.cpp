@@ -5,6 +5,7 @@
 #include <span>
 #include <utility>
 
+#include "core/elementary.h"
 #include "trace/arrivals.h"
 #include "trace/cut_triangle.h"
 #include "visibility/view_volume.h"
@@ -13,16 +14,24 @@ namespace sonarsim {
 
 namespace {
 
-// A target's size, or that of its highlight, is less than this many resolution cells. Engines take
-// one to a few samples in a cell.
+// A target's size, or that of its highlight, is less than this many resolution cells. An engine
+// takes a sample in a cell or more: of 4 x 4 cells it has the energy to 1 / sqrt(16), 1 dB.
 constexpr float most_cells = 4.0F;
-// Sonars of one or two beams have views that are many times as wide as their beam.
+// The views of sonars of one or two beams are as wide as 3 to 14 beams in the presets: a part of
+// this many is half a beam or less.
 constexpr double least_parts = 32.0;
 // The sonar is outside of the ball around a target.
 constexpr float least_distance_by_radius = 1.05F;
-// Shares of a target's diameter: sizes of the parts whose visibility is found by one ray.
-constexpr float coarsest_part = 1.0F / 8.0F;
-constexpr float finest_part = 1.0F / 16.0F;
+// The size of the parts whose visibility is found by one ray, as a share of a target's diameter. An
+// edge that hides a target is off by up to half a part, which is 0.5 dB where it hides half.
+constexpr float part_by_diameter = 1.0F / 8.0F;
+// Within this many slopes lies the power of a highlight but for exp(-3^2 / 2), a hundredth.
+constexpr float highlight_reach = 3.0F;
+// A highlight of the size a s, a its radius of curvature and s the slope, has parts of this many
+// a s: one ray decides on erf(0.75 / sqrt(2))^2 of its power at most, 0.3.
+constexpr float part_by_highlight = 1.5F;
+// They are no smaller than this share of a resolution cell: an image shows no more of an edge.
+constexpr float least_part_by_cell = 0.25F;
 
 /// The width in which a view resolves directions, or an engine samples them, rad.
 double resolved_width(const View& view) {
@@ -70,8 +79,7 @@ class TargetSampler {
         // On a coarse mesh an engine sees facets where the surface is curved.
         const bool is_smooth = shape.turn <= placed.least_slope;
         if (highlight > most_cells * cell && is_smooth) return std::nullopt;
-        const float part =
-            std::clamp(0.5F * cell, finest_part * 2.0F * radius, coarsest_part * 2.0F * radius);
+        const float part = part_by_diameter * 2.0F * radius;
         return Target{
             &placed, &shape, T_sensor_shape, scale, cell, part, contained == Containment::inside};
     }
@@ -127,7 +135,9 @@ class TargetSampler {
     };
 
     static bool is_reached(const Aim& aim, const Intersection& hit) {
-        if (!std::isfinite(hit.distance_m)) return true;  // it slipped past the edge of the part
+        // Nothing is in the way: the ray slipped past the outline of the target, where vertices
+        // were moved to join them.
+        if (!std::isfinite(hit.distance_m)) return true;
         const float slack = (hit.rounding_m + aim.slack_m) / std::max(aim.cosine, 1e-3F);
         return hit.distance_m + slack >= aim.range_m;
     }
@@ -139,18 +149,24 @@ class TargetSampler {
             if (angle > half + beside) return Containment::outside;
             return angle + beside < half ? Containment::inside : Containment::partly;
         };
-        const float beside = std::asin(radius / range);
+        const auto angle = [](float height, float ahead) {
+            return std::fabs(arctan2_float(height, ahead));
+        };
+        // The angle between the middle of a ball and its edge.
+        const auto beside = [&](float distance) {
+            return angle(radius, std::sqrt(distance * distance - radius * radius));
+        };
+        const float ground = std::sqrt(centre.x() * centre.x() + centre.y() * centre.y());
         if (view_.shape == ViewShape::cone) {
-            const float off = std::atan2(std::hypot(centre.y(), centre.z()), centre.x());
-            return compare(off, view_.azimuth_rad, beside);
+            const float off = std::sqrt(centre.y() * centre.y() + centre.z() * centre.z());
+            return compare(angle(off, centre.x()), view_.azimuth_rad, beside(range));
         }
-        const float up = std::asin(std::clamp(centre.z() / range, -1.0F, 1.0F));
-        const float ground = std::hypot(centre.x(), centre.y());
-        const Containment by_elevation = compare(std::fabs(up), widened_.elevation_rad, beside);
+        const Containment by_elevation =
+            compare(angle(centre.z(), ground), widened_.elevation_rad, beside(range));
         const Containment by_azimuth =
-            ground <= radius ? Containment::partly
-                             : compare(std::fabs(std::atan2(centre.y(), centre.x())),
-                                       widened_.azimuth_rad, std::asin(radius / ground));
+            ground <= radius
+                ? Containment::partly
+                : compare(angle(centre.y(), centre.x()), widened_.azimuth_rad, beside(ground));
         if (by_elevation == Containment::outside || by_azimuth == Containment::outside)
             return Containment::outside;
         const bool inside =
@@ -169,17 +185,20 @@ class TargetSampler {
         const Eigen::Vector3f u = facet.corners[1] - facet.corners[0];
         const Eigen::Vector3f v = facet.corners[2] - facet.corners[0];
         const float slope = target.placed->least_slope;
-        const FacetTurn turn(facet);
-        const bool glints = facet.curvature_m != 0.0F && turn.least <= 3.0F * slope;
+        std::optional<FacetTurn> turn;
+        if (facet.curvature_m != 0.0F) turn.emplace(facet);
+        const bool glints = turn && turn->least <= highlight_reach * slope;
         const float radius = std::fabs(facet.curvature_m);
-        const float highlight_m = std::clamp(1.5F * radius * slope, 0.25F * target.cell_m,
-                                             std::max(target.part_m, 0.25F * target.cell_m));
+        const float least_m = least_part_by_cell * target.cell_m;
+        const float highlight_m = std::clamp(part_by_highlight * radius * slope, least_m,
+                                             std::max(target.part_m, least_m));
         const float per_turn = glints ? radius / highlight_m : 0.0F;
         const float alike_m = 0.5F * (glints ? highlight_m : target.part_m);
         const float per_part = 1.0F / target.part_m;
         const auto size = [&](float du, float dv) {
-            return std::max(per_part * (du * u + dv * v).norm(),
-                            per_turn * (du * turn.along_u + dv * turn.along_v).norm());
+            const float by_part = per_part * (du * u + dv * v).norm();
+            if (!glints) return by_part;
+            return std::max(by_part, per_turn * (du * turn->along_u + dv * turn->along_v).norm());
         };
         TargetFacet part = facet;
         const auto corner = [&](int to, const TrianglePlace& place) {

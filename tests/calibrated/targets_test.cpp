@@ -289,6 +289,52 @@ TEST_SUITE("calibrated") {
         }
     }
 
+    // A sphere that scatters by Lambert's rule has the echo sin^2(grazing angle) dA, that is
+    // sqrt(1 - y^2 - z^2) dy dz seen from afar, in radii. Beyond y = t it is the integral of
+    // pi / 2 (1 - y^2), a share of 1/2 - (3 t - t^3) / 4.
+    TEST_CASE("targets: a wall hides the share of a rough sphere that lies behind it") {
+        const Sonar sonar = sonar_of(SonarKind::imaging);
+        const double radius = 0.2;
+        const double range = 10.0;
+        const auto energy = [&](const Ball& ball) {
+            return energy_by(with_targets(sonar, ball.scene), ball.scene,
+                             *engine_of(ball.scene, EngineKind::rays));
+        };
+        const Ball open({range, 0.0, 0.0}, radius, 24);
+        const auto without_facets = [](Ball ball) {
+            ball.scene.materials[0].slope_rms_deg = 0.0;
+            return ball;
+        };
+        const double whole = energy(without_facets(open));
+        std::mt19937 random(27);
+        std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+        double squares = 0.0;
+        constexpr int draws = 24;
+        for (int draw = 0; draw < draws; ++draw) {
+            const double edge = 0.5 * uniform(random);
+            const double turn = pi * uniform(random);
+            Ball hidden = without_facets(open);
+            // The wall stands at half of the range and is out of the image's last bins.
+            const auto at = [&](double across, double up) {
+                return Eigen::Vector3f(
+                    static_cast<float>(0.5 * range),
+                    static_cast<float>(across * std::cos(turn) - up * std::sin(turn)),
+                    static_cast<float>(across * std::sin(turn) + up * std::cos(turn)));
+            };
+            const double y = 0.5 * edge * radius;
+            hidden.scene.materials.push_back({.name = "dark", .lambert_db = -200.0});
+            hidden.scene.materials.back().slope_rms_deg = 0.0;
+            add_quad(hidden.scene, at(y, -2.0), at(3.0, -2.0), at(3.0, 2.0), at(y, 2.0), 1);
+            const double expected = 0.5 + 0.25 * (3.0 * edge - edge * edge * edge);
+            const double off = decibels(energy(hidden) / whole / expected);
+            CAPTURE(edge);
+            CAPTURE(turn);
+            CHECK(std::fabs(off) < 1.0);
+            squares += off * off / draws;
+        }
+        CHECK(std::sqrt(squares) < 0.4);
+    }
+
     TEST_CASE("targets: with speckle a small highlight is steady, and energies are right") {
         Sonar sonar = sonar_of(SonarKind::imaging);
         const auto with_speckle = [&](SpeckleMode mode) {
