@@ -1,0 +1,40 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <cstdint>
+
+#include "core/random.h"
+
+namespace sonarsim::test {
+
+/// The draws of one scene, in order.
+class Draws {
+  public:
+    explicit Draws(std::uint32_t number) : number_(number) {}
+
+    float between(float low, float high) { return low + (high - low) * unit_float(word()); }
+    /// Evenly in the logarithm.
+    float scale(float low, float high) {
+        return low * static_cast<float>(power(static_cast<double>(high / low)));
+    }
+    int whole(int low, int high) {
+        return low + static_cast<int>(word() % static_cast<std::uint32_t>(high - low + 1));
+    }
+    bool half() { return (word() & 0x100U) != 0; }
+    Eigen::Vector3f in_ball() {
+        while (true) {
+            const Eigen::Vector3f p(between(-1, 1), between(-1, 1), between(-1, 1));
+            if (p.squaredNorm() <= 1.0F) return p;
+        }
+    }
+
+  private:
+    std::uint32_t word() { return philox({count_++, number_, 0, 0}, {0x6c617474U, 0}).x0; }
+    double power(double base) { return std::pow(base, static_cast<double>(unit_float(word()))); }
+
+    std::uint32_t number_;
+    std::uint32_t count_ = 0;
+};
+
+}  // namespace sonarsim::test

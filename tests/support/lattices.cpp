@@ -1,0 +1,288 @@
+#include "support/lattices.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "core/elementary.h"
+#include "core/units.h"
+#include "support/draws.h"
+#include "validation/shapes.h"
+
+namespace sonarsim::test {
+
+namespace {
+
+using Eigen::Vector3f;
+
+/// Draws one lattice into a scene, about the origin, some two units wide.
+class Builder {
+  public:
+    Builder(Draws& draws, Scene& scene) : draws_(draws), scene_(scene), welded_(draws.half()) {
+        material_ = shapes::add_material(scene, draws.between(0.2F, 0.9F));
+        scene.instances.emplace_back("lattice");
+    }
+
+    /// A prism from a to b. Welded bars that meet in a node share its vertex.
+    void bar(const Vector3f& a, const Vector3f& b, float radius, int sides) {
+        const Vector3f along = b - a;
+        const Vector3f u = along.unitOrthogonal() * radius;
+        const Vector3f v = along.normalized().cross(u);
+        const auto rim = [&](const Vector3f& centre, int k) -> Vector3f {
+            const SinCos at = sincos(2.0 * pi * (k % sides) / sides);
+            return centre + static_cast<float>(at.cos) * u + static_cast<float>(at.sin) * v;
+        };
+        for (int k = 0; k < sides; ++k) {
+            quad(rim(a, k), rim(a, k + 1), rim(b, k + 1), rim(b, k));
+            if (!welded_) continue;
+            triangle(a, rim(a, k), rim(a, k + 1));
+            triangle(b, rim(b, k), rim(b, k + 1));
+        }
+    }
+
+    void quad(const Vector3f& a, const Vector3f& b, const Vector3f& c, const Vector3f& d) {
+        triangle(a, b, c);
+        triangle(a, c, d);
+    }
+
+    /// A girder of four chords with frames and diagonals, as of a crane.
+    void truss() {
+        const int bays = draws_.whole(3, 9);
+        const float half = draws_.between(0.08F, 0.3F);
+        const float radius = draws_.scale(0.004F, 0.03F);
+        const int sides = draws_.whole(3, 8);
+        const auto node = [&](int bay, int k) -> Vector3f {
+            const float x = -1.0F + 2.0F * static_cast<float>(bay) / static_cast<float>(bays);
+            return {x, k == 1 || k == 2 ? half : -half, k >= 2 ? half : -half};
+        };
+        for (int bay = 0; bay <= bays; ++bay) {
+            for (int k = 0; k < 4; ++k) {
+                const int next = (k + 1) % 4;
+                bar(node(bay, k), node(bay, next), radius, sides);
+                if (bay == bays) continue;
+                bar(node(bay, k), node(bay + 1, k), 1.5F * radius, sides);
+                bar(node(bay, bay % 2 == 0 ? k : next), node(bay + 1, bay % 2 == 0 ? next : k),
+                    radius, sides);
+            }
+        }
+    }
+
+    /// A net of ropes that sags and billows.
+    void net() {
+        const int cells = draws_.whole(6, 24);
+        const float radius = draws_.scale(0.001F, 0.01F);
+        const float sag = draws_.between(0.0F, 0.5F);
+        const float slack = draws_.between(0.0F, 0.3F) / static_cast<float>(cells);
+        std::vector<Vector3f> nodes;
+        for (int i = 0; i <= cells; ++i) {
+            for (int j = 0; j <= cells; ++j) {
+                const float y = -1.0F + 2.0F * static_cast<float>(i) / static_cast<float>(cells);
+                const float z = -1.0F + 2.0F * static_cast<float>(j) / static_cast<float>(cells);
+                nodes.push_back(Vector3f(sag * (y * y + 0.5F * z), y, z) +
+                                slack * draws_.in_ball());
+            }
+        }
+        const auto at = [&](int i, int j) -> const Vector3f& { return nodes[i * (cells + 1) + j]; };
+        for (int i = 0; i <= cells; ++i) {
+            for (int j = 0; j <= cells; ++j) {
+                if (i < cells) bar(at(i, j), at(i + 1, j), radius, 3);
+                if (j < cells) bar(at(i, j), at(i, j + 1), radius, 3);
+            }
+        }
+    }
+
+    /// A flight of stairs with rails and posts.
+    void stairs() {
+        const int treads = draws_.whole(6, 20);
+        const float half = draws_.between(0.15F, 0.5F);
+        const float depth = draws_.between(0.8F, 1.6F) / static_cast<float>(treads);
+        const float radius = draws_.scale(0.004F, 0.02F);
+        const auto foot = [&](int k, float side) -> Vector3f {
+            const float t = -1.0F + 2.0F * static_cast<float>(k) / static_cast<float>(treads);
+            return {0.8F * t, side * half, 0.7F * t};
+        };
+        const Vector3f up(0.0F, 0.0F, draws_.between(0.2F, 0.5F));
+        for (int k = 0; k < treads; ++k) {
+            const Vector3f to_back(depth, 0.0F, 0.0F);
+            quad(foot(k, -1), foot(k, 1), foot(k, 1) + to_back, foot(k, -1) + to_back);
+            for (const float side : {-1.0F, 1.0F}) {
+                bar(foot(k, side), foot(k + 1, side), radius, 4);
+                bar(foot(k, side) + up, foot(k + 1, side) + up, radius, 6);
+                bar(foot(k, side), foot(k, side) + up, radius, 6);
+            }
+        }
+    }
+
+    /// Pipes that turn at right angles.
+    void pipes() {
+        const int count = draws_.whole(2, 8);
+        for (int n = 0; n < count; ++n) {
+            Vector3f at = draws_.in_ball();
+            const float radius = draws_.scale(0.006F, 0.08F);
+            const int sides = draws_.whole(6, 14);
+            int axis = draws_.whole(0, 2);
+            for (int k = draws_.whole(3, 7); k > 0; --k) {
+                Vector3f next = at;
+                next[axis] = draws_.between(-1, 1);
+                if ((next - at).norm() < 3.0F * radius) continue;
+                bar(at, next, radius, sides);
+                at = next;
+                axis = (axis + draws_.whole(1, 2)) % 3;
+            }
+        }
+    }
+
+    /// Leaves on stems.
+    void leaves() {
+        const int count = draws_.whole(60, 400);
+        const float length = draws_.scale(0.05F, 0.25F);
+        const float stem = draws_.scale(0.001F, 0.01F);
+        const Vector3f root(0.0F, 0.0F, -1.0F);
+        for (int n = 0; n < count; ++n) {
+            const Vector3f at = draws_.in_ball();
+            const Vector3f along = length * draws_.in_ball().normalized();
+            const Vector3f across =
+                draws_.between(0.1F, 0.4F) * along.cross(draws_.in_ball().normalized());
+            quad(at, at + 0.5F * along + across, at + along, at + 0.5F * along - across);
+            if (n % 8 == 0) bar(root, at, stem, 3);
+        }
+    }
+
+    /// A wheel of two rims with spokes and braces.
+    void wheel() {
+        const int count = draws_.whole(10, 40);
+        const float half = draws_.between(0.03F, 0.2F);
+        const float radius = draws_.scale(0.003F, 0.02F);
+        const auto rim = [&](int k, float side) -> Vector3f {
+            const SinCos at = sincos(2.0 * pi * (k % count) / count);
+            return {side * half, static_cast<float>(at.cos), static_cast<float>(at.sin)};
+        };
+        for (int k = 0; k < count; ++k) {
+            bar(rim(k, -1), rim(k, 1), radius, 5);
+            for (const float side : {-1.0F, 1.0F}) {
+                bar(rim(k, side), rim(k + 1, side), radius, 5);
+                bar({side * half, 0, 0}, rim(k, side), 0.6F * radius, 4);
+                bar(rim(k, side), rim(k + 1, -side), 0.6F * radius, 4);
+            }
+        }
+    }
+
+    /// A ladder with a cage of hoops.
+    void ladder() {
+        const int rungs = draws_.whole(8, 24);
+        const int cage = draws_.whole(6, 12);
+        const float half = draws_.between(0.1F, 0.25F);
+        const float radius = draws_.scale(0.004F, 0.02F);
+        const auto height = [&](int k) -> float {
+            return -1.0F + 2.0F * static_cast<float>(k) / static_cast<float>(rungs);
+        };
+        const auto hoop = [&](int k, int n) -> Vector3f {
+            const SinCos at = sincos(pi * n / cage);
+            return {2.0F * half * static_cast<float>(at.sin), half * static_cast<float>(at.cos),
+                    height(k)};
+        };
+        for (int k = 0; k < rungs; ++k) {
+            bar({0, half, height(k)}, {0, -half, height(k)}, radius, 6);
+            for (int n = 0; n <= cage; ++n) {
+                if (k % 2 == 0 && n < cage) bar(hoop(k, n), hoop(k, n + 1), radius, 4);
+                if (n % 2 == 0) bar(hoop(k, n), hoop(k + 1, n), radius, 4);
+            }
+        }
+    }
+
+  private:
+    void triangle(const Vector3f& a, const Vector3f& b, const Vector3f& c) {
+        const auto first = static_cast<std::uint32_t>(scene_.vertices.size());
+        scene_.vertices.insert(scene_.vertices.end(), {a, b, c});
+        scene_.triangles.push_back({first, first + 1, first + 2});
+        scene_.triangle_material.push_back(material_);
+        scene_.triangle_instance.push_back(0);
+    }
+
+    Draws& draws_;
+    Scene& scene_;
+    bool welded_;
+    std::uint32_t material_ = 0;
+};
+
+using Shape = std::pair<const char*, void (Builder::*)()>;
+constexpr std::array<Shape, 7> shapes_of_lattices{{{"truss", &Builder::truss},
+                                                   {"net", &Builder::net},
+                                                   {"stairs", &Builder::stairs},
+                                                   {"pipes", &Builder::pipes},
+                                                   {"leaves", &Builder::leaves},
+                                                   {"wheel", &Builder::wheel},
+                                                   {"ladder", &Builder::ladder}}};
+
+/// A sonar for things of size `size_m` at `distance_m`.
+SonarConfig draw_sonar(Draws& draws, std::uint32_t number, float size_m, float distance_m) {
+    constexpr std::array kinds{SonarKind::imaging,  SonarKind::profiling, SonarKind::imaging,
+                               SonarKind::sidescan, SonarKind::imaging,   SonarKind::echosounder,
+                               SonarKind::imaging,  SonarKind::scanning};
+    SonarConfig config;
+    config.name = "sonar";
+    config.kind = kinds[number % kinds.size()];
+    config.range_bins = 128;
+    config.azimuth_bins = 64;
+    config.range_min_m = 0.2;
+    config.range_max_m = static_cast<double>(distance_m + draws.between(0.8F, 1.5F) * size_m);
+    config.azimuth_deg = static_cast<double>(draws.between(30.0F, 90.0F));
+    config.elevation_deg = static_cast<double>(draws.between(10.0F, 25.0F));
+    if (config.kind == SonarKind::profiling)
+        config.elevation_deg = static_cast<double>(draws.between(1.0F, 3.0F));
+    if (config.kind == SonarKind::sidescan) {
+        config.azimuth_deg = static_cast<double>(draws.between(100.0F, 160.0F));
+        config.elevation_deg = static_cast<double>(draws.between(0.25F, 1.0F));
+    }
+    if (config.kind == SonarKind::scanning) {
+        config.azimuth_deg = static_cast<double>(draws.between(1.0F, 3.0F));
+        config.sector_deg = config.step_deg = 0.01;  // the head looks ahead
+    }
+    config.opening_deg = static_cast<double>(draws.between(10.0F, 50.0F));
+    return config;
+}
+
+}  // namespace
+
+Lattice draw_lattice(std::uint32_t number) {
+    Draws draws(number);
+    Lattice out;
+    out.scene = shapes::empty_scene();
+    const auto& [name, build] = shapes_of_lattices[static_cast<std::size_t>(
+        draws.whole(0, static_cast<int>(shapes_of_lattices.size()) - 1))];
+    out.shape = name;
+    Builder builder(draws, out.scene);
+    (builder.*build)();
+    const float size = draws.scale(0.5F, 4.0F);  // half of its length, m
+    const float distance = size * draws.scale(1.2F, 6.0F);
+    out.sonar = draw_sonar(draws, number, size, distance);
+    // Upright in half of the scenes, so that posts are parallel to the slices.
+    const float yaw = draws.between(-3.14F, 3.14F);
+    Eigen::Quaternionf turn(Eigen::AngleAxisf(yaw, Vector3f::UnitZ()));
+    if (draws.half())
+        turn = Eigen::AngleAxisf(draws.between(0.0F, 3.14F), draws.in_ball().normalized()) * turn;
+    // The lattice stands aside of the boresight by up to half of its own size, or anywhere in a
+    // side-scan's plane.
+    const bool sides = out.sonar.kind == SonarKind::sidescan;
+    const double aside = static_cast<double>(sides ? draws.between(-0.8F, 0.8F) : 0.0F);
+    const SinCos at = sincos(aside);
+    const Vector3f centre =
+        distance * Vector3f(static_cast<float>(at.cos), static_cast<float>(at.sin), 0.0F) +
+        0.5F * size * draws.in_ball();
+    for (Vector3f& p : out.scene.vertices)
+        p = centre + size * (turn * p);
+    if (draws.half()) {
+        const std::uint32_t mud = shapes::add_material(out.scene, 0.2F);
+        const float x = distance + size * draws.between(0.5F, 1.2F);  // a slope behind the lattice
+        const float lean = draws.between(0.0F, 2.0F) * x;
+        const float w = 4.0F * x;
+        shapes::add_quad(out.scene, {x - lean, -w, -w}, {x - lean, w, -w}, {x + lean, w, w},
+                         {x + lean, -w, w}, mud);
+    }
+    return out;
+}
+
+}  // namespace sonarsim::test

@@ -1,0 +1,52 @@
+#include <doctest/doctest.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "support/lattice_errors.h"
+#include "support/sanitized.h"
+#include "validation/image_error.h"
+
+using namespace sonarsim;
+
+TEST_SUITE_BEGIN("lattices");
+
+TEST_CASE("lattices: the distance of a reference's halves is about its error") {
+    // More rays move the image by about as much as the halves of the smaller cast are apart.
+    for (const std::uint32_t number : {2U, 13U}) {
+        const test::Lattice lattice = test::draw_lattice(number);
+        const Reference few = test::lattice_reference(lattice, 200'000);
+        const Reference many = test::lattice_reference(lattice, 1'600'000);
+        CHECK(many.apart < few.apart);
+        const double moved = image_error(few.intensity, many.intensity).relative_l1;
+        CHECK(moved < 1.5 * few.apart);
+        CHECK(moved > 0.5 * few.apart);
+    }
+}
+
+/// Prints the table of docs/performance.md: SONARSIM_LATTICES scenes from number SONARSIM_FIRST on,
+/// with the engine SONARSIM_ENGINE, slices or rays.
+TEST_CASE("table of errors and estimates on drawn lattices" * doctest::skip()) {
+    const auto setting = [](const char* name, const char* otherwise) -> std::string {
+        const char* const text = std::getenv(name);
+        return text != nullptr ? text : otherwise;
+    };
+    const int count = std::stoi(setting("SONARSIM_LATTICES", "20"));
+    const int first = std::stoi(setting("SONARSIM_FIRST", "0"));
+    const bool rays = setting("SONARSIM_ENGINE", "slices") == "rays";
+    std::vector<test::LatticeError> all;
+    for (int i = first; i < first + count; ++i) {
+        const auto number = static_cast<std::uint32_t>(i);
+        const test::Lattice lattice = test::draw_lattice(number);
+        const Reference reference = test::lattice_reference(lattice, 8'000'000);
+        for (const test::LatticeError& error :
+             test::lattice_errors(number, lattice, reference,
+                                  rays ? EngineKind::rays : EngineKind::slices, {0.1, 0.03, 0.01}))
+            all.push_back(error);
+    }
+    std::puts(test::lattice_table(all).c_str());
+}
+
+TEST_SUITE_END();
