@@ -10,7 +10,7 @@ function show_meta() {
   for (const [name, value] of Object.entries(page.datasets[state.dataset].facts)) rows.push([name, value]);
   const own = boxes_of(view(), state.ping).find(box => box[0] === state.selected);
   for (const [name, value] of Object.entries(own ? own[5] : {}))
-    if (name !== 'mask') rows.push([`${data.labels[state.selected].name}: ${name}`, value]);
+    if (name !== 'mask' && name !== 'shadow_bbox') rows.push([`${data.labels[state.selected].name}: ${name}`, value]);
   const table = $('meta');
   table.textContent = '';
   for (const [name, value] of rows) {
@@ -84,6 +84,7 @@ function choose_dataset(k) {
   show_legend();
   choose_sensor(state.sensor);
   choose_view(Math.max(0, sensor().views.findIndex(one => one.title === title)));
+  if (!$('statistics').hidden) show_statistics();
 }
 
 function go(ping) {
@@ -120,6 +121,7 @@ const keys = {
   v: () => choose_view((state.view + 1) % Math.max(1, sensor().views.length)),
   b: () => { $('boxes').checked = !$('boxes').checked; draw_picture(); },
   m: () => { $('masks').checked = !$('masks').checked; draw_picture(); },
+  s: toggle_statistics,
   n: () => step_object(1),
   p: () => step_object(-1),
   Escape: () => select(-1),
@@ -140,6 +142,7 @@ $('bright').oninput = $('boxes').onchange = $('masks').onchange = draw_picture;
 $('follow').onchange = draw_plan;
 window.onresize = () => { draw_picture(); draw_plan(); };
 
+$('switch').onclick = () => { toggle_statistics(); $('switch').blur(); };
 $('next').onclick = () => step_object(1);
 $('previous').onclick = () => step_object(-1);
 $('none').onclick = () => select(-1);
@@ -155,5 +158,6 @@ $('datasets').onchange = () => { choose_dataset(Number($('datasets').value)); $(
 
 document.title = `${page.name} - sonarsim`;
 $('mission').textContent = page.name;
+chosen.whole = page.datasets.length > 1;
 if (page.missing) $('missing').textContent = `${page.missing} variants were not begun when this page was made`;
 choose_dataset(0);
