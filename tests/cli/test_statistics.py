@@ -2,6 +2,7 @@
 import json
 import math
 import pathlib
+import random
 import shutil
 import subprocess
 import sys
@@ -129,6 +130,39 @@ class Statistics(Labelled):
         self.assertEqual(digest(self.out), whole)
         machine = json.loads(self.run_sonarsim("status", "out", "--json").stdout)
         self.assertEqual(machine["labels"], told["all"])
+
+    def test_values_of_annotations(self):
+        """Random values, some on the borders of the histograms, some absent, some ignored."""
+        self.write("variants.yaml", (self.folder / "mission.yaml").read_text() + VARY)
+        self.assertEqual(self.run_sonarsim("render", "variants.yaml").returncode, 0)
+        draw = random.Random(5)
+        borders = json.loads((self.out / "labels/statistics.json").read_text())["edges"]
+        spans = {"range_m": (0, 1200), "visible_share": (0, 1), "contrast_db": (-30, 40)}
+        for path in self.out.glob("variant_*/labels/coco*.json"):
+            lines = path.read_text().split("\n")
+            for k, line in enumerate(lines):
+                if '"bbox"' not in line:
+                    continue
+                sound = line.rstrip(",")
+                annotation = json.loads(sound)
+                del annotation["segmentation"]  # a file of another size would be made anew
+                annotation["iscrowd"] = int(draw.random() < 0.2)
+                for key in draw.sample(list(spans), 2):
+                    value = draw.choice((round(draw.uniform(*spans[key]), 2), draw.choice(borders[key]), None))
+                    annotation[key] = value
+                text = json.dumps(annotation, separators=(",", ":"))
+                self.assertLessEqual(len(text), len(sound))
+                lines[k] = text.ljust(len(sound)) + line[len(sound):]
+            path.write_text("\n".join(lines))
+        shutil.rmtree(self.out / "labels")  # the run makes them anew from those of the variants
+        self.assertEqual(self.run_sonarsim("render", "variants.yaml").returncode, 0)
+        told = self.check(self.out, joined=True)["all"]
+        self.assertGreater(sum(one["ignored"] for one in told["classes"]), 0)
+        for axis in AXES:
+            self.assertGreater(sum(sum(one[axis]) for one in told["classes"]), 0, axis)
+        printed = self.run_sonarsim("status", "out").stdout
+        for title in ("range, m: ", "pixels: ", "visible share: ", "contrast, dB: "):
+            self.assertIn(title, printed)
 
     def test_a_collection(self):
         self.assert_renders("--out", "one")
