@@ -86,6 +86,26 @@ class GalleryLabels(Labelled):
         verified = self.run_sonarsim("verify", "out")
         self.assertEqual(verified.returncode, 0, verified.stderr)
 
+    def test_what_annotations_say_is_on_the_page(self):
+        """Numbers, the side and the box of the shadow, which lies in the picture as boxes do."""
+        self.assert_renders()
+        for name in ("coco_fan", "coco_records"):
+            file = self.out / f"labels/{name}.json"
+            lines = [line.replace('"iscrowd":0', '"iscrowd":1,"range_m":1.23456789,"side":"port",'
+                                  '"contrast_db":null,"shadow_bbox":[1,2,3,4]')
+                     for line in file.read_text().split("\n")]
+            file.write_text("\n".join(lines))
+        sensors = {sensor["name"]: sensor for sensor in dataset_of(self.gallery())["sensors"]}
+        fan = sensors["fls"]["views"][0]["boxes"][0][0][5]
+        self.assertEqual((fan["range_m"], fan["side"], fan["iscrowd"]), (1.2346, "port", 1))
+        self.assertEqual(fan["shadow_bbox"], [1, 2, 3, 4])
+        self.assertNotIn("contrast_db", fan)
+        for name in ("sss", "sounder"):
+            view, = sensors[name]["views"]
+            (left, top), (x, y) = view["origin"], view["pixel"]
+            for box in view["boxes"]:
+                self.assertEqual(box[5]["shadow_bbox"], [left + x, top + 2 * y, 3 * x, 4 * y])
+
     def test_packed_pictures_are_copied_beside_the_page(self):
         self.assert_renders("--out", "loose")
         self.assert_renders("--set", "output.pack=tar")
@@ -230,6 +250,10 @@ class GalleryLabels(Labelled):
         self.assertEqual(window.run("return state.selected"), instance - 1)
         which = window.run("return document.getElementById('which').textContent")
         self.assertEqual(which, f"pillar_2 (pillar): ping 1 of {len(seen)} that show it")
+        first_row = "return [...document.querySelector('#meta tr').cells].map(cell => cell.textContent)"
+        area, = (a["area"] for a in told["annotations"]
+                 if poses.get(a["image_id"]) == seen[0] and a["instance_id"] == instance)
+        self.assertEqual(window.run(first_row), ["pillar_2: area", str(area)])
         steps = []
         for _ in seen:
             steps.append(window.run("return pose()"))

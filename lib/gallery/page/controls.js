@@ -1,16 +1,21 @@
 // What stands beside the picture, buttons and keys.
 
+// What the label of the selected object says at this ping: [name, value].
+function details_of_selected() {
+  const own = boxes_of(view(), state.ping).find(box => box[0] === state.selected);
+  return Object.entries(own ? own[5] : {}).filter(([name]) => name !== 'mask' && name !== 'shadow_bbox')
+    .map(([name, value]) => [`${data.labels[state.selected].name}: ${name}`, value]);
+}
+
 function show_meta() {
   const index = pose();
-  const rows = [['ping', index], ['time', `${track.t[index].toFixed(3)} s`]];
+  const rows = details_of_selected();
+  rows.push(['ping', index], ['time', `${track.t[index].toFixed(3)} s`]);
   for (const name of ['x', 'y', 'z']) rows.push([name, `${track[name][index].toFixed(3)} m`]);
   for (const name of ['roll', 'pitch', 'yaw']) rows.push([name, `${track[name][index].toFixed(2)}°`]);
   for (const [name, values] of Object.entries(sensor().columns))
     rows.push([name, values[state.ping] === null ? 'none' : values[state.ping]]);
   for (const [name, value] of Object.entries(page.datasets[state.dataset].facts)) rows.push([name, value]);
-  const own = boxes_of(view(), state.ping).find(box => box[0] === state.selected);
-  for (const [name, value] of Object.entries(own ? own[5] : {}))
-    if (name !== 'mask' && name !== 'shadow_bbox') rows.push([`${data.labels[state.selected].name}: ${name}`, value]);
   const table = $('meta');
   table.textContent = '';
   for (const [name, value] of rows) {
