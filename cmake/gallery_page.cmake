@@ -2,7 +2,7 @@
 set(SONARSIM_PAGE ${PROJECT_SOURCE_DIR}/lib/gallery/page)
 # One script, in this order.
 set(SONARSIM_PAGE_SCRIPTS data.js boxes.js names.js images.js canvas.js picture.js plan.js
-    objects.js controls.js)
+    objects.js statistics.js controls.js)
 
 function(read_page_files TEXT)
     foreach(PART ${ARGN})

@@ -7,6 +7,7 @@
 #include "assembly/assemble.h"
 #include "checks/survey.h"
 #include "checks/warning.h"
+#include "dataset/coco/statistics.h"
 #include "dataset/sensor_summary.h"
 
 namespace sonarsim {
@@ -71,5 +72,8 @@ bool exceeds_memory(const std::vector<Sonar>& sonars, double available);
 
 /// W27 for a split with a part that gets none of the variants.
 std::vector<Warning> split_warnings(const SplitConfig& config, std::size_t variants);
+
+/// W33 for every class that hardly any picture of a dataset shows.
+std::vector<Warning> class_warnings(const PictureTally& tally);
 
 }  // namespace sonarsim

@@ -1,9 +1,11 @@
 #include "dataset/shared_files.h"
 
 #include <string>
+#include <vector>
 
 #include "core/file.h"
 #include "dataset/coco/coco.h"
+#include "dataset/coco/statistics.h"
 #include "dataset/shared_products.h"
 #include "dataset/split.h"
 
@@ -37,6 +39,7 @@ void write_shared_products(const Layout& layout, const Mission& mission,
     const std::vector<SplitPart> part_of_pose =
         split.is_on() ? split_poses(split, layout.poses)
                       : std::vector<SplitPart>(layout.poses, SplitPart::none);
+    std::vector<std::string> coco_files;  // written so far
     for (const SharedProduct& product : shared_products(mission)) {
         switch (product.kind) {
             case SharedProduct::Kind::coco:
@@ -47,6 +50,7 @@ void write_shared_products(const Layout& layout, const Mission& mission,
                 } else {
                     write_coco(layout, description, product, part_of_pose);
                 }
+                coco_files.push_back(product.file);
                 break;
             case SharedProduct::Kind::class_names:
                 write_file(layout.folder / product.file, class_list(description));
@@ -54,6 +58,9 @@ void write_shared_products(const Layout& layout, const Mission& mission,
             case SharedProduct::Kind::split:
                 write_file(layout.folder / product.file,
                            pose_list(layout, product.part, part_of_pose));
+                break;
+            case SharedProduct::Kind::statistics:
+                write_statistics(layout.folder, coco_files, false);
                 break;
         }
     }

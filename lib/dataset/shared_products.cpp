@@ -67,6 +67,7 @@ std::vector<SharedProduct> shared_products(const Mission& mission) {
         add_coco(mission, CocoPicture::fan, products);
         add_coco(mission, CocoPicture::record, products);
         add_coco(mission, CocoPicture::scan, products);
+        products.push_back({SharedProduct::Kind::statistics, statistics_name});
     }
     if (is_asked(mission, Label::yolo) || is_asked(mission, Label::yolo_polygons)) {
         products.push_back(

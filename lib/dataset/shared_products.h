@@ -19,12 +19,15 @@ enum class CocoPicture {
 
 /// A file that is made of the pings of all sonars once all of them are rendered.
 struct SharedProduct {
-    enum class Kind { coco, class_names, split };
+    enum class Kind { coco, class_names, split, statistics };
     Kind kind;
     std::string file;                  ///< relative to the folder of the dataset
     CocoPicture picture = {};          ///< COCO only: its pictures
     SplitPart part = SplitPart::none;  ///< the poses that it lists; none: all
 };
+
+/// The counts of the annotations in the COCO files, relative to the folder of the dataset.
+inline constexpr const char* statistics_name = "labels/statistics.json";
 
 /// The COCO file of all pictures of a sort, or of a part of the split ("_train"), relative to the
 /// folder of the dataset.

@@ -23,6 +23,11 @@ constexpr std::uint64_t largest_id = std::uint64_t{1} << 52;
 constexpr std::array<std::string_view, 6> known_keys{"id",   "image_id", "category_id",
                                                      "ping", "class",    "instance_id"};
 
+bool is_box(const Json& value) {
+    return value.is_array() && value.size() == 4 &&
+           std::ranges::all_of(value, [](const Json& number) { return number.is_number(); });
+}
+
 Json box_of(const CheckedJson& annotation, const ListedBoxes& picture, const BoxLabels& labels) {
     Json box = {labels.of_instance(annotation.at("instance_id").whole(1, labels.instances))};
     const CheckedJson corners = annotation.at("bbox");
@@ -77,6 +82,8 @@ Json details_of(const CheckedJson& annotation, const CheckedJson& counts, std::u
         counts.refuse("compressed runs of the pixels of the picture");
     Json details = {{"mask", mask}};
     for (const auto& [key, value] : annotation.json().items()) {
+        const bool is_side = key == "side" && value.is_string();
+        if (is_side || (key == "shadow_bbox" && is_box(value))) details[key] = value;
         if (!value.is_number() || std::ranges::find(known_keys, key) != known_keys.end()) continue;
         if (key == "iscrowd" && value == 0) continue;
         details[key] = short_number(value.get<double>());

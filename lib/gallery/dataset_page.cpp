@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <map>
 
 #include "core/error.h"
 #include "core/pose.h"
 #include "core/units.h"
 #include "gallery/boxes.h"
+#include "gallery/label_statistics.h"
 #include "gallery/numbers.h"
 #include "gallery/ping_tables.h"
+#include "gallery/unpack.h"
 #include "gallery/views.h"
 #include "mission/dataset_names.h"
 #include "mission/parse.h"
@@ -132,8 +135,9 @@ Json sensor_json(const fs::path& folder, const Json& sensor, const Sonar& sonar,
 
 }  // namespace
 
-Json dataset_json(const fs::path& folder, const DatasetFile& dataset,
+Json dataset_json(const fs::path& page, const std::string& member, const DatasetFile& dataset,
                   std::vector<std::string>& classes) {
+    const fs::path folder = page / member;
     const Json& description = dataset.json;
     const Mission mission =
         load_mission(folder / mission_name, folder, std::vector<std::string>{}, sonar_keys());
@@ -152,9 +156,15 @@ Json dataset_json(const fs::path& folder, const DatasetFile& dataset,
     }
     const BoxLabels labels(dataset);
     const CocoBoxes boxes = coco_boxes(folder, labels);
+    const std::map<std::string, Json> unpacked = pictures_in_packs(member, dataset);
     Json shown = Json::array();
     for (std::size_t i = 0; i < mission.sensors.size(); ++i) {
-        shown.push_back(sensor_json(folder, sensors[i],
+        Json sensor = sensors[i];
+        const auto own = unpacked.find(sensor.at("name"));
+        if (own != unpacked.end() && sensor.contains("pictures"))
+            sensor["pictures"].insert(sensor["pictures"].begin(), own->second.begin(),
+                                      own->second.end());
+        shown.push_back(sensor_json(folder, sensor,
                                     make_sonar(mission.sensors[i], mission.accuracy, mission.water),
                                     boxes, labels));
     }
@@ -164,6 +174,7 @@ Json dataset_json(const fs::path& folder, const DatasetFile& dataset,
             {"complete", dataset.complete},
             {"poses", dataset.poses},
             {"track", track_json(trajectory)},
+            {"statistics", dataset.complete ? label_statistics(folder) : Json()},
             {"objects", dataset.labels.instances.size()},
             {"labels", labels_json(dataset, classes)},
             {"sensors", std::move(shown)}};

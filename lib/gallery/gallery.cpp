@@ -10,8 +10,10 @@
 #include "dataset/layout.h"
 #include "gallery/content_policy.h"
 #include "gallery/dataset_page.h"
+#include "gallery/label_statistics.h"
 #include "gallery/members.h"
 #include "gallery/page.h"
+#include "gallery/unpack.h"
 
 namespace sonarsim {
 
@@ -47,10 +49,13 @@ GallerySummary write_gallery(const fs::path& folder) {
     std::vector<std::string> classes;
     std::string elements;
     Json datasets = Json::array();
+    bool all_complete = all.missing == 0;
     for (std::size_t k = 0; k < all.members.size(); ++k) {
         const PageMember& member = all.members[k];
         const fs::path inner = folder / member.folder;
-        const Json json = dataset_json(inner, require_dataset(inner), classes);
+        const DatasetFile dataset = require_dataset(inner);
+        all_complete = all_complete && dataset.complete;
+        const Json json = dataset_json(folder, member.folder, dataset, classes);
         for (const Json& sensor : json.at("sensors"))
             summary.pings += sensor.at("pings").get<std::uint64_t>();
         elements += json_element("dataset-" + std::to_string(k), json);
@@ -59,12 +64,21 @@ GallerySummary write_gallery(const fs::path& folder) {
     const Json about = {{"name", all.name},
                         {"missing", all.missing},
                         {"classes", classes},
+                        {"axes", statistics_axes_json()},
+                        {"statistics", all_complete ? label_statistics(folder) : Json()},
                         {"datasets", std::move(datasets)}};
     std::string page(page_html());
     replace(page, "<!--page.css-->", page_css());
     replace(page, "<!--page.js-->", page_js());
     replace(page, "<!--policy-->", content_policy(page));
     replace(page, "<!--data-->", json_element("page", about) + elements);
+    try {
+        for (const PageMember& member : all.members)
+            unpack_pictures(folder, member.folder, require_dataset(folder / member.folder));
+    } catch (const InputError&) {
+        remove_gallery_pictures(folder);
+        throw;
+    }
     write_file(file, page);
     summary.bytes = page.size();
     return summary;

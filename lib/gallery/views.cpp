@@ -14,27 +14,31 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// The boxes of the picture that COCO lists, moved and scaled to the one that is shown.
+/// Moves and scales four numbers, x, y, width, height, from the picture that COCO lists to the one
+/// that is shown.
+void move_box(Json& box, std::size_t first, const Json& picture) {
+    for (std::size_t k = 0; k < 4; ++k) {
+        const bool is_corner = k < 2;
+        const std::size_t axis = k % 2;
+        const double origin = is_corner ? picture.at("origin_px").at(axis).get<double>() : 0.0;
+        Json& number = box.at(first + k);
+        number = origin + number.get<double>() * picture.at("pixel_px").at(axis).get<double>();
+    }
+}
+
 Json boxes_in_view(const Json& boxes, const Json& picture) {
-    Json moved = Json::array();
-    for (const Json& box : boxes) {
-        Json one = {box.at(0)};
-        for (const std::size_t part : {0, 2}) {
-            for (const std::size_t axis : {0, 1}) {
-                const double origin =
-                    part == 0 ? picture.at("origin_px").at(axis).get<double>() : 0.0;
-                one.push_back(origin + box.at(1 + part + axis).get<double>() *
-                                           picture.at("pixel_px").at(axis).get<double>());
-            }
-        }
-        one.push_back(box.at(5));
-        moved.push_back(std::move(one));
+    Json moved = boxes;
+    for (Json& box : moved) {
+        move_box(box, 1, picture);
+        Json& details = box.at(5);
+        if (details.contains("shadow_bbox")) move_box(details["shadow_bbox"], 0, picture);
     }
     return moved;
 }
 
 void add_view_of_pings(const Json& picture, const PingBoxes& boxes, Json& view) {
     view["per"] = "ping";
+    if (picture.value("unpacked", false)) view["unpacked"] = true;
     if (picture.value("ahead", "") == "down") view["turned"] = true;
     if (!picture.contains("boxes_of")) return;
     const PictureBoxes& own = picture["boxes_of"] == "fan" ? boxes.in_fan : boxes.in_image;
@@ -104,8 +108,9 @@ Json views_of(const fs::path& folder, const Json& sensor, const CocoBoxes& coco,
 std::string note_about(const Json& sensor, const Json& views) {
     const auto name = sensor.at("name").get<std::string>();
     if (sensor.contains("packs")) {
-        return "The files of single pings are in tar archives, which a browser does not open: "
-               "there are no pictures and numbers of them here. Render with output.pack: none.";
+        return "The files of single pings are in tar archives. The pictures were copied out of "
+               "them; "
+               "the measurements are not shown.";
     }
     if (!views.empty()) return {};
     if (sensor.at("files").contains("polar")) {

@@ -12,6 +12,7 @@ namespace sonarsim {
 /// them: a list of
 ///
 ///     title, file    a path, with %06d for a number where there are several
+///     unpacked       true: of the archives: the path begins at the folder of the page
 ///     per            "ping": a picture of each; "sweep": of each `pings`; absent: one of all
 ///     turned         row 0 is the nearest range and column 0 starboard: shown upside down, so that
 ///                    port is on the left and ahead is up as in a fan

@@ -68,7 +68,8 @@ std::vector<Member> read_members(const std::vector<fs::path>& parts) {
         return std::tuple(d.mission, d.mission_hash, d.inputs_hash);
     };
     std::ranges::stable_sort(members, {}, key);
-    std::set<std::string> taken{collection_name, checksums_name, labels_folder_name, gallery_name};
+    std::set<std::string> taken{collection_name, checksums_name, labels_folder_name, gallery_name,
+                                gallery_folder_name};
     for (std::size_t k = 0; k < members.size(); ++k) {
         Member& member = members[k];
         if (k > 0 && key(members[k - 1]) == key(member)) {
@@ -175,9 +176,9 @@ std::string write_labels(const fs::path& out, const std::vector<Member>& members
     std::vector<std::string> classes;
     for (const Json& one : description.at("classes"))
         classes.push_back(one.at("name"));
-    write_joined_coco(out, joined, classes, collection_format);
+    write_joined_labels(out, joined, classes, collection_format);
     std::string sums;
-    for (const std::string& file : joined_coco_files(joined))
+    for (const std::string& file : joined_label_files(joined))
         sums += checksum_line(sha256_of_file(out / file), file);
     return sums;
 }

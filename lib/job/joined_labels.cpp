@@ -44,15 +44,15 @@ bool are_whole(const fs::path& folder, const std::vector<std::string>& files) {
 }  // namespace
 
 std::vector<std::string> label_files_of(const Json& json, std::span<const fs::path> variants) {
-    return joined_coco_files(members_of(json, variants));
+    return joined_label_files(members_of(json, variants));
 }
 
 void write_label_files(const fs::path& folder, const Json& json, std::span<const fs::path> variants,
                        const std::string& sums) {
     const std::vector<CocoMember> members = members_of(json, variants);
-    const std::vector<std::string> files = joined_coco_files(members);
+    const std::vector<std::string> files = joined_label_files(members);
     if (files.empty() || are_whole(folder, files)) return;
-    write_joined_coco(folder, members, classes_of(members), json.at("mission"));
+    write_joined_labels(folder, members, classes_of(members), json.at("mission"));
     std::string all = sums;
     for (const std::string& file : files)
         all += checksum_line(sha256_of_file(folder / file), file);
@@ -61,7 +61,7 @@ void write_label_files(const fs::path& folder, const Json& json, std::span<const
 }
 
 void remove_label_files(const fs::path& folder) {
-    for (const std::string& file : all_coco_files())
+    for (const std::string& file : all_joined_label_files())
         fs::remove(folder / file);
     std::error_code not_empty;
     fs::remove(folder / labels_folder_name, not_empty);

@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-// The COCO files in the folder above the variants of a mission: each sort of pictures of all of
-// them, and of each part of the split.
+// The label files in the folder above the variants of a mission: COCO files of each sort of
+// pictures of all variants and of each part of the split, and statistics.json.
 
 namespace sonarsim {
 
-/// The COCO files above these variants, which must be complete. `json` is their variants.json.
+/// The label files above these variants, which must be complete. `json` is their variants.json.
 std::vector<std::string> label_files_of(const nlohmann::ordered_json& json,
                                         std::span<const std::filesystem::path> variants);
 

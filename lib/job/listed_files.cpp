@@ -123,7 +123,7 @@ void remove_listed_files(const fs::path& folder, const Json& description,
     for (const fs::path& inner : folders) {
         if (fs::is_empty(inner)) fs::remove(inner);
     }
-    if (has_gallery(folder)) fs::remove(folder / gallery_name);  // it shows files that are gone
+    remove_gallery(folder);  // it shows files that are gone
     // Last: by this file the folder is recognised, and the removal can be run again.
     fs::remove(folder / description_name);
 }

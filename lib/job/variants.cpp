@@ -51,7 +51,7 @@ void remove_variant(const fs::path& folder, const Mission& mission) {
 /// Removes the files beside the variants. variants.json stays: the folder is recognised by it.
 void remove_files_beside(const fs::path& folder) {
     fs::remove(folder / checksums_name);
-    if (has_gallery(folder)) fs::remove(folder / gallery_name);  // it shows files that are gone
+    remove_gallery(folder);  // it shows files that are gone
     for (const std::string_view part : split_part_names)
         fs::remove(folder / split_file_of(part));
     std::error_code not_empty;

@@ -101,7 +101,7 @@ class Gallery(Sandbox):
     def test_what_the_page_cannot_show_is_told(self):
         self.assert_renders("--set", "output.pack=tar", "--set", "output.labels=false")
         notes = [s["note"] for s in dataset_in(self.gallery())["sensors"]]
-        self.assertIn("Render with output.pack: none", notes[0])
+        self.assertIn("The pictures were copied out of them", notes[0])
         self.assert_renders("--overwrite", "--set", "output.fan=false", "--set", "output.image=false",
                             "--set", "output.labels=false")
         notes = [s["note"] for s in dataset_in(self.gallery())["sensors"]]

@@ -25,6 +25,10 @@ def json_in(page, element):
     return json.loads(text.group(1))
 
 
+def dataset_of(page):
+    return json_in(page, "dataset-0")
+
+
 class GalleryLabels(Labelled):
     def setUp(self):
         super().setUp()
@@ -82,6 +86,75 @@ class GalleryLabels(Labelled):
         verified = self.run_sonarsim("verify", "out")
         self.assertEqual(verified.returncode, 0, verified.stderr)
 
+    def test_what_annotations_say_is_on_the_page(self):
+        """Numbers, the side and the box of the shadow, which lies in the picture as boxes do."""
+        self.assert_renders()
+        for name in ("coco_fan", "coco_records"):
+            file = self.out / f"labels/{name}.json"
+            lines = [line.replace('"iscrowd":0', '"iscrowd":1,"range_m":1.23456789,"side":"port",'
+                                  '"contrast_db":null,"shadow_bbox":[1,2,3,4]')
+                     for line in file.read_text().split("\n")]
+            file.write_text("\n".join(lines))
+        sensors = {sensor["name"]: sensor for sensor in dataset_of(self.gallery())["sensors"]}
+        fan = sensors["fls"]["views"][0]["boxes"][0][0][5]
+        self.assertEqual((fan["range_m"], fan["side"], fan["iscrowd"]), (1.2346, "port", 1))
+        self.assertEqual(fan["shadow_bbox"], [1, 2, 3, 4])
+        self.assertNotIn("contrast_db", fan)
+        for name in ("sss", "sounder"):
+            view, = sensors[name]["views"]
+            (left, top), (x, y) = view["origin"], view["pixel"]
+            for box in view["boxes"]:
+                self.assertEqual(box[5]["shadow_bbox"], [left + x, top + 2 * y, 3 * x, 4 * y])
+
+    def test_packed_pictures_are_copied_beside_the_page(self):
+        self.assert_renders("--out", "loose")
+        self.assert_renders("--set", "output.pack=tar")
+        before = digest(self.out)
+        page = self.gallery()
+        copied = self.out / "index_files/fls/fan"
+        for loose in (self.folder / "loose/fls/fan").iterdir():
+            ping = int(loose.stem)
+            self.assertEqual((copied / f"fls-{ping:06}.fan.png").read_bytes(), loose.read_bytes())
+        views = [sensor["views"] for sensor in dataset_of(page)["sensors"]]
+        others = [sensor["views"] for sensor in dataset_of(self.gallery("loose"))["sensors"]]
+        for packed, loose in zip(views, others, strict=True):
+            self.assertEqual(packed[0].get("boxes"), loose[0].get("boxes"))
+        self.assertEqual({name: sums for name, sums in digest(self.out, without=("index.html",)).items()
+                          if not name.startswith("index_files/")}, before)
+        verified = self.run_sonarsim("verify", "out")
+        self.assertEqual(verified.returncode, 0, verified.stderr)
+        self.assertNotIn("index", verified.stderr)
+        self.assert_renders("--overwrite")
+        self.assertFalse((self.out / "index_files").exists())
+
+    def test_packs_that_cannot_be_copied(self):
+        """A damaged archive is refused and leaves nothing; a link is not followed."""
+        self.assert_renders("--set", "output.pack=tar")
+        archive = self.out / "fls/pack/000000.tar"
+        sound = archive.read_bytes()
+        archive.write_bytes(sound[:len(sound) - 2000])
+        self.assert_refused(self.run_sonarsim("gallery", "out"), "000000.tar")
+        self.assertFalse((self.out / "index_files").exists())
+        self.assertFalse((self.out / "index.html").exists())
+        archive.write_bytes(sound)
+        (self.folder / "elsewhere").mkdir()
+        (self.out / "index_files").symlink_to(self.folder / "elsewhere")
+        self.assert_refused(self.run_sonarsim("gallery", "out"), "is a symbolic link")
+        self.assertEqual(list((self.folder / "elsewhere").iterdir()), [])
+
+    @unittest.skipUnless(browser.available(), "Debian's chromium and chromium-driver are not here")
+    def test_packed_variants_in_a_browser(self):
+        self.render_variants("--set", "output.pack=tar")
+        self.gallery()
+        with browser.Browser() as window:
+            window.open(self.out / "index.html")
+            self.assertEqual(window.wait_for(READY), 64)
+            window.press("]")
+            self.assertEqual(window.wait_for(READY), 64)
+            self.assertIn("index_files/variant_0001/fls/fan/", window.run("return url_of(view(), state.ping)"))
+            self.assertIn("pillar_1 (pillar)", window.run("return document.getElementById('seen').textContent"))
+            self.assertEqual(window.complaints(), [])
+
     def test_damaged_labels_are_refused(self):
         """With the file and its line; a page that was there stays."""
         self.assert_renders()
@@ -116,6 +189,7 @@ class GalleryLabels(Labelled):
             self.check_classes(window)
             self.check_objects(window)
             self.check_variants(window)
+            self.check_statistics(window)
             self.assertEqual(window.complaints(), [])
 
     def check_masks(self, window):
@@ -176,6 +250,10 @@ class GalleryLabels(Labelled):
         self.assertEqual(window.run("return state.selected"), instance - 1)
         which = window.run("return document.getElementById('which').textContent")
         self.assertEqual(which, f"pillar_2 (pillar): ping 1 of {len(seen)} that show it")
+        first_row = "return [...document.querySelector('#meta tr').cells].map(cell => cell.textContent)"
+        area, = (a["area"] for a in told["annotations"]
+                 if poses.get(a["image_id"]) == seen[0] and a["instance_id"] == instance)
+        self.assertEqual(window.run(first_row), ["pillar_2: area", str(area)])
         steps = []
         for _ in seen:
             steps.append(window.run("return pose()"))
@@ -198,6 +276,26 @@ class GalleryLabels(Labelled):
         self.assertIn(f"seed {seed},", window.run("return document.getElementById('facts').textContent"))
         link = window.run("return document.querySelector('#meta a').getAttribute('href')")
         self.assertTrue((self.out / link).is_file(), link)
+
+    def check_statistics(self, window):
+        """Those of statistics.json, of all variants and of the one that is chosen."""
+        rows = ("return [...document.querySelector('#tallies table').rows]"
+                ".map(row => [...row.cells].map(cell => cell.textContent))")
+        window.press("s")
+        self.assertTrue(window.run("return document.getElementById('pings').hidden"))
+        for k, folder in enumerate(("", "variant_0002")):
+            window.run(f"document.querySelectorAll('#scopes button')[{k}].click()")
+            told = json.loads((self.out / folder / "labels/statistics.json").read_text())
+            for file in ("", "labels/coco_records.json"):
+                window.run(f"chosen.file = '{file}'; show_statistics()")
+                tally = told["files"][file] if file else told["all"]
+                self.assertEqual(window.run(rows)[1:], [
+                    [one["name"], *(str(one[key]) for key in ("objects", "pictures", "annotations", "ignored"))]
+                    for one in tally["classes"]])
+                self.assertIn(f"{tally['pictures']} pictures, {tally['without_objects']} without an object",
+                              window.run("return document.getElementById('tallies').textContent"))
+        window.press("s")
+        self.assertFalse(window.run("return document.getElementById('pings').hidden"))
 
     @unittest.skipUnless(browser.available(), "Debian's chromium and chromium-driver are not here")
     def test_hostile_names_are_text(self):

@@ -5,6 +5,7 @@
 #include "dataset/coco/coco.h"
 #include "dataset/coco/file.h"
 #include "dataset/coco/reader.h"
+#include "dataset/coco/statistics.h"
 #include "dataset/file_names.h"
 #include "dataset/shared_products.h"
 #include "mission/dataset_names.h"
@@ -62,6 +63,17 @@ Json joined_annotation(const CheckedJson& annotation, const CocoMember& member,
                  {"category_id", category_ids.at(member.classes[category - 1])}});
 }
 
+std::vector<std::string> all_coco_files() {
+    std::vector<std::string> names;
+    for (const CocoPicture picture :
+         {CocoPicture::polar, CocoPicture::fan, CocoPicture::record, CocoPicture::scan}) {
+        names.push_back(coco_file(picture));
+        for (const std::string_view part : split_part_names)
+            names.push_back(coco_file(picture, "_" + std::string(part)));
+    }
+    return names;
+}
+
 }  // namespace
 
 CocoMember coco_member(const DatasetFile& dataset, const std::string& folder, SplitPart part) {
@@ -86,21 +98,17 @@ CocoMember coco_member(const DatasetFile& dataset, const std::string& folder, Sp
     return member;
 }
 
-std::vector<std::string> joined_coco_files(std::span<const CocoMember> members) {
+std::vector<std::string> joined_label_files(std::span<const CocoMember> members) {
     std::vector<std::string> names;
     for (const auto& [name, sources] : joined_files(members))
         names.push_back(name);
+    if (!names.empty()) names.emplace_back(statistics_name);
     return names;
 }
 
-std::vector<std::string> all_coco_files() {
-    std::vector<std::string> names;
-    for (const CocoPicture picture :
-         {CocoPicture::polar, CocoPicture::fan, CocoPicture::record, CocoPicture::scan}) {
-        names.push_back(coco_file(picture));
-        for (const std::string_view part : split_part_names)
-            names.push_back(coco_file(picture, "_" + std::string(part)));
-    }
+std::vector<std::string> all_joined_label_files() {
+    std::vector<std::string> names = all_coco_files();
+    names.emplace_back(statistics_name);
     return names;
 }
 
@@ -114,8 +122,8 @@ std::vector<std::string> classes_of(std::span<const CocoMember> members) {
     return classes;
 }
 
-void write_joined_coco(const fs::path& folder, std::span<const CocoMember> members,
-                       const std::vector<std::string>& classes, const std::string& description) {
+void write_joined_labels(const fs::path& folder, std::span<const CocoMember> members,
+                         const std::vector<std::string>& classes, const std::string& description) {
     if (members.empty()) return;
     Json info = {{"mission", description}, {"program_version", members.front().program_version}};
     std::map<std::string, std::uint64_t> category_ids;
@@ -128,7 +136,9 @@ void write_joined_coco(const fs::path& folder, std::span<const CocoMember> membe
     std::vector<std::uint64_t> offsets{0};
     for (const CocoMember& member : members)
         offsets.push_back(offsets.back() + member.image_ids);
+    std::vector<std::string> written;
     for (const auto& [name, sources] : joined_files(members)) {
+        written.push_back(name);
         fs::create_directories((folder / name).parent_path());
         CocoFile out(folder / name, info);
         for (const char* const list : {"images", "annotations"}) {
@@ -146,6 +156,7 @@ void write_joined_coco(const fs::path& folder, std::span<const CocoMember> membe
         }
         out.finish();
     }
+    if (!written.empty()) write_statistics(folder, written, true);
 }
 
 }  // namespace sonarsim

@@ -27,21 +27,23 @@ struct CocoMember {
 
 CocoMember coco_member(const DatasetFile& dataset, const std::string& folder, SplitPart part);
 
-/// The names of the COCO files of all members: each file that a member has, and for members of a
-/// part of a split "labels/coco_train.json" and so on besides.
-std::vector<std::string> joined_coco_files(std::span<const CocoMember> members);
+/// The names of the joined label files. There is a COCO file for each that a member has, and for
+/// members of a part of a split "labels/coco_train.json" and so on besides; with them there is
+/// statistics.json.
+std::vector<std::string> joined_label_files(std::span<const CocoMember> members);
 
-/// The COCO files that some members may have: every sort of pictures, every part of a split.
-std::vector<std::string> all_coco_files();
+/// All joined label files that some members may have: every sort of pictures, every part of a
+/// split.
+std::vector<std::string> all_joined_label_files();
 
 /// Names in the order in which the members name them first.
 std::vector<std::string> classes_of(std::span<const CocoMember> members);
 
-/// Writes the joined COCO files into `folder`, where the members lie. The categories are `classes`
+/// Writes the joined label files into `folder`, where the members lie. The categories are `classes`
 /// with the ids 1, 2, ...; a category of a member is that of its name. Ids of images grow by the
 /// sum of `image_ids` of the members before, those of annotations by 65536 times that, so that they
 /// are unique in all files. Paths start at `folder`. InputError when a file of a member is damaged.
-void write_joined_coco(const std::filesystem::path& folder, std::span<const CocoMember> members,
-                       const std::vector<std::string>& classes, const std::string& description);
+void write_joined_labels(const std::filesystem::path& folder, std::span<const CocoMember> members,
+                         const std::vector<std::string>& classes, const std::string& description);
 
 }  // namespace sonarsim

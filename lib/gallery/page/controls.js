@@ -1,16 +1,21 @@
 // What stands beside the picture, buttons and keys.
 
+// What the label of the selected object says at this ping: [name, value].
+function details_of_selected() {
+  const own = boxes_of(view(), state.ping).find(box => box[0] === state.selected);
+  return Object.entries(own ? own[5] : {}).filter(([name]) => name !== 'mask' && name !== 'shadow_bbox')
+    .map(([name, value]) => [`${data.labels[state.selected].name}: ${name}`, value]);
+}
+
 function show_meta() {
   const index = pose();
-  const rows = [['ping', index], ['time', `${track.t[index].toFixed(3)} s`]];
+  const rows = details_of_selected();
+  rows.push(['ping', index], ['time', `${track.t[index].toFixed(3)} s`]);
   for (const name of ['x', 'y', 'z']) rows.push([name, `${track[name][index].toFixed(3)} m`]);
   for (const name of ['roll', 'pitch', 'yaw']) rows.push([name, `${track[name][index].toFixed(2)}°`]);
   for (const [name, values] of Object.entries(sensor().columns))
     rows.push([name, values[state.ping] === null ? 'none' : values[state.ping]]);
   for (const [name, value] of Object.entries(page.datasets[state.dataset].facts)) rows.push([name, value]);
-  const own = boxes_of(view(), state.ping).find(box => box[0] === state.selected);
-  for (const [name, value] of Object.entries(own ? own[5] : {}))
-    if (name !== 'mask') rows.push([`${data.labels[state.selected].name}: ${name}`, value]);
   const table = $('meta');
   table.textContent = '';
   for (const [name, value] of rows) {
@@ -84,6 +89,7 @@ function choose_dataset(k) {
   show_legend();
   choose_sensor(state.sensor);
   choose_view(Math.max(0, sensor().views.findIndex(one => one.title === title)));
+  if (!$('statistics').hidden) show_statistics();
 }
 
 function go(ping) {
@@ -120,6 +126,7 @@ const keys = {
   v: () => choose_view((state.view + 1) % Math.max(1, sensor().views.length)),
   b: () => { $('boxes').checked = !$('boxes').checked; draw_picture(); },
   m: () => { $('masks').checked = !$('masks').checked; draw_picture(); },
+  s: toggle_statistics,
   n: () => step_object(1),
   p: () => step_object(-1),
   Escape: () => select(-1),
@@ -140,6 +147,7 @@ $('bright').oninput = $('boxes').onchange = $('masks').onchange = draw_picture;
 $('follow').onchange = draw_plan;
 window.onresize = () => { draw_picture(); draw_plan(); };
 
+$('switch').onclick = () => { toggle_statistics(); $('switch').blur(); };
 $('next').onclick = () => step_object(1);
 $('previous').onclick = () => step_object(-1);
 $('none').onclick = () => select(-1);
@@ -155,5 +163,6 @@ $('datasets').onchange = () => { choose_dataset(Number($('datasets').value)); $(
 
 document.title = `${page.name} - sonarsim`;
 $('mission').textContent = page.name;
+chosen.whole = page.datasets.length > 1;
 if (page.missing) $('missing').textContent = `${page.missing} variants were not begun when this page was made`;
 choose_dataset(0);

@@ -28,9 +28,12 @@ function numbered(pattern, number) {
   return pattern.replace(/%0(\d)d/, (_, digits) => String(number).padStart(Number(digits), '0'));
 }
 
+// Pictures of archives were copied into a folder beside the page.
+const in_page = (shown, file) => shown.unpacked ? file : path_of(file);
+
 // The file that a view shows at a ping.
 function url_of(shown, ping) {
-  if (shown.per === 'ping') return path_of(numbered(shown.file, ping * sensor().every));
+  if (shown.per === 'ping') return in_page(shown, numbered(shown.file, ping * sensor().every));
   if (shown.per === 'sweep') return path_of(numbered(shown.file, Math.floor(ping / shown.pings)));
   return path_of(shown.file);
 }

@@ -18,12 +18,18 @@ function draw_masks(context, boxes, shown) {
   context.globalAlpha = 1;
 }
 
+// The box of a shadow is dashed.
 function draw_boxes(context, boxes, pixel) {
-  for (const [label, x, y, width, height] of boxes) {
+  for (const [label, x, y, width, height, details] of boxes) {
     const is_selected = label === state.selected;
     context.strokeStyle = is_selected ? '#fff' : colour_of(label);
     context.lineWidth = (is_selected ? 3 : 2) * pixel;
     context.strokeRect(x, y, width, height);
+    if (!details.shadow_bbox) continue;
+    context.setLineDash([4 * pixel, 4 * pixel]);
+    context.lineWidth = pixel;
+    context.strokeRect(...details.shadow_bbox);
+    context.setLineDash([]);
   }
 }
 
