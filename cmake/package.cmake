@@ -49,6 +49,8 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libsonarsim-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
     "libeigen3-dev, libembree-dev, libtbb-dev, libspdlog-dev, libyaml-cpp-dev, nlohmann-json3-dev, libtinygltf-dev, zlib1g-dev")
+# The modules that the library loads come with the program.
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS sonarsim)
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "simulator of sonars, as a library
 Headers and a static library, for projects that say find_package(sonarsim)
 in CMake. The package sonarsim holds the program.")

@@ -105,7 +105,7 @@ std::string bytes_of_child(const std::function<void(const ChildOutput&)>& work,
     if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)
         throw InputError("took more than " + std::to_string(limits.cpu_s) + " s");
     if (WIFSIGNALED(status))
-        throw InputError(std::string("ended with \"") + strsignal(WTERMSIG(status)) + "\"");
+        throw InputError(std::string("ended with \"") + sigdescr_np(WTERMSIG(status)) + "\"");
     throw InputError("needed more memory than it may have");
 }
 

@@ -38,7 +38,7 @@ void* module_symbol(const std::string& name, const char* symbol, const std::stri
     }
     void* module = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (module == nullptr) {
-        const char* reason = dlerror();
+        const char* reason = dlerror();  // NOLINT(concurrency-mt-unsafe): glibc has one a thread
         throw InputError(title + " cannot be loaded (" + (reason ? reason : "unknown reason") +
                          "); install " + package);
     }

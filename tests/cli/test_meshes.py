@@ -10,7 +10,7 @@ import subprocess
 import sys
 import unittest
 
-from composed import Composed, box_mesh, gltf
+from composed import Composed, box_mesh, floor_mesh, gltf
 from sandbox import SONARSIM
 
 OBJECT = "{name: a, file: %s, position_m: [5, 0.25, 0.5], rpy_deg: [0, 0, 30]%s}"
@@ -134,6 +134,15 @@ class Meshes(Composed):
             self.assertEqual(result.returncode, 2, result.stderr)
             self.assertIn(fragment, result.stderr)
 
+    def test_no_material(self):
+        """An STL has none: the message names the keys of the mission that give one."""
+        self.put("a.stl", text_stl(*triangles_of(box_mesh())))
+        self.objects([OBJECT % ("a.stl", "")])
+        self.refused("mission.yaml:7:7: 'a' has no material in ", "a.stl; write material: NAME for an object",
+                     "scene.material_default")
+        self.scene("  file: a.stl\n  materials: materials.csv\n  material_default: steel\n")
+        self.succeeds("validate", "mission.yaml")
+
     def test_the_anchor_of_the_scripts(self):
         """An OBJ in millimetres with z up, of several groups, resting on the bottom."""
         scripts = pathlib.Path(__file__).resolve().parents[2] / "scripts"
@@ -167,6 +176,12 @@ class Meshes(Composed):
         for code in ("W12", "W17"):
             self.assertRegex(result.stderr, code + r" .*; 'a' is 900 m long: millimetres\? units: mm\n")
         self.assertRegex(result.stderr, r"W01 .*drum.stl lies on its side .* up: z")
+        self.write("floor.gltf", gltf([{"name": "floor", "mesh": 0}], [floor_mesh(2000.0)]))
+        self.scene("  file: floor.gltf\n  materials: materials.csv\n")
+        result = self.run_sonarsim("validate", "mission.yaml")
+        for code in ("W04", "W12", "W17"):
+            self.assertRegex(result.stderr,
+                             code + r" .*; the scene is 4000 m long: millimetres\? units: mm\n")
         self.objects(["{name: a, units: mm, up: z, " + keys + "}"])
         self.edit("mission.yaml", "far.csv", "path.csv")
         result = self.run_sonarsim("validate", "mission.yaml")
@@ -190,6 +205,12 @@ class Meshes(Composed):
                 self.put(name, content)
                 self.objects([OBJECT % (name, ", material: steel")])
                 self.refused(name, *fragments)
+
+    def test_names_in_any_encoding(self):
+        """Latin-1 and control characters become text that JSON and a terminal can have."""
+        self.put("a.obj", obj(*triangles_of(box_mesh())).encode().replace(b"o crate", b"o Stra\xdfe\x1b[2J"))
+        told = json.loads(self.succeeds("inspect", "a.obj", "--json").stdout)
+        self.assertEqual(told["instances"], [{"name": "Stra\\xdfe\\x1b[2J", "triangles": 12}])
 
     def test_an_mtl_is_not_read(self):
         """Nothing in the file can name another that is then opened."""

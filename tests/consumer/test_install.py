@@ -23,7 +23,7 @@ def main(build, compiler):
                      "share/sonarsim/scenes/tank.glb", "share/man/man1/sonarsim.1.gz",
                      "share/bash-completion/completions/sonarsim", "share/sonarsim/mission.schema.json",
                      "share/sonarsim/scripts/sonarsim_data.py",
-                     "share/sonarsim/scripts/slurm/render.sh"):
+                     "share/sonarsim/scripts/slurm/render.sh", "lib/sonarsim/libsonarsim_meshes.so"):
             assert (prefix / name).exists(), f"not installed: {name}"
         package = prefix / "lib/python3/dist-packages/sonarsim"
         if (pathlib.Path(build) / "python/sonarsim").exists():
@@ -31,6 +31,9 @@ def main(build, compiler):
                 assert (package / name).exists(), f"not installed: {name}"
             assert len(list(package.glob("_sonarsim.*.so"))) == 1, list(package.iterdir())
         run(prefix / "bin/sonarsim", "validate", prefix / "share/sonarsim/configs/tank_imaging.yaml")
+        # It finds its module wherever the folders lie.
+        run(sys.executable, "-B", prefix / "share/sonarsim/scripts/make_scenes.py", "anchor", "--out", folder)
+        assert "shackle" in run(prefix / "bin/sonarsim", "inspect", pathlib.Path(folder, "anchor.obj"))
         run("cmake", "-S", consumer, "-B", own, f"-DCMAKE_PREFIX_PATH={prefix}",
             f"-DCMAKE_CXX_COMPILER={compiler}", "-DCMAKE_BUILD_TYPE=Release",
             "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON")

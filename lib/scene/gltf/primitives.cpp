@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "scene/meshes/read_mesh.h"
 
 namespace sonarsim {
 
@@ -47,6 +48,12 @@ std::string material_name(const PlacedPrimitive& primitive, const MaterialRules&
     if (!rules.fallback.empty() && !rules.known.contains(name)) return rules.fallback;
     if (!name.empty()) return name;
     if (rules.nameless_allowed) return "(no material)";
+    if (is_mesh_file(placed.file)) {
+        throw InputError(placed.place, "'" + printable(primitive.mesh.instance) +
+                                           "' has no material in " + placed.file.string() +
+                                           "; write material: NAME for an object, or "
+                                           "scene.material_default for all that have none");
+    }
     throw InputError(primitive.where + " of node '" + primitive.mesh.instance + "': " +
                      (primitive.material < 0 ? "has no material" : "its material has no name") +
                      "; name one in the glTF material or as extras.sonar.material of the node");

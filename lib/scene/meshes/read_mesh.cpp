@@ -8,6 +8,7 @@
 #include <fstream>
 #include <string>
 #include <string_view>
+#include <system_error>
 
 #include "core/child_process.h"
 #include "core/error.h"
@@ -96,14 +97,15 @@ std::string parts_of(const std::string& format, std::string_view bytes, const Lo
 /// Makes a model of what the child handed over.
 class ModelBuilder {
   public:
-    explicit ModelBuilder(std::string stem) : stem_(std::move(stem)) {
+    explicit ModelBuilder(const std::filesystem::path& path) : path_(path) {
         model_.buffers.emplace_back();
     }
 
     void add(const PartHead& head, std::string_view& bytes) {
-        std::string name(take(bytes, head.node_bytes));
-        if (name.empty()) name = stem_;
-        const std::string material(take(bytes, head.material_bytes));
+        // Files may have names in any encoding; those of a dataset are UTF-8.
+        std::string name = printable(take(bytes, head.node_bytes));
+        if (name.empty()) name = printable(path_.stem().string());
+        const std::string material = printable(take(bytes, head.material_bytes));
         if (model_.nodes.empty() || model_.nodes.back().name != name) add_node(name);
         auto& primitives = model_.meshes.back().primitives;
         const int positions = add_accessor(take(bytes, head.vertices * vertex_bytes), head.vertices,
@@ -122,8 +124,11 @@ class ModelBuilder {
 
     tinygltf::Model finish() { return std::move(model_); }
 
-    static std::string_view take(std::string_view& bytes, std::size_t count) {
-        if (count > bytes.size()) throw InputError("ended too early");
+    std::string_view take(std::string_view& bytes, std::size_t count) const {
+        if (count > bytes.size()) {
+            throw InputError(Location{path_.string()},
+                             "is damaged: libassimp could not make sense of it; export it again");
+        }
         const std::string_view taken = bytes.substr(0, count);
         bytes.remove_prefix(count);
         return taken;
@@ -162,16 +167,16 @@ class ModelBuilder {
         return static_cast<int>(found - known.begin());
     }
 
-    std::string stem_;
+    const std::filesystem::path& path_;
     tinygltf::Model model_;
 };
 
 tinygltf::Model model_of(std::string_view bytes, const std::filesystem::path& path,
                          const std::string& title) {
-    ModelBuilder builder(path.stem().string());
+    ModelBuilder builder(path);
     for (bool is_empty = true;; is_empty = false) {
         PartHead head;
-        std::memcpy(&head, ModelBuilder::take(bytes, sizeof(head)).data(), sizeof(head));
+        std::memcpy(&head, builder.take(bytes, sizeof(head)).data(), sizeof(head));
         if (head.is_end == 0) {
             builder.add(head, bytes);
             continue;
@@ -179,7 +184,7 @@ tinygltf::Model model_of(std::string_view bytes, const std::filesystem::path& pa
         if (head.node_bytes > 0) {
             throw InputError(Location{path.string()},
                              "is no valid " + title + "; export it again (libassimp says: " +
-                                 printable(ModelBuilder::take(bytes, head.node_bytes)) + ")");
+                                 printable(builder.take(bytes, head.node_bytes)) + ")");
         }
         if (!is_empty) return builder.finish();
         throw InputError(Location{path.string()}, "has no faces; is it an " + title + "?");
@@ -191,6 +196,8 @@ tinygltf::Model model_of(std::string_view bytes, const std::filesystem::path& pa
 bool is_mesh_file(const std::filesystem::path& path) {
     constexpr std::array<std::string_view, 3> formats{"obj", "stl", "ply"};
     if (std::ranges::find(formats, format_of(path)) == formats.end()) return false;
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(path, ignored)) return true;  // read_mesh() says so
     std::array<char, 4> start{};
     std::ifstream(path, std::ios::binary).read(start.data(), start.size());
     return std::string_view(start.data(), start.size()) != "glTF";
