@@ -43,6 +43,7 @@ enum class WarningCode {
     noise_beyond_range = 31,
     thin_fan = 32,
     rare_class = 33,
+    disk_full = 34,
 };
 
 /// A row of the table of all warnings. `what` and `cure` are format strings of the same figures.
