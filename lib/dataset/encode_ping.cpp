@@ -65,8 +65,8 @@ WrittenPing encode_ping(const Assembly& assembly, const Writers& writers, const 
         measured({sonar, assembly.trajectory[id.pose].T_world_vehicle, id.pose, ping}, *engine);
     LabelledPing labels;
     if (plan.on) {
-        labels = label_for_writers(plan, label_ping(traced, sonar.settings, assembly.scene,
-                                                    assembly.objects, *engine, plan.request));
+        labels = label_for_writers(plan, assembly, sonar, *engine, traced, ping,
+                                   assembly.trajectory[id.pose].t_s);
     }
     const FinishedPing finished{
         id, sonar, traced, ping, metadata, out.clipped_pixels, plan.on ? &labels : nullptr};
