@@ -4,8 +4,8 @@
     scripts/draw_labels.py OUT FOLDER [--every N]
 
 Every N-th picture that labels/coco.json and labels/coco_fan.json list, and the waterfalls and echograms
-of labels/coco_records.json, with masks, boxes and names. The dataset needs the label `coco`, this
-script numpy and PIL."""
+of labels/coco_records.json, with masks, boxes and names; boxes of shadows are dark. The dataset needs
+the label `coco`, this script numpy and PIL."""
 import argparse
 import io
 import json
@@ -82,6 +82,9 @@ def draw_coco(out, folder, file, every):
             left, top, width, height = one["bbox"]
             colour = colour_of(one["instance_id"])
             draw.rectangle((left, top, left + width - 1, top + height - 1), outline=colour)
+            if one.get("shadow_bbox"):
+                x, y, w, h = one["shadow_bbox"]
+                draw.rectangle((x, y, x + w - 1, y + h - 1), outline=tuple(c // 2 for c in colour))
             draw.text((left + 2, top + 1), f"{names[one['category_id']]} {one['instance_id']}",
                       fill=colour)
         picture.save(folder / image["file_name"].replace("/", "_").replace(".npy", ".png"))

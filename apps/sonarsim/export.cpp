@@ -137,9 +137,9 @@ void add_export(CLI::App& app, int& exit_code) {
         ->type_name("PIXELS");
     command
         .add_option("--least-pixels", options.least_pixels,
-                    "Objects with fewer pixels in a picture are left out")
-        ->check(CLI::Range(1, 1 << 30))
-        ->capture_default_str();
+                    "Objects with fewer pixels in a picture are left out; default: "
+                    "labels.min_pixels of the dataset")
+        ->check(CLI::Range(1, 1 << 30));
     command
         .add_option("--least-share", options.least_share,
                     "Pieces of an object in a tile below this share of its pixels are left out")

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "assembly/background.h"
 #include "assembly/brightness.h"
 #include "assembly/poses.h"
 #include "assembly/scene_parts.h"
@@ -178,6 +179,7 @@ Assembly assemble(const Mission& mission, SceneFiles& models) {
         for (const ClassConfig& rule : mission.classes)
             rules.push_back({rule.nodes, rule.name, rule.instance, rule.place.location});
         assembly.objects = group_objects(assembly.scene, rules);
+        assembly.objects.background = background_classes(mission, assembly.scene, assembly.objects);
     }
     const std::string refusal = unsupported(settings, assembly.scene);
     if (!refusal.empty()) throw InputError(refusal);

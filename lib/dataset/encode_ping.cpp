@@ -65,8 +65,8 @@ void finish_ping(const Assembly& assembly, const LabelPlan& plan, const Rendered
         measured({sonar, assembly.trajectory[id.pose].T_world_vehicle, id.pose, ping}, *engine);
     LabelledPing labels;
     if (plan.on) {
-        labels = label_for_writers(plan, label_ping(traced, sonar.settings, assembly.scene,
-                                                    assembly.objects, *engine, plan.request));
+        labels = label_for_writers(plan, assembly, sonar, *engine, traced, ping,
+                                   assembly.trajectory[id.pose].t_s);
     }
     use({id, sonar, traced, ping, metadata, clipped, plan.on ? &labels : nullptr});
 }

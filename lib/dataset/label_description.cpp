@@ -1,5 +1,9 @@
 #include "dataset/label_description.h"
 
+#include <algorithm>
+#include <array>
+
+#include "dataset/annotated_objects.h"
 #include "format/id_png.h"
 
 namespace sonarsim {
@@ -12,6 +16,21 @@ Json vector_json(const Eigen::Vector3d& v) {
     return {v.x(), v.y(), v.z()};
 }
 
+template <class T, std::size_t N>
+std::string name_of(T value, const std::array<Choice<T>, N>& choices) {
+    return std::ranges::find(choices, value, &Choice<T>::value)->name;
+}
+
+template <class T, std::size_t N>
+T value_of(const CheckedJson& json, const std::array<Choice<T>, N>& choices) {
+    std::string all;
+    for (const Choice<T>& one : choices) {
+        if (json.text() == one.name) return one.value;
+        all += (all.empty() ? "" : ", ") + std::string(one.name);
+    }
+    json.refuse("one of " + all);
+}
+
 Json box_json(const Eigen::AlignedBox3d& box) {
     if (box.isEmpty()) return nullptr;
     return {{"min", vector_json(box.min())}, {"max", vector_json(box.max())}};
@@ -20,19 +39,8 @@ Json box_json(const Eigen::AlignedBox3d& box) {
 }  // namespace
 
 std::vector<Eigen::AlignedBox3d> object_boxes(const Assembly& assembly) {
-    const Scene& scene = assembly.scene;
-    std::vector<Eigen::AlignedBox3d> boxes(assembly.objects.objects.size());
-    for (std::size_t k = 0; k < scene.triangles.size(); ++k) {
-        Eigen::AlignedBox3d& box = boxes[assembly.objects.object_of(scene.triangle_instance[k])];
-        for (const std::uint32_t vertex : scene.triangles[k])
-            box.extend(scene.origin + scene.vertices[vertex].cast<double>());
-    }
-    for (const MeshCopy& copy : scene.copies) {
-        Eigen::AlignedBox3d& box = boxes[assembly.objects.object_of(copy.instance)];
-        for (const Eigen::Vector3f& vertex : scene.shared_meshes[copy.mesh].vertices)
-            box.extend(copy.T_world_mesh * vertex.cast<double>());
-    }
-    for (const Body& body : scene.bodies)
+    std::vector<Eigen::AlignedBox3d> boxes = still_boxes(assembly);
+    for (const Body& body : assembly.scene.bodies)
         boxes[assembly.objects.object_of(body.instance)].setEmpty();
     return boxes;
 }
@@ -78,6 +86,40 @@ Json describe_label_ids(const Assembly& assembly) {
         json["materials"].push_back({{"id", k + 1}, {"name", assembly.scene.materials[k].name}});
     }
     return json;
+}
+
+Json describe_annotations(const LabelConfig& config, const SceneObjects& objects) {
+    Json background = Json::array();
+    for (std::size_t k = 0; k < objects.background.size(); ++k) {
+        if (objects.background[k] != 0) background.push_back(objects.classes[k]);
+    }
+    return {{"background", std::move(background)},
+            {"min_pixels", static_cast<std::uint64_t>(config.min_pixels)},
+            {"min_visible_share", config.min_visible_share},
+            {"min_contrast_db", config.min_contrast_db},
+            {"faint", name_of(config.faint, faint_objects)},
+            {"box", name_of(config.box, label_boxes)}};
+}
+
+AnnotationRules annotation_rules(const CheckedJson& labels) {
+    AnnotationRules rules;
+    const std::vector<CheckedJson> classes = labels.at("classes").items();
+    rules.background.assign(classes.size(), 0);
+    const std::optional<CheckedJson> told = labels.find("annotations");
+    if (!told) return rules;
+    for (const CheckedJson& name : told->at("background").items()) {
+        const auto found = std::ranges::find_if(
+            classes, [&](const CheckedJson& one) { return one.at("name").text() == name.text(); });
+        if (found == classes.end()) name.refuse("the name of a class");
+        rules.background[static_cast<std::size_t>(found - classes.begin())] = 1;
+    }
+    constexpr std::uint64_t most_pixels = 1'000'000'000;
+    rules.config.min_pixels = static_cast<int>(told->at("min_pixels").whole(1, most_pixels));
+    rules.config.min_visible_share = told->at("min_visible_share").number();
+    rules.config.min_contrast_db = told->at("min_contrast_db").number();
+    rules.config.faint = value_of(told->at("faint"), faint_objects);
+    rules.config.box = value_of(told->at("box"), label_boxes);
+    return rules;
 }
 
 }  // namespace sonarsim

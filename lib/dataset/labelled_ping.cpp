@@ -27,22 +27,39 @@ LabelPlan plan_labels(const Mission& mission, const Assembly& assembly, const So
                     .elevation = asked(Label::elevation),
                     .shadow = asked(Label::shadow),
                     .height = asked(Label::height),
+                    .annotations = masks,
                     .bottom = assembly.bottom.get()};
     plan.polar_masks = has_images && objects;
     plan.fan_masks = has_images && objects && output.fan;
     const bool in_fan = asked(Label::fan) || (output.fan && (objects || asked(Label::semantic)));
     if (has_images && in_fan) plan.fan = make_fan_bins(sonar, output.fan_width_px);
+    plan.seen = asked(Label::objects) || (masks && has_images);
+    if (!masks) return plan;
+    const View& view = sonar.settings.view;
+    if (plan.fan_masks)
+        plan.fan_boxes =
+            bin_boxes(plan.fan, static_cast<std::size_t>(view.beams) * view.range_bins);
+    plan.annotated = annotated_objects(assembly);
     return plan;
 }
 
-LabelledPing label_for_writers(const LabelPlan& plan, PingLabels bins) {
+LabelledPing label_for_writers(const LabelPlan& plan, const Assembly& assembly, const Sonar& sonar,
+                               const VisibilityEngine& engine, const TracedPing& traced,
+                               const Ping& ping, double t_s) {
+    LabelRequest request = plan.request;
+    const std::vector<ObjectSphere> spheres = spheres_at(plan.annotated, assembly, t_s);
+    request.annotated = spheres;
     LabelledPing out;
-    out.bins = std::move(bins);
+    out.bins =
+        label_ping(traced, sonar.settings, assembly.scene, assembly.objects, engine, request);
     out.fan_bins = &plan.fan;
     if (plan.polar_masks) out.polar = object_masks(out.bins.object, out.bins.range_bins);
     if (plan.fan_masks) {
         out.fan = object_masks(fan_values(plan.fan.by_column, out.bins.object, std::uint16_t{0}),
                                plan.fan.frame.height);
+    }
+    if (plan.seen) {
+        out.seen = seen_objects(sonar, assembly.objects, traced, out.bins, ping, plan.fan_boxes);
     }
     return out;
 }

@@ -3,11 +3,13 @@
 #include <vector>
 
 #include "assembly/assemble.h"
+#include "dataset/annotated_objects.h"
 #include "labels/labels.h"
 #include "mission/mission.h"
 #include "ping/sonar.h"
 #include "product/fan_bins.h"
 #include "product/object_masks.h"
+#include "product/object_table.h"
 
 namespace sonarsim {
 
@@ -20,7 +22,10 @@ struct LabelPlan {
     LabelRequest request;
     bool polar_masks = false;
     bool fan_masks = false;
-    FanBins fan;  ///< empty if no label is in the fan
+    FanBins fan;                      ///< empty if no label is in the fan
+    bool seen = false;                ///< a writer needs the table of objects
+    std::vector<PixelBox> fan_boxes;  ///< bin_boxes() of `fan`, for annotations
+    AnnotatedObjects annotated;       ///< empty if nothing is annotated
 };
 LabelPlan plan_labels(const Mission& mission, const Assembly& assembly, const Sonar& sonar);
 
@@ -30,9 +35,12 @@ struct LabelledPing {
     std::vector<ObjectMask> polar;  ///< masks of the objects: rows of range, columns of beams
     std::vector<ObjectMask> fan;    ///< the same in the picture of the fan
     const FanBins* fan_bins = nullptr;
+    std::vector<SeenObject> seen;  ///< sorted by id; empty if no writer needs it
 };
 
-/// `plan` must outlive the result.
-LabelledPing label_for_writers(const LabelPlan& plan, PingLabels bins);
+/// Labels a ping. `plan` must outlive the result.
+LabelledPing label_for_writers(const LabelPlan& plan, const Assembly& assembly, const Sonar& sonar,
+                               const VisibilityEngine& engine, const TracedPing& traced,
+                               const Ping& ping, double t_s);
 
 }  // namespace sonarsim

@@ -147,7 +147,10 @@ Json describe_dataset(const Mission& mission, const Assembly& assembly, const La
                            {"drawn", describe_drawn(mission.variant.drawn)}};
     }
     json["scene"] = describe_scene_use(assembly.scene);
-    if (!mission.output.labels.empty()) json["labels"] = describe_label_ids(assembly);
+    if (!mission.output.labels.empty()) {
+        json["labels"] = describe_label_ids(assembly);
+        json["labels"]["annotations"] = describe_annotations(mission.labels, assembly.objects);
+    }
     json["sensors"] = describe_sensors(assembly, layout, writers);
     if (!layout.products.empty()) json["products"] = layout.products;
     return json;

@@ -76,6 +76,11 @@ struct PingRecord {  // NOLINT(bugprone-exception-escape): moving JSON throws no
     std::string ids = {};         ///< as in PingFile
 };
 
+// Labels of records that annotations alone need: the shadow of the objects that are no background,
+// and the visible share of the object of a bin, 65535 for all of it.
+inline constexpr const char* object_shadow_record = "object_shadow";
+inline constexpr const char* visible_share_record = "visible_share";
+
 /// A file that is made of the records of all pings.
 struct Product {
     std::string file;

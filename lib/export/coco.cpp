@@ -33,6 +33,12 @@ class CocoExport final : public ExportFormat {
             annotation.image_id = image_id;
             annotation.instance = object.mask.id;
             annotation.category = object.class_number;
+            annotation.is_crowd = object.is_crowd;
+            annotation.seen = object.seen;
+            annotation.left = object.box.left;
+            annotation.top = object.box.top;
+            annotation.width = object.box.right - object.box.left;
+            annotation.height = object.box.bottom - object.box.top;
             Json json = annotation_json(annotation);
             if (context_.options.polygons) json["segmentation"] = polygons_of(object.mask, picture);
             lists.annotations.push_back(std::move(json));

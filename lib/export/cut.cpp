@@ -66,6 +66,19 @@ void for_each_run(std::span<const std::uint32_t> runs, int height, int from, int
 
 }  // namespace
 
+PixelBox box_of(const ObjectMask& mask) {
+    return {mask.left, mask.right, mask.top, mask.bottom};
+}
+
+std::optional<PixelBox> cut_box(const PixelBox& box, const Frame& frame, int from, int to) {
+    const PixelBox cut{std::max({box.left, frame.left, from}) - frame.left,
+                       std::min({box.right, frame.right, to}) - frame.left,
+                       std::max(box.top, frame.top) - frame.top,
+                       std::min(box.bottom, frame.bottom) - frame.top};
+    if (cut.left >= cut.right || cut.top >= cut.bottom) return std::nullopt;
+    return cut;
+}
+
 ObjectMask mask_of_runs(std::span<const std::uint32_t> runs, int height) {
     std::uint64_t pixels = 0;
     for (const std::uint32_t run : runs)

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "product/annotation.h"
 #include "product/object_masks.h"
 
 namespace sonarsim {
@@ -15,6 +17,13 @@ struct Frame {
     int width() const { return right - left; }
     int height() const { return bottom - top; }
 };
+
+/// The box of a mask.
+PixelBox box_of(const ObjectMask& mask);
+
+/// The part of a box that lies in `frame` and in the columns [from, to), in pixels of the frame;
+/// nothing if none does.
+std::optional<PixelBox> cut_box(const PixelBox& box, const Frame& frame, int from, int to);
 
 /// The mask of runs in a picture of this height, px, with its box and area. Its id is 0.
 ObjectMask mask_of_runs(std::span<const std::uint32_t> runs, int height);

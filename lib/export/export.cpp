@@ -91,8 +91,10 @@ ExportSummary export_dataset(const fs::path& folder, const fs::path& dest,
                                   format->add(one);
                                   ++summary.pictures[part_text(one.part)];
                                   summary.without_objects += one.objects.empty();
-                                  for (const SourceObject& object : one.objects)
+                                  for (const SourceObject& object : one.objects) {
+                                      if (object.is_crowd) continue;
                                       ++summary.objects[source.classes[object.class_number - 1]];
+                                  }
                               });
             if (progress) progress(++done, total);
         }

@@ -18,8 +18,8 @@ inline nlohmann::ordered_json objects_json(const ExportedPicture& picture) {
     for (const SourceObject& object : picture.objects) {
         const ObjectMask& mask = object.mask;
         json["id"].push_back(mask.id);
-        json["bbox"].push_back(
-            Json{mask.left, mask.top, mask.right - mask.left, mask.bottom - mask.top});
+        const PixelBox& box = object.box;
+        json["bbox"].push_back(Json{box.left, box.top, box.right - box.left, box.bottom - box.top});
         json["area"].push_back(mask.area);
         json["categories"].push_back(object.class_number - 1);
     }

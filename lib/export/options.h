@@ -19,7 +19,7 @@ struct ExportOptions {
     int tile_px = 0;           ///< side of the tiles of waterfalls, echograms, scans; 0: whole
     int overlap_px = 0;        ///< pixels that neighbouring tiles share
     double least_share = 0.2;  ///< the share of an object's pixels that a tile must show
-    int least_pixels = 1;      ///< the pixels that an object must have
+    int least_pixels = 0;      ///< the pixels that an object must have; 0: as in the dataset
     std::string licence = "unknown";  ///< the licence of the data, for the card of an image folder
 };
 

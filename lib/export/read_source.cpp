@@ -60,7 +60,14 @@ SourceDataset describe_source(const Place& place, const ExportOptions& options) 
                          "has no label 'coco', from which objects are exported; set output.labels: "
                          "[coco] and render it again");
     }
-    SourceDataset dataset{place.folder, place.name, {}, file.labels.classes, {}, {}};
+    const std::string told = (place.folder / description_name).string();
+    SourceDataset dataset{.folder = place.folder,
+                          .name = place.name,
+                          .told = {},
+                          .classes = file.labels.classes,
+                          .rules = annotation_rules({file.json.at("labels"), told}),
+                          .coco_files = {},
+                          .pictures = {}};
     dataset.told = {{"folder", place.name},
                     {"mission", file.mission},
                     {"mission_hash", file.mission_hash},
@@ -69,6 +76,10 @@ SourceDataset describe_source(const Place& place, const ExportOptions& options) 
                     {"program_version", file.json.at("program_version")},
                     {"sha256sums", sha256_of_file(sums)}};
     add_pictures(file, place.part, options, dataset);
+    for (SourcePicture& picture : dataset.pictures) {
+        picture.box = dataset.rules.config.box;
+        picture.min_pixels = dataset.rules.config.min_pixels;
+    }
     return dataset;
 }
 
@@ -85,7 +96,41 @@ void require_known(const std::vector<std::string>& given, const std::vector<std:
     }
 }
 
-/// The mask of an annotation from its runs, which must agree with its box and area.
+Json json_of(const PixelBox& box) {
+    return {box.left, box.top, box.right - box.left, box.bottom - box.top};
+}
+
+std::optional<double> number_or_none(const CheckedJson& annotation, const char* key) {
+    const auto found = annotation.find(key);
+    if (!found || found->json().is_null()) return std::nullopt;
+    return found->number();
+}
+
+/// The facts of an object in an annotation; older versions have none.
+SeenFacts facts_of(const CheckedJson& annotation, const SourcePicture& picture) {
+    SeenFacts seen;
+    seen.range_m = number_or_none(annotation, "range_m");
+    seen.bearing_deg = number_or_none(annotation, "bearing_deg");
+    seen.contrast_db = number_or_none(annotation, "contrast_db");
+    seen.visible_share = number_or_none(annotation, "visible_share");
+    seen.shadow_contrast_db = number_or_none(annotation, "shadow_contrast_db");
+    if (const auto side = annotation.find("side"))
+        seen.side = side->text() == "port" ? "port" : "starboard";
+    const auto shadow = annotation.find("shadow_bbox");
+    if (!shadow || shadow->json().is_null()) return seen;
+    const std::vector<CheckedJson> numbers = shadow->items();
+    if (numbers.size() != 4) shadow->refuse("left, top, width and height");
+    const auto width = static_cast<std::uint64_t>(picture.width);
+    const auto height = static_cast<std::uint64_t>(picture.height);
+    const std::uint64_t left = numbers[0].whole(0, width - 1);
+    const std::uint64_t top = numbers[1].whole(0, height - 1);
+    seen.shadow =
+        PixelBox{static_cast<int>(left), static_cast<int>(left + numbers[2].whole(1, width - left)),
+                 static_cast<int>(top), static_cast<int>(top + numbers[3].whole(1, height - top))};
+    return seen;
+}
+
+/// The mask of an annotation from its runs, which must agree with its area.
 ObjectMask mask_of(const CheckedJson& annotation, const SourcePicture& picture) {
     const CheckedJson segmentation = annotation.at("segmentation");
     const CheckedJson counts = segmentation.at("counts");
@@ -97,22 +142,42 @@ ObjectMask mask_of(const CheckedJson& annotation, const SourcePicture& picture) 
     if (const auto runs = coco_runs(counts.text(), pixels))
         mask = mask_of_runs(*runs, picture.height);
     if (mask.area == 0) counts.refuse("compressed runs of the pixels of the picture");
-    const Json box{mask.left, mask.top, mask.right - mask.left, mask.bottom - mask.top};
-    if (annotation.at("bbox").json() != box) annotation.at("bbox").refuse("the box of the mask");
     mask.id = static_cast<std::uint32_t>(annotation.at("instance_id").whole(1, 65535));
     return mask;
+}
+
+/// The object of an annotation, whose box must be that of its mask and shadow.
+SourceObject object_of(const CheckedJson& annotation, const SourcePicture& picture,
+                       int class_number) {
+    SourceObject object;
+    object.class_number = class_number;
+    object.mask = mask_of(annotation, picture);
+    object.is_crowd = annotation.at("iscrowd").whole(0, 1) == 1;
+    object.seen = facts_of(annotation, picture);
+    const std::optional<PixelBox> box =
+        annotation_box(box_of(object.mask), object.seen.shadow, picture.box);
+    if (!box || annotation.at("bbox").json() != json_of(*box))
+        annotation.at("bbox").refuse(picture.box == LabelBox::object ? "the box of the mask"
+                                                                     : "that of mask and shadow");
+    object.box = *box;
+    return object;
 }
 
 }  // namespace
 
 ExportSource read_export_source(const fs::path& folder, const ExportOptions& options) {
     ExportSource source;
-    std::vector<std::string> classes;
+    std::vector<std::string> classes;    // all
+    std::vector<std::string> annotated;  // classes that some dataset annotates
     std::vector<std::string> sensors;
+    const auto add = [](std::vector<std::string>& names, const std::string& name) {
+        if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+    };
     for (const Place& place : places_in(folder)) {
         SourceDataset& dataset = source.datasets.emplace_back(describe_source(place, options));
-        for (const std::string& name : dataset.classes) {
-            if (std::ranges::find(classes, name) == classes.end()) classes.push_back(name);
+        for (std::size_t k = 0; k < dataset.classes.size(); ++k) {
+            add(classes, dataset.classes[k]);
+            if (!dataset.rules.is_background(k)) add(annotated, dataset.classes[k]);
         }
         for (const DescribedSensor& sensor : require_dataset(place.folder).sensors)
             sensors.push_back(sensor.name);
@@ -121,7 +186,12 @@ ExportSource read_export_source(const fs::path& folder, const ExportOptions& opt
     sensors.erase(std::unique(sensors.begin(), sensors.end()), sensors.end());
     require_known(options.sensors, sensors, "--sensor");
     require_known(options.without, classes, "--without");
-    for (const std::string& name : classes) {
+    if (annotated.empty()) {
+        throw InputError({folder.string()},
+                         "annotates no class: each is background by labels.background of its "
+                         "mission; [none] there annotates all");
+    }
+    for (const std::string& name : annotated) {
         const bool is_left_out = std::ranges::find(options.without, name) != options.without.end();
         if (!is_left_out) source.classes.push_back(name);
     }
@@ -153,7 +223,7 @@ std::map<std::uint64_t, std::vector<SourceObject>> read_source_objects(
             const auto picture = pictures.find(id);
             if (picture == pictures.end()) return;  // another sensor shows it
             const std::uint64_t class_id = annotation.at("category_id").whole(1, numbers.size());
-            objects[id].push_back({numbers[class_id - 1], mask_of(annotation, *picture->second)});
+            objects[id].push_back(object_of(annotation, *picture->second, numbers[class_id - 1]));
         });
     }
     return objects;

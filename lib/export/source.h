@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "dataset/coco/file.h"
+#include "dataset/label_description.h"
 #include "dataset/split.h"
 #include "product/object_masks.h"
 
@@ -27,6 +29,8 @@ struct SourcePicture {
     double full_scale = 0.0;     ///< intensity that is white, for arrays of intensities
     bool rows_are_pings = true;  ///< in strips; else the columns are
     std::optional<int> nadir;    ///< column at which starboard begins
+    LabelBox box = LabelBox::object;
+    int min_pixels = 1;  ///< the least pixels of an object, by the dataset's own rule
     /// The part of each row or column of pings of a strip; one part for any other picture.
     std::vector<SplitPart> parts;
 };
@@ -37,6 +41,7 @@ struct SourceDataset {
     std::string name;             ///< the name of its folder beside others; empty if it is alone
     nlohmann::ordered_json told;  ///< mission, hashes and version, for the files of an export
     std::vector<std::string> classes;
+    AnnotationRules rules;  ///< that it annotates by
     std::vector<std::string> coco_files;
     std::vector<SourcePicture> pictures;
 };
@@ -52,6 +57,9 @@ struct ExportSource {
 struct SourceObject {
     int class_number = 0;  ///< in ExportSource::classes, from 1 on; 0: is no object
     ObjectMask mask;
+    PixelBox box;  ///< as the dataset's rules have it
+    bool is_crowd = false;
+    SeenFacts seen;  ///< facts of the whole object, with the box of the shadow in the picture
 };
 
 }  // namespace sonarsim

@@ -24,8 +24,9 @@ std::vector<Sided> on_sides(const SourcePicture& source, const std::vector<Sourc
             const ObjectMask part =
                 cut_mask(object.mask, source.height, {0, source.width, 0, source.height},
                          borders[k], borders[k + 1]);
-            if (part.area > 0)
-                sided.push_back({{object.class_number, part}, borders[k], borders[k + 1]});
+            if (part.area == 0) continue;
+            Sided& one = sided.emplace_back(Sided{object, borders[k], borders[k + 1]});
+            one.object.mask = part;
         }
     }
     return sided;
@@ -46,23 +47,32 @@ std::vector<SourceObject> objects_in(const SourcePicture& source, const std::vec
                                      LeftOut& left_out) {
     // A map of classes has pixels of objects of any size.
     const bool is_map = options.kind == ExportKind::masks;
+    const bool has_crowds = is_map || options.kind == ExportKind::coco;
     const double least_share = is_map ? 0.0 : options.least_share;
-    const auto least_pixels = static_cast<std::uint64_t>(is_map ? 1 : options.least_pixels);
+    const int least = options.least_pixels > 0 ? options.least_pixels : source.min_pixels;
+    const auto least_pixels = static_cast<std::uint64_t>(is_map ? 1 : least);
     std::vector<SourceObject> objects;
     for (const Sided& one : sided) {
         const ObjectMask& whole = one.object.mask;
         const bool meets = whole.left < frame.right && whole.right > frame.left &&
                            whole.top < frame.bottom && whole.bottom > frame.top;
-        if (!meets) continue;
+        if (!meets || (one.object.is_crowd && !has_crowds)) continue;
         const ObjectMask piece = cut_mask(whole, source.height, frame, one.from, one.to);
         if (piece.area == 0) continue;
         const bool is_small =
             static_cast<double>(piece.area) < least_share * static_cast<double>(whole.area);
-        if (is_small || piece.area < least_pixels) {
+        SourceObject object = one.object;
+        object.mask = piece;
+        if (const auto whole_shadow = object.seen.shadow)
+            object.seen.shadow = cut_box(*whole_shadow, frame, one.from, one.to);
+        const auto box = annotation_box(box_of(piece), object.seen.shadow, source.box);
+        const bool is_tiny = piece.area < least_pixels && !object.is_crowd;
+        if (is_small || is_tiny || (!box && !is_map)) {
             ++left_out.pieces;
             continue;
         }
-        objects.push_back({one.object.class_number, piece});
+        object.box = box.value_or(box_of(piece));
+        objects.push_back(std::move(object));
     }
     return objects;
 }

@@ -30,7 +30,7 @@ class YoloExport final : public ExportFormat {
         for (const SourceObject& object : picture.objects) {
             text += std::to_string(object.class_number - 1);
             context_.options.polygons ? append_outline_of(text, object.mask, picture)
-                                      : append_box_of(text, object.mask, picture);
+                                      : append_box_of(text, object.box, picture);
             text += '\n';
         }
         const std::filesystem::path labels = context_.folder / "labels" / part;
@@ -60,12 +60,12 @@ class YoloExport final : public ExportFormat {
     }
 
   private:
-    static void append_box_of(std::string& text, const ObjectMask& mask,
+    static void append_box_of(std::string& text, const PixelBox& box,
                               const ExportedPicture& picture) {
-        append_share_of(text, 0.5 * (mask.left + mask.right), picture.width);
-        append_share_of(text, 0.5 * (mask.top + mask.bottom), picture.height);
-        append_share_of(text, mask.right - mask.left, picture.width);
-        append_share_of(text, mask.bottom - mask.top, picture.height);
+        append_share_of(text, 0.5 * (box.left + box.right), picture.width);
+        append_share_of(text, 0.5 * (box.top + box.bottom), picture.height);
+        append_share_of(text, box.right - box.left, picture.width);
+        append_share_of(text, box.bottom - box.top, picture.height);
     }
 
     static void append_outline_of(std::string& text, const ObjectMask& mask,

@@ -1,6 +1,8 @@
 #include "labels/labels.h"
 
 #include <algorithm>
+#include <limits>
+#include <optional>
 
 #include "labels/elevation.h"
 #include "labels/height.h"
@@ -159,12 +161,29 @@ PingLabels blank_labels(const View& view, const LabelRequest& request) {
     if (request.classes) labels.class_id.resize(n);
     if (request.materials) labels.material.resize(n);
     if (request.shadow) labels.shadow.resize(n);
+    if (request.annotations) labels.object_shadow.resize(n);
     if (request.height) labels.height_m.resize(n);
     if (request.elevation) {
         labels.elevation_rad.resize(n);
         labels.elevation_spread_rad.resize(n);
     }
     return labels;
+}
+
+/// Finds the shadows of objects that are no background, and the visible shares of these.
+ShadowFinder find_object_shadows(const TracedPing& traced, const ConeBeams& cones, const View& view,
+                                 const SceneObjects& objects, const VisibilityEngine& engine,
+                                 std::span<const ObjectSphere> annotated,
+                                 std::vector<float>& visible_share) {
+    const ObjectDirections directions(annotated, traced.T_world_sensor, view.range_min_m,
+                                      view.range_max_m);
+    ShadowFinder finder(traced, cones, view, objects, engine, &directions);
+    if (!visible_share.empty()) return finder;
+    visible_share = finder.visible_shares();
+    for (std::uint32_t k = 0; k < visible_share.size(); ++k) {
+        if (objects.is_background(k)) visible_share[k] = std::numeric_limits<float>::quiet_NaN();
+    }
+    return finder;
 }
 
 }  // namespace
@@ -177,8 +196,16 @@ PingLabels label_ping(const TracedPing& traced, const PingSettings& settings, co
     const SurfaceEchoes echoes =
         settings.model->surface_echoes(traced, view, scene, request.elevation || request.height);
     BeamLabeller labeller(echoes, view, objects, request);
-    ShadowFinder shadows(traced, echoes.cones, view, objects, engine, request.shadow);
-    if (request.shadow) labels.visible_share = shadows.visible_shares();
+    std::optional<ShadowFinder> shadows;
+    if (request.shadow) {
+        shadows.emplace(traced, echoes.cones, view, objects, engine);
+        labels.visible_share = shadows->visible_shares();
+    }
+    std::optional<ShadowFinder> object_shadows;
+    if (request.annotations) {
+        object_shadows = find_object_shadows(traced, echoes.cones, view, objects, engine,
+                                             request.annotated, labels.visible_share);
+    }
     const bool shares = request.objects || request.classes || request.materials;
     ElevationFinder elevations(range_bins(view));
     HeightFinder heights(range_bins(view), request.bottom, traced.T_world_sensor);
@@ -188,7 +215,9 @@ PingLabels label_ping(const TracedPing& traced, const PingSettings& settings, co
                                           view.range_bins);
         };
         if (shares) labeller.label(j, labels);
-        if (request.shadow) shadows.find(j, labeller.occupied(j, shares), own(labels.shadow));
+        if (shadows) shadows->find(j, labeller.occupied(j, shares), own(labels.shadow));
+        if (object_shadows)
+            object_shadows->find(j, labeller.occupied(j, shares), own(labels.object_shadow));
         if (request.elevation) {
             elevations.find(echoes.patches_of(j), own(labels.elevation_rad),
                             own(labels.elevation_spread_rad));

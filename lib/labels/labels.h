@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "labels/object_directions.h"
 #include "ping/form_image.h"
 #include "scene/objects.h"
 #include "scene/placing/bottom.h"
@@ -18,6 +20,9 @@ struct LabelRequest {
     bool elevation = false;
     bool shadow = false;
     bool height = false;
+    /// Needs objects: what annotations say of the objects that are no background.
+    bool annotations = false;
+    std::span<const ObjectSphere> annotated = {};  ///< around these objects, for annotations
     const Bottom* bottom = nullptr;  ///< reference of heights; null: nothing has a height
 };
 
@@ -38,7 +43,10 @@ struct PingLabels {
     std::vector<float> elevation_spread_rad;  ///< its standard deviation within the bin, likewise
     std::vector<float> height_m;              ///< above the bottom; NaN where there is none
     std::vector<std::uint16_t> shadow;        ///< the object that hides the surface of a dark bin
-    /// With the shadow, by object: the visible share of its solid angle; NaN for one out of view.
+    /// For annotations: as `shadow`, of the objects that are no background alone.
+    std::vector<std::uint16_t> object_shadow;
+    /// With the shadow or for annotations, by object: the visible share of its solid angle; NaN for
+    /// one out of view and, without the shadow, for background.
     std::vector<float> visible_share;
 
     std::size_t size() const { return static_cast<std::size_t>(range_bins) * beams; }

@@ -48,9 +48,9 @@ bool fill_gaps(std::span<std::uint16_t> ids) {
 }  // namespace
 
 ShadowFinder::ShadowFinder(const TracedPing& traced, const ConeBeams& cones, const View& view,
-                           const SceneObjects& objects, const VisibilityEngine& engine, bool on)
-    : bins_(range_bins(view)) {
-    if (!on) return;
+                           const SceneObjects& objects, const VisibilityEngine& engine,
+                           const ObjectDirections* annotated)
+    : bins_(range_bins(view)), follows_objects_(annotated != nullptr) {
     std::vector<SightLine> lines = sight_lines(traced, cones, view.beams);
     std::vector<WayNode> nodes;
     nodes.reserve(lines.size());
@@ -59,6 +59,13 @@ ShadowFinder::ShadowFinder(const TracedPing& traced, const ConeBeams& cones, con
         nodes.push_back({objects.object_of(line.sample->instance), line.first});
         solid_angles_[nodes.back().object].visible += line.solid_angle;
     }
+    const auto is_shadow = [&](const SightLine& line) {
+        return !annotated || !objects.is_background(nodes[line.first].object);
+    };
+    const auto is_wanted = [&](const SightLine& line) {
+        return is_shadow(line) || annotated->may_lie_behind(line.direction, line.range_m);
+    };
+    std::erase_if(lines, [&](const SightLine& line) { return !is_wanted(line); });
     std::vector<Ray> rays;
     std::vector<Intersection> met;
     const auto range_max = static_cast<float>(view.range_max_m);
@@ -75,24 +82,27 @@ ShadowFinder::ShadowFinder(const TracedPing& traced, const ConeBeams& cones, con
             SightLine line = lines[k];
             line.range_m = line.range_m * (1.0F + step_behind) + met[k].distance_m;
             if (!(line.range_m < range_max)) continue;
-            const Hidden hidden{line.beam, nodes[line.first].object, line.range_m,
-                                half_extent(line, line.range_m, met[k].normal), line.solid_angle};
-            cones.exist() ? add_to_cones(line, hidden, met[k].normal, cones)
-                          : hidden_.push_back(hidden);
+            if (is_shadow(line)) {
+                const Hidden hidden{line.beam, nodes[line.first].object, line.range_m,
+                                    half_extent(line, line.range_m, met[k].normal),
+                                    line.solid_angle};
+                cones.exist() ? add_to_cones(line, hidden, met[k].normal, cones)
+                              : hidden_.push_back(hidden);
+            }
             const std::uint32_t object = objects.object_of(met[k].instance);
             if (!has_met(nodes, line.passed, object)) {
                 solid_angles_[object].hidden += line.solid_angle;
                 nodes.push_back({object, line.passed});
                 line.passed = static_cast<std::uint32_t>(nodes.size() - 1);
             }
-            lines[going_on++] = line;
+            if (is_wanted(line)) lines[going_on++] = line;
         }
         lines.resize(going_on);
     }
     sort_into_beams(view.beams);
     owners_.resize(view.beams);
-    covered_ =
-        cones.exist() ? hidden_bins(view.beams) : engine.covered_bins(view, traced.T_world_sensor);
+    covered_ = cones.exist() || annotated ? hidden_bins(view.beams)
+                                          : engine.covered_bins(view, traced.T_world_sensor);
 }
 
 void ShadowFinder::add_to_cones(const SightLine& line, const Hidden& whole,
@@ -214,6 +224,7 @@ std::span<const std::uint16_t> ShadowFinder::nearest_owners(int j) {
 void ShadowFinder::find(int j, std::span<const std::uint8_t> occupied,
                         std::span<std::uint16_t> shadow) {
     std::ranges::fill(shadow, 0);
+    if (follows_objects_ && beam_begin_[j] == beam_begin_[j + 1]) return;
     const std::uint8_t* covered = &covered_[static_cast<std::size_t>(j) * bins_.count];
     bool dark = false;
     for (int i = 0; i < bins_.count; ++i)

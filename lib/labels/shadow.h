@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "labels/object_directions.h"
 #include "labels/shares.h"
 #include "ping/form_image.h"
 #include "scene/objects.h"
@@ -19,9 +20,12 @@ struct SightLine;
 /// nearest bin in which sight lines end. A body hides its own far side.
 class ShadowFinder {
   public:
-    /// Traces the hidden surface, where `on`. The arguments must outlive the finder.
+    /// Traces the hidden surface. With `annotated` only that which objects that are no background
+    /// hide, or that of these objects, which lie in those directions; this costs little where they
+    /// are small. The arguments must outlive the finder.
     ShadowFinder(const TracedPing& traced, const ConeBeams& cones, const View& view,
-                 const SceneObjects& objects, const VisibilityEngine& engine, bool on);
+                 const SceneObjects& objects, const VisibilityEngine& engine,
+                 const ObjectDirections* annotated = nullptr);
 
     /// Fills `shadow` [range bins] of beam j with 1 + the index of the object that hides, or 0.
     /// `occupied` is 1 for the bins that show surface, else 0.
@@ -64,6 +68,7 @@ class ShadowFinder {
     std::vector<std::uint16_t>& owners(int j);
 
     RangeBins bins_;
+    bool follows_objects_;  ///< covered_ and hidden_ hold the shadows of objects alone
     std::vector<SolidAngles> solid_angles_;  ///< indexed by object
     std::vector<Hidden> hidden_;             ///< all hidden surface, layer by layer
     std::vector<std::uint32_t> beam_begin_;  ///< beams + 1 offsets into `places_`

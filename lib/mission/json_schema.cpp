@@ -56,8 +56,9 @@ class SchemaBuilder {
               Presence presence = Presence::optional) {
         add(key, "text", text_json(), meaning, presence);
     }
-    void texts(const char* key, const std::vector<std::string>&, const char* meaning) {
-        add(key, "list of texts", list_json(text_json(), 0), meaning);
+    void texts(const char* key, const std::vector<std::string>& values, const char* meaning) {
+        add(key, "list of texts", list_json(text_json(), 0), meaning, Presence::optional,
+            values.empty() ? SchemaJson() : SchemaJson(values));
     }
     void renaming(const char* key, const std::vector<std::pair<std::string, std::string>>&,
                   const char* meaning) {

@@ -11,6 +11,7 @@
 #include "core/engine_kind.h"
 #include "mission/echo_models.h"
 #include "mission/instrument.h"
+#include "mission/label_config.h"
 #include "mission/paper_keys.h"
 #include "mission/place.h"
 #include "mission/scene_config.h"
@@ -212,6 +213,7 @@ struct Mission {
     OctreeConfig octree;
     SlicesConfig slices;
     std::vector<ClassConfig> classes;  ///< in the order of the file; the first match applies
+    LabelConfig labels;
     OutputConfig output;
     int variants = 0;              ///< number of datasets to draw; 0: the mission as it stands
     std::vector<VaryConfig> vary;  ///< rules of what is drawn, in the order of the file

@@ -38,7 +38,8 @@ std::string yaml_text(const Json& value) {
     if (!value.is_array() || value.empty()) return value.dump();
     std::string list;
     for (const Json& item : value)
-        list += (list.empty() ? "[" : ", ") + number_text(item.get<double>());
+        list += (list.empty() ? "[" : ", ") +
+                (item.is_string() ? item.get<std::string>() : number_text(item.get<double>()));
     return list + "]";
 }
 

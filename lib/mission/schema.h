@@ -89,6 +89,29 @@ void describe(Visitor& v, ClassConfig& c) {
 }
 
 template <class Visitor>
+void describe(Visitor& v, LabelConfig& c) {
+    v.place(c.place);
+    v.texts("background", c.background,
+            "classes that are never annotated. `auto` stands for the classes of the nodes that "
+            "scene.bottom names and for the class of the largest surface; `none` for no class");
+    v.require(!c.background.empty(), {"background"},
+              "'background' names classes, auto or none; [none] annotates all classes");
+    v.integer("min_pixels", c.min_pixels, between(1, 1e9),
+              "least number of pixels of an annotated object in a picture");
+    v.number("min_visible_share", c.min_visible_share, between(0, 1),
+             "least share of an annotated object that nothing hides");
+    v.number("min_contrast_db", c.min_contrast_db, between(0, 200),
+             "least difference of an annotated object, or of its shadow, from its surroundings, "
+             "brighter or darker; 0 takes all");
+    v.choice("faint", c.faint, faint_objects,
+             "what becomes of objects below these limits: `omit` leaves them out, `crowd` keeps "
+             "them in COCO files with iscrowd: 1, which trainers ignore, and out of YOLO's");
+    v.choice("box", c.box, label_boxes,
+             "the box of an annotation: that of the object, of its shadow or of both; with "
+             "`shadow` an object without one has no annotation");
+}
+
+template <class Visitor>
 void describe(Visitor& v, Mission& c) {
     v.text("name", c.name, "name of the dataset; default: the name of the mission's file");
     v.require(is_folder_name(c.name), {"name"},
@@ -111,6 +134,8 @@ void describe(Visitor& v, Mission& c) {
     v.list("classes", c.classes, 0,
            "rules that give nodes of the scene a class, for labels; the first rule that fits a "
            "node applies");
+    v.section("labels", c.labels,
+              "which objects are annotated in COCO files and for YOLO, and how");
     v.section("output", c.output, "what is written, and where");
     v.integer("variants", c.variants, between(0, 1e6),
               "number of variants of the mission, each a dataset with a seed of its own; 0 renders "

@@ -41,4 +41,16 @@ FanBins make_fan_bins(const Sonar& sonar, int width_px) {
     return fan;
 }
 
+std::vector<PixelBox> bin_boxes(const FanBins& fan, std::size_t bins) {
+    std::vector<PixelBox> boxes(bins);
+    for (int row = 0; row < fan.frame.height; ++row) {
+        for (int column = 0; column < fan.frame.width; ++column) {
+            const std::int32_t bin =
+                fan.by_row[static_cast<std::size_t>(row) * fan.frame.width + column];
+            if (bin >= 0) extend(boxes[static_cast<std::size_t>(bin)], column, row);
+        }
+    }
+    return boxes;
+}
+
 }  // namespace sonarsim

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "product/annotation.h"
 #include "product/fan.h"
 
 namespace sonarsim {
@@ -18,6 +20,10 @@ struct FanBins {
 
 /// Makes the bins for the same fan as make_fan_map().
 FanBins make_fan_bins(const Sonar& sonar, int width_px);
+
+/// The pixels of each of a ping's bins: the box around them, empty (left = right) for a bin between
+/// pixels.
+std::vector<PixelBox> bin_boxes(const FanBins& fan, std::size_t bins);
 
 /// The values of `by_beam` [beams, range bins] at the bins of a fan's pixels; `blank` outside the
 /// sector.

@@ -1,6 +1,7 @@
 #include "product/object_table.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace sonarsim {
 
@@ -78,11 +79,70 @@ std::vector<Eigen::AlignedBox3f> seen_boxes(const SceneObjects& objects, const T
     return boxes;
 }
 
+/// Finds the shadows of objects, by the index of each.
+void add_shadows(const PingLabels& labels, std::span<const PixelBox> fan_boxes,
+                 std::vector<SeenObject>& all) {
+    if (labels.object_shadow.empty()) return;
+    for (int j = 0; j < labels.beams; ++j) {
+        const std::size_t begin = static_cast<std::size_t>(j) * labels.range_bins;
+        // Most beams have no shadow; this loop is vectorised.
+        std::uint16_t any = 0;
+        for (int i = 0; i < labels.range_bins; ++i)
+            any |= labels.object_shadow[begin + i];
+        for (int i = 0; any != 0 && i < labels.range_bins; ++i) {
+            const std::size_t at = begin + i;
+            const std::uint16_t id = labels.object_shadow[at];
+            if (id == 0) continue;
+            SeenObject& object = all[id - 1];
+            object.shadow.extend(j, i);
+            ++object.shadow_bins;
+            if (!fan_boxes.empty())
+                object.shadow_in_fan = joined(object.shadow_in_fan, fan_boxes[at]);
+        }
+    }
+}
+
+/// Compares objects and their shadows with what is around them.
+class Contrasts {
+  public:
+    Contrasts(const SceneObjects& objects, const PingLabels& labels, std::span<const float> levels)
+        : labels_(labels),
+          map_{labels.beams, labels.range_bins, labels.object, labels.object_shadow, levels} {
+        is_background_.push_back(1);
+        for (std::uint32_t k = 0; k < objects.objects.size(); ++k)
+            is_background_.push_back(objects.is_background(k) ? 1 : 0);
+    }
+
+    void add_to(SeenObject& seen) const {
+        if (is_background_[seen.id] != 0) return;
+        const auto id = static_cast<std::uint16_t>(seen.id);
+        const BinBox box{seen.beam_first, seen.beam_last, seen.range_first, seen.range_last};
+        seen.contrast_db = contrast_db(map_, map_.object, id, box, is_background_);
+        if (!seen.shadow.is_empty()) {
+            seen.shadow_contrast_db =
+                contrast_db(map_, map_.shadow, id, seen.shadow, is_background_);
+        }
+        if (labels_.visible_share.empty()) return;
+        const float share = labels_.visible_share[seen.id - 1];
+        if (std::isfinite(share)) seen.visible_share = share;
+    }
+
+  private:
+    const PingLabels& labels_;
+    LevelMap map_;
+    std::vector<std::uint8_t> is_background_;  ///< indexed by id
+};
+
 }  // namespace
+
+ObjectFacts facts_of(const SeenObject& seen, const SceneObjects& objects, std::uint64_t pixels) {
+    return {objects.is_background(seen.id - 1), pixels, seen.visible_share, seen.contrast_db,
+            seen.shadow_contrast_db};
+}
 
 std::vector<SeenObject> seen_objects(const Sonar& sonar, const SceneObjects& objects,
                                      const TracedPing& traced, const PingLabels& labels,
-                                     const Ping& ping) {
+                                     const Ping& ping, std::span<const PixelBox> fan_boxes) {
     std::vector<SeenObject> all(objects.objects.size());
     std::vector<BinTotals> totals(all.size());
     const std::vector<float> levels = levels_by_beam(ping);
@@ -101,6 +161,8 @@ std::vector<SeenObject> seen_objects(const Sonar& sonar, const SceneObjects& obj
             if (fan) total.azimuth_rad += middle(sonar.azimuth_edges_rad, j);
         }
     }
+    add_shadows(labels, fan_boxes, all);
+    const Contrasts contrasts(objects, labels, levels);
     const std::vector<Eigen::AlignedBox3f> boxes = seen_boxes(objects, traced);
     std::vector<SeenObject> seen;
     for (std::size_t k = 0; k < all.size(); ++k) {
@@ -113,6 +175,7 @@ std::vector<SeenObject> seen_objects(const Sonar& sonar, const SceneObjects& obj
         if (fan) object.azimuth_rad = totals[k].azimuth_rad / bins;
         object.surrounding_level = level_around(object, labels, levels);
         object.box_sensor_m = boxes[k];
+        contrasts.add_to(object);
         seen.push_back(object);
     }
     return seen;

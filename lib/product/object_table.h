@@ -3,10 +3,13 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "labels/labels.h"
 #include "ping/sonar.h"
+#include "product/annotation.h"
+#include "product/contrast.h"
 #include "trace/ping.h"
 
 namespace sonarsim {
@@ -22,13 +25,25 @@ struct SeenObject {
     double range_m = 0.0;                     ///< mean of its bins
     std::optional<double> azimuth_rad;        ///< mean of its bins, for a fan
     Eigen::AlignedBox3f box_sensor_m;         ///< box around its visible surface, sensor frame
+
+    // For an object that is no background:
+    std::optional<double> contrast_db;         ///< its level over that around it, contrast_db()
+    std::optional<double> visible_share;       ///< PingLabels::visible_share, if it was found
+    BinBox shadow;                             ///< its bins of PingLabels::object_shadow
+    std::uint64_t shadow_bins = 0;             ///< and their number
+    std::optional<double> shadow_contrast_db;  ///< the level of its shadow, likewise
+    PixelBox shadow_in_fan;                    ///< empty: no fan, or no pixel of it
 };
 
+/// The facts by which an annotation of a picture that shows so many pixels of an object is chosen.
+ObjectFacts facts_of(const SeenObject& seen, const SceneObjects& objects, std::uint64_t pixels);
+
 /// The objects in a ping, sorted by id. `labels` gives the object of each bin, `ping` the levels.
+/// `fan_boxes` are bin_boxes() of the fan; empty: no fan.
 /// The surroundings of an object are the box of its bins, enlarged on each side by half its size
 /// and at least by two bins.
 std::vector<SeenObject> seen_objects(const Sonar& sonar, const SceneObjects& objects,
                                      const TracedPing& traced, const PingLabels& labels,
-                                     const Ping& ping);
+                                     const Ping& ping, std::span<const PixelBox> fan_boxes);
 
 }  // namespace sonarsim

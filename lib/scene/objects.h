@@ -27,10 +27,15 @@ struct SceneObjects {
     };
     std::vector<Object> objects;
     std::vector<std::string> classes;
+    /// Indexed by class: 1 if it is never annotated. Empty: no class is.
+    std::vector<std::uint8_t> background;
     std::vector<std::uint32_t> object_of_instance;  ///< index into `objects`, by Scene::instances
 
     std::uint32_t object_of(std::uint32_t instance) const { return object_of_instance[instance]; }
     std::uint32_t class_of(std::uint32_t object) const { return objects[object].class_index; }
+    bool is_background(std::uint32_t object) const {
+        return !background.empty() && background[class_of(object)] != 0;
+    }
 };
 
 /// True if the whole of `text` matches a pattern with `*` and `?`.

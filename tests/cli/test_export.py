@@ -55,6 +55,42 @@ class Export(Exported):
         _, found = check_yolo(self.dest)
         self.assertEqual(sum(map(len, found["train"].values())), len(areas) - len(few))
 
+    def test_objects_are_those_that_the_dataset_annotates(self):
+        """The walls are background; boxes hold the shadows, too; specks are crowds, which COCO alone
+        keeps."""
+        self.edit("mission.yaml", "labels: {background: [none], min_pixels: 1,",
+                  "labels: {box: both, faint: crowd, min_pixels: 5,")
+        self.assert_renders()
+        self.assert_exports("--sensor", "fls", "--sensor", "mbes")
+        names, found = check_yolo(self.dest)
+        self.assertEqual(names, ["pillar"])
+        coco = self.load("labels/coco_fan.json")
+        kept = [one for one in coco["annotations"] if not one["iscrowd"]]
+        self.assertTrue(0 < len(kept) < len(coco["annotations"]))
+        expected = self.coco_boxes("coco_fan")
+        crowds = {one["image_id"] for one in coco["annotations"] if one["iscrowd"]}
+        shown = {one["id"]: one["sensor"] + "-" + one["file_name"].split("/")[-1][:-4]
+                 for one in coco["images"]}
+        for image, name in shown.items():
+            if image in crowds:
+                continue
+            boxes = sorted(box[1:] for box in expected[name])
+            self.assertEqual(len(found["train"][name]), len(boxes))
+            for own, box in zip(sorted(one[1:] for one in found["train"][name]), boxes):
+                self.assertTrue(all(abs(a - b) < 0.011 for a, b in zip(own, box)), (own, box))
+        self.assertEqual(sum(map(len, found["train"].values())), len(kept))
+        self.assert_exports("--sensor", "fls", "--sensor", "mbes", form="coco", dest="again")
+        told = json.loads((self.folder / "again/annotations/instances_train.json").read_text())
+        self.assertEqual([one["name"] for one in told["categories"]], ["pillar"])
+        fields = ("bbox", "area", "iscrowd", "range_m", "bearing_deg", "contrast_db", "visible_share",
+                  "shadow_bbox", "shadow_contrast_db")
+        listed = [[str(one[key]) for key in fields] for one in told["annotations"]]
+        self.assertEqual(sorted(listed), sorted([str(one[key]) for key in fields]
+                                                for one in coco["annotations"]))
+        self.edit("mission.yaml", "{box: both,", "{background: [walls, pillar], box: both,")
+        self.assert_renders("--overwrite")
+        self.assert_refused(self.export(dest="none"), "annotates no class")
+
     def test_packs_variants_and_collections(self):
         self.assert_renders()
         self.assert_exports()
@@ -238,6 +274,9 @@ class Export(Exported):
                 ('"bbox":[', '"bbox":[1', "bbox"),
                 ('"counts":"', '"counts":"~', "counts"),
                 ('"counts":"', '"counts":"oooooooooo', "counts"),
+                ('"iscrowd":0', '"iscrowd":2', "iscrowd"),
+                ('"bearing_deg":', '"bearing_deg":"x","b":', "bearing_deg"),
+                ('"shadow_bbox":[', '"shadow_bbox":[999999', "shadow_bbox"),
                 ('"category_id":1', '"category_id":77', "category_id"),
                 ('{"id":2,"file_name"', '{"id":"x","file_name"', "id"),
                 ("]}\n", "", "cut off")):

@@ -191,7 +191,9 @@ class Gallery(Sandbox):
                 window.wait_for(ready)
                 self.assertEqual(window.run("return sensor().name"), name)
                 self.assertEqual(window.run(number), where)
-                self.assertEqual(window.run(seen), f"1 box: {OBJECT}")
+                # The side-scan sonar has a box a side.
+                boxes = f"2 boxes: {OBJECT}, {OBJECT}" if name == "sss" else f"1 box: {OBJECT}"
+                self.assertEqual(window.run(seen), boxes)
                 boxed = window.screenshot("#picture")
                 window.press("b")
                 self.assertNotEqual(window.screenshot("#picture"), boxed)

@@ -196,6 +196,7 @@ class EveryFile(Sandbox):
         mission = "\n".join(kept).replace("fan_width_px: 32", "fan_width_px: 32, "
                                           "split: {train: 0.5, test: 0.5, gap: 0}") + "\n"
         labels = mission.replace("fan_width_px: 32", "fan_width_px: 32, labels: [instance, coco, yolo]")
+        labels += "labels: {background: [none], min_pixels: 1}\n"
         self.write("mission.yaml", labels)
         self.write("packed.yaml", labels.replace("{folder: out,", "{folder: out, pack: tar,"))
         self.write("variants.yaml", mission + "variants: 2\n"

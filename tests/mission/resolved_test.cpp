@@ -137,6 +137,13 @@ octree:
 slices:
   per_beam: 0
 classes: []
+labels:
+  background: ["auto"]
+  min_pixels: 16
+  min_visible_share: 0.1
+  min_contrast_db: 1
+  faint: omit
+  box: object
 output:
   folder: "/o"
   polar: true

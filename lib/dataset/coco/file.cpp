@@ -1,7 +1,11 @@
 #include "dataset/coco/file.h"
 
+#include <cmath>
+
 #include "core/error.h"
+#include "dataset/label_description.h"
 #include "format/coco_counts.h"
+#include "mission/dataset_names.h"
 
 namespace sonarsim {
 
@@ -13,6 +17,28 @@ std::string line_of(const Json& item) {
     return item.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
+/// A number without digits that say nothing; null for none.
+Json rounded(const std::optional<double>& value, double per_unit) {
+    if (!value) return nullptr;
+    return std::round(*value * per_unit) / per_unit;
+}
+
+void add_facts(const SeenFacts& seen, Json& json) {
+    constexpr double millimetres = 1e3;
+    constexpr double hundredths = 1e2;
+    constexpr double of_share = 1e4;
+    json["range_m"] = rounded(seen.range_m, millimetres);
+    json["bearing_deg"] = rounded(seen.bearing_deg, hundredths);
+    if (seen.side) json["side"] = seen.side;
+    json["contrast_db"] = rounded(seen.contrast_db, hundredths);
+    json["visible_share"] = rounded(seen.visible_share, of_share);
+    json["shadow_bbox"] = nullptr;
+    if (const auto& box = seen.shadow) {
+        json["shadow_bbox"] = {box->left, box->top, box->right - box->left, box->bottom - box->top};
+    }
+    json["shadow_contrast_db"] = rounded(seen.shadow_contrast_db, hundredths);
+}
+
 }  // namespace
 
 CocoFile::CocoFile(const std::filesystem::path& path, const Json& description) : file_(path) {
@@ -20,7 +46,11 @@ CocoFile::CocoFile(const std::filesystem::path& path, const Json& description) :
                        {"version", description.at("program_version")}};
     file_.append("{\"info\": " + line_of(info) + ",\n\"licenses\": []");
     begin_list("categories");
+    const std::string name = description_name;
+    const AnnotationRules rules = annotation_rules({description.at("labels"), name});
+    std::size_t index = 0;
     for (const Json& one : description.at("labels").at("classes")) {
+        if (rules.is_background(index++)) continue;
         add({{"id", one.at("id")}, {"name", one.at("name")}, {"supercategory", "object"}});
     }
     end_list();
@@ -46,14 +76,34 @@ void CocoFile::finish() {
 }
 
 Json annotation_json(const CocoAnnotation& a) {
-    return {{"id", a.id},
-            {"image_id", a.image_id},
-            {"category_id", a.category},
-            {"instance_id", a.instance},
-            {"bbox", {a.left, a.top, a.width, a.height}},
-            {"area", a.area},
-            {"segmentation", {{"size", {a.image_height, a.image_width}}, {"counts", a.counts}}},
-            {"iscrowd", 0}};
+    Json json = {
+        {"id", a.id},
+        {"image_id", a.image_id},
+        {"category_id", a.category},
+        {"instance_id", a.instance},
+        {"bbox", {a.left, a.top, a.width, a.height}},
+        {"area", a.area},
+        {"segmentation", {{"size", {a.image_height, a.image_width}}, {"counts", a.counts}}},
+        {"iscrowd", a.is_crowd ? 1 : 0}};
+    add_facts(a.seen, json);
+    return json;
+}
+
+bool apply_rules(const LabelConfig& rules, bool is_background, CocoAnnotation& a) {
+    const SeenFacts& seen = a.seen;
+    const Annotated annotated = is_annotated(
+        {is_background, a.area, seen.visible_share, seen.contrast_db, seen.shadow_contrast_db},
+        rules);
+    const PixelBox object{static_cast<int>(a.left), static_cast<int>(a.left + a.width),
+                          static_cast<int>(a.top), static_cast<int>(a.top + a.height)};
+    const std::optional<PixelBox> box = annotation_box(object, seen.shadow, rules.box);
+    if (annotated == Annotated::no || !box) return false;
+    a.is_crowd = annotated == Annotated::as_crowd;
+    a.left = box->left;
+    a.top = box->top;
+    a.width = box->right - box->left;
+    a.height = box->bottom - box->top;
+    return true;
 }
 
 CocoAnnotation mask_annotation(const ObjectMask& mask, std::uint64_t width, std::uint64_t height) {
@@ -81,10 +131,10 @@ const Json* labelled_picture(const Json& sensor, const char* per) {
     return nullptr;
 }
 
-const PingRecord* instance_record(const SensorLayout& sensor) {
+const PingRecord* record_of_label(const SensorLayout& sensor, std::string_view label) {
     for (const auto& part : sensor.per_ping) {
         const auto* record = std::get_if<PingRecord>(&part);
-        if (record && record->label == "instance") return record;
+        if (record && record->label == label) return record;
     }
     return nullptr;
 }

@@ -77,9 +77,16 @@ std::vector<std::string> all_coco_files() {
 }  // namespace
 
 CocoMember coco_member(const DatasetFile& dataset, const std::string& folder, SplitPart part) {
-    CocoMember member{
-        folder, part, dataset.json.at("program_version").get<std::string>(), dataset.labels.classes,
-        {},     0};
+    CocoMember member{folder,
+                      part,
+                      dataset.json.at("program_version").get<std::string>(),
+                      dataset.labels.classes,
+                      {},
+                      {},
+                      0};
+    const std::string name = folder + "/" + description_name;
+    if (dataset.json.contains("labels"))
+        member.rules = annotation_rules({dataset.json["labels"], name});
     const std::vector<std::string> known = all_coco_files();
     for (const std::string& file : dataset.products) {
         if (std::ranges::find(known, file) != known.end()) member.files.push_back(file);
@@ -115,8 +122,10 @@ std::vector<std::string> all_joined_label_files() {
 std::vector<std::string> classes_of(std::span<const CocoMember> members) {
     std::vector<std::string> classes;
     for (const CocoMember& member : members) {
-        for (const std::string& name : member.classes) {
-            if (std::ranges::find(classes, name) == classes.end()) classes.push_back(name);
+        for (std::size_t k = 0; k < member.classes.size(); ++k) {
+            const std::string& name = member.classes[k];
+            const bool is_new = std::ranges::find(classes, name) == classes.end();
+            if (is_new && !member.rules.is_background(k)) classes.push_back(name);
         }
     }
     return classes;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "dataset/dataset_file.h"
+#include "dataset/label_description.h"
 #include "dataset/split.h"
 
 // COCO files of several datasets that lie side by side in one folder.
@@ -21,6 +22,7 @@ struct CocoMember {
     SplitPart part = SplitPart::none;  ///< to which all of it belongs
     std::string program_version;       ///< that made it
     std::vector<std::string> classes;  ///< names of the classes 1, 2, ...
+    AnnotationRules rules;             ///< that it annotates by
     std::vector<std::string> files;    ///< its COCO files, "labels/coco.json"
     std::uint64_t image_ids = 0;       ///< an upper limit of the ids of its images
 };
@@ -36,7 +38,7 @@ std::vector<std::string> joined_label_files(std::span<const CocoMember> members)
 /// split.
 std::vector<std::string> all_joined_label_files();
 
-/// Names in the order in which the members name them first.
+/// The classes that some member annotates, in the order in which the members name them first.
 std::vector<std::string> classes_of(std::span<const CocoMember> members);
 
 /// Writes the joined label files into `folder`, where the members lie. The categories are `classes`

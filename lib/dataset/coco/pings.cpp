@@ -1,11 +1,15 @@
 #include <array>
 #include <functional>
+#include <map>
 #include <optional>
-#include <stdexcept>
+#include <string>
 
+#include "core/units.h"
 #include "dataset/coco/coco.h"
 #include "dataset/coco/file.h"
+#include "dataset/label_description.h"
 #include "dataset/ping_file_reader.h"
+#include "mission/dataset_names.h"
 
 namespace sonarsim {
 
@@ -20,6 +24,20 @@ struct PictureSeries {
     std::uint64_t width = 0;
     std::uint64_t height = 0;
 };
+
+/// The ids of classes by their names, and the rules of annotations.
+struct ClassTable {
+    std::map<std::string, std::uint64_t> ids;
+    AnnotationRules rules;
+};
+
+ClassTable class_table(const Json& description) {
+    const std::string file = description_name;
+    ClassTable table{{}, annotation_rules({description.at("labels"), file})};
+    for (const Json& one : description.at("labels").at("classes"))
+        table.ids[one.at("name").get<std::string>()] = one.at("id");
+    return table;
+}
 
 std::optional<PingFile> file_named(const SensorLayout& sensor, std::string_view name) {
     for (const auto& part : sensor.per_ping) {
@@ -48,29 +66,62 @@ std::optional<PictureSeries> series_of(const SensorLayout& sensor, const Json& d
     return series;
 }
 
-/// The annotation of an object; nothing if the picture does not show it.
+std::optional<double> number_of(const Json& json, const char* key) {
+    const auto found = json.find(key);
+    if (found == json.end() || !found->is_number()) return std::nullopt;
+    return found->get<double>();
+}
+
+/// A box of the table of objects; nothing for none.
+std::optional<PixelBox> box_of(const Json& json, const char* key, bool is_fan) {
+    const auto found = json.find(key);
+    if (found == json.end()) return std::nullopt;
+    const auto x = found->at(is_fan ? "x" : "beam").get<std::array<int, 2>>();
+    const auto y = found->at(is_fan ? "y" : "range").get<std::array<int, 2>>();
+    return PixelBox{x[0], x[1], y[0], y[1]};
+}
+
+SeenFacts facts_of(const Json& object, bool is_fan) {
+    SeenFacts seen;
+    seen.range_m = number_of(object, "range_m");
+    if (const auto azimuth_rad = number_of(object, "azimuth_rad"))
+        seen.bearing_deg = -degrees(*azimuth_rad);
+    seen.contrast_db = number_of(object, "contrast_db");
+    seen.visible_share = number_of(object, "visible_share");
+    const auto shadow = object.find("shadow");
+    if (shadow == object.end()) return seen;
+    seen.shadow_contrast_db = number_of(*shadow, "contrast_db");
+    seen.shadow = is_fan ? box_of(object.at("fan"), "shadow_box_px", true)
+                         : box_of(*shadow, "box_bins", false);
+    return seen;
+}
+
+/// The annotation of an object by the rules; nothing if the picture does not annotate it.
 std::optional<CocoAnnotation> annotation_of(const Json& object, const PictureSeries& series,
                                             CocoPicture picture, std::uint64_t image_id,
-                                            const Json& class_ids) {
+                                            const ClassTable& classes) {
     const bool is_fan = picture == CocoPicture::fan;
     const Json& shown = is_fan ? object.at("fan") : object;
     if (shown.is_null()) return std::nullopt;
-    const Json& box = shown.at(is_fan ? "box_px" : "box_bins");
-    const auto x = box.at(is_fan ? "x" : "beam").get<std::array<std::int64_t, 2>>();
-    const auto y = box.at(is_fan ? "y" : "range").get<std::array<std::int64_t, 2>>();
+    const PixelBox box = box_of(shown, is_fan ? "box_px" : "box_bins", is_fan).value();
     const auto instance = object.at("id").get<std::uint64_t>();
-    return CocoAnnotation{.id = image_id * ids_per_image + instance,
-                          .image_id = image_id,
-                          .instance = instance,
-                          .category = class_ids.at(object.at("class").get<std::string>()),
-                          .left = x[0],
-                          .top = y[0],
-                          .width = x[1] - x[0],
-                          .height = y[1] - y[0],
-                          .area = shown.at(is_fan ? "area_px" : "area_bins"),
-                          .image_width = series.width,
-                          .image_height = series.height,
-                          .counts = shown.at("mask")};
+    const std::uint64_t class_id = classes.ids.at(object.at("class").get<std::string>());
+    CocoAnnotation annotation{.id = image_id * ids_per_image + instance,
+                              .image_id = image_id,
+                              .instance = instance,
+                              .category = class_id,
+                              .left = box.left,
+                              .top = box.top,
+                              .width = box.right - box.left,
+                              .height = box.bottom - box.top,
+                              .area = shown.at(is_fan ? "area_px" : "area_bins"),
+                              .image_width = series.width,
+                              .image_height = series.height,
+                              .counts = shown.at("mask"),
+                              .seen = facts_of(object, is_fan)};
+    const bool is_background = classes.rules.is_background(class_id - 1);
+    if (!apply_rules(classes.rules.config, is_background, annotation)) return std::nullopt;
+    return annotation;
 }
 
 }  // namespace
@@ -82,9 +133,7 @@ void write_coco(const Layout& layout, const Json& description, const SharedProdu
         series.push_back(
             series_of(layout.sensors[i], description.at("sensors").at(i), product.picture));
     }
-    Json class_ids = Json::object();
-    for (const Json& one : description.at("labels").at("classes"))
-        class_ids[one.at("name").get<std::string>()] = one.at("id");
+    const ClassTable classes = class_table(description);
 
     const auto for_each_picture =
         [&](const std::function<void(const PingId&, const PictureSeries&, std::uint64_t)>& visit) {
@@ -117,7 +166,7 @@ void write_coco(const Layout& layout, const Json& description, const SharedProdu
     for_each_picture([&](const PingId& ping, const PictureSeries& shown, std::uint64_t id) {
         const Json objects = Json::parse(reader.read(ping, shown.objects));
         for (const Json& object : objects.at("objects")) {
-            if (const auto found = annotation_of(object, shown, product.picture, id, class_ids))
+            if (const auto found = annotation_of(object, shown, product.picture, id, classes))
                 out.add(annotation_json(*found));
         }
     });

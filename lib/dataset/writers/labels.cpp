@@ -70,6 +70,16 @@ Ids shares(const PingLabels& labels) {
     return rounded;
 }
 
+/// The visible share of the object of each bin; 65535 is all of it.
+Ids visible_shares(const PingLabels& labels) {
+    Ids rounded(labels.object.size());
+    std::ranges::transform(labels.object, rounded.begin(), [&](std::uint16_t id) {
+        const float share = id == 0 ? 0.0F : labels.visible_share[id - 1U];
+        return static_cast<std::uint16_t>(share > 0.0F ? 65535.0F * share + 0.5F : 0.0F);
+    });
+    return rounded;
+}
+
 /// Labels that are floats, [beams, range bins].
 using FloatsOf = const Floats& (*)(const PingLabels& labels);
 
@@ -110,6 +120,13 @@ constexpr LabelFile label_files[] = {
     {Label::clean, "clean", {}, {}, &without_random_terms},
     {Label::direct_only, "direct_only", {}, {}, &direct_echoes_alone},
     {Label::multipath_only, "multipath_only", {}, {}, &multipath_alone},
+};
+
+/// Records of sonars without images, of which their COCO files are made beside those of the
+/// instances.
+constexpr LabelFile annotation_records[] = {
+    {Label::coco, object_shadow_record, ids<&PingLabels::object_shadow>, {}, {}, "instances"},
+    {Label::coco, visible_share_record, visible_shares},
 };
 
 /// A file per ping with the rows and columns of the sonar's image.
@@ -241,6 +258,10 @@ std::vector<std::unique_ptr<Writer>> make_label_writers(const WriterContext& con
         if (has_images) add(std::make_unique<LabelImageWriter>(context, file));
         if (!has_images) add(std::make_unique<LabelRecordWriter>(context, file));
         if (has_fan && file.ids_of) add(std::make_unique<LabelFanWriter>(context, file));
+    }
+    for (const LabelFile& file : annotation_records) {
+        if (!has_images && is_asked(mission, Label::coco))
+            add(std::make_unique<LabelRecordWriter>(context, file));
     }
     add(make_objects_writer(context));
     for (auto& writer : make_semantic_writers(context))

@@ -8,7 +8,6 @@
 #include "dataset/ping_metadata.h"
 #include "dataset/writers/label_writers.h"
 #include "format/coco_counts.h"
-#include "product/object_table.h"
 #include "sonar/setup.h"
 
 namespace sonarsim {
@@ -53,7 +52,7 @@ class ObjectsWriter final : public Writer {
           moving_(moving_objects(context.assembly)) {}
 
     WriterOutputs outputs() const override {
-        constexpr double longest_object = 1700.0;
+        constexpr double longest_object = 2000.0;
         constexpr double masks_per_pixel = 1.0;  // bytes, where ids are as ragged as noise
         const double bins = static_cast<double>(view_.range_bins) * view_.beams;
         const auto objects = static_cast<double>(context_.assembly.objects.objects.size());
@@ -66,14 +65,12 @@ class ObjectsWriter final : public Writer {
     }
 
     std::string encode(const FinishedPing& finished) const override {
-        const SceneObjects& objects = context_.assembly.objects;
         std::string text = "{\"ping\": " + std::to_string(finished.id.pose) + ", \"objects\": [";
         constexpr auto replace = Json::error_handler_t::replace;
         const char* before = "\n";
         const std::vector<Pose> T_world_body =
             body_poses(context_.assembly, context_.assembly.trajectory[finished.id.pose].t_s);
-        for (const SeenObject& seen : seen_objects(finished.sonar, objects, finished.traced,
-                                                   finished.labels->bins, finished.ping)) {
+        for (const SeenObject& seen : finished.labels->seen) {
             text += before + seen_json(seen, finished, T_world_body).dump(-1, ' ', false, replace);
             before = ",\n";
         }
@@ -107,20 +104,36 @@ class ObjectsWriter final : public Writer {
         }
         if (!finished.labels->bins.visible_share.empty())
             json["visible_share"] = finished.labels->bins.visible_share[seen.id - 1];
+        json["contrast_db"] = number_or_null(seen.contrast_db);
+        if (!seen.shadow.is_empty()) json["shadow"] = shadow_json(seen);
         const ObjectMask* const polar = mask_of(finished.labels->polar, seen.id);
         if (with_masks_ && polar) json["mask"] = coco_counts(polar->runs);
         if (!finished.labels->fan_bins->by_row.empty()) {
-            json["fan"] = fan_json(mask_of(finished.labels->fan, seen.id));
+            json["fan"] = fan_json(seen, mask_of(finished.labels->fan, seen.id));
         }
         return json;
     }
 
+    static Json shadow_json(const SeenObject& seen) {
+        const BinBox& box = seen.shadow;
+        return {{"box_bins",
+                 {{"range", {box.first_bin, box.last_bin + 1}},
+                  {"beam", {box.first_line, box.last_line + 1}}}},
+                {"area_bins", seen.shadow_bins},
+                {"contrast_db", number_or_null(seen.shadow_contrast_db)}};
+    }
+
     /// Null for an object that lies between the pixels.
-    Json fan_json(const ObjectMask* mask) const {
+    Json fan_json(const SeenObject& seen, const ObjectMask* mask) const {
         if (!mask) return nullptr;
         Json json = {
             {"box_px", {{"x", {mask->left, mask->right}}, {"y", {mask->top, mask->bottom}}}},
             {"area_px", mask->area}};
+        const PixelBox& shadow = seen.shadow_in_fan;
+        if (!shadow.is_empty()) {
+            json["shadow_box_px"] = {{"x", {shadow.left, shadow.right}},
+                                     {"y", {shadow.top, shadow.bottom}}};
+        }
         if (with_masks_) json["mask"] = coco_counts(mask->runs);
         return json;
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
 
 #include "dataset/writers/label_writers.h"
 #include "product/mask_outline.h"
@@ -25,7 +26,10 @@ struct LabelledPicture {
 class YoloWriter final : public Writer {
   public:
     YoloWriter(const WriterContext& context, bool polygons, const LabelledPicture& picture)
-        : objects_(context.assembly.objects), polygons_(polygons), picture_(picture) {}
+        : objects_(context.assembly.objects),
+          rules_(context.mission.labels),
+          polygons_(polygons),
+          picture_(picture) {}
 
     WriterOutputs outputs() const override {
         const std::string name = polygons_ ? "yolo_polygons" : "yolo";
@@ -40,19 +44,35 @@ class YoloWriter final : public Writer {
         std::string text;
         for (const ObjectMask& mask :
              picture_.is_fan ? finished.labels->fan : finished.labels->polar) {
+            const SeenObject& seen =
+                *std::ranges::lower_bound(finished.labels->seen, mask.id, {}, &SeenObject::id);
+            const std::optional<PixelBox> box = box_of(seen, mask);
+            if (!box) continue;
             text += std::to_string(objects_.class_of(mask.id - 1));
-            polygons_ ? append_outline(text, mask) : append_box(text, mask);
+            polygons_ ? append_outline(text, mask) : append_box(text, *box);
             text += '\n';
         }
         return text;
     }
 
   private:
-    void append_box(std::string& text, const ObjectMask& mask) const {
-        append_share(text, 0.5 * (mask.left + mask.right), picture_.width);
-        append_share(text, 0.5 * (mask.top + mask.bottom), picture_.height);
-        append_share(text, mask.right - mask.left, picture_.width);
-        append_share(text, mask.bottom - mask.top, picture_.height);
+    /// Nothing for an object that is not annotated.
+    std::optional<PixelBox> box_of(const SeenObject& seen, const ObjectMask& mask) const {
+        if (is_annotated(facts_of(seen, objects_, mask.area), rules_) != Annotated::yes)
+            return std::nullopt;
+        const BinBox& bins = seen.shadow;
+        const PixelBox shadow = picture_.is_fan ? seen.shadow_in_fan
+                                                : PixelBox{bins.first_line, bins.last_line + 1,
+                                                           bins.first_bin, bins.last_bin + 1};
+        return annotation_box({mask.left, mask.right, mask.top, mask.bottom},
+                              shadow.is_empty() ? std::nullopt : std::optional(shadow), rules_.box);
+    }
+
+    void append_box(std::string& text, const PixelBox& box) const {
+        append_share(text, 0.5 * (box.left + box.right), picture_.width);
+        append_share(text, 0.5 * (box.top + box.bottom), picture_.height);
+        append_share(text, box.right - box.left, picture_.width);
+        append_share(text, box.bottom - box.top, picture_.height);
     }
 
     void append_outline(std::string& text, const ObjectMask& mask) const {
@@ -63,6 +83,7 @@ class YoloWriter final : public Writer {
     }
 
     const SceneObjects& objects_;
+    const LabelConfig& rules_;
     bool polygons_;
     LabelledPicture picture_;
 };

@@ -35,6 +35,7 @@ TEST_SUITE("dataset") {
         nlohmann::ordered_json description = {{"mission", "m"}, {"program_version", "1"}};
         description["sensors"] = {
             {{"name", "sss"},
+             {"range_edges_m", {1, 2, 3, 4, 5}},
              {"pictures",
               {{{"file", "sss/view.png"}, {"per", "sensor"}, {"boxes_of", "sss/rows.png"}}}}}};
         description["labels"]["classes"] = {{{"id", 1}, {"name", "mine"}}};

@@ -1,0 +1,61 @@
+#include "dataset/annotated_objects.h"
+
+namespace sonarsim {
+
+namespace {
+
+ObjectSphere sphere_around(const Eigen::AlignedBox3d& box) {
+    return {box.center(), 0.5 * box.diagonal().norm()};
+}
+
+}  // namespace
+
+std::vector<Eigen::AlignedBox3d> still_boxes(const Assembly& assembly) {
+    const Scene& scene = assembly.scene;
+    const SceneObjects& objects = assembly.objects;
+    std::vector<Eigen::AlignedBox3d> boxes(objects.objects.size());
+    for (std::size_t k = 0; k < scene.triangles.size(); ++k) {
+        Eigen::AlignedBox3d& box = boxes[objects.object_of(scene.triangle_instance[k])];
+        for (const std::uint32_t vertex : scene.triangles[k])
+            box.extend(scene.origin + scene.vertices[vertex].cast<double>());
+    }
+    for (const MeshCopy& copy : scene.copies) {
+        Eigen::AlignedBox3d& box = boxes[objects.object_of(copy.instance)];
+        for (const Eigen::Vector3f& vertex : scene.shared_meshes[copy.mesh].vertices)
+            box.extend(copy.T_world_mesh * vertex.cast<double>());
+    }
+    return boxes;
+}
+
+AnnotatedObjects annotated_objects(const Assembly& assembly) {
+    const Scene& scene = assembly.scene;
+    const SceneObjects& objects = assembly.objects;
+    const std::vector<Eigen::AlignedBox3d> boxes = still_boxes(assembly);
+    AnnotatedObjects annotated;
+    for (std::uint32_t k = 0; k < boxes.size(); ++k) {
+        if (!objects.is_background(k) && !boxes[k].isEmpty())
+            annotated.still.push_back(sphere_around(boxes[k]));
+    }
+    for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
+        if (objects.is_background(objects.object_of(scene.bodies[k].instance))) continue;
+        Eigen::AlignedBox3d box;
+        for (const Eigen::Vector3f& vertex : scene.bodies[k].vertices)
+            box.extend(vertex.cast<double>());
+        annotated.moving.push_back({k, sphere_around(box)});
+    }
+    return annotated;
+}
+
+std::vector<ObjectSphere> spheres_at(const AnnotatedObjects& objects, const Assembly& assembly,
+                                     double t_s) {
+    std::vector<ObjectSphere> spheres = objects.still;
+    if (objects.moving.empty()) return spheres;
+    const std::vector<Pose> T_world_body = body_poses(assembly, t_s);
+    for (const AnnotatedObjects::Moving& one : objects.moving) {
+        const Pose& T = T_world_body[one.body];
+        spheres.push_back({T.rotation * one.sphere.centre + T.translation, one.sphere.radius_m});
+    }
+    return spheres;
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "dataset/coco/file.h"
+#include "dataset/label_description.h"
+#include "dataset/layout.h"
+#include "dataset/record_file.h"
+#include "product/contrast.h"
+
+namespace sonarsim {
+
+/// The values of successive pings that annotations are made of, [lines, bins].
+struct RecordValues {
+    int lines = 0, bins = 0;
+    std::vector<std::uint16_t> object, shadow;
+    std::vector<std::uint16_t> visible_share;  ///< share of the bin's object; 65535 is all of it
+    std::vector<float> level;                  ///< empty: the sensor has no records of echoes
+
+    void resize(int new_lines, int new_bins);
+};
+
+/// The files of these values of a sensor. Records of shadows and visible shares may be missing:
+/// then nothing is known of them.
+class AnnotationRecords {
+  public:
+    AnnotationRecords(const Layout& layout, std::size_t sensor);
+
+    std::size_t pings() const { return object_->records(); }
+    /// Reads the objects in the bins of a ping.
+    void read_objects(std::size_t ping, std::span<std::uint16_t> objects) const {
+        object_->read(ping, std::as_writable_bytes(objects));
+    }
+    /// Reads `count` pings from `first` on into the lines from `line` on of `values`, which must
+    /// have room for them.
+    void read(std::size_t first, std::size_t count, std::size_t line, RecordValues& values) const;
+
+  private:
+    std::optional<RecordFile> object_, shadow_, visible_share_, level_;
+};
+
+/// 1 for the ids of instances that are background, indexed by id. `labels` is that of dataset.json.
+std::vector<std::uint8_t> background_ids(const nlohmann::ordered_json& labels,
+                                         const AnnotationRules& rules);
+
+/// The facts of an object by the values in `box`: its mean range, visible share and contrast, by
+/// the range of each bin, m; and the contrast of its shadow in `shadow`.
+SeenFacts seen_in_records(const RecordValues& values, std::uint16_t id, const BinBox& box,
+                          const BinBox& shadow, std::span<const double> range_m,
+                          std::span<const std::uint8_t> is_background);
+
+/// The bins in `within` that show the shadow of an object; empty for none.
+BinBox shadow_box(const RecordValues& values, std::uint16_t id, const BinBox& within);
+
+}  // namespace sonarsim

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "core/pose.h"
+
+namespace sonarsim {
+
+/// A sphere around all of an object, world frame.
+struct ObjectSphere {
+    Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+    double radius_m = 0.0;
+};
+
+/// The directions in which some of these objects may lie, on a grid of cells over the y and z of
+/// unit vectors in the sensor's frame. It errs to one side: it misses no object.
+class ObjectDirections {
+  public:
+    ObjectDirections(std::span<const ObjectSphere> spheres, const Pose& T_world_sensor,
+                     double range_min_m, double range_max_m);
+
+    /// True if an object may lie in the direction of a unit vector, beyond a range.
+    bool may_lie_behind(const Eigen::Vector3f& direction, float range_m) const {
+        return far_m_[cell_of(direction.z()) * cells + cell_of(direction.y())] > range_m;
+    }
+
+  private:
+    static constexpr int cells = 128;  ///< along y and along z, from -1 to 1
+
+    static std::size_t cell_of(double of_unit_vector);
+
+    std::vector<float> far_m_;  ///< [z, y]: the greatest range of an object there; 0: none
+};
+
+}  // namespace sonarsim

@@ -1,0 +1,97 @@
+#include "product/contrast.h"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "core/elementary.h"
+
+namespace sonarsim {
+
+namespace {
+
+/// The marked bins of one range, and what is around them.
+struct RangeLevels {
+    int first = 0, last = -1;  ///< lines
+    int count = 0, count_around = 0;
+    double level = 0.0, level_around = 0.0;
+
+    int width() const { return std::max(last - first + 1, 2); }
+};
+
+/// The marked bins of a box, range by range.
+std::vector<RangeLevels> marked_levels(const LevelMap& map, std::span<const std::uint16_t> marks,
+                                       std::uint16_t id, const BinBox& box) {
+    std::vector<RangeLevels> ranges(static_cast<std::size_t>(box.last_bin - box.first_bin) + 1);
+    for (int line = box.first_line; line <= box.last_line; ++line) {
+        const std::size_t begin = static_cast<std::size_t>(line) * map.bins + box.first_bin;
+        for (std::size_t k = 0; k < ranges.size(); ++k) {
+            if (marks[begin + k] != id) continue;
+            RangeLevels& range = ranges[k];
+            if (range.count++ == 0) range.first = line;
+            range.last = line;
+            range.level += map.level[begin + k];
+        }
+    }
+    return ranges;
+}
+
+/// Adds the bins around those that are marked.
+void add_surroundings(const LevelMap& map, const BinBox& box,
+                      std::span<const std::uint8_t> is_background,
+                      std::vector<RangeLevels>& ranges) {
+    int widest = 0;
+    for (const RangeLevels& range : ranges)
+        widest = std::max(widest, range.width());
+    const int last = std::min(box.last_line + widest, map.lines - 1);
+    for (int line = std::max(box.first_line - widest, 0); line <= last; ++line) {
+        const std::size_t begin = static_cast<std::size_t>(line) * map.bins + box.first_bin;
+        for (std::size_t k = 0; k < ranges.size(); ++k) {
+            RangeLevels& range = ranges[k];
+            const int width = range.width();
+            if (range.count == 0 || line < range.first - width || line > range.last + width)
+                continue;
+            const std::uint16_t object = map.object[begin + k];
+            const bool is_bare = object == 0 || is_background[object] != 0;
+            if (!is_bare || (!map.shadow.empty() && map.shadow[begin + k] != 0)) continue;
+            range.level_around += map.level[begin + k];
+            ++range.count_around;
+        }
+    }
+}
+
+double decibel_of(double ratio) {
+    constexpr double limit_db = 100.0;
+    constexpr double db_of_log = 4.342944819032518;  // 10 / ln 10
+    constexpr double least = 1e-10;
+    if (!(ratio > least)) return -limit_db;
+    if (!(ratio < 1.0 / least)) return limit_db;
+    return db_of_log * natural_log(static_cast<float>(ratio));
+}
+
+}  // namespace
+
+void BinBox::extend(int line, int bin) {
+    if (is_empty()) *this = {line, line, bin, bin};
+    first_line = std::min(first_line, line);
+    last_line = std::max(last_line, line);
+    first_bin = std::min(first_bin, bin);
+    last_bin = std::max(last_bin, bin);
+}
+
+std::optional<double> contrast_db(const LevelMap& map, std::span<const std::uint16_t> marks,
+                                  std::uint16_t id, const BinBox& box,
+                                  std::span<const std::uint8_t> is_background) {
+    std::vector<RangeLevels> ranges = marked_levels(map, marks, id, box);
+    add_surroundings(map, box, is_background, ranges);
+    double own = 0.0;
+    double around = 0.0;
+    for (const RangeLevels& range : ranges) {
+        if (range.count == 0 || range.count_around == 0) continue;
+        own += range.level;
+        around += range.level_around / range.count_around * range.count;
+    }
+    if (own > 0.0 || around > 0.0) return decibel_of(own / around);
+    return std::nullopt;
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace sonarsim {
+
+/// Bins [first_line, last_line] x [first_bin, last_bin]. A line is a beam, a ping or a step.
+struct BinBox {
+    int first_line = 0, last_line = -1;
+    int first_bin = 0, last_bin = -1;
+
+    bool is_empty() const { return last_line < first_line; }
+    void extend(int line, int bin);
+};
+
+/// A picture in bins, [lines, bins]: ids of objects and levels. Bins of one index have one range.
+struct LevelMap {
+    int lines = 0, bins = 0;
+    std::span<const std::uint16_t> object;  ///< the object in the bin; 0: none
+    std::span<const std::uint16_t>
+        shadow;  ///< the object whose shadow it is; 0: none. Empty: no shadows
+    std::span<const float> level;
+};
+
+/// The level of what bears an id in `marks` (the objects or the shadows of a map, within `box`)
+/// over that of its surroundings, dB; nothing if it has none or if both are silent. Surroundings
+/// are the bins of the same range on either side, as far as what is marked is wide there and at
+/// least two bins, that show background alone: no other object and no shadow of one. They stand for
+/// what would be there without the object. Levels are means, those of the surroundings with as many
+/// bins in each range as are marked. Limited to 100 dB either way.
+/// `is_background` is 1 for the ids of background.
+std::optional<double> contrast_db(const LevelMap& map, std::span<const std::uint16_t> marks,
+                                  std::uint16_t id, const BinBox& box,
+                                  std::span<const std::uint8_t> is_background);
+
+}  // namespace sonarsim

@@ -1,0 +1,186 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "core/units.h"
+#include "product/object_table.h"
+#include "support/labelled.h"
+#include "support/scenes.h"
+
+using namespace sonarsim;
+using namespace sonarsim::test;
+
+namespace {
+
+/// A scene on a floor, which is its first object and background, and what annotations say of it.
+struct FoundObjects {
+    Sonar sonar;
+    PingLabels labels;
+    std::vector<SeenObject> seen;
+
+    FoundObjects(const Scene& scene, const SonarConfig& config, const Pose& pose,
+                 const std::vector<ObjectSphere>& spheres, bool all_shadows = false)
+        : sonar(noise_free(config)) {
+        SceneObjects objects = group_objects(scene, {});
+        objects.background.assign(objects.classes.size(), 0);
+        objects.background[0] = 1;
+        const auto engine = make_engine(scene, {});
+        const TracedPing traced = trace(sonar, scene, *engine, pose, 0);
+        labels = label_ping(
+            traced, sonar.settings, scene, objects, *engine,
+            {.objects = true, .shadow = all_shadows, .annotations = true, .annotated = spheres});
+        const Ping ping = form_image(traced, sonar.settings, scene, {});
+        seen = seen_objects(sonar, objects, traced, labels, ping, {});
+    }
+
+    const SeenObject& object(std::uint32_t id) const {
+        const auto found = std::ranges::find(seen, id, &SeenObject::id);
+        REQUIRE(found != seen.end());
+        return *found;
+    }
+    /// The range at which the last bin of an object's shadow ends.
+    double shadow_end_m(std::uint32_t id) const {
+        return sonar.range_edges_m[object(id).shadow.last_bin + 1];
+    }
+};
+
+/// Looks down at a floor at z = 0 from a height.
+SonarConfig wide_fan() {
+    SonarConfig config = small_imaging();
+    config.elevation_deg = 60.0;
+    config.range_max_m = 14.0;
+    config.range_bins = 700;
+    config.azimuth_bins = 240;
+    return config;
+}
+
+Pose looking_down(double height_m, double pitch_deg) {
+    return {rotation_from_rpy(0.0, radians(pitch_deg), 0.0), {0.0, 0.0, height_m}};
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("labels");
+
+TEST_CASE("annotations: the shadow of a wall on a flat floor is h r / (H - h) long") {
+    // The line over the edge of a wall of height h at the distance r falls by H - h on r, and by
+    // the h that is left on h r / (H - h): the shadow ends r + h r / (H - h) = r H / (H - h) away.
+    constexpr double sonar_m = 3.0;
+    std::mt19937 bits(7);
+    for (int draw = 0; draw < 6; ++draw) {
+        const auto between = [&](double low, double high) {
+            return low + (high - low) * (bits() / 4294967296.0);
+        };
+        const double h = between(0.3, 1.2);
+        const double r = between(4.0, 6.5);
+        CAPTURE(h);
+        CAPTURE(r);
+        Scene scene = empty_scene();
+        const std::uint32_t m = add_material(scene, 0.5F);
+        add_floor(scene, 40.0F, 0.0F, m);
+        const auto x = static_cast<float>(r);
+        const auto top = static_cast<float>(h);
+        add_quad(scene, {x, -0.3F, 0}, {x, 0.3F, 0}, {x, 0.3F, top}, {x, -0.3F, top}, m);
+        const FoundObjects found(scene, wide_fan(), looking_down(sonar_m, 25.0),
+                                 {ObjectSphere{{r, 0.0, 0.5 * h}, 0.5 * h + 0.3}});
+        const SeenObject& wall = found.object(2);
+        const double end_m = std::hypot(r * sonar_m / (sonar_m - h), sonar_m);
+        const double bin_m = found.sonar.settings.view.bin_m();
+        CHECK(std::fabs(found.shadow_end_m(2) - end_m) < 2.5 * bin_m);
+        CHECK(wall.shadow.first_bin >= wall.range_first);
+        CHECK(wall.contrast_db.has_value());
+        // The echo of the wall at its foot has the cosine of the angle below the horizon, that of
+        // the floor the sine; the bins of the wall hold floor as well.
+        CHECK(*wall.contrast_db > 0.5);
+        CHECK(*wall.contrast_db < 10.0 * std::log10(r / (sonar_m - h)) + 0.3);
+        CHECK(wall.visible_share.value() == 1.0);
+        REQUIRE(wall.shadow_contrast_db.has_value());
+        CHECK(*wall.shadow_contrast_db < -6.0);
+        CHECK(std::fabs(wall.azimuth_rad.value()) < 0.02);
+    }
+}
+
+TEST_CASE("annotations: a sphere on a flat floor") {
+    // Its centre lies at the angle b below the horizon, D away. The line that touches it is
+    // asin(a / D) above that and meets the floor H / sin(b - asin(a / D)) away.
+    constexpr double sonar_m = 3.0;
+    constexpr double a = 0.4;
+    constexpr double x = 5.0;
+    constexpr double y = -1.5;
+    Scene scene = empty_scene();
+    const std::uint32_t m = add_material(scene, 0.5F);
+    add_floor(scene, 40.0F, 0.0F, m);
+    add_sphere(scene, {static_cast<float>(x), static_cast<float>(y), static_cast<float>(a)},
+               static_cast<float>(a), m, 64);
+    const FoundObjects found(scene, wide_fan(), looking_down(sonar_m, 25.0),
+                             {ObjectSphere{{x, y, a}, a}});
+    const SeenObject& sphere = found.object(2);
+    const double distance = std::hypot(x, y, sonar_m - a);
+    const double below = std::asin((sonar_m - a) / distance);
+    const double end_m = sonar_m / std::sin(below - std::asin(a / distance));
+    const double bin_m = found.sonar.settings.view.bin_m();
+    CHECK(std::fabs(found.shadow_end_m(2) - end_m) < 3.0 * bin_m);
+    // The near half of it is seen.
+    CHECK(sphere.range_m < distance);
+    CHECK(sphere.range_m > distance - a);
+    // The azimuth in the frame of the sonar, which looks down by 25 degrees.
+    const double ahead = x * std::cos(radians(25.0)) + (sonar_m - a) * std::sin(radians(25.0));
+    CHECK(sphere.azimuth_rad.value() == doctest::Approx(std::atan2(y, ahead)).epsilon(0.03));
+    CHECK(sphere.visible_share.value() == 1.0);
+}
+
+TEST_CASE("annotations: visible shares are those of all sight lines, and the shadows are, too") {
+    // Spheres at random, some behind others and some half in the floor. The lines that annotations
+    // follow must find all that hides them and all that they hide.
+    std::mt19937 bits(3);
+    const auto between = [&](double low, double high) {
+        return static_cast<float>(low + (high - low) * (bits() / 4294967296.0));
+    };
+    double both = 0.0;
+    double either = 0.0;
+    int partly_hidden = 0;
+    for (int draw = 0; draw < 4; ++draw) {
+        Scene scene = empty_scene();
+        const std::uint32_t m = add_material(scene, 0.5F);
+        add_floor(scene, 40.0F, 0.0F, m);
+        std::vector<ObjectSphere> spheres;
+        for (int k = 0; k < 12; ++k) {
+            const Eigen::Vector3f centre(between(3.0, 9.0), between(-3.0, 3.0), between(-0.1, 0.6));
+            const float radius = between(0.1, 0.5);
+            add_sphere(scene, centre, radius, m, 24);
+            spheres.push_back({centre.cast<double>(), 1.0001 * radius});
+        }
+        const FoundObjects found(scene, wide_fan(), looking_down(3.0, 25.0), spheres, true);
+        const SceneObjects objects = group_objects(scene, {});
+        SceneObjects with_background = objects;
+        const auto engine = make_engine(scene, {});
+        const TracedPing traced = trace(found.sonar, scene, *engine, looking_down(3.0, 25.0), 0);
+        with_background.background.assign(objects.classes.size(), 0);
+        with_background.background[0] = 1;
+        const PingLabels few =
+            label_ping(traced, found.sonar.settings, scene, with_background, *engine,
+                       {.objects = true, .annotations = true, .annotated = spheres});
+        for (std::size_t k = 1; k < few.visible_share.size(); ++k) {
+            CAPTURE(k);
+            const float all = found.labels.visible_share[k];
+            CHECK(std::isnan(all) == std::isnan(few.visible_share[k]));
+            if (std::isnan(all)) continue;
+            CHECK(few.visible_share[k] == all);
+            partly_hidden += all > 0.0F && all < 0.95F;
+        }
+        CHECK(few.object_shadow == found.labels.object_shadow);
+        for (std::size_t k = 0; k < few.object_shadow.size(); ++k) {
+            const std::uint16_t of_all = found.labels.shadow[k] > 1 ? found.labels.shadow[k] : 0;
+            both += of_all != 0 && few.object_shadow[k] != 0;
+            either += of_all != 0 || few.object_shadow[k] != 0;
+        }
+    }
+    CHECK(partly_hidden > 5);
+    MESSAGE("agreement of shadows: " << both / either);
+    CHECK(both / either > 0.97);
+}
+
+TEST_SUITE_END();

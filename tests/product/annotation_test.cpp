@@ -1,0 +1,86 @@
+#include "product/annotation.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "product/contrast.h"
+
+using namespace sonarsim;
+
+TEST_SUITE("product") {
+    TEST_CASE("annotations: each rule alone leaves an object out or makes it a crowd") {
+        const LabelConfig rules{
+            .min_pixels = 10, .min_visible_share = 0.25, .min_contrast_db = 2.0, .place = {}};
+        const ObjectFacts good{false, 10, 0.25, 2.0, std::nullopt};
+        CHECK(is_annotated(good, rules) == Annotated::yes);
+        ObjectFacts few = good;
+        few.pixels = 9;
+        ObjectFacts hidden = good;
+        hidden.visible_share = 0.24;
+        ObjectFacts faint = good;
+        faint.contrast_db = 1.9;
+        for (const ObjectFacts& facts : {few, hidden, faint}) {
+            CHECK(is_annotated(facts, rules) == Annotated::no);
+            LabelConfig crowds = rules;
+            crowds.faint = FaintObjects::crowd;
+            CHECK(is_annotated(facts, crowds) == Annotated::as_crowd);
+        }
+        // Dark objects are seen, too, and so are those whose shadow is.
+        faint.contrast_db = -2.1;
+        CHECK(is_annotated(faint, rules) == Annotated::yes);
+        faint.contrast_db = 0.0;
+        faint.shadow_contrast_db = -9.0;
+        CHECK(is_annotated(faint, rules) == Annotated::yes);
+        // Facts that are not known leave nothing out; background is never annotated.
+        CHECK(is_annotated({false, 10, {}, {}, {}}, rules) == Annotated::yes);
+        ObjectFacts floor = good;
+        floor.is_background = true;
+        CHECK(is_annotated(floor, rules) == Annotated::no);
+    }
+
+    TEST_CASE("annotations: boxes of object, shadow and both") {
+        const PixelBox object{4, 8, 10, 14};
+        const PixelBox shadow{5, 9, 2, 10};
+        CHECK(annotation_box(object, shadow, LabelBox::object) == object);
+        CHECK(annotation_box(object, shadow, LabelBox::shadow) == shadow);
+        CHECK(annotation_box(object, shadow, LabelBox::both) == PixelBox{4, 9, 2, 14});
+        CHECK(annotation_box(object, {}, LabelBox::both) == object);
+        CHECK_FALSE(annotation_box(object, {}, LabelBox::shadow).has_value());
+    }
+
+    TEST_CASE("contrast: the level of an object over that beside it at the same range") {
+        // 9 lines of 3 bins. The background grows tenfold from bin to bin, as with range; the
+        // object, lines 4 and 5 of the bins 0 and 1, is four times as bright: 6.0 dB.
+        LevelMap map{9, 3, {}, {}, {}};
+        std::vector<std::uint16_t> object(27, 1);
+        std::vector<std::uint16_t> shadow(27, 0);
+        std::vector<float> level(27);
+        for (std::size_t line = 0; line < 9; ++line) {
+            for (std::size_t bin = 0; bin < 3; ++bin) {
+                const bool is_object = bin < 2 && (line == 4 || line == 5);
+                level[3 * line + bin] = (bin == 0 ? 1.0F : 10.0F) * (is_object ? 4.0F : 1.0F);
+                if (is_object) object[3 * line + bin] = 2;
+            }
+        }
+        // Another object beside it, bright, and a dark shadow of that: neither counts.
+        object[3 * 3 + 0] = 3;
+        level[3 * 3 + 0] = 1000.0F;
+        shadow[3 * 6 + 1] = 3;
+        level[3 * 6 + 1] = 0.0F;
+        map.object = object;
+        map.shadow = shadow;
+        map.level = level;
+        const std::vector<std::uint8_t> is_background{1, 1, 0, 0};
+        const BinBox box{4, 5, 0, 1};
+        const auto found = contrast_db(map, map.object, 2, box, is_background);
+        REQUIRE(found.has_value());
+        CHECK(*found == doctest::Approx(6.0206).epsilon(1e-4));
+        // Nothing beside it but its like: no surroundings.
+        std::ranges::fill(object, std::uint16_t{2});
+        CHECK_FALSE(contrast_db(map, map.object, 2, {0, 8, 0, 2}, is_background).has_value());
+    }
+}
