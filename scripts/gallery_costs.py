@@ -30,7 +30,7 @@ trajectory:
   rate_hz: RATE
 sensors:
   fls: {kind: imaging, azimuth_deg: 60, elevation_deg: 12, range_bins: 96, azimuth_bins: 48}
-output: {folder: out, polar: false, labels: [objects], fan_width_px: 96}
+output: {folder: out, polar: false, labels: [coco], fan_width_px: 96}
 """
 
 # Steps through pings one after the other and notes how long each takes until its picture is there.

@@ -75,12 +75,14 @@ std::size_t BoxLabels::of_class(std::uint64_t class_index) const {
     return instances + class_index;
 }
 
-Json details_of(const CheckedJson& annotation, const CheckedJson& counts, std::uint64_t width,
-                std::uint64_t height) {
-    const std::string mask = counts.text();
-    if (!coco_runs(mask, width * height))
-        counts.refuse("compressed runs of the pixels of the picture");
-    Json details = {{"mask", mask}};
+Json details_of(const CheckedJson& annotation, const std::optional<CheckedJson>& mask,
+                std::uint64_t width, std::uint64_t height) {
+    Json details = Json::object();
+    if (mask) {
+        if (!coco_runs(mask->text(), width * height))
+            mask->refuse("compressed runs of the pixels of the picture");
+        details["mask"] = mask->text();
+    }
     for (const auto& [key, value] : annotation.json().items()) {
         const bool is_side = key == "side" && value.is_string();
         if (is_side || (key == "shadow_bbox" && is_box(value))) details[key] = value;

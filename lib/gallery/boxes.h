@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -44,10 +45,11 @@ struct BoxLabels {
 // A box is [label, x, y, width, height, details], px. `details` has the `mask` as COCO's tools
 // compress it, the box of the shadow and the numbers of the annotation.
 
-/// The details of an annotation or an object. Numbers have five digits. InputError when the mask is
-/// none of a picture of this size, px.
-nlohmann::ordered_json details_of(const CheckedJson& annotation, const CheckedJson& counts,
-                                  std::uint64_t width, std::uint64_t height);
+/// The details of an annotation or an object, which may have no mask. Numbers have five digits.
+/// InputError when the mask is none of a picture of this size, px.
+nlohmann::ordered_json details_of(const CheckedJson& annotation,
+                                  const std::optional<CheckedJson>& mask, std::uint64_t width,
+                                  std::uint64_t height);
 
 /// The boxes in a picture.
 struct ListedBoxes {

@@ -74,7 +74,7 @@ Json box_of_object(const CheckedJson& object, const CheckedJson& shown, const Ob
     box.push_back(short_number(y[0].number()));
     box.push_back(short_number(x[1].number() - x[0].number()));
     box.push_back(short_number(y[1].number() - y[0].number()));
-    box.push_back(details_of(object, shown.at("mask"), frame.width, frame.height));
+    box.push_back(details_of(object, shown.find("mask"), frame.width, frame.height));
     return box;
 }
 

@@ -175,8 +175,25 @@ class GalleryLabels(Labelled):
         file.write_text(sound[:len(sound) // 2])
         self.assert_refused(self.run_sonarsim("gallery", "out"), "coco.json")
         file.unlink()  # the files of single pings have the boxes, too
-        self.assertEqual(json_in(self.gallery(), "dataset-0")["labels"],
-                         json_in(page, "dataset-0")["labels"])
+        (self.out / "labels/coco_fan.json").unlink()
+        fans = [dataset_of(text)["sensors"][0]["views"][0]["boxes"] for text in (page, self.gallery())]
+        self.assertEqual(*([[[box[:5] + [box[5]["mask"]] for box in boxes or []] for boxes in pings]
+                            for pings in fans]))
+
+    def test_boxes_without_masks(self):
+        """The label objects alone has none; that of yolo names classes only."""
+        self.assert_renders("--set", "output.labels=[objects, coco]", "--out", "masks")
+        both = dataset_of(self.gallery("masks"))["sensors"][0]["views"][0]["boxes"]
+        self.assert_renders("--set", "output.labels=[objects]")
+        boxes = dataset_of(self.gallery())["sensors"][0]["views"][0]["boxes"]
+        self.assertEqual([[box[:5] for box in own or []] for own in boxes],
+                         [[box[:5] for box in own or []] for own in both])
+        self.assertNotIn("mask", boxes[0][0][5])
+        self.assert_renders("--overwrite", "--set", "output.labels=[yolo]")
+        page = dataset_of(self.gallery())
+        first = page["sensors"][0]["views"][0]["boxes"][0][0]
+        self.assertGreaterEqual(first[0], page["objects"])
+        self.assertEqual(first[5], {})
 
     @unittest.skipUnless(browser.available(), "Debian's chromium and chromium-driver are not here")
     def test_labels_in_a_browser(self):

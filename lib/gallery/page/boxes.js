@@ -27,8 +27,8 @@ function for_each_box(one, shown, add) {
   }
 }
 
-// The pings of a sensor that show an object, by label: those of the chosen view, or of the first
-// that has boxes.
+// The pings of a sensor that show an object, by label. They are counted in the chosen view if it has
+// boxes, else in the first view that has some.
 let sightings_by_view = new Map();  // of the dataset
 function sightings(k) {
   const one = data.sensors[k];

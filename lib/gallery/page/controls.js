@@ -1,6 +1,6 @@
 // What stands beside the picture, buttons and keys.
 
-// What the label of the selected object says at this ping: [name, value].
+// The values of the selected object's label at this ping: [name, value].
 function details_of_selected() {
   const own = boxes_of(view(), state.ping).find(box => box[0] === state.selected);
   return Object.entries(own ? own[5] : {}).filter(([name]) => name !== 'mask' && name !== 'shadow_bbox')

@@ -3,8 +3,8 @@
 const gap = 3;
 
 // Places names, the most important first. Each has its text and its box on the canvas, [left, top,
-// right, bottom]. It gets the first free place around and then in its box: the list has names
-// without one. Returns {x, y, width, text, colour, box}, x and y at the lower left of the text.
+// right, bottom]. It gets the first free place around its box or in it; a name that finds none is
+// left out, and the list of objects has it. Returns {x, y, width, text, colour, box}, x and y at the lower left of the text.
 function place_names(context, names, line_px, right, bottom) {
   const placed = [];
   const meets = (a, b) => a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3];

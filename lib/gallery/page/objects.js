@@ -55,8 +55,8 @@ function show_objects() {
   if (rows.length > most_rows) list.append(element('small', `and ${rows.length - most_rows} more`));
 }
 
-// Selects a label, or nothing with -1, and goes to a ping that shows it. Of a sensor that never
-// does, the page turns to one that does.
+// Selects a label, or nothing with -1, and goes to the nearest ping that shows it. If the chosen
+// sensor never shows it, the page changes to one that does.
 function select(label) {
   state.selected = label;
   const shows = k => sightings(k).pings.has(label);
