@@ -16,6 +16,9 @@ endif()
 foreach(module ${SONARSIM_MODULES})
     set_target_properties(${module} PROPERTIES CXX_VISIBILITY_PRESET hidden
                           LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/lib/sonarsim)
+    # The sanitizers' functions are those of the program, which need not export all of them.
+    target_compile_options(${module} PRIVATE -fno-sanitize=all)
+    target_link_options(${module} PRIVATE -fno-sanitize=all)
     # Where lib/core/module.cpp looks, whatever CMAKE_INSTALL_LIBDIR is.
     install(TARGETS ${module} LIBRARY DESTINATION lib/sonarsim COMPONENT program)
     add_dependencies(sonarsim_lib ${module})

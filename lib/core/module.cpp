@@ -34,7 +34,7 @@ void* module_symbol(const std::string& name, const char* symbol, const std::stri
     const std::filesystem::path file = file_of_module(name);
     if (file.empty()) {
         throw InputError(title + " is not installed with this program; install " + package +
-                         "-dev and build sonarsim again, or install its Debian package");
+                         " and build sonarsim again, or install sonarsim's Debian package");
     }
     void* module = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (module == nullptr) {

@@ -7,7 +7,7 @@ namespace sonarsim {
 /// The address of `symbol` in lib/sonarsim/libsonarsim_NAME.so beside or above the program. A
 /// module links a library that few missions need, so that the program starts without it. It stays
 /// loaded. InputError without the module, or without the library that it links: the sentence names
-/// `package`, Debian's package of that library.
+/// `package`, Debian's package to build the module with.
 void* module_symbol(const std::string& name, const char* symbol, const std::string& package);
 
 }  // namespace sonarsim

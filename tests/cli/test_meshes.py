@@ -241,7 +241,7 @@ class Meshes(Composed):
         result = subprocess.run([own, "inspect", "crate.stl"], cwd=self.folder, capture_output=True,
                                 text=True, check=False)
         self.assertEqual(result.returncode, 2, result.stderr)
-        self.assertTrue(re.search(r"cannot be loaded \(.*\); install libassimp\b", result.stderr),
+        self.assertTrue(re.search(r"cannot be loaded \(.*\); install libassimp-dev", result.stderr),
                         result.stderr)
 
 

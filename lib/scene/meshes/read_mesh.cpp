@@ -65,7 +65,7 @@ void hand_over(void* output, const SonarsimMeshPart* part) {
 SonarsimReadMesh reader_for(const Location& where) {
     try {
         return reinterpret_cast<SonarsimReadMesh>(
-            module_symbol(mesh_module, mesh_module_symbol, "libassimp"));
+            module_symbol(mesh_module, mesh_module_symbol, "libassimp-dev"));
     } catch (const InputError& error) {
         throw InputError(where, std::string("cannot be read: ") + error.what());
     }
