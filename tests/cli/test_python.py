@@ -112,6 +112,15 @@ class Package(Sandbox):
         self.assertEqual(ping.metadata, sample["meta"])
 
 
+    def run_page(self, program):
+        """The lines that a program of the page prints, run where the examples are."""
+        result = subprocess.run([sys.executable, "-B", "-c", program], cwd=ROOT, capture_output=True,
+                                text=True, check=False, timeout=300,
+                                env={**os.environ, "PYTHONPATH": PACKAGE, "OMP_NUM_THREADS": "1"})
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return result.stdout.splitlines()
+
+
 class SameBytes(Package):
     def test_all_kinds_and_labels(self):
         self.write("mission.yaml", KINDS)
@@ -275,6 +284,11 @@ class Use(Package):
         gc.collect()
         np.testing.assert_array_equal(again.image, image)
 
+    def test_the_first_program_of_the_page(self):
+        program = (ROOT / "docs/python.md").read_text().split("```python\n")[1].split("```")[0]
+        lines = self.run_page(program)
+        self.assertEqual((lines[0], len(lines)), ("(256, 256)", 4 + 90))
+
     def test_warnings(self):
         self.assertEqual(self.open().warnings, [])
         warned = self.open({"water.density_kg_m3": 1}).warnings
@@ -347,15 +361,9 @@ class Torch(Package):
         page = (ROOT / "docs/python.md").read_text()
         loop = page.split("<!-- training loop -->\n```python\n")[1].split("```")[0]
         self.assertLessEqual(len(loop.splitlines()), 35)
-        (self.folder / "configs").symlink_to(ROOT / "configs")
-        (self.folder / "scenes").symlink_to(ROOT / "scenes")
-        (self.folder / "trajectories").symlink_to(ROOT / "trajectories")
-        result = subprocess.run([sys.executable, "-B", "-c", loop], cwd=self.folder, capture_output=True,
-                                text=True, check=False, timeout=300,
-                                env={**os.environ, "PYTHONPATH": PACKAGE, "OMP_NUM_THREADS": "1"})
-        self.assertEqual(result.returncode, 0, result.stderr)
-        losses = [float(line.split()[-1]) for line in result.stdout.splitlines() if "loss" in line]
-        self.assertGreater(len(losses), 1, result.stdout)
+        lines = self.run_page(loop)
+        losses = [float(line.split()[-1]) for line in lines if "loss" in line]
+        self.assertGreater(len(losses), 1, lines)
         self.assertLess(losses[-1], losses[0])
 
 

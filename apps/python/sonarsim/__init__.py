@@ -194,9 +194,9 @@ class Mission:
               shard: tuple[int, int] = (0, 1)) -> Iterator[Ping]:
         """Iterates over the pings of all poses and variants, in the order of the poses.
 
-        `sensor`: of this one alone. `threads`: as many pings are made at a time. `shard` (i, n): the
-        i-th of n parts, counted from 0, which are disjoint: whole variants if there are n of them,
-        else every n-th ping.
+        `sensor`: of this one alone. `threads`: as many pings are made at a time, up to eight for each
+        thread ahead. `shard` (i, n): the i-th of n parts, counted from 0, which are disjoint: whole
+        variants if there are n of them, else every n-th ping.
         """
         index, count = shard
         if not 0 <= index < count:
@@ -330,7 +330,8 @@ def _sensor(description: dict[str, Any]) -> Sensor:
 
 
 def _ahead(jobs: Iterable[Callable[[], Ping]], threads: int) -> Iterator[Ping]:
-    """The results of the jobs in their order. Of several threads at most twice as many results wait."""
+    """The results of the jobs in their order. Several threads work on while a batch is trained on: at
+    most eight results for each of them wait."""
     if threads == 1:
         for job in jobs:
             yield job()
@@ -340,7 +341,7 @@ def _ahead(jobs: Iterable[Callable[[], Ping]], threads: int) -> Iterator[Ping]:
     try:
         for job in jobs:
             waiting.append(pool.submit(job))
-            if len(waiting) >= 2 * threads:
+            if len(waiting) >= 8 * threads:
                 yield waiting.popleft().result()
         while waiting:
             yield waiting.popleft().result()
