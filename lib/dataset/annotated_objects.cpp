@@ -32,6 +32,9 @@ AnnotatedObjects annotated_objects(const Assembly& assembly) {
     const SceneObjects& objects = assembly.objects;
     const std::vector<Eigen::AlignedBox3d> boxes = still_boxes(assembly);
     AnnotatedObjects annotated;
+    for (const Eigen::AlignedBox3d& box : boxes)
+        annotated.surface.extend(box);
+    if (!scene.bodies.empty()) annotated.surface.setEmpty();
     for (std::uint32_t k = 0; k < boxes.size(); ++k) {
         if (!objects.is_background(k) && !boxes[k].isEmpty())
             annotated.still.push_back(sphere_around(boxes[k]));

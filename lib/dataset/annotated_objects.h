@@ -19,6 +19,7 @@ struct AnnotatedObjects {
     };
     std::vector<ObjectSphere> still;  ///< world
     std::vector<Moving> moving;
+    Eigen::AlignedBox3d surface;  ///< around all surface, world; empty if some of it moves
 };
 AnnotatedObjects annotated_objects(const Assembly& assembly);
 

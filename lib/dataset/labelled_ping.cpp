@@ -49,6 +49,7 @@ LabelledPing label_for_writers(const LabelPlan& plan, const Assembly& assembly, 
     LabelRequest request = plan.request;
     const std::vector<ObjectSphere> spheres = spheres_at(plan.annotated, assembly, t_s);
     request.annotated = spheres;
+    request.surface = &plan.annotated.surface;
     LabelledPing out;
     out.bins =
         label_ping(traced, sonar.settings, assembly.scene, assembly.objects, engine, request);

@@ -173,10 +173,9 @@ PingLabels blank_labels(const View& view, const LabelRequest& request) {
 /// Finds the shadows of objects that are no background, and the visible shares of these.
 ShadowFinder find_object_shadows(const TracedPing& traced, const ConeBeams& cones, const View& view,
                                  const SceneObjects& objects, const VisibilityEngine& engine,
-                                 std::span<const ObjectSphere> annotated,
-                                 std::vector<float>& visible_share) {
-    const ObjectDirections directions(annotated, traced.T_world_sensor, view.range_min_m,
-                                      view.range_max_m);
+                                 const LabelRequest& request, std::vector<float>& visible_share) {
+    const ObjectDirections directions(request.annotated, request.surface, traced.T_world_sensor,
+                                      view.range_min_m, view.range_max_m);
     ShadowFinder finder(traced, cones, view, objects, engine, &directions);
     if (!visible_share.empty()) return finder;
     visible_share = finder.visible_shares();
@@ -203,8 +202,8 @@ PingLabels label_ping(const TracedPing& traced, const PingSettings& settings, co
     }
     std::optional<ShadowFinder> object_shadows;
     if (request.annotations) {
-        object_shadows = find_object_shadows(traced, echoes.cones, view, objects, engine,
-                                             request.annotated, labels.visible_share);
+        object_shadows = find_object_shadows(traced, echoes.cones, view, objects, engine, request,
+                                             labels.visible_share);
     }
     const bool shares = request.objects || request.classes || request.materials;
     ElevationFinder elevations(range_bins(view));

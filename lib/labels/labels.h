@@ -23,6 +23,7 @@ struct LabelRequest {
     /// Needs objects: what annotations say of the objects that are no background.
     bool annotations = false;
     std::span<const ObjectSphere> annotated = {};  ///< around these objects, for annotations
+    const Eigen::AlignedBox3d* surface = nullptr;  ///< around all surface, world; null: not known
     const Bottom* bottom = nullptr;  ///< reference of heights; null: nothing has a height
 };
 

@@ -6,9 +6,18 @@
 namespace sonarsim {
 
 ObjectDirections::ObjectDirections(std::span<const ObjectSphere> spheres,
-                                   const Pose& T_world_sensor, double range_min_m,
-                                   double range_max_m)
-    : far_m_(static_cast<std::size_t>(cells) * cells, 0.0F) {
+                                   const Eigen::AlignedBox3d* surface, const Pose& T_world_sensor,
+                                   double range_min_m, double range_max_m)
+    : rotation_(T_world_sensor.rotation.toRotationMatrix()),
+      far_m_(static_cast<std::size_t>(cells) * cells, 0.0F) {
+    if (surface && !surface->isEmpty()) {
+        // Vertices are floats relative to the scene's centre.
+        constexpr double rounding_of_floats = 1e-7;
+        const Eigen::Vector3d margin =
+            Eigen::Vector3d::Constant(rounding_of_floats * surface->diagonal().norm());
+        from_sensor_ = {surface->min() - T_world_sensor.translation - margin,
+                        surface->max() - T_world_sensor.translation + margin};
+    }
     const Eigen::Quaterniond to_sensor = T_world_sensor.rotation.conjugate();
     for (const ObjectSphere& sphere : spheres) {
         const Eigen::Vector3d centre = to_sensor * (sphere.centre - T_world_sensor.translation);
@@ -33,6 +42,20 @@ ObjectDirections::ObjectDirections(std::span<const ObjectSphere> spheres,
             }
         }
     }
+}
+
+bool ObjectDirections::is_empty_behind(const Eigen::Vector3f& direction, float range_m) const {
+    if (from_sensor_.isEmpty()) return false;
+    // Beyond the nearest of the three planes that a line crosses outwards it is outside for good.
+    constexpr double step_behind = 1e-5;  // at which sight lines go on
+    const Eigen::Vector3d point =
+        range_m * (1.0 + step_behind) * (rotation_ * direction.cast<double>());
+    for (int axis = 0; axis < 3; ++axis) {
+        const bool is_past = point[axis] > 0.0 ? point[axis] > from_sensor_.max()[axis]
+                                               : point[axis] < from_sensor_.min()[axis];
+        if (is_past) return true;
+    }
+    return false;
 }
 
 std::size_t ObjectDirections::cell_of(double of_unit_vector) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <span>
 #include <vector>
 
@@ -18,20 +18,26 @@ struct ObjectSphere {
 /// unit vectors in the sensor's frame. It errs to one side: it misses no object.
 class ObjectDirections {
   public:
-    ObjectDirections(std::span<const ObjectSphere> spheres, const Pose& T_world_sensor,
-                     double range_min_m, double range_max_m);
+    /// `surface` is a box around all surface, world; null or empty: not known.
+    ObjectDirections(std::span<const ObjectSphere> spheres, const Eigen::AlignedBox3d* surface,
+                     const Pose& T_world_sensor, double range_min_m, double range_max_m);
 
     /// True if an object may lie in the direction of a unit vector, beyond a range.
     bool may_lie_behind(const Eigen::Vector3f& direction, float range_m) const {
         return far_m_[cell_of(direction.z()) * cells + cell_of(direction.y())] > range_m;
     }
 
+    /// True if no surface lies in the direction of a unit vector beyond a range.
+    bool is_empty_behind(const Eigen::Vector3f& direction, float range_m) const;
+
   private:
     static constexpr int cells = 128;  ///< along y and along z, from -1 to 1
 
     static std::size_t cell_of(double of_unit_vector);
 
-    std::vector<float> far_m_;  ///< [z, y]: the greatest range of an object there; 0: none
+    Eigen::AlignedBox3d from_sensor_;  ///< `surface`, relative to the sensor, axes of the world
+    Eigen::Matrix3d rotation_;         ///< from the sensor's frame to the world's
+    std::vector<float> far_m_;         ///< [z, y]: the greatest range of an object there; 0: none
 };
 
 }  // namespace sonarsim

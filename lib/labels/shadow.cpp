@@ -63,6 +63,8 @@ ShadowFinder::ShadowFinder(const TracedPing& traced, const ConeBeams& cones, con
         return !annotated || !objects.is_background(nodes[line.first].object);
     };
     const auto is_wanted = [&](const SightLine& line) {
+        if (!annotated) return true;
+        if (annotated->is_empty_behind(line.direction, line.range_m)) return false;
         return is_shadow(line) || annotated->may_lie_behind(line.direction, line.range_m);
     };
     std::erase_if(lines, [&](const SightLine& line) { return !is_wanted(line); });

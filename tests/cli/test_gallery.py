@@ -16,6 +16,7 @@ sensors:
   head: {kind: scanning, range_max_m: 6, range_bins: 48, step_deg: 120}
 classes: [{nodes: walls, class: wall}]
 output: {folder: out, fan_width_px: 64, image: true, labels: [coco]}
+labels: {background: [none], min_pixels: 1}
 """
 OBJECT = "walls (wall)"  # what the page calls the only one
 

@@ -160,9 +160,12 @@ TEST_CASE("annotations: visible shares are those of all sight lines, and the sha
         const TracedPing traced = trace(found.sonar, scene, *engine, looking_down(3.0, 25.0), 0);
         with_background.background.assign(objects.classes.size(), 0);
         with_background.background[0] = 1;
-        const PingLabels few =
-            label_ping(traced, found.sonar.settings, scene, with_background, *engine,
-                       {.objects = true, .annotations = true, .annotated = spheres});
+        // The box lets lines end where they leave the scene.
+        const Eigen::AlignedBox3d surface(Eigen::Vector3d(-40, -40, -0.6),
+                                          Eigen::Vector3d(40, 40, 1.1));
+        const PingLabels few = label_ping(
+            traced, found.sonar.settings, scene, with_background, *engine,
+            {.objects = true, .annotations = true, .annotated = spheres, .surface = &surface});
         for (std::size_t k = 1; k < few.visible_share.size(); ++k) {
             CAPTURE(k);
             const float all = found.labels.visible_share[k];
