@@ -168,7 +168,10 @@ int status(const StatusArguments& arguments) {
     start_logging(arguments.log);
     const std::filesystem::path& first = arguments.folders.at(0);
     if (arguments.folders.size() == 1 && read_variants(first)) {
-        print_variants(read_variants_status(first), read_findings(first), arguments.log.json);
+        const VariantsStatus variants = read_variants_status(first);
+        LabelFindings labels;
+        if (variants.complete == variants.variants) labels = read_findings(first);
+        print_variants(variants, labels, arguments.log.json);
         return exit_done;
     }
     const std::vector<std::filesystem::path> collected = collected_folders(first);

@@ -80,7 +80,7 @@ std::vector<Warning> disk_warnings(const std::string& folder, double bytes, doub
 /// W27 for a split with a part that gets none of the variants.
 std::vector<Warning> split_warnings(const SplitConfig& config, std::size_t variants);
 
-/// W33 for every class that hardly any picture of a dataset shows.
+/// W33 with the classes that hardly any picture of a dataset shows.
 std::vector<Warning> class_warnings(const PictureTally& tally);
 
 }  // namespace sonarsim

@@ -185,8 +185,9 @@ constexpr std::array table{
                 "look at the polar images, or raise output.fan_width_px",
                 "the sector is thinner than a pixel at its far end",
                 "most rows of the picture then have no pixel in the sector"},
-    WarningText{WarningCode::rare_class, "{0} of {1} pictures show it",
-                "place more of it, lead the trajectory past it or render more variants",
+    WarningText{WarningCode::rare_class,
+                "of {0} pictures hardly any shows an object of these classes: {1:s}",
+                "place more of them, lead the trajectory past them or render more variants",
                 "at most ten pictures with a label of the class, and at most one picture in ten",
                 "a network that sees a class in ten pictures does not learn it; where there are "
                 "few pictures, one in ten is not few"},

@@ -32,6 +32,21 @@ TEST_CASE("class warnings: at most ten pictures, and at most one in ten") {
     CHECK(warnings_of(0, 0).empty());
     const std::vector<Warning> found = warnings_of(3, 200);
     REQUIRE(found.size() == 1);
-    CHECK(sentence(found[0]).starts_with("W33 class 'mine': 3 of 200 pictures show it; "));
+    CHECK(sentence(found[0]).starts_with(
+        "W33 labels: of 200 pictures hardly any shows an object of these classes: 'mine' (3); "));
 }
 
+TEST_CASE("class warnings: one for all classes, with the names of the first") {
+    PictureTally tally;
+    tally.pictures = 50;
+    for (int k = 0; k < 8; ++k) {
+        ClassTally& one = tally.classes.emplace_back();
+        one.name = "class_" + std::to_string(k);
+        one.pictures = k == 3 ? 40 : 0;
+    }
+    const std::vector<Warning> found = class_warnings(tally);
+    REQUIRE(found.size() == 1);
+    CHECK(
+        found[0].what.ends_with("'class_0' (0), 'class_1' (0), 'class_2' (0), 'class_4' (0), "
+                                "'class_5' (0) and 2 classes more"));
+}

@@ -1,50 +1,20 @@
 """sonarsim gallery over several datasets, and what it does with labels: classes, masks, names, objects."""
 import json
 import os
-import re
 import shutil
 import sys
 import unittest
 
 import browser
-from labelled import Labelled, mask_of
+from labelled import mask_of
+from paged import READY, GalleryCase, dataset_of, json_in
 from sandbox import digest
 
-VARY = """
-variants: 3
-vary:
-  - {key: water.sound_speed_m_s, uniform: [1450, 1540]}
-"""
-READY = "return image_of(url_of(view(), state.ping)).naturalWidth"
-# Names that would run, or end their element, if the page took them for more than text.
+# A name that would run, or end its element, if the page took it for more than text.
 HOSTILE = "</script><img src=x onerror=\"document.title='hit'\">"
 
 
-def json_in(page, element):
-    text = re.search(rf'<script type="application/json" id="{element}">(.*?)</script>', page, re.DOTALL)
-    return json.loads(text.group(1))
-
-
-def dataset_of(page):
-    return json_in(page, "dataset-0")
-
-
-class GalleryLabels(Labelled):
-    def setUp(self):
-        super().setUp()
-        self.edit("mission.yaml", "  labels: true\n", "  labels: [coco]\n")
-
-    def gallery(self, folder="out"):
-        done = self.run_sonarsim("gallery", folder)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        return (self.folder / folder / "index.html").read_text()
-
-    def render_variants(self, *arguments):
-        text = (self.folder / "mission.yaml").read_text()
-        self.write("variants.yaml", text + VARY)
-        done = self.run_sonarsim("render", "variants.yaml", *arguments)
-        self.assertEqual(done.returncode, 0, done.stderr)
-
+class GalleryLabels(GalleryCase):
     def test_variants_have_one_page(self):
         self.render_variants()
         before = digest(self.out)
@@ -105,55 +75,6 @@ class GalleryLabels(Labelled):
             (left, top), (x, y) = view["origin"], view["pixel"]
             for box in view["boxes"]:
                 self.assertEqual(box[5]["shadow_bbox"], [left + x, top + 2 * y, 3 * x, 4 * y])
-
-    def test_packed_pictures_are_copied_beside_the_page(self):
-        self.assert_renders("--out", "loose")
-        self.assert_renders("--set", "output.pack=tar")
-        before = digest(self.out)
-        page = self.gallery()
-        copied = self.out / "index_files/fls/fan"
-        for loose in (self.folder / "loose/fls/fan").iterdir():
-            ping = int(loose.stem)
-            self.assertEqual((copied / f"fls-{ping:06}.fan.png").read_bytes(), loose.read_bytes())
-        views = [sensor["views"] for sensor in dataset_of(page)["sensors"]]
-        others = [sensor["views"] for sensor in dataset_of(self.gallery("loose"))["sensors"]]
-        for packed, loose in zip(views, others, strict=True):
-            self.assertEqual(packed[0].get("boxes"), loose[0].get("boxes"))
-        self.assertEqual({name: sums for name, sums in digest(self.out, without=("index.html",)).items()
-                          if not name.startswith("index_files/")}, before)
-        verified = self.run_sonarsim("verify", "out")
-        self.assertEqual(verified.returncode, 0, verified.stderr)
-        self.assertNotIn("index", verified.stderr)
-        self.assert_renders("--overwrite")
-        self.assertFalse((self.out / "index_files").exists())
-
-    def test_packs_that_cannot_be_copied(self):
-        """A damaged archive is refused and leaves nothing; a link is not followed."""
-        self.assert_renders("--set", "output.pack=tar")
-        archive = self.out / "fls/pack/000000.tar"
-        sound = archive.read_bytes()
-        archive.write_bytes(sound[:len(sound) - 2000])
-        self.assert_refused(self.run_sonarsim("gallery", "out"), "000000.tar")
-        self.assertFalse((self.out / "index_files").exists())
-        self.assertFalse((self.out / "index.html").exists())
-        archive.write_bytes(sound)
-        (self.folder / "elsewhere").mkdir()
-        (self.out / "index_files").symlink_to(self.folder / "elsewhere")
-        self.assert_refused(self.run_sonarsim("gallery", "out"), "is a symbolic link")
-        self.assertEqual(list((self.folder / "elsewhere").iterdir()), [])
-
-    @unittest.skipUnless(browser.available(), "Debian's chromium and chromium-driver are not here")
-    def test_packed_variants_in_a_browser(self):
-        self.render_variants("--set", "output.pack=tar")
-        self.gallery()
-        with browser.Browser() as window:
-            window.open(self.out / "index.html")
-            self.assertEqual(window.wait_for(READY), 64)
-            window.press("]")
-            self.assertEqual(window.wait_for(READY), 64)
-            self.assertIn("index_files/variant_0001/fls/fan/", window.run("return url_of(view(), state.ping)"))
-            self.assertIn("pillar_1 (pillar)", window.run("return document.getElementById('seen').textContent"))
-            self.assertEqual(window.complaints(), [])
 
     def test_damaged_labels_are_refused(self):
         """With the file and its line; a page that was there stays."""
