@@ -60,6 +60,8 @@ std::string unknown_word(const CLI::App& app, const std::string& word) {
     if (!chosen.empty()) return "one argument too many: '" + word + "'";
     for (const CLI::App* command : app.get_subcommands({}))
         known.push_back(command->get_name());
+    if (word.ends_with(".yaml") || word.ends_with(".yml"))
+        return "a subcommand must come first, as in: sonarsim render " + word;
     return "unknown subcommand '" + word + "'" + did_you_mean(word, known);
 }
 

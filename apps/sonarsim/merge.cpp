@@ -81,8 +81,8 @@ int merge(const MergeArguments& arguments) {
         spdlog::warn("stopped after {} pings; {}", summary.pings, goes_on);
         return exit_signal + signal_received();
     }
-    spdlog::info("{}: complete; {} of its pings were there already", arguments.out().string(),
-                 summary.skipped);
+    spdlog::info("{}: complete; {}", arguments.out().string(),
+                 made_text(summary.pings, summary.skipped, "copied"));
     return exit_done;
 }
 

@@ -35,12 +35,9 @@ std::string preset_path(const std::string& name) {
         return std::filesystem::absolute(name).string();
     const std::vector<std::string> known = shipped_presets();
     if (std::ranges::find(known, name) != known.end()) return "sensors/" + name + ".yaml";
-    std::string all;
-    for (const std::string& one : known)
-        all += (all.empty() ? "" : ", ") + one;
-    throw InputError(Location{name},
-                     "is no file, and no preset of this name came with the program" +
-                         did_you_mean(name, known) + "; there are: " + all);
+    throw InputError(
+        Location{name},
+        "is no file, and no preset of this name came with the program" + shipped_hint(name));
 }
 
 /// A mission of the preset alone, whose scene is never opened.

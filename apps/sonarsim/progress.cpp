@@ -57,6 +57,12 @@ std::string duration_text(double seconds) {
     return fmt::format("{} h {} min", whole / 3600, whole % 3600 / 60);
 }
 
+std::string made_text(std::uint64_t made, std::uint64_t there, const char* how) {
+    if (made == 0 && there > 0) return fmt::format("all of its {} pings were there already", there);
+    const std::string rest = there > 0 ? fmt::format(", {} were there already", there) : "";
+    return fmt::format("{} pings {}{}", made, how, rest);
+}
+
 ProgressLine::ProgressLine(const LogOptions& log, std::string what)
     : silent_(log.quiet),
       on_terminal_(!silent_ && !log.json && ::isatty(STDERR_FILENO) == 1),
@@ -76,8 +82,10 @@ void ProgressLine::show(std::uint64_t done, std::uint64_t total,
     const double rate =
         static_cast<double>(done) / std::chrono::duration<double>(now - start_).count();
     const std::string shares = shares_text(stages);
-    std::string text = fmt::format("{} of {} {}, {:.{}f} {}/s, {} left{}{}", done, total, what_,
-                                   rate, rate < 10.0 ? 2 : 0, what_,
+    const std::string speed = rate < 0.1
+                                  ? "one in " + duration_text(1.0 / rate)
+                                  : fmt::format("{:.{}f} {}/s", rate, rate < 10.0 ? 2 : 0, what_);
+    std::string text = fmt::format("{} of {} {}, {}, {} left{}{}", done, total, what_, speed,
                                    duration_text(static_cast<double>(total - done) / rate),
                                    shares.empty() ? "" : "; ", shares);
     if (!on_terminal_) {

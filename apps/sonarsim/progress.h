@@ -15,6 +15,9 @@ namespace sonarsim {
 /// "12 s", "3 min 20 s", "2 h 5 min".
 std::string duration_text(double seconds);
 
+/// "30 pings rendered, 12 were there already".
+std::string made_text(std::uint64_t made, std::uint64_t there, const char* how = "rendered");
+
 /// A stage of the work and its seconds so far.
 using StageSeconds = std::pair<std::string_view, double>;
 

@@ -106,20 +106,21 @@ void print_json(const RenderSummary& summary, const Mission& mission,
     fmt::print("{}", json_line(json));
 }
 
-/// Logs the counts of dropped echoes and the reasons.
+/// Logs the counts of dropped echoes and the reasons. A usual run has many: what matters of them is
+/// a warning.
 void log_dropped(const PingCounts& counts) {
     for (const auto& counter : ping_counters) {
         const std::uint64_t count = counts.*counter.member;
-        if (counter.is_a_loss && count > 0) spdlog::info("{} {}", count, counter.text);
+        if (counter.is_a_loss && count > 0) spdlog::debug("{} {}", count, counter.text);
     }
     if (counts.multipath.samples > 0)
-        spdlog::info("multipath: {}", sentence(multipath_counters, counts.multipath));
+        spdlog::debug("multipath: {}", sentence(multipath_counters, counts.multipath));
 }
 
 void log_outcome(const RenderSummary& summary, const Mission& mission, bool files) {
     const std::string folder = mission.output.folder.string();
     if (files && summary.complete) {
-        spdlog::info("{}: complete; {} of its pings were there already", folder, summary.skipped);
+        spdlog::info("{}: complete; {}", folder, made_text(summary.pings, summary.skipped));
     } else if (files && !summary.stopped) {
         spdlog::info("{}: the pings of other shards are still missing", folder);
     }
@@ -148,6 +149,9 @@ std::vector<Warning> warn_before(const Mission& mission, const Assembly& assembl
     log_warnings(warnings);
     spdlog::info("{}: {} triangles, {} poses", mission.name, assembly.scene.triangles.size(),
                  assembly.trajectory.size());
+    const SceneRejects& rejects = assembly.scene.rejects;
+    if (rejects.degenerate_triangles > 0)
+        spdlog::debug("{} triangles without area are left out", rejects.degenerate_triangles);
     return warnings;
 }
 

@@ -1,6 +1,7 @@
 #include "survey_report.h"
 
 #include <spdlog/fmt/fmt.h>
+#include <tbb/info.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +11,9 @@
 #include <vector>
 
 #include "core/text.h"
+#include "disk.h"
 #include "logging.h"
+#include "progress.h"
 
 namespace sonarsim {
 
@@ -93,6 +96,19 @@ Json survey_json(const SonarSurvey& found, const Scene& scene) {
             {"noise", found.noise},
             {"white_share", found.white_share},
             {"brightest", found.brightest}};
+}
+
+std::string estimate_text(std::uint64_t pings, std::size_t images, double seconds, double set_up_s,
+                          double bytes, double most_bytes) {
+    const std::string about =
+        std::isnan(seconds)
+            ? fmt::format("{} images; a ping has no room in memory", images)
+            : fmt::format("{} images, {} on {} threads after {:.2g} s of set-up, {}", images,
+                          duration_text(seconds), tbb::info::default_concurrency(), set_up_s,
+                          size_text(bytes));
+    return result_line("dataset",
+                       fmt::format("{} pings, at most {}", pings, size_text(most_bytes))) +
+           result_line("about", about);
 }
 
 Json warnings_json(std::span<const Warning> warnings) {

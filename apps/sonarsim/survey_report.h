@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
@@ -15,6 +16,10 @@ std::string survey_text(const SonarSurvey& found, const Scene& scene);
 
 /// A sonar's survey as JSON.
 nlohmann::ordered_json survey_json(const SonarSurvey& found, const Scene& scene);
+
+/// The lines about the size of a dataset. `seconds` (NaN: unknown) and `bytes` are estimates.
+std::string estimate_text(std::uint64_t pings, std::size_t images, double seconds, double set_up_s,
+                          double bytes, double most_bytes);
 
 nlohmann::ordered_json warnings_json(std::span<const Warning> warnings);
 

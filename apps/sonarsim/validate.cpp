@@ -1,17 +1,14 @@
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/spdlog.h>
 #include <tbb/info.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cmath>
 #include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <numeric>
-#include <system_error>
 #include <utility>
 #include <variant>
 
@@ -20,9 +17,11 @@
 #include "core/clock.h"
 #include "core/machine_memory.h"
 #include "dataset/metadata.h"
+#include "disk.h"
 #include "job/folder.h"
 #include "job/ping_cost.h"
 #include "logging.h"
+#include "mission/variants.h"
 #include "mission_options.h"
 #include "progress.h"
 #include "survey_report.h"
@@ -39,21 +38,17 @@ struct ValidateArguments {
     LogOptions log;
 };
 
-/// The folder may not be there yet: what counts is the nearest one above it that is.
-void check_writable(std::filesystem::path folder) {
-    while (!std::filesystem::exists(folder) && folder.has_relative_path())
-        folder = folder.parent_path();
-    if (::access(folder.c_str(), W_OK | X_OK) != 0) {
-        throw std::system_error(errno, std::generic_category(),
-                                "cannot write to " + folder.string());
-    }
-}
-
-/// The sums over all variants of a mission, and the warnings about the first.
+/// The sums over all variants of a mission, and what was found in the first.
 struct VariantFindings {
     std::size_t variants = 0;
     std::uint64_t pings = 0;
-    double bytes = 0.0;
+    std::size_t images = 0;
+    double bytes = 0.0;           ///< at most
+    double seconds = 0.0;         ///< sum over all pings, if they cost what the first variant costs
+    double expected_bytes = 0.0;  ///< sum, estimated in the same way
+    double set_up_s = 0.0;        ///< set-up of the first variant
+    bool is_new = true;           ///< no variant is begun
+    std::string first;            ///< text about the first
     std::vector<Warning> warnings;
 };
 
@@ -114,12 +109,12 @@ nlohmann::ordered_json json_of(const Findings& f) {
             {"warnings", warnings_json(f.warnings)}};
 }
 
-std::string text_of(const Findings& f) {
+/// The lines about the scene, the trajectory and the sonars.
+std::string text_of_parts(const Findings& f) {
     const Scene& scene = f.assembly.scene;
     const Trajectory& trajectory = f.assembly.trajectory;
     const Eigen::Vector3d extent = scene.bounds_max - scene.bounds_min;
-    std::string text = result_line("mission", f.mission.name);
-    text += result_line(
+    std::string text = result_line(
         "scene", fmt::format("{} triangles, {} materials, {} instances, "
                              "{:.1f} x {:.1f} x {:.1f} m",
                              scene.triangles.size(), scene.materials.size(), scene.instances.size(),
@@ -139,17 +134,14 @@ std::string text_of(const Findings& f) {
                                         sonar.settings.view.beams, f.pings[i]));
         text += survey_text(f.sonars[i], scene);
     }
-    text += result_line("dataset",
-                        fmt::format("{} pings, at most {:.1f} MB", f.all_pings(), 1e-6 * f.bytes));
-    text +=
-        result_line("about", std::isnan(f.hours())
-                                 ? fmt::format("{} images; a ping has no room in memory", f.images)
-                                 : fmt::format("{} images, {} on {} threads after {:.2g} s of "
-                                               "set-up, {:.3g} GB",
-                                               f.images, duration_text(3600.0 * f.hours()),
-                                               tbb::info::default_concurrency(), f.set_up_s,
-                                               1e-9 * f.cost(&PingCost::bytes)));
-    return text + result_line("folder", fmt::format("{} ({})", f.folder.string(), f.state));
+    return text;
+}
+
+std::string text_of(const Findings& f) {
+    return result_line("mission", f.mission.name) + text_of_parts(f) +
+           estimate_text(f.all_pings(), f.images, 3600.0 * f.hours(), f.set_up_s,
+                         f.cost(&PingCost::bytes), f.bytes) +
+           result_line("folder", fmt::format("{} ({})", f.folder.string(), f.state));
 }
 
 /// The PNG files that a sensor leaves.
@@ -174,8 +166,9 @@ Findings find_out(const Mission& mission, const Assembly& assembly,
     protect_inputs(layout, mission);
     const FolderState state =
         overwrite ? FolderState::fresh
-                  : inspect_folder(layout, describe_dataset(mission, assembly, layout, writers));
-    check_writable(layout.folder);
+                  : inspect_folder(layout, describe_dataset(mission, assembly, layout, writers),
+                                   resolved_text(mission, assembly));
+    require_writable(layout.folder);
     Findings findings{mission, assembly, layout.folder,
                       state_names[static_cast<std::size_t>(state)], count_pings(mission, poses)};
     for (std::size_t i = 0; i < writers.size(); ++i) {
@@ -208,6 +201,7 @@ void look_at(const Mission& mission, const Assembly& assembly, const std::vector
 /// of its own.
 VariantFindings check_variants(const std::vector<Mission>& variants, bool overwrite) {
     VariantFindings all;
+    std::vector<PingCost> costs;
     SceneFiles models;
     for (const Mission& variant : variants) {
         const Assembly assembly = assemble(variant, models);
@@ -216,9 +210,17 @@ VariantFindings check_variants(const std::vector<Mission>& variants, bool overwr
         if (all.variants++ == 0) {
             look_at(variant, assembly, writers, findings);
             all.warnings = std::move(findings.warnings);
+            all.first = text_of_parts(findings);
+            all.set_up_s = findings.set_up_s;
+            costs = std::move(findings.costs);
         }
+        findings.costs = costs;
         all.pings += findings.all_pings();
+        all.images += findings.images;
         all.bytes += findings.bytes;
+        all.seconds += 3600.0 * findings.hours();
+        all.expected_bytes += findings.cost(&PingCost::bytes);
+        all.is_new = all.is_new && findings.state == state_names.front();
     }
     return all;
 }
@@ -229,14 +231,19 @@ void print_variants(const Mission& mission, const VariantFindings& all, bool as_
                                     {"variants", all.variants},
                                     {"pings", all.pings},
                                     {"folder", mission.output.folder.string()},
+                                    {"images", all.images},
+                                    {"hours", all.seconds / 3600.0},
+                                    {"bytes", all.expected_bytes},
                                     {"bytes_at_most", all.bytes},
                                     {"warnings", warnings_json(all.warnings)}}));
         return;
     }
-    fmt::print("{}{}{}{}", result_line("mission", mission.name),
+    fmt::print("{}{}{}{}{}{}{}", result_line("mission", mission.name),
                result_line("variants", std::to_string(all.variants)),
-               result_line("dataset",
-                           fmt::format("{} pings, at most {:.1f} MB", all.pings, 1e-6 * all.bytes)),
+               result_line("looked at", variant_folder(0) + ":"), all.first,
+               result_line("together", fmt::format("{} variants:", all.variants)),
+               estimate_text(all.pings, all.images, all.seconds, all.set_up_s, all.expected_bytes,
+                             all.bytes),
                result_line("folder", mission.output.folder.string()));
 }
 
@@ -248,6 +255,9 @@ int validate(const ValidateArguments& arguments) {
         VariantFindings all = check_variants(variants, arguments.overwrite);
         for (Warning& warning : split_warnings(mission.output.split, variants.size()))
             all.warnings.push_back(std::move(warning));
+        for (Warning& warning :
+             disk_warnings_at(mission.output.folder, all.is_new ? all.expected_bytes : 0.0))
+            all.warnings.push_back(std::move(warning));
         if (arguments.log.prints_result()) print_variants(mission, all, arguments.log.json);
         return log_warnings(all.warnings) > 0 && arguments.strict ? exit_warned : exit_done;
     }
@@ -258,6 +268,10 @@ int validate(const ValidateArguments& arguments) {
     Findings findings = find_out(mission, assembly, writers, arguments.overwrite);
     findings.set_up_s = assemble_s;
     look_at(mission, assembly, writers, findings);
+    const bool is_new = findings.state == state_names.front();
+    for (Warning& warning :
+         disk_warnings_at(findings.folder, is_new ? findings.cost(&PingCost::bytes) : 0.0))
+        findings.warnings.push_back(std::move(warning));
     if (arguments.log.prints_result()) {
         fmt::print("{}", arguments.log.json ? json_line(json_of(findings)) : text_of(findings));
     }

@@ -9,6 +9,7 @@
 #include "assembly/scene_parts.h"
 #include "core/error.h"
 #include "core/hash.h"
+#include "core/named_at.h"
 #include "core/sha256.h"
 #include "core/text.h"
 #include "mission/files.h"
@@ -85,6 +86,15 @@ void warn_of_empty_scatter(const Mission& mission, Scene& scene) {
     }
 }
 
+MaterialTable materials_of(const SceneConfig& scene) {
+    try {
+        return read_materials(scene.materials);
+    } catch (const InputError& error) {
+        if (scene.place.location.file.empty()) throw;
+        throw named_at(error, scene.place.location);
+    }
+}
+
 /// Makes a sonar. Throws InputError if the mission's engine does not support it.
 Sonar checked_sonar(const Mission& mission, const SonarConfig& sensor,
                     const EngineSettings& settings) {
@@ -143,7 +153,7 @@ Assembly assemble(const Mission& mission, SceneFiles& models) {
             [&] { assembly.sonars.push_back(checked_sonar(mission, sensor, settings)); });
     MaterialTable materials;
     errors.attempt([&] {
-        materials = read_materials(mission.scene.materials);
+        materials = materials_of(mission.scene);
         if (!mission.scene.material_default.empty()) {
             require_material(materials, mission.scene.material_default,
                              mission.scene.place.location);

@@ -68,7 +68,15 @@ Trajectory poses_of(const TrajectoryConfig& config) {
 }
 
 Trajectory vehicle_poses(const Mission& mission) {
-    Trajectory poses = poses_of(mission.trajectory);
+    Trajectory poses;
+    try {
+        poses = poses_of(mission.trajectory);
+    } catch (const InputError& error) {
+        const Location mission_file{mission.scene.place.location.file};
+        const bool has_file = std::holds_alternative<FileTrajectoryConfig>(mission.trajectory);
+        if (has_file || mission_file.file.empty()) throw;
+        throw InputError(mission_file, std::string("trajectory: ") + error.what());
+    }
     for (std::size_t i = 0; i < poses.size(); ++i) {
         const VehicleConfig off = vehicle_at(mission, static_cast<std::uint32_t>(i));
         if (off == VehicleConfig{}) continue;

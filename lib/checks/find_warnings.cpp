@@ -40,6 +40,7 @@ void judge_fan(const OutputConfig& output, const Sonar& sonar, std::vector<Warni
 std::vector<Warning> warnings_before_pings(const Mission& mission, const Assembly& assembly) {
     std::vector<Warning> out = reading_warnings(assembly.scene);
     append(out, material_warnings(mission.water, assembly.scene));
+    append(out, mission_warnings(mission, assembly.trajectory));
     for (const Sonar& sonar : assembly.sonars) {
         judge_engine(mission, sonar, out);
         judge_fan(mission.output, sonar, out);

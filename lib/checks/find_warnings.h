@@ -17,8 +17,8 @@ std::vector<Warning> find_warnings(const Mission& mission, const Assembly& assem
                                    std::span<const SonarSurvey> sonars,
                                    const VisibilityEngine& rays);
 
-/// The part of it that needs no ping: what reading the scene found, water, materials, engine and
-/// fans.
+/// The part of it that needs no ping: what reading the scene found, water, materials, angles and
+/// heights of the mission, engine and fans.
 std::vector<Warning> warnings_before_pings(const Mission& mission, const Assembly& assembly);
 
 /// W01: anything that reading the scene left out or found odd.
@@ -30,6 +30,10 @@ std::vector<Warning> scene_warnings(const Mission& mission, const Assembly& asse
 
 /// Water and materials that no water and no solid has.
 std::vector<Warning> material_warnings(const WaterConfig& water, const Scene& scene);
+
+/// Values that hardly fit the rest of the mission: angles of sonars and objects that look like
+/// radians, heights that are not read, a depth far from the vehicle's.
+std::vector<Warning> mission_warnings(const Mission& mission, const Trajectory& trajectory);
 
 /// Attitudes: angles that look like radians, quaternions that look like w x y z.
 std::vector<Warning> trajectory_warnings(const TrajectoryConfig& config,
@@ -64,6 +68,9 @@ std::vector<Warning> memory_warnings(const std::vector<Sonar>& sonars, int threa
 
 /// True if one ping of any of the sonars takes more than the `available` bytes.
 bool exceeds_memory(const std::vector<Sonar>& sonars, double available);
+
+/// W33 if a dataset of `bytes` does not fit into the `available` bytes.
+std::vector<Warning> disk_warnings(const std::string& folder, double bytes, double available);
 
 /// W27 for a split with a part that gets none of the variants.
 std::vector<Warning> split_warnings(const SplitConfig& config, std::size_t variants);

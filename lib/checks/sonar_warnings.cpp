@@ -21,9 +21,11 @@ void judge_blindness(const Sonar& sonar, const SonarSurvey& found, std::vector<W
     const auto add = [&](WarningCode code, std::size_t pings, const auto&... figures) {
         if (pings > 0) out.push_back(make_warning(code, about, pings, found.pings, figures...));
     };
+    const std::string depths =
+        why.depths == 0 ? "" : "; z points up, and depths are negative: these z look like depths";
     add(WarningCode::blind, found.blind);
     add(WarningCode::range_too_short, why.too_far, why.in_view_m.low, why.in_view_m.high,
-        config.range_max_m);
+        config.range_max_m, depths);
     add(WarningCode::range_begins_late, why.too_near, why.ends_m.high, config.range_min_m);
     const bool cone = sonar.settings.view.shape == ViewShape::cone;
     add(WarningCode::elevation_too_narrow, why.too_flat, why.elevation_deg.low,
@@ -33,7 +35,8 @@ void judge_blindness(const Sonar& sonar, const SonarSurvey& found, std::vector<W
     add(WarningCode::nothing_near, why.nothing,
         why.nearest_m.empty()
             ? std::string("the scene is empty")
-            : fmt::format("the nearest ever is {:.4g} m away or more", why.nearest_m.low));
+            : fmt::format("the nearest ever is {:.4g} m away or more", why.nearest_m.low),
+        depths);
 }
 
 /// Images that are too bright for the scale of the pictures, or too dark. A scale that the program

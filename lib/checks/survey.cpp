@@ -86,6 +86,12 @@ double distance_to(const Scene& scene, const Eigen::Vector3d& point) {
     return Eigen::AlignedBox3d(scene.bounds_min, scene.bounds_max).exteriorDistance(point);
 }
 
+/// True if a height is out of reach above the scene, and its negative, as a depth has it, is not.
+bool looks_like_depth(const Scene& scene, double z_m, double reach_m) {
+    const double highest_m = scene.bounds_max.z() + reach_m;
+    return z_m > highest_m && -z_m > scene.bounds_min.z() && -z_m < highest_m;
+}
+
 /// True for a basin around the whole scene: a sonar is not in it by mistake.
 bool holds_all(const Eigen::AlignedBox3d& box, const Scene& scene) {
     const Eigen::Vector3d extent = scene.bounds_max - scene.bounds_min;
@@ -223,6 +229,8 @@ SonarSurvey survey_sonar(const Mission& mission, const Assembly& assembly, Sonar
             ++out.blind;
             explain(view, around, distance_to(assembly.scene, T_world_sensor.translation),
                     out.no_return);
+            out.no_return.depths +=
+                looks_like_depth(assembly.scene, T_world_sensor.translation.z(), view.range_max_m);
         }
         add_bins(sonar, full_scale,
                  form_image(traced, then->settings, assembly.scene, key, {.random = 1}), ping, sums,

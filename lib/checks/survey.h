@@ -32,6 +32,7 @@ struct NoReturnReasons {
     std::size_t too_flat = 0;   ///< within range there is surface above or below the view alone
     std::size_t elsewhere = 0;  ///< within range there is surface in other directions alone
     std::size_t nothing = 0;    ///< no surface within range in any direction
+    std::size_t depths = 0;     ///< z above the scene whose negative would be a place over it
     Interval in_view_m;         ///< begin of the surface in view, of the pings that are too far
     Interval ends_m;            ///< end of the surface in view, of those that are too near
     Interval elevation_deg;     ///< surface nearest to the view, of those that are too flat
@@ -51,8 +52,8 @@ struct SonarSurvey {
     Interval pitch_deg;
     Interval first_echo_m;  ///< one value for each ping that saw anything
     Interval last_echo_m;
-    double occupied_share = 0.0;    ///< a share of the bins of all pings
-    double white_share = 0.0;  ///< share of the occupied bins above the white of pictures
+    double occupied_share = 0.0;  ///< a share of the bins of all pings
+    double white_share = 0.0;     ///< share of the occupied bins above the white of pictures
     float brightest = 0.0F;
     double signal = 0.0;          ///< mean intensity of the occupied bins without pixel noise
     double noise = 0.0;           ///< mean deviation of the noise that is added to them

@@ -60,14 +60,15 @@ void judge_radians(const Trajectory& trajectory, std::vector<Warning>& out) {
     }
     if (largest == 0.0 || largest > 1.001 * full_turn_rad) return;
     const HeadingErrors errors = heading_errors(trajectory);
+    const std::string what = fmt::format("its attitudes, all within {:.4g} degrees,", largest);
     // docs/warnings.md says why these are the limits.
     if (errors.as_degrees > 30.0 && errors.as_radians < 15.0) {
         out.push_back(
-            make_warning(WarningCode::radians, "trajectory", largest,
+            make_warning(WarningCode::radians, "trajectory", what,
                          fmt::format("headings are {:.0f} degrees off the track, as radians {:.0f}",
                                      errors.as_degrees, errors.as_radians)));
     } else if (is_quarter_turn_rad(largest)) {
-        out.push_back(make_warning(WarningCode::radians, "trajectory", largest,
+        out.push_back(make_warning(WarningCode::radians, "trajectory", what,
                                    fmt::format("{:.5g} is a multiple of a quarter turn", largest)));
     }
 }

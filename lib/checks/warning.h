@@ -42,6 +42,7 @@ enum class WarningCode {
     samples_dropped = 30,
     noise_beyond_range = 31,
     thin_fan = 32,
+    disk_full = 33,
 };
 
 /// A row of the table of all warnings. `what` and `cure` are format strings of the same figures.

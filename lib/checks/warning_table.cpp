@@ -8,10 +8,11 @@ namespace {
 
 // A figure that is a text has the format {:s}.
 constexpr std::array table{
-    WarningText{WarningCode::reading, "{0:s}", "",
-                "anything that reading the scene leaves out or finds odd",
-                "triangles without area, points and lines, vertices that floats round, a CSV in "
-                "g/cm^3 or km/s"},
+    WarningText{
+        WarningCode::reading, "{0:s}", "",
+        "anything that reading the scene leaves out or finds odd",
+        "points and lines, vertices that floats round, a CSV in g/cm^3 or km/s, a z that an "
+        "object on the bottom does not use, a water.depth_m far from the vehicle's"},
     WarningText{WarningCode::scene_huge, "it is {0:.4g} x {1:.4g} x {2:.4g} m",
                 "if the file is in millimetres or centimetres, write scene.units: mm or cm",
                 "a scene above 10 km",
@@ -78,7 +79,7 @@ constexpr std::array table{
     WarningText{WarningCode::range_too_short,
                 "in {0} of {1} pings its range ends too early: what is in view begins at {2:.4g} "
                 "to {3:.4g} m, and range_max_m is {4:.4g}",
-                "raise range_max_m or sail nearer", "one blind ping", "as W12"},
+                "raise range_max_m or sail nearer{5:s}", "one blind ping", "as W12"},
     WarningText{
         WarningCode::range_begins_late,
         "in {0} of {1} pings all that is in view ends by {2:.4g} m, and range_min_m is {3:.4g}",
@@ -94,7 +95,7 @@ constexpr std::array table{
                 "as W12"},
     WarningText{WarningCode::nothing_near,
                 "in {0} of {1} pings there is no surface within the range in any direction; {2:s}",
-                "check the coordinates of the trajectory against the bounds of the scene",
+                "check the coordinates of the trajectory against the bounds of the scene{3:s}",
                 "one blind ping", "as W12"},
     WarningText{
         WarningCode::below_noise,
@@ -119,13 +120,13 @@ constexpr std::array table{
                 "those that look at it most directly",
                 "each try takes a ping, and few objects are visible only from the side; the first "
                 "200 objects are looked for"},
-    WarningText{WarningCode::radians,
-                "its attitudes are all within {0:.4g} degrees and look like radians ({1:s})",
-                "write roll_deg, pitch_deg and yaw_deg in degrees",
+    WarningText{WarningCode::radians, "{0:s} look like radians ({1:s})", "write angles in degrees",
                 "headings more than 30 degrees off the track, and within 15 if read as radians; or "
-                "the largest angle a multiple of pi / 2 to 0.1 %",
+                "the largest angle a multiple of pi / 2 to 0.1 %; or an angle of a sonar or an "
+                "object that is one, or has three decimals and is a multiple of 5 degrees to "
+                "0.05 % if read as radians",
                 "a vehicle that crabs in a current is rarely 30 degrees off; an angle of 1.571 "
-                "degrees is rarer still"},
+                "degrees is rarer still, and nobody mounts a sonar at 0.5236 degrees"},
     WarningText{WarningCode::quaternion_order,
                 "in {0} of {1} poses the vehicle lies on its side or back; read as w x y z it "
                 "would be upright in {2}",
@@ -184,6 +185,13 @@ constexpr std::array table{
                 "look at the polar images, or raise output.fan_width_px",
                 "the sector is thinner than a pixel at its far end",
                 "most rows of the picture then have no pixel in the sector"},
+    WarningText{WarningCode::disk_full,
+                "the dataset takes about {0:.1f} GB, and its disk has {1:.1f} GB free",
+                "render fewer pings or files (output), or write to another disk with --out",
+                "the size that validate estimates is above what is free, and nothing is rendered "
+                "yet",
+                "the estimate is the mean of a few pings; a run that fills the disk stops, and "
+                "goes on once there is room"},
 };
 
 constexpr bool is_in_order() {

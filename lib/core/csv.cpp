@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "core/file.h"
+#include "core/known_format.h"
 #include "core/text.h"
 
 namespace sonarsim {
@@ -60,6 +61,37 @@ std::vector<std::string> split_fields(std::string_view line, const Location& whe
     }
 }
 
+/// Throws InputError for a text that is no CSV at all.
+void check_text(std::string_view text, const std::string& file_name) {
+    const std::string_view format = known_format(text);
+    if (!format.empty())
+        throw InputError(Location{file_name}, "is " + std::string(format) + ", not a CSV");
+    if (text.find('\0') != std::string_view::npos) {
+        throw InputError(Location{file_name}, "holds a zero byte; expected CSV as UTF-8 text");
+    }
+}
+
+/// Throws InputError for a line of another encoding.
+void check_utf8(std::string_view line, const Location& where) {
+    while (!line.empty()) {
+        const std::size_t length = utf8_length(line);
+        if (length == 0) throw InputError(where, "is not UTF-8 text; save the file as UTF-8");
+        line.remove_prefix(length);
+    }
+}
+
+/// Throws InputError for a header whose fields are not separated by commas.
+void check_header(std::string_view line, const Location& where) {
+    if (line.find('\r') != std::string_view::npos)
+        throw InputError(where, "lines end in CR alone; save the file with LF or CRLF");
+    if (line.find(',') != std::string_view::npos) return;
+    const std::size_t at = line.find_first_of(";\t ");
+    if (at == std::string_view::npos) return;
+    const std::string found = line[at] == ';' ? "';'" : line[at] == ' ' ? "blanks" : "tabs";
+    throw InputError(where, "the header has no comma: fields are separated by ',', not by " +
+                                found + ", and numbers have a decimal point");
+}
+
 }  // namespace
 
 CsvTable parse_csv(std::string_view text, const std::string& file_name) {
@@ -67,9 +99,7 @@ CsvTable parse_csv(std::string_view text, const std::string& file_name) {
     table.file = file_name;
     constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
     if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
-    if (text.find('\0') != std::string_view::npos) {
-        throw InputError(Location{file_name}, "holds a zero byte; expected CSV as UTF-8 text");
-    }
+    check_text(text, file_name);
     for (int number = 1; !text.empty(); ++number) {
         const std::size_t end = text.find('\n');
         const std::string_view line = trim(text.substr(0, end));
@@ -77,6 +107,8 @@ CsvTable parse_csv(std::string_view text, const std::string& file_name) {
         if (line.empty() || line.front() == '#') continue;
 
         const Location where{file_name, number};
+        check_utf8(line, where);
+        if (table.header.fields.empty()) check_header(line, where);
         CsvRow row{number, split_fields(line, where)};
         if (table.header.fields.empty()) {
             table.header = std::move(row);

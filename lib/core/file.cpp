@@ -5,12 +5,15 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "core/error.h"
+#include "core/text.h"
 
 namespace sonarsim {
 
@@ -36,6 +39,25 @@ class Descriptor {
 
 std::string reason() {
     return std::generic_category().message(errno);
+}
+
+/// A likely mistake in the path of a file that does not exist; "" if there is none.
+std::string hint_of_path(const std::filesystem::path& path) {
+    if (path.string().find('\\') != std::string::npos) return "; separate folders by '/', not '\\'";
+    if (std::ranges::find(path, "~") != path.end())
+        return "; '~' is not replaced by the home folder: write the whole path";
+    const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+    std::error_code absent;
+    if (!std::filesystem::is_directory(folder, absent))
+        return "; there is no folder " + folder.string();
+    constexpr std::size_t most = 1000;
+    std::vector<std::string> names;
+    std::filesystem::directory_iterator entry(folder, absent);
+    for (; entry != std::filesystem::directory_iterator() && names.size() < most;
+         entry.increment(absent))
+        names.push_back(entry->path().filename().string());
+    std::ranges::sort(names);
+    return did_you_mean(path.filename().string(), names);
 }
 
 enum class Durable { no, yes };
@@ -84,9 +106,14 @@ void throw_errno(const char* what, const std::filesystem::path& path) {
 std::string read_file(const std::filesystem::path& path, std::size_t limit) {
     const Location where{path.string()};
     Descriptor file(path, O_RDONLY | O_NONBLOCK);
-    if (file.get() < 0) throw InputError(where, "cannot open: " + reason());
+    if (file.get() < 0) {
+        const bool absent = errno == ENOENT;
+        const std::string why = reason();
+        throw InputError(where, "cannot open: " + why + (absent ? hint_of_path(path) : ""));
+    }
     struct stat status {};
     if (::fstat(file.get(), &status) != 0) throw InputError(where, "cannot read: " + reason());
+    if (S_ISDIR(status.st_mode)) throw InputError(where, "is a folder; a file is expected here");
     if (!S_ISREG(status.st_mode)) throw InputError(where, "is not a regular file");
     const auto size = static_cast<std::size_t>(status.st_size);
     if (size > limit) {

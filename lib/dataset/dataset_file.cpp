@@ -280,9 +280,14 @@ DatasetFile check_description(Json json, const std::string& file) {
 DatasetFile require_dataset(const std::filesystem::path& folder) {
     const std::filesystem::path file = folder / description_name;
     if (!std::filesystem::is_regular_file(file)) {
-        throw InputError({folder.string()},
-                         "is no dataset: it has no dataset.json; give the output folder of a "
-                         "render");
+        const auto above = std::filesystem::absolute(folder / "..").lexically_normal();
+        throw InputError(
+            {folder.string()},
+            !std::filesystem::exists(folder)
+                ? "is no dataset: there is no such folder; give the output folder of a render"
+            : std::filesystem::is_regular_file(above / description_name)
+                ? "is no dataset, but a folder of one; give the folder above"
+                : "is no dataset: it has no dataset.json; give the output folder of a render");
     }
     std::optional<Json> json = read_description(folder);
     if (!json) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/text.h"
 #include "dataset/file_names.h"
 #include "dataset/layout.h"
 
@@ -51,15 +52,27 @@ bool visit_sensor(const DescribedSensor& sensor,
     });
 }
 
+/// " (mesh.glb, path.csv)": the input files whose content differs; "" if none is listed.
+std::string changed_inputs(const Json& found, const Json& expected) {
+    const Json before = found.value("inputs", Json::array());
+    std::string names;
+    for (const Json& input : expected.value("inputs", Json::array())) {
+        if (std::ranges::find(before, input) != before.end()) continue;
+        names += (names.empty() ? " (" : ", ") + printable(input.value("file", ""));
+    }
+    return names.empty() ? "" : names + ")";
+}
+
 }  // namespace
 
 std::string difference_between(const Json& found, const Json& expected) {
     const auto differs = [&](const char* key) {
         return found.value(key, Json()) != expected.value(key, Json());
     };
-    if (differs("mission_hash")) return "of another mission";
+    if (differs("mission_hash")) return of_another_mission;
     if (differs("inputs_hash"))
-        return "of this mission made from other scene, material or trajectory files";
+        return "of this mission made from other scene, material or trajectory files" +
+               changed_inputs(found, expected);
     if (differs("program_version") || differs("format_version"))
         return "of this mission made by another version of sonarsim";
     const std::string theirs = bytes_of_build(found);

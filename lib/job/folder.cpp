@@ -9,6 +9,7 @@
 #include "core/text.h"
 #include "dataset/description.h"
 #include "dataset/ping_metadata.h"
+#include "mission/differences.h"
 #include "mission/files.h"
 
 namespace sonarsim {
@@ -77,7 +78,17 @@ void require_no_link(const fs::path& path, const std::string& what) {
                                           "or choose another output folder");
 }
 
-FolderState inspect_folder(const Layout& layout, const Json& description) {
+std::string mission_differences(const fs::path& dataset, const std::string& mission) {
+    constexpr std::size_t largest_mission = std::size_t{1} << 26;
+    try {
+        return differing_keys(read_file(dataset / mission_name, largest_mission), mission);
+    } catch (const InputError&) {
+        return "";  // a run that was killed at its beginning has not written it yet
+    }
+}
+
+FolderState inspect_folder(const Layout& layout, const Json& description,
+                           const std::string& mission) {
     const fs::path& folder = layout.folder;
     if (!fs::exists(folder)) return FolderState::fresh;
     require_folder(folder);
@@ -89,7 +100,8 @@ FolderState inspect_folder(const Layout& layout, const Json& description) {
         refuse(folder, "holds files that are no sonarsim dataset", or_nothing);
     }
     const Json found = own_description(folder);
-    const std::string difference = difference_between(found, description);
+    std::string difference = difference_between(found, description);
+    if (difference == of_another_mission) difference += mission_differences(folder, mission);
     if (!difference.empty()) refuse(folder, "holds a dataset " + difference, or_overwrite);
     const DatasetFile dataset = check_description(found, (folder / description_name).string());
     return dataset.complete ? FolderState::complete : FolderState::unfinished;

@@ -15,10 +15,15 @@ enum class FolderState {
     complete,    ///< holds all of it, by its dataset.json
 };
 
-/// The state of the output folder, seen from the dataset that `description` (dataset.json) stands
-/// for. InputError when it holds something else: other files, or a dataset of another mission, of
-/// other input files or of another version of the program.
-FolderState inspect_folder(const Layout& layout, const nlohmann::ordered_json& description);
+/// The keys in which the mission of a dataset differs from the text `mission`, for messages.
+std::string mission_differences(const std::filesystem::path& dataset, const std::string& mission);
+
+/// The state of the output folder, seen from the dataset that `description` (dataset.json) and
+/// `mission` (mission.resolved.yaml) stand for. InputError when it holds something else: other
+/// files, or a dataset of another mission, of other input files or of another version of the
+/// program.
+FolderState inspect_folder(const Layout& layout, const nlohmann::ordered_json& description,
+                           const std::string& mission);
 
 /// True if a folder holds nothing but what a run that was killed at its beginning left.
 bool is_unused(const std::filesystem::path& folder);

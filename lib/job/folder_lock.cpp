@@ -35,6 +35,25 @@ Lock lock_now(int fd, int mode) {
     return Lock::taken;
 }
 
+/// Makes a folder and those above it. InputError for a path where there cannot be one; faults of
+/// the disk stay what they are.
+void make_folder(const fs::path& folder) {
+    try {
+        fs::create_directories(folder);
+    } catch (const fs::filesystem_error& error) {
+        for (const std::errc fault :
+             {std::errc::permission_denied, std::errc::operation_not_permitted,
+              std::errc::read_only_file_system, std::errc::no_such_file_or_directory,
+              std::errc::not_a_directory, std::errc::filename_too_long}) {
+            if (error.code() != fault) continue;
+            throw InputError({folder.string()},
+                             "cannot make this folder: " + error.code().message() +
+                                 "; choose another output.folder (--out)");
+        }
+        throw;
+    }
+}
+
 }  // namespace
 
 FolderLock::FolderLock(fs::path folder) : folder_(std::move(folder)) {
@@ -52,7 +71,7 @@ void FolderLock::open() {
     while (fd_ < 0) {
         if (fs::exists(folder_) && !fs::is_directory(folder_))
             throw InputError({folder_.string()}, "is not a folder");
-        fs::create_directories(folder_);
+        make_folder(folder_);
         fd_ = ::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
         // Another run may have removed it again.
         if (fd_ < 0 && errno != ENOENT) throw_errno("cannot open", folder_);

@@ -19,6 +19,7 @@
 #include "job/folder_lock.h"
 #include "job/ping_files.h"
 #include "job/resume.h"
+#include "mission/differences.h"
 #include "mission/resolved.h"
 #include "sonar/kinds.h"
 #include "sonar/sonar.h"
@@ -44,6 +45,8 @@ CommonFiles read_common(const fs::path& folder) {
 void require_same(const fs::path& part, const CommonFiles& found, const fs::path& first,
                   const CommonFiles& expected) {
     std::string difference = difference_between(found.description, expected.description);
+    if (difference == of_another_mission)
+        difference += differing_keys(found.mission, expected.mission);
     if (difference.empty() &&
         (found.mission != expected.mission || found.trajectory != expected.trajectory))
         difference = "of this mission whose inputs or poses were changed since";
@@ -263,11 +266,11 @@ MergeSummary merge_datasets(const std::vector<fs::path>& folders, const fs::path
     protect_inputs(layout, context.mission);
     const std::vector<PingId> all = list_pings(context.mission, poses);
     // InputError for missing pings before anything is written.
-    if (inspect_folder(layout, common.description) == FolderState::fresh)
+    if (inspect_folder(layout, common.description, common.mission) == FolderState::fresh)
         plan_copies(all, parts, *parts[0]->finished);
     const FolderLock lock = lock_alone(layout.folder);
     MergeSummary summary{.unlocked = !lock.works()};
-    if (inspect_folder(layout, common.description) == FolderState::complete &&
+    if (inspect_folder(layout, common.description, common.mission) == FolderState::complete &&
         has_all(layout, all)) {
         summary.skipped = all.size();
         summary.complete = true;

@@ -164,13 +164,14 @@ FolderState set_up(const Layout& layout, const CommonFiles& common, const Missio
                    const RenderOptions& options, FolderLock& lock) {
     if (options.overwrite) remove_dataset(layout, mission);
     // Files that are not the dataset's stay in the folder; without its dataset.json it is fresh.
-    const FolderState state =
-        options.overwrite ? FolderState::fresh : inspect_folder(layout, common.description);
+    const FolderState state = options.overwrite
+                                  ? FolderState::fresh
+                                  : inspect_folder(layout, common.description, common.mission);
     if (state != FolderState::complete) begin_dataset(layout, common);
     if (options.shards == 1) return state;
     if (!lock.share([&] { return !others_write(layout.folder, options.shards); }))
         refuse_second_run(layout.folder);
-    return inspect_folder(layout, common.description);
+    return inspect_folder(layout, common.description, common.mission);
 }
 
 /// Completes a dataset that has all of its pings. Shards that come to their end at the same time do
@@ -180,7 +181,7 @@ bool complete_once(const Layout& layout, const Mission& mission,
                    const std::vector<Writers>& writers, RecordFiles& records,
                    const CommonFiles& common, FolderLock& lock, const std::atomic<bool>& stop) {
     if (!lock.take_alone([&] { return !stop; })) return false;
-    const FolderState state = inspect_folder(layout, common.description);
+    const FolderState state = inspect_folder(layout, common.description, common.mission);
     if (state != FolderState::complete || !has_all(layout, {}))
         complete_dataset(layout, mission, writers, records, common);
     return true;

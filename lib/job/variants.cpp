@@ -206,8 +206,15 @@ void begin_variants(const fs::path& folder, const Json& json, std::span<const Mi
         throw InputError({folder.string()},
                          "holds files that are no variants of a sonarsim mission; choose another "
                          "output.folder, or remove it");
-    if (found && *found != json && !overwrite)
-        refuse_folder(folder, "holds variants of another mission, seed or version of sonarsim");
+    if (found && *found != json && !overwrite) {
+        std::string difference = variants_difference(*found, json);
+        if (difference.empty())
+            difference =
+                mission_differences(folder / variant_folder(0),
+                                    resolved_yaml(portable(variants.front()), sonar_keys()));
+        refuse_folder(
+            folder, "holds variants of another mission, seed or version of sonarsim" + difference);
+    }
     if (found) require_no_links(folder, *found);
     require_no_links(folder, json);
     if (found && overwrite) {

@@ -33,6 +33,11 @@ nlohmann::ordered_json describe_variants(const Mission& mission, std::span<const
 /// The variants.json of a folder; nothing if there is none. InputError when it is not sonarsim's.
 std::optional<nlohmann::ordered_json> read_variants(const std::filesystem::path& folder);
 
+/// " (seed: 1 there, 2 here)": what differs in two variants.json, for messages; "" if only the hash
+/// of the mission does.
+std::string variants_difference(const nlohmann::ordered_json& there,
+                                const nlohmann::ordered_json& here);
+
 /// The folders of the variants that a variants.json names, in order.
 std::vector<std::filesystem::path> folders_of_variants(const std::filesystem::path& folder,
                                                        const nlohmann::ordered_json& json);

@@ -95,16 +95,30 @@ void list_unknown_files(const fs::path& folder, const Json& json, std::set<std::
 
 }  // namespace
 
+std::string variants_difference(const Json& there, const Json& here) {
+    std::string text;
+    const auto add = [&](const std::string& name, const Json& before, const Json& now) {
+        if (before == now) return;
+        text += (text.empty() ? " (" : "; ") + name + ": " + before.dump() + " there, " +
+                now.dump() + " here";
+    };
+    for (const char* key : {"mission", "seed", "program_version"})
+        add(key, there.value(key, Json()), here.value(key, Json()));
+    add("variants", there.at("variants").size(), here.at("variants").size());
+    return text.empty() ? "" : text + ")";
+}
+
 MergeSummary merge_variants(const std::vector<fs::path>& parts, const fs::path& out, int threads,
                             const ProgressCallback& progress, const std::atomic<bool>& stop) {
     require_apart(parts, out);
     const Json json = require_variants(parts.at(0));
     for (const fs::path& part : parts) {
-        if (require_variants(part) != json) {
+        const Json own = require_variants(part);
+        if (own != json) {
             throw InputError({part.string()},
                              "holds variants of another mission, seed or version "
                              "of sonarsim than " +
-                                 parts[0].string());
+                                 parts[0].string() + variants_difference(own, json));
         }
     }
     const std::vector<fs::path> targets = folders_of_variants(out, json);

@@ -9,7 +9,9 @@
 #include <sstream>
 #include <utility>
 
+#include "core/known_format.h"
 #include "core/text.h"
+#include "mission/yaml_faults.h"
 
 namespace sonarsim {
 
@@ -38,8 +40,11 @@ void check_characters(std::string_view text, YamlPlace place, Lines lines) {
                 place.line = line;
                 place.column = static_cast<int>(i - line_start) + 1;
             }
-            throw InputError(place.location(),
-                             length == 0 ? "is not UTF-8 text" : "control character in the text");
+            const std::string format(known_format(text));
+            if (!format.empty()) throw InputError(place.location(), "is " + format + ", not YAML");
+            throw InputError(place.location(), length == 0
+                                                   ? "is not UTF-8 text; save the file as UTF-8"
+                                                   : "control character in the text");
         }
         i += length;
         if (c == '\n') {
@@ -59,6 +64,13 @@ class Builder : public YAML::EventHandler {
     }
 
     YamlNode take() { return std::move(root_); }
+
+    /// Throws InputError if the last quoted text is not closed.
+    void check_quotes(std::string_view text) const {
+        const auto at = static_cast<std::size_t>(last_quote_.pos);
+        const bool is_quote = at < text.size() && (text[at] == '"' || text[at] == '\'');
+        if (is_quote && !is_closed(text, at)) fail(last_quote_, "this quote is not closed");
+    }
 
     YamlPlace place(const YAML::Mark& mark) const {
         if (lines_ == Lines::none) return {source_, 0, 0};
@@ -87,6 +99,7 @@ class Builder : public YAML::EventHandler {
         check_tag(mark, tag);
         YamlNode scalar = node_at(mark, YamlNode::Kind::scalar);
         scalar.quoted = tag == "!";
+        if (scalar.quoted) last_quote_ = mark;
         scalar.text = value;
         add(std::move(scalar));
     }
@@ -163,6 +176,10 @@ class Builder : public YAML::EventHandler {
             return;
         }
         if (parent.node.kind == YamlNode::Kind::map) {
+            // The parser's place of a value that is left out is that of the next key.
+            const bool is_left_out = node.kind == YamlNode::Kind::empty;
+            if (is_left_out && node.place.line != parent.key.place.line)
+                node.place = parent.key.place;
             node.key = std::move(parent.key.text);
             node.key_place = std::move(parent.key.place);
             parent.key_comes_next = true;
@@ -189,6 +206,7 @@ class Builder : public YAML::EventHandler {
     std::shared_ptr<const std::string> source_;
     Lines lines_;
     bool started_ = false;
+    YAML::Mark last_quote_;
     std::size_t count_ = 0;
     std::vector<Open> open_;
     YamlNode root_;
@@ -207,6 +225,8 @@ YamlNode* YamlNode::find(std::string_view wanted) {
 
 YamlNode read_document(std::string_view text, const std::string& source, Lines lines) {
     Builder builder(std::make_shared<const std::string>(source), lines);
+    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+    if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
     check_characters(text, builder.place(YAML::Mark{}), lines);
     try {
         std::istringstream stream{std::string(text)};
@@ -214,8 +234,10 @@ YamlNode read_document(std::string_view text, const std::string& source, Lines l
         while (parser.HandleNextDocument(builder)) {
         }
     } catch (const YAML::Exception& error) {
-        throw InputError(builder.place(error.mark).location(), "not valid YAML: " + error.msg);
+        throw InputError(builder.place(error.mark).location(),
+                         "not valid YAML: " + cause_of(error.msg, error.mark.line, text));
     }
+    builder.check_quotes(text);
     return builder.take();
 }
 

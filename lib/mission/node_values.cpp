@@ -72,6 +72,22 @@ std::string listed(const std::vector<std::string>& names) {
     return out;
 }
 
+std::string listed(const double* values, std::size_t count) {
+    std::string out;
+    for (std::size_t i = 0; i < count; ++i)
+        out += (i > 0 ? ", " : "") + number_text(values[i]);
+    return "[" + out + "]";
+}
+
+std::string values_text(const KeyTexts& values, std::initializer_list<const char*> keys) {
+    std::string out;
+    for (const auto& [key, value] : values) {
+        if (std::ranges::find(keys, key) == keys.end()) continue;
+        out += (out.empty() ? " (" : ", ") + key + " is " + value;
+    }
+    return out.empty() ? "" : out + ")";
+}
+
 std::size_t index_of(const YamlNode& node, const char* key, const std::vector<std::string>& names) {
     if (node.kind != YamlNode::Kind::scalar) refuse_type(node, key, "one of: " + listed(names));
     const auto name = std::ranges::find(names, node.text);

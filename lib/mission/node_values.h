@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstddef>
+#include <initializer_list>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "mission/document.h"
@@ -30,6 +32,15 @@ std::string read_text(const YamlNode& node, const char* key);
 
 /// "a, b, c".
 std::string listed(const std::vector<std::string>& names);
+
+/// "[1, 2]".
+std::string listed(const double* values, std::size_t count);
+
+/// Values as text, by key.
+using KeyTexts = std::vector<std::pair<std::string, std::string>>;
+
+/// " (key is 1, other is 2)": those of `keys` that have a value; "" if none has.
+std::string values_text(const KeyTexts& values, std::initializer_list<const char*> keys);
 
 /// Returns the index of the node's text in `names`.
 std::size_t index_of(const YamlNode& node, const char* key, const std::vector<std::string>& names);

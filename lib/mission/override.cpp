@@ -29,8 +29,10 @@ std::vector<std::string> split_path(std::string_view path, const Location& where
     return keys;
 }
 
-/// The item of `node` that `key` names. A missing item of a map is created.
-YamlNode& descend(YamlNode& node, const std::string& key, const YamlPlace& place) {
+/// The item of `node` that `key` names. A missing item of a map is created. `above` holds `node`,
+/// for messages.
+YamlNode& descend(const YamlNode& above, YamlNode& node, const std::string& key,
+                  const YamlPlace& place) {
     if (node.kind == YamlNode::Kind::list) {
         const std::optional<std::uint64_t> index = parse_unsigned(key);
         if (!index || *index >= node.items.size()) {
@@ -45,8 +47,13 @@ YamlNode& descend(YamlNode& node, const std::string& key, const YamlPlace& place
                                                " below the single value " + in_quotes(node.text));
     }
     if (node.implied && parse_unsigned(key)) {
+        std::vector<std::string> lists;
+        for (const YamlNode& item : above.items) {
+            if (item.kind == YamlNode::Kind::list) lists.push_back(item.key);
+        }
         throw InputError(place.location(), "there is no list " + in_quotes(node.key) +
                                                " with an item " + in_quotes(key) +
+                                               did_you_mean(node.key, lists) +
                                                "; write the whole list in the mission first");
     }
     node.kind = YamlNode::Kind::map;
@@ -61,9 +68,10 @@ YamlNode& descend(YamlNode& node, const std::string& key, const YamlPlace& place
 
 /// Replaces the value at the path.
 void put(YamlNode& root, const std::vector<std::string>& path, YamlNode value) {
+    const YamlNode* above = &root;
     YamlNode* node = &root;
     for (const std::string& key : path)
-        node = &descend(*node, key, value.place);
+        node = &descend(*std::exchange(above, node), *node, key, value.place);
     value.key = std::move(node->key);
     value.key_place = std::move(node->key_place);
     *node = std::move(value);

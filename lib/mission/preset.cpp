@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "core/file.h"
+#include "core/text.h"
+#include "mission/node_values.h"
 
 namespace sonarsim {
 
@@ -59,7 +61,8 @@ YamlNode read_preset(const YamlNode& name, const std::filesystem::path& base_fol
         if (shipped.empty()) {
             throw InputError(name.place.location(),
                              "there is no preset " + in_quotes(path.string()) +
-                                 ", and none of this name came with the program");
+                                 ", and none of this name came with the program" +
+                                 shipped_hint(name.text) + ", written as sensors/NAME.yaml");
         }
         path = shipped;
     }
@@ -85,6 +88,13 @@ std::vector<std::string> shipped_presets() {
     }
     std::ranges::sort(names);
     return names;
+}
+
+std::string shipped_hint(std::string name) {
+    std::ranges::replace(name, '\\', '/');
+    const std::vector<std::string> names = shipped_presets();
+    return did_you_mean(std::filesystem::path(name).stem().string(), names) +
+           "; there are: " + listed(names);
 }
 
 void fill_in_presets(YamlNode& mission, const std::filesystem::path& base_folder) {

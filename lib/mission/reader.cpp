@@ -62,6 +62,7 @@ const SonarKeys& MissionReader::sonar_kind(const char* key, SonarConfig& value,
 void MissionReader::number(const char* key, double& value, const Limits& limits,
                            const char* /*meaning*/, Presence presence) {
     read_key(key, presence, [&](const YamlNode& node) { value = read_number(node, key, limits); });
+    note(key, number_text(value));
 }
 
 void MissionReader::number_or_auto(const char* key, double& value, const Limits& limits,
@@ -99,6 +100,7 @@ void MissionReader::integer(const char* key, int& value, const Limits& limits,
         check_limits(node, key, static_cast<double>(*number), limits);
         value = static_cast<int>(*number);
     });
+    note(key, std::to_string(value));
 }
 
 void MissionReader::integer(const char* key, std::uint64_t& value, const char* /*meaning*/) {
@@ -175,8 +177,10 @@ void MissionReader::range(const char* key, std::array<double, 2>& value, const L
         }
         read_numbers(node, key, value.data(), 2, limits);
         if (value[0] > value[1])
-            refuse(node,
-                   "'" + std::string(key) + "': the first number must not be above the second");
+            refuse(node, "'" + std::string(key) +
+                             "': the first number must not be above the second, "
+                             "in " +
+                             listed(value.data(), 2));
     });
 }
 
@@ -241,8 +245,9 @@ const std::vector<YamlNode>& MissionReader::named_items(const char* key) {
     std::vector<std::string> names;
     for (const YamlNode& item : node.items) {
         if (item.implied) {
+            const std::string hint = did_you_mean(item.key, names);
             refuse(item, "there is no " + in_quotes(item.key) + " in '" + key + "'" +
-                             did_you_mean(item.key, names));
+                             (hint.empty() ? "; there are: " + listed(names) : hint));
         }
         if (!is_name(item.key)) {
             throw InputError(
@@ -276,7 +281,8 @@ void MissionReader::require(bool holds, std::initializer_list<const char*> keys,
         const YamlNode* node = node_.find(key);
         if (node != nullptr && (last == nullptr || after(node->place, last->place))) last = node;
     }
-    errors_.attempt([&] { refuse(last != nullptr ? *last : node_, message); });
+    errors_.attempt(
+        [&] { refuse(last != nullptr ? *last : node_, message + values_text(values_, keys)); });
     faulty_.insert(faulty_.end(), keys.begin(), keys.end());
 }
 

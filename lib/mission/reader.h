@@ -63,6 +63,7 @@ class MissionReader {
                  const char* /*meaning*/, Presence presence = Presence::optional) {
         read_key(key, presence,
                  [&](const YamlNode& node) { read_numbers(node, key, values.data(), N, limits); });
+        note(key, listed(values.data(), N));
     }
 
     /// Reads a list of any number of numbers.
@@ -154,7 +155,8 @@ class MissionReader {
         (std::index_sequence_for<T...>{});
     }
 
-    /// Checks a condition on several keys. A failure is reported at the last of `keys` in the file.
+    /// Checks a condition on several keys. A failure is reported at the last of `keys` in the file,
+    /// with the values of those that are numbers.
     /// The check is skipped if one of the keys is faulty; if it fails, all of them are faulty.
     void require(bool holds, std::initializer_list<const char*> keys, const char* message);
 
@@ -187,6 +189,9 @@ class MissionReader {
         });
     }
 
+    /// Keeps the value of a key, given or default, for messages of require().
+    void note(const char* key, std::string value) { values_.emplace_back(key, std::move(value)); }
+
     const YamlNode* find(const char* key, Presence presence);
     std::filesystem::path path_of(const YamlNode& node, const char* key) const;
     std::size_t index_of_present(const std::vector<std::string>& keys) const;
@@ -200,6 +205,7 @@ class MissionReader {
     ErrorList& errors_;
     std::vector<std::string> known_;
     std::vector<std::string> faulty_;  ///< keys with an error
+    KeyTexts values_;                  ///< numbers read so far, by key
 };
 
 }  // namespace sonarsim

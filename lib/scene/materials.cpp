@@ -148,28 +148,33 @@ MaterialTable parse_materials(std::string_view text, const std::string& file_nam
     return to_materials(parse_csv(text, file_name));
 }
 
-void resolve_materials(Scene& scene, const MaterialTable& table, const Water& water) {
+void resolve_materials(Scene& scene, const MaterialTable& table, const Water& water,
+                       std::span<const std::string> users) {
     std::map<std::string, const Material*> by_name;
     std::vector<std::string> names;
     for (const Material& material : table.materials) {
         by_name.emplace(material.name, &material);
         names.push_back(material.name);
     }
-    std::string missing;
-    for (Material& material : scene.materials) {
+    ErrorList errors;
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        Material& material = scene.materials[i];
         const auto found = by_name.find(material.name);
         if (found == by_name.end()) {
-            missing += missing.empty() ? "" : ", ";
-            missing += "'" + material.name + "'" + did_you_mean(material.name, names);
+            const std::string name = "'" + printable(material.name) + "'";
+            errors.add(InputError(
+                Location{table.file},
+                "lacks the material " + name + (i < users.size() ? " of " + users[i] : "") +
+                    did_you_mean(material.name, names) +
+                    "; add it to the CSV, write materials_map: {" + name +
+                    ": NAME} with a name of the CSV, or give scene.material_default"));
             continue;
         }
         material = *found->second;
         material.reflection = static_cast<float>(
             power_reflection(material.density_kg_m3, material.sound_speed_m_s, water));
     }
-    if (!missing.empty()) {
-        throw InputError(Location{table.file}, "lacks materials of the scene: " + missing);
-    }
+    errors.raise();
 }
 
 void require_material(const MaterialTable& table, const std::string& name, const Location& place) {

@@ -145,7 +145,7 @@ class Merge(Sandbox):
     def test_mistakes(self):
         self.assert_refused(self.merge("part1", "part2", "part3", "part1"), "part1",
                             "one of the parts")
-        self.assert_refused(self.merge("part1", "none", "all"), "none", "no dataset.json")
+        self.assert_refused(self.merge("part1", "none", "all"), "none", "there is no such folder")
         self.write("taken/thesis.txt", "years of work")
         self.assert_refused(self.merge("part1", "part2", "part3", "taken"), "taken",
                             "no sonarsim dataset")

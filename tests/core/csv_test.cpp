@@ -61,6 +61,25 @@ TEST_SUITE("core") {
             "t.csv:2: a quote inside of a field that does not start with one: 1\"2", InputError);
         CHECK_THROWS_WITH_AS(parse(std::string("a\0b", 3)),
                              "t.csv: holds a zero byte; expected CSV as UTF-8 text", InputError);
+        CHECK_THROWS_WITH_AS(
+            parse("a;b\n1,5;2\n"),
+            "t.csv:1: the header has no comma: fields are separated by ',', not by "
+            "';', and numbers have a decimal point",
+            InputError);
+        CHECK_THROWS_WITH_AS(
+            parse("a\tb\n"),
+            "t.csv:1: the header has no comma: fields are separated by ',', not by "
+            "tabs, and numbers have a decimal point",
+            InputError);
+        CHECK_THROWS_WITH_AS(parse("a,b\r1,2\r"),
+                             "t.csv:1: lines end in CR alone; save the file with LF or CRLF",
+                             InputError);
+        CHECK_THROWS_WITH_AS(parse("a,b\n1,\xe9\n"),
+                             "t.csv:2: is not UTF-8 text; save the file as UTF-8", InputError);
+        CHECK_THROWS_WITH_AS(parse(std::string("II*\0\b", 5)),
+                             "t.csv: is a TIFF picture, such as a GeoTIFF, not a CSV", InputError);
+        CHECK_THROWS_WITH_AS(parse(std::string("glTF\2\0", 6)), "t.csv: is a .glb mesh, not a CSV",
+                             InputError);
         CHECK_THROWS_WITH_AS(parse(std::string(1024, ',')), "t.csv:1: more than 1024 fields",
                              InputError);
         CHECK_THROWS_AS(read_csv("/nonexistent/t.csv", 100), InputError);

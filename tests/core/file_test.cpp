@@ -114,7 +114,8 @@ TEST_SUITE("core") {
 
         const fs::path subfolder = folder / "folder";
         fs::create_directory(subfolder);
-        CHECK(message_of_reading(subfolder) == subfolder.string() + ": is not a regular file");
+        CHECK(message_of_reading(subfolder) ==
+              subfolder.string() + ": is a folder; a file is expected here");
 
         // Nobody writes to this one: an ordinary open() would wait for ever.
         const fs::path fifo = folder / "fifo";

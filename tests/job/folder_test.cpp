@@ -88,7 +88,10 @@ TEST_SUITE("job") {
             mission, 5,
             "holds a dataset of this mission made from other scene, material or trajectory files");
         ++mission.seed;
-        check_refused_unless_overwritten(mission, 4, "holds a dataset of another mission");
+        check_refused_unless_overwritten(
+            mission, 4,
+            "holds a dataset of another mission (seed: " + std::to_string(mission.seed - 1) +
+                " there, " + std::to_string(mission.seed) + " here)");
         --mission.seed;
         edit(mission.output.folder / "dataset.json", "\"program_version\": \"",
              "\"program_version\": \"9");

@@ -65,20 +65,38 @@ TEST_CASE("what YAML can do and a mission may not") {
 }
 
 TEST_CASE("malformed YAML names its line") {
-    CHECK(refusal("seed: 1\nname: [1, 2\n").starts_with("m.yaml:3:1: not valid YAML: "));
-    CHECK(refusal("seed: 1\n name: 2\n").starts_with("m.yaml:2:"));
-    CHECK(refusal("seed: \"abc\n").starts_with("m.yaml:"));
-    CHECK(refusal("\tseed: 1\n").starts_with("m.yaml:1:"));
+    CHECK(refusal("seed: 1\nname: [1, 2\n") ==
+          "m.yaml:3:1: not valid YAML: a bracket is not closed");
+    CHECK(refusal("seed: 1\nname: {a: 2\n") == "m.yaml:3:1: not valid YAML: a brace is not closed");
+    const std::string two_colons =
+        ": not valid YAML: a second ':' in one value; check the indentation of this line, and that "
+        "a blank follows the ':' of the line above";
+    CHECK(refusal("seed: 1\n name: 2\n") == "m.yaml:2:6" + two_colons);
+    CHECK(refusal("seed:1\nname: 2\n") == "m.yaml:2:5" + two_colons);
+    CHECK(refusal("water:\n  ph: 8\n wind_m_s: 3\n") ==
+          "m.yaml:3:2: not valid YAML: this line is not indented as the lines above it");
+    CHECK(refusal("seed: \"abc\nname: b\n") == "m.yaml:1:7: this quote is not closed");
+    CHECK(refusal("seed: 'abc\n") == "m.yaml:1:7: this quote is not closed");
+    const std::string tab = ": not valid YAML: a tab in the indentation; indent by blanks";
+    CHECK(refusal("\tseed: 1\n") == "m.yaml:1:6" + tab);
+    CHECK(refusal("water:\n  ph: 8\n\twind_m_s: 3\n").ends_with(tab));
+    CHECK(refusal("seed:\u00a01\nname: a\n") ==
+          "m.yaml:2:5: not valid YAML: a no-break space; write an ordinary blank");
     CHECK(refusal("a: }\n").starts_with("m.yaml:1:"));
 }
 
 TEST_CASE("text that is not UTF-8 or holds control characters") {
-    CHECK(refusal("seed: 1\nname: a\x80\n") == "m.yaml:2:8: is not UTF-8 text");
-    CHECK(refusal("\xff\xfes\0e\0") == "m.yaml:1:1: is not UTF-8 text");
-    CHECK(refusal("name: \xc0\xaf\n") == "m.yaml:1:7: is not UTF-8 text");          // overlong '/'
-    CHECK(refusal("name: \xed\xa0\x80\n") == "m.yaml:1:7: is not UTF-8 text");      // a surrogate
-    CHECK(refusal("name: \xf4\x90\x80\x80\n") == "m.yaml:1:7: is not UTF-8 text");  // > U+10FFFF
-    CHECK(refusal("name: \xe4\xbd") == "m.yaml:1:7: is not UTF-8 text");            // cut off
+    CHECK(refusal("seed: 1\nname: a\x80\n") ==
+          "m.yaml:2:8: is not UTF-8 text; save the file as UTF-8");
+    CHECK(refusal("\xff\xfes\0e\0") == "m.yaml:1:1: is not UTF-8 text; save the file as UTF-8");
+    CHECK(refusal("name: \xc0\xaf\n") ==
+          "m.yaml:1:7: is not UTF-8 text; save the file as UTF-8");  // overlong '/'
+    CHECK(refusal("name: \xed\xa0\x80\n") ==
+          "m.yaml:1:7: is not UTF-8 text; save the file as UTF-8");  // a surrogate
+    CHECK(refusal("name: \xf4\x90\x80\x80\n") ==
+          "m.yaml:1:7: is not UTF-8 text; save the file as UTF-8");  // > U+10FFFF
+    CHECK(refusal("name: \xe4\xbd") ==
+          "m.yaml:1:7: is not UTF-8 text; save the file as UTF-8");  // cut off
     // yaml-cpp would end the file here and render without what follows.
     CHECK(refusal(smallest_mission + "\x04seed: 5\n") ==
           "m.yaml:6:1: control character in the text");

@@ -30,8 +30,9 @@ TEST_CASE("split: shares that add up to 1, or none") {
     CHECK(mission.output.split.gap == 4);
     CHECK(mission.output.split.place.location.text() == "m.yaml:6:17");
     CHECK(parse(resolved_yaml(mission, sonar_keys())) == mission);
-    CHECK(refusal(smallest_mission + "output: {split: {train: 0.8, val: 0.1}}\n") ==
-          "m.yaml:6:35: train, val and test must add up to 1");
+    CHECK(
+        refusal(smallest_mission + "output: {split: {train: 0.8, val: 0.1}}\n") ==
+        "m.yaml:6:35: train, val and test must add up to 1 (train is 0.8, val is 0.1, test is 0)");
 }
 
 TEST_CASE("classes: rules in the order of the file, and where they stand") {

@@ -51,7 +51,8 @@ TEST_CASE("an override is checked like the file and named in the message") {
     CHECK(set_refusal("sensors.fls.nois.add_sigma=0.2") ==
           "--set sensors.fls.nois.add_sigma=0.2: unknown key 'nois' (did you mean 'noise'?)");
     CHECK(set_refusal("sensors.fsl.noise.add_sigma=0.2") ==
-          "--set sensors.fsl.noise.add_sigma=0.2: there is no 'fsl' in 'sensors'");
+          "--set sensors.fsl.noise.add_sigma=0.2: there is no 'fsl' in 'sensors'; "
+          "there are: fls");
     CHECK(set_refusal("sensors.flss.every=2") ==
           "--set sensors.flss.every=2: there is no 'flss' in 'sensors' (did you mean 'fls'?)");
     CHECK(set_refusal("sensors.fls.noise.add_sigma=-1") ==
@@ -61,7 +62,8 @@ TEST_CASE("an override is checked like the file and named in the message") {
     CHECK(set_refusal("output.fan=on") ==
           "--set output.fan=on: 'fan' must be true or false, not 'on'");
     CHECK(set_refusal("sensors.fls.range_max_m=0.05") ==
-          "--set sensors.fls.range_max_m=0.05: range_min_m must be below range_max_m");
+          "--set sensors.fls.range_max_m=0.05: range_min_m must be below range_max_m "
+          "(range_min_m is 0.1, range_max_m is 0.05)");
     CHECK(set_refusal("trajectory.lawnmower={}") ==
           "--set trajectory.lawnmower={}: 'trajectory' takes one of the keys: file, waypoints, "
           "lawnmower; here are file, lawnmower");
@@ -84,7 +86,7 @@ TEST_CASE("an override that cannot be read") {
     CHECK(set_refusal("scene.file.x=5") ==
           "--set scene.file.x=5: there is no key 'x' below the single value 'a.glb'");
     CHECK(set_refusal("seed=]").starts_with("--set seed=]: not valid YAML: "));
-    CHECK(set_refusal("name=\xff").ends_with(": is not UTF-8 text"));
+    CHECK(set_refusal("name=\xff").ends_with(": is not UTF-8 text; save the file as UTF-8"));
     CHECK(set_refusal("name=&a b") ==
           "--set name=&a b: anchors (&name) are not supported; write the value out");
     const std::string list = smallest_mission + "    mount: {rpy_deg: [1, 2, 3]}\n";

@@ -105,20 +105,25 @@ TEST_CASE("ranges of the trajectory forms") {
     CHECK(lawnmower(", z_m: 1, line_spacing_m: 0") ==
           "m.yaml:3:90: 'line_spacing_m' must be above 0, not '0'");
     CHECK(with("{lawnmower: {area_min_m: [0, 9], area_max_m: [9, 9], z_m: 0}}") ==
-          "m.yaml:3:58: area_min_m must be below area_max_m in x and in y");
+          "m.yaml:3:58: area_min_m must be below area_max_m in x and in y "
+          "(area_min_m is [0, 9], area_max_m is [9, 9])");
 }
 
 TEST_CASE("checks across keys stand at the key that was written last") {
-    CHECK(refusal(smallest_mission + "    range_max_m: 5\n    range_min_m: 5\n") ==
-          "m.yaml:7:18: range_min_m must be below range_max_m");
+    CHECK(
+        refusal(smallest_mission + "    range_max_m: 5\n    range_min_m: 5\n") ==
+        "m.yaml:7:18: range_min_m must be below range_max_m (range_min_m is 5, range_max_m is 5)");
     // Only range_max_m is written; the default of range_min_m is 0.1.
     CHECK(refusal(smallest_mission + "    range_max_m: 0.05\n") ==
-          "m.yaml:6:18: range_min_m must be below range_max_m");
+          "m.yaml:6:18: range_min_m must be below range_max_m (range_min_m is 0.1, range_max_m is "
+          "0.05)");
     CHECK(refusal(smallest_mission + "    range_min_m: 20\n", {"sensors.fls.range_max_m=15"}) ==
-          "--set sensors.fls.range_max_m=15: range_min_m must be below range_max_m");
+          "--set sensors.fls.range_max_m=15: range_min_m must be below range_max_m (range_min_m is "
+          "20, range_max_m is 15)");
     // 1e-4 m over 512 bins is 2e-7 m a bin.
     CHECK(refusal(smallest_mission + "    range_min_m: 1\n    range_max_m: 1.0001\n") ==
-          "m.yaml:7:18: range bins must be wider than a micrometre");
+          "m.yaml:7:18: range bins must be wider than a micrometre (range_min_m is 1, range_max_m "
+          "is 1.0001, range_bins is 512)");
     // A side-scan's waterfall has a column per bin from nadir on: here of a centimetre.
     const auto from = [](const std::string& range_min_m, const std::string& range_max_m) {
         return refusal(smallest_mission + "    range_bins: 100\n    range_min_m: " + range_min_m +
@@ -128,7 +133,8 @@ TEST_CASE("checks across keys stand at the key that was written last") {
     CHECK(from("655", "656") == "");
     CHECK(from("656", "657") ==
           "m.yaml:8:18: a side-scan's waterfall begins at nadir: range_min_m "
-          "must be at most 65536 range bins");
+          "must be at most 65536 range bins (range_min_m is 656, range_max_m is 657, range_bins is "
+          "100)");
 }
 
 TEST_SUITE_END();

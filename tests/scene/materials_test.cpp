@@ -155,10 +155,17 @@ TEST_SUITE("scene") {
         const MaterialTable table =
             parse_materials(header + "steel,7850,5900\nsand,1900,1650\n", "m.csv");
         Scene scene = scene_of({"steal", "sand", "Material.001"});
+        const std::vector<std::string> users{"'hull' in a.glb", "'bed' in b.glb",
+                                             "'mast' in a.glb"};
         CHECK_THROWS_WITH_AS(
-            resolve_materials(scene, table, Water{}),
-            "m.csv: lacks materials of the scene: 'steal' (did you mean 'steel'?), "
-            "'Material.001'",
+            resolve_materials(scene, table, Water{}, users),
+            "m.csv: lacks the material 'steal' of 'hull' in a.glb (did you mean 'steel'?); add it "
+            "to "
+            "the CSV, write materials_map: {'steal': NAME} with a name of the CSV, or give "
+            "scene.material_default\n"
+            "m.csv: lacks the material 'Material.001' of 'mast' in a.glb; add it to the CSV, write "
+            "materials_map: {'Material.001': NAME} with a name of the CSV, or give "
+            "scene.material_default",
             InputError);
     }
 }

@@ -215,7 +215,9 @@ TEST_SUITE("trajectory") {
             read_trajectory("path.json"),
             "path.json: a trajectory's name ends in .csv, or in .txt or .tum for TUM poses",
             InputError);
-        CHECK_THROWS_WITH_AS(read_trajectory("no/such.csv"),
-                             "no/such.csv: cannot open: No such file or directory", InputError);
+        CHECK_THROWS_WITH_AS(
+            read_trajectory("no/such.csv"),
+            "no/such.csv: cannot open: No such file or directory; there is no folder no",
+            InputError);
     }
 }

@@ -12,6 +12,7 @@
 
 #include "core/error.h"
 #include "core/file.h"
+#include "core/known_format.h"
 #include "core/text.h"
 #include "scene/gltf/reduced_json.h"
 
@@ -101,6 +102,17 @@ void check_format(const std::filesystem::path& path, std::string_view bytes) {
                          path.filename().string() + " " + converted.filename().string());
 }
 
+/// Throws InputError for a file that is not even JSON.
+void check_json(std::string_view bytes, const Location& where) {
+    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+    const std::size_t skipped = bytes.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
+    const std::string_view text = trim(bytes.substr(skipped));
+    if (text.starts_with('{') || text.starts_with('[')) return;
+    const std::string format(known_format(bytes));
+    throw InputError(where, "is " + (format.empty() ? "" : format + ", ") +
+                                "no glTF; a .gltf is JSON, which begins with '{'");
+}
+
 void check_extensions(const tinygltf::Model& model, const Location& where) {
     constexpr std::array<std::string_view, 3> compressed{
         "KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression"};
@@ -187,6 +199,7 @@ tinygltf::Model read_gltf(const std::filesystem::path& path) {
     if (is_binary) {
         reduce_json_chunk(bytes, where);
     } else {
+        check_json(bytes, where);
         bytes = reduced_gltf_json(bytes, where.file);
     }
 

@@ -130,14 +130,14 @@ void set_bounds(const std::vector<SurfaceExtent>& extents, const Repeats& repeat
     scene.bounds_max = scene.origin + box.max();
 }
 
+/// `materials` begins empty.
 Scene compose(std::span<const PlacedFile> files, SceneFiles& models, const MaterialRules& rules,
-              std::size_t share_beyond) {
+              std::size_t share_beyond, MaterialNumbers& materials) {
     Scene scene;
     const std::vector<OpenFile> open = open_files(files, models, scene);
     const Repeats repeats = find_repeats(open, share_beyond);
     const std::vector<SurfaceExtent> extents = find_extents(open, repeats);
     note_extents(open, extents, scene);
-    MaterialNumbers materials;
     ReadingLimit limit;
     MeshBuilder<Scene> still{scene, scene.rejects, scene.origin};
     SharedMeshes shared(repeats);
@@ -151,7 +151,7 @@ Scene compose(std::span<const PlacedFile> files, SceneFiles& models, const Mater
         MeshBuilder<Body> moving{body, scene.rejects, Eigen::Vector3d::Zero()};
         scene.rejects.skipped_primitives +=
             for_each_primitive(file, limit, [&](const PlacedPrimitive& primitive) {
-                const std::uint32_t material = materials.of(material_name(primitive, rules), scene);
+                const std::uint32_t material = materials.of(primitive, rules, scene);
                 take_class_of_material(primitive, scene.instance_classes[primitive.instance]);
                 if (file.placed->moves) {
                     moving.add(primitive, [&] { body.triangle_material.push_back(material); });
@@ -189,15 +189,17 @@ Scene load_scene(std::span<const PlacedFile> files, SceneFiles& models, const Ma
     rules.fallback = material_default;
     for (const Material& material : table.materials)
         rules.known.insert(material.name);
-    Scene scene = compose(files, models, rules, share_beyond);
-    resolve_materials(scene, table, water);
+    MaterialNumbers materials;
+    Scene scene = compose(files, models, rules, share_beyond, materials);
+    resolve_materials(scene, table, water, materials.users);
     return scene;
 }
 
 Scene load_scene_geometry(const std::filesystem::path& gltf) {
     SceneFiles models;
     const PlacedFile file{.file = gltf};
-    return compose({&file, 1}, models, {true, {}, {}}, share_nothing);
+    MaterialNumbers materials;
+    return compose({&file, 1}, models, {true, {}, {}}, share_nothing, materials);
 }
 
 }  // namespace sonarsim

@@ -61,13 +61,16 @@ struct MeshBuilder {
 /// Numbers the materials of a scene in the order in which they occur.
 struct MaterialNumbers {
     std::map<std::string, std::uint32_t> numbers = {};
+    std::vector<std::string> users = {};  ///< the first node with each, for messages
 
-    std::uint32_t of(const std::string& name, Scene& scene) {
+    std::uint32_t of(const PlacedPrimitive& primitive, const MaterialRules& rules, Scene& scene) {
+        const std::string name = material_name(primitive, rules);
         const auto number = static_cast<std::uint32_t>(scene.materials.size());
         const auto [entry, is_new] = numbers.emplace(name, number);
         if (is_new) {
             scene.materials.emplace_back();
             scene.materials.back().name = name;
+            users.push_back(user_of(primitive));
         }
         return entry->second;
     }

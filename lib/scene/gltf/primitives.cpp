@@ -49,7 +49,14 @@ std::string material_name(const PlacedPrimitive& primitive, const MaterialRules&
     if (rules.nameless_allowed) return "(no material)";
     throw InputError(primitive.where + " of node '" + primitive.mesh.instance + "': " +
                      (primitive.material < 0 ? "has no material" : "its material has no name") +
-                     "; name one in the glTF material or as extras.sonar.material of the node");
+                     "; name one in the glTF material or as extras.sonar.material of the node, or "
+                     "give scene.material_default");
+}
+
+std::string user_of(const PlacedPrimitive& primitive) {
+    const PlacedFile& file = *primitive.file.placed;
+    return "'" + printable(primitive.mesh.instance) + "' in " + file.file.string() +
+           (file.place.file.empty() ? "" : " (" + file.place.text() + ")");
 }
 
 void take_class_of_material(const PlacedPrimitive& primitive, std::string& class_name) {

@@ -80,6 +80,9 @@ struct MaterialRules {
 /// The name of a primitive's material in the CSV. InputError if it has none.
 std::string material_name(const PlacedPrimitive& primitive, const MaterialRules& rules);
 
+/// "'NODE' in FILE (mission.yaml:6:7)": the primitive's node, for messages.
+std::string user_of(const PlacedPrimitive& primitive);
+
 /// Gives an instance without a class the class of its materials. InputError if they differ.
 void take_class_of_material(const PlacedPrimitive& primitive, std::string& class_name);
 

@@ -92,7 +92,7 @@ void SharedMeshes::add_copy(std::size_t repeat, const OpenFile& file, const Mate
         MeshBuilder<SharedMesh> builder{mesh, scene.rejects, made.centre};
         scene.rejects.skipped_primitives +=
             for_each_primitive(source, limit, [&](const PlacedPrimitive& primitive) {
-                const std::uint32_t material = materials.of(material_name(primitive, rules), scene);
+                const std::uint32_t material = materials.of(primitive, rules, scene);
                 take_class_of_material(primitive, made.class_name);
                 builder.add(primitive, [&] { mesh.triangle_material.push_back(material); });
             });

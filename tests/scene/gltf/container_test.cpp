@@ -33,7 +33,7 @@ TEST_SUITE("scene") {
         CHECK(uri_error("").starts_with("x.glb: is no valid glTF: 'uri' is missing"));
         CHECK(uri_error("a%00.bin") != "");
         CHECK(uri_error("missing.bin") == "missing.bin: cannot open: No such file or directory");
-        CHECK(uri_error(".") == ".: is not a regular file");
+        CHECK(uri_error(".") == ".: is a folder; a file is expected here");
     }
 
     TEST_CASE("glTF errors: buffers that are not what they claim") {

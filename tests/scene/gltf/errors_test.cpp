@@ -38,15 +38,21 @@ TEST_SUITE("scene") {
             more["material"] = gltf.material(name);
             gltf.document["meshes"][0]["primitives"].push_back(more);
         }
-        CHECK(load_error(gltf) ==
-              "materials.csv: lacks materials of the scene: 'steal' (did you "
-              "mean 'steel'?), 'Material.001'");
+        CHECK(
+            load_error(gltf) ==
+            "materials.csv: lacks the material 'steal' of 'tri' in x.glb (did you mean "
+            "'steel'?); add it to the CSV, write materials_map: {'steal': NAME} with a name of the "
+            "CSV, or give scene.material_default\n"
+            "materials.csv: lacks the material 'Material.001' of 'tri' in x.glb; add it to the "
+            "CSV, write materials_map: {'Material.001': NAME} with a name of the CSV, or give "
+            "scene.material_default");
         CHECK(error_of([](json& d) { primitive(d).erase("material"); }) ==
               "x.glb: mesh 'Tri' primitive 0 of node 'tri': has no material; name one in the glTF "
-              "material or as extras.sonar.material of the node");
+              "material or as extras.sonar.material of the node, or give scene.material_default");
         CHECK(error_of([](json& d) { d["materials"][0].erase("name"); }) ==
               "x.glb: mesh 'Tri' primitive 0 of node 'tri': its material has no name; name one in "
-              "the glTF material or as extras.sonar.material of the node");
+              "the glTF material or as extras.sonar.material of the node, or give "
+              "scene.material_default");
         CHECK(error_of([](json& d) { primitive(d)["material"] = 1; }) ==
               "x.glb: mesh 'Tri' primitive 0: material 1 does not exist");
         CHECK(error_of([](json& d) { d["nodes"][0]["extras"]["sonar"] = "steel"; }) ==
@@ -291,7 +297,7 @@ TEST_SUITE("scene") {
                   d["nodes"][0]["camera"] = anything;
                   d["nodes"][0]["extras"] = {{"other", anything}, {"sonar", {{"material", "m"}}}};
                   d["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = anything;
-              }) == "materials.csv: lacks materials of the scene: 'm'");
+              }).starts_with("materials.csv: lacks the material 'm' of 'tri' in x.glb; add it"));
         CHECK(load_error("{\"extras\": [1, 2}").find("parse error at line 1") != std::string::npos);
     }
 
