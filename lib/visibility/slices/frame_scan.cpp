@@ -8,7 +8,7 @@ namespace sonarsim {
 
 namespace {
 
-// Of more triangles than this in one gap, every n-th is looked at and stands for n of them: a
+// If a gap holds more triangles than this, every n-th is looked at and stands for n of them: a
 // finely cut surface has thousands, and the slices beside it predict it well.
 constexpr std::uint32_t most_unseen = 16;
 
