@@ -23,6 +23,10 @@ constexpr float least_share = 1.0F / 256.0F;
 // Two ends are equal if they differ by less than this share of the slice.
 constexpr float same_place = 2e-4F;
 
+// A piece that no slice meets belongs to the surface that they predict if it is no nearer than
+// this, in bins.
+constexpr float same_range = 0.3F;
+
 /// x^(5/8) by square roots, which are the same on every processor; a library's power function is
 /// not.
 float to_five_eighths(float x) {
@@ -34,7 +38,13 @@ float to_five_eighths(float x) {
 
 AdaptiveSlices::AdaptiveSlices(const View& view, std::span<const Material> materials,
                                FrameScan& scan)
-    : materials_(materials), scan_(scan), results_(1), low_(view), high_(view) {
+    : materials_(materials),
+      scan_(scan),
+      results_(1),
+      low_(view),
+      high_(view),
+      unseen_(view),
+      same_range_m_(same_range * static_cast<float>(view.bin_m())) {
     SliceResult& first = results_[0];
     scan_.scan_next(first);
     move_ends(first.slice, first.spans, scan_.frame().beam_u.front(), first.low);
@@ -68,10 +78,12 @@ void AdaptiveSlices::scan_gap(std::uint32_t gap) {
     Around& around = around_[gap - first_gap_];
     around.of_slices.clear();
     around.all.clear();
+    around.unseen.clear();
     const std::uint32_t before = last_;
     last_ = new_slice();
     scan_.scan_next(results_[last_]);
     scan_.around_last_gap(around.of_slices);
+    scan_.find_unseen(gap, around.unseen);
     subgaps_.push_back({before, last_, gap});
     estimate(subgaps_.back());
 }
@@ -126,8 +138,7 @@ void AdaptiveSlices::refine(const SliceErrorLimit& most) {
             sum_.signal += beam.signal;
             return;
         }
-        const Subgap& b = subgaps_[worst];
-        split(worst, results_[b.low].slice.u + split_share * width(b));
+        split(worst, subgaps_[worst].split_u);
     }
 }
 
@@ -139,7 +150,9 @@ void AdaptiveSlices::estimate(Subgap& subgap) {
     const float share = width(subgap) / beam_width_;
     move_ends(a.slice, a.spans, u, a.high);
     move_ends(b.slice, b.spans, u, b.low);
-    if (alike(a, b)) {
+    subgap.split_u = a.slice.u + split_share * width(subgap);
+    find_outstanding(subgap);
+    if (outstanding_.empty() && alike(a, b)) {
         subgap.difference = 0.0F;
         subgap.signal = share * last_signal_;
         return;
@@ -150,6 +163,58 @@ void AdaptiveSlices::estimate(Subgap& subgap) {
     subgap.signal = share * last_signal_;
     subgap.difference =
         mean_of_difference * to_five_eighths(share) * RangeProfile::difference(low_, high_);
+    if (!outstanding_.empty()) add_unseen(subgap);
+}
+
+/// Adds the change of the image by the outstanding pieces, which is certain, to the difference of
+/// the two predictions. The next slice goes through the largest of them.
+void AdaptiveSlices::add_unseen(Subgap& subgap) {
+    unseen_.set(outstanding_, beam_width_);
+    subgap.difference += RangeProfile::change(low_, high_, unseen_);
+    const float u = (*std::ranges::max_element(outstanding_, {}, &UnseenPiece::area_m2))->u;
+    const float least = least_width(subgap.gap);
+    if (u - results_[subgap.low].slice.u > least && results_[subgap.high].slice.u - u > least)
+        subgap.split_u = u;
+}
+
+/// Finds the pieces between two slices that stand out from what the nearer slice predicts.
+void AdaptiveSlices::find_outstanding(const Subgap& subgap) {
+    outstanding_.clear();
+    const SliceResult& a = results_[subgap.low];
+    const SliceResult& b = results_[subgap.high];
+    const float middle = 0.5F * (a.slice.u + b.slice.u);
+    for (const UnseenPiece& piece : around_[subgap.gap - first_gap_].unseen) {
+        if (!(a.slice.u < piece.facet_u.from && piece.facet_u.to < b.slice.u)) continue;
+        if (piece.u < middle ? stands_out(piece, a, a.high) : stands_out(piece, b, b.low))
+            outstanding_.push_back(&piece);
+    }
+}
+
+/// True if the piece is nearer than the surface that a slice predicts there, by a bin at least, or
+/// if it predicts none. `ends` are those of the slice, moved to one side.
+bool AdaptiveSlices::stands_out(const UnseenPiece& piece, const SliceResult& near,
+                                const MovedEnds& ends) const {
+    const float share = (piece.u - near.slice.u) / (ends.u - near.slice.u);
+    const auto place = [&](const MovedEnd& end) -> float {
+        return end.at_slice + share * (end.w - end.at_slice);
+    };
+    // Ends are in order: the first span that ends above the piece holds it, or none does.
+    std::size_t i = 0;
+    std::size_t behind = near.spans.size();
+    while (i < behind) {
+        const std::size_t middle = (i + behind) / 2;
+        if (place(ends.ends[2 * middle + 1]) < piece.w) {
+            i = middle + 1;
+        } else {
+            behind = middle;
+        }
+    }
+    if (i == near.spans.size() || place(ends.ends[2 * i]) > piece.w) return true;
+    const FrontFacet& front = scan_.scene().facets[near.spans[i].facet_index];
+    const float along = front.normal.x() + front.normal.y() * piece.u + front.normal.z() * piece.w;
+    const float q = -along / front.height_m;
+    const float secant = std::sqrt(1.0F + piece.u * piece.u + piece.w * piece.w);
+    return !(q > 0.0F) || secant / piece.q < secant / q - same_range_m_;
 }
 
 /// True if both slices show the same planes between the same ends midway.

@@ -48,12 +48,14 @@ class AdaptiveSlices {
         std::uint32_t gap;        ///< index of the frame's gap that contains it
         float difference = 0.0F;  ///< as in SliceError
         float signal = 0.0F;
+        float split_u = 0.0F;  ///< the next slice goes here
     };
 
     /// A gap of the frame, and the trapezoids that a slice in it may meet.
     struct Around {
         std::vector<std::uint32_t> of_slices;  ///< trapezoids that its own slices meet
         std::vector<Candidate> all;            ///< filled when the gap is split
+        std::vector<UnseenPiece> unseen;       ///< pieces that its own slices do not meet
     };
 
     void scan_gap(std::uint32_t gap);
@@ -61,6 +63,9 @@ class AdaptiveSlices {
     void split(std::size_t i, float u);
     void refine(const SliceErrorLimit& most);
     void estimate(Subgap& subgap);
+    void add_unseen(Subgap& subgap);
+    void find_outstanding(const Subgap& subgap);
+    bool stands_out(const UnseenPiece& piece, const SliceResult& near, const MovedEnds& ends) const;
     bool alike(const SliceResult& a, const SliceResult& b) const;
     float width(const Subgap& subgap) const;
     float least_width(std::uint32_t gap) const;
@@ -80,6 +85,9 @@ class AdaptiveSlices {
     std::vector<const SliceResult*> done_;
     RangeProfile low_;
     RangeProfile high_;
+    RangeProfile unseen_;
+    std::vector<const UnseenPiece*> outstanding_;  ///< in one subgap
+    const float same_range_m_;
     float last_signal_ = 0.0F;  ///< signal of a whole beam
     SliceError sum_;
     double times_ = 0.0;  ///< number of refinements so far

@@ -8,6 +8,10 @@ namespace sonarsim {
 
 namespace {
 
+// If a gap holds more triangles than this, every n-th is looked at and stands for n of them: a
+// finely cut surface has thousands, and the slices beside it predict it well.
+constexpr std::uint32_t most_unseen = 16;
+
 Groups by_gap(const SliceScene& scene, const SliceFrame& frame) {
     std::vector<std::uint32_t> gaps;
     gaps.reserve(scene.in_gaps.size());
@@ -21,6 +25,7 @@ Groups by_gap(const SliceScene& scene, const SliceFrame& frame) {
 FrameScan::FrameScan(const ClusterMesh& mesh, const Scene& scene, const SliceFrame& frame,
                      const LocalPose& pose, float range_max_m)
     : mesh_(mesh),
+      materials_(scene.materials),
       frame_(frame),
       setup_(mesh, frame, pose, range_max_m, scene_),
       facet_extents_(mesh, scene.vertices, setup_, scene_) {
@@ -39,10 +44,10 @@ void FrameScan::find_candidates(std::uint32_t gap, std::span<const std::uint32_t
     out.clear();
     for (const std::uint32_t trapezoid : around)
         out.push_back(candidate(scene_, trapezoid));
-    if (!by_gap_) by_gap_ = by_gap(scene_, frame_);
+    const Groups& notes = notes_by_gap();
     facets_.clear();
-    for (std::uint32_t k = by_gap_->begin[gap]; k < by_gap_->begin[gap + 1]; ++k)
-        facets_.push_back(scene_.in_gaps[by_gap_->items[k]].facet);
+    for (std::uint32_t k = notes.begin[gap]; k < notes.begin[gap + 1]; ++k)
+        facets_.push_back(scene_.in_gaps[notes.items[k]].facet);
     // A triangle with two parts in this gap was noted twice.
     facets_.erase(std::unique(facets_.begin(), facets_.end()), facets_.end());
     const auto first = static_cast<std::uint32_t>(scene_.trapezoids.size());
@@ -52,6 +57,28 @@ void FrameScan::find_candidates(std::uint32_t gap, std::span<const std::uint32_t
         if (frame_.slices[gap].u <= c.u_from && c.u_to <= frame_.slices[gap + 1].u)
             out.push_back(c);
     }
+}
+
+const Groups& FrameScan::notes_by_gap() {
+    if (!by_gap_) by_gap_ = by_gap(scene_, frame_);
+    return *by_gap_;
+}
+
+void FrameScan::find_unseen(std::uint32_t gap, std::vector<UnseenPiece>& out) {
+    const Groups& notes = notes_by_gap();
+    const std::uint32_t begin = notes.begin[gap];
+    const std::uint32_t end = notes.begin[gap + 1];
+    const std::uint32_t step = 1 + (end - begin) / most_unseen;
+    for (std::uint32_t k = begin; k < end; k += step) {
+        const FacetInGap& note = scene_.in_gaps[notes.items[k]];
+        if (!note.whole) continue;
+        const SliceFacet& facet = mesh_.facets[note.facet];
+        add_unseen_pieces(setup_.corners_of(note.facet), setup_.turned(facet.normal),
+                          materials_[facet.material].reflection, {frame_.w_low, frame_.w_high},
+                          out);
+    }
+    for (UnseenPiece& piece : out)
+        piece.area_m2 *= static_cast<float>(step);
 }
 
 void FrameScan::scan_slice(float u, std::span<const Candidate> candidates, SliceResult& out) {

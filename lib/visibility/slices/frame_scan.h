@@ -12,6 +12,7 @@
 #include "visibility/slices/narrow_components.h"
 #include "visibility/slices/setup.h"
 #include "visibility/slices/slice_walk.h"
+#include "visibility/slices/unseen_pieces.h"
 
 namespace sonarsim {
 
@@ -41,6 +42,9 @@ class FrameScan {
     void find_candidates(std::uint32_t gap, std::span<const std::uint32_t> around,
                          std::vector<Candidate>& out);
 
+    /// Finds pieces of the triangles that lie between the slices of a gap; `out` is empty before.
+    void find_unseen(std::uint32_t gap, std::vector<UnseenPiece>& out);
+
     /// Scans the slice at u, which may meet only `candidates`.
     void scan_slice(float u, std::span<const Candidate> candidates, SliceResult& out);
 
@@ -56,9 +60,11 @@ class FrameScan {
     const SliceScene& scene() const { return scene_; }
 
   private:
+    const Groups& notes_by_gap();
     void scan_slice(const Slice& slice, std::span<const Segment> segments, SliceResult& out);
 
     const ClusterMesh& mesh_;
+    std::span<const Material> materials_;
     const SliceFrame& frame_;
     SliceScene scene_;
     SliceSetup setup_;

@@ -71,6 +71,14 @@ void RangeProfile::set(const FrameScan& scan, std::span<const Material> material
     finish();
 }
 
+void RangeProfile::set(std::span<const UnseenPiece* const> pieces, float beam_u) {
+    clear();
+    for (const UnseenPiece* piece : pieces)
+        add(piece->range_m.from, piece->range_m.to, piece->area_m2 / beam_u, piece->height_m,
+            piece->reflection);
+    finish();
+}
+
 /// Adds surface that is spread evenly over an interval of range.
 void RangeProfile::add(float from_m, float to_m, float weight, float height_m, float reflection) {
     constexpr float least_bins = 1e-3F;
@@ -93,6 +101,20 @@ void RangeProfile::finish() {
         echo_[i] = weight_[i] > 0.0F ? echo_[i] / weight_[i] : 0.0F;
         sum_ += echo_[i];
     }
+}
+
+float RangeProfile::change(const RangeProfile& a, const RangeProfile& b,
+                           const RangeProfile& added) {
+    float sum = 0.0F;
+    for (int i = added.first_; i < added.last_; ++i) {
+        const float more = 2.0F * added.weight_[i];
+        if (!(more > 0.0F)) continue;
+        const float weight = a.weight_[i] + b.weight_[i];
+        const float echo = a.weight_[i] * a.echo_[i] + b.weight_[i] * b.echo_[i];
+        const float before = weight > 0.0F ? echo / weight : 0.0F;
+        sum += std::fabs(added.echo_[i] - before) * more / (weight + more);
+    }
+    return sum;
 }
 
 float RangeProfile::difference(const RangeProfile& a, const RangeProfile& b) {

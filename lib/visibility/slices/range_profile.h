@@ -20,6 +20,12 @@ class RangeProfile {
     void set(const FrameScan& scan, std::span<const Material> materials,
              std::span<const VisibleSpan> spans, const MovedEnds& ends);
 
+    /// Replaces the profile by that of pieces, evenly spread over a beam of width `beam_u`.
+    void set(std::span<const UnseenPiece* const> pieces, float beam_u);
+
+    /// The sum over the bins of the change of the mean of two profiles when a third is added.
+    static float change(const RangeProfile& a, const RangeProfile& b, const RangeProfile& added);
+
     /// The sum of the bins' intensities.
     float sum() const { return sum_; }
 

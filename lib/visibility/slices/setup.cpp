@@ -113,7 +113,8 @@ void SliceSetup::add_triangle(const Corners& corners, std::uint32_t facet) {
     const std::uint32_t begin = find_slice_(first->u);
     const std::uint32_t end = find_slice_(last->u);
     if (begin == end && !lazy_) {
-        if (begin > 0 && begin < frame_.slices.size()) out_.in_gaps.push_back({facet, begin - 1});
+        if (begin > 0 && begin < frame_.slices.size())
+            out_.in_gaps.push_back({facet, begin - 1, true});
         return;
     }
     if (!add_facet(facet, a)) return;
@@ -189,7 +190,7 @@ void SliceSetup::add_trapezoid(const EdgeLine& low, const EdgeLine& high, float 
     const std::uint32_t facet = out_.facets[facet_index].facet;
     if (met == lazy_) {
         if (met || first == 0 || first == frame_.slices.size()) return;
-        out_.in_gaps.push_back({facet, first - 1});
+        out_.in_gaps.push_back({facet, first - 1, false});
         return;
     }
     if (met) first_slice_.push_back(first);

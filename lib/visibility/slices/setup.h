@@ -31,10 +31,11 @@ struct Trapezoid {
     std::uint32_t facet_index;  ///< index of its FrontFacet
 };
 
-/// A triangle that lies between two slices.
+/// A triangle of which a part, or all, lies between two slices.
 struct FacetInGap {
     std::uint32_t facet;  ///< index into ClusterMesh::facets
     std::uint32_t gap;
+    bool whole;
 };
 
 /// The facets and trapezoids that the slices of a frame meet.
@@ -72,6 +73,9 @@ class SliceSetup {
     Eigen::Vector3f in_frame(const Eigen::Vector3f& local) const {
         return R_frame_local_ * (local - position_);
     }
+
+    /// A direction of the scene in the frame.
+    Eigen::Vector3f turned(const Eigen::Vector3f& local) const { return R_frame_local_ * local; }
 
   private:
     bool in_view(const TriangleCluster& cluster) const;
