@@ -127,6 +127,11 @@ SeafloorScattering::SeafloorScattering(const SeaBed& bed, double wavenumber)
     slope_ = std::min(0.2, std::sqrt(pi * strength / span * power(wavenumber / 3.0, span)));
 
     const double inverse = 1.0 / alpha_;
+    // It grows without bound by frequency. The report's rock has this slope at 2 MHz.
+    constexpr double steepest = 3.5;
+    shadowing_slope_ = std::min(
+        steepest, std::sqrt(power(2.0 * pi * strength, inverse) / (2.0 * (1.0 - alpha_)) *
+                            power(wavenumber * wavenumber / alpha_, (1.0 - alpha_) * inverse)));
     const double a =
         power(8.0 * alpha_ * alpha_ * gamma_function(0.5 * inverse + 0.5) /
                   (std::sqrt(pi) * gamma_function(inverse) * gamma_function(0.5 * inverse)),
@@ -210,12 +215,32 @@ double SeafloorScattering::share(double grazing_rad) const {
     return 1.0 / (1.0 + exponential(beyond));
 }
 
+double SeafloorScattering::lit_share(double grazing_rad) const {
+    const SinCos angle = sincos(grazing_rad);
+    // The angle by the slope. Above 2 the report has no shadows.
+    const double t = angle.sin / std::max(angle.cos * shadowing_slope_, 1e-9);
+    if (t > 2.0) return 1.0;
+    if (t <= 0.0) return 0.0;
+    const double gaussian = exponential(-t * t);
+    // erfc(t) by Abramowitz and Stegun 7.1.26, to 1.5e-7.
+    const double x = 1.0 / (1.0 + 0.3275911 * t);
+    const double beyond =
+        gaussian * x *
+        (0.254829592 +
+         x * (-0.284496736 + x * (1.421413741 + x * (-1.453152027 + x * 1.061405429))));
+    const double hidden = (gaussian / std::sqrt(pi) - t * beyond) / (2.0 * t);
+    return (1.0 - exponential(-hidden)) / hidden;
+}
+
 double SeafloorScattering::diffuse(double grazing_rad) const {
-    return (1.0 - share(grazing_rad)) * composite(grazing_rad) + volume(grazing_rad);
+    return lit_share(grazing_rad) *
+           ((1.0 - share(grazing_rad)) * composite(grazing_rad) + volume(grazing_rad));
 }
 
 double SeafloorScattering::specular(double grazing_rad) const {
-    return share(grazing_rad) * kirchhoff(grazing_rad);
+    // The report has no Kirchhoff integral below 40 degrees, and no shadows on it. Here it reaches
+    // down to grazing incidence where the roughness is large.
+    return lit_share(grazing_rad) * share(grazing_rad) * kirchhoff(grazing_rad);
 }
 
 }  // namespace sonarsim

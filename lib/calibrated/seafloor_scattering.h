@@ -54,12 +54,16 @@ class SeafloorScattering {
     double volume(double grazing_rad) const;
     /// The share of the Kirchhoff integral where it and `composite` join.
     double share(double grazing_rad) const;
+    /// The share of the surface that is not in the shadow of its own slopes, by the report, Eq. 43
+    /// to 45.
+    double lit_share(double grazing_rad) const;
 
     SeaBed bed_;
     double wavenumber_;
     std::complex<double> index2_;  ///< square of the wave number in the sediment by that in water
     double reflection_;
-    double slope_;  ///< RMS slope along a line of the roughness that is resolved
+    double slope_;            ///< RMS slope along a line of the roughness that is resolved
+    double shadowing_slope_;  ///< RMS slope over a wavelength, by the report
     /// Kirchhoff's integral is peak / (cos^(4 alpha) + flatness sin^4)^power.
     double alpha_, peak_, flatness_, power_;
     double joint_rad_ = 0.0;  ///< grazing angle where the two parts join

@@ -58,26 +58,37 @@ BeamEchoes in_order(const std::vector<FoundEcho>& found, const Groups& order) {
     return out;
 }
 
+/// Half the extent of a piece in range, and across the beams.
+struct HalfExtents {
+    float range_m, sine;
+};
+
+/// The extents of a piece of a parallelogram with these half edges that is cut into rows and
+/// columns, at a place that is seen along `at`.
+HalfExtents half_extents(const Eigen::Vector3f& edge_u, const Eigen::Vector3f& edge_v,
+                         const Arrival& at, float rows = 1.0F, float columns = 1.0F) {
+    const Eigen::Vector3f& direction = at.direction;
+    const auto across = [&](const Eigen::Vector3f& edge) {
+        return std::fabs(edge.y() - direction.y() * direction.dot(edge)) / at.range_m;
+    };
+    return {std::fabs(direction.dot(edge_u)) / rows + std::fabs(direction.dot(edge_v)) / columns,
+            across(edge_u) / rows + across(edge_v) / columns};
+}
+
 /// A sample as subdivide() cuts it.
 struct CutSample {
     const Sample* sample = nullptr;
     float rows = 1.0F, columns = 1.0F;
-    float half_m = 0.0F;     ///< half the extent of a piece in range
-    float half_sine = 0.0F;  ///< and across the beams
+    HalfExtents half{};  ///< extents of a piece
 };
 
 CutSample cut_of(const Sample& sample, const PointLimits& limits) {
     const Arrival at = arrival_of(sample.position);
-    const Eigen::Vector3f& direction = at.direction;
     CutSample out{.sample = &sample};
-    out.rows = static_cast<float>(patches_along(sample.edge_u, direction, at.range_m, limits));
-    out.columns = static_cast<float>(patches_along(sample.edge_v, direction, at.range_m, limits));
-    out.half_m = std::fabs(direction.dot(sample.edge_u)) / out.rows +
-                 std::fabs(direction.dot(sample.edge_v)) / out.columns;
-    const auto across = [&](const Eigen::Vector3f& edge) {
-        return std::fabs(edge.y() - direction.y() * direction.dot(edge)) / at.range_m;
-    };
-    out.half_sine = across(sample.edge_u) / out.rows + across(sample.edge_v) / out.columns;
+    out.rows = static_cast<float>(patches_along(sample.edge_u, at.direction, at.range_m, limits));
+    out.columns =
+        static_cast<float>(patches_along(sample.edge_v, at.direction, at.range_m, limits));
+    out.half = half_extents(sample.edge_u, sample.edge_v, at, out.rows, out.columns);
     return out;
 }
 
@@ -121,14 +132,14 @@ class SurfaceEchoFinder {
             if (cut.sample != &sample) cut = cut_of(sample, limits_);
             return cut;
         };
-        const auto half_sine = [&](int k) { return cut_at(k).half_sine; };
+        const auto half_sine = [&](int k) { return cut_at(k).half.sine; };
         subdivide(surface, limits_, pieces_, [&](const PatchBlock& pieces) {
             apply_sonar_equation(pieces, *scattering_, model_.equation, echoes_);
             for_each_beam(pieces, echoes_, nullptr, half_sine, [&](int beam, int k, float power) {
                 const CutSample& of = cut_at(k);
                 if (targets.has(of.sample->instance)) return;
-                direct_.push_back({static_cast<std::uint32_t>(beam), echoes_.range_m[k], of.half_m,
-                                   power, of.sample});
+                direct_.push_back({static_cast<std::uint32_t>(beam), echoes_.range_m[k],
+                                   of.half.range_m, power, of.sample});
                 if (patches_) found_.push_back(patch_of(pieces, k, of, power));
             });
         });
@@ -136,24 +147,30 @@ class SurfaceEchoFinder {
 
     void add_targets(const TargetSurface& targets, std::span<const float> slopes) {
         target_samples_ = samples_of(targets);
-        TargetPieces cut_pieces;
-        const auto point = [](int) { return 0.0F; };
-        cut_targets(
-            targets.facets, model_.limits, slopes, cut_pieces, [&](const TargetPieces& cut) {
-                const PatchBlock& points = cut.points;
-                apply_sonar_equation(points, *scattering_, model_.equation, echoes_);
-                for_each_beam(points, echoes_, nullptr, point, [&](int beam, int k, float power) {
-                    const Sample* const sample = &target_samples_[cut.facet[k]];
-                    direct_.push_back({static_cast<std::uint32_t>(beam), echoes_.range_m[k], 0.0F,
-                                       power, sample});
-                    if (!patches_) return;
-                    found_.push_back({.position = {points.x[k], points.y[k], points.z[k]},
-                                      .edge_u = Eigen::Vector3f::Zero(),
-                                      .edge_v = Eigen::Vector3f::Zero(),
-                                      .echo = power,
-                                      .sample = sample});
-                });
+        TargetPieces all;
+        all.with_edges = true;
+        cut_targets(targets.facets, limits_, slopes, all, [&](const TargetPieces& cut) {
+            const PatchBlock& points = cut.points;
+            const auto place = [&](int k) {
+                return Eigen::Vector3f(points.x[k], points.y[k], points.z[k]);
+            };
+            PatchBlock::Array<HalfExtents> half;
+            for (int k = 0; k < points.count; ++k)
+                half[k] = half_extents(cut.edge_u[k], cut.edge_v[k], arrival_of(place(k)));
+            apply_sonar_equation(points, *scattering_, model_.equation, echoes_);
+            const auto half_sine = [&](int k) { return half[k].sine; };
+            for_each_beam(points, echoes_, nullptr, half_sine, [&](int beam, int k, float power) {
+                const Sample* const sample = &target_samples_[cut.facet[k]];
+                direct_.push_back({static_cast<std::uint32_t>(beam), echoes_.range_m[k],
+                                   half[k].range_m, power, sample});
+                if (!patches_) return;
+                found_.push_back({.position = place(k),
+                                  .edge_u = cut.edge_u[k],
+                                  .edge_v = cut.edge_v[k],
+                                  .echo = power,
+                                  .sample = sample});
             });
+        });
     }
 
     void add_multipath(const TracedPing& traced, const std::vector<SpecularPath>& paths) {

@@ -46,6 +46,9 @@ struct TargetPieces {
     // radius of curvature.
     std::array<Floats, 3> normal{}, flat_normal{};
     Floats curvature_m{};
+    // The half edges of a piece as a parallelogram, if they are asked for.
+    bool with_edges = false;
+    PatchBlock::Array<Eigen::Vector3f> edge_u, edge_v;
 };
 
 /// Moves pieces from their triangles, where `points` has their places and areas, to the curved
@@ -126,6 +129,14 @@ void cut_targets(std::span<const TargetFacet> facets, const PointLimits& limits,
             points.material[at] = facet.material;
             pieces.facet[at] = f;
             pieces.curvature_m[at] = facet.curvature_m;
+            if (pieces.with_edges) {
+                // From the middle of a side to that of the opposite one, for both pairs of sides.
+                const auto& [a, b, c, d] = part.corners;
+                pieces.edge_u[at] =
+                    0.25F * ((b.u + c.u - a.u - d.u) * u + (b.v + c.v - a.v - d.v) * v);
+                pieces.edge_v[at] =
+                    0.25F * ((c.u + d.u - a.u - b.u) * u + (c.v + d.v - a.v - b.v) * v);
+            }
             for (int axis = 0; axis < 3; ++axis) {
                 pieces.normal[axis][at] = n[axis];
                 pieces.flat_normal[axis][at] = facet.normal[axis];

@@ -311,6 +311,43 @@ TEST_CASE("cone labels: masks of 500 things lie on their echoes" * doctest::skip
     CHECK(measured > 450);
 }
 
+TEST_CASE("cone labels: the pieces of targets cover the bins that an engine's samples cover") {
+    Uniform draw(27);
+    const Sonar sonar = wide_fan(spacings[0]);
+    for (int n = 0; n < 20; ++n) {
+        CAPTURE(n);
+        Thing thing;
+        thing.middle = draw.between(3.0, 6.0) * direction_of(radians(draw.between(-35.0, 35.0)),
+                                                             radians(draw.between(-30.0, 30.0)));
+        const std::uint32_t m = add_material(thing.scene, 0.4F);
+        thing.scene.materials[m].slope_rms_deg = 5.0;
+        add_sphere(thing.scene, thing.middle.cast<float>(),
+                   static_cast<float>(draw.between(0.15, 0.4)), m, 48);
+        Sonar with_targets = sonar;
+        find_targets({&with_targets, 1}, thing.scene);
+        const auto engine = make_engine(thing.scene, {.type = EngineKind::slices, .octree = {}});
+        const SceneObjects objects = group_objects(thing.scene, {});
+        const auto labels_of = [&](const Sonar& by) {
+            const TracedPing traced = trace(by, thing.scene, *engine, thing.pose, 0);
+            CHECK(traced.targets.instances.empty() == (&by == &sonar));
+            return label_ping(traced, by.settings, thing.scene, objects, *engine,
+                              {.objects = true});
+        };
+        const PingLabels by_engine = labels_of(sonar);
+        const PingLabels by_pieces = labels_of(with_targets);
+        double both = 0.0;
+        double either = 0.0;
+        for (std::size_t at = 0; at < by_engine.size(); ++at) {
+            const bool a = by_engine.object[at] > 0;
+            const bool b = by_pieces.object[at] > 0;
+            both += a && b ? 1.0 : 0.0;
+            either += a || b ? 1.0 : 0.0;
+        }
+        CHECK(either > 50.0);
+        CHECK(both / either > 0.9);
+    }
+}
+
 TEST_CASE("cone labels: the shadow of a box lies where rays of its beams are hidden") {
     // A box on a floor, seen from above under 30 degrees and 25 degrees aside.
     Scene scene = empty_scene();
