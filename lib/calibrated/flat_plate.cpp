@@ -16,6 +16,9 @@ constexpr double most_bend_rad = 0.1;
 // A piece turns by at most this about the foot of the perpendicular.
 constexpr double most_turn_rad = 0.1;
 constexpr int most_pieces = 100'000;
+// An edge is integrated in pieces while 2 k s^2 / r is less than this, s being the distance from
+// the point next to the foot. The error of what is left out is one by this.
+constexpr double many_turns_rad = 200.0;
 
 std::complex<double> turned(double radians) {
     const SinCos turn = sincos(radians);
@@ -47,13 +50,71 @@ double piece_length(const Geometry& of, const EdgeLimits& limits, double s, doub
     // The phase 2 k r bends by 2 k (H^2 + d^2) / r^3 at most.
     double length = std::sqrt(8.0 * most_bend_rad * range / (2.0 * of.k));
     if (d != 0.0) length = std::min(length, most_turn_rad * flat2 / std::fabs(d));
+    // The angle turns fastest at s = 0: the pieces before it are shorter and shorter.
+    if (s < 0.0) length = std::min(length, std::max(-0.3 * s, most_turn_rad * std::fabs(d)));
     if (limits.sine > 0.0) length = std::min(length, limits.sine * range);
     if (limits.depth_m > 0.0)
         length = std::min(length, limits.depth_m * range / (std::fabs(s) + limits.depth_m));
     return length;
 }
 
-/// Adds the pieces of an edge. Returns the angle that it takes about the foot.
+/// An edge along its line. s is the distance from the point of the line next to the foot.
+struct EdgeLine {
+    const Geometry& of;
+    Eigen::Vector3d next;  ///< that point
+    Eigen::Vector3d unit;
+    double d;  ///< its distance from the foot, positive if the edge goes round it
+
+    double range(double s) const { return std::sqrt(of.height_m * of.height_m + d * d + s * s); }
+
+    /// The angle about the foot from one place to another.
+    double angle(double from, double to) const {
+        return arctan2(d * (to - from), d * d + from * to);
+    }
+    PlateEcho echo(double s, std::complex<double> amplitude) const {
+        return {next + s * unit, range(s), amplitude};
+    }
+};
+
+/// Adds the integral over a stretch of an edge, piece by piece.
+void add_pieces(const EdgeLine& line, double begin, double end, const EdgeLimits& limits,
+                std::vector<PlateEcho>& echoes) {
+    const Geometry& of = line.of;
+    const double least = (end - begin) / most_pieces;
+    double s = begin;
+    double range = line.range(s);
+    while (s < end) {
+        const double step = std::max(least, piece_length(of, limits, s, line.d));
+        const double next = end - s < 1.5 * step ? end : s + step;
+        const double next_range = line.range(next);
+        const double middle = 0.5 * (s + next);
+        const double middle_range = line.range(middle);
+        // A straight line of phase over the piece, at its mean by Simpson's rule.
+        const double half_turn = of.k * (next_range - range);
+        const double fades = sinc(half_turn / pi);
+        echoes.push_back(
+            line.echo(middle, of.weight(middle_range) * line.angle(s, next) * fades *
+                                  turned(of.k * (range + 4.0 * middle_range + next_range) / 3.0)));
+        s = next;
+        range = next_range;
+    }
+}
+
+/// Adds the integral over a stretch of an edge where its phase is never even: that of g(s) exp(i f)
+/// is the difference of g exp(i f) / (i f') at its ends, f = 2 k r, g = weight d / (d^2 + s^2).
+void add_ends(const EdgeLine& line, double begin, double end, std::vector<PlateEcho>& echoes) {
+    if (!(end > begin)) return;
+    for (const double s : {begin, end}) {
+        const double range = line.range(s);
+        const double slope = 2.0 * line.of.k * s / range;
+        const double g = line.of.weight(range) * line.d / (line.d * line.d + s * s);
+        const std::complex<double> phase = turned(2.0 * line.of.k * range);
+        const double size = (s == end ? 1.0 : -1.0) * g / slope;
+        echoes.push_back(line.echo(s, size * phase * std::complex<double>(0.0, -1.0)));
+    }
+}
+
+/// Adds the echoes of an edge. Returns the angle that it takes about the foot.
 double add_edge(const Geometry& of, const PlateEdge& edge, const EdgeLimits& limits,
                 std::vector<PlateEcho>& echoes) {
     const Eigen::Vector3d along = edge.to - edge.from;
@@ -63,34 +124,15 @@ double add_edge(const Geometry& of, const PlateEdge& edge, const EdgeLimits& lim
     const Eigen::Vector3d from_foot = edge.from - of.foot;
     const double begin = from_foot.dot(unit);
     const double end = begin + edge_m;
-    const double d = of.normal.dot(from_foot.cross(unit));
-    const auto range_at = [&](double s) {
-        return std::sqrt(of.height_m * of.height_m + d * d + s * s);
-    };
-    if (!edge.seen) return arctan2(d * (end - begin), d * d + begin * end);
-    const double least = edge_m / most_pieces;
-    double total = 0.0;
-    double s = begin;
-    double range = range_at(s);
-    while (s < end) {
-        const double step = std::max(least, piece_length(of, limits, s, d));
-        const double next = end - s < 1.5 * step ? end : s + step;
-        const double next_range = range_at(next);
-        // The angle between the directions to (s, d) and (next, d).
-        const double angle = arctan2(d * (next - s), d * d + s * next);
-        const double middle = 0.5 * (s + next);
-        const double middle_range = range_at(middle);
-        // A straight line of phase over the piece, at its mean by Simpson's rule.
-        const double half_turn = of.k * (next_range - range);
-        const double fades = sinc(half_turn / pi);
-        echoes.push_back({edge.from + (middle - begin) * unit, middle_range,
-                          of.weight(middle_range) * angle * fades *
-                              turned(of.k * (range + 4.0 * middle_range + next_range) / 3.0)});
-        total += angle;
-        s = next;
-        range = next_range;
+    const EdgeLine line{of, edge.from - begin * unit, unit, of.normal.dot(from_foot.cross(unit))};
+    if (edge.seen) {
+        // Further out, the phase turns many times before it bends.
+        const double even = std::sqrt(many_turns_rad * line.range(0.0) / (2.0 * of.k));
+        add_ends(line, begin, std::min(end, -even), echoes);
+        add_pieces(line, std::max(begin, -even), std::min(end, even), limits, echoes);
+        add_ends(line, std::max(begin, even), end, echoes);
     }
-    return total;
+    return line.angle(begin, end);
 }
 
 }  // namespace

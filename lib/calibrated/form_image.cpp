@@ -62,7 +62,7 @@ class ImageFormer {
         if (speckle_ == SpeckleMode::ping) draw_speckle(grid, speckle_gain_, ping_draws_);
         if (context_.terms.direct && !of_powers) add_target_amplitudes(traced.targets, grid);
         std::optional<EchoGrid> coherent;
-        if (context_.terms.direct && !traced.coherent.plates.empty()) {
+        if (context_.terms.direct && traced.coherent.has_echoes()) {
             if (of_powers) coherent.emplace(grid.rows(), grid.columns());
             add_coherent(of_powers ? *coherent : grid);
         }
@@ -70,7 +70,10 @@ class ImageFormer {
         // 3. Pulse.
         ping_.counts.occupied_bins =
             grid.convolve_pulse(of_powers ? model_.power_taps : model_.amplitude_taps);
-        if (coherent) coherent->convolve_pulse(model_.amplitude_taps);
+        if (coherent) {
+            ping_.counts.occupied_bins = std::max<std::uint64_t>(
+                ping_.counts.occupied_bins, coherent->convolve_pulse(model_.amplitude_taps));
+        }
 
         // 3, 4. Beams, the receiver's noise and its gain.
         beamform(beams_, grid, of_powers, coherent ? &*coherent : nullptr,
@@ -104,6 +107,7 @@ class ImageFormer {
         for (const Sample& sample : surface) {
             if (targets.has(sample.instance)) continue;
             left.push_back(sample);
+            if (shares_.are_all_one()) continue;
             const float phase2 =
                 shares_.phase2(sample.instance, sample.material, sample.position, sample.normal);
             if (phase2 == IncoherentShares::incoherent) continue;
@@ -157,7 +161,7 @@ class ImageFormer {
                 ? model_.limits
                 : PointLimits{cells.depth_m, cells.sine_y,
                               cells.sine_z > 0.0F ? cells.sine_z : model_.limits.elevation_sine};
-        std::vector<float> phase2;  // by facet
+        std::vector<float> phase2;  // one for each facet
         if (!shares_.are_all_one()) {
             for (const TargetFacet& facet : targets.facets)
                 phase2.push_back(

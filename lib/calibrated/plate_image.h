@@ -55,7 +55,7 @@ class IncoherentShares {
 
     bool are_all_one() const { return faces_.empty(); }
 
-    /// What phase2() returns for surface that is no part of a coherent face.
+    /// The result of phase2() for surface that is no part of a coherent face.
     static constexpr float incoherent = std::numeric_limits<float>::infinity();
 
     /// (2 k h)^2 of the surface at a point of an object.
@@ -68,7 +68,7 @@ class IncoherentShares {
 
   private:
     std::span<const FaceOfPing> faces_;
-    std::vector<float> phase2_;  ///< by material
+    std::vector<float> phase2_;  ///< one for each material
 };
 
 }  // namespace sonarsim

@@ -6,7 +6,7 @@
 #include "mission/ping_draws.h"
 #include "sonar/kinds.h"
 #include "sonar/setup.h"
-#include "trace/plates.h"
+#include "trace/find_coherent_faces.h"
 
 namespace sonarsim {
 

@@ -4,11 +4,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/pose.h"
-#include "scene/scene.h"
-#include "visibility/engine.h"
-#include "visibility/view.h"
-
 // The surface of a ping that reflects coherently, in the sensor frame, m.
 
 namespace sonarsim {
@@ -25,7 +20,7 @@ struct Mirror {
     double sine = 1.0;           ///< sine of the grazing angle
 };
 
-/// A flat face, or the aperture of a corner.
+/// A flat face, or the plate in whose place a corner reflects.
 struct PlateOfPing {
     std::vector<PlateEdge> edges;
     Eigen::Vector3d normal;       ///< unit, away from the sonar
@@ -53,15 +48,14 @@ struct FaceOfPing {
 struct CoherentSurface {
     std::vector<PlateOfPing> plates;
     std::vector<StripOfPing> strips;
-    std::vector<FaceOfPing> faces;  ///< instances ascend
+    std::vector<FaceOfPing> faces;  ///< in the order of instances, then of normal.x()
+
+    bool has_echoes() const { return !plates.empty() || !strips.empty(); }
 };
 
-struct CoherentFaces;
-
-/// The coherent surface whose planes are within the range of a view. Rays decide what of it is
-/// hidden: for a plate one to the foot of the perpendicular, and eight to every edge.
-CoherentSurface coherent_surface(const CoherentFaces& faces, const Scene& scene,
-                                 const VisibilityEngine& engine, const Pose& T_world_sensor,
-                                 const View& view);
+/// The rectangle along a line that reaches so far to either side of it. `across`: unit, at right
+/// angles to the line.
+PlateOfPing plate_along(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+                        const Eigen::Vector3d& across, double left_m, double right_m);
 
 }  // namespace sonarsim

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "core/clock.h"
+#include "trace/find_coherent_surface.h"
 
 namespace sonarsim {
 
@@ -25,8 +26,8 @@ TracedPing trace_ping(const TraceSettings& settings, const Scene& scene,
                                         scene, engine, T_world_sensor);
     }
     if (settings.coherent) {
-        traced.coherent = coherent_surface(*settings.coherent, scene, engine, T_world_sensor,
-                                           widened_view(settings.view, settings.guard_beams));
+        traced.coherent = find_coherent_surface(*settings.coherent, scene, engine, T_world_sensor,
+                                                widened_view(settings.view, settings.guard_beams));
     }
     traced.seconds.trace = watch.lap();
 

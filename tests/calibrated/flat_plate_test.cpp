@@ -181,6 +181,35 @@ TEST_SUITE("calibrated") {
         }
     }
 
+    TEST_CASE("flat plate: parts that meet at the foot have the echo of the whole") {
+        std::mt19937 random(9);
+        const auto number = [&](double low, double high) {
+            return low + (high - low) * (static_cast<double>(random()) / 4294967296.0);
+        };
+        for (int trial = 0; trial < 500; ++trial) {
+            const double wavelength = number(2e-3, 15e-3);
+            const Eigen::Vector3d foot = number(10.0, 30.0) * Eigen::Vector3d::UnitX();
+            const double roll = number(0.0, 7.0);
+            const Eigen::Vector3d u(0.0, std::cos(roll), std::sin(roll));
+            const Eigen::Vector3d v = foot.normalized().cross(u);
+            const double half_u = number(0.01, 0.07);
+            const double half_v = number(0.01, 0.07);
+            const auto echo = [&](double from, double to) {
+                std::vector<PlateEcho> echoes;
+                add_plate_echoes(plate_along(foot + from * u, foot + to * u, v, half_v, half_v), {},
+                                 wavelength, {}, echoes);
+                std::complex<double> sum = 0.0;
+                for (const PlateEcho& part : echoes)
+                    sum += part.amplitude;
+                return sum;
+            };
+            const std::complex<double> whole = echo(-half_u, half_u);
+            const std::complex<double> parts = echo(-half_u, 0.0) + echo(0.0, half_u);
+            CAPTURE(trial);
+            CHECK(std::abs(parts - whole) < 0.02 * std::abs(whole));
+        }
+    }
+
     TEST_CASE("flat plate: roughness takes exp(-(2 k h sin)^2) of the power") {
         constexpr double wavelength = 1.5e-3;
         const Rectangle wall(3.0, 5.0, 5.0);

@@ -1,5 +1,3 @@
-#include "trace/plates.h"
-
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
@@ -13,6 +11,7 @@
 #include "calibrated/decibel.h"
 #include "support/calibrated.h"
 #include "support/scenes.h"
+#include "trace/find_coherent_faces.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;
@@ -95,6 +94,8 @@ TEST_SUITE("calibrated") {
         add_box(scene, {0.0F, 0.0F, 0.0F}, {1.0F, 2.0F, 3.0F}, smooth);
         const auto faces = find_coherent_faces(scene);
         CHECK(faces->plates.size() == 6);
+        // Nine cells have one border.
+        CHECK(find_coherent_faces(scene_of_plate(0.3))->plates.at(0).border.size() == 4);
         for (const ScenePlate& plate : faces->plates)
             CHECK(plate.border.size() == 4);
         add_sphere(scene, {5.0F, 0.0F, 0.0F}, 1.0F, smooth, 64);
@@ -217,6 +218,23 @@ TEST_SUITE("calibrated") {
             const std::vector<float> without = image_of(sonar, scene);
             scene.materials[other].roughness_m = 0.0;
             CHECK(image_of(sonar, scene) == without);
+        }
+    }
+
+    TEST_CASE("plates: half of a hidden plate has a quarter of its energy") {
+        for (const double edge : {-0.01, 0.0, 0.02}) {
+            Scene scene = scene_of_plate(0.0);
+            scene.materials.push_back({.name = "dark", .lambert_db = -200.0, .slope_rms_deg = 0.0});
+            const double y = 0.5 * edge;  // halfway to the plate
+            const auto at = [&](double across, double up) {
+                return Eigen::Vector3f(static_cast<float>(0.5 * range_m),
+                                       static_cast<float>(across), static_cast<float>(up));
+            };
+            add_quad(scene, at(y, -1.0), at(1.0, -1.0), at(1.0, 1.0), at(y, 1.0), 1, 3);
+            const Sonar sonar = sonar_of(SonarKind::imaging);
+            const double left_db =
+                peak_db(image_of(sonar, scene)) - peak_db(image_of(sonar, scene_of_plate(0.0)));
+            CHECK(std::fabs(left_db - 20.0 * std::log10((0.5 * side_m + edge) / side_m)) < 2.0);
         }
     }
 

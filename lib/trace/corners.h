@@ -1,0 +1,44 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "trace/coherent_faces.h"
+#include "trace/coherent_surface.h"
+
+// Corner reflectors. Sound that meets two faces at right angles goes back as if it had met a plate
+// through their seam that faces the sonar across the seam; after three faces, a plate through their
+// common point that faces the sonar. The plate is that part of the plane from which a ray, mirrored
+// at the faces, meets each of them: the overlap of the opening and its point reflection (e.g.
+// Knott, Shaeffer and Tuley, "Radar Cross Section", 2004, chapter 6). Its area A gives 20 log(A /
+// lambda); three right triangles of side a on the axis have A = a^2 / sqrt(3).
+
+namespace sonarsim {
+
+/// Fills the dihedrals and trihedrals from the plates.
+void find_corners(CoherentFaces& faces);
+
+/// A face of a corner in the sensor frame, seen from a point of it.
+struct CornerFace {
+    Eigen::Vector3d outwards;  ///< its normal, unit, towards the sonar
+    std::vector<std::array<Eigen::Vector3d, 2>> border;
+    std::uint32_t material = 0;
+};
+
+/// The plate in whose place a corner reflects, and the points of its faces that it depends on.
+struct Aperture {
+    PlateOfPing plate;
+    std::vector<Eigen::Vector3d> points;
+};
+
+/// The parts of the seam from one end to the other.
+std::vector<Aperture> dihedral_apertures(const std::array<CornerFace, 2>& faces,
+                                         const Eigen::Vector3d& from, const Eigen::Vector3d& to);
+
+std::optional<Aperture> trihedral_aperture(const std::array<CornerFace, 3>& faces,
+                                           const Eigen::Vector3d& apex);
+
+}  // namespace sonarsim

@@ -1,0 +1,274 @@
+#include "trace/find_coherent_surface.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <utility>
+
+#include "trace/arrivals.h"
+#include "trace/corners.h"
+#include "trace/cut_triangle.h"
+#include "trace/strips.h"
+
+namespace sonarsim {
+
+namespace {
+
+constexpr int parts_of_edge = 8;
+// A ray meets the plate this far from the border, by the length of the part of the edge.
+constexpr double inset_by_part = 0.05;
+// Surface nearer than the plate by more than this share of the range hides it.
+constexpr double hiding_share = 1e-3;
+// A plate that is less wide than this share of its range is cut where it is hidden.
+constexpr double small_plate = 0.1;
+constexpr float parts_of_plate = 8.0F;
+
+bool is_in_view(const View& view, const Eigen::Vector3d& point) {
+    const Eigen::Vector3f p = point.cast<float>();
+    return arrival_range(p) <= static_cast<float>(view.range_max_m) && beam_of(view, p) >= 0;
+}
+
+/// Asks which points the sonar sees.
+class SeenPoints {
+  public:
+    /// Returns the number of the question.
+    std::size_t ask(const Eigen::Vector3d& point) {
+        const double range = arrival_range(point.cast<float>());
+        rays_.push_back({Eigen::Vector3f::Zero(), (point / range).cast<float>()});
+        ranges_.push_back(range);
+        return rays_.size() - 1;
+    }
+
+    void answer(const VisibilityEngine& engine, const Pose& T_world_sensor) {
+        hits_.resize(rays_.size());
+        engine.intersect(T_world_sensor, rays_, hits_);
+    }
+
+    bool is_seen(std::size_t question) const {
+        const Intersection& hit = hits_[question];
+        return hit.distance_m >= (1.0 - hiding_share) * ranges_[question] - hit.rounding_m;
+    }
+
+  private:
+    std::vector<Ray> rays_;
+    std::vector<double> ranges_;
+    std::vector<Intersection> hits_;
+};
+
+class CoherentSurfaceFinder {
+  public:
+    CoherentSurfaceFinder(const CoherentFaces& faces, const Scene& scene,
+                          const VisibilityEngine& engine, const Pose& T_world_sensor,
+                          const View& view)
+        : faces_(faces),
+          engine_(engine),
+          T_world_sensor_(T_world_sensor),
+          view_(view),
+          R_sensor_world_(T_world_sensor.rotation.conjugate()),
+          sensor_(T_world_sensor.translation - scene.origin) {}
+
+    CoherentSurface find() {
+        for (const ScenePlate& plate : faces_.plates)
+            add_plate(plate);
+        for (const SceneStrip& strip : faces_.strips)
+            add_strip(strip);
+        std::ranges::stable_sort(out_.faces, {}, [](const FaceOfPing& face) {
+            return std::pair(face.instance, face.normal.x());
+        });
+        for (const SceneDihedral& of : faces_.dihedrals) {
+            const Eigen::Vector3d from = placed(of.from);
+            const Eigen::Vector3d to = placed(of.to);
+            if (0.5 * (from + to).norm() - 0.5 * (to - from).norm() > view_.range_max_m) continue;
+            add_apertures(dihedral_apertures({corner_face(of.plates[0]), corner_face(of.plates[1])},
+                                             from, to));
+        }
+        for (const SceneTrihedral& of : faces_.trihedrals) {
+            const Eigen::Vector3d apex = placed(of.apex);
+            if (arrival_range(apex.cast<float>()) > view_.range_max_m) continue;
+            auto aperture = trihedral_aperture(
+                {corner_face(of.plates[0]), corner_face(of.plates[1]), corner_face(of.plates[2])},
+                apex);
+            if (aperture) add_apertures({std::move(*aperture)});
+        }
+        return std::move(out_);
+    }
+
+  private:
+    Eigen::Vector3d placed(const Eigen::Vector3f& point) const {
+        return R_sensor_world_ * (point.cast<double>() - sensor_);
+    }
+    Eigen::Vector3d turned(const Eigen::Vector3f& direction) const {
+        return R_sensor_world_ * direction.cast<double>();
+    }
+
+    /// The plane of a face, if it is within the range.
+    std::optional<FaceOfPing> face_at(const Eigen::Vector3f& point, const Eigen::Vector3f& normal,
+                                      std::uint32_t material, std::uint32_t instance) const {
+        FaceOfPing out{
+            .instance = instance, .material = material, .normal = turned(normal), .height_m = 0.0};
+        out.height_m = out.normal.dot(placed(point));
+        if (out.height_m < 0.0) {
+            out.normal = -out.normal;
+            out.height_m = -out.height_m;
+        }
+        if (out.height_m > view_.range_max_m || !(out.height_m > 0.0)) return std::nullopt;
+        return out;
+    }
+
+    void add_plate(const ScenePlate& plate) {
+        const auto face =
+            face_at(plate.border.front()[0], plate.normal, plate.material, plate.instance);
+        if (!face) return;
+        out_.faces.push_back(*face);
+        PlateOfPing at;
+        at.normal = face->normal;
+        at.height_m = face->height_m;
+        at.material = plate.material;
+        Eigen::AlignedBox3d box;
+        for (const auto& side : plate.border) {
+            const Eigen::Vector3d from = placed(side[0]);
+            const Eigen::Vector3d to = placed(side[1]);
+            box.extend(from);
+            for (int k = 0; k < parts_of_edge; ++k) {
+                const auto part = [&](int n) -> Eigen::Vector3d {
+                    return from + (to - from) * (static_cast<double>(n) / parts_of_edge);
+                };
+                at.edges.push_back({part(k), part(k + 1)});
+            }
+        }
+        const double size = box.diagonal().norm();
+        const Seen seen = find_seen(at);
+        if (seen == Seen::partly && size < small_plate * box.center().norm())
+            add_seen_parts(plate, at, static_cast<float>(size));
+        else if (seen != Seen::none)
+            out_.plates.push_back(std::move(at));
+    }
+
+    enum class Seen { none, partly, all };
+
+    /// Finds the edges of a plate that are in view and not hidden. Returns how many of those in
+    /// view are not hidden.
+    Seen find_seen(PlateOfPing& plate) const {
+        SeenPoints points;
+        std::vector<std::pair<std::size_t, bool*>> asked;
+        double area = 0.0;  // positive if the border goes round the normal
+        for (const PlateEdge& edge : plate.edges)
+            area += plate.normal.dot(edge.from.cross(edge.to));
+        const Eigen::Vector3d foot = plate.height_m * plate.normal;
+        plate.foot_seen = is_in_view(view_, foot);
+        if (plate.foot_seen) asked.emplace_back(points.ask(foot), &plate.foot_seen);
+        for (PlateEdge& edge : plate.edges) {
+            const Eigen::Vector3d middle = 0.5 * (edge.from + edge.to);
+            edge.seen = is_in_view(view_, edge.from) || is_in_view(view_, middle) ||
+                        is_in_view(view_, edge.to);
+            const Eigen::Vector3d inwards = plate.normal.cross(edge.to - edge.from);
+            const double inset = std::copysign(inset_by_part, area);
+            if (edge.seen) asked.emplace_back(points.ask(middle + inset * inwards), &edge.seen);
+        }
+        points.answer(engine_, T_world_sensor_);
+        for (auto& [question, seen] : asked)
+            *seen = points.is_seen(question);
+        const auto count = std::ranges::count_if(asked, [](const auto& of) { return *of.second; });
+        if (count == 0) return Seen::none;
+        return count == std::ssize(asked) ? Seen::all : Seen::partly;
+    }
+
+    /// Adds those parts of a plate that are not hidden, each with a border of its own. A hidden
+    /// part of the border alone would leave the rest without what cancels it.
+    void add_seen_parts(const ScenePlate& plate, const PlateOfPing& whole, float size_m) {
+        SeenPoints points;
+        std::vector<PlateOfPing> parts;
+        for (const auto& triangle : plate.triangles) {
+            const Eigen::Vector3f u = triangle[1] - triangle[0];
+            const Eigen::Vector3f v = triangle[2] - triangle[0];
+            const auto size = [&](float s, float t) {
+                return parts_of_plate / size_m * (s * u + t * v).norm();
+            };
+            const auto point = [&](const TrianglePlace& place) {
+                return placed(triangle[0] + place.u * u + place.v * v);
+            };
+            cut_triangle(size, [&](const TrianglePart& cut) {
+                PlateOfPing part;
+                part.normal = whole.normal;
+                part.height_m = whole.height_m;
+                part.material = whole.material;
+                for (std::size_t k = 0; k < 4; ++k)
+                    part.edges.push_back({point(cut.corners[k]), point(cut.corners[(k + 1) % 4])});
+                points.ask(point(cut.centroid));
+                parts.push_back(std::move(part));
+            });
+        }
+        points.answer(engine_, T_world_sensor_);
+        for (std::size_t k = 0; k < parts.size(); ++k) {
+            if (points.is_seen(k)) out_.plates.push_back(std::move(parts[k]));
+        }
+    }
+
+    void add_strip(const SceneStrip& strip) {
+        const auto face = face_at(strip.first.from, strip.normal, strip.material, strip.instance);
+        if (!face) return;
+        out_.faces.push_back(*face);
+        const double side = face->normal.dot(turned(strip.normal)) > 0.0 ? -1.0 : 1.0;
+        const SpecularParts found =
+            specular_parts({.first = {placed(strip.first.from), placed(strip.first.to)},
+                            .second = {placed(strip.second.from), placed(strip.second.to)},
+                            .first_normal = side * turned(strip.first.normal),
+                            .second_normal = side * turned(strip.second.normal)});
+        if (found.parts.empty()) return;
+        SeenPoints points;
+        for (const Eigen::Vector3d& point : found.on_facet)
+            points.ask(point);
+        points.answer(engine_, T_world_sensor_);
+        for (std::size_t k = 0; k < found.parts.size(); ++k) {
+            if (!is_in_view(view_, found.on_facet[k]) || !points.is_seen(k)) continue;
+            out_.strips.push_back(found.parts[k]);
+            out_.strips.back().material = strip.material;
+        }
+    }
+
+    CornerFace corner_face(std::uint32_t number) const {
+        const ScenePlate& plate = faces_.plates[number];
+        CornerFace out{.outwards = turned(plate.normal), .border = {}, .material = plate.material};
+        for (const auto& side : plate.border)
+            out.border.push_back({placed(side[0]), placed(side[1])});
+        if (out.outwards.dot(out.border.front()[0]) > 0.0) out.outwards = -out.outwards;
+        return out;
+    }
+
+    /// Adds those whose faces are seen.
+    void add_apertures(std::vector<Aperture> apertures) {
+        for (Aperture& aperture : apertures) {
+            const bool in_view = std::ranges::all_of(
+                aperture.points, [&](const auto& point) { return is_in_view(view_, point); });
+            if (!in_view || aperture.points.empty()) continue;
+            SeenPoints points;
+            for (const Eigen::Vector3d& point : aperture.points)
+                points.ask(point);
+            points.answer(engine_, T_world_sensor_);
+            bool seen = true;
+            for (std::size_t k = 0; k < aperture.points.size(); ++k)
+                seen = seen && points.is_seen(k);
+            if (seen) out_.plates.push_back(std::move(aperture.plate));
+        }
+    }
+
+    const CoherentFaces& faces_;
+    const VisibilityEngine& engine_;
+    const Pose& T_world_sensor_;
+    const View& view_;
+    Eigen::Quaterniond R_sensor_world_;
+    Eigen::Vector3d sensor_;
+    CoherentSurface out_;
+};
+
+}  // namespace
+
+CoherentSurface find_coherent_surface(const CoherentFaces& faces, const Scene& scene,
+                                      const VisibilityEngine& engine, const Pose& T_world_sensor,
+                                      const View& view) {
+    return CoherentSurfaceFinder(faces, scene, engine, T_world_sensor, view).find();
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "core/pose.h"
+#include "scene/scene.h"
+#include "trace/coherent_faces.h"
+#include "trace/coherent_surface.h"
+#include "visibility/engine.h"
+#include "visibility/view.h"
+
+namespace sonarsim {
+
+/// The coherent surface within the range of a view. Rays decide what of it is hidden: for a plate
+/// one to the foot of the perpendicular and eight to every edge; for strips and corners one to each
+/// face that the sound meets, for each of 8 to 64 parts of a strip and 16 of a seam.
+CoherentSurface find_coherent_surface(const CoherentFaces& faces, const Scene& scene,
+                                      const VisibilityEngine& engine, const Pose& T_world_sensor,
+                                      const View& view);
+
+}  // namespace sonarsim

@@ -1,0 +1,196 @@
+#include <doctest/doctest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "calibrated/decibel.h"
+#include "support/calibrated.h"
+#include "support/scenes.h"
+
+using namespace sonarsim;
+using namespace sonarsim::test;
+
+namespace {
+
+constexpr SonarKind shape_kinds[] = {SonarKind::imaging, SonarKind::sidescan,
+                                     SonarKind::echosounder, SonarKind::scanning,
+                                     SonarKind::profiling};
+constexpr EngineKind shape_engines[] = {EngineKind::rays, EngineKind::slices, EngineKind::octree,
+                                        EngineKind::automatic};
+constexpr float reflection = 0.5F;
+
+class Draws {
+  public:
+    explicit Draws(unsigned seed) : random_(seed) {}
+    double number(double low, double high) {
+        return low + (high - low) * (static_cast<double>(random_()) / 4294967296.0);
+    }
+    int whole(int below) { return static_cast<int>(random_() % static_cast<unsigned>(below)); }
+
+  private:
+    std::mt19937 random_;
+};
+
+/// A sonar whose bins are 10 cm long, and the direction in which it looks.
+struct Looking {
+    Sonar sonar;
+    Eigen::Vector3d axis;
+
+    double wavelength() const { return calibrated_model_of(sonar).wavelength_m; }
+};
+
+Looking looking(SonarKind kind, double frequency) {
+    SonarConfig config = calibrated(default_sonar(kind), frequency);
+    const bool sidescan = kind == SonarKind::sidescan;
+    if (sidescan) {
+        config.elevation_deg = 6.0;
+        config.instrument.beam.tilt_deg = 30.0;
+    } else {
+        config.azimuth_deg = 20.0;
+        config.elevation_deg = 20.0;
+        config.azimuth_bins = 61;
+    }
+    config.range_min_m = 10.0;
+    config.range_max_m = 30.0;
+    config.range_bins = 200;
+    config.instrument = bare(config.instrument);
+    config.instrument.beam.width_deg = 3.0;
+    config.instrument.pulse.resolution_m = 0.3;
+    const double azimuth = sidescan ? radians(60.0) : 0.0;
+    return {make_sonar(config, {}), {std::cos(azimuth), std::sin(azimuth), 0.0}};
+}
+
+/// The largest level of the image, without absorption up to a range.
+double level_db(const Looking& from, const Scene& scene, EngineKind type, double range_m) {
+    Sonar sonar = from.sonar;
+    find_targets({&sonar, 1}, scene);
+    EngineSettings settings;
+    settings.type = type;
+    const auto engine = make_engine(scene, settings);
+    const TracedPing traced =
+        trace_ping(sonar.settings, scene, *engine, Pose{}, direct_echoes_alone);
+    const std::vector<float> image =
+        form_image(traced, sonar.settings, scene, {}, direct_echoes_alone).intensity;
+    return db_of_power(*std::ranges::max_element(image) + 1e-30F) +
+           2.0 * calibrated_model_of(sonar).absorption_db_per_m * range_m;
+}
+
+Scene smooth_scene() {
+    Scene scene = empty_scene();
+    scene.materials[add_material(scene, reflection)].roughness_m = 0.0;
+    // Keeps the scene's bounds.
+    scene.materials.push_back({.name = "dark", .lambert_db = -200.0, .slope_rms_deg = 0.0});
+    add_quad(scene, {-40, -40, -40}, {-39, -40, -40}, {-39, -39, -40}, {-40, -39, -40}, 1);
+    return scene;
+}
+
+void add_polygon(Scene& scene, const std::vector<Eigen::Vector3d>& corners) {
+    const auto first = static_cast<std::uint32_t>(scene.vertices.size());
+    for (const Eigen::Vector3d& corner : corners)
+        scene.vertices.push_back(corner.cast<float>());
+    for (std::uint32_t k = 2; k < corners.size(); ++k) {
+        scene.triangles.push_back({first, first + k - 1, first + k});
+        scene.triangle_material.push_back(0);
+        scene.triangle_instance.push_back(0);
+    }
+}
+
+/// A face of a corner at the origin, moved to a range, turned so that `towards` points at the
+/// sonar.
+struct Mount {
+    Eigen::Matrix3d R;
+    Eigen::Vector3d apex;
+
+    Mount(const Eigen::Vector3d& look, double range, const Eigen::Vector3d& towards, double roll)
+        : R((Eigen::AngleAxisd(roll, look) * Eigen::Quaterniond::FromTwoVectors(towards, -look))
+                .toRotationMatrix()),
+          apex(range * look) {}
+
+    void add(Scene& scene, std::vector<Eigen::Vector3d> corners) const {
+        for (Eigen::Vector3d& corner : corners)
+            corner = apex + R * corner;
+        add_polygon(scene, corners);
+    }
+};
+
+/// The level of an area that faces the sonar far away.
+double far_db(double area, double power, double wavelength, double range) {
+    return 20.0 * std::log10(area / (wavelength * range * range)) + 10.0 * std::log10(power);
+}
+
+}  // namespace
+
+TEST_SUITE("calibrated") {
+    // Faces b1 and b2 wide under the angle t: A = 2 L min(b1 sin t, b2 cos t), broadside.
+    TEST_CASE("corners: dihedrals of two rectangles") {
+        Draws draws(25);
+        for (int trial = 0; trial < 15; ++trial) {
+            const Looking from = looking(shape_kinds[trial % 5], draws.number(1e5, 4e5));
+            const double wavelength = from.wavelength();
+            const double range = 12.05 + 0.1 * draws.whole(150);
+            // A tenth of the Fresnel zone.
+            const double size = std::sqrt(0.1 * wavelength * range);
+            const double wide1 = draws.number(0.5, 1.0) * size;
+            const double wide2 = draws.number(0.5, 1.0) * size;
+            const double half = 0.5 * draws.number(0.5, 1.0) * size;
+            const double angle = draws.number(0.4, 1.1);
+            const Mount mount(from.axis, range, {std::cos(angle), std::sin(angle), 0.0},
+                              draws.number(0.0, 7.0));
+            Scene scene = smooth_scene();
+            mount.add(scene, {{0, 0, -half}, {wide1, 0, -half}, {wide1, 0, half}, {0, 0, half}});
+            mount.add(scene, {{0, 0, -half}, {0, 0, half}, {0, wide2, half}, {0, wide2, -half}});
+            const double area =
+                4.0 * half * std::min(wide1 * std::sin(angle), wide2 * std::cos(angle));
+            CAPTURE(trial);
+            CAPTURE(angle);
+            CAPTURE(wide1);
+            CAPTURE(wide2);
+            CAPTURE(half);
+            const double found = level_db(from, scene, shape_engines[draws.whole(4)], range);
+            CHECK(std::fabs(found - far_db(area, reflection * reflection, wavelength, range)) <
+                  1.0);
+        }
+    }
+
+    // Three right triangles of side a, seen along (l, m, n), l <= m <= n: A / a^2 is 4 l m / s, or
+    // s - 2 / s if l + m > n, s = l + m + n. On the axis that is 1 / sqrt(3), a cross-section
+    // of 4 pi a^4 / (3 lambda^2). Squares have sqrt(3) there.
+    TEST_CASE("corners: trihedrals of three triangles and of three squares") {
+        Draws draws(26);
+        for (int trial = 0; trial < 15; ++trial) {
+            const Looking from = looking(shape_kinds[trial % 5], draws.number(1e5, 4e5));
+            const double wavelength = from.wavelength();
+            const double range = 12.05 + 0.1 * draws.whole(150);
+            const double a = draws.number(0.5, 1.0) * std::sqrt(0.1 * wavelength * range);
+            const bool squares = trial % 3 == 2;
+            Eigen::Vector3d towards = Eigen::Vector3d::Ones();
+            if (!squares) towards += Eigen::Vector3d(draws.number(0, 1), draws.number(0, 1), 0.0);
+            towards.normalize();
+            const Mount mount(from.axis, range, towards, draws.number(0.0, 7.0));
+            Scene scene = smooth_scene();
+            for (int k = 0; k < 3; ++k) {
+                const Eigen::Vector3d u = a * Eigen::Vector3d::Unit(k);
+                const Eigen::Vector3d v = a * Eigen::Vector3d::Unit((k + 1) % 3);
+                const Eigen::Vector3d o = Eigen::Vector3d::Zero();
+                mount.add(scene, squares ? std::vector{o, u, Eigen::Vector3d(u + v), v}
+                                         : std::vector{o, u, v});
+            }
+            std::array<double, 3> sines{towards.x(), towards.y(), towards.z()};
+            std::ranges::sort(sines);
+            const double sum = sines[0] + sines[1] + sines[2];
+            const double triangles =
+                sines[0] + sines[1] > sines[2] ? sum - 2.0 / sum : 4.0 * sines[0] * sines[1] / sum;
+            const double area = a * a * (squares ? std::sqrt(3.0) : triangles);
+            const double power = reflection * reflection * reflection;
+            CAPTURE(trial);
+            CAPTURE(a);
+            CAPTURE(wavelength);
+            const double found = level_db(from, scene, shape_engines[draws.whole(4)], range);
+            CHECK(std::fabs(found - far_db(area, power, wavelength, range)) < 1.0);
+        }
+    }
+}
