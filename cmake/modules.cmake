@@ -4,7 +4,7 @@ find_library(ASSIMP_LIBRARY assimp)
 find_path(ASSIMP_INCLUDE_DIR assimp/Importer.hpp)
 if(ASSIMP_LIBRARY AND ASSIMP_INCLUDE_DIR)
     # Debian's CMake target of assimp asks for draco's files, which only its static library needs.
-    add_library(sonarsim_meshes MODULE modules/meshes.cpp)
+    add_library(sonarsim_meshes MODULE apps/modules/meshes.cpp)
     target_include_directories(sonarsim_meshes PRIVATE lib)
     target_include_directories(sonarsim_meshes SYSTEM PRIVATE ${ASSIMP_INCLUDE_DIR})
     target_link_libraries(sonarsim_meshes PRIVATE ${ASSIMP_LIBRARY})

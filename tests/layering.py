@@ -59,7 +59,7 @@ OF_THE_C_LIBRARY = re.compile(r"\bstd::(a?(sin|cos|tan)h?|atan2|exp[2m]?1?|log(2
 OWNERS = {
     "yaml-cpp/": "mission",
     "tiny_gltf.h": "scene",
-    "assimp/": "modules",
+    "assimp/": "apps",
     "zlib.h": "format",
     "embree3/": "visibility",
     "embree4/": "visibility",
