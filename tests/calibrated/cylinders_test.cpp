@@ -46,6 +46,8 @@ struct Cylinder {
         }
         for (int k = 0; k < sides; ++k)
             add_quad(out, rings[0][k], rings[0][k + 1], rings[1][k + 1], rings[1][k], 0);
+        std::ranges::fill(out.triangle_instance, 0U);  // one object
+        out.instances.resize(1);
         return out;
     }
 
