@@ -61,10 +61,11 @@ class GalleryLabels(GalleryCase):
         self.assert_renders()
         for name in ("coco_fan", "coco_records"):
             file = self.out / f"labels/{name}.json"
-            lines = [line.replace('"iscrowd":0', '"iscrowd":1,"range_m":1.23456789,"side":"port",'
-                                  '"contrast_db":null,"shadow_bbox":[1,2,3,4]')
-                     for line in file.read_text().split("\n")]
-            file.write_text("\n".join(lines))
+            coco = json.loads(file.read_text())
+            for one in coco["annotations"]:
+                one |= {"iscrowd": 1, "range_m": 1.23456789, "side": "port", "contrast_db": None,
+                        "shadow_bbox": [1, 2, 3, 4]}
+            file.write_text(json.dumps(coco))
         sensors = {sensor["name"]: sensor for sensor in dataset_of(self.gallery())["sensors"]}
         fan = sensors["fls"]["views"][0]["boxes"][0][0][5]
         self.assertEqual((fan["range_m"], fan["side"], fan["iscrowd"]), (1.2346, "port", 1))

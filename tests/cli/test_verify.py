@@ -154,7 +154,7 @@ class Verify(Sandbox):
         self.assertIn("is missing", result.stderr)
 
     def test_no_dataset(self):
-        self.assert_refused(self.run_sonarsim("verify", "none"), "none", "no dataset.json")
+        self.assert_refused(self.run_sonarsim("verify", "none"), "none", "there is no such folder")
         self.write("other/dataset.json", "{}")
         self.assert_refused(self.run_sonarsim("verify", "other"), "dataset.json", "not sonarsim's")
         self.edit("out/dataset.json", '"format_version": 3', '"format_version": 2')
