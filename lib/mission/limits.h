@@ -46,6 +46,7 @@ struct Choice {
 template <class T, std::size_t N>
 std::vector<std::string> names_of(const std::array<Choice<T>, N>& choices) {
     std::vector<std::string> names;
+    names.reserve(N);
     for (const Choice<T>& one : choices)
         names.emplace_back(one.name);
     return names;
