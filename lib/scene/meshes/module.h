@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 
-// The interface between the program and its module of meshes (apps/modules/meshes.cpp), which alone is
-// linked with libassimp. C, so that a symbol's name is all that dlsym needs.
+// The interface between the program and its module of meshes (apps/modules/meshes.cpp), which alone
+// is linked with libassimp. C, so that a symbol's name is all that dlsym needs.
 
 extern "C" {
 

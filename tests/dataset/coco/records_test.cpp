@@ -1,11 +1,10 @@
-#include "dataset/coco/coco.h"
-
 #include <doctest/doctest.h>
 
 #include <nlohmann/json.hpp>
 #include <vector>
 
 #include "core/file.h"
+#include "dataset/coco/coco.h"
 #include "support/temporary_folder.h"
 
 using namespace sonarsim;
