@@ -168,7 +168,10 @@ TEST_SUITE("calibrated") {
             const double a = draws.number(0.5, 1.0) * std::sqrt(0.1 * wavelength * range);
             const bool squares = trial % 3 == 2;
             Eigen::Vector3d towards = Eigen::Vector3d::Ones();
-            if (!squares) towards += Eigen::Vector3d(draws.number(0, 1), draws.number(0, 1), 0.0);
+            // One by one: the order of arguments differs between compilers.
+            const double aside = draws.number(0, 1);
+            const double up = draws.number(0, 1);
+            if (!squares) towards += Eigen::Vector3d(up, aside, 0.0);
             towards.normalize();
             const Mount mount(from.axis, range, towards, draws.number(0.0, 7.0));
             Scene scene = smooth_scene();

@@ -24,7 +24,11 @@ class Draws {
     bool half() { return (word() & 0x100U) != 0; }
     Eigen::Vector3f in_ball() {
         while (true) {
-            const Eigen::Vector3f p(between(-1, 1), between(-1, 1), between(-1, 1));
+            // One by one: the order of arguments differs between compilers.
+            const float z = between(-1, 1);
+            const float y = between(-1, 1);
+            const float x = between(-1, 1);
+            const Eigen::Vector3f p(x, y, z);
             if (p.squaredNorm() <= 1.0F) return p;
         }
     }

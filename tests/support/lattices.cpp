@@ -144,8 +144,8 @@ class Builder {
         for (int n = 0; n < count; ++n) {
             const Vector3f at = draws_.in_ball();
             const Vector3f along = length * draws_.in_ball().normalized();
-            const Vector3f across =
-                draws_.between(0.1F, 0.4F) * along.cross(draws_.in_ball().normalized());
+            const Vector3f sideways = draws_.in_ball().normalized();
+            const Vector3f across = draws_.between(0.1F, 0.4F) * along.cross(sideways);
             quad(at, at + 0.5F * along + across, at + along, at + 0.5F * along - across);
             if (n % 8 == 0) bar(root, at, stem, 3);
         }
@@ -262,8 +262,10 @@ Lattice draw_lattice(std::uint32_t number) {
     // Upright in half of the scenes, so that posts are parallel to the slices.
     const float yaw = draws.between(-3.14F, 3.14F);
     Eigen::Quaternionf turn(Eigen::AngleAxisf(yaw, Vector3f::UnitZ()));
-    if (draws.half())
-        turn = Eigen::AngleAxisf(draws.between(0.0F, 3.14F), draws.in_ball().normalized()) * turn;
+    if (draws.half()) {
+        const Vector3f axis = draws.in_ball().normalized();
+        turn = Eigen::AngleAxisf(draws.between(0.0F, 3.14F), axis) * turn;
+    }
     // The lattice stands aside of the boresight by up to half of its own size, or anywhere in a
     // side-scan's plane.
     const bool sides = out.sonar.kind == SonarKind::sidescan;
