@@ -151,7 +151,7 @@ void add_plate_echoes(const PlateOfPing& plate, const PlateSurface& surface, dou
     double angle = 0.0;
     for (const PlateEdge& edge : plate.edges)
         angle += add_edge(geometry, edge, limits, echoes);
-    // Else the foot is beside the plate.
+    // The angle is zero if the foot is outside the plate.
     if (plate.foot_seen && std::fabs(angle) > 1e-9) {
         echoes.push_back(
             {geometry.foot, plate.height_m,

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "core/elementary.h"
@@ -171,6 +173,28 @@ double most_reach(const std::array<CornerFace, N>& faces, const Eigen::Vector3d&
     return least;
 }
 
+/// The pairs of plates at right angles whose boxes meet, in order. Boxes are compared in the order
+/// of their beginning along x, so that a scene of many faces does not compare each with all.
+std::vector<std::array<std::uint32_t, 2>> pairs_that_meet(const std::vector<ScenePlate>& plates,
+                                                          const std::vector<Box>& boxes) {
+    std::vector<std::uint32_t> order(plates.size());
+    std::iota(order.begin(), order.end(), 0U);
+    const auto begin_of = [&](std::uint32_t k) { return boxes[k].box.min().x(); };
+    std::ranges::stable_sort(order, {}, begin_of);
+    std::vector<std::array<std::uint32_t, 2>> pairs;
+    for (auto first = order.begin(); first != order.end(); ++first) {
+        const Box& box = boxes[*first];
+        for (auto other = std::next(first);
+             other != order.end() && begin_of(*other) <= box.box.max().x(); ++other) {
+            if (std::fabs(plates[*first].normal.dot(plates[*other].normal)) <= right_angle &&
+                box.box.intersects(boxes[*other].box))
+                pairs.push_back({std::min(*first, *other), std::max(*first, *other)});
+        }
+    }
+    std::ranges::sort(pairs);
+    return pairs;
+}
+
 template <std::size_t N>
 std::vector<Mirror> mirrors_of(const std::array<CornerFace, N>& faces,
                                const Eigen::Vector3d& away) {
@@ -186,19 +210,14 @@ void find_corners(CoherentFaces& faces) {
     std::vector<Box> boxes;
     for (const ScenePlate& plate : faces.plates)
         boxes.push_back(box_of(plate));
-    const auto count = static_cast<std::uint32_t>(faces.plates.size());
-    std::vector<std::vector<std::uint32_t>> seams_of(count);  // that begin with a plate
-    for (std::uint32_t a = 0; a < count; ++a) {
-        for (std::uint32_t b = a + 1; b < count; ++b) {
-            if (std::fabs(faces.plates[a].normal.dot(faces.plates[b].normal)) > right_angle ||
-                !boxes[a].box.intersects(boxes[b].box))
-                continue;
-            SceneDihedral seam{.plates = {a, b}, .from = {}, .to = {}};
-            const float size = std::min(boxes[a].size_m, boxes[b].size_m);
-            if (!find_seam(faces.plates[a], faces.plates[b], size, seam)) continue;
-            seams_of[a].push_back(static_cast<std::uint32_t>(faces.dihedrals.size()));
-            faces.dihedrals.push_back(seam);
-        }
+    // The seams of which a plate is the first.
+    std::vector<std::vector<std::uint32_t>> seams_of(faces.plates.size());
+    for (const auto& [a, b] : pairs_that_meet(faces.plates, boxes)) {
+        SceneDihedral seam{.plates = {a, b}, .from = {}, .to = {}};
+        const float size = std::min(boxes[a].size_m, boxes[b].size_m);
+        if (!find_seam(faces.plates[a], faces.plates[b], size, seam)) continue;
+        seams_of[a].push_back(static_cast<std::uint32_t>(faces.dihedrals.size()));
+        faces.dihedrals.push_back(seam);
     }
     for (const SceneDihedral& ab : faces.dihedrals) {
         for (const std::uint32_t bc : seams_of[ab.plates[1]]) {

@@ -7,20 +7,14 @@
 #include <random>
 #include <vector>
 
-#include "calibrated/decibel.h"
-#include "support/calibrated.h"
 #include "support/scenes.h"
+#include "support/smooth_shapes.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;
 
 namespace {
 
-constexpr SonarKind shape_kinds[] = {SonarKind::imaging, SonarKind::sidescan,
-                                     SonarKind::echosounder, SonarKind::scanning,
-                                     SonarKind::profiling};
-constexpr EngineKind shape_engines[] = {EngineKind::rays, EngineKind::slices, EngineKind::octree,
-                                        EngineKind::automatic};
 constexpr float reflection = 0.5F;
 
 class Draws {
@@ -34,50 +28,6 @@ class Draws {
   private:
     std::mt19937 random_;
 };
-
-/// A sonar whose bins are 10 cm long, and the direction in which it looks.
-struct Looking {
-    Sonar sonar;
-    Eigen::Vector3d axis;
-
-    double wavelength() const { return calibrated_model_of(sonar).wavelength_m; }
-};
-
-Looking looking(SonarKind kind, double frequency) {
-    SonarConfig config = calibrated(default_sonar(kind), frequency);
-    const bool sidescan = kind == SonarKind::sidescan;
-    if (sidescan) {
-        config.elevation_deg = 6.0;
-        config.instrument.beam.tilt_deg = 30.0;
-    } else {
-        config.azimuth_deg = 20.0;
-        config.elevation_deg = 20.0;
-        config.azimuth_bins = 61;
-    }
-    config.range_min_m = 10.0;
-    config.range_max_m = 30.0;
-    config.range_bins = 200;
-    config.instrument = bare(config.instrument);
-    config.instrument.beam.width_deg = 3.0;
-    config.instrument.pulse.resolution_m = 0.3;
-    const double azimuth = sidescan ? radians(60.0) : 0.0;
-    return {make_sonar(config, {}), {std::cos(azimuth), std::sin(azimuth), 0.0}};
-}
-
-/// The largest level of the image, without absorption up to a range.
-double level_db(const Looking& from, const Scene& scene, EngineKind type, double range_m) {
-    Sonar sonar = from.sonar;
-    find_targets({&sonar, 1}, scene);
-    EngineSettings settings;
-    settings.type = type;
-    const auto engine = make_engine(scene, settings);
-    const TracedPing traced =
-        trace_ping(sonar.settings, scene, *engine, Pose{}, direct_echoes_alone);
-    const std::vector<float> image =
-        form_image(traced, sonar.settings, scene, {}, direct_echoes_alone).intensity;
-    return db_of_power(*std::ranges::max_element(image) + 1e-30F) +
-           2.0 * calibrated_model_of(sonar).absorption_db_per_m * range_m;
-}
 
 Scene smooth_scene() {
     Scene scene = empty_scene();
@@ -129,7 +79,7 @@ TEST_SUITE("calibrated") {
     TEST_CASE("corners: dihedrals of two rectangles") {
         Draws draws(25);
         for (int trial = 0; trial < 15; ++trial) {
-            const Looking from = looking(shape_kinds[trial % 5], draws.number(1e5, 4e5));
+            const Looking from = looking(kinds_before_shapes[trial % 5], draws.number(1e5, 4e5));
             const double wavelength = from.wavelength();
             const double range = 12.05 + 0.1 * draws.whole(150);
             // A tenth of the Fresnel zone.
@@ -150,7 +100,7 @@ TEST_SUITE("calibrated") {
             CAPTURE(wide1);
             CAPTURE(wide2);
             CAPTURE(half);
-            const double found = level_db(from, scene, shape_engines[draws.whole(4)], range);
+            const double found = peak_db(from, scene, engines_before_shapes[draws.whole(4)], range);
             CHECK(std::fabs(found - far_db(area, reflection * reflection, wavelength, range)) <
                   1.0);
         }
@@ -162,7 +112,7 @@ TEST_SUITE("calibrated") {
     TEST_CASE("corners: trihedrals of three triangles and of three squares") {
         Draws draws(26);
         for (int trial = 0; trial < 15; ++trial) {
-            const Looking from = looking(shape_kinds[trial % 5], draws.number(1e5, 4e5));
+            const Looking from = looking(kinds_before_shapes[trial % 5], draws.number(1e5, 4e5));
             const double wavelength = from.wavelength();
             const double range = 12.05 + 0.1 * draws.whole(150);
             const double a = draws.number(0.5, 1.0) * std::sqrt(0.1 * wavelength * range);
@@ -192,7 +142,7 @@ TEST_SUITE("calibrated") {
             CAPTURE(trial);
             CAPTURE(a);
             CAPTURE(wavelength);
-            const double found = level_db(from, scene, shape_engines[draws.whole(4)], range);
+            const double found = peak_db(from, scene, engines_before_shapes[draws.whole(4)], range);
             CHECK(std::fabs(found - far_db(area, power, wavelength, range)) < 1.0);
         }
     }

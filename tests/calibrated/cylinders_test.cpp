@@ -6,21 +6,15 @@
 #include <complex>
 #include <vector>
 
-#include "calibrated/decibel.h"
-#include "support/calibrated.h"
 #include "support/draws.h"
 #include "support/scenes.h"
+#include "support/smooth_shapes.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;
 
 namespace {
 
-constexpr SonarKind cylinder_kinds[] = {SonarKind::imaging, SonarKind::sidescan,
-                                        SonarKind::echosounder, SonarKind::scanning,
-                                        SonarKind::profiling};
-constexpr EngineKind cylinder_engines[] = {EngineKind::rays, EngineKind::slices, EngineKind::octree,
-                                           EngineKind::automatic};
 constexpr float cylinder_reflection = 0.5F;
 
 struct Cylinder {
@@ -74,39 +68,6 @@ struct Cylinder {
     }
 };
 
-/// The largest level of the image of a sonar that looks along `axis`, without absorption.
-double cylinder_level_db(Sonar sonar, const Scene& scene, EngineKind type, double range_m) {
-    find_targets({&sonar, 1}, scene);
-    EngineSettings settings;
-    settings.type = type;
-    const auto engine = make_engine(scene, settings);
-    const TracedPing traced =
-        trace_ping(sonar.settings, scene, *engine, Pose{}, direct_echoes_alone);
-    const std::vector<float> image =
-        form_image(traced, sonar.settings, scene, {}, direct_echoes_alone).intensity;
-    return db_of_power(*std::ranges::max_element(image) + 1e-30F) +
-           2.0 * calibrated_model_of(sonar).absorption_db_per_m * range_m;
-}
-
-Sonar sonar_before_cylinder(SonarKind kind, double frequency) {
-    SonarConfig config = calibrated(default_sonar(kind), frequency);
-    if (kind == SonarKind::sidescan) {
-        config.elevation_deg = 6.0;
-        config.instrument.beam.tilt_deg = 30.0;
-    } else {
-        config.azimuth_deg = 20.0;
-        config.elevation_deg = 20.0;
-        config.azimuth_bins = 61;
-    }
-    config.range_min_m = 10.0;
-    config.range_max_m = 30.0;
-    config.range_bins = 200;
-    config.instrument = bare(config.instrument);
-    config.instrument.beam.width_deg = 3.0;
-    config.instrument.pulse.resolution_m = 0.3;
-    return make_sonar(config, {});
-}
-
 }  // namespace
 
 TEST_SUITE("calibrated") {
@@ -114,11 +75,10 @@ TEST_SUITE("calibrated") {
     TEST_CASE("cylinders: the Kirchhoff integral in any sonar, by any engine") {
         for (std::uint32_t trial = 0; trial < 20; ++trial) {
             Draws draws(7100 + trial);
-            const SonarKind kind = cylinder_kinds[trial % 5];
-            const Sonar sonar = sonar_before_cylinder(kind, draws.between(1e5F, 4e5F));
-            const double wavelength = calibrated_model_of(sonar).wavelength_m;
-            const double azimuth = kind == SonarKind::sidescan ? radians(60.0) : 0.0;
-            const Eigen::Vector3d look(std::cos(azimuth), std::sin(azimuth), 0.0);
+            const SonarKind kind = kinds_before_shapes[trial % 5];
+            const Looking from = looking(kind, draws.between(1e5F, 4e5F));
+            const double wavelength = from.wavelength();
+            const Eigen::Vector3d& look = from.axis;
             Cylinder cylinder;
             cylinder.radius = draws.scale(0.02F, 0.2F);
             const bool broadside = trial % 2 == 0;
@@ -136,7 +96,7 @@ TEST_SUITE("calibrated") {
             // The specular line is in the middle of a range bin.
             const double range = 12.05 + 0.1 * draws.whole(0, 149);
             cylinder.middle = (range + cylinder.radius) * look;
-            const EngineKind engine = cylinder_engines[draws.whole(0, 3)];
+            const EngineKind engine = engines_before_shapes[draws.whole(0, 3)];
             CAPTURE(trial);
             CAPTURE(static_cast<int>(kind));
             CAPTURE(static_cast<int>(engine));
@@ -146,7 +106,7 @@ TEST_SUITE("calibrated") {
             CAPTURE(range);
             CAPTURE(wavelength);
             CAPTURE(b);
-            const double found = cylinder_level_db(sonar, cylinder.scene(), engine, range);
+            const double found = peak_db(from, cylinder.scene(), engine, range);
             const double points = 20.0 * std::log10(cylinder.kirchhoff(wavelength));
             CHECK(std::fabs(found - points) < 1.0);
             // Beyond the near field, L^2 / lambda.
