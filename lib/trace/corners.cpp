@@ -199,6 +199,7 @@ template <std::size_t N>
 std::vector<Mirror> mirrors_of(const std::array<CornerFace, N>& faces,
                                const Eigen::Vector3d& away) {
     std::vector<Mirror> out;
+    out.reserve(faces.size());
     for (const CornerFace& face : faces)
         out.push_back({face.material, -away.dot(face.outwards)});
     return out;
