@@ -8,6 +8,7 @@
 #include <set>
 
 #include "benchmark/cold_start.h"
+#include "benchmark/label_rows.h"
 #include "benchmark/multipath_rows.h"
 #include "benchmark/report_files.h"
 #include "benchmark/report_text.h"
@@ -118,6 +119,7 @@ int report(const ReportArguments& arguments) {
         measure_cold_starts(mission, assembly, settings, options, assembled_s);
     Report result = make_report(mission, assembly, settings, cold, options, progress);
     result.multipath = measure_multipath(mission, assembly, options, progress);
+    result.labels = measure_labels(mission, assembly, options, progress);
     if (arguments.scale) {
         result.growth =
             measure_growth(mission, assembly, arguments.most_triangles, options, progress);
@@ -153,9 +155,9 @@ void add_report(CLI::App& app, int& exit_code) {
         ->capture_default_str();
     command
         .add_option("--engines", arguments->engines,
-                    "Engines to measure, separated by commas: rays, slices, octree, literal")
+                    "Engines to measure, separated by commas: rays, slices, octree, literal, auto")
         ->delimiter(',')
-        ->check(CLI::IsMember({"rays", "slices", "octree", "literal"}))
+        ->check(CLI::IsMember({"rays", "slices", "octree", "literal", "auto"}))
         ->type_name("NAMES");
     add_threads_option(command, arguments->report.threads,
                        "Threads for pings/s (default: one per core)");

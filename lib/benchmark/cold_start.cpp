@@ -13,9 +13,9 @@
 #include <system_error>
 #include <type_traits>
 
+#include "benchmark/settings.h"
 #include "benchmark/timed_pings.h"
 #include "core/clock.h"
-#include "sonar/engine_settings.h"
 #include "visibility/octree/octree_engine.h"
 
 namespace sonarsim {
@@ -32,8 +32,7 @@ ColdStart run_cold(const Mission& mission, const Assembly& assembly, const Setti
                    const Sonar& sonar, int poses, double assembled_s) {
     ColdStart cold;
     const double start = seconds_now();
-    const auto engine =
-        make_engine(assembly.scene, engine_settings(setting.kind, setting.octree, setting.slices));
+    const auto engine = make_engine(assembly.scene, engine_settings(setting, mission, assembly));
     cold.build_s = seconds_now() - start;
     bool first = true;
     for (const std::size_t pose : sample_poses(assembly.trajectory.size(), poses)) {

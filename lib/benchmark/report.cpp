@@ -8,13 +8,13 @@
 #include <cstdlib>
 #include <memory>
 
+#include "benchmark/settings.h"
 #include "benchmark/thread_clock.h"
 #include "benchmark/timed_pings.h"
 #include "benchmark/view_rays.h"
 #include "core/clock.h"
 #include "core/in_parallel.h"
 #include "scene/copies.h"
-#include "sonar/engine_settings.h"
 #include "validation/energy_reference.h"
 #include "validation/fit.h"
 #include "validation/image_error.h"
@@ -28,6 +28,7 @@ namespace {
 /// A sonar with a setting, and its times so far.
 struct Trial {
     Sonar sonar;
+    const EngineSettings* engine_settings = nullptr;
     const VisibilityEngine* engine = nullptr;
     std::vector<PoseTimes> poses;
     std::vector<double> pings_per_s;
@@ -123,9 +124,7 @@ ReferenceQuality quality(const std::string& sensor, const std::vector<Reference>
 /// Uses a new engine, so that its warnings are about these pings only.
 void measure_errors(const PingSet& pings, const Trial& trial,
                     const std::vector<Reference>& references, ReportRow& row) {
-    const Setting& setting = row.setting;
-    const auto engine =
-        make_engine(pings.scene, engine_settings(setting.kind, setting.octree, setting.slices));
+    const auto engine = make_engine(pings.scene, *trial.engine_settings);
     const std::size_t poses = references.size();
     std::vector<double> l1(poses);
     std::vector<double> l2(poses);
@@ -186,10 +185,28 @@ void mark_front(std::vector<ReportRow>& rows, const std::string& sensor) {
         own[i]->on_front = front[i];
 }
 
+/// The engines of all settings.
+struct Engines {
+    std::vector<EngineSettings> settings;
+    std::vector<std::shared_ptr<const VisibilityEngine>> made;
+};
+
+Engines make_engines(const Mission& mission, const Assembly& assembly,
+                     std::span<const Setting> settings) {
+    std::shared_ptr<const VisibilityEngine> rays;  // one tree serves every error goal
+    Engines engines;
+    for (const Setting& setting : settings) {
+        engines.settings.push_back(engine_settings(setting, mission, assembly));
+        const bool again = setting.kind == EngineKind::rays && rays;
+        engines.made.push_back(again ? rays : make_engine(assembly.scene, engines.settings.back()));
+        if (setting.kind == EngineKind::rays) rays = engines.made.back();
+    }
+    return engines;
+}
+
 /// All settings on one sonar.
 void report_sonar(const Comparison& comparison, std::size_t index, const Assembly& assembly,
-                  std::span<const Setting> settings,
-                  const std::vector<std::shared_ptr<const VisibilityEngine>>& engines,
+                  std::span<const Setting> settings, const Engines& engines,
                   std::span<const ColdStart> cold, const ReportProgress& progress, Report& report) {
     const PingSet& pings = comparison.pings;
     const int rounds = comparison.options.rounds;
@@ -205,7 +222,8 @@ void report_sonar(const Comparison& comparison, std::size_t index, const Assembl
     for (std::size_t s = 0; s < settings.size(); ++s) {
         progress(name + ": " + settings[s].engine + " " + settings[s].name + ", error");
         trials.push_back({with_setting(sonar, settings[s]),
-                          engines[s].get(),
+                          &engines.settings[s],
+                          engines.made[s].get(),
                           std::vector<PoseTimes>(pings.poses.size()),
                           {}});
         ReportRow& row = rows.emplace_back();
@@ -260,16 +278,7 @@ Report make_report(const Mission& mission, const Assembly& assembly,
         Comparison comparison{make_ping_set(mission, assembly, options.poses), caster, options};
         comparison.options.threads = threads;
         report.poses = static_cast<int>(comparison.pings.poses.size());
-        std::shared_ptr<const VisibilityEngine> rays;  // one tree serves every error goal
-        std::vector<std::shared_ptr<const VisibilityEngine>> engines;
-        for (const Setting& setting : settings) {
-            const bool again = setting.kind == EngineKind::rays && rays;
-            engines.push_back(
-                again ? rays
-                      : make_engine(assembly.scene,
-                                    engine_settings(setting.kind, setting.octree, setting.slices)));
-            if (setting.kind == EngineKind::rays) rays = engines.back();
-        }
+        const Engines engines = make_engines(mission, assembly, settings);
         for (std::size_t i = 0; i < assembly.sonars.size(); ++i) {
             report_sonar(comparison, i, assembly, settings, engines, cold, progress, report);
         }

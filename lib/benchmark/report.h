@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "assembly/assemble.h"
+#include "benchmark/setting.h"
 #include "benchmark/summary.h"
 #include "mission/mission.h"
 
@@ -15,24 +16,6 @@ namespace sonarsim {
 
 // The report of speed against error: the time and the accuracy of each engine and setting for a
 // mission.
-
-/// One engine with one resolution.
-struct Setting {
-    /// "rays", "slices", "octree", or "literal" for the octree as in the paper.
-    std::string engine;
-    std::string name;  ///< the mission's key and value, "relative_l1=0.03"
-    EngineKind kind = EngineKind::rays;
-    OctreeConfig octree;       ///< for the octree
-    double relative_l1 = 0.0;  ///< error goal of rays and slices
-    bool current = false;      ///< the mission's own setting
-    SlicesConfig slices = {};  ///< for the slices
-
-    /// True if the engine promises an error of at most relative_l1 on every ping: rays, and slices
-    /// unless the mission sets their number.
-    bool promises() const {
-        return kind == EngineKind::rays || (kind == EngineKind::slices && slices.per_beam == 0);
-    }
-};
 
 /// The costs of a setting in its own process.
 struct ColdStart {
@@ -90,6 +73,14 @@ struct MultipathRow {
     double times_without() const { return ms_without > 0.0 ? ms_per_ping.centre / ms_without : 0; }
 };
 
+/// One sonar with one kind of label.
+struct LabelRow {
+    std::string sensor;
+    std::string label;
+    Summary ms;          ///< CPU time of finding the label, over the poses
+    Summary times_ping;  ///< CPU time of a ping with the label / of one without, likewise
+};
+
 /// The convergence of a sonar's reference images.
 struct ReferenceQuality {
     std::string sensor;
@@ -127,6 +118,7 @@ struct Report {
     std::vector<ReferenceQuality> references;  ///< one per sonar
     std::vector<Growth> growth;
     std::vector<MultipathRow> multipath;  ///< only for sonars that have it
+    std::vector<LabelRow> labels;         ///< only for missions that ask for labels
 };
 
 /// Reports progress.

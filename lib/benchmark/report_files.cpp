@@ -116,6 +116,15 @@ Json json_of(const MultipathRow& row) {
     return json;
 }
 
+Json json_of(const LabelRow& row) {
+    return {{"sensor", row.sensor},
+            {"label", row.label},
+            {"ms", row.ms.centre},
+            {"times_ping", row.times_ping.centre},
+            {"times_ping_min", row.times_ping.min},
+            {"times_ping_max", row.times_ping.max}};
+}
+
 }  // namespace
 
 std::string report_json(const Report& report) {
@@ -123,7 +132,8 @@ std::string report_json(const Report& report) {
               {"triangles", report.triangles},  {"poses", report.poses},
               {"threads", report.threads},      {"load_average", report.load},
               {"goal_relative_l1", report.goal}};
-    for (const char* const list : {"rows", "stages", "reference", "growth", "multipath_rows"})
+    for (const char* const list :
+         {"rows", "stages", "reference", "growth", "multipath_rows", "label_rows"})
         json[list] = Json::array();
     for (const ReportRow& row : report.rows) {
         json["rows"].push_back(json_of(row));
@@ -135,6 +145,8 @@ std::string report_json(const Report& report) {
         json["growth"].push_back(growth_of(growth));
     for (const MultipathRow& row : report.multipath)
         json["multipath_rows"].push_back(json_of(row));
+    for (const LabelRow& row : report.labels)
+        json["label_rows"].push_back(json_of(row));
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -7,7 +7,7 @@
 namespace sonarsim {
 
 /// The report as JSON: `rows` with one object per sonar and setting, `stages`, `reference`,
-/// `growth`, `multipath_rows`. Ends with a line feed.
+/// `growth`, `multipath_rows`, `label_rows`. Ends with a line feed.
 std::string report_json(const Report& report);
 
 /// The rows as CSV with a header; the summaries as columns *_min and *_max.

@@ -151,6 +151,20 @@ std::string multipath(const Report& report, const std::string& sensor) {
                any.exact_bins, report.poses, short_number(any.ms_without));
 }
 
+std::string labels(const Report& report, const std::string& sensor) {
+    std::string text;
+    for (const LabelRow& row : report.labels) {
+        if (row.sensor != sensor) continue;
+        if (text.empty())
+            text = fmt::format("\n{:<28}{:>9}{:>11}{:>17}\n", "labels", "ms", "x ping",
+                               "(over poses)");
+        text += fmt::format("{:<28}{:>9}{:>11.2f}{:>17}\n", " " + row.label,
+                            short_number(row.ms.centre), row.times_ping.centre,
+                            between(row.times_ping));
+    }
+    return text;
+}
+
 std::string growth_text(const Report& report) {
     std::string text;
     for (const Growth& growth : report.growth) {
@@ -161,6 +175,18 @@ std::string growth_text(const Report& report) {
                                 short_number(growth.ms_per_ping[i]));
         }
         text += "\n";
+    }
+    return text;
+}
+
+std::string labels_markdown(const Report& report) {
+    if (report.labels.empty()) return "";
+    std::string text =
+        "\n| sonar | label | ms | times the ping | over the poses |\n|---|---|---|---|---|\n";
+    for (const LabelRow& row : report.labels) {
+        text += fmt::format("| {} | {} | {} | {:.2f} | {} |\n", row.sensor, row.label,
+                            short_number(row.ms.centre), row.times_ping.centre,
+                            between(row.times_ping));
     }
     return text;
 }
@@ -211,7 +237,7 @@ std::string report_text(const Report& report) {
             percent(reference.moved.max), percent(reference.apart.centre),
             percent(reference.apart.max));
         text += floors(report, reference.sensor) + explain_auto(report, reference.sensor) + "\n" +
-                multipath(report, reference.sensor);
+                multipath(report, reference.sensor) + labels(report, reference.sensor);
     }
     return text + growth_text(report) +
            "* no setting is both faster and more accurate; < the mission's own setting. ms/ping on "
@@ -238,7 +264,7 @@ std::string report_markdown(const Report& report) {
             percent(row.false_rate.centre), row.samples_per_ping.centre, row.cold.first_ping_s,
             row.cold.peak_memory_mb);
     }
-    return text;
+    return text + labels_markdown(report);
 }
 
 }  // namespace sonarsim

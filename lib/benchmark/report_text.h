@@ -7,7 +7,7 @@
 namespace sonarsim {
 
 /// The report as tables for a terminal: costs and errors, stages and lower bounds, the choice of
-/// `engine: auto` per sonar with its reason, and the multipath rows.
+/// `engine: auto` per sonar with its reason, the multipath rows and the label rows.
 std::string report_text(const Report& report);
 
 /// The same tables in Markdown, for documents: one row per setting, the Pareto front in bold.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "assembly/engine_probes.h"
 #include "core/text.h"
 #include "sonar/engine_settings.h"
 
@@ -41,8 +42,18 @@ Setting octree_with(double leaf_m, bool literal, const Mission& mission) {
             .relative_l1 = mission.accuracy.relative_l1};
 }
 
+Setting automatic_with(double goal) {
+    return {.engine = "auto",
+            .name = "relative_l1=" + number_text(goal),
+            .kind = EngineKind::automatic,
+            .octree = {},
+            .relative_l1 = goal};
+}
+
 Setting own_setting(const Mission& mission) {
     switch (mission.engine) {
+        case EngineKind::automatic:
+            return automatic_with(mission.accuracy.relative_l1);
         case EngineKind::octree:
             return octree_with(mission.octree.leaf_m, mission.octree.literal, mission);
         case EngineKind::slices:
@@ -68,7 +79,7 @@ std::vector<Setting> make_settings(const Mission& mission, bool quick) {
     const std::vector<double> leaves =
         quick ? std::vector{0.08, 0.04} : std::vector{0.08, 0.04, 0.02, 0.01};
     std::vector<Setting> settings;
-    settings.reserve(2 * leaves.size() + 2 * goals.size() + 3);
+    settings.reserve(2 * leaves.size() + 2 * goals.size() + 4);
     for (const double goal : goals)
         settings.push_back(rays_with(goal));
     for (const double goal : goals)
@@ -81,6 +92,7 @@ std::vector<Setting> make_settings(const Mission& mission, bool quick) {
         }
     }
     settings.push_back(octree_with(0.0, false, mission));
+    settings.push_back(automatic_with(mission.accuracy.relative_l1));
     Setting own = own_setting(mission);
     own.current = true;
     const auto same = std::ranges::find_if(settings, [&](const Setting& setting) {
@@ -92,6 +104,15 @@ std::vector<Setting> make_settings(const Mission& mission, bool quick) {
         *same = own;
     }
     return settings;
+}
+
+EngineSettings engine_settings(const Setting& setting, const Mission& mission,
+                               const Assembly& assembly) {
+    if (setting.kind != EngineKind::automatic)
+        return engine_settings(setting.kind, setting.octree, setting.slices);
+    Mission chosen = mission;
+    chosen.engine = EngineKind::automatic;
+    return engine_settings(chosen, assembly);
 }
 
 std::string unsupported(const Setting& setting, const Assembly& assembly) {

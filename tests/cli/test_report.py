@@ -25,7 +25,7 @@ class Report(Sandbox):
         report = json.loads((self.folder / "elsewhere.json").read_text())
         self.assertEqual(report, json.loads((self.folder / "report/report.json").read_text()))
         engines = {row["engine"] for row in report["rows"]}
-        self.assertEqual(engines, {"rays", "slices", "octree", "literal"})
+        self.assertEqual(engines, {"rays", "slices", "octree", "literal", "auto"})
         for row in report["rows"]:
             self.assertEqual(set(row), ROW | {"spread"})
             self.assertGreater(row["ms_per_ping"], 0)
@@ -33,7 +33,7 @@ class Report(Sandbox):
             self.assertGreater(row["times_131k_rays"], 0)
             self.assertGreaterEqual(row["worst_relative_l1"], row["relative_l1"])
             self.assertIn(row["promise"], ("met", "warned", "missed")
-                          if row["engine"] in ("rays", "slices") else ("-",))
+                          if row["engine"] in ("rays", "slices", "auto") else ("-",))
             self.assertGreater(row["first_ping_s"], row["build_s"])
             # A process with a scene of twelve triangles needs some MiB, not some GiB.
             self.assertGreater(row["peak_memory_mb"], 1)
@@ -49,6 +49,7 @@ class Report(Sandbox):
         self.assertLessEqual(ROW, set(rows[0]))
         self.assertIn("| rays | relative_l1=0.01 |", (self.folder / "report/report.md").read_text())
         self.assertEqual(report["multipath_rows"], [])
+        self.assertEqual(report["label_rows"], [])
         self.assertFalse((self.folder / "report/multipath.csv").exists())
 
     def test_multipath(self):
@@ -80,6 +81,18 @@ class Report(Sandbox):
         self.assertEqual(len(table), len(rows))
         self.assertEqual(list(table[0]), list(rows[0]))
         self.assertEqual(float(table[5]["recall"]), rows[5]["recall"])
+
+    def test_labels(self):
+        result = self.run_sonarsim("report", "mission.yaml", "--quick", "--engines", "auto", "--set",
+                                   "output.labels=true", "--json", "report.json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        report = json.loads((self.folder / "report.json").read_text())
+        self.assertEqual([row["engine"] for row in report["rows"]], ["auto"])
+        labels = {row["label"]: row["times_ping"] for row in report["label_rows"]}
+        self.assertLessEqual({"instance", "class", "all ids", "shadow", "coco", "all"}, set(labels))
+        self.assertGreater(min(labels.values()), 1)
+        self.assertGreater(labels["all"], labels["instance"])
+        self.assertRegex(result.stdout, r"\n all ids +[0-9]")
 
     def test_scale(self):
         result = self.run_sonarsim("report", "mission.yaml", "--quick", "--scale", "--quiet",
