@@ -10,6 +10,7 @@
 #include "benchmark/report_files.h"
 #include "benchmark/report_text.h"
 #include "sonar/engine_settings.h"
+#include "support/sanitized.h"
 #include "support/scenes.h"
 #include "support/small_mission.h"
 
@@ -112,7 +113,7 @@ TEST_CASE("multipath rows of a corner are sane, as text, JSON and CSV") {
     CHECK(text.find(title) == text.rfind(title));  // only for the sonar that has multipath
 }
 
-TEST_CASE("multipath rows tell a coarse way from a fine one") {
+TEST_CASE("multipath rows tell a coarse way from a fine one" * doctest::skip(test::sanitized)) {
     Mission mission = corner_mission({MultipathMethod::cluster, 1, 5.0});
     // The tank has a pole and a sphere, whose normals vary. Coarse bins would hold the whole sphere
     // and hide the difference.

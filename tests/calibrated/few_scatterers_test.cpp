@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "calibrated/preset_fixtures.h"
+#include "support/sanitized.h"
 #include "support/statistics.h"
 
 using namespace sonarsim;
@@ -115,7 +116,8 @@ double second_moment(const CalibratedModel& model, double per_cell, double range
 }  // namespace
 
 TEST_SUITE("calibrated") {
-    TEST_CASE("speckle: the second moment of few and of many scatterers, and their mean") {
+    TEST_CASE("speckle: the second moment of few and of many scatterers, and their mean" *
+              doctest::skip(test::sanitized)) {
         const Samples surface = floor_of_rock();
         for (const double per_cell : {0.05, 0.25, 0.9, 1.0, 4.0, 16.0}) {
             CAPTURE(per_cell);

@@ -12,6 +12,7 @@
 #include "sonar/setup.h"
 #include "support/bounces.h"
 #include "support/calibrated.h"
+#include "support/sanitized.h"
 #include "support/scenes.h"
 #include "support/sonars.h"
 #include "visibility/rays/rays_engine.h"
@@ -214,7 +215,8 @@ TEST_SUITE("calibrated") {
         CHECK(std::fabs(level - db_of_power(second / direct)) < 0.1);
     }
 
-    TEST_CASE("mirrored: multipath darkens no bin, and has its mean whatever the speckle") {
+    TEST_CASE("mirrored: multipath darkens no bin, and has its mean whatever the speckle" *
+              doctest::skip(test::sanitized)) {
         const Scene scene = tank();
         const auto engine = make_rays_engine(scene);
         SonarConfig config = with_mirrors(small_imaging());

@@ -11,6 +11,7 @@
 #include "calibrated/range_response.h"
 #include "core/units.h"
 #include "support/calibrated.h"
+#include "support/sanitized.h"
 #include "support/statistics.h"
 
 using namespace sonarsim;
@@ -196,7 +197,8 @@ TEST_SUITE("calibrated") {
         }
     }
 
-    TEST_CASE("noise: the powers of every kind of sonar, correlated along range as the pulse is") {
+    TEST_CASE("noise: the powers of every kind of sonar, correlated along range as the pulse is" *
+              doctest::skip(test::sanitized)) {
         // Bins of 4 cm and a pulse of 20 cm.
         struct Case {
             SonarKind kind;
@@ -210,7 +212,8 @@ TEST_SUITE("calibrated") {
         }
     }
 
-    TEST_CASE("noise: so is that which all elements share, in the beam straight ahead") {
+    TEST_CASE("noise: so is that which all elements share, in the beam straight ahead" *
+              doctest::skip(test::sanitized)) {
         // 30 dB above the elements' noise: beam 30 of 61 has 1 + 1000 times their power.
         const Sonar sonar = noisy_sonar(SonarKind::imaging, 0.2, -60.0);
         check_noise(NoiseOfPings(sonar, 1000, 30, 1001.0));
