@@ -14,27 +14,47 @@ struct BitCode {
     int bits = 0;
 };
 
+/// A place to write bits to, lowest first. It is held in registers, which the members of an object
+/// that others refer to are not.
+struct BitCursor {
+    static constexpr int most_bits = 56;
+
+    char* at;              ///< the next byte
+    std::uint64_t buffer;  ///< bits that fill no byte yet
+    unsigned held;         ///< their number, less than 8
+
+    void put(const BitCode& code) { put(code.value, code.bits); }
+    /// Writes up to most_bits bits.
+    void put(std::uint64_t value, int bits) {
+        buffer |= value << held;
+        held += static_cast<unsigned>(bits);
+        std::memcpy(at, &buffer, sizeof(buffer));
+        at += held / 8;
+        buffer >>= held & 56U;
+        held &= 7U;
+    }
+};
+
 /// Appends bits to a string of bytes, lowest first.
 class BitWriter {
   public:
     explicit BitWriter(std::string start) : bytes_(std::move(start)), end_(bytes_.size()) {}
 
-    /// Makes room for `bits` further bits; must be called before they are put.
-    void reserve(std::uint64_t bits) { bytes_.resize(end_ + bits / 8 + 2 * sizeof(buffer_)); }
-    void put(const BitCode& code) { put(code.value, code.bits); }
-    /// Appends up to 56 bits.
-    void put(std::uint64_t value, int bits) {
-        buffer_ |= value << held_;
-        held_ += bits;
-        std::memcpy(bytes_.data() + end_, &buffer_, sizeof(buffer_));
-        end_ += static_cast<std::size_t>(held_ / 8);
-        buffer_ >>= held_ & ~7;
-        held_ &= 7;
+    /// Begins to write at most `bits` bits, which end() adds.
+    BitCursor begin(std::uint64_t bits) {
+        bytes_.resize(end_ + bits / 8 + 2 * sizeof(buffer_));
+        return {bytes_.data() + end_, buffer_, held_};
+    }
+    void end(const BitCursor& cursor) {
+        end_ = static_cast<std::size_t>(cursor.at - bytes_.data());
+        buffer_ = cursor.buffer;
+        held_ = cursor.held;
     }
     /// Fills the last byte with zeros.
     void align() {
-        reserve(8);
-        if (held_ > 0) put(0, 8 - held_);
+        BitCursor cursor = begin(8);
+        if (held_ > 0) cursor.put(0, 8 - static_cast<int>(held_));
+        end(cursor);
     }
     /// Takes the whole bytes written so far out of the writer.
     std::string take() {
@@ -47,7 +67,7 @@ class BitWriter {
     std::string bytes_;
     std::size_t end_;  ///< number of whole bytes
     std::uint64_t buffer_ = 0;
-    int held_ = 0;
+    unsigned held_ = 0;
 };
 
 }  // namespace sonarsim

@@ -4,12 +4,12 @@
 #include <array>
 #include <bit>
 #include <cstddef>
-#include <cstring>
 #include <string_view>
 #include <vector>
 
 #include "format/adler.h"
 #include "format/huffman.h"
+#include "format/tokens.h"
 
 namespace sonarsim {
 
@@ -20,12 +20,6 @@ using Bytes = std::span<const std::uint8_t>;
 /// Bytes of a block, which has one Huffman code. A longer block would fit its code less well.
 constexpr std::size_t block_bytes = std::size_t{1} << 17;
 constexpr std::size_t stored_bytes = 65535;
-
-constexpr int shortest_run = 4;
-constexpr int longest_run = 258;
-/// A token is a byte, or 256 plus the length of a run.
-constexpr int run_token = 256;
-constexpr std::size_t tokens_known = run_token + longest_run + 1;
 
 constexpr std::size_t end_symbol = 256;
 constexpr std::size_t symbols_known = 286;
@@ -67,62 +61,36 @@ void add_stored(std::string& out, Bytes bytes) {
     } while (!bytes.empty());
 }
 
-/// The number of bytes from `at` on that equal the bytes `back` before them, at most `most`.
-int run_at(const std::uint8_t* at, std::ptrdiff_t back, int most) {
-    int length = 0;
-    while (length + 8 <= most) {
-        std::uint64_t here = 0;
-        std::uint64_t before = 0;
-        std::memcpy(&here, at + length, sizeof(here));
-        std::memcpy(&before, at + length - back, sizeof(before));
-        if (here != before) return length + std::countr_zero(here ^ before) / 8;
-        length += 8;
-    }
-    while (length < most && at[length] == at[length - back])
-        ++length;
-    return length;
-}
+using TokenCodes = std::array<BitCode, tokens_known>;
 
-/// The tokens of a block and how often each occurs.
-struct Tokens {
-    std::vector<std::uint16_t> tokens;
-    std::array<std::uint32_t, tokens_known> counts{};
+/// Two codes as one, of up to 42 bits.
+struct TwoCodes {
+    TwoCodes(const BitCode& first, const BitCode& second)
+        : value(first.value | std::uint64_t{second.value} << first.bits),
+          bits(first.bits + second.bits) {}
+    std::uint64_t value;
+    int bits;
 };
 
-Tokens tokens_of(Bytes all, std::size_t begin, std::size_t end, std::ptrdiff_t back) {
-    Tokens out;
-    out.tokens.resize(end - begin);
-    std::uint16_t* token = out.tokens.data();
-    const std::uint8_t* const last = all.data() + end;
-    const std::uint8_t* at = all.data() + begin;
-    const auto put = [&](int value) {
-        *token++ = static_cast<std::uint16_t>(value);
-        ++out.counts[value];
-    };
-    for (; at < last && at - all.data() < back; ++at)
-        put(*at);
-    while (last - at >= shortest_run) {
-        std::uint32_t here = 0;
-        std::uint32_t before = 0;
-        std::memcpy(&here, at, sizeof(here));
-        std::memcpy(&before, at - back, sizeof(before));
-        if (here != before) {
-            put(*at++);
-            continue;
+/// Writes bytes as literals. Four at a time, since each put() waits for the last one.
+void put_literals(BitCursor& to, const TokenCodes& codes, const std::uint8_t* bytes,
+                  std::size_t count) {
+    for (; count >= 4; count -= 4, bytes += 4) {
+        const TwoCodes low(codes[bytes[0]], codes[bytes[1]]);
+        const TwoCodes high(codes[bytes[2]], codes[bytes[3]]);
+        if (low.bits + high.bits <= BitCursor::most_bits) {
+            to.put(low.value | high.value << low.bits, low.bits + high.bits);
+        } else {
+            to.put(low.value, low.bits);
+            to.put(high.value, high.bits);
         }
-        const auto most = static_cast<int>(std::min<std::ptrdiff_t>(longest_run, last - at));
-        const int length = run_at(at, back, most);
-        put(run_token + length);
-        at += length;
     }
-    while (at < last)
-        put(*at++);
-    out.tokens.resize(static_cast<std::size_t>(token - out.tokens.data()));
-    return out;
+    for (; count > 0; --count, ++bytes)
+        to.put(codes[*bytes]);
 }
 
 /// Writes the code lengths of a block in a Huffman code of their own (RFC 1951, 3.2.7).
-void put_lengths(BitWriter& writer, const std::vector<std::uint8_t>& lengths, int distances) {
+void put_lengths(BitCursor& to, const std::vector<std::uint8_t>& lengths, int distances) {
     constexpr std::array<int, 19> order{16, 17, 18, 0, 8,  7, 9,  6, 10, 5,
                                         11, 4,  12, 3, 13, 2, 14, 1, 15};
     std::array<std::uint32_t, order.size()> counts{};
@@ -130,13 +98,13 @@ void put_lengths(BitWriter& writer, const std::vector<std::uint8_t>& lengths, in
         ++counts[length];
     const std::vector<std::uint8_t> own = huffman_lengths(counts, longest_length_code);
     const std::vector<std::uint16_t> codes = huffman_codes(own);
-    writer.put({symbols_known - 257, 5});
-    writer.put({static_cast<std::uint32_t>(distances - 1), 5});
-    writer.put({order.size() - 4, 4});
+    to.put({symbols_known - 257, 5});
+    to.put({static_cast<std::uint32_t>(distances - 1), 5});
+    to.put({order.size() - 4, 4});
     for (const int symbol : order)
-        writer.put({own[symbol], 3});
+        to.put({own[symbol], 3});
     for (const std::uint8_t length : lengths)
-        writer.put({codes[length], own[length]});
+        to.put({codes[length], own[length]});
 }
 
 void put_block(BitWriter& writer, const Tokens& block, int back, bool last) {
@@ -148,7 +116,7 @@ void put_block(BitWriter& writer, const Tokens& block, int back, bool last) {
     std::vector<std::uint8_t> lengths = huffman_lengths(counts, longest_code);
     const std::vector<std::uint16_t> codes = huffman_codes(lengths);
 
-    std::array<BitCode, tokens_known> code_of;
+    TokenCodes code_of;
     for (int byte = 0; byte < run_token; ++byte)
         code_of[byte] = {codes[byte], lengths[byte]};
     for (int length = shortest_run; length <= longest_run; ++length) {
@@ -162,23 +130,20 @@ void put_block(BitWriter& writer, const Tokens& block, int back, bool last) {
     for (std::size_t token = 0; token < tokens_known; ++token)
         bits +=
             std::uint64_t{block.counts[token]} * static_cast<std::uint64_t>(code_of[token].bits);
-    writer.reserve(bits);
-
-    writer.put({last ? 0b101U : 0b100U, 3});
     const BitCode end{codes[end_symbol], lengths[end_symbol]};
     lengths.resize(symbols_known + static_cast<std::size_t>(back), 0);
     lengths.back() = 1;
-    put_lengths(writer, lengths, back);
-    // Codes have up to 21 bits. They are written in pairs, since each put() waits for the last one.
-    const std::vector<std::uint16_t>& tokens = block.tokens;
-    for (std::size_t k = 0; k + 1 < tokens.size(); k += 2) {
-        const BitCode& first = code_of[tokens[k]];
-        const BitCode& second = code_of[tokens[k + 1]];
-        writer.put(first.value | std::uint64_t{second.value} << first.bits,
-                   first.bits + second.bits);
+    BitCursor to = writer.begin(bits);
+    to.put({last ? 0b101U : 0b100U, 3});
+    put_lengths(to, lengths, back);
+    const std::uint8_t* at = block.bytes;
+    for (const Stretch& stretch : block.stretches) {
+        put_literals(to, code_of, at, stretch.literals);
+        if (stretch.run > 0) to.put(code_of[run_token + stretch.run]);
+        at += stretch.literals + stretch.run;
     }
-    if (tokens.size() % 2 == 1) writer.put(code_of[tokens.back()]);
-    writer.put(end);
+    to.put(end);
+    writer.end(to);
 }
 
 }  // namespace
@@ -219,8 +184,10 @@ void ZlibStream::add(Bytes bytes) {
 void ZlibStream::finish() {
     pack(bytes_.size() - packed_, true);
     writer_.align();
+    BitCursor to = writer_.begin(32);
     for (int shift = 24; shift >= 0; shift -= 8)
-        writer_.put(adler_ >> shift & 0xFF, 8);
+        to.put(adler_ >> shift & 0xFF, 8);
+    writer_.end(to);
 }
 
 void ZlibStream::pack(std::size_t count, bool last) {

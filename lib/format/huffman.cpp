@@ -17,11 +17,16 @@ struct Node {
 
 /// The nodes of the tree; each node comes after its children.
 std::vector<Node> tree_of(std::span<const std::uint32_t> counts) {
-    std::vector<Node> nodes;
-    for (std::size_t k = 0; k < counts.size(); ++k) {
-        if (counts[k] > 0) nodes.push_back({counts[k], -1, static_cast<int>(k)});
+    // Sorted by count and symbol.
+    std::vector<std::uint64_t> sorted;
+    for (std::uint64_t symbol = 0; symbol < counts.size(); ++symbol) {
+        if (counts[symbol] > 0) sorted.push_back(std::uint64_t{counts[symbol]} << 32 | symbol);
     }
-    std::ranges::stable_sort(nodes, {}, &Node::count);
+    std::ranges::sort(sorted);
+    std::vector<Node> nodes;
+    nodes.reserve(2 * sorted.size());
+    for (const std::uint64_t entry : sorted)
+        nodes.push_back({entry >> 32, -1, static_cast<int>(entry)});
     // Joined nodes are created in ascending order, so that the rarest node is at the front of one
     // of two queues: symbols and joined nodes.
     const std::size_t symbols = nodes.size();

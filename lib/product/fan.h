@@ -44,7 +44,11 @@ struct FanMap {
         std::int32_t first_bin;    ///< index of the first taps in the padded image
         std::uint8_t range_phase;  ///< phase in the range kernel
         std::uint8_t beam_phase;   ///< phase in the beam kernel
-        std::uint8_t covered;      ///< 64ths of the pixel that lie inside the sector
+    };
+    /// A pixel of which a part lies outside the sector.
+    struct Edge {
+        std::uint32_t pixel;  ///< index among the pixels of its ring
+        float covered;        ///< the share inside
     };
     /// A run of pixels in a row.
     struct Run {
@@ -55,7 +59,8 @@ struct FanMap {
     struct Ring {
         KernelTable beam_kernel;
         std::vector<Pixel> pixels;
-        std::vector<Run> runs;  ///< places of the pixels in the picture, in order
+        std::vector<Edge> edges;  ///< in the order of the pixels
+        std::vector<Run> runs;    ///< places of the pixels in the picture, in order
     };
 
     FanFrame frame;

@@ -11,7 +11,9 @@
 #include <utility>
 #include <vector>
 
+#include "core/sha256.h"
 #include "format/huffman.h"
+#include "format/png.h"
 
 using namespace sonarsim;
 
@@ -94,6 +96,26 @@ TEST_SUITE("dataset") {
             bytes.push_back(static_cast<std::uint8_t>(37 * length));
         }
         check_round_trip(bytes);
+    }
+
+    TEST_CASE("deflate: the bytes are those of the packer that png_encoder() names") {
+        // Noise of 1 to 8 bits with runs of all lengths in it. The sum is that of the first packer
+        // of this name, which took one byte after the other.
+        std::mt19937 random(5);
+        std::string all;
+        for (const int spread : {2, 17, 256}) {
+            for (const int pixel_bytes : {1, 2, 3}) {
+                Bytes bytes;
+                while (bytes.size() < 150'000) {
+                    const auto byte = static_cast<std::uint8_t>(random() % spread);
+                    const std::size_t run = random() % 16 == 0 ? random() % 700 : 1;
+                    bytes.insert(bytes.end(), run, byte);
+                }
+                all += zlib_bytes(bytes, pixel_bytes, Packing::runs);
+            }
+        }
+        REQUIRE(png_encoder() == "sonarsim 2");
+        CHECK(sha256(all) == "ebea1edf3aaac27edfc7037d45193fb4e8ace88b97595939811c00fd891011c7");
     }
 
     TEST_CASE("deflate: counts that would make codes of more than 15 bits") {
