@@ -16,7 +16,8 @@ namespace {
 
 // On the tank the expected image is within 0.7 % of that of much smaller patches.
 constexpr float most_depth_by_bin = 0.5F;
-constexpr float most_sine_by_step = 1.0F;
+// A beam of the view, or two, are often a few per cent wider than a step or two.
+constexpr float most_sine_by_step = 1.1F;
 // As a share of the half-power width: the pattern bends within it.
 constexpr double most_by_width = 0.1;
 
