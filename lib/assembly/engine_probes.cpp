@@ -30,7 +30,7 @@ EngineSettings engine_settings(const Mission& mission, const Assembly& assembly)
         for (const std::uint32_t pose :
              sample_pings(assembly.trajectory.size(), sonar.config.every, most_probes)) {
             settings.probes.push_back(
-                {widened_view(sonar.settings.view, sonar.settings.guard_beams),
+                {traced_view(sonar.settings.view, sonar.settings.guard_beams),
                  sensor_pose(sonar, assembly.trajectory[pose].T_world_vehicle, pose),
                  rays_goal(sonar)});
         }

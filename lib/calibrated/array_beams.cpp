@@ -3,8 +3,11 @@
 #include <immintrin.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
+#include "calibrated/lanes.h"
 #include "calibrated/levels.h"
 #include "core/units.h"
 #include "trace/arrivals.h"
@@ -68,15 +71,30 @@ __m128 alternating(float a, float b) {
     return _mm_blend_ps(_mm_set1_ps(a), _mm_set1_ps(b), 0b1010);
 }
 
+/// `value_of`, 8 at a time.
+Floats8 values_of(float gain, Floats8 power, Floats8 before) {
+    // In this order of arguments NaN stays NaN.
+    const Floats8 finite = least(std::numeric_limits<float>::max(), power);
+    return least(most_value, fma(gain, finite, before));
+}
+
 /// Writes 8 bins of all beams into rows of the image, each times its gain.
 void write_rows(const std::vector<Lanes>& beams, int row, std::span<const float> row_gain,
                 std::span<float> image, bool add) {
     const int count = std::min(lanes_at_once, static_cast<int>(row_gain.size()) - row);
+    float* const first = image.data() + row * beams.size();
+    const std::size_t whole = beams.size() / lanes_at_once * lanes_at_once;
+    for (std::size_t j = 0; j < whole; j += lanes_at_once) {
+        const std::array<Floats8, lanes> bins = columns_of_eight(beams[j].data());
+        for (int lane = 0; lane < count; ++lane) {
+            float* const out = first + lane * beams.size() + j;
+            values_of(row_gain[row + lane], bins[lane], add ? Floats8::load(out) : 0.0F).store(out);
+        }
+    }
     for (int lane = 0; lane < count; ++lane) {
-        const float gain = row_gain[row + lane];
-        float* const out = image.data() + (row + lane) * beams.size();
-        for (std::size_t j = 0; j < beams.size(); ++j)
-            out[j] = value_of(gain, beams[j][lane], add ? out[j] : 0.0F);
+        float* const out = first + lane * beams.size();
+        for (std::size_t j = whole; j < beams.size(); ++j)
+            out[j] = value_of(row_gain[row + lane], beams[j][lane], add ? out[j] : 0.0F);
     }
 }
 

@@ -1,7 +1,7 @@
 #include "calibrated/echo_grid.h"
 
 #include <algorithm>
-#include <cmath>
+#include <bit>
 
 #include "calibrated/lanes.h"
 
@@ -17,6 +17,13 @@ std::size_t stride_of(int rows, std::size_t front) {
     const std::size_t lines =
         (front + 2 * (static_cast<std::size_t>(rows) + 1)) / floats_per_line + 1;
     return (lines | 1U) * floats_per_line;
+}
+
+/// The number of complex numbers in a line that are not 0.
+int count_occupied(const float* line) {
+    const unsigned any = (Floats8::load(line) != 0.0F).bits() |
+                         (Floats8::load(line + lanes) != 0.0F).bits() << lanes;
+    return std::popcount((any | any >> 1) & 0x5555U);
 }
 
 }  // namespace
@@ -48,8 +55,8 @@ std::size_t EchoGrid::convolve_pulse(const RangeTaps& taps) {
         float* const values = column(c);
         std::copy_n(values, length, middle);
         int echoes = 0;
-        for (std::size_t i = 0; i < length; i += 2)
-            echoes += values[i] != 0.0F || values[i + 1] != 0.0F ? 1 : 0;
+        for (std::size_t i = 0; i < lines * floats_per_line; i += floats_per_line)
+            echoes += count_occupied(middle + i);
         occupied += echoes;
         if (echoes == 0) continue;
         for (std::size_t i = 0; i < lines * floats_per_line; i += floats_per_line) {

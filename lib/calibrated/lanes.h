@@ -95,6 +95,10 @@ inline Floats8 operator/(Floats8 a, Floats8 b) {
 inline Mask8 operator<(Floats8 a, Floats8 b) {
     return {_mm256_cmp_ps(a.v, b.v, _CMP_LT_OQ)};
 }
+/// True where one of them is NaN.
+inline Mask8 operator!=(Floats8 a, Floats8 b) {
+    return {_mm256_cmp_ps(a.v, b.v, _CMP_NEQ_UQ)};
+}
 inline Mask8 operator>=(Floats8 a, Floats8 b) {
     return {_mm256_cmp_ps(a.v, b.v, _CMP_GE_OQ)};
 }
@@ -137,6 +141,43 @@ inline Floats8 floats_of_bits(Ints8 a) {
 /// values[at], `at` within 0 to 7.
 inline Floats8 picked(Floats8 values, Ints8 at) {
     return _mm256_permutevar8x32_ps(values.v, at.v);
+}
+
+/// The real parts of 8 complex numbers.
+inline Floats8 real_parts(const float* complex) {
+    const __m256 even = _mm256_shuffle_ps(
+        _mm256_loadu_ps(complex), _mm256_loadu_ps(complex + lanes), _MM_SHUFFLE(2, 0, 2, 0));
+    return _mm256_castpd_ps(_mm256_permute4x64_pd(_mm256_castps_pd(even), _MM_SHUFFLE(3, 1, 2, 0)));
+}
+/// Writes 8 complex numbers.
+inline void store_complex(Floats8 re, Floats8 im, float* to) {
+    const __m256 low = _mm256_unpacklo_ps(re.v, im.v);
+    const __m256 high = _mm256_unpackhi_ps(re.v, im.v);
+    _mm256_storeu_ps(to, _mm256_permute2f128_ps(low, high, 0x20));
+    _mm256_storeu_ps(to + lanes, _mm256_permute2f128_ps(low, high, 0x31));
+}
+
+/// The columns of 8 rows of 8 numbers that lie one after the other.
+inline std::array<Floats8, lanes> columns_of_eight(const float* rows) {
+    const auto row = [&](int k) {
+        return _mm256_loadu_ps(rows + static_cast<std::ptrdiff_t>(8) * k);
+    };
+    const auto pairs = [&](int k, bool upper) {
+        return upper ? _mm256_unpackhi_ps(row(k), row(k + 1))
+                     : _mm256_unpacklo_ps(row(k), row(k + 1));
+    };
+    // In each half: column c of the rows k to k + 3 for the lower half, column c + 4 for the upper.
+    const auto four = [&](int k, int c) {
+        const __m256 a = pairs(k, c >= 2);
+        const __m256 b = pairs(k + 2, c >= 2);
+        return c % 2 == 0 ? _mm256_shuffle_ps(a, b, _MM_SHUFFLE(1, 0, 1, 0))
+                          : _mm256_shuffle_ps(a, b, _MM_SHUFFLE(3, 2, 3, 2));
+    };
+    const auto column = [&](int c) -> Floats8 {
+        return c < 4 ? _mm256_permute2f128_ps(four(0, c), four(4, c), 0x20)
+                     : _mm256_permute2f128_ps(four(0, c - 4), four(4, c - 4), 0x31);
+    };
+    return {column(0), column(1), column(2), column(3), column(4), column(5), column(6), column(7)};
 }
 
 /// For each mask of 8 bits the numbers of the bits that are set, ascending, a byte each.

@@ -16,11 +16,18 @@ namespace {
 
 // On the tank the expected image is within 0.7 % of that of much smaller patches.
 constexpr float most_depth_by_bin = 0.5F;
-constexpr float most_sine_by_step = 1.0F;
+// A beam of the view, or two, are often a few per cent wider than a step or two.
+constexpr float most_sine_by_step = 1.1F;
 // As a share of the half-power width: the pattern bends within it.
 constexpr double most_by_width = 0.1;
 
 constexpr double no_common_mode_db = -300.0;
+
+/// The number of beams that may be traced as one: two if the array does not resolve them. More than
+/// two save hardly any time.
+int joinable_beams(double resolved_beams, int beams) {
+    return resolved_beams >= 1.5 && beams % 2 == 0 ? 2 : 1;
+}
 
 /// The guard beams of a line array: from the view to the borders of `view_azimuth_deg`. They are as
 /// wide as the bins or, where that is wider, as a step of the array, which it cannot resolve.
@@ -29,13 +36,15 @@ GuardBeams guard_beams_of(const BeamConfig& beam, const View& view) {
     const double bin_rad = view.azimuth_rad / view.beams;
     const LineArray array = line_array(radians(beam.width_deg), beam.side_lobe_db);
     const double array_step_rad = arcsin(sine_grid(array, {0.0}).step);
+    const int joined = joinable_beams(radians(beam.width_deg) / bin_rad, view.beams);
     if (array_step_rad < 2.0 * bin_rad) {
-        // Whole beams; rounding of degrees to radians must not cost one.
-        return {.count = static_cast<int>(std::max(0.0, std::floor(side_rad / bin_rad + 1e-6)))};
+        // Whole joined beams; rounding of degrees to radians must not cost one.
+        const double count = std::floor(side_rad / (joined * bin_rad) + 1e-6);
+        return {.count = joined * static_cast<int>(std::max(0.0, count)), .joined = joined};
     }
-    if (side_rad <= 0.0) return {};
+    if (side_rad <= 0.0) return {.joined = joined};
     const double count = std::max(1.0, std::floor(side_rad / array_step_rad));
-    return {.count = static_cast<int>(count), .beam_rad = side_rad / count};
+    return {.count = static_cast<int>(count), .beam_rad = side_rad / count, .joined = joined};
 }
 
 /// The size of patches that are points to the beams and to the bins.

@@ -61,14 +61,19 @@ void subdivide(std::span<const Sample> samples, const PointLimits& limits, Patch
         const Sample& sample = samples[number];
         const auto [range, departure, direction] = arrival_of(sample.position);
         if (!(range > 0.0F)) continue;
-        const int rows = patches_along(sample.edge_u, direction, range, limits);
-        const int columns = patches_along(sample.edge_v, direction, range, limits);
+        const int by_u = patches_along(sample.edge_u, direction, range, limits);
+        const int by_v = patches_along(sample.edge_v, direction, range, limits);
+        // Rows are long, since they are written in whole vectors.
+        const int rows = std::min(by_u, by_v);
+        const int columns = std::max(by_u, by_v);
+        const Eigen::Vector3f& across = by_u > by_v ? sample.edge_v : sample.edge_u;
+        const Eigen::Vector3f& along = by_u > by_v ? sample.edge_u : sample.edge_v;
         const float area = sample.area_m2 / static_cast<float>(rows * columns);
-        const Eigen::Vector3f step_u = 2.0F / static_cast<float>(rows) * sample.edge_u;
-        const Eigen::Vector3f step_v = 2.0F / static_cast<float>(columns) * sample.edge_v;
+        const Eigen::Vector3f step_u = 2.0F / static_cast<float>(rows) * across;
+        const Eigen::Vector3f step_v = 2.0F / static_cast<float>(columns) * along;
         for (int i = 0; i < rows; ++i) {
-            const Eigen::Vector3f row = sample.position + (static_cast<float>(i) + 0.5F) * step_u -
-                                        sample.edge_u - sample.edge_v;
+            const Eigen::Vector3f row =
+                sample.position + (static_cast<float>(i) + 0.5F) * step_u - across - along;
             for (int first = 0; first < columns; first += PatchBlock::spare) {
                 if (pieces.count > PatchBlock::most - PatchBlock::spare) {
                     use(pieces);

@@ -20,7 +20,11 @@ enum Term : int { power_term, range_term, x_term, y_term, z_term, highlight_term
 /// The number of the cell at an offset from the middle one, 21 bits.
 std::uint64_t cell_at(float offset, float size) {
     constexpr float most = 1e5F;
-    const float number = std::round(offset / size);
+    // Rounded, halves away from 0: std::round() is a call for each number.
+    const float exact = offset / size;
+    const float towards_0 = std::trunc(exact);
+    const bool further = std::fabs(exact - towards_0) >= 0.5F;
+    const float number = towards_0 + (further ? std::copysign(1.0F, exact) : 0.0F);
     const auto whole = static_cast<std::int32_t>(std::min(std::max(number, -most), most));
     return static_cast<std::uint64_t>(whole) & 0x1FFFFFU;
 }
@@ -126,6 +130,14 @@ class ScattererBlock {
 void TargetScatterers::add(const TargetPieces& pieces, const PointEchoes& echoes,
                            std::span<const TargetFacet> facets, std::span<const float> slopes) {
     const PatchBlock& points = pieces.points;
+    std::size_t end = terms_.size();
+    const auto resize = [&](std::size_t count) {
+        terms_.resize(count);
+        range_m_.resize(count);
+        y_.resize(count);
+        z_.resize(count);
+    };
+    resize(end + points.count);
     for (int k = 0; k < points.count; ++k) {
         const float power = echoes.power[k];
         if (!(power > 0.0F)) continue;
@@ -136,13 +148,15 @@ void TargetScatterers::add(const TargetPieces& pieces, const PointEchoes& echoes
         const bool is_highlight = range * range - height * height < steepest * steepest;
         const bool goes_on = !surfaces_.empty() && surfaces_.back().instance == facet.instance &&
                              surfaces_.back().region == facet.region;
-        if (!goes_on) surfaces_.push_back({facet.instance, facet.region, terms_.size()});
-        terms_.push_back(power * Terms(1.0F, range, points.x[k], points.y[k], points.z[k],
-                                       is_highlight ? 1.0F : 0.0F, 0.0F, 0.0F));
-        range_m_.push_back(range);
-        y_.push_back(points.y[k]);
-        z_.push_back(points.z[k]);
+        if (!goes_on) surfaces_.push_back({facet.instance, facet.region, end});
+        terms_[end] = power * Terms(1.0F, range, points.x[k], points.y[k], points.z[k],
+                                    is_highlight ? 1.0F : 0.0F, 0.0F, 0.0F);
+        range_m_[end] = range;
+        y_[end] = points.y[k];
+        z_[end] = points.z[k];
+        ++end;
     }
+    resize(end);
 }
 
 TargetScatterers::Middle TargetScatterers::middle_of(std::size_t first, std::size_t end) const {

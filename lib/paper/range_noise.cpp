@@ -10,6 +10,7 @@ namespace sonarsim {
 namespace {
 
 constexpr std::size_t block = 128;
+constexpr std::size_t lanes_of_philox = 8;
 
 }  // namespace
 
@@ -23,14 +24,22 @@ ScattererLattice scatterer_lattice(const RangeNoise& noise, const Scene& scene,
 
 void add_range_noise(Echoes& echoes, const RangeNoise& noise, PhiloxKey key) {
     if (noise.lambda_m <= 0.0F) return;
-    std::array<std::uint32_t, block> low{};
-    std::array<std::uint32_t, block> high{};
     const float keep = noise.fades ? 0.0F : 1.0F;
-    for (std::size_t begin = 0; begin < echoes.size(); begin += block) {
-        const std::size_t count = std::min(block, echoes.size() - begin);
-        std::copy_n(echoes.cell_low.begin() + begin, count, low.begin());
-        std::copy_n(echoes.cell_high.begin() + begin, count, high.begin());
-        philox_pairs(low.data(), high.data(), (count + 7) / 8 * 8, key);
+    const std::size_t whole = echoes.size() / lanes_of_philox * lanes_of_philox;
+    for (std::size_t begin = 0; begin < echoes.size();) {
+        // In place where whole vectors are left: nothing needs the names of cells after this.
+        const std::size_t count =
+            begin < whole ? std::min(block, whole - begin) : echoes.size() - begin;
+        std::array<std::uint32_t, lanes_of_philox> last_low{}, last_high{};
+        std::uint32_t* low = echoes.cell_low.data() + begin;
+        std::uint32_t* high = echoes.cell_high.data() + begin;
+        if (begin == whole) {
+            std::copy_n(low, count, last_low.begin());
+            std::copy_n(high, count, last_high.begin());
+            low = last_low.data();
+            high = last_high.data();
+        }
+        philox_pairs(low, high, std::max(count, lanes_of_philox), key);
         float* const __restrict range = echoes.range_m.data() + begin;
         float* const __restrict intensity = echoes.intensity.data() + begin;
         for (std::size_t k = 0; k < count; ++k) {
@@ -39,6 +48,7 @@ void add_range_noise(Echoes& echoes, const RangeNoise& noise, PhiloxKey key) {
             range[k] -= noise.lambda_m * natural_log(u);
             intensity[k] *= keep + (1.0F - keep) * u;
         }
+        begin += count;
     }
 }
 

@@ -26,6 +26,22 @@ Pose guard_side(const View& view, const GuardBeams& guard_beams, double side) {
     return {rotation_from_rpy(0.0, 0.0, side * middle), Eigen::Vector3d::Zero()};
 }
 
+// The error goal from which on beams are joined. Tracing two beams of the tank as one raises the
+// error of the expected image from 1.1 to 1.5 %.
+constexpr double joining_goal = 0.02;
+
+int joined_beams(const View& view, const GuardBeams& guard_beams) {
+    return view.relative_l1 >= joining_goal ? guard_beams.joined : 1;
+}
+
+/// The beginnings of the beams of a view by those of joined beams.
+std::vector<std::uint32_t> separated(std::span<const std::uint32_t> begins, int joined) {
+    std::vector<std::uint32_t> out{begins.front()};
+    for (const std::uint32_t end : begins.subspan(1))
+        out.insert(out.end(), joined, end);
+    return out;
+}
+
 /// Adds the surface that the engine sees in the guard beams on one side of the view.
 void add_guard_side(const View& view, const Samples& seen, const Pose& T_sensor_side,
                     VisibleSurface& out) {
@@ -55,6 +71,12 @@ View widened_view(const View& view, const GuardBeams& guard_beams) {
     return wider;
 }
 
+View traced_view(const View& view, const GuardBeams& guard_beams) {
+    View out = widened_view(view, guard_beams);
+    out.beams /= joined_beams(view, guard_beams);
+    return out;
+}
+
 bool is_reached(const View& view, const Eigen::Vector3f& position) {
     const auto widest = static_cast<float>(sincos(0.5 * view.azimuth_rad).sin);
     return std::fabs(position.y()) <= widest * arrival_range(position);
@@ -62,8 +84,8 @@ bool is_reached(const View& view, const Eigen::Vector3f& position) {
 
 std::vector<Sight> sights(const View& view, const GuardBeams& guard_beams,
                           const Pose& T_world_sensor) {
-    if (!(guard_beams.beam_rad > 0.0)) return {{widened_view(view, guard_beams), T_world_sensor}};
-    std::vector<Sight> all{{view, T_world_sensor}};
+    if (!(guard_beams.beam_rad > 0.0)) return {{traced_view(view, guard_beams), T_world_sensor}};
+    std::vector<Sight> all{{traced_view(view, {.joined = guard_beams.joined}), T_world_sensor}};
     for (const double side : {-1.0, 1.0})
         all.push_back(
             {guard_view(view, guard_beams), T_world_sensor * guard_side(view, guard_beams, side)});
@@ -78,6 +100,8 @@ VisibleSurface visible_surface(const View& view, const GuardBeams& guard_beams,
     };
     VisibleSurface out;
     out.samples = see(asked[0]);
+    std::vector<std::uint32_t>& begins = out.samples.beam_begin;
+    begins = separated(begins, joined_beams(view, guard_beams));
     if (asked.size() > 1) {
         add_guard_side(view, see(asked[1]), guard_side(view, guard_beams, -1.0), out);
         add_guard_side(view, see(asked[2]), guard_side(view, guard_beams, 1.0), out);
@@ -86,7 +110,6 @@ VisibleSurface visible_surface(const View& view, const GuardBeams& guard_beams,
     const int guards = guard_beams.count;
     if (guards == 0) return out;
     std::vector<Sample>& items = out.samples.items;
-    std::vector<std::uint32_t>& begins = out.samples.beam_begin;
     const auto first = items.begin() + begins[guards];
     const auto last = items.begin() + begins[guards + view.beams];
     const auto is_in_reach = [&](const Sample& sample) {

@@ -18,10 +18,15 @@ struct VisibleSurface {
 struct GuardBeams {
     int count = 0;        ///< on either side
     double beam_rad = 0;  ///< width of each; 0: as wide as the beams of the view
+    /// So many beams of the view are traced as one at goals from 2 % on: a divisor of their number
+    /// and, without `beam_rad`, of `count`.
+    int joined = 1;
 };
 
 /// The view in which surface is traced: the sonar's view with guard beams on either side.
 View widened_view(const View& view, const GuardBeams& guard_beams);
+/// That view with the beams in which an engine traces it.
+View traced_view(const View& view, const GuardBeams& guard_beams);
 
 /// The views that visible_surface() asks the engine for: VisibilityEngine::prepared() makes them
 /// ready.
@@ -33,6 +38,7 @@ std::vector<Sight> sights(const View& view, const GuardBeams& guard_beams,
 bool is_reached(const View& view, const Eigen::Vector3f& position);
 
 /// The surface within the view and, in the guard beams, that which the cones of its beams reach.
+/// The first of several joined beams has the samples of all of them.
 VisibleSurface visible_surface(const View& view, const GuardBeams& guard_beams,
                                const VisibilityEngine& engine, const Pose& T_world_sensor);
 

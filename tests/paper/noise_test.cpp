@@ -49,6 +49,30 @@ std::vector<float> noisy(float value, int rows, int columns, float add, float mu
 
 TEST_SUITE_BEGIN("ping");
 
+TEST_CASE("the range noise of an echo does not depend on the echoes beside it") {
+    // Alone an echo is the tail of a vector; among others it is part of a whole one or of a tail.
+    const PhiloxKey key = stream_key(8, 1, 4, Stream::range_noise);
+    for (const bool fades : {false, true}) {
+        const RangeNoise noise{.lambda_m = 0.07F, .fades = fades};
+        for (const int count : {1, 7, 8, 9, 127, 128, 135, 136, 137, 261}) {
+            const Echoes before = row_of_cells(count);
+            Echoes together = before;
+            add_range_noise(together, noise, key);
+            int different = 0;
+            for (int k = 0; k < count; ++k) {
+                Echoes alone = row_of_cells(1);
+                alone.cell_low[0] = before.cell_low[k];
+                alone.cell_high[0] = before.cell_high[k];
+                add_range_noise(alone, noise, key);
+                different += alone.range_m[0] != together.range_m[k] ? 1 : 0;
+                different += alone.intensity[0] != together.intensity[k] ? 1 : 0;
+            }
+            CAPTURE(count);
+            CHECK(different == 0);
+        }
+    }
+}
+
 TEST_CASE("range noise is exponential of the stated mean and fades as exp(-w / lambda)") {
     constexpr float lambda = 0.1F;
     Echoes echoes = row_of_cells(100000);

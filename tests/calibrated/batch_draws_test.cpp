@@ -1,0 +1,115 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <random>
+#include <vector>
+
+#include "calibrated/echo_grid.h"
+#include "calibrated/lanes.h"
+#include "calibrated/speckle.h"
+#include "core/normal_pair.h"
+#include "core/random.h"
+
+using namespace sonarsim;
+
+namespace {
+
+/// A grid of random powers in the real parts; a share of the cells is empty, in runs.
+EchoGrid random_powers(int rows, int columns, std::mt19937& random) {
+    std::uniform_real_distribution<float> unit(0.0F, 1.0F);
+    EchoGrid grid(rows, columns);
+    for (int c = 0; c < columns; ++c) {
+        const int begin = static_cast<int>(unit(random) * static_cast<float>(rows));
+        for (int row = begin; row < rows; ++row) {
+            if (unit(random) < 0.2F) continue;
+            grid.column(c)[2 * row] = unit(random) * unit(random);
+        }
+    }
+    return grid;
+}
+
+std::vector<float> cells_of(const EchoGrid& grid, int column) {
+    const float* const first = grid.column(column);
+    return {first, first + std::ptrdiff_t{2} * grid.rows()};
+}
+
+}  // namespace
+
+TEST_SUITE("calibrated") {
+    TEST_CASE("speckle of eight bins at a time is that of single bins, for any number of bins") {
+        std::mt19937 random(11);
+        for (const int rows : {1, 5, 8, 13, 64, 100, 127}) {
+            CAPTURE(rows);
+            EchoGrid grid = random_powers(rows, 3, random);
+            const EchoGrid before = grid;
+            const PhiloxKey key{static_cast<std::uint32_t>(random()),
+                                static_cast<std::uint32_t>(random())};
+            constexpr float gain = 1.3F;
+            // The bin behind the last one takes shares of echoes; it must stay as it is.
+            const auto behind = std::ptrdiff_t{2} * rows;
+            grid.column(1)[behind] = 0.75F;
+            draw_speckle(grid, gain, key);
+            CHECK(grid.column(1)[behind] == 0.75F);
+            for (int c = 0; c < 3; ++c) {
+                std::vector<float> expected = cells_of(before, c);
+                for (int row = 0; row < rows; ++row) {
+                    // philox_pairs() takes eight counters.
+                    std::array<std::uint32_t, 8> a{}, b{};
+                    a[0] = static_cast<std::uint32_t>(row);
+                    b[0] = static_cast<std::uint32_t>(c);
+                    philox_pairs(a.data(), b.data(), 8, key);
+                    const NormalPair draw = normal_pair(a[0]);
+                    const std::size_t at = static_cast<std::size_t>(2) * row;
+                    const float amplitude = std::sqrt(0.5F * gain * expected[at]);
+                    expected[at] = amplitude * draw.first;
+                    expected[at + 1] = amplitude * draw.second;
+                }
+                CHECK(cells_of(grid, c) == expected);
+            }
+        }
+    }
+
+    TEST_CASE("columns of eight rows and complex numbers are where they belong") {
+        std::array<float, 64> rows{};
+        for (int k = 0; k < 64; ++k)
+            rows[k] = static_cast<float>(k);
+        const std::array<Floats8, lanes> columns = columns_of_eight(rows.data());
+        for (int c = 0; c < lanes; ++c) {
+            std::array<float, lanes> column{};
+            columns[c].store(column.data());
+            for (int row = 0; row < lanes; ++row)
+                CHECK(column[row] == static_cast<float>(8 * row + c));
+        }
+        std::array<float, 16> numbers{};
+        store_complex(Floats8::load(rows.data()), Floats8::load(rows.data() + 8), numbers.data());
+        for (int k = 0; k < lanes; ++k) {
+            CHECK(numbers[2 * k] == static_cast<float>(k));
+            CHECK(numbers[2 * k + 1] == static_cast<float>(8 + k));
+        }
+        std::array<float, lanes> real{};
+        real_parts(numbers.data()).store(real.data());
+        CHECK(std::equal(real.begin(), real.end(), rows.begin()));
+    }
+
+    TEST_CASE("a pulse counts every cell that holds an echo, in columns of any length") {
+        std::mt19937 random(12);
+        for (const int rows : {1, 7, 8, 9, 61}) {
+            CAPTURE(rows);
+            EchoGrid grid = random_powers(rows, 2, random);
+            // An amplitude may be imaginary, and the places beside the bins do not count.
+            grid.column(0)[1] = 0.5F;
+            grid.column(1)[std::ptrdiff_t{2} * rows] = 0.5F;
+            std::size_t occupied = 0;
+            for (int c = 0; c < 2; ++c) {
+                for (int row = 0; row < rows; ++row) {
+                    const float* const cell = grid.column(c) + std::ptrdiff_t{2} * row;
+                    occupied += cell[0] != 0.0F || cell[1] != 0.0F ? 1 : 0;
+                }
+            }
+            CHECK(grid.convolve_pulse({.reach = 0, .taps = {1.0F}}) == occupied);
+        }
+    }
+}
