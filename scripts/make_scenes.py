@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Writes the example scenes as .glb files, one as an .obj: ./scripts/make_scenes.py [name ...] [--out DIR]
+"""Writes the example scenes as .glb files, one as an .obj, one as a GeoTIFF:
+    ./scripts/make_scenes.py [name ...] [--out DIR]
 
 tank      a concrete tank, 8 x 6 x 3 m, with a few objects (the default; scenes/tank.glb)
 seafloor  200 x 200 m of sand and silt with a hundred boulders, a million triangles
@@ -10,6 +11,7 @@ lifeboat  a hull with rails, ropes and gear, of one material, for comparisons of
 minefield a rippled sandy bottom with rocks, 40 x 40 m, and besides it the objects that a mission
           may place on it: cylinder_mine, cone_mine, tyre, drum, block, rock
 anchor    an anchor as an OBJ in millimetres with z up
+bathymetry  a survey's map of 55 x 50 m of sand as a GeoTIFF in UTM coordinates
 
     ./scripts/make_scenes.py --for mission.yaml [options of sonarsim]
 
@@ -22,7 +24,7 @@ import pathlib
 import subprocess
 import sys
 
-from scenes import anchor, close_bottom, lifeboat, minefield, seafloor, tank, wreck
+from scenes import anchor, bathymetry, close_bottom, lifeboat, minefield, seafloor, tank, wreck
 from scenes.glb import write_glb
 from scenes.named import files_named
 from scenes.obj import write_obj
@@ -42,16 +44,21 @@ def builders(cells: int, area: float, quarterings: int) -> dict:
         "lifeboat": {"lifeboat": lambda: lifeboat.build(quarterings)},
         "minefield": {"minefield": minefield.bottom, **minefield.OBJECTS},
         "anchor": {"anchor": anchor.build},
+        "bathymetry": {"bathymetry": bathymetry.build},
     }
 
 
 def file_name(name: str) -> str:
-    return name + (".obj" if name == "anchor" else ".glb")
+    return name + {"anchor": ".obj", "bathymetry": ".tif"}.get(name, ".glb")
 
 
 def write(path: pathlib.Path, build) -> None:
     path.parent.mkdir(parents=True, exist_ok=True)
     parts = build()
+    if path.suffix == ".tif":
+        size = bathymetry.write_geotiff(path, parts)
+        print(f"{path}: {len(parts[0])} x {len(parts)} heights, {size} bytes", flush=True)
+        return
     size = (write_obj if path.suffix == ".obj" else write_glb)(path, parts)
     triangles = sum(part.triangles() for part in parts)
     print(f"{path}: {len(parts)} objects, {triangles} triangles, {size} bytes", flush=True)

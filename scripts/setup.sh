@@ -21,15 +21,15 @@ install() {
         apt-get install -y -qq --no-install-recommends "${missing[@]}" >&2
 }
 
-# The tests need their framework and a second reader of images; those of the Python package are left
-# out under sanitizers.
-[ "$preset" = program ] || set -- doctest-dev libopenimageio-dev "$@"
+# The tests need their framework; those of the Python package are left out under sanitizers.
+[ "$preset" = program ] || set -- doctest-dev "$@"
 case $preset in
     release | dev) set -- pybind11-dev python3-dev python3-numpy "$@" ;;
 esac
 install g++ cmake ninja-build ccache make pkg-config python3 \
     libeigen3-dev libembree-dev libtbb-dev librandom123-dev libtinygltf-dev \
-    libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libspdlog-dev zlib1g-dev libassimp-dev "$@"
+    libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libspdlog-dev zlib1g-dev libassimp-dev \
+    libopenimageio-dev "$@"
 case $preset in
     asan | tsan)
         install clang

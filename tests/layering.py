@@ -45,7 +45,7 @@ PARTS = {
             ["ping_files"], ["ping_cost"], ["completion", "joined_labels"],
             ["collection", "run_job", "merge", "verify", "ping_source"],
             ["variants"], ["status", "variants_check", "collection_check"]],
-    "scene": [["*"], ["meshes/"], ["gltf/", "placing/"]],
+    "scene": [["*"], ["images/", "meshes/"], ["heightmap/"], ["gltf/", "placing/"]],
     "validation": [["*"], ["hard/"]],
     "visibility": [["*"], ["octree/", "rays/", "slices/"], ["auto_engine"], ["make_engine"]],
 }
@@ -60,6 +60,7 @@ OWNERS = {
     "yaml-cpp/": "mission",
     "tiny_gltf.h": "scene",
     "assimp/": "apps",
+    "OpenImageIO/": "apps",
     "zlib.h": "format",
     "embree3/": "visibility",
     "embree4/": "visibility",

@@ -13,6 +13,7 @@
 #include "mission/scene_schema.h"
 #include "scene/gltf/load.h"
 #include "scene/gltf/surface_of.h"
+#include "scene/images/read_image.h"
 #include "scene/materials.h"
 #include "scene/placing/standing.h"
 #include "scene/summary.h"
@@ -29,6 +30,7 @@ struct InspectArguments {
     std::filesystem::path materials;  ///< "": none
     std::string units;                ///< "": not given, metres
     std::string up;                   ///< "": not given, y
+    double pixel_m = 0.0;             ///< size of a pixel of a heightmap; 0: the file says it
     bool as_csv = false;
     LogOptions log;
 };
@@ -96,6 +98,7 @@ T chosen(const std::array<Choice<T>, N>& choices, const std::string& name, T fal
 std::vector<std::string> questions_about(const InspectArguments& arguments, const PlacedFile& file,
                                          const Scene& scene, SceneFiles& models) {
     std::vector<std::string> questions;
+    if (file.heightmap) return questions;
     const double length_m = (scene.bounds_max - scene.bounds_min).maxCoeff();
     const std::string units = arguments.units.empty()
                                   ? unit_question(length_m, file.unit_m, usual_range_m, long_object)
@@ -106,12 +109,22 @@ std::vector<std::string> questions_about(const InspectArguments& arguments, cons
     return questions;
 }
 
-int inspect(const InspectArguments& arguments) {
-    start_logging(arguments.log);
+PlacedFile file_of(const InspectArguments& arguments) {
+    if (is_image_file(arguments.scene)) {
+        HeightmapConfig map;
+        map.file = arguments.scene;
+        map.pixel_m = arguments.pixel_m;
+        return file_of(map);
+    }
     MeshConfig mesh;
     mesh.units = chosen(length_units, arguments.units, mesh.units);
     mesh.up = chosen(up_axes, arguments.up, mesh.up);
-    const PlacedFile file = file_of(arguments.scene, mesh, {});
+    return file_of(arguments.scene, mesh, {});
+}
+
+int inspect(const InspectArguments& arguments) {
+    start_logging(arguments.log);
+    const PlacedFile file = file_of(arguments);
     SceneFiles models;
     const Scene scene = load_scene_geometry(file, models);
     const std::vector<std::string> questions = questions_about(arguments, file, scene, models);
@@ -146,10 +159,12 @@ void add_inspect(CLI::App& app, int& exit_code) {
     CLI::App& command = *app.add_subcommand(
         "inspect", "Prints bounds, triangles, materials and instances of a scene");
     add_examples(command,
-                 {"sonarsim inspect hull.glb", "sonarsim inspect tyre.stl --units mm --up z"});
+                 {"sonarsim inspect hull.glb", "sonarsim inspect tyre.stl --units mm --up z",
+                  "sonarsim inspect bathymetry.tif"});
     auto arguments = std::make_shared<InspectArguments>();
     command
-        .add_option("scene", arguments->scene, "The scene, a .gltf, .glb, .obj, .stl or .ply file")
+        .add_option("scene", arguments->scene,
+                    "The scene, a .gltf, .glb, .obj, .stl or .ply file, or an image of heights")
         ->required();
     command
         .add_option("--units", arguments->units,
@@ -159,6 +174,10 @@ void add_inspect(CLI::App& app, int& exit_code) {
         .add_option("--up", arguments->up,
                     "Axis of the file that points up, as `up` of a mission (default: y)")
         ->check(CLI::IsMember(names_of(up_axes)));
+    command
+        .add_option("--pixel-m", arguments->pixel_m,
+                    "Size of a pixel of an image of heights (default: as the file says)")
+        ->check(CLI::PositiveNumber);
     command.add_option("--materials", arguments->materials,
                        "A CSV of materials: shows their reflection coefficients in fresh water");
     command.add_flag("--materials-csv", arguments->as_csv,

@@ -6,6 +6,8 @@
 
 #include "assembly/background.h"
 #include "assembly/brightness.h"
+#include "assembly/heightmap_part.h"
+#include "assembly/placed_files.h"
 #include "assembly/poses.h"
 #include "assembly/scene_parts.h"
 #include "core/error.h"
@@ -113,6 +115,8 @@ void read_scene_files(const Mission& mission, SceneFiles& models) {
         errors.attempt([&] { models.model({.file = file, .place = place.location}); });
     };
     read(mission.scene.file, mission.scene.place);
+    if (mission.scene.heightmap)
+        errors.attempt([&] { models.model(file_of(*mission.scene.heightmap)); });
     for (const ObjectConfig& object : mission.scene.objects)
         read(object.file, object.place);
     for (const ScatterConfig& scatter : mission.scene.scatter) {
@@ -164,7 +168,8 @@ Assembly assemble(const Mission& mission, SceneFiles& models) {
     // the files themselves are checked.
     if (errors.count() > 0) errors.attempt([&] { read_scene_files(mission, models); });
     errors.raise();
-    SceneParts parts = place_scene(mission, assembly.trajectory, models);
+    SceneParts parts = place_scene(mission, assembly.trajectory,
+                                   seen_by(assembly.sonars, assembly.trajectory), models);
     assembly.scene = load_scene(parts.files, models, materials, mission.scene.material_default,
                                 {mission.water.density_kg_m3, mission.water.sound_speed_m_s},
                                 share_beyond(mission.scene.repeats, settings.type));

@@ -40,8 +40,10 @@ std::vector<double> surfaces_of(const Scene& scene, const SceneObjects& objects)
 
 void add_automatic(const Mission& mission, const Scene& scene, const SceneObjects& objects,
                    std::vector<std::uint8_t>& background) {
+    std::vector<std::string> bottom = mission.scene.bottom;
+    if (mission.scene.heightmap && bottom.empty()) bottom.emplace_back(heightmap_instance);
     for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
-        for (const std::string& pattern : mission.scene.bottom) {
+        for (const std::string& pattern : bottom) {
             if (fits_pattern(pattern, scene.instances[i]))
                 background[objects.class_of(objects.object_of(i))] = 1;
         }

@@ -43,6 +43,20 @@ PlacedFile file_of(const ObjectConfig& object) {
     return file;
 }
 
+PlacedFile file_of(const HeightmapConfig& map) {
+    PlacedFile file{.file = map.file,
+                    .z_up = true,
+                    .material = map.material,
+                    .class_name = map.class_name,
+                    .place = map.place.location};
+    file.heightmap =
+        HeightmapRule{map.pixel_m, map.size_m.value_or(std::array{0.0, 0.0}), map.no_data};
+    file.T_world_file.linear() = Eigen::Vector3d(1.0, 1.0, map.height_scale).asDiagonal();
+    file.T_world_file.translation() =
+        Eigen::Vector3d(-map.origin_m[0], -map.origin_m[1], map.height_offset_m);
+    return file;
+}
+
 std::string title_of(const ObjectConfig& object) {
     return "'" + printable(object.name.empty() ? object.file.filename().string() : object.name) +
            "'";

@@ -15,6 +15,8 @@ double metres(LengthUnit unit);
 PlacedFile file_of(const std::filesystem::path& path, const MeshConfig& mesh,
                    const MissionPlace& place);
 PlacedFile file_of(const ObjectConfig& object);
+/// A heightmap, placed.
+PlacedFile file_of(const HeightmapConfig& map);
 
 /// "'tyre'", or "'tyre.stl'" for an object without a name.
 std::string title_of(const ObjectConfig& object);

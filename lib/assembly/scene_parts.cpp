@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <memory>
 #include <optional>
 #include <variant>
 
+#include "assembly/heightmap_part.h"
 #include "assembly/placed_files.h"
 #include "assembly/poses.h"
+#include "assembly/shapes.h"
 #include "core/error.h"
 #include "core/named_at.h"
 #include "core/text.h"
@@ -30,11 +31,13 @@ Eigen::Quaterniond attitude_of(const std::array<double, 3>& rpy_deg) {
 /// The bottom that objects rest on, made at its first use.
 class LazyBottom {
   public:
-    LazyBottom(const SceneConfig& scene, SceneFiles& models) : scene_(scene), models_(models) {}
+    /// `map` is the placed heightmap, if the scene has one.
+    LazyBottom(const SceneConfig& scene, const std::optional<PlacedFile>& map, SceneFiles& models)
+        : scene_(scene), map_(map), models_(models) {}
 
     /// True if this object is the bottom.
     bool is(const ObjectConfig& object) const {
-        return scene_.file.empty() && &object == &scene_.objects.front();
+        return !is_of_files() && &object == &scene_.objects.front();
     }
 
     const Bottom& get() { return *share(); }
@@ -45,13 +48,13 @@ class LazyBottom {
     }
 
     /// True if there is a bottom that does not move.
-    bool exists() const { return !scene_.file.empty() || stands_still(scene_.objects.front()); }
+    bool exists() const { return is_of_files() || stands_still(scene_.objects.front()); }
 
     /// "; 'tyre' is 650 m long: millimetres? units: mm" where an object or the bottom may be in
     /// another unit; "" elsewhere. An object longer than the bottom cannot rest on it.
     std::string unit_questions(const ObjectConfig& object, const Surface& shape, double range_m) {
         const double bottom_m = get().area().sizes().maxCoeff();
-        const MeshConfig& mesh = scene_.file.empty() ? scene_.objects.front().mesh : scene_.mesh;
+        const MeshConfig& mesh = is_of_files() ? scene_.mesh : scene_.objects.front().mesh;
         std::string out;
         const auto add = [&](const std::string& title, const std::string& question) {
             if (!question.empty()) out += "; " + title + " is " + question;
@@ -60,7 +63,8 @@ class LazyBottom {
             unit_question(object.scale * box_of(shape).sizes().maxCoeff(),
                           metres(object.mesh.units), std::min(range_m, bottom_m / long_object),
                           long_object));
-        add("the bottom", unit_question(bottom_m, metres(mesh.units), range_m, long_place));
+        if (!scene_.heightmap)
+            add("the bottom", unit_question(bottom_m, metres(mesh.units), range_m, long_place));
         return out;
     }
 
@@ -78,7 +82,12 @@ class LazyBottom {
         return object.place_on != ObjectPlace::on_bottom && !object.trajectory;
     }
 
+    /// True unless objects alone make the scene.
+    bool is_of_files() const { return !scene_.file.empty() || scene_.heightmap; }
+
     Surface surface() const {
+        if (scene_.heightmap && (scene_.bottom.empty() || scene_.file.empty()))
+            return surface_of(*map_, models_, scene_.bottom);
         if (!scene_.file.empty()) {
             return surface_of(file_of(scene_.file, scene_.mesh, scene_.place), models_,
                               scene_.bottom);
@@ -96,32 +105,9 @@ class LazyBottom {
     }
 
     const SceneConfig& scene_;
+    const std::optional<PlacedFile>& map_;
     SceneFiles& models_;
     std::shared_ptr<const Bottom> bottom_;
-};
-
-/// The surfaces of files; files read with the same options share one.
-class Shapes {
-  public:
-    explicit Shapes(SceneFiles& models) : models_(models) {}
-
-    const Surface& of(const PlacedFile& file, const MeshConfig& mesh) {
-        const auto known = std::ranges::find_if(shapes_, [&](const Shape& shape) {
-            return shape.file == file.file && shape.mesh == mesh;
-        });
-        if (known != shapes_.end()) return known->surface;
-        return shapes_.emplace_back(Shape{file.file, mesh, surface_of(file, models_)}).surface;
-    }
-
-  private:
-    struct Shape {
-        std::filesystem::path file;
-        MeshConfig mesh;
-        Surface surface;
-    };
-
-    SceneFiles& models_;
-    std::deque<Shape> shapes_;  // a deque, so that references stay valid
 };
 
 /// The transform of an object of the mission.
@@ -236,12 +222,15 @@ void scatter_files(const ScatterConfig& config, std::uint32_t index, std::uint64
 
 }  // namespace
 
-SceneParts place_scene(const Mission& mission, const Trajectory& vehicle, SceneFiles& models) {
+SceneParts place_scene(const Mission& mission, const Trajectory& vehicle,
+                       const Eigen::AlignedBox2d& seen, SceneFiles& models) {
     const SceneConfig& scene = mission.scene;
     SceneParts parts;
     if (!scene.file.empty()) parts.files.push_back(file_of(scene.file, scene.mesh, scene.place));
-    LazyBottom bottom(scene, models);
     Shapes shapes(models);
+    const std::optional<PlacedFile> map = heightmap_of(scene, seen, shapes);
+    if (map) parts.files.push_back(*map);
+    LazyBottom bottom(scene, map, models);
     std::vector<Hull> taken;
     const double range_m = farthest_range_m(mission);
     for (const ObjectConfig& object : scene.objects) {

@@ -14,7 +14,7 @@ namespace sonarsim {
 
 /// The parts of a mission's scene.
 struct SceneParts {
-    std::vector<PlacedFile> files;    ///< scene.file, objects and scattered objects, in this order
+    std::vector<PlacedFile> files;    ///< scene.file, heightmap, objects, scattered objects
     std::vector<Trajectory> motions;  ///< motions of the moving objects, in their order; world
     /// The bottom that objects rest on, for the label `height`; null if not needed or not there.
     std::shared_ptr<const Bottom> bottom;
@@ -25,6 +25,10 @@ struct SceneParts {
 /// `vehicle` gives the times of the pings. Throws InputError with the place in the mission for an
 /// object below or beside the bottom, for one that finds no room, and for a motion that does not
 /// last from the first to the last ping.
-SceneParts place_scene(const Mission& mission, const Trajectory& vehicle, SceneFiles& models);
+///
+/// `seen` is the ground that the sonars can reach, world x and y: of a heightmap no more is read
+/// than this and what still objects stand on.
+SceneParts place_scene(const Mission& mission, const Trajectory& vehicle,
+                       const Eigen::AlignedBox2d& seen, SceneFiles& models);
 
 }  // namespace sonarsim

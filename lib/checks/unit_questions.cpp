@@ -48,6 +48,7 @@ std::string unit_questions(const Mission& mission, const Scene& scene) {
     for (std::size_t i = 0; i < boxes.size(); ++i) {
         const std::string& name = scene.instances[i];
         const Reading reading = reading_of(mission.scene, name);
+        if (scene.instances[i] == heightmap_instance && mission.scene.heightmap) continue;
         if (!reading.is_object)
             place.extend(boxes[i]);
         else
@@ -60,9 +61,36 @@ std::string unit_questions(const Mission& mission, const Scene& scene) {
     return out;
 }
 
+/// "; heights in bed.tif are all above 0 ..." where a heightmap may hold depths.
+std::string depth_question(const Mission& mission, const Scene& scene) {
+    const auto& map = mission.scene.heightmap;
+    if (!map || map->height_scale < 0.0) return "";
+    const auto found = std::ranges::find(scene.instances, heightmap_instance);
+    if (found == scene.instances.end()) return "";
+    const auto box =
+        boxes_of_instances(scene)[static_cast<std::size_t>(found - scene.instances.begin())];
+    if (box.isEmpty() || box.min().z() <= 0.0) return "";
+    return "; the heights of " + map->file.filename().string() +
+           " are all above 0: are they depths? write scene.heightmap.height_scale: -" +
+           number_text(map->height_scale);
+}
+
+void ask_for_depths(const Mission& mission, const Scene& scene, std::vector<Warning>& warnings) {
+    std::string question;
+    for (Warning& warning : warnings) {
+        if (warning.code != WarningCode::below_surface &&
+            warning.code != WarningCode::looks_elsewhere &&
+            warning.code != WarningCode::nothing_near)
+            continue;
+        if (question.empty()) question = depth_question(mission, scene);
+        warning.cure += question;
+    }
+}
+
 }  // namespace
 
 void ask_for_units(const Mission& mission, const Scene& scene, std::vector<Warning>& warnings) {
+    ask_for_depths(mission, scene, warnings);
     constexpr std::array asking{WarningCode::scene_out_of_scale, WarningCode::blind,
                                 WarningCode::nothing_near};
     const auto asks = [&](const Warning& warning) {

@@ -15,6 +15,7 @@ void for_each_file(SomeMission& mission, const Visit& visit) {
         if (auto* poses = std::get_if<FileTrajectoryConfig>(&trajectory)) visit(poses->file);
     };
     if (!mission.scene.file.empty()) visit(mission.scene.file);
+    if (mission.scene.heightmap) visit(mission.scene.heightmap->file);
     visit(mission.scene.materials);
     for (auto& object : mission.scene.objects) {
         visit(object.file);

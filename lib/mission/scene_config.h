@@ -71,6 +71,25 @@ struct ScatterConfig {
     bool operator==(const ScatterConfig&) const = default;
 };
 
+/// An image whose pixels are heights, which becomes the bottom.
+struct HeightmapConfig {
+    std::filesystem::path file;
+    double pixel_m = 0.0;                         ///< 0: the file says it, or size_m does
+    std::optional<std::array<double, 2>> size_m;  ///< x, y, from edge to edge of the map
+    std::array<double, 2> origin_m{};             ///< point of the map that is the world's (0, 0)
+    double height_scale = 1.0;                    ///< metres of a step of the pixels' values
+    double height_offset_m = 0.0;
+    std::optional<double> no_data;  ///< value of unknown heights; none: the file's
+    std::string material;
+    std::string class_name;
+    MissionPlace place;
+
+    bool operator==(const HeightmapConfig&) const = default;
+};
+
+/// The instance that a heightmap makes.
+inline constexpr const char* heightmap_instance = "heightmap";
+
 /// Storage of a file that is placed in the scene many times.
 enum class RepeatedFiles { automatic, copied, shared };
 
@@ -88,6 +107,7 @@ struct SceneConfig {
     std::string material_default = {};     ///< for surfaces without a known material; "": an error
     MeshConfig mesh = {};                  ///< options for `file`
     std::vector<std::string> bottom = {};  ///< patterns of the nodes of `file` that objects rest on
+    std::optional<HeightmapConfig> heightmap = {};
     std::vector<ObjectConfig> objects = {};
     std::vector<ScatterConfig> scatter = {};
     RepeatedFiles repeats = RepeatedFiles::automatic;

@@ -105,6 +105,35 @@ void describe(Visitor& v, ScatterConfig& c) {
 }
 
 template <class Visitor>
+void describe(Visitor& v, HeightmapConfig& c) {
+    v.place(c.place);
+    v.path("file", c.file,
+           "an image of one channel, PNG, TIFF (GeoTIFF) or OpenEXR, whose pixels are heights and "
+           "whose first row is the north",
+           required);
+    v.number_or_auto("pixel_m", c.pixel_m, above(0),
+                     "size of a pixel; `auto` takes the GeoTIFF tags or the world file, which "
+                     "pixel_m and size_m replace");
+    v.optional_numbers("size_m", c.size_m, above(0),
+                       "extent of the map along x and y, from edge to edge, instead of pixel_m");
+    v.numbers("origin_m", c.origin_m, any_position_m,
+              "the point of the map, in its own coordinates, that becomes x = 0, y = 0 of the "
+              "mission. With pixel_m or size_m they begin at the map's south-west corner");
+    v.number("height_scale", c.height_scale, {-largest_scale, largest_scale},
+             "metres for each step of the pixels' values; -1 for depths");
+    v.number("height_offset_m", c.height_offset_m, any_position_m,
+             "height of the value 0 in the world");
+    v.number_or_auto("no_data", c.no_data, {-4e38, 4e38},
+                     "value of pixels without a height, which become holes; `auto` takes the "
+                     "file's, and NaN always is one");
+    v.text("material", c.material, "material of the bottom; default: scene.material_default");
+    v.text("class", c.class_name, "class of the bottom, for labels");
+    v.require(c.pixel_m == 0.0 || !c.size_m, {"pixel_m", "size_m"},
+              "pixel_m and size_m say the same; give one of them");
+    v.require(c.height_scale != 0.0, {"height_scale"}, "height_scale of 0 makes all flat");
+}
+
+template <class Visitor>
 void describe(Visitor& v, WaterSurfaceConfig& c) {
     v.number("height_m", c.height_m, any_position_m, "height of the surface in the world",
              required);
@@ -116,7 +145,8 @@ template <class Visitor>
 void describe(Visitor& v, SceneConfig& c) {
     v.place(c.place);
     v.path("file", c.file,
-           "the scene, a .glb, .gltf, .obj, .stl or .ply file; optional if there are objects");
+           "the scene, a .glb, .gltf, .obj, .stl or .ply file; optional if there are objects or a "
+           "heightmap");
     v.path("materials", c.materials,
            "CSV with the density and speed of sound of every material of the scene", required);
     v.text("material_default", c.material_default,
@@ -124,8 +154,9 @@ void describe(Visitor& v, SceneConfig& c) {
            "it they are an error");
     describe_mesh(v, c.mesh);
     v.texts("bottom", c.bottom,
-            "nodes of `file` that objects rest on; default: all nodes, or the first object if "
-            "there is no `file`");
+            "nodes of `file` that objects rest on; default: the heightmap, else all nodes of "
+            "`file`, else the first object");
+    v.optional_section("heightmap", c.heightmap, "an image of heights, which is the bottom");
     v.list("objects", c.objects, 0, "files that are placed in the scene one by one");
     v.list("scatter", c.scatter, 0, "files that are placed on the bottom at random");
     v.choice("repeats", c.repeats, repeated_files,
@@ -136,7 +167,8 @@ void describe(Visitor& v, SceneConfig& c) {
     v.optional_section(
         "water_surface", c.water_surface,
         "the surface of the water: it reflects multipath and is invisible otherwise");
-    v.require(!c.file.empty() || !c.objects.empty(), {}, "'scene' needs the key 'file' or objects");
+    v.require(!c.file.empty() || c.heightmap || !c.objects.empty(), {},
+              "'scene' needs the key 'file', a heightmap or objects");
 }
 
 }  // namespace sonarsim

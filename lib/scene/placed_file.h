@@ -1,7 +1,9 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,7 +12,21 @@
 
 namespace sonarsim {
 
-/// A glTF file, how it is read, and where it is placed.
+/// The way in which an image becomes a surface: each pixel is a height.
+struct HeightmapRule {
+    /// The size of a pixel, or the extent of the map along x and y, from edge to edge; 0: the file
+    /// says where its pixels lie. The south-west corner lies at (0, 0) if one is given.
+    double pixel_m = 0.0;
+    std::array<double, 2> size_m{};
+    std::optional<double> no_data = {};  ///< value of unknown heights; none: the file's
+    /// The part that is made, in the coordinates of the map: least x and y, largest x and y. None,
+    /// or one beside the map: all of it.
+    std::optional<std::array<double, 4>> window = {};
+
+    bool operator==(const HeightmapRule&) const = default;
+};
+
+/// A file of a mesh or of heights, how it is read, and where it is placed.
 struct PlacedFile {
     std::filesystem::path file = {};
     double unit_m = 1.0;        ///< length of the file's unit
@@ -19,6 +35,7 @@ struct PlacedFile {
     std::vector<std::pair<std::string, std::string>> renamed_materials = {};
     /// Patterns of nodes that are left out with their descendants.
     std::vector<std::string> exclude = {};
+    std::optional<HeightmapRule> heightmap = {};  ///< the file is an image of heights
 
     std::string name = {};        ///< makes one instance of all nodes; "": each is one of its own
     std::string class_name = {};  ///< class of its instances; "": the file's own

@@ -20,7 +20,7 @@ GROUPS = (
     ("wreck_imaging", "wreck_calibrated", "wreck_echosounder_calibrated", "seafloor_sidescan",
      "seafloor_sidescan_calibrated"),
     ("minefield_variants", "detection"),
-    ("lifeboat_imaging",),
+    ("lifeboat_imaging",), ("own_bathymetry",),
     ("tank_imaging", "tank_calibrated", "tank_detection", "tank_echosounder", "tank_labels",
      "tank_multipath", "tank_multipath_calibrated", "tank_scanning"),
 )
@@ -72,7 +72,7 @@ class Examples(unittest.TestCase):
         self.assertEqual(result.returncode, 2)
         self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
         self.assertIn("scenes/generated/reef.glb, which is not there, and no script makes it: "
-                      "scripts/make_scenes.py makes anchor.obj, block.glb, ", result.stderr)
+                      "scripts/make_scenes.py makes anchor.obj, bathymetry.tif, block.glb, ", result.stderr)
 
     def test_only_what_is_named_is_made(self):
         """In quotes, in a list, in an option; not in a comment."""

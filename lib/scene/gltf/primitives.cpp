@@ -48,6 +48,11 @@ std::string material_name(const PlacedPrimitive& primitive, const MaterialRules&
     if (!rules.fallback.empty() && !rules.known.contains(name)) return rules.fallback;
     if (!name.empty()) return name;
     if (rules.nameless_allowed) return "(no material)";
+    if (placed.heightmap) {
+        throw InputError(placed.place,
+                         "the heightmap has no material; write "
+                         "scene.heightmap.material: NAME");
+    }
     if (is_mesh_file(placed.file)) {
         throw InputError(placed.place, "'" + printable(primitive.mesh.instance) +
                                            "' has no material in " + placed.file.string() +

@@ -1,33 +1,51 @@
 #include "scene/gltf/scene_files.h"
 
-#include <map>
+#include <algorithm>
+#include <list>
+#include <optional>
 
 #include "core/named_at.h"
 #include "scene/gltf/file.h"
+#include "scene/heightmap/height_model.h"
 #include "scene/meshes/read_mesh.h"
 
 namespace sonarsim {
 
 namespace {
 
-tinygltf::Model read_model(const std::filesystem::path& path) {
-    return is_mesh_file(path) ? read_mesh(path) : read_gltf(path);
+tinygltf::Model read_model(const PlacedFile& placed) {
+    if (placed.heightmap) return height_model(placed.file, *placed.heightmap);
+    return is_mesh_file(placed.file) ? read_mesh(placed.file) : read_gltf(placed.file);
 }
 
 }  // namespace
 
 struct SceneFiles::Models {
-    std::map<std::filesystem::path, tinygltf::Model> by_file;
+    struct Entry {
+        std::filesystem::path file;
+        std::optional<HeightmapRule> heightmap;
+        tinygltf::Model model;
+    };
+    std::list<Entry> entries;  // a list, so that references stay valid
 };
 
 SceneFiles::SceneFiles() : models_(std::make_unique<Models>()) {}
 SceneFiles::~SceneFiles() = default;
 
 const tinygltf::Model& SceneFiles::model(const PlacedFile& placed) {
-    const auto known = models_->by_file.find(placed.file);
-    if (known != models_->by_file.end()) return known->second;
+    const auto known = std::ranges::find_if(models_->entries, [&](const Models::Entry& entry) {
+        return entry.file == placed.file && entry.heightmap == placed.heightmap;
+    });
+    if (known != models_->entries.end()) return known->model;
     try {
-        return models_->by_file.emplace(placed.file, read_model(placed.file)).first->second;
+        Models::Entry entry{placed.file, placed.heightmap, read_model(placed)};
+        // Variants of a mission need other parts of a map, which are large: only one is kept.
+        if (placed.heightmap) {
+            std::erase_if(models_->entries,
+                          [](const Models::Entry& old) { return old.heightmap.has_value(); });
+        }
+        models_->entries.push_back(std::move(entry));
+        return models_->entries.back().model;
     } catch (const InputError& error) {
         if (placed.place.file.empty()) throw;
         throw named_at(error, placed.place);

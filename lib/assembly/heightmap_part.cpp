@@ -1,0 +1,48 @@
+#include "assembly/heightmap_part.h"
+
+#include <algorithm>
+#include <cstdint>
+
+#include "assembly/placed_files.h"
+
+namespace sonarsim {
+
+Eigen::AlignedBox2d seen_by(std::span<const Sonar> sonars, const Trajectory& vehicle) {
+    Eigen::AlignedBox2d seen;
+    for (const Sonar& sonar : sonars) {
+        const double reach_m = sonar.settings.view.range_max_m;
+        for (std::size_t i = 0; i < vehicle.size(); ++i) {
+            const Pose at =
+                sensor_pose(sonar, vehicle[i].T_world_vehicle, static_cast<std::uint32_t>(i));
+            const Eigen::Vector2d place = at.translation.head<2>();
+            seen.extend(Eigen::AlignedBox2d(place.array() - reach_m, place.array() + reach_m));
+        }
+    }
+    return seen;
+}
+
+std::optional<PlacedFile> heightmap_of(const SceneConfig& scene, const Eigen::AlignedBox2d& seen,
+                                       Shapes& shapes) {
+    if (!scene.heightmap) return std::nullopt;
+    Eigen::AlignedBox2d needed = seen;
+    for (const ObjectConfig& object : scene.objects) {
+        if (object.trajectory) continue;
+        double reach_m = 0.0;
+        for (const Eigen::Vector3d& vertex : shapes.of(file_of(object), object.mesh).vertices)
+            reach_m = std::max(reach_m, object.scale * vertex.norm());
+        const Eigen::Vector2d at(object.position_m.data());
+        needed.extend(Eigen::AlignedBox2d(at.array() - reach_m, at.array() + reach_m));
+    }
+    for (const ScatterConfig& scatter : scene.scatter) {
+        needed.extend(Eigen::Vector2d(scatter.area_min_m.data()));
+        needed.extend(Eigen::Vector2d(scatter.area_max_m.data()));
+    }
+    PlacedFile map = file_of(*scene.heightmap);
+    const Eigen::Vector2d origin(scene.heightmap->origin_m.data());
+    const Eigen::Vector2d low = needed.min() + origin;
+    const Eigen::Vector2d high = needed.max() + origin;
+    map.heightmap->window = {low.x(), low.y(), high.x(), high.y()};
+    return map;
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <optional>
+#include <span>
+
+#include "assembly/shapes.h"
+#include "mission/scene_config.h"
+#include "scene/placed_file.h"
+#include "sonar/sonar.h"
+#include "trajectory/trajectory.h"
+
+namespace sonarsim {
+
+/// A box around the ground within the range of every ping, world x and y. What lies beyond it
+/// returns no echo and hides nothing that does.
+Eigen::AlignedBox2d seen_by(std::span<const Sonar> sonars, const Trajectory& vehicle);
+
+/// The placed heightmap of a scene, if it has one: no more of it is made than `seen` and what still
+/// objects may stand on.
+std::optional<PlacedFile> heightmap_of(const SceneConfig& scene, const Eigen::AlignedBox2d& seen,
+                                       Shapes& shapes);
+
+}  // namespace sonarsim

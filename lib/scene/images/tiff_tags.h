@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace sonarsim {
+
+/// Tags of the first image of a TIFF file, by their number.
+struct TiffTags {
+    std::map<std::uint16_t, std::vector<double>> numbers;
+    std::map<std::uint16_t, std::string> texts;
+};
+
+/// True if a file begins like a TIFF or a BigTIFF.
+bool is_tiff(const std::filesystem::path& path);
+
+/// Reads those of the `wanted` tags that the file has. InputError if the list of tags, or one of
+/// these, reaches beyond the end of the file.
+TiffTags read_tiff_tags(const std::filesystem::path& path, const std::set<std::uint16_t>& wanted);
+
+}  // namespace sonarsim

@@ -1,0 +1,62 @@
+#include "scene/images/world_file.h"
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+#include "core/file.h"
+#include "core/text.h"
+
+namespace sonarsim {
+
+namespace {
+
+/// The names that a world file may have: ".tif" gives ".tfw", ".tifw" and ".wld".
+std::filesystem::path find_world_file(const std::filesystem::path& image) {
+    const std::string extension = image.extension().string();
+    std::string brief = "." + extension.substr(extension.size() < 2 ? 0 : 1, 1);
+    if (!extension.empty()) brief += extension.back();
+    std::error_code ignored;
+    for (const std::string& end : {brief + "w", extension + "w", std::string(".wld"), brief + "W",
+                                   extension + "W", std::string(".WLD")}) {
+        std::filesystem::path file = image;
+        file.replace_extension(end);
+        if (std::filesystem::is_regular_file(file, ignored)) return file;
+    }
+    return {};
+}
+
+}  // namespace
+
+void refuse_turned_grid(const Location& where) {
+    throw InputError(where,
+                     "its rows and columns do not run along east and north; make a map of "
+                     "it whose first row is the north, as with gdalwarp");
+}
+
+std::optional<PixelGrid> read_world_file(const std::filesystem::path& image) {
+    const std::filesystem::path file = find_world_file(image);
+    if (file.empty()) return std::nullopt;
+    const Location where{file.string()};
+    const std::string bytes = read_file(file, 10'000);
+    std::string_view rest = bytes;
+    std::array<double, 6> numbers{};
+    for (double& number : numbers) {
+        rest = rest.substr(std::min(rest.find_first_not_of(" \t\r\n"), rest.size()));
+        const std::string_view word = rest.substr(0, rest.find_first_of(" \t\r\n"));
+        rest.remove_prefix(word.size());
+        const auto value = parse_number(word);
+        if (!value) {
+            throw InputError(where,
+                             "is no world file, which has six numbers: the width of a "
+                             "pixel, 0, 0, its negative height, and x and y of the centre "
+                             "of the first pixel");
+        }
+        number = *value;
+    }
+    if (numbers[1] != 0.0 || numbers[2] != 0.0) refuse_turned_grid(where);
+    return PixelGrid{numbers[4], numbers[5], numbers[0], numbers[3]};
+}
+
+}  // namespace sonarsim

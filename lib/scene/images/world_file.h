@@ -1,0 +1,17 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "core/error.h"
+#include "scene/images/pixel_grid.h"
+
+namespace sonarsim {
+
+/// Reads the world file beside an image, map.tfw, map.tifw or map.wld for map.tif; nullopt if there
+/// is none. InputError if it has not six numbers, or for a grid that is turned.
+std::optional<PixelGrid> read_world_file(const std::filesystem::path& image);
+
+[[noreturn]] void refuse_turned_grid(const Location& where);
+
+}  // namespace sonarsim

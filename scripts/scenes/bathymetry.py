@@ -1,0 +1,62 @@
+"""A bed as a survey delivers it: a GeoTIFF in UTM coordinates (zone 32 north), 55 x 50 m in pixels of 25 cm,
+heights in metres as floats. Sand waves, a channel, the scar of a trawl, a mound and a hole that nobody
+surveyed."""
+import math
+import struct
+
+from .noise import Relief
+
+COLUMNS, ROWS, PIXEL_M = 220, 200, 0.25
+WEST_M, NORTH_M = 505000.0, 5987050.0
+NO_DATA = -9999.0
+
+
+def height(x, y, relief):
+    """At x m east and y m north of the south-west corner. The waves run from the south-west to the
+    north-east, so that no mirrored map looks like this one."""
+    along = 0.8 * x + 0.6 * y
+    z = -21.0 + 0.02 * x + relief(x, y)
+    z += 0.25 * math.sin(2 * math.pi * along / 7.0 + 0.4 * math.sin(0.15 * (0.6 * x - 0.8 * y)))
+    z -= 1.6 * math.exp(-((x - 38 - 4 * math.sin(0.1 * y)) / 4.0) ** 2)  # a channel from south to north
+    z += 1.2 * math.exp(-((x - 18) ** 2 + (y - 36) ** 2) / 6.0)  # a mound in the north-west
+    off = y - 14 - 0.25 * x
+    z -= 0.3 * math.exp(-(off / 0.5) ** 2)  # a scar from west to east-north-east
+    return z
+
+
+def build():
+    """Rows from the north, in them heights from the west."""
+    relief = Relief(9.0, 0.25, 5, 11)
+    rows = []
+    for row in range(ROWS):
+        y = (ROWS - row - 0.5) * PIXEL_M
+        values = []
+        for column in range(COLUMNS):
+            x = (column + 0.5) * PIXEL_M
+            unknown = (x - 50) ** 2 + (y - 45) ** 2 < 9
+            values.append(NO_DATA if unknown else height(x, y, relief))
+        rows.append(values)
+    return rows
+
+
+def write_geotiff(path, rows):
+    """Little-endian, not compressed, so that the bytes depend on no library. Returns their number."""
+    scale = struct.pack("<3d", PIXEL_M, PIXEL_M, 0)
+    tie_point = struct.pack("<6d", 0, 0, 0, WEST_M, NORTH_M, 0)
+    # Projected, a pixel is an area, EPSG:32632.
+    keys = struct.pack("<16H", 1, 1, 0, 3, 1024, 0, 1, 1, 1025, 0, 1, 1, 3072, 0, 1, 32632)
+    no_data = b"-9999\0"
+    pixels = b"".join(struct.pack(f"<{len(row)}f", *row) for row in rows)
+    # (tag, type, count, value); a value of more than 4 bytes stands behind the tags.
+    tags = [(256, 4, 1, COLUMNS), (257, 4, 1, ROWS), (258, 3, 1, 32), (259, 3, 1, 1), (262, 3, 1, 1),
+            (273, 4, 1, None), (277, 3, 1, 1), (278, 4, 1, ROWS), (279, 4, 1, len(pixels)), (339, 3, 1, 3),
+            (33550, 12, 3, scale), (33922, 12, 6, tie_point), (34735, 3, 16, keys), (42113, 2, 6, no_data)]
+    behind_at = 8 + 2 + 12 * len(tags) + 4
+    pixels_at = behind_at + sum(len(value) for _, _, _, value in tags if isinstance(value, bytes))
+    listed, behind = struct.pack("<H", len(tags)), b""
+    for tag, kind, count, value in tags:
+        if isinstance(value, bytes):
+            value, behind = behind_at + len(behind), behind + value
+        listed += struct.pack("<HHII", tag, kind, count, pixels_at if value is None else value)
+    path.write_bytes(struct.pack("<2sHI", b"II", 42, 8) + listed + bytes(4) + behind + pixels)
+    return path.stat().st_size

@@ -1,0 +1,155 @@
+#include "scene/heightmap/height_model.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "format/geotiff.h"
+#include "scene/gltf/load.h"
+#include "scene/gltf/surface_of.h"
+#include "scene/placing/bottom.h"
+#include "support/temporary_folder.h"
+
+using namespace sonarsim;
+using sonarsim::test::TemporaryFolder;
+
+namespace {
+
+constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
+
+struct MapFile {
+    TemporaryFolder folder;
+    PlacedFile placed;
+
+    MapFile(const std::vector<float>& heights, int columns, const MapPlace& place,
+            HeightmapRule rule = {}) {
+        placed.file = folder.path / "map.tif";
+        placed.z_up = true;
+        placed.heightmap = rule;
+        write_geotiff(placed.file, heights, columns, place);
+    }
+    Surface surface() const {
+        SceneFiles files;
+        return surface_of(placed, files);
+    }
+    std::string error() const {
+        try {
+            surface();
+        } catch (const InputError& fault) {
+            return fault.what();
+        }
+        return "";
+    }
+};
+
+bool has_vertex(const Surface& surface, const Eigen::Vector3d& point) {
+    return std::ranges::any_of(surface.vertices, [&](const Eigen::Vector3d& vertex) {
+        return (vertex - point).norm() < 1e-9;
+    });
+}
+
+double upward_area(const Surface& surface) {
+    double sum = 0.0;
+    for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+        const auto c = corners_of(surface, t);
+        sum += 0.5 * (c[1] - c[0]).cross(c[2] - c[0]).z();
+    }
+    return sum;
+}
+
+}  // namespace
+
+TEST_CASE("the first row of a heightmap is the north, its first column the west") {
+    const MapFile map({1, 2, 3, 4, 5, 6}, 3, {.west_m = 100, .north_m = 50, .cell_m = 2});
+    const Surface surface = map.surface();
+    CHECK(surface.triangles.size() == 4);
+    // Centres of the pixels: x = 101, 103, 105; y = 49, 47.
+    CHECK(has_vertex(surface, {101, 49, 1}));
+    CHECK(has_vertex(surface, {105, 49, 3}));
+    CHECK(has_vertex(surface, {101, 47, 4}));
+    CHECK(has_vertex(surface, {105, 47, 6}));
+    // Counter-clockwise from above: the whole map from 101 to 105 and from 47 to 49.
+    CHECK(upward_area(surface) == doctest::Approx(8.0));
+    // Between the centres the surface is that of the two triangles: on the edge from the north-west
+    // to the south-east the mean of these two, not of the other two.
+    const Bottom bottom(surface);
+    CHECK(bottom.heights({102, 48})->highest == doctest::Approx(0.5 * (1 + 5)));
+}
+
+TEST_CASE("the mission's pixel size or extent replaces the place in the file") {
+    const std::vector<float> heights{1, 2, 3, 4, 5, 6};
+    const MapFile pixels(heights, 3, {.west_m = 100, .north_m = 50}, {.pixel_m = 2.0});
+    CHECK(has_vertex(pixels.surface(), {1, 3, 1}));
+    CHECK(has_vertex(pixels.surface(), {5, 1, 6}));
+    const MapFile extent(heights, 3, {.west_m = 100, .north_m = 50}, {.size_m = {6.0, 8.0}});
+    CHECK(has_vertex(extent.surface(), {1, 6, 1}));
+    CHECK(has_vertex(extent.surface(), {5, 2, 6}));
+}
+
+TEST_CASE("a pixel without a height is a hole of the triangles that need it") {
+    std::vector<float> heights(16, 3.0F);
+    const auto triangles = [&] { return MapFile(heights, 4, {}).surface().triangles.size(); };
+    CHECK(triangles() == 18);
+    heights[5] = unknown;
+    // Each of the four cells around it keeps the triangle of its other three corners.
+    CHECK(triangles() == 18 - 4);
+    // A corner of the map: one cell, which keeps the triangle beside the hole.
+    heights[5] = 3.0F;
+    heights[0] = unknown;
+    CHECK(triangles() == 17);
+    MapFile marked(std::vector<float>{1, 2, 3, -9999}, 2, {}, {.no_data = -9999.0});
+    CHECK(marked.surface().triangles.size() == 1);
+}
+
+TEST_CASE("coordinates of hundreds of kilometres lose nothing") {
+    const MapFile map({0.125F, 2, 3, 4}, 2,
+                      {.west_m = 500000.03, .north_m = 5600000.07, .cell_m = 0.01});
+    SceneFiles files;
+    const Scene scene = load_scene_geometry(map.placed, files);
+    CHECK((scene.bounds_min - Eigen::Vector3d(500000.035, 5600000.055, 0.125)).norm() < 2e-7);
+    CHECK((scene.bounds_max - Eigen::Vector3d(500000.045, 5600000.065, 4)).norm() < 2e-6);
+    CHECK(!has_coarse_vertices(scene));
+}
+
+TEST_CASE("a window of a heightmap is a part of its surface") {
+    std::vector<float> heights;
+    for (int i = 0; i < 400; ++i)
+        heights.push_back(static_cast<float>((i * 37) % 101));
+    const MapPlace place{.west_m = 1000, .north_m = 2000, .cell_m = 0.5};
+    const MapFile whole(heights, 20, place);
+    const MapFile part(heights, 20, place, {.window = std::array{1003.0, 1993.0, 1005.0, 1995.0}});
+    const Bottom all(whole.surface());
+    const Surface surface = part.surface();
+    const Bottom some(surface);
+    CHECK(surface.triangles.size() < 200);
+    for (double x = 1003.0; x <= 1005.0; x += 0.125) {
+        for (double y = 1993.0; y <= 1995.0; y += 0.125)
+            CHECK(some.heights({x, y})->highest == all.heights({x, y})->highest);
+    }
+    // A window beside the map leaves all of it.
+    const MapFile beside(heights, 20, place, {.window = std::array{0.0, 0.0, 9.0, 9.0}});
+    CHECK(beside.surface().triangles.size() == whole.surface().triangles.size());
+}
+
+TEST_CASE("values that are no heights are refused with their place") {
+    const auto error = [](float value, HeightmapRule rule = {}) {
+        return MapFile({1, 2, 3, value}, 2, {}, rule).error();
+    };
+    CHECK(error(-9999).find("row 1, column 1: -9999 looks like the mark of an unknown height; "
+                            "write scene.heightmap.no_data: -9999") != std::string::npos);
+    CHECK(error(-9999, {.no_data = 1e38}).empty());
+    CHECK(error(-3.402823e38F).find("row 1, column 1") != std::string::npos);
+    CHECK(error(-3.402823e38F, {.no_data = -3.4028234663852886e38}).empty());
+    CHECK(error(std::numeric_limits<float>::infinity()).find("inf looks") != std::string::npos);
+    CHECK(MapFile({unknown, unknown, unknown, unknown}, 2, {})
+              .error()
+              .find("no three neighbours with known heights") != std::string::npos);
+    CHECK(MapFile({1, 2, 3}, 3, {}).error().find("3 x 1 pixels, and a surface needs 2 x 2") !=
+          std::string::npos);
+}
