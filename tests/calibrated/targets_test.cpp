@@ -9,6 +9,7 @@
 #include "core/units.h"
 #include "ping/form_image.h"
 #include "support/calibrated.h"
+#include "support/sanitized.h"
 #include "support/scenes.h"
 #include "trace/target_mesh.h"
 
@@ -128,7 +129,8 @@ constexpr SonarKind all_kinds[] = {SonarKind::imaging, SonarKind::sidescan, Sona
 }  // namespace
 
 TEST_SUITE("calibrated") {
-    TEST_CASE("targets: the strength of spheres, any mesh, sonar and engine") {
+    TEST_CASE("targets: the strength of spheres, any mesh, sonar and engine" *
+              doctest::skip(test::sanitized)) {
         std::mt19937 random(11);
         std::uniform_real_distribution<double> unit(0.0, 1.0);
         for (const SonarKind kind : all_kinds) {
@@ -335,7 +337,8 @@ TEST_SUITE("calibrated") {
         CHECK(std::sqrt(squares) < 0.4);
     }
 
-    TEST_CASE("targets: with speckle a small highlight is steady, and energies are right") {
+    TEST_CASE("targets: with speckle a small highlight is steady, and energies are right" *
+              doctest::skip(test::sanitized)) {
         Sonar sonar = sonar_of(SonarKind::imaging);
         const auto with_speckle = [&](SpeckleMode mode) {
             SonarConfig config = sonar.config;

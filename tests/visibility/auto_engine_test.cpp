@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/units.h"
+#include "support/sanitized.h"
 #include "support/scenes.h"
 #include "visibility/make_engine.h"
 #include "visibility/rays/rays_engine.h"
@@ -63,7 +64,8 @@ TEST_CASE("rays are better if they meet the goal with less than half of the samp
     CHECK_FALSE(rays_are_better({.error = 0.01, .samples_share = 0.5}, view));
 }
 
-TEST_CASE("auto takes rays for a floor of small triangles, with the error of its probes") {
+TEST_CASE("auto takes rays for a floor of small triangles, with the error of its probes" *
+          doctest::skip(test::sanitized)) {
     const Scene scene = swell();
     REQUIRE(scene.triangles.size() > 20'000);
     const View view = auto_view();

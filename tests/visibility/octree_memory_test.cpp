@@ -4,6 +4,7 @@
 #include <string>
 
 #include "core/units.h"
+#include "support/sanitized.h"
 #include "support/scenes.h"
 #include "visibility/octree/octree_engine.h"
 
@@ -48,7 +49,7 @@ TEST_CASE(
     CHECK(enough->statistics().evictions == 0);
 }
 
-TEST_CASE("octree memory: a large top does not evict the tiles") {
+TEST_CASE("octree memory: a large top does not evict the tiles" * doctest::skip(test::sanitized)) {
     // The top of this tree alone exceeds 1 MB. It once made every tile that grew evict all others.
     const Scene scene = test::rough_floor();
     const auto tight = make_octree_engine(scene, {.memory_mb = 1});

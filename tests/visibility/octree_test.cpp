@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/units.h"
+#include "support/sanitized.h"
 #include "support/scenes.h"
 #include "visibility/caster.h"
 #include "visibility/octree/leaf.h"
@@ -63,7 +64,8 @@ std::vector<std::uint32_t> all_triangles(const Scene& scene) {
 
 }  // namespace
 
-TEST_CASE("octree: its leaves hold the surface of the scene, no more and no less") {
+TEST_CASE("octree: its leaves hold the surface of the scene, no more and no less" *
+          doctest::skip(test::sanitized)) {
     const Scene scene = test::tank();
     for (const bool literal : {false, true}) {
         for (const double leaf : {0.0, 0.31, 0.1}) {
