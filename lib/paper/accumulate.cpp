@@ -2,6 +2,8 @@
 
 #include <xmmintrin.h>
 
+#include <algorithm>
+
 namespace sonarsim {
 
 namespace {
@@ -25,7 +27,11 @@ void write_transposed(const float* from, std::size_t from_step, float* to, std::
 
 std::uint64_t mean_of_bins(const BinSums& sums, std::span<float> intensity) {
     int occupied = 0;
-    for (std::size_t i = 0; i < intensity.size(); ++i) {
+    const auto first = static_cast<std::size_t>(sums.first);
+    const auto end = static_cast<std::size_t>(sums.end);
+    std::fill(intensity.begin(), intensity.begin() + sums.first, 0.0F);
+    std::fill(intensity.begin() + sums.end, intensity.end(), 0.0F);
+    for (std::size_t i = first; i < end; ++i) {
         const float weight = sums.weight(i);
         const bool seen = weight > 0.0F;
         intensity[i] = seen ? sums.echo(i) / weight : 0.0F;

@@ -22,6 +22,7 @@ struct Boxes {
     std::array<Pair, boxes_per_block> density;      ///< per bin: area, and area times intensity
     std::array<Pair, boxes_per_block> share;        ///< shares of the first and the second bin
     std::array<float, boxes_per_block> last_share;  ///< share of the last bin
+    int least, greatest;                            ///< the least `first`, the greatest `last`
 };
 
 /// The boxes of the echoes [begin, begin + count). Those wholly outside the range add 0 to the
@@ -40,6 +41,8 @@ struct Boxes {
     const float* const __restrict weight = echoes.weight.data() + begin;
     const float* const __restrict intensity = echoes.intensity.data() + begin;
     int outside = 0;
+    int least = bins.count;
+    int greatest = 0;
     for (std::size_t k = 0; k < count; ++k) {
         const float centre = (range_m[k] - range_min_m) * per_bin;
         const float half = std::max(half_m[k] * per_bin, least_half);
@@ -60,10 +63,14 @@ struct Boxes {
         const float next = last - first > 1.0F ? 1.0F : tail;
         boxes.first[k] = static_cast<int>(first);
         boxes.last[k] = static_cast<int>(last);
+        least = std::min(least, boxes.first[k]);
+        greatest = std::max(greatest, boxes.last[k]);
         boxes.density[k] = {density, echo};
         boxes.share[k] = {head, next};
         boxes.last_share[k] = tail;
     }
+    boxes.least = least;
+    boxes.greatest = greatest;
     return outside;
 }
 
@@ -98,7 +105,17 @@ void RangeBoxes::resize(std::size_t count) {
 }
 
 void BinSums::clear(int bins) {
-    begins.assign(bins + 1, BinSum{});
+    const std::size_t size = static_cast<std::size_t>(bins) + 1;
+    if (begins.size() == size)
+        std::fill(begins.begin() + first + 1, begins.begin() + end + 1, BinSum{});
+    else
+        begins.assign(size, BinSum{});
+    first = end = 0;
+}
+
+void BinSums::include(int from, int to) {
+    first = end > first ? std::min(first, from) : from;
+    end = std::max(end, to);
 }
 
 std::uint64_t accumulate(const RangeBoxes& echoes, const RangeBins& bins, BinSums& sums) {
@@ -113,6 +130,7 @@ std::uint64_t accumulate(const RangeBoxes& echoes, std::size_t begin, std::size_
     for (std::size_t from = begin; from < end; from += boxes_per_block) {
         const std::size_t count = std::min(boxes_per_block, end - from);
         outside += find_boxes(echoes, from, count, bins, boxes);
+        sums.include(boxes.least, boxes.greatest + 1);
         // The sums have to be added to one by one. Most boxes cover two bins or one, which is the
         // same here: to tell them apart would be mispredicted half the time.
         for (std::size_t k = 0; k < count; ++k) {

@@ -48,8 +48,13 @@ struct alignas(16) BinSum {
 /// The sums of one beam's bins.
 struct BinSums {
     std::vector<BinSum> begins = {BinSum{}};  ///< indexed by bin + 1; the first one stays 0
+    /// The bins [first, end) that boxes were added to; the sums of all others are 0.
+    int first = 0;
+    int end = 0;
 
     void clear(int bins);
+    /// Boxes are added to the bins [from, to).
+    void include(int from, int to);
     float weight(std::size_t bin) const { return begins[bin + 1].weight + begins[bin].next_weight; }
     float echo(std::size_t bin) const { return begins[bin + 1].echo + begins[bin].next_echo; }
 };
