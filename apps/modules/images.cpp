@@ -38,14 +38,6 @@ void require_whole_type(const ImageSpec& spec, unsigned bits) {
                              " bits are not read; make 16 of them with gdal_translate -ot UInt16");
 }
 
-/// OpenImageIO 2.4 returns nothing but zeros for them.
-void refuse_wide_tiles(const ImageSpec& spec) {
-    if (spec.format.basetype != TypeDesc::DOUBLE || spec.tile_width == 0) return;
-    throw std::runtime_error(
-        "tiles of 64-bit numbers are not read; make it narrower with "
-        "gdal_translate -ot Float32");
-}
-
 template <class T>
 void read_rows(ImageInput& input, const ImageSpec& spec, TypeDesc type, SonarsimImageRows rows,
                void* user) {
@@ -109,7 +101,6 @@ extern "C" [[gnu::visibility("default")]] int sonarsim_read_image_1(
             static_cast<std::uint32_t>(spec.nchannels), bits, is_whole(spec) ? 0U : 1U};
         if (start(user, &head) != 0) return 0;
         if (spec.nchannels == 1) require_whole_type(spec, bits);
-        refuse_wide_tiles(spec);
         read_pixels(*input, spec, rows, user);
         return 0;
     } catch (const std::bad_alloc&) {

@@ -95,8 +95,12 @@ class Heightmap(Composed):
             png([[value(r, c) for c in range(COLUMNS)] for r in range(ROWS)]))
         self.write("bed.gltf", gltf([{"name": "heightmap", "mesh": 0}], [surface()]))
 
-    def mission(self, scene, objects="", out="out"):
-        self.write("mission.yaml", MISSION % (scene, objects, out))
+    def mission(self, scene, objects="", out="out", low=False):
+        """With `low` the sonar is 1.5 m above the ground and reaches 4 m."""
+        text = MISSION % (scene, objects, out)
+        if low:
+            text = text.replace("max_m: 9", "max_m: 4").replace("5, 3]", "5, 1.5]")
+        self.write("mission.yaml", text)
 
     def map_mission(self, options="", objects="", file="bed.png"):
         self.mission(MAP % (file, options), objects)
@@ -131,6 +135,15 @@ class Heightmap(Composed):
             for side in ("min", "max"):
                 for a, b in zip(on_mesh["box_world_m"][side], on_map["box_world_m"][side], strict=True):
                     self.assertAlmostEqual(a, b, delta=1e-5)
+
+    def test_only_what_is_in_range(self):
+        """With the rays the images are those of the whole map, though most of it is left out."""
+        rays = "  objects: []\nengine: rays\n"
+        mesh, image = self.assert_same(self.OWN, objects=rays, low=True)
+        self.assertEqual(mesh["scene"]["triangles"], 2 * (COLUMNS - 1) * (ROWS - 1))
+        self.assertLess(image["scene"]["triangles"], 0.6 * mesh["scene"]["triangles"])
+        for one, other in zip(self.polar("mesh"), self.polar("map"), strict=True):
+            self.assertLess(max(abs(a - b) for a, b in zip(one, other, strict=True)), 1e-6)
 
     def test_extent_and_origin(self):
         """size_m instead of pixel_m, and another origin with a trajectory moved by as much."""

@@ -64,7 +64,8 @@ REFUSED = {
     "a CSV as a scene": (edited("bottom.gltf", "path.csv"),
                          ("path.csv: is no glTF", "mission.yaml:3:3 names it")),
     "a GeoTIFF as a scene": (edited("bottom.gltf", "bathy.tif") | {"bathy.tif": TIFF},
-                             ("is a TIFF picture, such as a GeoTIFF, no glTF", "mission.yaml:3:3")),
+                             ("is a TIFF picture, such as a GeoTIFF, no glTF; an image of heights belongs into "
+                              "scene.heightmap", "mission.yaml:3:3")),
     "a GeoTIFF as materials": (edited("materials.csv", "bathy.tif") | {"bathy.tif": TIFF},
                                ("is a TIFF picture, such as a GeoTIFF, not a CSV",)),
     "a mesh as materials": (edited("materials.csv", "mine.glb") | {"mine.glb": GLB},

@@ -110,8 +110,10 @@ void check_json(std::string_view bytes, const Location& where) {
     const std::string_view text = trim(bytes.substr(skipped));
     if (text.starts_with('{') || text.starts_with('[')) return;
     const std::string format(known_format(bytes));
-    throw InputError(where, "is " + (format.empty() ? "" : format + ", ") +
-                                "no glTF; a .gltf is JSON, which begins with '{'");
+    const bool is_picture = format.find("picture") != std::string::npos;
+    throw InputError(where, "is " + (format.empty() ? "" : format + ", ") + "no glTF; " +
+                                (is_picture ? "an image of heights belongs into scene.heightmap"
+                                            : "a .gltf is JSON, which begins with '{'"));
 }
 
 void check_extensions(const tinygltf::Model& model, const Location& where) {

@@ -55,8 +55,11 @@ PixelGrid grid_of(const Image& image, const HeightmapRule& rule, const Location&
 /// written with few digits there.
 class UnknownHeights {
   public:
-    explicit UnknownHeights(std::optional<double> no_data) : no_data_(no_data) {
-        if (no_data_) as_float_ = static_cast<float>(*no_data_);
+    /// NaN is no height anyway.
+    explicit UnknownHeights(std::optional<double> no_data) {
+        if (!no_data || std::isnan(*no_data)) return;
+        no_data_ = no_data;
+        as_float_ = static_cast<float>(*no_data);
     }
 
     bool has(float value) const {

@@ -15,6 +15,7 @@
 #include "core/text.h"
 #include "scene/images/module.h"
 #include "scene/images/tiff_tags.h"
+#include "scene/images/whole_tiff.h"
 
 namespace sonarsim {
 
@@ -142,6 +143,7 @@ Image read_image(const std::filesystem::path& path) {
                                     "; PNG, TIFF and OpenEXR are read");
     }
     Image image;
+    if (format == "tiff") require_whole_tiff(path);
     image.reference = read_georeference(path);
     const std::string bytes = bytes_of_image(path, format, where);
     SonarsimImageHead head;

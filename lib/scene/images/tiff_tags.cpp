@@ -12,8 +12,8 @@ namespace sonarsim {
 
 namespace {
 
-/// More values than any tag of a map has.
-constexpr std::uint64_t most_tag_values = 1 << 16;
+/// More values than any tag of a map has; those of its tiles have most.
+constexpr std::uint64_t most_tag_values = 1 << 22;
 
 /// Reads numbers of either byte order from a file.
 class TiffBytes {
@@ -103,6 +103,7 @@ TiffTags read_tiff_tags(const std::filesystem::path& path, const std::set<std::u
     const std::uint64_t count = file.number_at(list, counter);
     const std::size_t entry_bytes = 4 + 2 * word;
     TiffTags tags;
+    tags.is_big_endian = file.is_big_endian;
     for (std::uint64_t i = 0; i < count; ++i) {
         const std::string entry = file.at(list + counter + i * entry_bytes, entry_bytes);
         const std::string_view bytes = entry;

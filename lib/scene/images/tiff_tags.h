@@ -11,6 +11,7 @@ namespace sonarsim {
 
 /// Tags of the first image of a TIFF file, by their number.
 struct TiffTags {
+    bool is_big_endian = false;
     std::map<std::uint16_t, std::vector<double>> numbers;
     std::map<std::uint16_t, std::string> texts;
 };
