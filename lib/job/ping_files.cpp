@@ -11,7 +11,7 @@
 
 #include "core/error.h"
 #include "core/file.h"
-#include "core/sha256.h"
+#include "core/sha256_of_all.h"
 #include "format/tar.h"
 #include "job/journal.h"
 
@@ -36,11 +36,19 @@ std::string read_part_of(const fs::path& path, std::uint64_t offset, std::uint64
 }  // namespace
 
 std::vector<std::string> journal_fields(const SensorLayout& sensor, const EncodedPing& encoded) {
-    std::vector<std::string> fields;
+    const auto is_record = [&](std::size_t k) {
+        return std::holds_alternative<PingRecord>(sensor.per_ping[k]);
+    };
+    std::vector<std::string_view> files;
     for (std::size_t k = 0; k < encoded.size(); ++k) {
-        const bool record = std::holds_alternative<PingRecord>(sensor.per_ping[k]);
-        fields.push_back(record ? hash_of_record(encoded[k])
-                                : entry_text({encoded[k].size(), sha256(encoded[k])}));
+        if (!is_record(k)) files.push_back(encoded[k]);
+    }
+    std::vector<std::string> sums = sha256_of_all(files);
+    std::vector<std::string> fields;
+    std::size_t file = 0;
+    for (std::size_t k = 0; k < encoded.size(); ++k) {
+        fields.push_back(is_record(k) ? hash_of_record(encoded[k])
+                                      : entry_text({encoded[k].size(), std::move(sums[file++])}));
     }
     return fields;
 }

@@ -173,10 +173,11 @@ PingLabels blank_labels(const View& view, const LabelRequest& request) {
 /// Finds the shadows of objects that are no background, and the visible shares of these.
 ShadowFinder find_object_shadows(const TracedPing& traced, const ConeBeams& cones, const View& view,
                                  const SceneObjects& objects, const VisibilityEngine& engine,
-                                 const LabelRequest& request, std::vector<float>& visible_share) {
+                                 const LabelRequest& request, ShadowFinder::Behind& behind,
+                                 std::vector<float>& visible_share) {
     const ObjectDirections directions(request.annotated, request.surface, traced.T_world_sensor,
                                       view.range_min_m, view.range_max_m);
-    ShadowFinder finder(traced, cones, view, objects, engine, &directions);
+    ShadowFinder finder(traced, cones, view, objects, engine, behind, &directions);
     if (!visible_share.empty()) return finder;
     visible_share = finder.visible_shares();
     for (std::uint32_t k = 0; k < visible_share.size(); ++k) {
@@ -195,15 +196,16 @@ PingLabels label_ping(const TracedPing& traced, const PingSettings& settings, co
     const SurfaceEchoes echoes =
         settings.model->surface_echoes(traced, view, scene, request.elevation || request.height);
     BeamLabeller labeller(echoes, view, objects, request);
+    ShadowFinder::Behind behind;
     std::optional<ShadowFinder> shadows;
     if (request.shadow) {
-        shadows.emplace(traced, echoes.cones, view, objects, engine);
+        shadows.emplace(traced, echoes.cones, view, objects, engine, behind);
         labels.visible_share = shadows->visible_shares();
     }
     std::optional<ShadowFinder> object_shadows;
     if (request.annotations) {
         object_shadows = find_object_shadows(traced, echoes.cones, view, objects, engine, request,
-                                             labels.visible_share);
+                                             behind, labels.visible_share);
     }
     const bool shares = request.objects || request.classes || request.materials;
     ElevationFinder elevations(range_bins(view));

@@ -49,9 +49,10 @@ bool fill_gaps(std::span<std::uint16_t> ids) {
 
 ShadowFinder::ShadowFinder(const TracedPing& traced, const ConeBeams& cones, const View& view,
                            const SceneObjects& objects, const VisibilityEngine& engine,
-                           const ObjectDirections* annotated)
+                           Behind& behind, const ObjectDirections* annotated)
     : bins_(range_bins(view)), follows_objects_(annotated != nullptr) {
     std::vector<SightLine> lines = sight_lines(traced, cones, view.beams);
+    const std::size_t count = lines.size();
     std::vector<WayNode> nodes;
     nodes.reserve(lines.size());
     solid_angles_.resize(objects.objects.size());
@@ -72,13 +73,23 @@ ShadowFinder::ShadowFinder(const TracedPing& traced, const ConeBeams& cones, con
     std::vector<Intersection> met;
     const auto range_max = static_cast<float>(view.range_max_m);
     for (int layer = 0; layer < most_surfaces_behind && !lines.empty(); ++layer) {
-        rays.clear();
-        for (const SightLine& line : lines) {
-            rays.push_back(
-                {line.direction * (line.range_m * (1.0F + step_behind)), line.direction});
+        met.resize(lines.size());
+        if (annotated && !behind.empty()) {
+            for (std::size_t k = 0; k < lines.size(); ++k)
+                met[k] = behind[layer][lines[k].first];
+        } else {
+            rays.clear();
+            for (const SightLine& line : lines) {
+                rays.push_back(
+                    {line.direction * (line.range_m * (1.0F + step_behind)), line.direction});
+            }
+            engine.intersect(traced.T_world_sensor, rays, met);
         }
-        met.resize(rays.size());
-        engine.intersect(traced.T_world_sensor, rays, met);
+        if (!annotated) {
+            std::vector<Intersection>& own = behind.emplace_back(count);
+            for (std::size_t k = 0; k < lines.size(); ++k)
+                own[lines[k].first] = met[k];
+        }
         std::size_t going_on = 0;
         for (std::size_t k = 0; k < lines.size(); ++k) {
             SightLine line = lines[k];

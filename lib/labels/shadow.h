@@ -20,11 +20,16 @@ struct SightLine;
 /// nearest bin in which sight lines end. A body hides its own far side.
 class ShadowFinder {
   public:
+    /// The surfaces that all sight lines meet behind the visible one: by layer, then by the number
+    /// of the line.
+    using Behind = std::vector<std::vector<Intersection>>;
+
     /// Traces the hidden surface. With `annotated` only that which objects that are no background
     /// hide, or that of these objects, which lie in those directions; this costs little where they
-    /// are small. The arguments must outlive the finder.
+    /// are small. A finder without `annotated` writes to `behind`; one with it then traces nothing,
+    /// but reads from it unless it is empty. The arguments must outlive the finder.
     ShadowFinder(const TracedPing& traced, const ConeBeams& cones, const View& view,
-                 const SceneObjects& objects, const VisibilityEngine& engine,
+                 const SceneObjects& objects, const VisibilityEngine& engine, Behind& behind,
                  const ObjectDirections* annotated = nullptr);
 
     /// Fills `shadow` [range bins] of beam j with 1 + the index of the object that hides, or 0.

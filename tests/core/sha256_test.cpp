@@ -3,10 +3,14 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <random>
 #include <string>
+#include <string_view>
 #include <system_error>
+#include <vector>
 
 #include "core/file.h"
+#include "core/sha256_of_all.h"
 #include "support/temporary_folder.h"
 
 using namespace sonarsim;
@@ -36,6 +40,22 @@ TEST_CASE("SHA-256 does not depend on the pieces") {
                 hash.add(std::string_view(text).substr(at, std::min(piece, length - at)));
             CHECK_MESSAGE(hash.digest() == whole, length << " by " << piece);
         }
+    }
+}
+
+TEST_CASE("SHA-256 of several strings side by side is that of each") {
+    std::mt19937 random(9);
+    for (int round = 0; round < 60; ++round) {
+        std::vector<std::string> texts(random() % 6);
+        std::vector<std::string> expected;
+        for (std::string& text : texts) {
+            // Many of equal lengths, and of whole blocks.
+            text.resize(random() % 3 == 0 ? 64 * (random() % 9) : random() % 700);
+            for (char& letter : text)
+                letter = static_cast<char>(random());
+            expected.push_back(sha256(text));
+        }
+        CHECK(sha256_of_all(std::vector<std::string_view>(texts.begin(), texts.end())) == expected);
     }
 }
 
