@@ -107,14 +107,18 @@ void AdaptiveSlices::split(std::size_t i, float u) {
         subgaps_[i].difference = 0.0F;
         return;
     }
-    Around& around = around_[old.gap - first_gap_];
-    if (around.all.empty()) scan_.find_candidates(old.gap, around.of_slices, around.all);
     const std::uint32_t at = new_slice();
-    scan_.scan_slice(u, around.all, results_[at]);
+    scan_.scan_slice(u, candidates(old.gap), results_[at]);
     subgaps_[i].high = at;
     estimate(subgaps_[i]);
     subgaps_.push_back({at, old.high, old.gap});
     estimate(subgaps_.back());
+}
+
+const std::vector<Candidate>& AdaptiveSlices::candidates(std::uint32_t gap) {
+    Around& around = around_[gap - first_gap_];
+    if (around.all.empty()) scan_.find_candidates(gap, around.of_slices, around.all);
+    return around.all;
 }
 
 void AdaptiveSlices::refine(const SliceErrorLimit& most) {

@@ -24,6 +24,13 @@ struct SliceErrorLimit {
     double carry_over;  ///< share of the allowance left by earlier beams that a beam may use
 };
 
+/// The part of a slice's surroundings that it stands for: its ends, moved to both sides.
+struct Strip {
+    const SliceResult* slice;
+    const MovedEnds* low;
+    const MovedEnds* high;
+};
+
 /// Scans the slices of a frame, one beam at a time, and adds slices between them until neighbours
 /// agree.
 class AdaptiveSlices {
@@ -36,6 +43,14 @@ class AdaptiveSlices {
 
     /// The new slices whose strips are complete on both sides, from low u to high.
     std::span<const SliceResult* const> slices() const { return done_; }
+
+    /// True if something other than what the slices of the last gaps predict may lie between them.
+    bool uncertain() const;
+
+    /// The strips of the last gaps with more slices wherever two may miss something between them:
+    /// one at a random place, and one through a triangle that no slice meets, drawn by its area.
+    /// The slices themselves stay as they are.
+    std::span<const Strip> check_strips();
 
     /// The sum over all gaps so far.
     const SliceError& sum() const { return sum_; }
@@ -67,6 +82,12 @@ class AdaptiveSlices {
     void find_outstanding(const Subgap& subgap);
     bool stands_out(const UnseenPiece& piece, const SliceResult& near, const MovedEnds& ends) const;
     bool alike(const SliceResult& a, const SliceResult& b) const;
+    bool certain(const Subgap& subgap) const;
+    void scan_check();
+    void scan_check_at(float u, const Subgap& subgap);
+    float through_unseen(const Subgap& subgap, float share) const;
+    float beam_border(std::uint32_t gap) const;
+    const std::vector<Candidate>& candidates(std::uint32_t gap);
     float width(const Subgap& subgap) const;
     float least_width(std::uint32_t gap) const;
     std::uint32_t new_slice();
@@ -83,6 +104,11 @@ class AdaptiveSlices {
     std::vector<Around> around_;
     std::vector<Subgap> subgaps_;
     std::vector<const SliceResult*> done_;
+    std::vector<SliceResult> check_;  ///< slices of the check; the first check_used_ are in use
+    std::size_t check_used_ = 0;
+    std::vector<const SliceResult*> checked_;  ///< slices of the gaps and of their check, by u
+    std::vector<MovedEnds> borders_;           ///< two for each of checked_
+    std::vector<Strip> strips_;
     RangeProfile low_;
     RangeProfile high_;
     RangeProfile unseen_;

@@ -45,6 +45,11 @@ class FrameScan {
     /// Finds pieces of the triangles that lie between the slices of a gap; `out` is empty before.
     void find_unseen(std::uint32_t gap, std::vector<UnseenPiece>& out);
 
+    /// True if a triangle, or a part of one up to a corner, lies between the slices of a gap.
+    bool has_triangles(std::uint32_t gap) const {
+        return by_gap_ && by_gap_->begin[gap] < by_gap_->begin[gap + 1];
+    }
+
     /// Scans the slice at u, which may meet only `candidates`.
     void scan_slice(float u, std::span<const Candidate> candidates, SliceResult& out);
 

@@ -53,11 +53,10 @@ RangeLine range_line(const Eigen::Vector3f& from, const Eigen::Vector3f& to) {
 }  // namespace
 
 QuadSampler::QuadSampler(const FrameScan& scan, std::span<const Material> materials,
-                         const PatchLimits& limits, EdgeBinError& edge_bins,
-                         std::vector<Sample>& out)
+                         const PatchLimits& limits, BinSums& sums, std::vector<Sample>& out)
     : scan_(scan),
       materials_(materials),
-      edge_bins_(edge_bins),
+      sums_(sums),
       limits_(limits),
       any_width_(!scan.frame().meridians || limits.widest_ratio == unbounded),
       out_(out),
@@ -224,7 +223,7 @@ void QuadSampler::add_sample(const Quad& quad, const QuadPoints& corners) {
     sample.edge_u = R_sensor_frame_ * (0.25F * (b + c - a - d));
     sample.edge_v = R_sensor_frame_ * (0.25F * (c + d - a - b));
     const Interval range_m = fit_range(corners.range, sample);
-    edge_bins_.add(range_m, area, seen.height_m, materials_[facet.material].reflection);
+    sums_.add(range_m, area, seen.height_m, materials_[facet.material].reflection);
     sample.normal = R_sensor_frame_ * seen.normal;
     sample.height_m = seen.height_m;
     sample.area_m2 = area;

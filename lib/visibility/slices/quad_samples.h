@@ -5,7 +5,7 @@
 
 #include "scene/scene.h"
 #include "visibility/engine.h"
-#include "visibility/slices/edge_bin_error.h"
+#include "visibility/slices/bin_sums.h"
 #include "visibility/slices/frame_scan.h"
 #include "visibility/slices/patch_limits.h"
 #include "visibility/slices/quad.h"
@@ -23,12 +23,12 @@ struct RangeLine {
     float near2, far2;  ///< squared ranges, m^2
 };
 
-/// Converts quadrilaterals of the picture plane to samples, and reports them to `edge_bins`.
+/// Converts quadrilaterals of the picture plane to samples, and adds them to `sums`.
 class QuadSampler {
   public:
     /// All arguments must outlive it.
     QuadSampler(const FrameScan& scan, std::span<const Material> materials,
-                const PatchLimits& limits, EdgeBinError& edge_bins, std::vector<Sample>& out);
+                const PatchLimits& limits, BinSums& sums, std::vector<Sample>& out);
 
     void add(const Quad& quad);
 
@@ -42,7 +42,7 @@ class QuadSampler {
 
     const FrameScan& scan_;
     const std::span<const Material> materials_;
-    EdgeBinError& edge_bins_;
+    BinSums& sums_;
     const PatchLimits limits_;
     const bool any_width_;
     std::vector<Sample>& out_;

@@ -68,9 +68,14 @@ void add_meridians(const Strips& strips, double latitude_low, double latitude_hi
                    const Eigen::Matrix3d& axes, std::vector<SliceFrame>& frames) {
     const int sectors = std::max(
         1, static_cast<int>(std::ceil(strips.count * strips.width / widest_sector - 1e-9)));
+    // A sector ends with a beam unless there are too few of them.
+    const int whole = strips.count / strips.per_beam >= sectors ? strips.per_beam : 1;
+    const auto begin_of = [&](int s) -> int {
+        return whole * static_cast<int>(static_cast<long>(strips.count / whole) * s / sectors);
+    };
     for (int s = 0; s < sectors; ++s) {
-        const int first = static_cast<int>(static_cast<long>(strips.count) * s / sectors);
-        const int last = static_cast<int>(static_cast<long>(strips.count) * (s + 1) / sectors);
+        const int first = begin_of(s);
+        const int last = begin_of(s + 1);
         if (first == last) continue;
         const double centre = strips.at(0.5 * (first + last));
         const SinCos turn = sincos(centre);

@@ -3,14 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 #include "visibility/caster.h"
 #include "visibility/coverage.h"
 #include "visibility/intersect.h"
 #include "visibility/local_pose.h"
 #include "visibility/slices/adaptive_slices.h"
+#include "visibility/slices/beam_check.h"
+#include "visibility/slices/beam_errors.h"
 #include "visibility/slices/clusters.h"
-#include "visibility/slices/edge_bin_error.h"
 #include "visibility/slices/frame_scan.h"
 #include "visibility/slices/quad_samples.h"
 #include "visibility/slices/scan.h"
@@ -28,19 +30,21 @@ int slices_for(double relative_l1) {
     return is_coarse(relative_l1) ? 1 : relative_l1 >= 0.005 ? 2 : 4;
 }
 
-// Ratio of an image's error to the square root of its slice error. Fitted to the errors of a
-// lifeboat of 7,920 triangles and a tank, eight poses each at goals of 10, 3, 1 and 0.3 %, within a
-// factor of 1.7. The square root follows from where slices are added: where neighbours differ most,
-// so the rest of the error does not fall in proportion.
+// Ratio of an image's error to the square root of its slice error: where slices are to be added.
+// The estimate of the error does not depend on it. The square root follows from where slices are
+// added: where neighbours differ most, so the rest of the error does not fall in proportion.
 constexpr double error_per_difference = 0.16;
+
+// The passes over a ping at most, and the share of the goal at which a further pass aims.
+constexpr int most_passes = 3;
+constexpr double aimed_share = 0.6;
+
+// Above this share of the goal more beams are checked.
+constexpr double close_share = 0.5;
 
 /// Error of an image without errors of visibility: patches of surface become boxes in range.
 double error_of_shapes(double relative_l1) {
     return 0.002 + 0.003 * std::clamp(relative_l1 / 0.03, 0.1, 1.0);
-}
-
-double estimated_error(double relative_l1, double slice_error) {
-    return error_of_shapes(relative_l1) + error_per_difference * std::sqrt(slice_error);
 }
 
 /// Limit of the slice error for an error goal, less `edge_bins`, the expected error of edge bins.
@@ -62,10 +66,9 @@ SliceErrorLimit slice_error_limit(double relative_l1, double edge_bins) {
 class BeamCutter {
   public:
     /// All arguments must outlive it.
-    BeamCutter(const SliceFrame& frame, StripQuads& quads, EdgeBinError& edge_bins,
-               Samples& samples)
-        : frame_(frame), quads_(quads), edge_bins_(edge_bins), samples_(samples) {
-        edge_bins_.begin_beam(frame_.first_beam);
+    BeamCutter(const SliceFrame& frame, StripQuads& quads, BeamErrors& errors, Samples& samples)
+        : frame_(frame), quads_(quads), errors_(errors), samples_(samples) {
+        errors_.begin_beam(frame_.first_beam);
     }
 
     /// Adds the samples of a strip. Strips must be added from low u to high, without gaps.
@@ -87,12 +90,12 @@ class BeamCutter {
         quads_.end_beam();
         samples_.beam_begin[frame_.first_beam + ++beam_] =
             static_cast<std::uint32_t>(samples_.items.size());
-        if (beam_ + 1 < std::ssize(frame_.beam_u)) edge_bins_.begin_beam(frame_.first_beam + beam_);
+        if (beam_ + 1 < std::ssize(frame_.beam_u)) errors_.begin_beam(frame_.first_beam + beam_);
     }
 
     const SliceFrame& frame_;
     StripQuads& quads_;
-    EdgeBinError& edge_bins_;
+    BeamErrors& errors_;
     Samples& samples_;
     MovedEnds at_border_[2];
     int beam_ = 0;  ///< beam of the frame in which the next strip begins
@@ -108,18 +111,18 @@ class SlicesEngine final : public VisibilityEngine {
           mesh_(make_clusters(scene)) {}
 
     Samples visible_surface(const View& view, const Pose& T_world_sensor) const override {
-        const int per_beam =
-            options_.per_beam > 0 ? options_.per_beam : slices_for(view.relative_l1);
         const LocalPose pose = local_pose(T_world_sensor, scene_->origin);
-        Samples samples;
-        samples.beam_begin.assign(view.beams + 1, 0);
-        SliceError sum;
-        EdgeBinError edge_bins(view);
-        for (const SliceFrame& frame : slice_frames(view, per_beam))
-            see_frame(view, pose, frame, samples, edge_bins, sum);
-        edge_bins.finish();
-        samples.estimated_l1 = estimated_error(view.relative_l1, sum.share()) + edge_bins.error();
-        return samples;
+        const double goal = view.relative_l1;
+        View finer = view;
+        for (int pass = 1;; ++pass) {
+            Pass seen = see(finer, goal, pose);
+            const double error = seen.samples.estimated_l1;
+            // More slices do not help against edge bins.
+            const bool hopeless = seen.edge_bins > goal;
+            if (error <= goal || hopeless || pass == most_passes || options_.per_beam > 0)
+                return std::move(seen.samples);
+            finer.relative_l1 *= std::clamp(aimed_share * goal / error, 0.25, 0.6);
+        }
     }
 
     void intersect(const Pose& T_world_sensor, std::span<const Ray> rays,
@@ -133,25 +136,45 @@ class SlicesEngine final : public VisibilityEngine {
     }
 
   private:
-    void see_frame(const View& view, const LocalPose& pose, const SliceFrame& frame,
-                   Samples& samples, EdgeBinError& edge_bins, SliceError& sum) const {
+    struct Pass {
+        Samples samples;
+        double edge_bins;  ///< their part of the estimated error
+    };
+
+    /// One pass over a ping, as fine as `view` asks; `goal` is that of the mission.
+    Pass see(const View& view, double goal, const LocalPose& pose) const {
+        const int per_beam =
+            options_.per_beam > 0 ? options_.per_beam : slices_for(view.relative_l1);
+        Samples samples;
+        samples.beam_begin.assign(view.beams + 1, 0);
+        BeamErrors errors(view);
+        for (const SliceFrame& frame : slice_frames(view, per_beam))
+            see_frame(view, goal, pose, frame, samples, errors);
+        errors.finish();
+        samples.estimated_l1 = estimated_error(errors);
+        return {std::move(samples), errors.edge_bins()};
+    }
+
+    void see_frame(const View& view, double goal, const LocalPose& pose, const SliceFrame& frame,
+                   Samples& samples, BeamErrors& errors) const {
         const PatchLimits limits = patch_limits(view);
         FrameScan scan(mesh_, *scene_, frame, pose, limits.range_max_m);
         AdaptiveSlices adaptive(view, scene_->materials, scan);
-        QuadSampler sampler(scan, scene_->materials, limits, edge_bins, samples.items);
+        QuadSampler sampler(scan, scene_->materials, limits, errors.sums(), samples.items);
         StripQuads quads(scan, limits, sampler);
-        BeamCutter cutter(frame, quads, edge_bins, samples);
+        BeamCutter cutter(frame, quads, errors, samples);
+        BeamCheck check(view, scan, scene_->materials);
         const auto most = [&] {
             return options_.per_beam > 0 ? unlimited
-                                         : slice_error_limit(view.relative_l1, edge_bins.error());
+                                         : slice_error_limit(view.relative_l1, errors.edge_bins());
         };
         while (adaptive.scan_next(most())) {
+            check.look_at(adaptive, estimated_error(errors) > close_share * goal);
             for (const SliceResult* result : adaptive.slices())
                 cutter.add(*result);
+            check.hand_over(errors);
         }
         samples.dropped += scan.scene().dropped;
-        sum.difference += adaptive.sum().difference;
-        sum.signal += adaptive.sum().signal;
     }
 
     const Scene* scene_;

@@ -1,4 +1,4 @@
-#include "visibility/slices/edge_bin_error.h"
+#include "visibility/slices/beam_errors.h"
 
 #include <doctest/doctest.h>
 
@@ -21,12 +21,12 @@ View ten_bins() {
 
 /// The expected error of surfaces with 1 m^2 per metre of range and intensity 1.
 double error_of(const std::vector<Interval>& surfaces) {
-    EdgeBinError bins(ten_bins());
-    bins.begin_beam(0);
+    BeamErrors errors(ten_bins());
+    errors.begin_beam(0);
     for (const Interval& range_m : surfaces)
-        bins.add(range_m, range_m.to - range_m.from, range_m.to, 1.0F);
-    bins.finish();
-    return bins.error();
+        errors.sums().add(range_m, range_m.to - range_m.from, range_m.to, 1.0F);
+    errors.finish();
+    return errors.edge_bins();
 }
 
 }  // namespace
@@ -44,14 +44,14 @@ TEST_CASE("slices: bins that surface only just reaches count as errors") {
 }
 
 TEST_CASE("slices: the error of edge bins is that of the beams so far") {
-    EdgeBinError bins(ten_bins());
-    bins.begin_beam(0);
-    bins.add({2.5F, 4.0005F}, 1.5005F, 4.0005F, 1.0F);
-    CHECK(bins.error() == 0.0);
-    bins.begin_beam(1);
-    CHECK(bins.error() == doctest::Approx(0.7 / 3.0).epsilon(1e-3));
+    BeamErrors errors(ten_bins());
+    errors.begin_beam(0);
+    errors.sums().add({2.5F, 4.0005F}, 1.5005F, 4.0005F, 1.0F);
+    CHECK(errors.edge_bins() == 0.0);
+    errors.begin_beam(1);
+    CHECK(errors.edge_bins() == doctest::Approx(0.7 / 3.0).epsilon(1e-3));
     // Three more bins without sliver.
-    bins.add({6.5F, 8.5F}, 2.0F, 8.5F, 1.0F);
-    bins.finish();
-    CHECK(bins.error() == doctest::Approx(0.7 / 6.0).epsilon(1e-3));
+    errors.sums().add({6.5F, 8.5F}, 2.0F, 8.5F, 1.0F);
+    errors.finish();
+    CHECK(errors.edge_bins() == doctest::Approx(0.7 / 6.0).epsilon(1e-3));
 }

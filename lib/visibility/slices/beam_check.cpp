@@ -1,0 +1,78 @@
+#include "visibility/slices/beam_check.h"
+
+#include <algorithm>
+
+#include "core/random.h"
+#include "visibility/slices/patch_limits.h"
+
+namespace sonarsim {
+
+namespace {
+
+constexpr PhiloxKey draw_key{0x64726177U, 0};
+
+// Views of up to this many beams are checked whole, since one of their beams may have a large share
+// of the error.
+constexpr int few_beams = 64;
+
+// The number of drawn beams of others if all may have errors; this many times more are drawn from
+// where the estimate leaves no margin.
+constexpr int drawn_beams = 16;
+constexpr std::uint32_t more_if_close = 8;
+
+// 1 / (1 - exp(-1)): see BeamCheck.
+constexpr double error_per_distance = 1.582;
+
+// Standard deviations of a one-sided limit with a confidence of 95 %.
+constexpr double deviations = 1.645;
+
+// Error of the check's own patches: boxes in range for curved surface.
+constexpr double error_of_fine_patches = 0.0023;
+
+std::uint32_t step_for(const View& view) {
+    return view.beams <= few_beams ? 1U : static_cast<std::uint32_t>(view.beams / drawn_beams);
+}
+
+/// The patches of the check are those of a third of the error goal at most.
+PatchLimits fine_limits(View view) {
+    view.relative_l1 = std::min(view.relative_l1 / 3.0, 0.01);
+    return patch_limits(view);
+}
+
+}  // namespace
+
+BeamCheck::BeamCheck(const View& view, const FrameScan& scan, std::span<const Material> materials)
+    : sums_(view),
+      sampler_(scan, materials, fine_limits(view), sums_, samples_),
+      quads_(scan, fine_limits(view), sampler_),
+      calm_step_(step_for(view)),
+      all_(view.beams <= 2) {}
+
+void BeamCheck::look_at(AdaptiveSlices& adaptive, bool closely) {
+    drawn_ = false;
+    if (!all_ && !adaptive.uncertain()) return;
+    const std::uint32_t at = uncertain_++;
+    if (at == begin_ + step_) {
+        begin_ = at;
+        step_ = closely ? std::max(calm_step_ / more_if_close, 1U) : calm_step_;
+        next_ = begin_ + philox({at, 0, 0, 0}, draw_key).x0 % step_;
+    }
+    if (at != next_) return;
+    drawn_ = true;
+    samples_.clear();
+    sums_.clear();
+    for (const Strip& strip : adaptive.check_strips())
+        quads_.add(*strip.slice, *strip.low, *strip.high);
+    quads_.end_beam();
+}
+
+void BeamCheck::hand_over(BeamErrors& errors) const {
+    if (drawn_) errors.add_check(sums_, 1.0 / static_cast<double>(step_));
+}
+
+double estimated_error(const BeamErrors& errors) {
+    return error_of_fine_patches + errors.edge_bins() +
+           error_per_distance * (errors.to_check() + deviations * errors.to_check_deviation());
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,96 @@
+#include "visibility/slices/beam_errors.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace sonarsim {
+
+namespace {
+
+// A bin with less surface than this share of its fuller neighbour's is often wrong: 0.3 of them
+// below 0.003, 0.7 below 0.001. Counted on 92 pings of nine sonars at goals of 10, 3 and 1 %,
+// compared with 60 million rays; of bins with a share of 0.003 to 0.01 less than a tenth was wrong.
+constexpr float thin_share = 0.003F;
+constexpr float thin_error_rate = 0.3F;
+constexpr float thinnest_share = 0.001F;
+constexpr float thinnest_error_rate = 0.7F;
+
+// The same for dark bins that surface approaches to within a thousandth of a bin.
+constexpr float touched_error_rate = 0.6F;
+
+constexpr int lanes = BinSums::padding;
+
+using Lanes = std::array<float, lanes>;
+
+double sum_of(const Lanes& x) {
+    double sum = 0.0;
+    for (const float lane : x)
+        sum += static_cast<double>(lane);
+    return sum;
+}
+
+}  // namespace
+
+BeamErrors::BeamErrors(const View& view) : sums_(view), check_(view) {}
+
+void BeamErrors::begin_beam(int beam) {
+    if (beam == beam_) return;
+    end_beam();
+    beam_ = beam;
+}
+
+void BeamErrors::add_check(const BinSums& check, double share) {
+    check_.add(check);
+    share_ = share;
+}
+
+double BeamErrors::to_check_deviation() const {
+    return signal_ > 0.0 ? std::sqrt(variance_) / signal_ : 0.0;
+}
+
+/// One beam of every 1 / share is drawn, so the distances divided by their shares sum to an
+/// unbiased estimate. The mean square of the difference of two draws is twice their variance.
+void BeamErrors::end_beam() {
+    add_edge_bins();
+    if (share_ > 0.0) {
+        const double distance = BinSums::difference(sums_, check_);
+        to_check_ += distance / share_;
+        const double change = last_ < 0.0 ? 0.0 : (distance - last_) / share_;
+        variance_ += 0.5 * (1.0 - share_) * change * change;
+        last_ = distance;
+        check_.clear();
+        share_ = 0.0;
+    }
+    sums_.clear();
+}
+
+/// Adds the intensities of all bins, and those of the probable errors of edge bins.
+void BeamErrors::add_edge_bins() {
+    Lanes all{};
+    Lanes edge_bins{};
+    for (int begin = sums_.first(); begin <= sums_.last(); begin += lanes) {
+        for (int k = 0; k < lanes; ++k) {
+            const int i = begin + k;
+            const float fuller = std::max(sums_.area(i - 1), sums_.area(i + 1));
+            const float intensity = sums_.intensity(i);
+            const float share = sums_.area(i) < thin_share * fuller ? thin_error_rate : 0.0F;
+            all[k] += intensity;
+            edge_bins[k] +=
+                intensity * (sums_.area(i) < thinnest_share * fuller ? thinnest_error_rate : share);
+        }
+    }
+    signal_ += sum_of(all);
+    edge_bins_ += sum_of(edge_bins);
+    std::vector<int>& touched = sums_.touched();
+    std::ranges::sort(touched);
+    touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+    for (const int i : touched) {
+        if (i < 0 || i >= sums_.count() || sums_.area(i) > 0.0F) continue;
+        const int fuller = sums_.area(i - 1) > sums_.area(i + 1) ? i - 1 : i + 1;
+        edge_bins_ += static_cast<double>(touched_error_rate * sums_.intensity(fuller));
+    }
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,81 @@
+#include "visibility/slices/bin_sums.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/overlapped_bins.h"
+
+namespace sonarsim {
+
+namespace {
+
+// Surface that ends within this distance of a bin's border touches the next bin, in bins.
+constexpr float touching_bins = 0.001F;
+
+}  // namespace
+
+BinSums::BinSums(const View& view)
+    : per_m_(static_cast<float>(1.0 / view.bin_m())),
+      min_bins_(static_cast<float>(view.range_min_m / view.bin_m())),
+      count_(view.range_bins),
+      first_(view.range_bins),
+      area_(view.range_bins + 2 + padding),
+      echo_(view.range_bins + 2 + padding) {}
+
+void BinSums::add(const Interval& range_m, float area_m2, float height_m, float reflection) {
+    const float low = range_m.from * per_m_ - min_bins_;
+    const float high = std::max(range_m.to * per_m_ - min_bins_, low + 1e-5F);
+    const auto end = static_cast<float>(count_);
+    if (!(high > 0.0F && low < end)) return;
+    const float density = area_m2 / (high - low);
+    const float intensity =
+        reflection * std::min(2.0F * height_m / (range_m.from + range_m.to), 1.0F);
+    const int first = static_cast<int>(std::max(low, 0.0F));
+    const int last = static_cast<int>(std::min(high, end - 0.5F));
+    const OverlappedBins bins(low, high, count_);
+    for (int i = first; i <= last; ++i) {
+        const float area = density * bins.overlap(i);
+        area_[i + 1] += area;
+        echo_[i + 1] += area * intensity;
+    }
+    if (low - static_cast<float>(first) < touching_bins) touched_.push_back(first - 1);
+    if (static_cast<float>(last + 1) - high < touching_bins) touched_.push_back(last + 1);
+    first_ = std::min(first_, first);
+    last_ = std::max(last_, last);
+}
+
+void BinSums::add(const BinSums& other) {
+    for (int i = other.first_; i <= other.last_; ++i) {
+        area_[i + 1] += other.area(i);
+        echo_[i + 1] += other.echo(i);
+    }
+    first_ = std::min(first_, other.first_);
+    last_ = std::max(last_, other.last_);
+}
+
+double BinSums::signal() const {
+    double sum = 0.0;
+    for (int i = first_; i <= last_; ++i)
+        sum += static_cast<double>(intensity(i));
+    return sum;
+}
+
+double BinSums::difference(const BinSums& a, const BinSums& b) {
+    double sum = 0.0;
+    const int last = std::max(a.last_, b.last_);
+    for (int i = std::min(a.first_, b.first_); i <= last; ++i)
+        sum += static_cast<double>(std::fabs(a.intensity(i) - b.intensity(i)));
+    return sum;
+}
+
+void BinSums::clear() {
+    touched_.clear();
+    if (last_ >= 0) {
+        std::fill(&area_[first_ + 1], &area_[last_ + 2], 0.0F);
+        std::fill(&echo_[first_ + 1], &echo_[last_ + 2], 0.0F);
+    }
+    first_ = count_;
+    last_ = -1;
+}
+
+}  // namespace sonarsim

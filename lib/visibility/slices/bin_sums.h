@@ -1,0 +1,55 @@
+#pragma once
+
+#include <vector>
+
+#include "visibility/slices/scan.h"
+#include "visibility/view.h"
+
+namespace sonarsim {
+
+/// Surface of one beam by range bin: area, and area times intensity. Their quotient is the image.
+class BinSums {
+  public:
+    explicit BinSums(const View& view);
+
+    /// Adds surface that is spread evenly over an interval of range. Its intensity follows from
+    /// `reflection` and the sensor's distance from its plane.
+    void add(const Interval& range_m, float area_m2, float height_m, float reflection);
+
+    /// Adds the sums of the same beam by other surface.
+    void add(const BinSums& other);
+
+    void clear();
+
+    /// The sum of the intensities.
+    double signal() const;
+
+    /// The sum over the bins of the absolute difference of the intensities.
+    static double difference(const BinSums& a, const BinSums& b);
+
+    int count() const { return count_; }
+    /// Bins outside of [first, last] are dark.
+    int first() const { return first_; }
+    int last() const { return last_; }
+    /// Bins from -1 to `padding` beyond the last may be read; those outside of the view are dark.
+    float area(int i) const { return area_[i + 1]; }
+    float echo(int i) const { return echo_[i + 1]; }
+    float intensity(int i) const { return area(i) > 0.0F ? echo(i) / area(i) : 0.0F; }
+    static constexpr int padding = 8;
+
+    /// Bins that some surface ends next to, as neighbours of the bins that it fills. Sorted by
+    /// nothing, and with repetitions.
+    std::vector<int>& touched() { return touched_; }
+
+  private:
+    float per_m_;     ///< bins per metre
+    float min_bins_;  ///< the least range, in bins
+    int count_;
+    int first_;
+    int last_ = -1;
+    std::vector<float> area_;  ///< bin i is at i + 1
+    std::vector<float> echo_;
+    std::vector<int> touched_;
+};
+
+}  // namespace sonarsim

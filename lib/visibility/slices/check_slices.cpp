@@ -1,0 +1,98 @@
+// The part of AdaptiveSlices that checks beams.
+
+#include <algorithm>
+
+#include "core/random.h"
+#include "visibility/slices/adaptive_slices.h"
+
+namespace sonarsim {
+
+namespace {
+
+constexpr PhiloxKey check_key{0x63686563U, 0};
+
+}  // namespace
+
+/// True if both slices predict the same, and no triangle lies between the slices of the frame.
+bool AdaptiveSlices::certain(const Subgap& subgap) const {
+    return !(subgap.difference > 0.0F) && !scan_.has_triangles(subgap.gap);
+}
+
+bool AdaptiveSlices::uncertain() const {
+    return !std::ranges::all_of(subgaps_, [&](const Subgap& subgap) { return certain(subgap); });
+}
+
+void AdaptiveSlices::scan_check() {
+    check_used_ = 0;
+    // Room for all: the addresses of the results are kept.
+    if (check_.size() < 2 * subgaps_.size()) check_.resize(2 * subgaps_.size());
+    for (std::uint32_t i = 0; i < subgaps_.size(); ++i) {
+        const Subgap& subgap = subgaps_[i];
+        if (certain(subgap)) continue;
+        const PhiloxBlock word = philox({first_gap_, i, 0, 0}, check_key);
+        const float u = results_[subgap.low].slice.u + unit_float(word.x0) * width(subgap);
+        scan_check_at(u, subgap);
+        const float through = through_unseen(subgap, unit_float(word.x1));
+        if (through != u) scan_check_at(through, subgap);
+    }
+}
+
+/// Scans a slice between those of a subgap.
+void AdaptiveSlices::scan_check_at(float u, const Subgap& subgap) {
+    if (!(results_[subgap.low].slice.u < u && u < results_[subgap.high].slice.u)) return;
+    SliceResult& at = check_[check_used_++];
+    scan_.scan_slice(u, candidates(subgap.gap), at);
+    checked_.push_back(&at);
+}
+
+/// u of the piece, among those in a subgap that no slice meets, at a share of their area; the begin
+/// of the subgap if there are none.
+float AdaptiveSlices::through_unseen(const Subgap& subgap, float share) const {
+    const float low = results_[subgap.low].slice.u;
+    const float high = results_[subgap.high].slice.u;
+    const std::vector<UnseenPiece>& unseen = around_[subgap.gap - first_gap_].unseen;
+    const auto inside = [&](const UnseenPiece& piece) { return low < piece.u && piece.u < high; };
+    float area = 0.0F;
+    for (const UnseenPiece& piece : unseen) {
+        if (inside(piece)) area += piece.area_m2;
+    }
+    float left = share * area;
+    float u = low;
+    for (const UnseenPiece& piece : unseen) {
+        if (!inside(piece)) continue;
+        u = piece.u;
+        left -= piece.area_m2;
+        if (left < 0.0F) break;
+    }
+    return u;
+}
+
+std::span<const Strip> AdaptiveSlices::check_strips() {
+    checked_.clear();
+    for (std::uint32_t i = 0; i < used_; ++i)
+        checked_.push_back(&results_[i]);
+    scan_check();
+    std::ranges::sort(checked_, {}, [](const SliceResult* result) { return result->slice.u; });
+    const std::size_t count = checked_.size();
+    if (borders_.size() < 2 * count) borders_.resize(2 * count);
+    strips_.clear();
+    float border = beam_border(first_gap_);
+    for (std::size_t i = 0; i < count; ++i) {
+        const SliceResult& at = *checked_[i];
+        move_ends(at.slice, at.spans, border, borders_[2 * i]);
+        border = i + 1 == count ? beam_border(next_gap_)
+                                : 0.5F * (at.slice.u + checked_[i + 1]->slice.u);
+        move_ends(at.slice, at.spans, border, borders_[2 * i + 1]);
+        strips_.push_back({&at, &borders_[2 * i], &borders_[2 * i + 1]});
+    }
+    return strips_;
+}
+
+/// The border of beams at the begin of a gap, or the frame's own.
+float AdaptiveSlices::beam_border(std::uint32_t gap) const {
+    const SliceFrame& frame = scan_.frame();
+    const auto per_beam = static_cast<std::uint32_t>(frame.slices_per_beam);
+    return frame.beam_u[(gap + per_beam - 1) / per_beam];
+}
+
+}  // namespace sonarsim
