@@ -94,6 +94,9 @@ TEST_SUITE("calibrated") {
         CHECK(traced_beams(sonar_of(0.03, 1.0, 0.0)) == 60);
         CHECK(traced_beams(sonar_of(0.01, 1.0, 0.0)) == 120);
         CHECK(traced_beams(sonar_of(0.03, 0.6, 0.0)) == 120);
+        SonarConfig with_multipath = sonar_of(0.03, 1.0, 0.0).config;
+        with_multipath.multipath.method = MultipathMethod::exact;
+        CHECK(traced_beams(make_sonar(with_multipath, {0.03})) == 120);
         // Guard beams are whole joined beams: 15.7 degrees to either side hold 31 beams.
         CHECK(traced_beams(sonar_of(0.03, 1.0, 91.4)) == 60 + 2 * 15);
 
