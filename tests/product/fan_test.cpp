@@ -63,36 +63,6 @@ double depth(const Sonar& sonar, const FanFrame& frame, std::size_t index) {
     return edge / frame.pixel_m;
 }
 
-/// The grey value of a pixel, without a table: kernels in range and in azimuth at its centre.
-int direct_grey(const Sonar& sonar, const FanMap& map, const Ping& ping, std::size_t index) {
-    const View& view = sonar.settings.view;
-    const int column = static_cast<int>(index) % map.frame.width;
-    const int row = static_cast<int>(index) / map.frame.width;
-    const FanPlace place = fan_place(map.frame, view.range_max_m, column, row);
-    const double beams_per_pixel =
-        map.frame.pixel_m * view.beams / view.azimuth_rad / place.range_m;
-    // The extent of a kernel grows in steps of an eighth from ring to ring.
-    double extent = 1.0;
-    while (extent < std::min({beams_per_pixel, 128.0, static_cast<double>(view.beams)}))
-        extent *= 1.125;
-    const KernelTable across = make_kernel(extent, 4);
-    const KernelTable along = make_kernel(std::min(map.frame.pixel_m / view.bin_m(), 128.0), 1);
-    const KernelPlace bin = kernel_place((place.range_m - view.range_min_m) / view.bin_m());
-    const KernelPlace beam = kernel_place(column_at(sonar, place.azimuth_rad));
-    double mean = 0.0;
-    for (int k = 0; k < along.taps; ++k) {
-        for (int b = 0; b < across.taps; ++b) {
-            const int i = std::clamp(bin.bin + along.first[bin.phase] + k, 0, ping.range_bins - 1);
-            int j = beam.bin + across.first[beam.phase] + b;
-            const int turns = ping.beams * (1 + across.taps / ping.beams);
-            j = map.full_turn ? (j + turns) % ping.beams : std::clamp(j, 0, ping.beams - 1);
-            mean += static_cast<double>(along.weights[bin.phase * along.taps + k]) *
-                    across.weights[beam.phase * across.taps + b] * ping.at(i, j);
-        }
-    }
-    return static_cast<int>(255.0 * std::sqrt(std::clamp(mean, 0.0, 1.0)) + 0.5);
-}
-
 }  // namespace
 
 TEST_SUITE("product") {
@@ -209,35 +179,6 @@ TEST_SUITE("product") {
                 const double sector_px = sector_m2 / (map.frame.pixel_m * map.frame.pixel_m);
                 CHECK(area == doctest::Approx(sector_px).epsilon(azimuth_deg > 1.0 ? 0.002 : 0.05));
             }
-        }
-    }
-
-    TEST_CASE("fan: the table gives what direct resampling gives, on random sonars") {
-        // Directly: every pixel, in doubles, is the mean of the bins around it by the kernels of
-        // its place. A table that is off by a bin or a phase changes most pixels of noise; rounding
-        // to floats changes a grey value by at most 1, where the value lies next to a border.
-        std::mt19937 random(23);
-        const auto uniform = [&](double low, double high) {
-            return low + (high - low) * static_cast<double>(random() >> 8) * 0x1p-24;
-        };
-        for (int scene = 0; scene < 24; ++scene) {
-            const double azimuth_deg = scene % 6 == 0 ? 360.0 : uniform(5.0, 340.0);
-            const Sonar sonar =
-                sonar_of(azimuth_deg, uniform(0.0, 3.0), 20 + random() % 300, 8 + random() % 200);
-            const FanMap map = make_fan_map(sonar, scene % 3 == 0 ? 0 : 40 + random() % 400);
-            Ping ping = uniform_ping(sonar, 0.0F);
-            for (float& value : ping.intensity)
-                value = static_cast<float>(uniform(0.0, 1.2));
-            const std::vector<std::uint8_t> image = render_fan(map, ping, 1.0);
-            std::size_t off_by_one = 0;
-            for (std::size_t i = 0; i < image.size(); ++i) {
-                if (depth(sonar, map.frame, i) < 1.5) continue;  // covered in full
-                const int expected = direct_grey(sonar, map, ping, i);
-                REQUIRE(std::abs(image[i] - expected) <= 1);
-                off_by_one += image[i] != expected;
-            }
-            CAPTURE(scene);
-            CHECK(off_by_one <= 2 + image.size() / 2000);
         }
     }
 
