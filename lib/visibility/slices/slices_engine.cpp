@@ -37,7 +37,7 @@ constexpr double error_per_difference = 0.16;
 
 // The passes over a ping at most, and the share of the goal at which a further pass aims.
 constexpr int most_passes = 3;
-constexpr double aimed_share = 0.6;
+constexpr double aimed_share = 0.8;
 
 // Above this share of the goal more beams are checked.
 constexpr double close_share = 0.5;
@@ -121,7 +121,7 @@ class SlicesEngine final : public VisibilityEngine {
             const bool hopeless = seen.edge_bins > goal;
             if (error <= goal || hopeless || pass == most_passes || options_.per_beam > 0)
                 return std::move(seen.samples);
-            finer.relative_l1 *= std::clamp(aimed_share * goal / error, 0.25, 0.6);
+            finer.relative_l1 *= std::clamp(aimed_share * goal / error, 0.25, 0.67);
         }
     }
 
