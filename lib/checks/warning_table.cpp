@@ -160,13 +160,14 @@ constexpr std::array table{
                 "refused and would mix its files with these",
                 "start only one", "the file system refuses flock",
                 "nothing else keeps two runs apart"},
-    WarningText{WarningCode::goal_missed,
-                "{0} of {1} pings miss accuracy.relative_l1 of {2:.4g}, the worst with an "
-                "estimated {3:.2g}: there is more detail between neighbouring beams than the "
-                "engine can follow, or surface that only just reaches into a bin",
-                "raise accuracy.relative_l1, or use engine: rays",
-                "one ping whose estimated error is above the goal",
-                "the error goal holds for every ping"},
+    WarningText{
+        WarningCode::goal_missed,
+        "{0} of {1} pings miss accuracy.relative_l1 of {2:.4g}, the worst with an "
+        "estimated {3:.2g}: there is more detail between neighbouring beams or rays than the "
+        "engine can follow, or surface that only just reaches into a bin",
+        "raise accuracy.relative_l1, or use the engine with the least error in "
+        "`sonarsim report`",
+        "one ping whose estimated error is above the goal", "the error goal holds for every ping"},
     WarningText{WarningCode::samples_dropped,
                 "{0} of {1} pieces of surface were left out, since they are edge-on, at no "
                 "distance or lost in rounding",

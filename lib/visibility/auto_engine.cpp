@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -88,7 +89,8 @@ class AutoEngine final : public VisibilityEngine {
         const auto by_rays = std::ranges::find(rays_views_, view, &RaysView::view);
         if (by_rays == rays_views_.end()) return slices_->visible_surface(view, T_world_sensor);
         Samples samples = rays_->visible_surface(with_goal(view, by_rays->goal), T_world_sensor);
-        samples.estimated_l1 = by_rays->error;
+        // Rays that the mission asks for have no trial.
+        if (!std::isnan(by_rays->error)) samples.estimated_l1 = by_rays->error;
         return samples;
     }
 

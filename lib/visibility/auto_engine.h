@@ -39,8 +39,8 @@ bool rays_are_better(const RaysTrial& trial, const View& view);
 /// better or required. Nothing is timed: the same scene and probes give the same choice everywhere.
 /// Scenes of few triangles get slices without a comparison; scenes with bodies or copies get rays,
 /// the only engine that traces them. The estimated error of a ping by rays is the bound found on
-/// the probes. `scene` must outlive the engine. `coverage` as for make_rays_engine(). Throws
-/// std::runtime_error when Embree cannot build its tree.
+/// the probes, or the rays' own if they were required. `scene` must outlive the engine. `coverage`
+/// as for make_rays_engine(). Throws std::runtime_error when Embree cannot build its tree.
 std::unique_ptr<VisibilityEngine> make_auto_engine(const Scene& scene, const SlicesOptions& slices,
                                                    std::span<const Probe> probes,
                                                    bool coverage = false);

@@ -46,7 +46,8 @@ TEST_SUITE("visibility") {
         for (int k = 0; k < 20; ++k)
             places.push_back(placed(origin + Eigen::Vector3d(3.0 + 0.2 * k, 5.0 * k, 0.0),
                                     0.2 + 0.1 * k, 0.4 * k));
-        const auto engine = make_rays_engine(spheres(places, origin));
+        const Scene scene = spheres(places, origin);
+        const auto engine = make_rays_engine(scene);
         for (int k = 0; k < 20; ++k) {
             // A ray along x that passes the centre at 0.3 radii meets the sphere sqrt(1 - 0.3^2)
             // radii before it. Facets lie at most r (1 - cos(pi / 512)) = 1.9e-5 r inside.

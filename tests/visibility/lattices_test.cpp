@@ -67,7 +67,7 @@ TEST_CASE("lattices: goals are met, or the estimate says so" * doctest::skip(tes
 }
 
 /// Prints the table of docs/performance.md: SONARSIM_LATTICES scenes from number SONARSIM_FIRST on,
-/// with the engine SONARSIM_ENGINE, slices or rays.
+/// with the engine SONARSIM_ENGINE: slices, rays or octree.
 TEST_CASE("table of errors and estimates on drawn lattices" * doctest::skip()) {
     const auto setting = [](const char* name, const char* otherwise) -> std::string {
         const char* const text = std::getenv(name);
@@ -75,15 +75,17 @@ TEST_CASE("table of errors and estimates on drawn lattices" * doctest::skip()) {
     };
     const int count = std::stoi(setting("SONARSIM_LATTICES", "20"));
     const int first = std::stoi(setting("SONARSIM_FIRST", "0"));
-    const bool rays = setting("SONARSIM_ENGINE", "slices") == "rays";
+    const std::string name = setting("SONARSIM_ENGINE", "slices");
+    EngineKind engine = EngineKind::slices;
+    if (name == "rays") engine = EngineKind::rays;
+    if (name == "octree") engine = EngineKind::octree;
     std::vector<test::LatticeError> all;
     for (int i = first; i < first + count; ++i) {
         const auto number = static_cast<std::uint32_t>(i);
         const test::Lattice lattice = test::draw_lattice(number);
         const Reference reference = test::lattice_reference(lattice, 8'000'000);
         for (const test::LatticeError& error :
-             test::lattice_errors(number, lattice, reference,
-                                  rays ? EngineKind::rays : EngineKind::slices, {0.1, 0.03, 0.01}))
+             test::lattice_errors(number, lattice, reference, engine, {0.1, 0.03, 0.01}))
             all.push_back(error);
     }
     std::puts(test::lattice_table(all).c_str());

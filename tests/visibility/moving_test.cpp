@@ -29,7 +29,8 @@ TEST_SUITE("visibility") {
         constexpr double radius = 0.5;
         Scene shape = empty_scene();
         add_sphere(shape, {0, 0, 0}, static_cast<float>(radius), add_material(shape, 1.0F), 512);
-        const auto engine = make_rays_engine(as_body(shape));
+        const Scene scene = as_body(shape);
+        const auto engine = make_rays_engine(scene);
         // A ray from the origin along x meets a sphere at (a, b, 0) at a - sqrt(r^2 - b^2). The
         // facets are at most r (1 - cos(pi / 512)) = 9.4 um inside the sphere; along the ray that
         // is longer by 1 / cos(incidence), below 2.6 here.

@@ -2,13 +2,15 @@
 
 #include "visibility/engine.h"
 #include "visibility/rays/ray_columns.h"
+#include "visibility/rays/set_disagreement.h"
 
 namespace sonarsim {
 
 /// The surface that the columns of rays have met. Each ray represents a segment of its column as a
 /// flat patch of the plane that it met. If the surface is continuous from one ray to the next,
 /// their patches meet where the two planes do, so faceted surface is reproduced exactly; otherwise
-/// they end half way.
-Samples column_samples(const View& view, const Sampling& sampling, const RayColumns& columns);
+/// they end half way. `comparison` gets the samples of every beam.
+Samples column_samples(const View& view, const Sampling& sampling, const RayColumns& columns,
+                       SetComparison& comparison);
 
 }  // namespace sonarsim

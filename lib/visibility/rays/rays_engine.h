@@ -7,9 +7,9 @@
 
 namespace sonarsim {
 
-/// The ray tracing engine, based on Embree. `scene` must outlive it. `coverage`: covered_bins() will
-/// be called, so what it needs is made now. Throws std::runtime_error when Embree cannot build its
-/// tree (out of memory).
+/// The ray tracing engine, based on Embree. `scene` must outlive it. `coverage`: covered_bins()
+/// will be called, so what it needs is made now. Throws std::runtime_error when Embree cannot build
+/// its tree (out of memory).
 std::unique_ptr<VisibilityEngine> make_rays_engine(const Scene& scene, bool coverage = false);
 
 }  // namespace sonarsim

@@ -1,0 +1,111 @@
+#include "visibility/rays/set_disagreement.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/overlapped_bins.h"
+
+namespace sonarsim {
+
+namespace {
+
+// The sums over 64 beams are known to a few per cent.
+constexpr int most_compared_beams = 64;
+
+}  // namespace
+
+double SetDisagreement::error() const {
+    if (signal == 0.0) return 0.0;
+    // Two independent values a and b of a bin, each off by s on average, have a mean that is off by
+    // s / sqrt(2), and |a - b| is sqrt(2) s on average: the mean is off by half of it.
+    //
+    // A bin that one set of rays lights with probability p, and the other with q, is missed by both
+    // with probability (1 - p) (1 - q). Signal of p (1 - q) is lit by the first alone and of
+    // (1 - p) q by the other alone. The root of their product is sqrt(p q (1 - p) (1 - q)), which
+    // is at least as much when p q >= (1 - p) (1 - q). For p = q it is half of what one set alone
+    // lights, as above.
+    //
+    // Every bin is one draw of its error, and half of its difference another one of the same size:
+    // so the variance of their sums is 2 sum (d / 2)^2.
+    const double twice_standard_error = std::sqrt(2.0 * squares);
+    return (0.5 * difference + std::sqrt(first_alone * second_alone) + twice_standard_error) /
+           signal;
+}
+
+SetComparison::SetComparison(const View& view, std::span<const Material> materials)
+    : materials_(materials),
+      range_min_m_(static_cast<float>(view.range_min_m)),
+      per_bin_(static_cast<float>(1.0 / view.bin_m())),
+      bins_(view.range_bins),
+      begin_(view.range_bins) {
+    result_.every = std::max(1, view.beams / most_compared_beams);
+    const int compared = (view.beams + result_.every - 1) / result_.every;
+    result_.lit.resize(static_cast<std::size_t>(compared) * view.range_bins);
+}
+
+void SetComparison::add_beam(int beam, std::span<const Sample> samples,
+                             std::span<const RaySet> sets) {
+    if (beam % result_.every != 0) return;
+    for (std::size_t i = 0; i < samples.size(); ++i)
+        add(samples[i], sets[i]);
+    compare_bins(result_.lit.data() +
+                 static_cast<std::size_t>(beam / result_.every) * bins_.size());
+}
+
+/// Adds a sample to its bins, as a box in range.
+void SetComparison::add(const Sample& sample, RaySet set) {
+    const float range = sample.position.norm();
+    const float per_range = 1.0F / range;
+    // A patch without depth still needs a width to be divided by.
+    constexpr float least_half = 1e-3F;
+    const float half = std::max((std::fabs(sample.position.dot(sample.edge_u)) +
+                                 std::fabs(sample.position.dot(sample.edge_v))) *
+                                    per_range * per_bin_,
+                                least_half);
+    const float centre = (range - range_min_m_) * per_bin_;
+    const OverlappedBins<float> covered(centre - half, centre + half,
+                                        static_cast<int>(bins_.size()));
+    if (covered.empty()) return;
+    begin_ = std::min(begin_, covered.begin);
+    end_ = std::max(end_, covered.end);
+    const float density = sample.area_m2 / (2.0F * half);
+    const float intensity = materials_[sample.material].reflection * sample.height_m * per_range;
+    for (int i = covered.begin; i < covered.end; ++i) {
+        Sum& sum = bins_[i][static_cast<std::size_t>(set)];
+        const float weight = density * covered.overlap(i);
+        sum.weight += weight;
+        sum.echo += weight * intensity;
+    }
+}
+
+void SetComparison::compare_bin(const Bin& bin, SetDisagreement& out) {
+    const auto& [both, first, second] = bin;
+    const auto signal = static_cast<double>((both + first + second).mean());
+    out.signal += signal;
+    if (first.weight == 0.0F && second.weight == 0.0F) return;
+    const Sum by_first = both + first;
+    const Sum by_second = both + second;
+    const auto apart = static_cast<double>(std::fabs(by_first.mean() - by_second.mean()));
+    out.squares += apart * apart;
+    if (by_second.weight == 0.0F)
+        out.first_alone += signal;
+    else if (by_first.weight == 0.0F)
+        out.second_alone += signal;
+    else
+        out.difference += apart;
+}
+
+/// Compares the bins and clears them; `lit` are those of the beam.
+void SetComparison::compare_bins(std::uint8_t* lit) {
+    for (int i = begin_; i < end_; ++i) {
+        Bin& bin = bins_[i];
+        if (bin[0].weight == 0.0F && bin[1].weight == 0.0F && bin[2].weight == 0.0F) continue;
+        lit[i] = 1;
+        compare_bin(bin, result_);
+        bin = {};
+    }
+    begin_ = static_cast<int>(bins_.size());
+    end_ = 0;
+}
+
+}  // namespace sonarsim
