@@ -1,6 +1,5 @@
 #include "scene/images/read_image.h"
 
-#include <OpenImageIO/imageio.h>
 #include <doctest/doctest.h>
 
 #include <cstdlib>
@@ -169,33 +168,6 @@ TEST_CASE("images that cannot be read are refused with the reason") {
     bomb.replace(10 + 12 + 8, 4, std::string("\0\x80\0\0", 4));
     write_file(path, bomb);
     CHECK(tells(error_of_image(path), "has 65536 x 32768 pixels of 1 value, and at most 2^26"));
-}
-
-TEST_CASE("OpenEXR of either precision, with one channel and with three") {
-    const TemporaryFolder folder;
-    for (const OIIO::TypeDesc type : {OIIO::TypeDesc::FLOAT, OIIO::TypeDesc::HALF}) {
-        for (const int channels : {1, 3}) {
-            const auto path = folder.path / "map.exr";
-            const auto output = OIIO::ImageOutput::create("openexr");
-            REQUIRE(output);
-            const OIIO::ImageSpec spec(columns / channels, rows, channels, type);
-            REQUIRE(output->open(path.string(), spec));
-            std::vector<float> values = numbers();
-            values.resize(spec.image_pixels() * static_cast<std::size_t>(channels));
-            REQUIRE(output->write_image(OIIO::TypeDesc::FLOAT, values.data()));
-            REQUIRE(output->close());
-            const Image image = read_image(path);
-            CHECK(image.channels == channels);
-            CHECK(image.is_float);
-            CHECK(image.bits == (type == OIIO::TypeDesc::HALF ? 16 : 32));
-            CHECK(image.values == values);
-            CHECK(!image.reference.grid);
-            // Cut off, it is refused.
-            const std::string whole = read_file(path, 1'000'000);
-            write_file(path, whole.substr(0, whole.size() - 100));
-            CHECK(tells(error_of_image(path), "cannot be read"));
-        }
-    }
 }
 
 TEST_CASE("files that OpenImageIO reads wrongly are refused") {
