@@ -149,11 +149,12 @@ TEST_CASE("a report on shared copies is one on their triangles" * doctest::skip(
           doctest::Approx(1.0).epsilon(0.02));
     CHECK(of_copies.samples_per_ping.centre / of_triangles.samples_per_ping.centre ==
           doctest::Approx(1.0).epsilon(1e-3));
-    // Only rays can trace it.
+    // Only rays can trace it, which `auto` then takes.
     for (const Setting& setting : make_settings(mission, false)) {
         CAPTURE(setting.engine);
         CHECK(unsupported(setting, copied).empty());
-        CHECK(unsupported(setting, shared).empty() == (setting.kind == EngineKind::rays));
+        CHECK(unsupported(setting, shared).empty() ==
+              (setting.kind == EngineKind::rays || setting.kind == EngineKind::automatic));
     }
 }
 
@@ -220,10 +221,10 @@ TEST_CASE("the settings holds the mission's own setting once, marked, and no nee
         return out;
     };
     CHECK(marked(make_settings(mission, false)) ==
-          std::vector<std::string>{"rays relative_l1=0.03"});
+          std::vector<std::string>{"auto relative_l1=0.03"});
     mission.accuracy.relative_l1 = 0.05;
     CHECK(marked(make_settings(mission, true)) ==
-          std::vector<std::string>{"rays relative_l1=0.05"});
+          std::vector<std::string>{"auto relative_l1=0.05"});
     mission.engine = EngineKind::octree;
     CHECK(marked(make_settings(mission, true)) == std::vector<std::string>{"octree leaf_m=auto"});
     mission.octree.leaf_m = 0.03;

@@ -68,9 +68,11 @@ INSTEAD = {
         f"build/sonarsim validate hull.yaml {FEW} && build/sonarsim render hull.yaml {FEW}",
     "sonarsim render /usr/share/sonarsim/configs/tank_imaging.yaml":
         f"sonarsim render share/sonarsim/configs/tank_imaging.yaml {FEW} --out out/installed",
-    "sonarsim report configs/tank_calibrated.yaml --engines slices":
+    "scripts/writing_costs.py --rounds 5": "scripts/writing_costs.py --sonarsim $PWD/build/sonarsim --rounds 1",
+    "sonarsim report configs/tank_calibrated.yaml --engines slices --quick":
         f"sonarsim report configs/tank_calibrated.yaml --engines slices {QUICK}",
-    "sonarsim report configs/tank_calibrated.yaml --engines slices --set sensors.fls.instrument.speckle.mode=ping":
+    "sonarsim report configs/tank_calibrated.yaml --engines slices --quick "
+    "--set sensors.fls.instrument.speckle.mode=ping":
         "sonarsim report configs/tank_calibrated.yaml --engines slices "
         f"--set sensors.fls.instrument.speckle.mode=ping {QUICK}",
     'make -f scripts/sweep.mk -j2 MISSION=configs/tank_imaging.yaml OUT=out/sweep '

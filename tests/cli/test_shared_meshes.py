@@ -83,7 +83,7 @@ class Shared(Composed):
         self.assertIn("left out: engine: octree does not support copies", result.stderr)
         report = json.loads((self.folder / "report.json").read_text())
         self.assertEqual(report["triangles"], 128 + 3 * 12)
-        self.assertEqual({row["engine"] for row in report["rows"]}, {"rays"})
+        self.assertEqual({row["engine"] for row in report["rows"]}, {"rays", "auto"})
         self.assertLess(report["rows"][-1]["relative_l1"], 0.02)
         self.assert_refused(self.run_sonarsim("report", "mission.yaml", *chosen, "--quiet",
                                               "--engines", "slices"),
