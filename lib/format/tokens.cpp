@@ -84,7 +84,7 @@ Tokens tokens_of(std::span<const std::uint8_t> all, std::size_t begin, std::size
         at += count;
         const auto most = static_cast<int>(std::min<std::ptrdiff_t>(longest_run, last - at));
         const int run = most > 0 ? run_at(at, back, most) : 0;
-        if (run > 0) ++out.counts[static_cast<std::size_t>(run_token + run)];
+        if (run > 0) ++out.counts[run_token + static_cast<std::size_t>(run)];
         at += run;
         out.stretches.push_back(
             {static_cast<std::uint32_t>(count), static_cast<std::uint32_t>(run)});

@@ -1,5 +1,7 @@
 #include "mission/preset.h"
 
+#include <dlfcn.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <string>
@@ -30,14 +32,32 @@ void fill_in(YamlNode& section, const YamlNode& preset) {
     }
 }
 
+/// The module of Python that holds this code; empty in a program.
+std::filesystem::path own_module() {
+    static const char here = 0;
+    Dl_info info{};
+    if (::dladdr(&here, &info) == 0 || info.dli_fname == nullptr) return {};
+    const std::filesystem::path file = info.dli_fname;
+    return file.extension() == ".so" ? std::filesystem::absolute(file) : "";
+}
+
 /// The folders with files that come with the program: share/ of an installation, or the checkout
-/// that holds the build folder.
+/// that holds the build folder. The module of Python lies three folders below a checkout, or four
+/// below the prefix of an installation.
 std::vector<std::filesystem::path> shipped_folders() {
+    std::vector<std::filesystem::path> out;
+    const auto add = [&](const std::filesystem::path& above) {
+        out.insert(out.end(), {above / "share/sonarsim/configs", above / "configs"});
+    };
+    std::filesystem::path above = own_module().parent_path();
+    for (int level = 0; !above.empty() && level < 4; ++level) {
+        above = above.parent_path();
+        add(above);
+    }
     std::error_code unknown;
     const auto program = std::filesystem::read_symlink("/proc/self/exe", unknown);
-    if (unknown) return {};
-    const std::filesystem::path above = program.parent_path().parent_path();
-    return {above / "share/sonarsim/configs", above / "configs"};
+    if (!unknown) add(program.parent_path().parent_path());
+    return out;
 }
 
 /// The path of a preset that comes with the program, "sensors/NAME.yaml". Empty if there is none.
@@ -87,6 +107,7 @@ std::vector<std::string> shipped_presets() {
         }
     }
     std::ranges::sort(names);
+    names.erase(std::unique(names.begin(), names.end()), names.end());
     return names;
 }
 

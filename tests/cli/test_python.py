@@ -125,8 +125,6 @@ class SameBytes(Package):
     def test_all_kinds_and_labels(self):
         self.write("mission.yaml", KINDS)
         self.write("path.csv", path_csv(POSES))
-        for preset in ("oculus_m1200d_2100khz_10m.yaml",):
-            self.write(f"sensors/{preset}", (ROOT / "configs/sensors" / preset).read_text())
         self.assert_renders()
         mission = self.open()
         seen = self.assert_same(mission, self.out)
