@@ -38,7 +38,8 @@ std::filesystem::path own_module() {
     Dl_info info{};
     if (::dladdr(&here, &info) == 0 || info.dli_fname == nullptr) return {};
     const std::filesystem::path file = info.dli_fname;
-    return file.extension() == ".so" ? std::filesystem::absolute(file) : "";
+    std::error_code unknown;
+    return file.extension() == ".so" ? std::filesystem::canonical(file, unknown) : "";
 }
 
 /// The folders with files that come with the program: share/ of an installation, or the checkout
@@ -65,7 +66,7 @@ std::filesystem::path shipped_preset(const std::filesystem::path& name) {
     std::error_code unknown;
     if (name.is_absolute()) return {};
     for (const std::filesystem::path& folder : shipped_folders()) {
-        const std::filesystem::path path = folder / name;
+        std::filesystem::path path = folder / name;
         if (std::filesystem::is_regular_file(path, unknown)) return path;
     }
     return {};
