@@ -17,9 +17,9 @@ namespace {
 
 constexpr float reflection = 0.5F;
 
-class Draws {
+class CornerDraws {
   public:
-    explicit Draws(unsigned seed) : random_(seed) {}
+    explicit CornerDraws(unsigned seed) : random_(seed) {}
     double number(double low, double high) {
         return low + (high - low) * (static_cast<double>(random_()) / 4294967296.0);
     }
@@ -77,7 +77,7 @@ double far_db(double area, double power, double wavelength, double range) {
 TEST_SUITE("calibrated") {
     // Faces b1 and b2 wide under the angle t: A = 2 L min(b1 sin t, b2 cos t), broadside.
     TEST_CASE("corners: dihedrals of two rectangles") {
-        Draws draws(25);
+        CornerDraws draws(25);
         for (int trial = 0; trial < 15; ++trial) {
             const Looking from = looking(kinds_before_shapes[trial % 5], draws.number(1e5, 4e5));
             const double wavelength = from.wavelength();
@@ -110,7 +110,7 @@ TEST_SUITE("calibrated") {
     // s - 2 / s if l + m > n, s = l + m + n. On the axis that is 1 / sqrt(3), a cross-section
     // of 4 pi a^4 / (3 lambda^2). Squares have sqrt(3) there.
     TEST_CASE("corners: trihedrals of three triangles and of three squares") {
-        Draws draws(26);
+        CornerDraws draws(26);
         for (int trial = 0; trial < 15; ++trial) {
             const Looking from = looking(kinds_before_shapes[trial % 5], draws.number(1e5, 4e5));
             const double wavelength = from.wavelength();

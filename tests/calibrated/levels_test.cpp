@@ -18,7 +18,7 @@ using namespace sonarsim::test;
 
 namespace {
 
-SonarConfig sonar_of(SonarKind kind) {
+SonarConfig levels_sonar(SonarKind kind) {
     SonarConfig config = calibrated(default_sonar(kind), 1e5);
     config.azimuth_deg = kind == SonarKind::sidescan ? 170.0 : 40.0;
     config.elevation_deg = kind == SonarKind::sidescan ? 1.0 : 10.0;
@@ -66,7 +66,7 @@ TEST_SUITE("calibrated") {
         for (const SonarKind kind : kinds) {
             for (const double source_db : {-300.0, -100.0, 0.0, 150.0, 300.0}) {
                 for (const double noise_db : {-300.0, -90.0, 300.0}) {
-                    SonarConfig config = sonar_of(kind);
+                    SonarConfig config = levels_sonar(kind);
                     config.instrument.source_level_db = source_db;
                     ReceiverConfig& receiver = config.instrument.receiver;
                     receiver.noise_db = noise_db;
@@ -83,7 +83,7 @@ TEST_SUITE("calibrated") {
     }
 
     TEST_CASE("levels: of an echo, how far the noise lies below it changes nothing") {
-        SonarConfig config = sonar_of(SonarKind::imaging);
+        SonarConfig config = levels_sonar(SonarKind::imaging);
         config.instrument.speckle.mode = SpeckleMode::none;
         config.instrument.source_level_db = 200.0;
         config.instrument.receiver.full_scale_db = 100.0;
@@ -97,7 +97,7 @@ TEST_SUITE("calibrated") {
     // At 10 MHz two-way absorption is more than 150 dB from 2 to 4.5 m. After the gain both
     // echoes are equally strong.
     TEST_CASE("levels: gain makes up for absorption far below what e^-43 leaves") {
-        SonarConfig config = sonar_of(SonarKind::imaging);
+        SonarConfig config = levels_sonar(SonarKind::imaging);
         config.instrument.frequency_hz = 1e7;
         config.instrument.speckle.mode = SpeckleMode::none;
         const Sonar sonar = make_sonar(config, {});
@@ -121,7 +121,7 @@ TEST_SUITE("calibrated") {
             return which == 0 ? low : which == 1 ? high : low + share * (high - low);
         };
         for (int trial = 0; trial < (test::sanitized ? 30 : 100); ++trial) {
-            SonarConfig config = sonar_of(kinds[draw() % kinds.size()]);
+            SonarConfig config = levels_sonar(kinds[draw() % kinds.size()]);
             InstrumentConfig& instrument = config.instrument;
             config.range_min_m = 0.0;
             config.range_max_m = std::pow(10.0, number(-3.0, 9.0));

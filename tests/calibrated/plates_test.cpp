@@ -43,8 +43,8 @@ Scene scene_of_plate(double turned_rad, double roughness_m = 0.0, double side = 
     return scene;
 }
 
-Sonar sonar_of(SonarKind kind, SpeckleMode mode = SpeckleMode::none,
-               double frequency = frequency_hz) {
+Sonar plate_sonar(SonarKind kind, SpeckleMode mode = SpeckleMode::none,
+                  double frequency = frequency_hz) {
     SonarConfig config = calibrated(default_sonar(kind), frequency);
     config.azimuth_deg = 20.0;
     config.elevation_deg = 20.0;
@@ -109,7 +109,7 @@ TEST_SUITE("calibrated") {
              {SonarKind::imaging, SonarKind::echosounder, SonarKind::scanning}) {
             for (const SpeckleMode mode :
                  {SpeckleMode::none, SpeckleMode::scene, SpeckleMode::ping}) {
-                const Sonar sonar = sonar_of(kind, mode);
+                const Sonar sonar = plate_sonar(kind, mode);
                 for (const double turned_deg : {0.0, 0.7, 3.2, 5.3}) {
                     CAPTURE(static_cast<int>(kind));
                     CAPTURE(static_cast<int>(mode));
@@ -123,7 +123,7 @@ TEST_SUITE("calibrated") {
     }
 
     TEST_CASE("plates: by every engine alike, and smooth as the sonar passes") {
-        const Sonar sonar = sonar_of(SonarKind::imaging);
+        const Sonar sonar = plate_sonar(SonarKind::imaging);
         const double by_rays = peak_db(image_of(sonar, scene_of_plate(0.01)));
         for (const EngineKind type : {EngineKind::slices, EngineKind::octree})
             CHECK(std::fabs(peak_db(image_of(sonar, scene_of_plate(0.01), type)) - by_rays) < 0.1);
@@ -136,7 +136,7 @@ TEST_SUITE("calibrated") {
     }
 
     TEST_CASE("plates: a wall is the image source") {
-        const Sonar sonar = sonar_of(SonarKind::echosounder);
+        const Sonar sonar = plate_sonar(SonarKind::echosounder);
         const double loss_db = 2.0 * calibrated_model_of(sonar).absorption_db_per_m * range_m;
         const double expected = 10.0 * std::log10(0.5 / (4.0 * range_m * range_m)) - loss_db;
         const double found = peak_db(image_of(sonar, scene_of_plate(0.0, 0.0, 12.0)));
@@ -145,7 +145,7 @@ TEST_SUITE("calibrated") {
 
     TEST_CASE("plates: with roughness they go over to incoherent scattering") {
         // At 2 k h = 12 nothing is coherent, and the plate is one whose material has no roughness.
-        const Sonar sonar = sonar_of(SonarKind::imaging);
+        const Sonar sonar = plate_sonar(SonarKind::imaging);
         Scene incoherent = scene_of_plate(0.0);
         incoherent.materials[0].roughness_m.reset();
         const std::vector<float> a = image_of(sonar, scene_of_plate(0.0, 7e-3));
@@ -175,7 +175,7 @@ TEST_SUITE("calibrated") {
             const SonarKind kind = kinds[trial % 5];
             const EngineKind engine = engines[random() % 4];
             const double frequency = number(1e5, 9e5);
-            const Sonar sonar = sonar_of(kind, SpeckleMode::none, frequency);
+            const Sonar sonar = plate_sonar(kind, SpeckleMode::none, frequency);
             const double wavelength = calibrated_model_of(sonar).wavelength_m;
             // A sixth of the Fresnel zone at most.
             const double side = std::sqrt(number(0.02, 0.15) * wavelength * range_m);
@@ -214,7 +214,7 @@ TEST_SUITE("calibrated") {
             const std::uint32_t other = add_material(scene, 0.5F);
             // Out of range, but a face of the same object.
             add_quad(scene, {90, -1, -1}, {90, 1, -1}, {90, 1, 1}, {90, -1, 1}, other, 3);
-            const Sonar sonar = sonar_of(kind, SpeckleMode::scene);
+            const Sonar sonar = plate_sonar(kind, SpeckleMode::scene);
             const std::vector<float> without = image_of(sonar, scene);
             scene.materials[other].roughness_m = 0.0;
             CHECK(image_of(sonar, scene) == without);
@@ -231,7 +231,7 @@ TEST_SUITE("calibrated") {
                                        static_cast<float>(across), static_cast<float>(up));
             };
             add_quad(scene, at(y, -1.0), at(1.0, -1.0), at(1.0, 1.0), at(y, 1.0), 1, 3);
-            const Sonar sonar = sonar_of(SonarKind::imaging);
+            const Sonar sonar = plate_sonar(SonarKind::imaging);
             const double left_db =
                 peak_db(image_of(sonar, scene)) - peak_db(image_of(sonar, scene_of_plate(0.0)));
             CHECK(std::fabs(left_db - 20.0 * std::log10((0.5 * side_m + edge) / side_m)) < 2.0);
@@ -241,7 +241,7 @@ TEST_SUITE("calibrated") {
     TEST_CASE("plates: what is hidden has no echo") {
         Scene scene = scene_of_plate(0.0);
         add_box(scene, {12.0F, -1.0F, -1.0F}, {12.5F, 1.0F, 1.0F}, add_material(scene, 0.5F));
-        const Sonar sonar = sonar_of(SonarKind::imaging);
+        const Sonar sonar = plate_sonar(SonarKind::imaging);
         const std::vector<float> image = image_of(sonar, scene);
         const std::size_t bin = 100 * 61 + 30;
         CHECK(db_of_power(image[bin] + 1e-30F) < plate_db(sonar, 0.0) - 40.0);

@@ -37,7 +37,7 @@ std::vector<float> image_of(const CalibratedModel& model, const Scene& scene, co
     return ping.intensity;
 }
 
-double sum_of(const std::vector<float>& image) {
+double power_of(const std::vector<float>& image) {
     return std::accumulate(image.begin(), image.end(), 0.0);
 }
 
@@ -108,8 +108,8 @@ TEST_SUITE("calibrated") {
         };
         const auto sigma = [&](double sine) { return sand(sine, 4e5, model.sound_speed_m_s); };
         const double of_plate =
-            sum_of(image_of(model, scene, fan_view,
-                            {patch({4.0F, 0.0F, 0.0F}, {-1.0F, 0.0F, 0.0F}, 0.001F)})) /
+            power_of(image_of(model, scene, fan_view,
+                              {patch({4.0F, 0.0F, 0.0F}, {-1.0F, 0.0F, 0.0F}, 0.001F)})) /
             (sigma(1.0) * 1e-6 * received(4.0));
         for (const float depth : {0.3F, 0.8F, 1.5F}) {
             const std::vector<Sample> floor = strip(depth);
@@ -118,7 +118,7 @@ TEST_SUITE("calibrated") {
                 const double range = piece.position.norm();
                 expected += sigma(depth / range) * piece.area_m2 * received(range);
             }
-            const double found = sum_of(image_of(model, scene, fan_view, floor));
+            const double found = power_of(image_of(model, scene, fan_view, floor));
             CAPTURE(depth);
             CHECK(std::fabs(db_of_power(found / (expected * of_plate))) < 0.1);
         }
@@ -153,8 +153,8 @@ TEST_SUITE("calibrated") {
                     patch({static_cast<float>(depth), y, z}, {-1.0F, 0.0F, 0.0F}, 0.03F));
         }
         const double of_plate =
-            sum_of(image_of(model, scene, view,
-                            {patch({4.0F, 0.0F, 0.0F}, {-1.0F, 0.0F, 0.0F}, 0.001F)})) /
+            power_of(image_of(model, scene, view,
+                              {patch({4.0F, 0.0F, 0.0F}, {-1.0F, 0.0F, 0.0F}, 0.001F)})) /
             (sigma(1.0) * 1e-6 * received(4.0));
         const double most = std::sqrt(depth * depth + 3.4 * 3.4);
         double expected = 0.0;
@@ -166,7 +166,7 @@ TEST_SUITE("calibrated") {
             expected +=
                 sigma(sine) * 2.0 * pi * range * step * received(range) * std::pow(pattern, 4.0);
         }
-        const double found = sum_of(image_of(model, scene, view, floor));
+        const double found = power_of(image_of(model, scene, view, floor));
         CHECK(std::fabs(db_of_power(found / (expected * of_plate))) < 0.1);
     }
 
@@ -216,8 +216,8 @@ TEST_SUITE("calibrated") {
         mirror.materials = {
             {.name = "mirror", .reflection = 1.0F, .lambert_db = -300.0, .slope_rms_deg = 5.0}};
         const std::vector<Sample> plate{patch({4.0F, 0.0F, 0.0F}, {-1.0F, 0.0F, 0.0F}, 0.01F)};
-        const double facing = sum_of(image_of(model, mirror, fan_view, plate));
+        const double facing = power_of(image_of(model, mirror, fan_view, plate));
         CHECK(facing > 0.0);
-        CHECK(sum_of(image_of(model, mirror, fan_view, strip(0.4F))) < 1e-20 * facing);
+        CHECK(power_of(image_of(model, mirror, fan_view, strip(0.4F))) < 1e-20 * facing);
     }
 }

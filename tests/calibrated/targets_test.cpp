@@ -32,7 +32,7 @@ double decibels(double ratio) {
 }
 
 /// A sonar of a kind with the beams of a usual instrument.
-Sonar sonar_of(SonarKind kind) {
+Sonar target_sonar(SonarKind kind) {
     SonarConfig config = calibrated(default_sonar(kind), 9e5);
     config.instrument = bare(config.instrument);
     config.range_min_m = 0.5;
@@ -134,7 +134,7 @@ TEST_SUITE("calibrated") {
         std::mt19937 random(11);
         std::uniform_real_distribution<double> unit(0.0, 1.0);
         for (const SonarKind kind : all_kinds) {
-            const Sonar sonar = sonar_of(kind);
+            const Sonar sonar = target_sonar(kind);
             for (int trial = 0; trial < 6; ++trial) {
                 const double radius = 0.02 * std::pow(100.0, unit(random));
                 const double range = radius + 5.0 + 9.0 * unit(random);
@@ -190,7 +190,7 @@ TEST_SUITE("calibrated") {
     }
 
     TEST_CASE("targets: a sphere along track follows the two-way pattern, without dropouts") {
-        const Sonar sonar = sonar_of(SonarKind::sidescan);
+        const Sonar sonar = target_sonar(SonarKind::sidescan);
         const Ball ball({0.0, 13.0, -7.5}, 0.1, 48);
         const Sonar ready = with_targets(sonar, ball.scene);
         for (const EngineKind type : engine_kinds) {
@@ -207,7 +207,7 @@ TEST_SUITE("calibrated") {
     }
 
     TEST_CASE("targets: small plates are in every ping, by the pattern at their place") {
-        const Sonar sonar = sonar_of(SonarKind::sidescan);
+        const Sonar sonar = target_sonar(SonarKind::sidescan);
         for (const double edge : {0.02, 0.05, 0.1}) {
             // 20 m off, turned to where the sonar is when it passes.
             const Eigen::Vector3d centre(0.0, 17.3, -10.0);
@@ -262,7 +262,7 @@ TEST_SUITE("calibrated") {
     // The highlight of a sphere of radius a has a normal distribution of RMS a s across. What a
     // wall leaves of it is the integral of that.
     TEST_CASE("targets: what a wall hides of a highlight has no echo") {
-        const Sonar sonar = sonar_of(SonarKind::imaging);
+        const Sonar sonar = target_sonar(SonarKind::imaging);
         const double radius = 0.3;
         const double range = 8.0;
         const double slope = std::tan(radians(slope_deg));
@@ -295,7 +295,7 @@ TEST_SUITE("calibrated") {
     // sqrt(1 - y^2 - z^2) dy dz seen from afar, in radii. Beyond y = t it is the integral of
     // pi / 2 (1 - y^2), a share of 1/2 - (3 t - t^3) / 4.
     TEST_CASE("targets: a wall hides the share of a rough sphere that lies behind it") {
-        const Sonar sonar = sonar_of(SonarKind::imaging);
+        const Sonar sonar = target_sonar(SonarKind::imaging);
         const double radius = 0.2;
         const double range = 10.0;
         const auto energy = [&](const Ball& ball) {
@@ -339,7 +339,7 @@ TEST_SUITE("calibrated") {
 
     TEST_CASE("targets: with speckle a small highlight is steady, and energies are right" *
               doctest::skip(test::sanitized)) {
-        Sonar sonar = sonar_of(SonarKind::imaging);
+        Sonar sonar = target_sonar(SonarKind::imaging);
         const auto with_speckle = [&](SpeckleMode mode) {
             SonarConfig config = sonar.config;
             config.instrument.speckle.mode = mode;
@@ -367,7 +367,7 @@ TEST_SUITE("calibrated") {
     }
 
     TEST_CASE("targets: bodies that move and copies of a mesh are sampled where they are") {
-        const Sonar sonar = sonar_of(SonarKind::imaging);
+        const Sonar sonar = target_sonar(SonarKind::imaging);
         const Ball still({8.0, 0.3, 0.2}, 0.15, 32);
         const double expected = energy_by(with_targets(sonar, still.scene), still.scene,
                                           *engine_of(still.scene, EngineKind::rays));
@@ -408,7 +408,7 @@ TEST_SUITE("calibrated") {
     }
 
     TEST_CASE("targets: a scene without them has the image of its engine") {
-        const Sonar sonar = sonar_of(SonarKind::imaging);
+        const Sonar sonar = target_sonar(SonarKind::imaging);
         Scene scene = empty_scene();
         add_floor(scene, 30.0F, -2.0F, add_material(scene, 0.4F), 4);
         const auto engine = engine_of(scene, EngineKind::rays);

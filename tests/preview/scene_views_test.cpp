@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr Rgb red{255, 0, 0};
+constexpr Rgb panel_red{255, 0, 0};
 constexpr Rgb green{0, 255, 0};
 constexpr Rgb blue{0, 0, 255};
 constexpr Rgb white{255, 255, 255};
@@ -62,9 +62,11 @@ TEST_SUITE("preview") {
     TEST_CASE("plan: x to the right, y up, and the same scale both ways") {
         const Assembly assembly = box_on_a_floor(8.0, 0.0);
         const Moment moment{
-            assembly, 0, {mark({-15, 0, 1}, red), mark({15, 0, 1}, green), mark({0, 15, 1}, blue)}};
+            assembly,
+            0,
+            {mark({-15, 0, 1}, panel_red), mark({15, 0, 1}, green), mark({0, 15, 1}, blue)}};
         Picture plan = draw_plan(moment, 600, 420);
-        const Vector2d west = place_of(plan, red);
+        const Vector2d west = place_of(plan, panel_red);
         const Vector2d east = place_of(plan, green);
         const Vector2d north = place_of(plan, blue);
         CHECK(east.y() == west.y());
@@ -78,9 +80,10 @@ TEST_SUITE("preview") {
     TEST_CASE("plan: a line of 18 pixels points where the bow does") {
         for (const double yaw : {0.0, 0.5 * pi}) {
             const Assembly assembly = box_on_a_floor(8.0, yaw);
-            const Moment moment{assembly, 0, {mark({-15, 0, 1}, red), mark({15, 0, 1}, green)}};
+            const Moment moment{
+                assembly, 0, {mark({-15, 0, 1}, panel_red), mark({15, 0, 1}, green)}};
             Picture plan = draw_plan(moment, 600, 420);
-            const Vector2d here = 0.5 * (place_of(plan, red) + place_of(plan, green));
+            const Vector2d here = 0.5 * (place_of(plan, panel_red) + place_of(plan, green));
             const int x = static_cast<int>(here.x());
             const int y = static_cast<int>(here.y());
             CHECK((plan.row(y)[x + 12] == white) == (yaw == 0.0));
@@ -138,9 +141,9 @@ TEST_SUITE("preview") {
             const Moment moment{
                 assembly,
                 0,
-                {mark(at(-10, 1), red), mark(at(10, 1), green), mark(at(10, 6), blue)}};
+                {mark(at(-10, 1), panel_red), mark(at(10, 1), green), mark(at(10, 6), blue)}};
             Picture section = draw_section(moment, across, 600, 420);
-            const Vector2d left = place_of(section, red);
+            const Vector2d left = place_of(section, panel_red);
             const Vector2d right = place_of(section, green);
             const Vector2d above = place_of(section, blue);
             CHECK(left.y() == right.y());

@@ -13,7 +13,7 @@ using namespace sonarsim;
 
 namespace {
 
-Sonar sonar_of(double azimuth_deg, double range_min_m, int range_bins, int beams) {
+Sonar fan_sonar(double azimuth_deg, double range_min_m, int range_bins, int beams) {
     SonarConfig config;
     config.name = "test";
     config.azimuth_deg = azimuth_deg;
@@ -68,37 +68,37 @@ double depth(const Sonar& sonar, const FanFrame& frame, std::size_t index) {
 TEST_SUITE("product") {
     TEST_CASE("fan: the frame fits the sector") {
         // 60 degrees: the chord is 2 * 10 m * sin 30 = 10 m, as wide as the sector is high.
-        const FanFrame narrow = fan_frame(sonar_of(60, 0, 512, 256), 1024);
+        const FanFrame narrow = fan_frame(fan_sonar(60, 0, 512, 256), 1024);
         CHECK(narrow.width == 1024);
         CHECK(narrow.height == 1024);
         CHECK(narrow.pixel_m == doctest::Approx(10.0 / 1024));
         // 120 degrees: 2 * 10 m * sin 60 = 17.32 m wide, 10 m high; 1000 / 1.732 = 577.4.
-        const FanFrame usual = fan_frame(sonar_of(120, 0, 512, 256), 1000);
+        const FanFrame usual = fan_frame(fan_sonar(120, 0, 512, 256), 1000);
         CHECK(usual.height == 578);
         // 240 degrees: 20 m wide; 10 m ahead and 10 m * cos 60 = 5 m behind.
-        const FanFrame wide = fan_frame(sonar_of(240, 0, 512, 256), 1000);
+        const FanFrame wide = fan_frame(fan_sonar(240, 0, 512, 256), 1000);
         CHECK(wide.height == 750);
-        const FanFrame circle = fan_frame(sonar_of(360, 0, 512, 256), 1000);
+        const FanFrame circle = fan_frame(fan_sonar(360, 0, 512, 256), 1000);
         CHECK(circle.height == 1000);
         // Two degrees: never higher than twice the width, however slim the sector.
-        const FanFrame slim = fan_frame(sonar_of(2, 0, 512, 8), 100);
+        const FanFrame slim = fan_frame(fan_sonar(2, 0, 512, 8), 100);
         CHECK(slim.width == 100);
         CHECK(slim.height == 200);
     }
 
     TEST_CASE("fan: by default a pixel is a range bin, and no image is wider than 1024") {
-        const FanFrame tank = fan_frame(sonar_of(60, 0, 512, 256), 0);
+        const FanFrame tank = fan_frame(fan_sonar(60, 0, 512, 256), 0);
         CHECK(tank.width == 512);
         CHECK(tank.height == 512);
-        const FanFrame slim = fan_frame(sonar_of(2, 0, 512, 8), 0);
+        const FanFrame slim = fan_frame(fan_sonar(2, 0, 512, 8), 0);
         CHECK(slim.width == 256);
         CHECK(slim.height == 512);
-        CHECK(fan_frame(sonar_of(120, 0, 4096, 8), 0).width == 1024);
+        CHECK(fan_frame(fan_sonar(120, 0, 4096, 8), 0).width == 1024);
     }
 
     TEST_CASE("fan: a bright bin lies where an operator expects it, port on the left") {
         for (const double azimuth_deg : {40.0, 120.0, 250.0, 360.0}) {
-            const Sonar sonar = sonar_of(azimuth_deg, 0.5, 100, 60);
+            const Sonar sonar = fan_sonar(azimuth_deg, 0.5, 100, 60);
             const FanMap map = make_fan_map(sonar, 700);
             for (const int range_bin : {5, 50, 99}) {
                 for (const int beam : {0, 17, 30, 59}) {
@@ -141,7 +141,7 @@ TEST_SUITE("product") {
             }
         }
         // Said once without formulas: the last beam is port, and port is on the left.
-        const Sonar sonar = sonar_of(120, 0, 10, 2);
+        const Sonar sonar = fan_sonar(120, 0, 10, 2);
         Ping ping = uniform_ping(sonar, 0.0F);
         for (int i = 0; i < ping.range_bins; ++i)
             ping.intensity[2 * i + 1] = 1.0F;
@@ -156,7 +156,7 @@ TEST_SUITE("product") {
         // 255 sqrt(0.25) = 127.5, which rounds to 128. Bins larger and smaller than a pixel.
         for (const double azimuth_deg : {1.0, 60.0, 120.0, 180.0, 250.0, 359.0, 360.0}) {
             for (const int width : {97, 700}) {
-                const Sonar sonar = sonar_of(azimuth_deg, 0.7, 512, 300);
+                const Sonar sonar = fan_sonar(azimuth_deg, 0.7, 512, 300);
                 const FanMap map = make_fan_map(sonar, width);
                 const auto image = render_fan(map, uniform_ping(sonar, 0.25F), 1.0);
                 REQUIRE(image.size() ==
@@ -183,7 +183,7 @@ TEST_SUITE("product") {
     }
 
     TEST_CASE("fan: edges are anti-aliased") {
-        const Sonar sonar = sonar_of(120, 0, 64, 64);
+        const Sonar sonar = fan_sonar(120, 0, 64, 64);
         const FanMap map = make_fan_map(sonar, 400);
         const auto image = render_fan(map, uniform_ping(sonar, 1.0F), 1.0);
         // Along the arc, coverage is the depth of the pixel's centre plus a half, to within the
@@ -207,7 +207,7 @@ TEST_SUITE("product") {
         // pixel of independent bins: the statistical error is far below 0.5 %.
         std::mt19937 random(7);
         for (const int width : {200, 900}) {
-            const Sonar sonar = sonar_of(120, 0.1, 256, 256);
+            const Sonar sonar = fan_sonar(120, 0.1, 256, 256);
             Ping ping = uniform_ping(sonar, 0.0F);
             for (float& value : ping.intensity)
                 value = static_cast<float>(random() >> 8) * 0x1p-24F;
@@ -235,7 +235,7 @@ TEST_SUITE("product") {
         constexpr int pings = 1000;
         std::mt19937 random(11);
         for (const int width : {0, 70, 130}) {  // a pixel per range bin; larger; smaller
-            const Sonar sonar = sonar_of(60, 0.5, 96, 48);
+            const Sonar sonar = fan_sonar(60, 0.5, 96, 48);
             const FanMap map = make_fan_map(sonar, width);
             const std::size_t pixels = static_cast<std::size_t>(map.frame.width) * map.frame.height;
             std::vector<double> sum(pixels);
@@ -270,7 +270,7 @@ TEST_SUITE("product") {
     TEST_CASE("fan: bins much smaller than a pixel are averaged, not picked") {
         // Every other beam is lit; 20 to 60 px from the apex, 3 to 10 beams share a pixel. Picking
         // would give black and white, averaging gives half.
-        const Sonar sonar = sonar_of(120, 0, 512, 512);
+        const Sonar sonar = fan_sonar(120, 0, 512, 512);
         Ping ping = uniform_ping(sonar, 0.0F);
         for (std::size_t i = 0; i < ping.intensity.size(); i += 2)
             ping.intensity[i] = 1.0F;
@@ -284,7 +284,7 @@ TEST_SUITE("product") {
     }
 
     TEST_CASE("fan: full scale is white, more is white, nothing is black") {
-        const Sonar sonar = sonar_of(90, 0, 16, 16);
+        const Sonar sonar = fan_sonar(90, 0, 16, 16);
         const FanMap map = make_fan_map(sonar, 64);
         const std::size_t centre = static_cast<std::size_t>(map.frame.height / 2) * 64 + 32;
         const auto grey = [&](float intensity, double full_scale) {

@@ -6,7 +6,7 @@ using namespace sonarsim;
 
 namespace {
 
-Scene scene_of(std::vector<std::string> names) {
+Scene named_objects(std::vector<std::string> names) {
     Scene scene;
     scene.instances = std::move(names);
     return scene;
@@ -37,7 +37,7 @@ TEST_CASE("objects: patterns") {
 }
 
 TEST_CASE("objects: nodes by themselves, classes of the file, groups of the mission") {
-    Scene scene = scene_of({"floor", "ship_hull", "rock", "ship_mast"});
+    Scene scene = named_objects({"floor", "ship_hull", "rock", "ship_mast"});
     scene.instance_classes = {"", "", "stone", ""};
     SceneObjects objects = group_objects(scene, {});
     CHECK(objects.objects.size() == 4);
@@ -53,7 +53,7 @@ TEST_CASE("objects: nodes by themselves, classes of the file, groups of the miss
 }
 
 TEST_CASE("objects: rules that cannot be meant") {
-    const Scene scene = scene_of({"floor", "ship_hull", "ship_mast"});
+    const Scene scene = named_objects({"floor", "ship_hull", "ship_mast"});
     const Location place{"m.yaml", 7, 3};
     CHECK(refusal_of_rules(scene, {{"boat*", "boat", "", place}})
               .starts_with("m.yaml:7:3: no node of the scene fits 'boat*'"));

@@ -43,7 +43,7 @@ double centre(const Sonar& sonar, int i) {
     return 0.5 * (sonar.range_edges_m[i] + sonar.range_edges_m[i + 1]);
 }
 
-int bin_of(const Sonar& sonar, double range) {
+int sidescan_bin(const Sonar& sonar, double range) {
     return static_cast<int>((range - sonar.settings.view.range_min_m) /
                             sonar.settings.view.bin_m());
 }
@@ -60,7 +60,7 @@ TEST_CASE(
     const Sonar sonar = make_sonar(sidescan(), {});
     const Ping ping = look(scene, sonar);
     REQUIRE(ping.beams == 2);
-    const int first = bin_of(sonar, H);
+    const int first = sidescan_bin(sonar, H);
     for (int side = 0; side < 2; ++side) {
         for (int i = 0; i < first; ++i)
             CHECK(ping.at(i, side) == 0.0F);
@@ -86,7 +86,7 @@ TEST_CASE("sidescan: a box casts a shadow of length r h / (H - h) on its far sid
     const Ping ping = look(scene, sonar);
     const double r = std::sqrt(y * y + (H - h) * (H - h));
     const double length = r * h / (H - h);
-    int first = bin_of(sonar, r) + 1;
+    int first = sidescan_bin(sonar, r) + 1;
     while (ping.at(first, 1) > 0.0F)
         ++first;
     int last = first;
@@ -95,8 +95,8 @@ TEST_CASE("sidescan: a box casts a shadow of length r h / (H - h) on its far sid
     CHECK(std::fabs(sonar.range_edges_m[first] - r) <= 2.0 * sonar.settings.view.bin_m());
     CHECK(std::fabs(sonar.range_edges_m[last] - (r + length)) <= 2.0 * sonar.settings.view.bin_m());
     // Before the box, and on the other side, the bottom is lit.
-    CHECK(ping.at(bin_of(sonar, 6.5), 1) > 0.0F);
-    for (int i = bin_of(sonar, H) + 1; i < ping.range_bins; ++i)
+    CHECK(ping.at(sidescan_bin(sonar, 6.5), 1) > 0.0F);
+    for (int i = sidescan_bin(sonar, H) + 1; i < ping.range_bins; ++i)
         CHECK(ping.at(i, 0) > 0.0F);
 }
 

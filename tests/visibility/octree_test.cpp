@@ -44,7 +44,7 @@ double scene_area(const Scene& scene) {
     return sum;
 }
 
-bool same(const Samples& a, const Samples& b) {
+bool same_samples(const Samples& a, const Samples& b) {
     return a.beam_begin == b.beam_begin && a.items.size() == b.items.size() &&
            std::equal(a.items.begin(), a.items.end(), b.items.begin(),
                       [](const Sample& x, const Sample& y) {
@@ -201,12 +201,12 @@ TEST_CASE("octree: a ping that is ready changes nothing, and shows the same as a
             // Other pings may drop its tiles from the tree meanwhile.
             for (int k = 0; k < 4; ++k)
                 octree->visible_surface(tank_view(), tank_pose(k));
-            CHECK(same(ready->visible_surface(sight.view, sight.T_world_sensor), found));
+            CHECK(same_samples(ready->visible_surface(sight.view, sight.T_world_sensor), found));
             const auto other = make_octree_engine(scene, {0.02, 512, literal});
-            CHECK(same(other->visible_surface(sight.view, sight.T_world_sensor), found));
+            CHECK(same_samples(other->visible_surface(sight.view, sight.T_world_sensor), found));
             // Another ping is prepared when it is asked for.
-            CHECK(same(ready->visible_surface(tank_view(), tank_pose(3)),
-                       other->visible_surface(tank_view(), tank_pose(3))));
+            CHECK(same_samples(ready->visible_surface(tank_view(), tank_pose(3)),
+                               other->visible_surface(tank_view(), tank_pose(3))));
         }
     }
 }
@@ -231,7 +231,7 @@ TEST_CASE("octree: the same bytes for any number of threads and any order") {
         for (std::thread& thread : threads)
             thread.join();
         for (int k = 0; k < pings; ++k)
-            CHECK(same(expected[k], found[k]));
+            CHECK(same_samples(expected[k], found[k]));
     }
 }
 
@@ -242,7 +242,7 @@ TEST_CASE("octree: eviction bounds the memory and changes no sample") {
     for (int k = 0; k < 8; ++k) {
         const Samples expected = roomy->visible_surface(tank_view(), tank_pose(k % 4));
         const Samples found = tight->visible_surface(tank_view(), tank_pose(k % 4));
-        CHECK(same(expected, found));
+        CHECK(same_samples(expected, found));
         CHECK(tight->statistics().bytes <= 2U << 20U);
     }
     CHECK(roomy->statistics().evictions == 0);
