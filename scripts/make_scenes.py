@@ -12,6 +12,8 @@ minefield a rippled sandy bottom with rocks, 40 x 40 m, and besides it the objec
           may place on it: cylinder_mine, cone_mine, tyre, drum, block, rock
 anchor    an anchor as an OBJ in millimetres with z up
 bathymetry  a survey's map of 55 x 50 m of sand as a GeoTIFF in UTM coordinates
+sediments a map of what that ground is made of as a PNG, and backscatter, a map of decibels as a
+          GeoTIFF
 
     ./scripts/make_scenes.py --for mission.yaml [options of sonarsim]
 
@@ -24,7 +26,7 @@ import pathlib
 import subprocess
 import sys
 
-from scenes import anchor, bathymetry, close_bottom, lifeboat, minefield, seafloor, tank, wreck
+from scenes import anchor, bathymetry, close_bottom, lifeboat, minefield, seafloor, sediments, tank, wreck
 from scenes.glb import write_glb
 from scenes.named import files_named
 from scenes.obj import write_obj
@@ -45,19 +47,26 @@ def builders(cells: int, area: float, quarterings: int) -> dict:
         "minefield": {"minefield": minefield.bottom, **minefield.OBJECTS},
         "anchor": {"anchor": anchor.build},
         "bathymetry": {"bathymetry": bathymetry.build},
+        "sediments": {"sediments": sediments.colours, "backscatter": sediments.decibels},
     }
 
 
 def file_name(name: str) -> str:
-    return name + {"anchor": ".obj", "bathymetry": ".tif"}.get(name, ".glb")
+    suffixes = {"anchor": ".obj", "bathymetry": ".tif", "sediments": ".png", "backscatter": ".tif"}
+    return name + suffixes.get(name, ".glb")
 
 
 def write(path: pathlib.Path, build) -> None:
     path.parent.mkdir(parents=True, exist_ok=True)
     parts = build()
-    if path.suffix == ".tif":
-        size = bathymetry.write_geotiff(path, parts)
-        print(f"{path}: {len(parts[0])} x {len(parts)} heights, {size} bytes", flush=True)
+    if path.suffix in (".tif", ".png"):
+        if path.suffix == ".png":
+            size = sediments.write_png(path, parts)
+        elif path.stem == "backscatter":
+            size = bathymetry.write_geotiff(path, parts, sediments.MOSAIC_PIXEL_M)
+        else:
+            size = bathymetry.write_geotiff(path, parts)
+        print(f"{path}: {len(parts[0])} x {len(parts)} pixels, {size} bytes", flush=True)
         return
     size = (write_obj if path.suffix == ".obj" else write_glb)(path, parts)
     triangles = sum(part.triangles() for part in parts)

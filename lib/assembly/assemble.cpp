@@ -6,6 +6,7 @@
 
 #include "assembly/background.h"
 #include "assembly/brightness.h"
+#include "assembly/ground_maps.h"
 #include "assembly/heightmap_part.h"
 #include "assembly/placed_files.h"
 #include "assembly/poses.h"
@@ -18,6 +19,7 @@
 #include "mission/files.h"
 #include "scene/gltf/load.h"
 #include "scene/gltf/scene_files.h"
+#include "scene/maps/ground_maps.h"
 #include "sonar/engine_settings.h"
 #include "trajectory/files.h"
 
@@ -173,6 +175,8 @@ Assembly assemble(const Mission& mission, SceneFiles& models) {
     assembly.scene = load_scene(parts.files, models, materials, mission.scene.material_default,
                                 {mission.water.density_kg_m3, mission.water.sound_speed_m_s},
                                 share_beyond(mission.scene.repeats, settings.type));
+    lay_ground_maps(mission.scene, materials,
+                    {mission.water.density_kg_m3, mission.water.sound_speed_m_s}, assembly.scene);
     for (std::string& question : parts.questions)
         assembly.scene.warnings.push_back(std::move(question));
     assembly.motions = std::move(parts.motions);
@@ -243,6 +247,7 @@ std::string inputs_hash(const Assembly& assembly) {
         for (const double x : copy.T_world_mesh.matrix().topRows<3>().reshaped())
             text += " " + number_text(x);
     }
+    if (scene.maps) text += scene.maps->identity();
     for (const Trajectory& motion : assembly.motions)
         text += "\n" + write_tum(motion);
     return fnv1a_128(text + "\n" + write_tum(assembly.trajectory));

@@ -54,7 +54,7 @@ struct Surfaces {
             u.set(k, sample.edge_u);
             v.set(k, sample.edge_v);
             height[k] = sample.height_m;
-            area[k] = sample.area_m2;
+            area[k] = sample.area_m2 * sample.strength;
         }
         for (int k = 0; k < count; ++k) {
             range[k] = piece_range(place.x[k], place.y[k], place.z[k]);

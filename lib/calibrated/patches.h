@@ -20,8 +20,8 @@ struct PatchBlock {
 
     int count = 0;
     Array<float> x{}, y{}, z{};  ///< m, sensor frame
-    Array<float> area_m2{};
-    Array<float> height_m{};  ///< the sonar's height above the piece's plane
+    Array<float> area_m2{};      ///< times the strength of the sample, since energies add
+    Array<float> height_m{};     ///< the sonar's height above the piece's plane
     Array<std::uint32_t> material{};
     Array<std::uint32_t> sample{};  ///< index into the samples that are cut, if they are
 };
@@ -68,7 +68,7 @@ void subdivide(std::span<const Sample> samples, const PointLimits& limits, Patch
         const int columns = std::max(by_u, by_v);
         const Eigen::Vector3f& across = by_u > by_v ? sample.edge_v : sample.edge_u;
         const Eigen::Vector3f& along = by_u > by_v ? sample.edge_u : sample.edge_v;
-        const float area = sample.area_m2 / static_cast<float>(rows * columns);
+        const float area = sample.area_m2 * sample.strength / static_cast<float>(rows * columns);
         const Eigen::Vector3f step_u = 2.0F / static_cast<float>(rows) * across;
         const Eigen::Vector3f step_v = 2.0F / static_cast<float>(columns) * along;
         for (int i = 0; i < rows; ++i) {

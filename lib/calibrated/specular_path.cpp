@@ -57,7 +57,7 @@ std::vector<SpecularPath> specular_paths(const TracedPing& traced, const Scene& 
         paths.push_back(specular_path(path, sample, path.by_water_surface ? &*water : nullptr));
         paths.back().sample = path.sample;
         paths.back().reflection =
-            scene.materials[sample.material].reflection * path.water_reflection;
+            scene.materials[sample.material].reflection * path.water_reflection * path.strength;
     }
     return paths;
 }

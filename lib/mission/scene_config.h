@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "mission/ground_map_config.h"
 #include "mission/place.h"
 #include "mission/trajectory_config.h"
 
@@ -14,9 +15,6 @@ namespace sonarsim {
 
 enum class LengthUnit { m, mm, cm, km, inch, foot };
 enum class UpAxis { y, z };
-
-/// Pairs of a name and its replacement, in the order of the file.
-using Renaming = std::vector<std::pair<std::string, std::string>>;
 
 /// Options for reading a glTF file.
 struct MeshConfig {
@@ -108,6 +106,8 @@ struct SceneConfig {
     MeshConfig mesh = {};                  ///< options for `file`
     std::vector<std::string> bottom = {};  ///< patterns of the nodes of `file` that objects rest on
     std::optional<HeightmapConfig> heightmap = {};
+    std::optional<SedimentMapConfig> sediment_map = {};
+    std::optional<BackscatterMapConfig> backscatter_map = {};
     std::vector<ObjectConfig> objects = {};
     std::vector<ScatterConfig> scatter = {};
     RepeatedFiles repeats = RepeatedFiles::automatic;

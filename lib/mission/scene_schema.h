@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "mission/ground_map_schema.h"
 #include "mission/limits.h"
 #include "mission/scene_config.h"
 
@@ -157,6 +158,10 @@ void describe(Visitor& v, SceneConfig& c) {
             "nodes of `file` that objects rest on; default: the heightmap, else all nodes of "
             "`file`, else the first object");
     v.optional_section("heightmap", c.heightmap, "an image of heights, which is the bottom");
+    v.optional_section("sediment_map", c.sediment_map,
+                       "an image whose pixels say what the ground is made of");
+    v.optional_section("backscatter_map", c.backscatter_map,
+                       "an image of decibels that are added to the strength of the ground");
     v.list("objects", c.objects, 0, "files that are placed in the scene one by one");
     v.list("scatter", c.scatter, 0, "files that are placed on the bottom at random");
     v.choice("repeats", c.repeats, repeated_files,

@@ -32,7 +32,7 @@ void load(std::span<const Sample> samples, std::span<const Material> materials, 
         }
         f.height_m[k] = sample.height_m;
         f.area_m2[k] = sample.area_m2;
-        f.reflection[k] = materials[sample.material].reflection;
+        f.reflection[k] = materials[sample.material].reflection * sample.strength;
     }
 }
 

@@ -15,7 +15,7 @@ namespace {
 /// Area times intensity of a sample, the numerator of Eq. 9.
 double echo_of(const Sample& sample, const Material& material) {
     const double range_m = arrival_range(sample.position);
-    const double reflection = material.reflection;
+    const double reflection = material.reflection * sample.strength;
     return sample.area_m2 * reflection * std::min(sample.height_m / range_m, 1.0);
 }
 

@@ -3,11 +3,14 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace sonarsim {
+
+class GroundMaps;  // scene/maps/ground_maps.h
 
 struct Water {
     double density_kg_m3 = 997.0;
@@ -89,7 +92,7 @@ struct Scene {
     std::vector<Body> bodies;  ///< movable parts; their triangles are not in `triangles`
     std::vector<SharedMesh> shared_meshes;      ///< meshes of the copies
     std::vector<MeshCopy> copies;               ///< their triangles are not in `triangles` either
-    std::vector<Material> materials;            ///< only those that the scene uses
+    std::vector<Material> materials;            ///< used by its surfaces and maps
     std::vector<std::string> instances;         ///< node names
     std::vector<std::string> instance_classes;  ///< extras.sonar.class of each instance; "": none
     Eigen::Vector3d bounds_min = Eigen::Vector3d::Zero();  ///< world frame
@@ -99,6 +102,7 @@ struct Scene {
     /// translation loses nothing.
     double vertex_rounding_m = 0.0;
     std::optional<WaterSurface> water_surface;
+    std::shared_ptr<const GroundMaps> maps;  ///< maps laid on instances; null: none
     SceneRejects rejects;
     std::vector<std::string> warnings;  ///< sentences for the user
 };

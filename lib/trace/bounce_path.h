@@ -22,7 +22,8 @@ struct BouncePath {
         Eigen::Vector3f::Zero();  ///< p_h, where the ray met the second surface, sensor frame, m
     Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< n_h of the second surface
     std::uint32_t material =
-        no_material;  ///< index into Scene::materials; no_material: the water's surface
+        no_material;        ///< index into Scene::materials; no_material: the water's surface
+    float strength = 1.0F;  ///< strength of the second surface, as in Sample
     float water_reflection = 1.0F;  ///< R of the water's surface where it mirrors the sound, else 1
     bool by_water_surface = false;
     /// The second surface mirrors the sound away from the sonar. A rough surface scatters some of

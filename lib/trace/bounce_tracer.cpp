@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "trace/arrivals.h"
+#include "trace/lay_maps.h"
 
 namespace sonarsim {
 
@@ -23,6 +24,18 @@ Ray mirrored_ray(const Sample& sample, float bin_m) {
 /// hit, to within rounding.
 bool hit_its_start(const Ray& ray, const Intersection& hit) {
     return std::fabs(hit.distance_m * hit.normal.dot(ray.direction)) <= hit.rounding_m;
+}
+
+/// Sets what a hit of the scene says of its surface. `point` is where it lies, not its image.
+void set_surface(const BounceTracer& context, const Intersection& hit, const Eigen::Vector3f& point,
+                 BounceHit& out) {
+    MappedPoint surface{hit.material, 1.0F};
+    if (context.maps && context.maps->lie_on(hit.instance))
+        surface =
+            mapped_point(*context.maps, context.T_world_sensor, point, hit.instance, hit.material);
+    out.material = surface.material;
+    out.strength = surface.strength;
+    out.reflection = context.materials[surface.material].reflection * surface.strength;
 }
 
 /// Follows those of the rays that meet the water's surface before anything else (`hits`), and
@@ -47,14 +60,15 @@ void trace_surface_reflection(const BounceTracer& context, std::span<const Ray> 
     for (std::size_t k = 0; k < behind.size(); ++k) {
         if (!std::isfinite(behind[k].distance_m)) continue;
         const Ray& ray = mirrored_rays[k];
-        second_hits[second_of[k]] = {
-            .point = mirror.reflect_point(ray.origin + behind[k].distance_m * ray.direction),
-            .normal = mirror.reflect_direction(behind[k].normal),
-            .rounding_m = behind[k].rounding_m,
-            .reflection = mirror.reflection * context.materials[behind[k].material].reflection,
-            .material = behind[k].material,
-            .water_reflection = mirror.reflection,
-            .exists = true};
+        const Eigen::Vector3f point = ray.origin + behind[k].distance_m * ray.direction;
+        BounceHit& second = second_hits[second_of[k]];
+        second = {.point = mirror.reflect_point(point),
+                  .normal = mirror.reflect_direction(behind[k].normal),
+                  .rounding_m = behind[k].rounding_m,
+                  .water_reflection = mirror.reflection,
+                  .exists = true};
+        set_surface(context, behind[k], point, second);
+        second.reflection *= mirror.reflection;
     }
 }
 
@@ -93,9 +107,8 @@ void trace_bounces(const BounceTracer& context, std::span<const std::uint32_t> s
             second = {.point = rays[k].origin + hits[k].distance_m * rays[k].direction,
                       .normal = hits[k].normal,
                       .rounding_m = hits[k].rounding_m,
-                      .reflection = context.materials[hits[k].material].reflection,
-                      .material = hits[k].material,
                       .exists = true};
+            set_surface(context, hits[k], second.point, second);
         }
         second_hits.push_back(second);
     }

@@ -19,7 +19,8 @@ struct BounceHit {
     Eigen::Vector3f point;    ///< p_h, sensor frame, m
     Eigen::Vector3f normal;   ///< n_h
     float rounding_m = 0.0F;  ///< as in Intersection
-    float reflection = 0.0F;  ///< R_h
+    float reflection = 0.0F;  ///< R_h times `strength`
+    float strength = 1.0F;    ///< as in Sample
     std::uint32_t material =
         no_material;                ///< index into Scene::materials; none: the water's surface
     float water_reflection = 1.0F;  ///< R of the water's surface where it mirrors the sound, else 1
@@ -37,6 +38,7 @@ struct BounceTracer {
     const View& view;
     const Samples& samples;
     std::span<const Material> materials;
+    const GroundMaps* maps;  ///< null: none
     const VisibilityEngine& engine;
     const Pose& T_world_sensor;
     float bin_m;

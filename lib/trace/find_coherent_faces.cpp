@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/groups.h"
+#include "scene/maps/ground_maps.h"
 #include "trace/corners.h"
 #include "trace/strips.h"
 
@@ -71,6 +72,7 @@ class Placement {
 void add_copied_faces(const Scene& scene, const std::vector<char>& coherent, CoherentFaces& out) {
     std::map<std::uint32_t, CoherentFaces> of_mesh;
     for (const MeshCopy& copy : scene.copies) {
+        if (scene.maps && scene.maps->lie_on(copy.instance)) continue;
         const auto [place, is_new] = of_mesh.try_emplace(copy.mesh);
         if (is_new) {
             const SharedMesh& mesh = scene.shared_meshes[copy.mesh];
@@ -104,6 +106,7 @@ std::shared_ptr<const CoherentFaces> find_coherent_faces(const Scene& scene) {
     auto out = std::make_shared<CoherentFaces>();
     const Groups groups = sort_into_groups(scene.triangle_instance, scene.instances.size());
     for (std::uint32_t instance = 0; instance < scene.instances.size(); ++instance) {
+        if (scene.maps && scene.maps->lie_on(instance)) continue;
         FaceMesh triangles;
         for (std::uint32_t k = groups.begin[instance]; k < groups.begin[instance + 1]; ++k) {
             const std::uint32_t t = groups.items[k];

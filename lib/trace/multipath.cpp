@@ -109,10 +109,11 @@ bool follow(const BounceTracer& context, std::uint32_t sample, std::uint32_t ray
     b.point = second.point;
     b.normal = second.normal;
     b.material = second.material;
+    b.strength = second.strength;
     b.water_reflection = second.water_reflection;
     b.by_water_surface = context.is_mirrored();
     if (outcome == &MultipathCounts::bounces) {
-        b.intensity *= context.materials[source.material].reflection;
+        b.intensity *= context.materials[source.material].reflection * source.strength;
         followed.bounces.push_back(b);
     } else if (outcome == &MultipathCounts::turned_away && context.scattered) {
         b.scattered = true;
@@ -224,6 +225,7 @@ std::vector<BouncePath> find_bounces(const Multipath& multipath, const TraceCont
     BounceTracer context{.view = trace.view,
                          .samples = samples,
                          .materials = trace.scene.materials,
+                         .maps = trace.scene.maps.get(),
                          .engine = trace.engine,
                          .T_world_sensor = trace.T_world_sensor,
                          .bin_m = static_cast<float>(trace.view.bin_m()),

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/groups.h"
+#include "scene/maps/ground_maps.h"
 #include "scene/materials.h"
 
 namespace sonarsim {
@@ -38,6 +39,7 @@ void add_instances(const Scene& scene, TargetShapes& out) {
             groups.items.data() + groups.begin[instance],
             groups.items.data() + groups.begin[instance + 1]);
         if (triangles.size() > most_target_triangles) continue;
+        if (scene.maps && scene.maps->lie_on(instance)) continue;
         TargetMesh mesh{.vertices = scene.vertices, .triangles = {}, .materials = {}};
         for (const std::uint32_t t : triangles) {
             mesh.triangles.push_back(scene.triangles[t]);
@@ -60,6 +62,7 @@ void add_bodies(const Scene& scene, TargetShapes& out) {
 void add_copies(const Scene& scene, TargetShapes& out) {
     std::map<std::uint32_t, std::optional<std::uint32_t>> shape_of_mesh;
     for (const MeshCopy& copy : scene.copies) {
+        if (scene.maps && scene.maps->lie_on(copy.instance)) continue;
         const auto [place, is_new] = shape_of_mesh.try_emplace(copy.mesh);
         const auto scale = static_cast<float>(copy.T_world_mesh.linear().col(0).norm());
         if (is_new) {

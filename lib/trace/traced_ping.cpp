@@ -4,6 +4,7 @@
 
 #include "core/clock.h"
 #include "trace/find_coherent_surface.h"
+#include "trace/lay_maps.h"
 
 namespace sonarsim {
 
@@ -21,6 +22,9 @@ TracedPing trace_ping(const TraceSettings& settings, const Scene& scene,
     traced.outside_sector = std::move(surface.outside_sector);
     traced.counts.samples = traced.samples.items.size() + traced.outside_sector.size();
     traced.counts.dropped_samples = traced.samples.dropped;
+    if (scene.maps) {
+        lay_maps(*scene.maps, settings.view, T_world_sensor, traced.samples, traced.outside_sector);
+    }
     if (settings.targets) {
         traced.targets = target_surface(*settings.targets, settings.view, settings.guard_beams,
                                         scene, engine, T_world_sensor);

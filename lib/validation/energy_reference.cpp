@@ -43,7 +43,8 @@ class EnergyImage {
                 const TargetSurface& targets)
         : scene_(scene),
           settings_(settings),
-          R_sensor_local_(local_pose(T_world_sensor, scene.origin).rotation.transpose()),
+          pose_(local_pose(T_world_sensor, scene.origin)),
+          R_sensor_local_(pose_.rotation.transpose()),
           sum_(static_cast<std::size_t>(settings.view.range_bins) * settings.view.beams) {
         traced_.T_world_sensor = T_world_sensor;
         traced_.targets = targets;
@@ -62,7 +63,9 @@ class EnergyImage {
         sample.normal = side * (R_sensor_local_ * point.facet.normal);
         sample.height_m = static_cast<float>(point.range_m * point.cosine);
         sample.area_m2 = static_cast<float>(point.area_m2);
-        sample.material = point.facet.material;
+        const MappedPoint surface = surface_at(point, scene_, pose_);
+        sample.material = surface.material;
+        sample.strength = surface.strength;
         sample.instance = point.facet.instance;
         ++hits_;
         if (traced_.samples.items.size() == at_once) form();
@@ -95,6 +98,7 @@ class EnergyImage {
 
     const Scene& scene_;
     const PingSettings& settings_;
+    LocalPose pose_;
     Eigen::Matrix3f R_sensor_local_;
     TracedPing traced_;
     std::vector<double> sum_;

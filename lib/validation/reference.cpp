@@ -27,9 +27,10 @@ SurfaceSums sums_over_surface(const ReferenceView& looking, const RayLayout& lay
         const double bin = std::floor((point.range_m - view.range_min_m) / view.bin_m());
         if (!(bin >= 0.0 && bin < view.range_bins)) return;
         const std::size_t k = static_cast<std::size_t>(bin) * view.beams + point.beam;
+        const MappedPoint surface = surface_at(point, looking.scene, looking.pose);
         sums.area[k] += point.area_m2;
-        sums.echo[k] +=
-            point.area_m2 * point.cosine * looking.scene.materials[point.facet.material].reflection;
+        sums.echo[k] += point.area_m2 * point.cosine *
+                        looking.scene.materials[surface.material].reflection * surface.strength;
         ++sums.hits;
     });
     return sums;

@@ -190,6 +190,14 @@ std::vector<std::uint32_t> counts_of(std::span<const SurfaceShare> shares, doubl
 
 }  // namespace
 
+MappedPoint surface_at(const SurfacePoint& point, const Scene& scene, const LocalPose& pose) {
+    const Facet& facet = point.facet;
+    if (!scene.maps || !scene.maps->lie_on(facet.instance)) return {facet.material, 1.0F};
+    const Eigen::Vector3d local =
+        pose.position.cast<double>() + point.range_m * point.direction.cast<double>();
+    return scene.maps->at(facet.instance, facet.material, (scene.origin + local).head<2>());
+}
+
 std::uint64_t cast_over_surface(const ReferenceView& looking, const RayLayout& layout,
                                 const PointSink& found) {
     constexpr std::size_t together = 4096;

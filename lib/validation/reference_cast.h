@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "scene/maps/ground_maps.h"
 #include "scene/scene.h"
 #include "validation/surface_points.h"
 #include "visibility/caster.h"
@@ -38,6 +39,9 @@ struct SurfacePoint {
     int beam;
     Facet facet;
 };
+
+/// The material of a point and, where a map lies on it, what that says of it.
+MappedPoint surface_at(const SurfacePoint& point, const Scene& scene, const LocalPose& pose);
 
 using PointSink = std::function<void(const SurfacePoint&)>;
 

@@ -24,6 +24,9 @@ struct Sample {
     float area_m2;
     std::uint32_t material;  ///< index into Scene::materials
     std::uint32_t instance;  ///< index into Scene::instances
+    /// Factor on the power that the material sends back, from a map of the scene
+    /// (trace/lay_maps.h).
+    float strength = 1.0F;
 };
 
 /// The insonified surface of a ping, sorted by beam. A footprint extends into a neighbouring beam

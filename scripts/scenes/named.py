@@ -20,7 +20,7 @@ def values_in(text: str) -> list[str]:
 
 
 def files_named(mission: pathlib.Path, options: list[str]) -> list[pathlib.Path]:
-    """Absolute paths of the .glb, .obj and .tif files in a mission and in options of sonarsim, as in
+    """Absolute paths of the .glb, .obj, .tif and .png files in a mission and in options of sonarsim, as in
     `--set scene.file=a.glb`, in their order. They start at the folder of the mission, or where
     `--paths-from` says. OSError where the mission cannot be read."""
     options = [part for option in options
@@ -30,5 +30,5 @@ def files_named(mission: pathlib.Path, options: list[str]) -> list[pathlib.Path]
         base = pathlib.Path(options[options.index("--paths-from") + 1]).resolve()
     text = mission.read_text(encoding="utf-8", errors="replace")
     text += "".join("\n" + option.split("=", 1)[-1] for option in options)
-    names = dict.fromkeys(value for value in values_in(text) if value.endswith((".glb", ".obj", ".tif")))
+    names = dict.fromkeys(value for value in values_in(text) if value.endswith((".glb", ".obj", ".tif", ".png")))
     return [pathlib.Path(os.path.normpath(base / name)) for name in names]

@@ -11,7 +11,7 @@ namespace {
 float echo_of(const Sample& sample, const Scene& scene) {
     const float range = arrival_range(sample.position);
     const float cosine = sample.height_m / range;
-    const float reflection = scene.materials[sample.material].reflection;
+    const float reflection = scene.materials[sample.material].reflection * sample.strength;
     return reflection * cosine * cosine * sample.area_m2 / (range * range * range * range);
 }
 

@@ -1,0 +1,141 @@
+#include "assembly/ground_maps.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "core/error.h"
+#include "core/named_at.h"
+#include "core/text.h"
+#include "scene/maps/ground_maps.h"
+#include "scene/maps/read_maps.h"
+#include "scene/objects.h"
+
+namespace sonarsim {
+
+namespace {
+
+/// 1 for the instances that a map lies on. What moves has none.
+std::vector<char> instances_of(const LaidMapConfig& map, const std::string& section,
+                               const SceneConfig& config, const Scene& scene) {
+    std::vector<std::string> patterns = map.instances;
+    if (patterns.empty() && config.heightmap && config.bottom.empty())
+        patterns.emplace_back(heightmap_instance);
+    if (patterns.empty()) patterns = config.bottom;
+    if (patterns.empty()) {
+        throw InputError(map.place.location, section +
+                                                 " does not say what it lies on; write instances: "
+                                                 "[NAME] with nodes or objects, or \"*\" for all");
+    }
+    std::vector<char> on(scene.instances.size(), 0);
+    for (const std::string& pattern : patterns) {
+        bool any = false;
+        for (std::size_t i = 0; i < on.size(); ++i) {
+            const bool moves = std::ranges::any_of(
+                scene.bodies, [&](const Body& body) { return body.instance == i; });
+            if (moves || !fits_pattern(pattern, scene.instances[i])) continue;
+            on[i] = 1;
+            any = true;
+        }
+        if (any) continue;
+        throw InputError(map.place.location, section + ": no instance at rest is named '" +
+                                                 printable(pattern) + "'" +
+                                                 did_you_mean(pattern, scene.instances) +
+                                                 "; `sonarsim inspect` lists the names");
+    }
+    return on;
+}
+
+LaidMapRule rule_of(const LaidMapConfig& map, const std::string& section, const Scene& scene) {
+    return {.file = map.file,
+            .pixel_m = map.pixel_m,
+            .size_m = map.size_m.value_or(std::array{0.0, 0.0}),
+            .origin_m = map.origin_m,
+            .no_data = map.no_data,
+            .section = section,
+            .needed_m = {scene.bounds_min.head<2>(), scene.bounds_max.head<2>()}};
+}
+
+/// The indices of the map's materials in the scene, which gets those that it lacks.
+std::vector<std::pair<std::string, std::uint32_t>> add_materials(const Renaming& materials,
+                                                                 const MaterialTable& table,
+                                                                 const Location& place,
+                                                                 Scene& scene) {
+    std::vector<std::pair<std::string, std::uint32_t>> out;
+    for (const auto& [key, name] : materials) {
+        require_material(table, name, place);
+        const auto found = std::ranges::find(scene.materials, name, &Material::name);
+        out.emplace_back(key, static_cast<std::uint32_t>(found - scene.materials.begin()));
+        if (found != scene.materials.end()) continue;
+        Material& material = scene.materials.emplace_back();
+        material.name = name;
+    }
+    return out;
+}
+
+/// Warns if no texel lies on the scene.
+void warn_of_place(const TexelFrame& frame, const std::string& section, Scene& scene) {
+    const Eigen::Vector2d a = frame.corner_m;
+    const Eigen::Vector2d size(frame.width / frame.per_m.x(), frame.height / frame.per_m.y());
+    Eigen::AlignedBox2d map(a);
+    map.extend(Eigen::Vector2d(a + size));
+    const Eigen::AlignedBox2d ground(scene.bounds_min.head<2>(), scene.bounds_max.head<2>());
+    if (map.intersects(ground)) return;
+    const auto text = [](const Eigen::AlignedBox2d& box) {
+        const auto metres = [](double x) { return number_text(std::round(x)); };
+        return "x " + metres(box.min().x()) + " to " + metres(box.max().x()) + " m, y " +
+               metres(box.min().y()) + " to " + metres(box.max().y()) + " m";
+    };
+    scene.warnings.push_back(section + " lies beside the scene and changes nothing: the map has " +
+                             text(map) + ", the scene " + text(ground) +
+                             "; write the point of the map that is x = 0, y = 0 as origin_m");
+}
+
+/// Reads one map; its faults name the mission.
+template <class Read>
+auto read_map(const LaidMapConfig& map, const Read& read) {
+    try {
+        return read();
+    } catch (const InputError& error) {
+        if (map.place.location.file.empty()) throw;
+        throw named_at(error, map.place.location);
+    }
+}
+
+}  // namespace
+
+void lay_ground_maps(const SceneConfig& config, const MaterialTable& table, const Water& water,
+                     Scene& scene) {
+    if (!config.sediment_map && !config.backscatter_map) return;
+    std::optional<MaterialTexels> materials;
+    std::optional<StrengthTexels> strengths;
+    std::vector<char> on_materials, on_strengths;
+    if (config.sediment_map) {
+        const std::string section = "scene.sediment_map";
+        const LaidMapConfig& laid = config.sediment_map->laid;
+        on_materials = instances_of(laid, section, config, scene);
+        const auto of_scene =
+            add_materials(config.sediment_map->materials, table, laid.place.location, scene);
+        resolve_materials(scene, table, water);
+        materials = read_map(
+            laid, [&] { return read_material_map(rule_of(laid, section, scene), of_scene); });
+        warn_of_place(materials->frame, section, scene);
+    }
+    if (config.backscatter_map) {
+        const std::string section = "scene.backscatter_map";
+        const BackscatterMapConfig& map = *config.backscatter_map;
+        on_strengths = instances_of(map.laid, section, config, scene);
+        strengths = read_map(map.laid, [&] {
+            return read_strength_map(rule_of(map.laid, section, scene), map.scale_db,
+                                     map.offset_db);
+        });
+        warn_of_place(strengths->frame, section, scene);
+    }
+    scene.maps = std::make_shared<const GroundMaps>(std::move(materials), std::move(on_materials),
+                                                    std::move(strengths), std::move(on_strengths));
+}
+
+}  // namespace sonarsim

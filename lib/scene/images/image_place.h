@@ -1,0 +1,34 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <string>
+
+#include "core/error.h"
+#include "scene/images/read_image.h"
+
+namespace sonarsim {
+
+/// The pixels of an image in the coordinates of its map, m: of the size `pixel_m`, or `size_m` from
+/// edge to edge, with the south-west corner at (0, 0); as the file has it if both are 0. InputError
+/// if nothing says it or the file has degrees; `section` is the mission's section of the keys
+/// pixel_m and size_m.
+PixelGrid grid_in_metres(const Image& image, double pixel_m, const std::array<double, 2>& size_m,
+                         const std::string& section, const Location& where);
+
+/// Rows and columns of an image, from the first to before the last.
+struct PixelWindow {
+    int first_row = 0;
+    int last_row = 0;
+    int first_column = 0;
+    int last_column = 0;
+
+    std::size_t width() const { return static_cast<std::size_t>(last_column - first_column); }
+    std::size_t height() const { return static_cast<std::size_t>(last_row - first_row); }
+};
+
+/// The pixels in a box of the map's coordinates, with a margin; all if there are none.
+PixelWindow pixels_within(const Image& image, const PixelGrid& grid,
+                          const Eigen::AlignedBox2d& box_m);
+
+}  // namespace sonarsim

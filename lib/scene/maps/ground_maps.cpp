@@ -1,0 +1,227 @@
+#include "scene/maps/ground_maps.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "core/hash.h"
+#include "core/text.h"
+
+// The power that a footprint sends back is the integral of the power of its points. A map is
+// constant within a texel, so that the mean over a footprint is the sum over texels of their power
+// times the share of the footprint that they cover: a texel smaller than a bin counts by its area.
+// It is found with probes along the footprint's longer edge. Each is a box as wide as the footprint
+// is across that edge, and has the exact integral of the map over it.
+
+namespace sonarsim {
+
+namespace {
+
+constexpr int most_probes = 64;
+
+// A box of no width has no mean.
+constexpr double least_box_texels = 1e-3;
+
+/// Index of the texel at texel coordinates; nothing beyond the image.
+std::optional<std::size_t> texel_at(const TexelFrame& frame, const Eigen::Vector2d& texels) {
+    const double column = std::floor(texels.x());
+    const double row = std::floor(texels.y());
+    if (!(column >= 0.0 && column < frame.width && row >= 0.0 && row < frame.height))
+        return std::nullopt;
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(frame.width) +
+           static_cast<std::size_t>(column);
+}
+
+/// The box in texels around a point of the world that reaches `half_m` to all sides.
+TexelBox box_around(const TexelFrame& frame, const Eigen::Vector2d& world,
+                    const Eigen::Vector2d& half_m) {
+    const Eigen::Vector2d at = frame.texels(world);
+    const Eigen::Vector2d half =
+        half_m.cwiseProduct(frame.per_m.cwiseAbs()).cwiseMax(0.5 * least_box_texels);
+    return {at.x() - half.x(), at.x() + half.x(), at.y() - half.y(), at.y() + half.y()};
+}
+
+double area_of(const TexelBox& box) {
+    return (box.x_max - box.x_min) * (box.y_max - box.y_min);
+}
+
+/// True if a box lies within one texel, or wholly beyond the image.
+bool is_within_texel(const TexelFrame& frame, const TexelBox& box) {
+    const bool beyond = box.x_max <= 0.0 || box.y_max <= 0.0 || box.x_min >= frame.width ||
+                        box.y_min >= frame.height;
+    return beyond || (std::floor(box.x_min) == std::floor(box.x_max) &&
+                      std::floor(box.y_min) == std::floor(box.y_max));
+}
+
+/// The smallest box of whole texels around a box.
+TexelBox whole_texels(const TexelBox& box) {
+    return {std::floor(box.x_min), std::ceil(box.x_max), std::floor(box.y_min),
+            std::ceil(box.y_max)};
+}
+
+/// Boxes in a row that stand for a footprint.
+struct Probes {
+    int count = 1;
+    Eigen::Vector2d first, step;  ///< world
+    double half_m = 0.0;          ///< half the width of a box
+};
+
+Probes probes_of(const GroundFootprint& footprint, double texel_m) {
+    const bool along_u = footprint.u.squaredNorm() > footprint.v.squaredNorm();
+    const Eigen::Vector2d& edge = along_u ? footprint.u : footprint.v;
+    const double length_m = 2.0 * edge.norm();
+    const double area_m2 =
+        4.0 * std::fabs(footprint.u.x() * footprint.v.y() - footprint.u.y() * footprint.v.x());
+    const double width_m = length_m > 0.0 ? area_m2 / length_m : 0.0;
+    const double spacing_m = std::max(width_m, 0.25 * texel_m);
+    Probes out;
+    out.count = static_cast<int>(
+        std::ceil(std::clamp(length_m / spacing_m - 1e-6, 1.0, 1.0 * most_probes)));
+    out.step = 2.0 / out.count * edge;
+    out.first = footprint.centre - edge + 0.5 * out.step;
+    out.half_m = 0.5 * width_m;
+    return out;
+}
+
+void add_share(std::uint32_t material, double area, double power, std::vector<MaterialShare>& out) {
+    if (!(area > 0.0)) return;
+    const auto found = std::ranges::find(out, material, &MaterialShare::material);
+    MaterialShare& share = found == out.end() ? out.emplace_back() : *found;
+    share.material = material;
+    share.area += area;
+    share.power += power;
+}
+
+double texel_size(const TexelFrame& frame) {
+    return 1.0 / frame.per_m.cwiseAbs().maxCoeff();
+}
+
+std::string frame_text(const TexelFrame& frame) {
+    std::string out = std::to_string(frame.width) + " " + std::to_string(frame.height);
+    for (const double x :
+         {frame.corner_m.x(), frame.corner_m.y(), frame.per_m.x(), frame.per_m.y()})
+        out += " " + number_text(x);
+    return out;
+}
+
+template <class T>
+std::string bytes_hash(const std::vector<T>& values) {
+    return fnv1a_128({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)});
+}
+
+}  // namespace
+
+GroundMaps::GroundMaps(std::optional<MaterialTexels> materials, std::vector<char> on_materials,
+                       std::optional<StrengthTexels> strengths, std::vector<char> on_strengths)
+    : materials_(std::move(materials)),
+      on_materials_(std::move(on_materials)),
+      strengths_(std::move(strengths)),
+      on_strengths_(std::move(on_strengths)),
+      least_texel_m_(std::numeric_limits<double>::infinity()) {
+    if (materials_) {
+        const MaterialTexels& map = *materials_;
+        least_texel_m_ = texel_size(map.frame);
+        for (std::size_t m = 0; m < map.materials.size(); ++m) {
+            counts_.emplace_back(map.frame.width, map.frame.height, [&](int row, int column) {
+                const std::size_t k =
+                    static_cast<std::size_t>(row) * static_cast<std::size_t>(map.frame.width) +
+                    static_cast<std::size_t>(column);
+                return map.choice[k] == m ? 1U : 0U;
+            });
+        }
+    }
+    if (strengths_) {
+        const StrengthTexels& map = *strengths_;
+        least_texel_m_ = std::min(least_texel_m_, texel_size(map.frame));
+        gains_ = TexelSums<double>(map.frame.width, map.frame.height, [&](int row, int column) {
+            const std::size_t k =
+                static_cast<std::size_t>(row) * static_cast<std::size_t>(map.frame.width) +
+                static_cast<std::size_t>(column);
+            return static_cast<double>(map.factor[k]) - 1.0;
+        });
+    }
+}
+
+MappedPoint GroundMaps::at(std::uint32_t instance, std::uint32_t own,
+                           const Eigen::Vector2d& world) const {
+    MappedPoint out{own, 1.0F};
+    if (is_on(on_materials_, instance)) {
+        const auto texel = texel_at(materials_->frame, materials_->frame.texels(world));
+        if (texel && materials_->choice[*texel] != MaterialTexels::own)
+            out.material = materials_->materials[materials_->choice[*texel]];
+    }
+    if (is_on(on_strengths_, instance)) {
+        const auto texel = texel_at(strengths_->frame, strengths_->frame.texels(world));
+        if (texel) out.strength = strengths_->factor[*texel];
+    }
+    return out;
+}
+
+std::optional<MappedPoint> GroundMaps::alike_over(std::uint32_t instance, std::uint32_t own,
+                                                  const GroundFootprint& footprint) const {
+    const Eigen::Vector2d half_m = footprint.u.cwiseAbs() + footprint.v.cwiseAbs();
+    if (is_on(on_strengths_, instance)) {
+        const TexelFrame& frame = strengths_->frame;
+        if (!is_within_texel(frame, box_around(frame, footprint.centre, half_m)))
+            return std::nullopt;
+    }
+    const MappedPoint centre = at(instance, own, footprint.centre);
+    if (!is_on(on_materials_, instance)) return centre;
+    const TexelFrame& frame = materials_->frame;
+    const TexelBox box = box_around(frame, footprint.centre, half_m);
+    if (is_within_texel(frame, box)) return centre;
+    const auto texel = texel_at(frame, frame.texels(footprint.centre));
+    if (!texel || materials_->choice[*texel] == MaterialTexels::own) return std::nullopt;
+    const TexelBox whole = whole_texels(box);
+    const double same = counts_[materials_->choice[*texel]].over(whole);
+    return same >= area_of(whole) ? std::optional(centre) : std::nullopt;
+}
+
+void GroundMaps::shares_over(std::uint32_t instance, std::uint32_t own,
+                             const GroundFootprint& footprint,
+                             std::vector<MaterialShare>& out) const {
+    out.clear();
+    const Probes probes = probes_of(footprint, least_texel_m_);
+    const Eigen::Vector2d half_m = Eigen::Vector2d::Constant(probes.half_m);
+    const double per_probe = 1.0 / probes.count;
+    for (int k = 0; k < probes.count; ++k) {
+        const Eigen::Vector2d world = probes.first + k * probes.step;
+        double factor = 1.0;
+        if (is_on(on_strengths_, instance)) {
+            const TexelBox box = box_around(strengths_->frame, world, half_m);
+            // Rounding may leave a little less than nothing of a factor near 0.
+            factor = is_within_texel(strengths_->frame, box)
+                         ? at(instance, own, world).strength
+                         : std::max(0.0, 1.0 + gains_.over(box) / area_of(box));
+        }
+        double left = 1.0;
+        if (is_on(on_materials_, instance)) {
+            const TexelBox box = box_around(materials_->frame, world, half_m);
+            const double per_area = 1.0 / area_of(box);
+            for (std::size_t m = 0; m < counts_.size(); ++m) {
+                const double share = std::min(counts_[m].over(box) * per_area, left);
+                add_share(materials_->materials[m], share * per_probe, factor * share * per_probe,
+                          out);
+                left -= share;
+            }
+        }
+        constexpr double rounding = 1e-6;
+        if (left > rounding) add_share(own, left * per_probe, factor * left * per_probe, out);
+    }
+}
+
+std::string GroundMaps::identity() const {
+    std::string out;
+    if (materials_) {
+        out += "\nmaterials " + frame_text(materials_->frame) + bytes_hash(materials_->choice) +
+               bytes_hash(materials_->materials) + bytes_hash(on_materials_);
+    }
+    if (strengths_) {
+        out += "\nstrengths " + frame_text(strengths_->frame) + bytes_hash(strengths_->factor) +
+               bytes_hash(on_strengths_);
+    }
+    return out;
+}
+
+}  // namespace sonarsim

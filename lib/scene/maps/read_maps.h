@@ -1,0 +1,41 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "scene/maps/ground_maps.h"
+
+namespace sonarsim {
+
+/// The most texels of a map that a mission keeps.
+inline constexpr std::size_t most_map_texels = std::size_t{1} << 24;
+
+/// A map's image and its place.
+struct LaidMapRule {
+    std::filesystem::path file = {};
+    double pixel_m = 0.0;                ///< 0: the file says it, or size_m does
+    std::array<double, 2> size_m{};      ///< 0: likewise
+    std::array<double, 2> origin_m{};    ///< point of the map that is the world's (0, 0)
+    std::optional<double> no_data = {};  ///< value of pixels that change nothing; none: the file's
+    std::string section = {};            ///< section of the mission, for messages
+    Eigen::AlignedBox2d needed_m = {};   ///< the part that is kept, world x and y
+};
+
+/// A map of materials, from an image of one channel with a number for each, or of colours.
+/// `materials` has numbers, or colours as "#c8b478", and indices into Scene::materials. InputError
+/// as read_image(), for an image whose place is not known, for keys that are neither and for a
+/// pixel that has no material.
+MaterialTexels read_material_map(
+    const LaidMapRule& rule, const std::vector<std::pair<std::string, std::uint32_t>>& materials);
+
+/// A map of decibels, from an image of one channel, or one and alpha: scale_db times the pixel's
+/// value plus offset_db. InputError likewise, and for more than 100 dB.
+StrengthTexels read_strength_map(const LaidMapRule& rule, double scale_db, double offset_db);
+
+}  // namespace sonarsim

@@ -1,0 +1,164 @@
+#include "trace/lay_maps.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "trace/arrivals.h"
+
+namespace sonarsim {
+
+namespace {
+
+/// A part of a sample, in the sensor frame and from above.
+struct MapPiece {
+    Eigen::Vector3f position, u, v;  ///< centre and half edges
+    GroundFootprint ground;
+    float area_m2;
+
+    /// The part of this piece between two places along u, -1 to 1 from end to end.
+    MapPiece between(double low, double high) const {
+        const double middle = 0.5 * (low + high);
+        const double share = 0.5 * (high - low);
+        MapPiece out = *this;
+        out.position += static_cast<float>(middle) * u;
+        out.u *= static_cast<float>(share);
+        out.ground.centre += middle * ground.u;
+        out.ground.u *= share;
+        out.area_m2 *= static_cast<float>(share);
+        return out;
+    }
+    void swap_edges() {
+        std::swap(u, v);
+        std::swap(ground.u, ground.v);
+    }
+};
+
+/// Cuts the samples of a ping.
+class MapLayer {
+  public:
+    MapLayer(const GroundMaps& maps, const View& view, const Pose& T_world_sensor)
+        : maps_(maps),
+          R_(T_world_sensor.rotation.toRotationMatrix().topRows<2>()),
+          sensor_(T_world_sensor.translation.head<2>()),
+          depth_m_(static_cast<float>(depth_in_bins * view.bin_m())),
+          sine_y_(static_cast<float>(view.azimuth_rad /
+                                     (view.shape == ViewShape::fan ? view.beams : parts_of_cone))),
+          sine_z_(static_cast<float>(view.elevation_rad / parts_of_cone)) {}
+
+    /// Appends the pieces of a sample.
+    void lay(const Sample& sample, std::vector<Sample>& out) {
+        if (!maps_.lie_on(sample.instance)) {
+            out.push_back(sample);
+            return;
+        }
+        sample_ = &sample;
+        cut({sample.position,
+             sample.edge_u,
+             sample.edge_v,
+             {from_above(sample.position) + sensor_, from_above(sample.edge_u),
+              from_above(sample.edge_v)},
+             sample.area_m2},
+            most_halvings, out);
+    }
+
+  private:
+    static constexpr double depth_in_bins = 0.5;
+    static constexpr int parts_of_cone = 8;  ///< across what no beams divide
+    static constexpr int most_halvings = 16;
+
+    Eigen::Vector2d from_above(const Eigen::Vector3f& v) const { return R_ * v.cast<double>(); }
+
+    /// The extent of an edge by what a piece may have.
+    float size_of(const Eigen::Vector3f& half_edge, const Arrival& at) const {
+        const float depth = half_edge.dot(at.direction);
+        const float across = 2.0F / at.range_m;
+        return std::max({2.0F * std::fabs(depth) / depth_m_,
+                         across * std::fabs(half_edge.y() - depth * at.direction.y()) / sine_y_,
+                         across * std::fabs(half_edge.z() - depth * at.direction.z()) / sine_z_});
+    }
+
+    void cut(MapPiece piece, int halvings, std::vector<Sample>& out) {
+        const auto alike = maps_.alike_over(sample_->instance, sample_->material, piece.ground);
+        if (alike) return add(piece, alike->material, alike->strength, out);
+        const Arrival at = arrival_of(piece.position);
+        const float size_u = size_of(piece.u, at);
+        const float size_v = size_of(piece.v, at);
+        if (size_v > size_u) piece.swap_edges();
+        // In this order of arguments NaN, of a piece at the sonar, ends here.
+        if (std::max(size_u, size_v) > 1.0F && halvings > 0) {
+            cut(piece.between(-1.0, 0.0), halvings - 1, out);
+            cut(piece.between(0.0, 1.0), halvings - 1, out);
+            return;
+        }
+        // Strips that lie side by side along the edge with the lesser depth blur ranges the least.
+        if (std::fabs(piece.u.dot(at.direction)) > std::fabs(piece.v.dot(at.direction)))
+            piece.swap_edges();
+        add_strips(piece, out);
+    }
+
+    void add_strips(const MapPiece& piece, std::vector<Sample>& out) {
+        maps_.shares_over(sample_->instance, sample_->material, piece.ground, shares_);
+        double whole = 0.0;
+        for (const MaterialShare& share : shares_)
+            whole += share.area;
+        double done = 0.0;
+        for (const MaterialShare& share : shares_) {
+            const double low = 2.0 * done / whole - 1.0;
+            done += share.area;
+            const double high = 2.0 * done / whole - 1.0;
+            add(shares_.size() == 1 ? piece : piece.between(low, high), share.material,
+                static_cast<float>(share.power / share.area), out);
+        }
+    }
+
+    void add(const MapPiece& piece, std::uint32_t material, float strength,
+             std::vector<Sample>& out) const {
+        Sample& sample = out.emplace_back(*sample_);
+        sample.position = piece.position;
+        sample.edge_u = piece.u;
+        sample.edge_v = piece.v;
+        sample.area_m2 = piece.area_m2;
+        sample.material = material;
+        sample.strength = strength;
+    }
+
+    const GroundMaps& maps_;
+    Eigen::Matrix<double, 2, 3> R_;  ///< from the sensor frame to the world's x and y
+    Eigen::Vector2d sensor_;
+    float depth_m_, sine_y_, sine_z_;  ///< the greatest extents of a piece
+    const Sample* sample_ = nullptr;
+    std::vector<MaterialShare> shares_;
+};
+
+}  // namespace
+
+void lay_maps(const GroundMaps& maps, const View& view, const Pose& T_world_sensor,
+              Samples& samples, std::vector<Sample>& outside_sector) {
+    MapLayer layer(maps, view, T_world_sensor);
+    std::vector<Sample> items;
+    items.reserve(2 * samples.items.size());
+    std::uint32_t begin = 0;
+    for (std::size_t beam = 0; beam + 1 < samples.beam_begin.size(); ++beam) {
+        const std::uint32_t end = samples.beam_begin[beam + 1];
+        for (std::uint32_t k = begin; k < end; ++k)
+            layer.lay(samples.items[k], items);
+        begin = end;
+        samples.beam_begin[beam + 1] = static_cast<std::uint32_t>(items.size());
+    }
+    samples.items = std::move(items);
+    std::vector<Sample> outside;
+    for (const Sample& sample : outside_sector)
+        layer.lay(sample, outside);
+    outside_sector = std::move(outside);
+}
+
+MappedPoint mapped_point(const GroundMaps& maps, const Pose& T_world_sensor,
+                         const Eigen::Vector3f& point, std::uint32_t instance,
+                         std::uint32_t material) {
+    const Eigen::Vector3d world =
+        T_world_sensor.rotation * point.cast<double>() + T_world_sensor.translation;
+    return maps.at(instance, material, world.head<2>());
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,65 @@
+"""Maps of the ground of bathymetry.tif: what it is made of, as a picture of colours, and how strong its
+echo is besides, as a GeoTIFF of decibels in pixels of 10 cm."""
+import math
+import struct
+import zlib
+
+from .bathymetry import COLUMNS, PIXEL_M, ROWS
+from .noise import Relief
+
+SAND, MUD, GRAVEL, ROCK = (0xC8, 0xB4, 0x78), (0x6E, 0x5A, 0x46), (0x96, 0x96, 0x8C), (0x50, 0x50, 0x5A)
+MOSAIC_PIXEL_M = 0.1
+# Strokes of a letter F, as boxes of x and y: no mirrored or turned map looks like it.
+LETTER = ((10, 11.5, 6, 17), (10, 17, 15.5, 17), (10, 15, 11, 12.5))
+
+
+def colours():
+    """Rows from the north, in them colours from the west. Mud lies in the channel, rock on the mound."""
+    border = Relief(6.0, 1.5, 3, 23)
+    rows = []
+    for row in range(ROWS):
+        y = (ROWS - row - 0.5) * PIXEL_M
+        line = []
+        for column in range(COLUMNS):
+            x = (column + 0.5) * PIXEL_M
+            off = border(x, y)
+            if math.hypot(x - 18, y - 36) < 2.5 + 0.5 * off:
+                line.append(ROCK)
+            elif abs(x - 38 - 4 * math.sin(0.1 * y)) < 4 + off:
+                line.append(MUD)
+            elif math.hypot(x - 26, y - 12) < 6 + 2 * off:
+                line.append(GRAVEL)
+            else:
+                line.append(SAND)
+        rows.append(line)
+    return rows
+
+
+def decibels():
+    """Rows from the north, in them decibels from the west: a texture, the marks of a trawl and a letter."""
+    texture = Relief(3.0, 3.0, 3, 31)
+    rows = []
+    for row in range(round(50 / MOSAIC_PIXEL_M)):
+        y = 50 - (row + 0.5) * MOSAIC_PIXEL_M
+        line = []
+        for column in range(round(55 / MOSAIC_PIXEL_M)):
+            x = (column + 0.5) * MOSAIC_PIXEL_M
+            value = texture(x, y)
+            if abs(y - 14 - 0.25 * x) < 0.5:
+                value -= 6
+            if any(west < x < east and south < y < north for west, east, south, north in LETTER):
+                value += 10
+            line.append(value)
+        rows.append(line)
+    return rows
+
+
+def write_png(path, rows):
+    """8 bits of red, green and blue. Returns the number of bytes."""
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+    lines = b"".join(b"\0" + bytes(value for colour in row for value in colour) for row in rows)
+    head = struct.pack(">IIBBBBB", len(rows[0]), len(rows), 8, 2, 0, 0, 0)
+    path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(lines, 9)) +
+                     chunk(b"IEND", b""))
+    return path.stat().st_size

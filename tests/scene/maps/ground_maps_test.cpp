@@ -1,0 +1,101 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "support/draws.h"
+#include "support/maps.h"
+
+using namespace sonarsim;
+using namespace sonarsim::test;
+
+TEST_SUITE("ground maps") {
+    TEST_CASE("sums over boxes: those of the texels by the area that the box covers") {
+        Draws draws(1);
+        const int width = 7;
+        const int height = 5;
+        std::vector<double> texels;
+        for (int k = 0; k < width * height; ++k)
+            texels.push_back(draws.between(-1, 3));
+        const TexelSums<double> sums(
+            width, height, [&](int row, int column) { return texels[row * width + column]; });
+        for (int trial = 0; trial < 200; ++trial) {
+            TexelBox box;
+            box.x_min = draws.between(-2, 8);
+            box.x_max = box.x_min + draws.between(0, 4);
+            box.y_min = draws.between(-2, 6);
+            box.y_max = box.y_min + draws.between(0, 4);
+            double expected = 0.0;
+            for (int row = 0; row < height; ++row) {
+                for (int column = 0; column < width; ++column) {
+                    const double x =
+                        std::min(box.x_max, column + 1.0) - std::max(box.x_min, 1.0 * column);
+                    const double y =
+                        std::min(box.y_max, row + 1.0) - std::max(box.y_min, 1.0 * row);
+                    if (x > 0.0 && y > 0.0) expected += x * y * texels[row * width + column];
+                }
+            }
+            CHECK(std::fabs(sums.over(box) - expected) < 1e-12);
+        }
+    }
+
+    TEST_CASE("a footprint has its materials by area, and each its mean factor") {
+        // Texels of 0.5 m; footprints of 0.5 to 3 m, of any direction, against a lattice of points.
+        // A texel's border crosses a footprint in about 64 probes, each as wide as the footprint.
+        Draws draws(2);
+        const TexelFrame frame = square_frame(16, 8.0);
+        Scene scene;
+        scene.instances = {"floor"};
+        std::vector<std::uint16_t> choices;
+        std::vector<float> factors;
+        for (int k = 0; k < 256; ++k) {
+            const int choice = draws.whole(0, 2);
+            choices.push_back(choice == 2 ? MaterialTexels::own
+                                          : static_cast<std::uint16_t>(choice));
+            factors.push_back(draws.between(0, 4));
+        }
+        lay(scene,
+            material_texels(frame, {3, 5}, [&](int r, int c) { return choices[16 * r + c]; }),
+            strengths(frame, [&](int r, int c) { return factors[16 * r + c]; }));
+        double worst = 0.0;
+        std::vector<MaterialShare> shares;
+        for (int trial = 0; trial < 100; ++trial) {
+            const double turn = draws.between(0, 6.3F);
+            const double length_m = draws.between(0.25F, 1.5F);
+            const double width_m = draws.between(0.02F, 0.1F);
+            GroundFootprint footprint;
+            footprint.centre.x() = draws.between(-4.5F, 4.5F);
+            footprint.centre.y() = draws.between(-4.5F, 4.5F);
+            footprint.u = length_m * Eigen::Vector2d(std::cos(turn), std::sin(turn));
+            footprint.v = width_m * Eigen::Vector2d(-std::sin(turn), std::cos(turn));
+            if (draws.half()) std::swap(footprint.u, footprint.v);
+            scene.maps->shares_over(0, 7, footprint, shares);
+            std::array<double, 8> area{}, power{};
+            constexpr int n = 60;
+            for (int i = 0; i < n; ++i) {
+                for (int j = 0; j < n; ++j) {
+                    const Eigen::Vector2d p = footprint.centre +
+                                              ((2.0 * i + 1.0) / n - 1.0) * footprint.u +
+                                              ((2.0 * j + 1.0) / n - 1.0) * footprint.v;
+                    const MappedPoint point = scene.maps->at(0, 7, p);
+                    area[point.material] += 1.0 / (n * n);
+                    power[point.material] += static_cast<double>(point.strength) / (n * n);
+                }
+            }
+            double whole = 0.0;
+            for (const MaterialShare& share : shares) {
+                whole += share.area;
+                worst = std::max({worst, std::fabs(share.area - area[share.material]),
+                                  0.25 * std::fabs(share.power - power[share.material])});
+            }
+            CHECK(std::fabs(whole - 1.0) < 1e-5);
+            const auto alike = scene.maps->alike_over(0, 7, footprint);
+            if (!alike) continue;
+            CHECK(shares.size() == 1);
+            CHECK(shares.front().material == alike->material);
+            CHECK(std::fabs(shares.front().power - static_cast<double>(alike->strength)) < 1e-5);
+        }
+        CHECK(worst < 0.06);
+    }
+}

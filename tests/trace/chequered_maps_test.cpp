@@ -1,0 +1,240 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "support/mapped_floor.h"
+#include "support/sanitized.h"
+
+using namespace sonarsim;
+using namespace sonarsim::test;
+
+namespace {
+
+constexpr double six_db = 3.9810717055349722;  // 10^0.6
+
+/// Fields of `field_m`, 6 dB apart.
+StrengthTexels chequered(double field_m) {
+    const int n = static_cast<int>(std::lround(28.0 / field_m));
+    return strengths(square_frame(n, n * field_m), [](int row, int column) {
+        return (row + column) % 2 == 0 ? 1.0F : static_cast<float>(six_db);
+    });
+}
+
+/// The factors of points of the floor by bin: [range bins, beams].
+struct FactorsOfBins {
+    std::vector<double> sum, weight, least, greatest;
+};
+
+/// Points of a lattice on the floor ahead of the vehicle, or abeam of it, with no engine: each
+/// counts for the bin it lies in.
+FactorsOfBins factors_of_bins(const Sonar& sonar, const Scene& scene, const Pose& vehicle,
+                              bool side) {
+    const View& view = sonar.settings.view;
+    const Pose pose = sensor_pose(sonar, vehicle, 0);
+    const Eigen::Matrix3d to_sensor = pose.rotation.toRotationMatrix().transpose();
+    const std::size_t bins = static_cast<std::size_t>(view.range_bins) * view.beams;
+    FactorsOfBins out{std::vector<double>(bins), std::vector<double>(bins),
+                      std::vector<double>(bins, 1e9), std::vector<double>(bins)};
+    const Eigen::Vector2d low = side ? Eigen::Vector2d(-0.03, -12.5) : Eigen::Vector2d(2.0, -6.5);
+    const Eigen::Vector2d high = side ? Eigen::Vector2d(0.03, 12.5) : Eigen::Vector2d(12.0, 6.5);
+    const Eigen::Vector2d step =
+        side ? Eigen::Vector2d(0.0015, 0.005) : Eigen::Vector2d(0.02, 0.02);
+    const Eigen::Array2i count = ((high - low).array() / step.array()).round().cast<int>();
+    for (int i = 0; i < count.x(); ++i) {
+        for (int j = 0; j < count.y(); ++j) {
+            const Eigen::Vector2d own = low + Eigen::Vector2d(i + 0.5, j + 0.5).cwiseProduct(step);
+            Eigen::Vector3d world =
+                vehicle.rotation * Eigen::Vector3d(own.x(), own.y(), 0.0) + vehicle.translation;
+            world.z() = 0.0;
+            const Eigen::Vector3f p = (to_sensor * (world - pose.translation)).cast<float>();
+            const double range = static_cast<double>(p.norm());
+            const int bin = static_cast<int>(std::floor((range - view.range_min_m) / view.bin_m()));
+            const int beam = beam_of(view, p);
+            if (bin < 0 || bin >= view.range_bins || beam < 0) continue;
+            const std::size_t k = static_cast<std::size_t>(bin) * view.beams + beam;
+            const double factor =
+                static_cast<double>(scene.maps->at(0, 0, world.head<2>()).strength);
+            const double cosine = pose.translation.z() / range;
+            out.sum[k] += factor * cosine;
+            out.weight[k] += cosine;
+            out.least[k] = std::min(out.least[k], factor);
+            out.greatest[k] = std::max(out.greatest[k], factor);
+        }
+    }
+    return out;
+}
+
+/// The factor of the bins around a bin, if it is one; 0 at borders.
+double factor_around(const FactorsOfBins& factors, const View& view, int bin, int beam, int bins,
+                     int beams) {
+    double least = 1e9;
+    double greatest = 0.0;
+    for (int i = bin - bins; i <= bin + bins; ++i) {
+        for (int j = beam - beams; j <= beam + beams; ++j) {
+            if (i < 0 || i >= view.range_bins || j < 0 || j >= view.beams) return 0.0;
+            const std::size_t k = static_cast<std::size_t>(i) * view.beams + j;
+            if (factors.weight[k] == 0.0) return 0.0;
+            least = std::min(least, factors.least[k]);
+            greatest = std::max(greatest, factors.greatest[k]);
+        }
+    }
+    return least == greatest ? least : 0.0;
+}
+
+}  // namespace
+
+TEST_SUITE("lay maps") {
+    TEST_CASE("the paper's images have the mean over every bin: a chequered map of 6 dB" *
+              doctest::skip(test::sanitized)) {
+        // Fields of 1.4 m, 14 bins and more, and fields of 0.25 m.
+        for (const double field_m : {1.4, 0.25}) {
+            for (const bool side : {false, true}) {
+                const Sonar sonar =
+                    side ? sidescan(ModelKind::paper, 0.1) : imaging(ModelKind::paper);
+                const View& view = sonar.settings.view;
+                const Scene plain = wide_floor();
+                Scene scene = plain;
+                lay(scene, {}, chequered(field_m));
+                const Pose pose = above_floor();
+                const FactorsOfBins expected = factors_of_bins(sonar, scene, pose, side);
+                for (const EngineKind type : engine_types) {
+                    if (field_m < 1.0 && type != EngineKind::slices) continue;
+                    CAPTURE(field_m);
+                    CAPTURE(side);
+                    CAPTURE(static_cast<int>(type));
+                    const std::vector<float> image = clean_image(sonar, scene, type, pose);
+                    const std::vector<float> without = clean_image(sonar, plain, type, pose);
+                    double off = 0.0;
+                    double sum = 0.0;
+                    double worst_inside = 0.0;
+                    int count = 0;
+                    int inside = 0;
+                    for (int i = 0; i < view.range_bins; ++i) {
+                        for (int j = 0; j < view.beams; ++j) {
+                            const std::size_t k = static_cast<std::size_t>(i) * view.beams + j;
+                            // Bins at the rim of the view hold few points.
+                            if (expected.weight[k] < 15.0 || without[k] == 0.0F) continue;
+                            const double found = static_cast<double>(image[k] / without[k]);
+                            off += std::fabs(found - expected.sum[k] / expected.weight[k]);
+                            sum += expected.sum[k] / expected.weight[k];
+                            ++count;
+                            const double factor =
+                                factor_around(expected, view, i, j, 1, side ? 0 : 1);
+                            if (factor == 0.0) continue;
+                            worst_inside = std::max(worst_inside, std::fabs(db(found / factor)));
+                            ++inside;
+                        }
+                    }
+                    CAPTURE(off / sum);
+                    CAPTURE(worst_inside);
+                    CHECK(count > (side ? 150 : 2000));
+                    CHECK(off < (field_m > 1.0 ? 0.01 : 0.05) * sum);
+                    CHECK(worst_inside < 0.2);
+                    if (field_m > 1.0) CHECK(inside > (side ? 60 : 500));
+                }
+            }
+        }
+    }
+
+    TEST_CASE("a chequered map of 6 dB comes back as steps of 6 dB from the calibrated model" *
+              doctest::skip(test::sanitized)) {
+        for (const bool side : {false, true}) {
+            const Sonar sonar =
+                side ? sidescan(ModelKind::calibrated) : imaging(ModelKind::calibrated);
+            const View& view = sonar.settings.view;
+            const Scene plain = wide_floor();
+            Scene scene = plain;
+            lay(scene, {}, chequered(2.8));
+            const Pose pose = above_floor(side ? 0.0 : 20.0);
+            const FactorsOfBins factors = factors_of_bins(sonar, scene, pose, side);
+            for (const EngineKind type : engine_types) {
+                if (!side && type == EngineKind::octree) continue;
+                CAPTURE(side);
+                CAPTURE(static_cast<int>(type));
+                const std::vector<float> image = clean_image(sonar, scene, type, pose);
+                const std::vector<float> without = clean_image(sonar, plain, type, pose);
+                double worst = 0.0;
+                std::array<int, 2> count{};
+                for (int i = 0; i < view.range_bins; ++i) {
+                    for (int j = 0; j < view.beams; ++j) {
+                        const double factor = factor_around(factors, view, i, j, 3, side ? 0 : 2);
+                        if (factor == 0.0) continue;
+                        const std::size_t k = static_cast<std::size_t>(i) * view.beams + j;
+                        worst = std::max(
+                            worst,
+                            std::fabs(db(static_cast<double>(image[k] / without[k])) - db(factor)));
+                        ++count[factor > 1.0 ? 1 : 0];
+                    }
+                }
+                CAPTURE(worst);
+                CHECK(std::min(count[0], count[1]) > 40);
+                CHECK(worst < 0.2);
+            }
+        }
+    }
+
+    TEST_CASE("fields smaller than a bin count by their area") {
+        // Fields of 2 cm in bins of 20 cm: the mean of 0 and 6 dB is 3.96 dB; that of two materials
+        // with reflections of 0.1 and 0.3 is that of one of 0.2.
+        const double mean_db = db(0.5 * (1.0 + six_db));
+        for (const ModelKind model : {ModelKind::paper, ModelKind::calibrated}) {
+            for (const bool side : {false, true}) {
+                const Sonar sonar = side ? sidescan(model, 0.2) : imaging(model, 40);
+                const View& view = sonar.settings.view;
+                Scene plain = wide_floor();
+                const std::uint32_t dark = add_material(plain, 0.1F);
+                const std::uint32_t bright = add_material(plain, 0.3F);
+                for (Material& material : plain.materials) {
+                    material.slope_rms_deg = 0.0;
+                    material.lambert_db = db(static_cast<double>(material.reflection));
+                }
+                Scene by_strength = plain;
+                lay(by_strength, {}, chequered(0.02));
+                Scene by_material = plain;
+                lay(by_material,
+                    material_texels(square_frame(1400, 28.0), {dark, bright},
+                                    [](int row, int column) {
+                                        return static_cast<std::uint16_t>((row + column) % 2);
+                                    }),
+                    {});
+                const std::vector<float> without =
+                    clean_image(sonar, plain, EngineKind::slices, above_floor());
+                const std::vector<float> strengths_seen =
+                    clean_image(sonar, by_strength, EngineKind::slices, above_floor());
+                const std::vector<float> materials_seen =
+                    clean_image(sonar, by_material, EngineKind::slices, above_floor());
+                CAPTURE(static_cast<int>(model));
+                CAPTURE(side);
+                double sum_db = 0.0;
+                double sum_material_db = 0.0;
+                double worst = 0.0;
+                int count = 0;
+                // Without the rim of the view, whose bins are not full.
+                const int rim = side ? 0 : 3;
+                for (int i = 5; i < view.range_bins - 5; ++i) {
+                    for (int j = rim; j < view.beams - rim; ++j) {
+                        const std::size_t k = static_cast<std::size_t>(i) * view.beams + j;
+                        const auto change = [&](const std::vector<float>& image) {
+                            return db(static_cast<double>(image[k] / without[k]));
+                        };
+                        const double off = change(strengths_seen) - mean_db;
+                        const double off_material = change(materials_seen);
+                        sum_db += off;
+                        sum_material_db += off_material;
+                        worst = std::max({worst, std::fabs(off), std::fabs(off_material)});
+                        ++count;
+                    }
+                }
+                CAPTURE(worst);
+                CHECK(count > (side ? 60 : 700));
+                CHECK(std::fabs(sum_db) < 0.05 * count);
+                CHECK(std::fabs(sum_material_db) < 0.05 * count);
+                // A pulse sees less than a bin, and so fewer fields.
+                CHECK(worst < (model == ModelKind::paper ? 0.2 : 0.5));
+            }
+        }
+    }
+}

@@ -1,0 +1,161 @@
+#include "trace/lay_maps.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "support/draws.h"
+#include "support/mapped_floor.h"
+
+using namespace sonarsim;
+using namespace sonarsim::test;
+
+TEST_SUITE("lay maps") {
+    TEST_CASE("the pieces of a sample tile it, and have its area") {
+        Scene scene = wide_floor();
+        const std::uint32_t other = add_material(scene, 0.4F);
+        lay(scene,
+            material_texels(square_frame(40, 28.0), {other},
+                            [](int row, int column) {
+                                return (row * column) % 3 == 0 ? std::uint16_t{0}
+                                                               : MaterialTexels::own;
+                            }),
+            {});
+        const Sonar sonar = imaging(ModelKind::paper);
+        const Pose pose = sensor_pose(sonar, above_floor(), 0);
+        for (const EngineKind type : engine_types) {
+            const auto engine = make_engine(scene, {.type = type, .octree = {}});
+            const Samples whole = engine->visible_surface(sonar.settings.view, pose);
+            Samples cut = whole;
+            std::vector<Sample> none;
+            lay_maps(*scene.maps, sonar.settings.view, pose, cut, none);
+            CHECK(cut.items.size() > whole.items.size());
+            for (int j = 0; j < sonar.settings.view.beams; ++j) {
+                const auto area = [](std::span<const Sample> samples) {
+                    double sum = 0.0;
+                    for (const Sample& sample : samples)
+                        sum += static_cast<double>(sample.area_m2);
+                    return sum;
+                };
+                CHECK(std::fabs(area(cut.beam(j)) - area(whole.beam(j))) <
+                      1e-4 * area(whole.beam(j)));
+            }
+        }
+    }
+
+    TEST_CASE("labels know the material of a texel") {
+        // Half of the floor, north of y = 0.
+        Scene scene = wide_floor();
+        const std::uint32_t north = add_material(scene, 0.4F);
+        lay(scene,
+            material_texels(
+                square_frame(2, 28.0), {north},
+                [](int row, int) { return row == 0 ? std::uint16_t{0} : MaterialTexels::own; }),
+            {});
+        for (const ModelKind model : {ModelKind::paper, ModelKind::calibrated}) {
+            const Sonar sonar = imaging(model);
+            const Pose pose{Eigen::Quaterniond::Identity(), {-3.0, 0.0, 3.0}};
+            const Labelled found = label(scene, sonar, pose, EngineKind::slices);
+            const View& view = sonar.settings.view;
+            int count = 0;
+            for (int i = 0; i < view.range_bins; ++i) {
+                for (int j = 0; j < view.beams; ++j) {
+                    const std::uint16_t material = found.labels.material[found.at(i, j)];
+                    if (material == 0 || j == view.beams / 2 || j + 1 == view.beams / 2) continue;
+                    // Beams count from starboard, which is the south.
+                    CHECK(material == (j < view.beams / 2 ? 1 : north + 1));
+                    ++count;
+                }
+            }
+            CHECK(count > 1000);
+        }
+    }
+
+    TEST_CASE("a second surface has the strength of its texel") {
+        // A wall ahead, whose echo over the floor doubles where the floor is twice as strong.
+        Scene scene = wide_floor();
+        add_quad(scene, {8, -9, 0}, {8, 9, 0}, {8, 9, 4}, {8, -9, 4}, 0, 4);
+        Scene twice = scene;
+        lay(twice, {}, strengths(square_frame(1, 28.0), [](int, int) { return 2.0F; }));
+        SonarConfig config = small_imaging();
+        config.multipath.method = MultipathMethod::cluster;
+        const Sonar sonar = noise_free(config);
+        const auto bounced = [&](const Scene& of) {
+            const auto engine = make_engine(of, {.type = EngineKind::rays, .octree = {}});
+            const Pose pose{Eigen::Quaterniond::Identity(), {0.0, 0.0, 0.5}};
+            return render_ping(sonar, of, *engine, pose, {.seed = 1, .ping = 0}, multipath_alone)
+                .intensity;
+        };
+        const std::vector<float> once = bounced(scene);
+        const std::vector<float> both = bounced(twice);
+        // One instance has floor and wall: both mirrors are twice as strong.
+        int count = 0;
+        for (std::size_t k = 0; k < once.size(); ++k) {
+            if (once[k] == 0.0F) continue;
+            CHECK(both[k] == doctest::Approx(4.0 * static_cast<double>(once[k])).epsilon(0.01));
+            ++count;
+        }
+        CHECK(count > 20);
+    }
+
+    TEST_CASE("a side-scan reads a mosaic back") {
+        // A smooth random texture of 14 m, drawn as waves of 1 m and more, and a track of 10 m.
+        Draws draws(3);
+        struct Wave {
+            double x, y, phase;
+        };
+        std::vector<Wave> waves;
+        for (int k = 0; k < 40; ++k) {
+            Wave wave{};
+            wave.x = draws.between(-5, 5);
+            wave.y = draws.between(-5, 5);
+            wave.phase = draws.between(0, 6.3F);
+            waves.push_back(wave);
+        }
+        const TexelFrame frame = square_frame(280, 28.0);
+        const auto db_at = [&](double x, double y) {
+            double sum = 0.0;
+            for (const Wave& wave : waves)
+                sum += std::cos(wave.x * x + wave.y * y + wave.phase);
+            return sum;
+        };
+        const Scene plain = wide_floor();
+        Scene scene = plain;
+        lay(scene, {}, strengths(frame, [&](int row, int column) {
+                return static_cast<float>(std::pow(
+                    10.0, 0.1 * db_at(-14.0 + 0.1 * (column + 0.5), 14.0 - 0.1 * (row + 0.5))));
+            }));
+        for (const ModelKind model : {ModelKind::paper, ModelKind::calibrated}) {
+            const Sonar sonar = sidescan(model, 0.1);
+            const View& view = sonar.settings.view;
+            double n = 0.0, a = 0.0, b = 0.0, aa = 0.0, bb = 0.0, ab = 0.0;
+            for (int ping = 0; ping < 12; ++ping) {
+                const Pose pose{Eigen::Quaterniond::Identity(), {-5.0 + 0.9 * ping, 0.0, 3.0}};
+                const std::vector<float> image =
+                    clean_image(sonar, scene, EngineKind::slices, pose);
+                const std::vector<float> without =
+                    clean_image(sonar, plain, EngineKind::slices, pose);
+                for (int i = 0; i < view.range_bins; ++i) {
+                    const double range = view.range_min_m + (i + 0.5) * view.bin_m();
+                    const double across = std::sqrt(range * range - 9.0);
+                    for (int j = 0; j < 2; ++j) {
+                        const std::size_t k = 2 * static_cast<std::size_t>(i) + j;
+                        const double found = db(static_cast<double>(image[k] / without[k]));
+                        // Beam 0 is starboard, the south.
+                        const double truth = db_at(pose.translation.x(), j == 0 ? -across : across);
+                        n += 1.0;
+                        a += found;
+                        b += truth;
+                        aa += found * found;
+                        bb += truth * truth;
+                        ab += found * truth;
+                    }
+                }
+            }
+            const double correlation =
+                (n * ab - a * b) / std::sqrt((n * aa - a * a) * (n * bb - b * b));
+            CHECK(correlation > 0.99);
+        }
+    }
+}
