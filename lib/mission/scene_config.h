@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mission/place.h"
+#include "mission/seabed_config.h"
 #include "mission/trajectory_config.h"
 
 namespace sonarsim {
@@ -108,6 +109,7 @@ struct SceneConfig {
     MeshConfig mesh = {};                  ///< options for `file`
     std::vector<std::string> bottom = {};  ///< patterns of the nodes of `file` that objects rest on
     std::optional<HeightmapConfig> heightmap = {};
+    std::optional<SeabedConfig> seabed = {};
     std::vector<ObjectConfig> objects = {};
     std::vector<ScatterConfig> scatter = {};
     RepeatedFiles repeats = RepeatedFiles::automatic;
