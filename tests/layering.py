@@ -45,7 +45,7 @@ PARTS = {
             ["ping_files"], ["ping_cost"], ["completion", "joined_labels"],
             ["collection", "run_job", "merge", "verify", "ping_source"],
             ["variants"], ["status", "variants_check", "collection_check"]],
-    "scene": [["*"], ["images/", "meshes/"], ["heightmap/", "maps/"], ["gltf/", "placing/"]],
+    "scene": [["*"], ["images/", "meshes/"], ["heightmap/", "maps/", "seabed/"], ["gltf/", "placing/"]],
     "validation": [["*"], ["hard/"]],
     "visibility": [["*"], ["octree/", "rays/", "slices/"], ["auto_engine"], ["make_engine"]],
 }

@@ -181,6 +181,7 @@ Assembly assemble(const Mission& mission, SceneFiles& models) {
         assembly.scene.warnings.push_back(std::move(question));
     assembly.motions = std::move(parts.motions);
     assembly.bottom = std::move(parts.bottom);
+    assembly.seabed = std::move(parts.seabed);
     add_water_surface(mission, assembly);
     warn_of_empty_scatter(mission, assembly.scene);
     if (!mission.output.labels.empty() || !mission.classes.empty()) {

@@ -42,6 +42,7 @@ void add_automatic(const Mission& mission, const Scene& scene, const SceneObject
                    std::vector<std::uint8_t>& background) {
     std::vector<std::string> bottom = mission.scene.bottom;
     if (mission.scene.heightmap && bottom.empty()) bottom.emplace_back(heightmap_instance);
+    if (mission.scene.seabed && bottom.empty()) bottom.emplace_back(seabed_instance);
     for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
         for (const std::string& pattern : bottom) {
             if (fits_pattern(pattern, scene.instances[i]))

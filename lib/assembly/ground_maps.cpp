@@ -24,6 +24,8 @@ std::vector<char> instances_of(const LaidMapConfig& map, const std::string& sect
     std::vector<std::string> patterns = map.instances;
     if (patterns.empty() && config.heightmap && config.bottom.empty())
         patterns.emplace_back(heightmap_instance);
+    if (patterns.empty() && config.seabed && config.bottom.empty())
+        patterns.emplace_back(seabed_instance);
     if (patterns.empty()) patterns = config.bottom;
     if (patterns.empty()) {
         throw InputError(map.place.location, section +

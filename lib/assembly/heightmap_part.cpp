@@ -21,9 +21,8 @@ Eigen::AlignedBox2d seen_by(std::span<const Sonar> sonars, const Trajectory& veh
     return seen;
 }
 
-std::optional<PlacedFile> heightmap_of(const SceneConfig& scene, const Eigen::AlignedBox2d& seen,
-                                       Shapes& shapes) {
-    if (!scene.heightmap) return std::nullopt;
+Eigen::AlignedBox2d needed_ground(const SceneConfig& scene, const Eigen::AlignedBox2d& seen,
+                                  Shapes& shapes) {
     Eigen::AlignedBox2d needed = seen;
     for (const ObjectConfig& object : scene.objects) {
         if (object.trajectory) continue;
@@ -37,6 +36,13 @@ std::optional<PlacedFile> heightmap_of(const SceneConfig& scene, const Eigen::Al
         needed.extend(Eigen::Vector2d(scatter.area_min_m.data()));
         needed.extend(Eigen::Vector2d(scatter.area_max_m.data()));
     }
+    return needed;
+}
+
+std::optional<PlacedFile> heightmap_of(const SceneConfig& scene, const Eigen::AlignedBox2d& seen,
+                                       Shapes& shapes) {
+    if (!scene.heightmap) return std::nullopt;
+    const Eigen::AlignedBox2d needed = needed_ground(scene, seen, shapes);
     PlacedFile map = file_of(*scene.heightmap);
     const Eigen::Vector2d origin(scene.heightmap->origin_m.data());
     const Eigen::Vector2d low = needed.min() + origin;

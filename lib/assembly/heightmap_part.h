@@ -16,6 +16,10 @@ namespace sonarsim {
 /// returns no echo and hides nothing that does.
 Eigen::AlignedBox2d seen_by(std::span<const Sonar> sonars, const Trajectory& vehicle);
 
+/// `seen`, and the ground that still objects may stand on; world x and y.
+Eigen::AlignedBox2d needed_ground(const SceneConfig& scene, const Eigen::AlignedBox2d& seen,
+                                  Shapes& shapes);
+
 /// The placed heightmap of a scene, if it has one: no more of it is made than `seen` and what still
 /// objects may stand on.
 std::optional<PlacedFile> heightmap_of(const SceneConfig& scene, const Eigen::AlignedBox2d& seen,

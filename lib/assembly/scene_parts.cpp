@@ -9,6 +9,7 @@
 #include "assembly/heightmap_part.h"
 #include "assembly/placed_files.h"
 #include "assembly/poses.h"
+#include "assembly/seabed_part.h"
 #include "assembly/shapes.h"
 #include "core/error.h"
 #include "core/named_at.h"
@@ -31,9 +32,10 @@ Eigen::Quaterniond attitude_of(const std::array<double, 3>& rpy_deg) {
 /// The bottom that objects rest on, made at its first use.
 class LazyBottom {
   public:
-    /// `map` is the placed heightmap, if the scene has one.
-    LazyBottom(const SceneConfig& scene, const std::optional<PlacedFile>& map, SceneFiles& models)
-        : scene_(scene), map_(map), models_(models) {}
+    /// `ground` is the placed heightmap or seabed, if the scene has one.
+    LazyBottom(const SceneConfig& scene, const std::optional<PlacedFile>& ground,
+               SceneFiles& models)
+        : scene_(scene), ground_(ground), models_(models) {}
 
     /// True if this object is the bottom.
     bool is(const ObjectConfig& object) const {
@@ -63,7 +65,7 @@ class LazyBottom {
             unit_question(object.scale * box_of(shape).sizes().maxCoeff(),
                           metres(object.mesh.units), std::min(range_m, bottom_m / long_object),
                           long_object));
-        if (!scene_.heightmap)
+        if (!ground_)
             add("the bottom", unit_question(bottom_m, metres(mesh.units), range_m, long_place));
         return out;
     }
@@ -83,11 +85,14 @@ class LazyBottom {
     }
 
     /// True unless objects alone make the scene.
-    bool is_of_files() const { return !scene_.file.empty() || scene_.heightmap; }
+    bool is_of_files() const { return !scene_.file.empty() || ground_; }
 
     Surface surface() const {
-        if (scene_.heightmap && (scene_.bottom.empty() || scene_.file.empty()))
-            return surface_of(*map_, models_, scene_.bottom);
+        if (ground_ && (scene_.bottom.empty() || scene_.file.empty())) {
+            const std::vector<std::string> bed{seabed_instance};
+            return surface_of(*ground_, models_,
+                              ground_->seabed && scene_.bottom.empty() ? bed : scene_.bottom);
+        }
         if (!scene_.file.empty()) {
             return surface_of(file_of(scene_.file, scene_.mesh, scene_.place), models_,
                               scene_.bottom);
@@ -105,7 +110,7 @@ class LazyBottom {
     }
 
     const SceneConfig& scene_;
-    const std::optional<PlacedFile>& map_;
+    const std::optional<PlacedFile>& ground_;
     SceneFiles& models_;
     std::shared_ptr<const Bottom> bottom_;
 };
@@ -228,9 +233,13 @@ SceneParts place_scene(const Mission& mission, const Trajectory& vehicle,
     SceneParts parts;
     if (!scene.file.empty()) parts.files.push_back(file_of(scene.file, scene.mesh, scene.place));
     Shapes shapes(models);
-    const std::optional<PlacedFile> map = heightmap_of(scene, seen, shapes);
-    if (map) parts.files.push_back(*map);
-    LazyBottom bottom(scene, map, models);
+    std::optional<PlacedFile> ground = heightmap_of(scene, seen, shapes);
+    if (scene.seabed) {
+        ground = seabed_of(*scene.seabed, mission.seed, needed_ground(scene, seen, shapes));
+        parts.seabed = ground->seabed;
+    }
+    if (ground) parts.files.push_back(*ground);
+    LazyBottom bottom(scene, ground, models);
     std::vector<Hull> taken;
     const double range_m = farthest_range_m(mission);
     for (const ObjectConfig& object : scene.objects) {

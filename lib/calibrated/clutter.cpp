@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "calibrated/gamma_function.h"
 #include "core/elementary.h"
+#include "core/log_gamma.h"
 
 namespace sonarsim {
 

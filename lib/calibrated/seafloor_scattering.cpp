@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "calibrated/decibel.h"
-#include "calibrated/gamma_function.h"
 #include "core/elementary.h"
+#include "core/log_gamma.h"
 #include "core/units.h"
 
 namespace sonarsim {

@@ -48,7 +48,8 @@ std::string unit_questions(const Mission& mission, const Scene& scene) {
     for (std::size_t i = 0; i < boxes.size(); ++i) {
         const std::string& name = scene.instances[i];
         const Reading reading = reading_of(mission.scene, name);
-        if (scene.instances[i] == heightmap_instance && mission.scene.heightmap) continue;
+        if (name == heightmap_instance && mission.scene.heightmap) continue;
+        if (name.starts_with(seabed_instance) && mission.scene.seabed) continue;
         if (!reading.is_object)
             place.extend(boxes[i]);
         else

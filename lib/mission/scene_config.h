@@ -9,6 +9,7 @@
 
 #include "mission/ground_map_config.h"
 #include "mission/place.h"
+#include "mission/seabed_config.h"
 #include "mission/trajectory_config.h"
 
 namespace sonarsim {
@@ -108,6 +109,7 @@ struct SceneConfig {
     std::optional<HeightmapConfig> heightmap = {};
     std::optional<SedimentMapConfig> sediment_map = {};
     std::optional<BackscatterMapConfig> backscatter_map = {};
+    std::optional<SeabedConfig> seabed = {};
     std::vector<ObjectConfig> objects = {};
     std::vector<ScatterConfig> scatter = {};
     RepeatedFiles repeats = RepeatedFiles::automatic;

@@ -6,6 +6,7 @@
 #include "mission/ground_map_schema.h"
 #include "mission/limits.h"
 #include "mission/scene_config.h"
+#include "mission/seabed_schema.h"
 
 // The keys of the scene. As in mission/schema.h.
 
@@ -146,22 +147,25 @@ template <class Visitor>
 void describe(Visitor& v, SceneConfig& c) {
     v.place(c.place);
     v.path("file", c.file,
-           "the scene, a .glb, .gltf, .obj, .stl or .ply file; optional if there are objects or a "
-           "heightmap");
+           "the scene, a .glb, .gltf, .obj, .stl or .ply file; optional if there are objects, a "
+           "heightmap or a seabed");
     v.path("materials", c.materials,
            "CSV with the density and speed of sound of every material of the scene", required);
     v.text("material_default", c.material_default,
            "material of surfaces whose material the CSV lacks or the file does not name; without "
            "it they are an error");
     describe_mesh(v, c.mesh);
-    v.texts("bottom", c.bottom,
-            "nodes of `file` that objects rest on; default: the heightmap, else all nodes of "
-            "`file`, else the first object");
+    v.texts(
+        "bottom", c.bottom,
+        "nodes of `file` that objects rest on; default: the heightmap or seabed, else all nodes "
+        "of `file`, else the first object");
     v.optional_section("heightmap", c.heightmap, "an image of heights, which is the bottom");
     v.optional_section("sediment_map", c.sediment_map,
                        "an image whose pixels say what the ground is made of");
     v.optional_section("backscatter_map", c.backscatter_map,
                        "an image of decibels that are added to the strength of the ground");
+    v.optional_section("seabed", c.seabed,
+                       "a bottom that is made from these numbers and the mission's seed");
     v.list("objects", c.objects, 0, "files that are placed in the scene one by one");
     v.list("scatter", c.scatter, 0, "files that are placed on the bottom at random");
     v.choice("repeats", c.repeats, repeated_files,
@@ -172,8 +176,10 @@ void describe(Visitor& v, SceneConfig& c) {
     v.optional_section(
         "water_surface", c.water_surface,
         "the surface of the water: it reflects multipath and is invisible otherwise");
-    v.require(!c.file.empty() || c.heightmap || !c.objects.empty(), {},
-              "'scene' needs the key 'file', a heightmap or objects");
+    v.require(!c.file.empty() || c.heightmap || c.seabed || !c.objects.empty(), {},
+              "'scene' needs the key 'file', a heightmap, a seabed or objects");
+    v.require(!c.heightmap || !c.seabed, {"heightmap", "seabed"},
+              "heightmap and seabed are both the bottom; give one of them");
 }
 
 }  // namespace sonarsim

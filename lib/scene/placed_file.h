@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -11,6 +12,8 @@
 #include "core/error.h"
 
 namespace sonarsim {
+
+struct Seabed;
 
 /// The way in which an image becomes a surface: each pixel is a height.
 struct HeightmapRule {
@@ -36,6 +39,7 @@ struct PlacedFile {
     /// Patterns of nodes that are left out with their descendants.
     std::vector<std::string> exclude = {};
     std::optional<HeightmapRule> heightmap = {};  ///< the file is an image of heights
+    std::shared_ptr<const Seabed> seabed = {};    ///< a bed that was made takes the file's place
 
     std::string name = {};        ///< makes one instance of all nodes; "": each is one of its own
     std::string class_name = {};  ///< class of its instances; "": the file's own

@@ -44,7 +44,7 @@ class BadObjects(Composed):
 
     def test_no_scene_at_all(self):
         self.scene("  materials: materials.csv\n")
-        self.refused("mission.yaml:4:3: 'scene' needs the key 'file', a heightmap or objects")
+        self.refused("mission.yaml:4:3: 'scene' needs the key 'file', a heightmap, a seabed or objects")
 
     def test_missing_file(self):
         self.objects(["{name: a, file: crat.gltf}"])

@@ -53,6 +53,10 @@ std::string material_name(const PlacedPrimitive& primitive, const MaterialRules&
                          "the heightmap has no material; write "
                          "scene.heightmap.material: NAME");
     }
+    if (placed.seabed) {
+        throw InputError(placed.place,
+                         "the seabed has no material; write scene.seabed.material: NAME");
+    }
     if (is_mesh_file(placed.file)) {
         throw InputError(placed.place, "'" + printable(primitive.mesh.instance) +
                                            "' has no material in " + placed.file.string() +

@@ -8,12 +8,14 @@
 #include "scene/gltf/file.h"
 #include "scene/heightmap/height_model.h"
 #include "scene/meshes/read_mesh.h"
+#include "scene/seabed/bed_model.h"
 
 namespace sonarsim {
 
 namespace {
 
 tinygltf::Model read_model(const PlacedFile& placed) {
+    if (placed.seabed) return bed_model(*placed.seabed);
     if (placed.heightmap) return height_model(placed.file, *placed.heightmap);
     return is_mesh_file(placed.file) ? read_mesh(placed.file) : read_gltf(placed.file);
 }
@@ -24,6 +26,9 @@ struct SceneFiles::Models {
     struct Entry {
         std::filesystem::path file;
         std::optional<HeightmapRule> heightmap;
+        std::shared_ptr<const Seabed> seabed;
+
+        bool is_ground() const { return heightmap || seabed; }
         tinygltf::Model model;
     };
     std::list<Entry> entries;  // a list, so that references stay valid
@@ -34,15 +39,16 @@ SceneFiles::~SceneFiles() = default;
 
 const tinygltf::Model& SceneFiles::model(const PlacedFile& placed) {
     const auto known = std::ranges::find_if(models_->entries, [&](const Models::Entry& entry) {
-        return entry.file == placed.file && entry.heightmap == placed.heightmap;
+        return entry.file == placed.file && entry.heightmap == placed.heightmap &&
+               entry.seabed == placed.seabed;
     });
     if (known != models_->entries.end()) return known->model;
     try {
-        Models::Entry entry{placed.file, placed.heightmap, read_model(placed)};
-        // Variants of a mission need other parts of a map, which are large: only one is kept.
-        if (placed.heightmap) {
+        Models::Entry entry{placed.file, placed.heightmap, placed.seabed, read_model(placed)};
+        // Variants of a mission need other grounds, which are large: only one is kept.
+        if (entry.is_ground()) {
             std::erase_if(models_->entries,
-                          [](const Models::Entry& old) { return old.heightmap.has_value(); });
+                          [](const Models::Entry& old) { return old.is_ground(); });
         }
         models_->entries.push_back(std::move(entry));
         return models_->entries.back().model;

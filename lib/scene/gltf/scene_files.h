@@ -19,8 +19,8 @@ class SceneFiles {
     SceneFiles& operator=(const SceneFiles&) = delete;
 
     /// Reads the file on the first call. InputError as read_gltf and read_mesh, with the place in
-    /// the mission that names the file. The reference stays valid; that of a heightmap until
-    /// another one, or another part of it, is read.
+    /// the mission that names the file. The reference stays valid; that of a heightmap or
+    /// a seabed until another one, or another part of it, is read.
     const tinygltf::Model& model(const PlacedFile& placed);
 
   private:

@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <utility>
 #include <vector>
 
@@ -15,6 +14,7 @@
 #include "scene/images/image_place.h"
 #include "scene/images/read_image.h"
 #include "scene/images/unknown_pixels.h"
+#include "scene/model_data.h"
 
 namespace sonarsim {
 
@@ -96,26 +96,6 @@ std::vector<std::uint32_t> corners_of_cells(const PixelWindow& window,
     return corners;
 }
 
-template <class T>
-int add_height_accessor(tinygltf::Model& model, const std::vector<T>& values, std::size_t count,
-                        int component, int type) {
-    auto& data = model.buffers.front().data;
-    tinygltf::BufferView view;
-    view.buffer = 0;
-    view.byteOffset = data.size();
-    view.byteLength = values.size() * sizeof(T);
-    data.resize(data.size() + view.byteLength);
-    std::memcpy(data.data() + view.byteOffset, values.data(), view.byteLength);
-    model.bufferViews.push_back(std::move(view));
-    tinygltf::Accessor accessor;
-    accessor.bufferView = static_cast<int>(model.bufferViews.size()) - 1;
-    accessor.componentType = component;
-    accessor.count = count;
-    accessor.type = type;
-    model.accessors.push_back(std::move(accessor));
-    return static_cast<int>(model.accessors.size()) - 1;
-}
-
 /// The pixels of a window.
 struct HeightGrid {
     std::vector<float> positions;  ///< column, row and value of each
@@ -178,11 +158,10 @@ tinygltf::Model height_model(const std::filesystem::path& path, const HeightmapR
     if (corners.empty())
         throw InputError(where, "has no three neighbours with known heights; check no_data");
     tinygltf::Model model;
-    model.buffers.emplace_back();
-    const int positions = add_height_accessor(model, heights.positions, heights.known.size(),
-                                              TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3);
-    const int indices = add_height_accessor(
-        model, corners, corners.size(), TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, TINYGLTF_TYPE_SCALAR);
+    const int positions = add_accessor(model, heights.positions, heights.known.size(),
+                                       TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3);
+    const int indices = add_accessor(model, corners, corners.size(),
+                                     TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, TINYGLTF_TYPE_SCALAR);
     add_height_node(model, grid, positions, indices);
     return model;
 }

@@ -1,0 +1,61 @@
+#include "assembly/seabed_part.h"
+
+#include <memory>
+
+#include "core/elementary.h"
+#include "core/units.h"
+
+namespace sonarsim {
+
+namespace {
+
+BedRipples ripples_of(const BedRippleConfig& config) {
+    return {.height_m = config.height_m,
+            .length_m = config.length_m,
+            .direction_rad = radians(config.direction_deg),
+            .spread = config.spread,
+            .share = config.share,
+            .patch_m = config.patch_m};
+}
+
+}  // namespace
+
+SeabedRule rule_of(const SeabedConfig& config, std::uint64_t seed) {
+    SeabedRule rule;
+    rule.seed = seed;
+    rule.cell_m = config.cell_m;
+    rule.size_m = config.size_m;
+    rule.origin_m = config.origin_m;
+    rule.z_m = config.z_m;
+    const SinCos slope = sincos(radians(config.slope_deg));
+    const SinCos uphill = sincos(radians(config.uphill_deg));
+    rule.slope = {slope.sin / slope.cos * uphill.cos, slope.sin / slope.cos * uphill.sin};
+    if (config.roughness) {
+        const BedRoughnessConfig& roughness = *config.roughness;
+        rule.roughness = BedRoughness{
+            roughness_strength(roughness.spectral_strength_cm4, roughness.spectral_exponent),
+            roughness.spectral_exponent, roughness.corner_m};
+    }
+    if (config.ripples) rule.ripples = ripples_of(*config.ripples);
+    if (config.waves) rule.waves = ripples_of(*config.waves);
+    rule.class_name = config.class_name;
+    rule.place = config.place.location;
+    return rule;
+}
+
+PlacedFile seabed_of(const SeabedConfig& config, std::uint64_t seed,
+                     const Eigen::AlignedBox2d& needed) {
+    SeabedRule rule = rule_of(config, seed);
+    const Eigen::Vector2d origin(config.origin_m.data());
+    const Eigen::Vector2d low = needed.min() + origin;
+    const Eigen::Vector2d high = needed.max() + origin;
+    rule.window = {low.x(), low.y(), high.x(), high.y()};
+    PlacedFile file{.file = "scene.seabed",
+                    .z_up = true,
+                    .material = config.material,
+                    .place = config.place.location};
+    file.seabed = std::make_shared<const Seabed>(make_seabed(rule));
+    return file;
+}
+
+}  // namespace sonarsim

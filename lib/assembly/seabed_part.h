@@ -1,0 +1,19 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+
+#include "mission/seabed_config.h"
+#include "scene/placed_file.h"
+#include "scene/seabed/seabed.h"
+
+namespace sonarsim {
+
+/// The rule of a mission's seabed, without the part that is made.
+SeabedRule rule_of(const SeabedConfig& config, std::uint64_t seed);
+
+/// The placed seabed of a mission, made above `needed`, world x and y.
+PlacedFile seabed_of(const SeabedConfig& config, std::uint64_t seed,
+                     const Eigen::AlignedBox2d& needed);
+
+}  // namespace sonarsim

@@ -1,0 +1,115 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mission/place.h"
+
+namespace sonarsim {
+
+// A bed that is made from numbers and the mission's seed. Pairs are limits of random draws.
+
+/// An isotropic power spectrum of heights, W(K) = strength / (K^2 + (2 pi / corner)^2)^(exponent/2)
+/// with K in rad/cm and W in cm^4, so that the integral of W over the plane is the variance.
+struct BedRoughnessConfig {
+    double spectral_strength_cm4 = 0.003;
+    double spectral_exponent = 3.25;
+    double corner_m = 2.0;  ///< wavelength above which the spectrum is flat
+
+    bool operator==(const BedRoughnessConfig&) const = default;
+};
+
+/// One train of ripples or sand waves.
+struct BedRippleConfig {
+    double height_m = 0.0;  ///< from trough to crest
+    double length_m = 0.0;  ///< from crest to crest
+    double direction_deg = 0.0;
+    double spread = 0.05;  ///< deviation of the wave vector, as a share of its length
+    double share = 1.0;    ///< share of the bed with ripples
+    double patch_m = 10.0;
+
+    bool operator==(const BedRippleConfig&) const = default;
+};
+
+/// Rocks that lie on the bed, in a Poisson process.
+struct BedRockConfig {
+    double density_per_m2 = 0.0;
+    std::array<double, 2> diameter_m{};
+    double exponent = 3.0;                   ///< rocks larger than D are as frequent as D^-exponent
+    std::array<double, 2> buried{0.2, 0.6};  ///< share of the diameter
+    std::string material;
+    std::string class_name = "rock";
+
+    bool operator==(const BedRockConfig&) const = default;
+};
+
+/// Tufts of leaves that stand on the bed, in patches.
+struct BedPlantConfig {
+    double density_per_m2 = 0.0;
+    std::array<double, 2> height_m{};
+    double share = 1.0;
+    double patch_m = 5.0;
+    std::string material;
+    std::string class_name = "plant";
+
+    bool operator==(const BedPlantConfig&) const = default;
+};
+
+/// Round hollows.
+struct BedPockmarkConfig {
+    double density_per_m2 = 0.0;
+    std::array<double, 2> diameter_m{};
+    std::array<double, 2> depth_m{};
+
+    bool operator==(const BedPockmarkConfig&) const = default;
+};
+
+/// Straight furrows, as of trawls and anchors.
+struct BedScarConfig {
+    double density_per_m2 = 0.0;
+    std::array<double, 2> length_m{};
+    std::array<double, 2> width_m{};
+    std::array<double, 2> depth_m{};
+    std::array<double, 2> direction_deg{0, 180};
+
+    bool operator==(const BedScarConfig&) const = default;
+};
+
+/// A material that covers a share of the bed.
+struct BedSedimentConfig {
+    std::string material;
+    double share = 1.0;
+
+    bool operator==(const BedSedimentConfig&) const = default;
+};
+
+struct SeabedConfig {
+    std::optional<std::array<double, 2>> size_m;  ///< x, y; none: the bed has no end
+    double cell_m = 0.0;                          ///< distance between heights
+    std::array<double, 2> origin_m{};             ///< point of the bed that is the world's (0, 0)
+    double z_m = 0.0;                             ///< mean height at the world's (0, 0)
+    double slope_deg = 0.0;
+    double uphill_deg = 0.0;  ///< direction in which the bed rises
+    std::string material;
+    std::string class_name;
+    std::optional<BedRoughnessConfig> roughness;
+    std::optional<BedRippleConfig> ripples;
+    std::optional<BedRippleConfig> waves;
+    std::optional<BedPockmarkConfig> pockmarks;
+    std::optional<BedScarConfig> scars;
+    std::vector<BedSedimentConfig> sediments;
+    double patch_m = 10.0;  ///< size of the patches of sediments
+    double border_m = 1.0;  ///< size of the bays of their borders
+    std::optional<BedRockConfig> rocks;
+    std::optional<BedPlantConfig> plants;
+    MissionPlace place;
+
+    bool operator==(const SeabedConfig&) const = default;
+};
+
+/// The instance that a seabed makes, besides its rocks and plants.
+inline constexpr const char* seabed_instance = "seabed";
+
+}  // namespace sonarsim

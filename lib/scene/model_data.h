@@ -1,0 +1,35 @@
+#pragma once
+
+#include <tiny_gltf.h>
+
+#include <cstddef>
+#include <cstring>
+#include <utility>
+#include <vector>
+
+namespace sonarsim {
+
+/// Appends numbers to the first buffer of a model, and returns the index of the accessor to them:
+/// `count` elements of a component and a type of tinygltf.
+template <class T>
+int add_accessor(tinygltf::Model& model, const std::vector<T>& values, std::size_t count,
+                 int component, int type) {
+    if (model.buffers.empty()) model.buffers.emplace_back();
+    auto& data = model.buffers.front().data;
+    tinygltf::BufferView view;
+    view.buffer = 0;
+    view.byteOffset = data.size();
+    view.byteLength = values.size() * sizeof(T);
+    data.resize(data.size() + view.byteLength);
+    std::memcpy(data.data() + view.byteOffset, values.data(), view.byteLength);
+    model.bufferViews.push_back(std::move(view));
+    tinygltf::Accessor accessor;
+    accessor.bufferView = static_cast<int>(model.bufferViews.size()) - 1;
+    accessor.componentType = component;
+    accessor.count = count;
+    accessor.type = type;
+    model.accessors.push_back(std::move(accessor));
+    return static_cast<int>(model.accessors.size()) - 1;
+}
+
+}  // namespace sonarsim

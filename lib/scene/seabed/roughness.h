@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "scene/seabed/bed_grid.h"
+
+namespace sonarsim {
+
+/// An isotropic spectrum of heights, W(k) = strength (k^2 + k0^2)^(-exponent / 2) with k in rad/m
+/// and k0 = 2 pi / corner_m. Its integral over all wave vectors is the variance, m^2.
+struct BedRoughness {
+    double strength = 0.0;  ///< m^(4 - exponent)
+    double exponent = 3.25;
+    double corner_m = 2.0;
+};
+
+/// The strength in the units above of one that is given in cm^4, as the literature does: with
+/// lengths in cm and k in rad/cm.
+double roughness_strength(double spectral_strength_cm4, double exponent);
+
+/// Adds random heights with this spectrum, in metres. The spectrum holds within 0.6 dB from the
+/// corner down to wavelengths of 4 cells, and falls to 2 to 3 dB less at 2 cells, the shortest that
+/// the grid holds.
+///
+/// (k^2 + k0^2)^-a is the integral of t^(a-1) exp(-t (k^2 + k0^2)) dt / Gamma(a), a mixture of the
+/// spectra of smooth fields. The sum over t in steps of a factor 4, one field for each octave of
+/// lengths, is this integral within 4 %.
+void add_roughness(const BedGrid& grid, const BedRoughness& roughness, std::uint64_t seed,
+                   std::vector<double>& heights);
+
+}  // namespace sonarsim

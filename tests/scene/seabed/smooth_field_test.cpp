@@ -1,0 +1,103 @@
+#include "scene/seabed/smooth_field.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "core/units.h"
+
+using namespace sonarsim;
+
+namespace {
+
+PhiloxKey key_of(std::uint32_t number) {
+    return bed_key(7, BedDraw::roughness, number);
+}
+
+}  // namespace
+
+TEST_CASE("a smooth field has variance 1 and the correlation of its length") {
+    // Values 4 lengths apart have the correlation exp(-4) = 0.018, so that a field of 160 x 160
+    // cells of half a length has about 400 independent ones; 16 fields have 6,400.
+    const BedGrid grid{0.5, -80, 79, 160, 160};
+    double sum = 0.0;
+    double squares = 0.0;
+    double along_x = 0.0;
+    double along_y = 0.0;
+    double count = 0.0;
+    constexpr int lag = 4;  // two lengths: exp(-1)
+    for (std::uint32_t n = 0; n < 16; ++n) {
+        const std::vector<float> field = smooth_field(grid, 1.0, key_of(n));
+        REQUIRE(field.size() == grid.size());
+        for (int row = 0; row + lag < grid.rows; ++row) {
+            for (int column = 0; column + lag < grid.columns; ++column) {
+                const std::size_t i =
+                    static_cast<std::size_t>(row) * 160 + static_cast<std::size_t>(column);
+                const double x = field[i];
+                sum += x;
+                squares += x * x;
+                along_x += x * field[i + lag];
+                along_y += x * field[i + std::size_t{lag} * 160];
+                count += 1.0;
+            }
+        }
+    }
+    // The area of the squared correlation is 2 pi length^2, so that a variance of n square lengths
+    // has the deviation sqrt(2 * 2 pi / n); 16 fields of 78^2 have 0.0114. Limits are 4 deviations,
+    // p = 6e-5. The mean's correlation has the area 4 pi: sqrt(4 pi / n) = 0.0114.
+    CHECK(std::abs(sum / count) < 0.046);
+    CHECK(std::abs(squares / count - 1.0) < 0.046);
+    CHECK(std::abs(along_x / count - std::exp(-1.0)) < 0.046);
+    CHECK(std::abs(along_y / count - std::exp(-1.0)) < 0.046);
+}
+
+TEST_CASE("a part of a smooth field has the values of the whole, at any place") {
+    const BedGrid whole{0.3, -50, 40, 90, 70};
+    const BedGrid part{0.3, -17, 21, 20, 33};
+    for (const double length : {0.11, 0.5, 3.0}) {
+        const std::vector<float> all = smooth_field(whole, length, key_of(1));
+        const std::vector<float> some = smooth_field(part, length, key_of(1));
+        bool same = true;
+        for (int row = 0; row < part.rows; ++row) {
+            for (int column = 0; column < part.columns; ++column) {
+                const auto in_whole =
+                    static_cast<std::size_t>(row + 19) * 90 + static_cast<std::size_t>(column + 33);
+                same =
+                    same &&
+                    all[in_whole] ==
+                        some[static_cast<std::size_t>(row) * 20 + static_cast<std::size_t>(column)];
+            }
+        }
+        CHECK(same);
+    }
+    CHECK(smooth_field(whole, 0.5, key_of(1)) != smooth_field(whole, 0.5, key_of(2)));
+}
+
+TEST_CASE("two smooth fields turn around a point as often as Gaussian fields do") {
+    // Berry and Dennis 2000: zeros of a complex Gaussian field have the density <k^2> / (4 pi), and
+    // <k^2> = 1 / length^2 here.
+    const BedGrid grid{0.25, 0, 0, 400, 400};
+    const std::vector<float> re = smooth_field(grid, 1.0, key_of(3));
+    const std::vector<float> im = smooth_field(grid, 1.0, key_of(4));
+    const auto phase = [&](int row, int column) {
+        const auto i = static_cast<std::size_t>(row) * 400 + static_cast<std::size_t>(column);
+        return std::atan2(im[i], re[i]);
+    };
+    int zeros = 0;
+    for (int row = 0; row + 1 < grid.rows; ++row) {
+        for (int column = 0; column + 1 < grid.columns; ++column) {
+            const double corners[] = {phase(row, column), phase(row, column + 1),
+                                      phase(row + 1, column + 1), phase(row + 1, column),
+                                      phase(row, column)};
+            double turn = 0.0;
+            for (int k = 0; k < 4; ++k)
+                turn += std::remainder(corners[k + 1] - corners[k], 2.0 * pi);
+            zeros += std::abs(turn) > 3.0;
+        }
+    }
+    // 796 expected; zeros repel each other a little, so their count varies less than Poisson's.
+    const double expected = 399.0 * 399.0 / 16.0 / (4.0 * pi);
+    CHECK(std::abs(zeros - expected) < 4.0 * std::sqrt(expected));
+}
