@@ -11,12 +11,16 @@ namespace sonarsim {
 
 namespace {
 
-constexpr MultipathConfig exact{MultipathMethod::exact, 0, 0.0};
 constexpr MultipathConfig none{MultipathMethod::none, 0, 0.0};
+
+/// The exact method with as many columns per beam.
+MultipathConfig exact(const MultipathConfig& config) {
+    return {MultipathMethod::exact, 0, 0.0, config.columns_per_beam};
+}
 
 /// The exact method ignores epsilon and delta, so one setting stands for all of them.
 MultipathConfig canonical(const MultipathConfig& config) {
-    return config.method == MultipathMethod::exact ? exact : config;
+    return config.method == MultipathMethod::exact ? exact(config) : config;
 }
 
 /// A sonar with one multipath method, and its times so far.
@@ -116,10 +120,10 @@ std::vector<MultipathRow> measure_sonar(const Mission& mission, const PingSet& p
 }  // namespace
 
 std::vector<MultipathConfig> multipath_settings(const MultipathConfig& own) {
-    std::vector<MultipathConfig> settings{exact};
+    std::vector<MultipathConfig> settings{exact(own)};
     for (const int epsilon : {1, 3, 5, 9}) {
         for (const double delta : {5.0, 15.0, 30.0})
-            settings.push_back({MultipathMethod::cluster, epsilon, delta});
+            settings.push_back({MultipathMethod::cluster, epsilon, delta, own.columns_per_beam});
     }
     if (std::ranges::find(settings, canonical(own)) == settings.end()) settings.push_back(own);
     return settings;

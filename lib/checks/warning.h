@@ -44,6 +44,7 @@ enum class WarningCode {
     thin_fan = 32,
     rare_class = 33,
     disk_full = 34,
+    multipath_missed = 35,
 };
 
 /// A row of the table of all warnings. `what` and `cure` are format strings of the same figures.

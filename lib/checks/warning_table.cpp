@@ -199,6 +199,17 @@ constexpr std::array table{
                 "yet",
                 "the estimate is the mean of a few pings; a run that fills the disk stops, and "
                 "goes on once there is room"},
+    WarningText{
+        WarningCode::multipath_missed,
+        "{0} of {1} pings miss more than 5 % of the bins with multipath or light others by "
+        "mistake, the worst an estimated {2:.2g} %: facets are too small for the rays, or their "
+        "echoes thinner than a bin",
+        "raise multipath.columns_per_beam, which takes as much more time, or lower "
+        "accuracy.relative_l1",
+        "one ping of a fan whose estimate is above 5 % of 16 or more bins with multipath",
+        "accuracy.relative_l1 holds for direct echoes: a facet that is narrower than a column of "
+        "rays hardly counts for them, but its echo over a second surface may have bins of its "
+        "own"},
 };
 
 constexpr bool is_in_order() {

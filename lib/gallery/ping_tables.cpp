@@ -172,7 +172,8 @@ Json measured_columns(const fs::path& folder, const Json& sensor) {
         };
         use_json(file, *text, [&](const Json& meta) {
             for_each_number("", meta.value("measured", Json()), put);
-            for (const char* name : {"estimated_error", "clipped_pixels"}) {
+            for (const char* name :
+                 {"estimated_error", "estimated_missed_multipath", "clipped_pixels"}) {
                 if (meta.contains(name)) put(name, meta[name]);
             }
         });

@@ -35,6 +35,9 @@ void describe(Visitor& v, MultipathConfig& c) {
               "size of a cluster in range, azimuth and elevation bins");
     v.number("delta_deg", c.delta_deg, between(0, 180),
              "largest angle between the normals within a cluster");
+    v.integer("columns_per_beam", c.columns_per_beam, between(1, 16),
+              "trace each beam of a fan as so many narrower ones: more of the echoes of small "
+              "facets are found, and a ping takes so many times as long");
 }
 
 /// Checks that a table of beams fits the other keys of a sonar.
@@ -113,6 +116,8 @@ void describe(Visitor& v, SonarConfig& c) {
     if (keys.azimuth_bins)
         v.integer("azimuth_bins", c.azimuth_bins, between(1, 8192), "number of beams of a ping");
     v.section("multipath", c.multipath, "multipath via a second surface");
+    v.require((!keys.opening && c.kind != SonarKind::sidescan) || c.multipath.columns_per_beam == 1,
+              {"multipath"}, "multipath.columns_per_beam is for the beams of a fan: it must be 1");
     v.choice(
         "model", c.model, echo_models,
         "echo model: the paper's, or the calibrated one, which gives what the instrument measures");

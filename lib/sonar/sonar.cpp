@@ -23,7 +23,11 @@ Sonar make_sonar(const KindOfSonar& kind, const SonarConfig& config, const Accur
     settings.model = make_echo_model(sonar, kind, water);
     settings.guard_beams = settings.model->guard_beams();
     // Multipath goes on from the samples, so that it needs those of every beam.
-    if (settings.multipath.on) settings.guard_beams.joined = 1;
+    if (settings.multipath.on) {
+        settings.guard_beams.joined = 1;
+        if (settings.view.shape == ViewShape::fan)
+            settings.guard_beams.divided = config.multipath.columns_per_beam;
+    }
     settings.multipath.scattered = settings.model->needs_scattered_paths();
     return sonar;
 }

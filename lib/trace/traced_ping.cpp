@@ -1,10 +1,13 @@
 #include "trace/traced_ping.h"
 
+#include <limits>
 #include <utility>
 
 #include "core/clock.h"
 #include "trace/find_coherent_surface.h"
 #include "trace/lay_maps.h"
+#include "trace/missed_multipath.h"
+#include "visibility/rays/sampling.h"
 
 namespace sonarsim {
 
@@ -45,6 +48,7 @@ void trace_multipath(const TraceSettings& settings, const Scene& scene,
     Stopwatch watch;
     traced.counts.multipath = {};
     traced.bounces.clear();
+    traced.missed_multipath = std::numeric_limits<double>::quiet_NaN();
     if (settings.multipath.on) {
         traced.bounces = find_bounces(settings.multipath,
                                       {.view = settings.view,
@@ -52,6 +56,13 @@ void trace_multipath(const TraceSettings& settings, const Scene& scene,
                                        .engine = engine,
                                        .T_world_sensor = traced.T_world_sensor},
                                       traced.samples, traced.counts.multipath);
+        // Surface that scatters sound back may light what the bounces miss.
+        if (!settings.multipath.scattered) {
+            const View view = traced_view(settings.view, settings.guard_beams);
+            const int columns = sampling_for(view).columns * settings.guard_beams.divided;
+            traced.missed_multipath =
+                missed_multipath(settings.view, columns, traced.samples, traced.bounces);
+        }
     }
     traced.seconds.multipath = watch.lap();
 }

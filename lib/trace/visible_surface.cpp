@@ -42,6 +42,15 @@ std::vector<std::uint32_t> separated(std::span<const std::uint32_t> begins, int 
     return out;
 }
 
+/// The beginnings of the beams of a view by those of the parts that they are divided into.
+std::vector<std::uint32_t> together(std::span<const std::uint32_t> begins, int divided) {
+    std::vector<std::uint32_t> out;
+    out.reserve(begins.size() / static_cast<std::size_t>(divided) + 1);
+    for (std::size_t j = 0; j < begins.size(); j += static_cast<std::size_t>(divided))
+        out.push_back(begins[j]);
+    return out;
+}
+
 /// Adds the surface that the engine sees in the guard beams on one side of the view.
 void add_guard_side(const View& view, const Samples& seen, const Pose& T_sensor_side,
                     VisibleSurface& out) {
@@ -73,7 +82,7 @@ View widened_view(const View& view, const GuardBeams& guard_beams) {
 
 View traced_view(const View& view, const GuardBeams& guard_beams) {
     View out = widened_view(view, guard_beams);
-    out.beams /= joined_beams(view, guard_beams);
+    out.beams = out.beams / joined_beams(view, guard_beams) * guard_beams.divided;
     return out;
 }
 
@@ -85,7 +94,9 @@ bool is_reached(const View& view, const Eigen::Vector3f& position) {
 std::vector<Sight> sights(const View& view, const GuardBeams& guard_beams,
                           const Pose& T_world_sensor) {
     if (!(guard_beams.beam_rad > 0.0)) return {{traced_view(view, guard_beams), T_world_sensor}};
-    std::vector<Sight> all{{traced_view(view, {.joined = guard_beams.joined}), T_world_sensor}};
+    std::vector<Sight> all{
+        {traced_view(view, {.joined = guard_beams.joined, .divided = guard_beams.divided}),
+         T_world_sensor}};
     for (const double side : {-1.0, 1.0})
         all.push_back(
             {guard_view(view, guard_beams), T_world_sensor * guard_side(view, guard_beams, side)});
@@ -101,6 +112,7 @@ VisibleSurface visible_surface(const View& view, const GuardBeams& guard_beams,
     VisibleSurface out;
     out.samples = see(asked[0]);
     std::vector<std::uint32_t>& begins = out.samples.beam_begin;
+    if (guard_beams.divided > 1) begins = together(begins, guard_beams.divided);
     begins = separated(begins, joined_beams(view, guard_beams));
     if (asked.size() > 1) {
         add_guard_side(view, see(asked[1]), guard_side(view, guard_beams, -1.0), out);

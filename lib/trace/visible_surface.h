@@ -21,6 +21,7 @@ struct GuardBeams {
     /// So many beams of the view are traced as one at goals from 2 % on: a divisor of their number
     /// and, without `beam_rad`, of `count`.
     int joined = 1;
+    int divided = 1;  ///< each beam of a fan is traced as so many
 };
 
 /// The view in which surface is traced: the sonar's view with guard beams on either side.

@@ -114,6 +114,7 @@ sensors:
       method: none
       epsilon_bins: 5
       delta_deg: 5
+      columns_per_beam: 1
     model: paper
     noise:
       range_lambda_m: 0
