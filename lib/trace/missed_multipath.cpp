@@ -38,7 +38,7 @@ class LitBins {
           bins_(view.range_bins),
           range_min_m_(static_cast<float>(view.range_min_m)),
           per_bin_(static_cast<float>(1.0 / view.bin_m())),
-          lit_(static_cast<std::size_t>(view.beams / every_ + 1) *
+          lit_((static_cast<std::size_t>(view.beams / every_) + 1) *
                static_cast<std::size_t>(bins_)) {}
 
     /// Lights the bins of a footprint. It is cut into pieces as by multipath_echoes().
