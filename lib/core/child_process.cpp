@@ -1,18 +1,24 @@
 #include "core/child_process.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
+#include <cstdint>
 #include <cstring>
 #include <fstream>
+#include <optional>
 #include <system_error>
 
 #include "core/error.h"
+#include "core/text.h"
 
 namespace sonarsim {
 
@@ -66,10 +72,27 @@ void write_all(int to, const void* bytes, std::size_t size) {
     _exit(0);
 }
 
-std::string read_all(int from) {
+using Clock = std::chrono::steady_clock;
+
+/// Waits until there is something to read, or the other end is closed. False after the deadline.
+bool wait_for_bytes(int from, Clock::time_point deadline) {
+    for (;;) {
+        const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now());
+        if (left.count() <= 0) return false;
+        pollfd one{.fd = from, .events = POLLIN, .revents = 0};
+        // In steps of a second, since the milliseconds of poll() are an int.
+        const int ready =
+            poll(&one, 1, static_cast<int>(std::min<std::int64_t>(left.count(), 1000)));
+        if (ready > 0 || (ready < 0 && errno != EINTR)) return true;
+    }
+}
+
+/// All bytes up to the end; nothing if the deadline passes before.
+std::optional<std::string> read_all(int from, std::optional<Clock::time_point> deadline) {
     std::string bytes;
     std::array<char, 1 << 16> buffer;
     for (;;) {
+        if (deadline && !wait_for_bytes(from, *deadline)) return std::nullopt;
         const ssize_t count = read(from, buffer.data(), buffer.size());
         if (count < 0 && errno == EINTR) continue;
         if (count <= 0) return bytes;
@@ -96,12 +119,19 @@ std::string bytes_of_child(const std::function<void(const ChildOutput&)>& work,
         run_child(work, ends[1], limits);
     }
     close(ends[1]);
-    std::string bytes = read_all(ends[0]);
+    std::optional<Clock::time_point> deadline;
+    if (limits.wall_s > 0.0) {
+        deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                      std::chrono::duration<double>(limits.wall_s));
+    }
+    std::optional<std::string> bytes = read_all(ends[0], deadline);
     close(ends[0]);
+    if (!bytes) kill(child, SIGKILL);
     int status = 0;
     while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
     }
-    if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return bytes;
+    if (!bytes) throw InputError("took more than " + number_text(limits.wall_s) + " s");
+    if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return *std::move(bytes);
     if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)
         throw InputError("took more than " + std::to_string(limits.cpu_s) + " s");
     if (WIFSIGNALED(status))

@@ -10,6 +10,8 @@ namespace sonarsim {
 struct ChildLimits {
     std::size_t memory_bytes = 0;
     unsigned long cpu_s = 0;
+    /// Time by the clock, also for a child that waits for a lock nobody opens; 0: any.
+    double wall_s = 0.0;
 };
 
 /// Gives bytes to the parent.

@@ -130,11 +130,12 @@ bool rays_are_better(const RaysTrial& trial, const View& view) {
 std::unique_ptr<VisibilityEngine> make_auto_engine(const Scene& scene, const SlicesOptions& options,
                                                    std::span<const Probe> probes, bool coverage) {
     if (!scene.bodies.empty() || !scene.copies.empty()) return make_rays_engine(scene, coverage);
-    auto slices = make_slices_engine(scene, options, coverage);
+    const Caster caster(scene);
+    auto slices = make_slices_engine(scene, caster, options, coverage);
     const bool few = scene.triangles.size() < few_triangles;
     if (few && std::ranges::all_of(probes, [](const Probe& p) { return p.rays_goal == 0.0; }))
         return slices;
-    auto rays = make_rays_engine(scene);
+    auto rays = make_rays_engine(scene, caster, false);
     std::vector<View> tried;
     std::vector<RaysView> better;
     for (const Probe& probe : probes) {

@@ -154,6 +154,7 @@ void Caster::find_box() {
 
 Caster::Caster(const Scene& scene) : Caster(make_trees(scene), {}) {}
 Caster::Caster(Caster&&) noexcept = default;
+Caster::Caster(const Caster&) = default;
 Caster::~Caster() = default;
 
 std::shared_ptr<const Caster::Trees> Caster::make_trees(const Scene& scene) {

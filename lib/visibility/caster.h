@@ -32,7 +32,7 @@ class Caster {
     explicit Caster(const Scene& scene);
     ~Caster();
     Caster(Caster&&) noexcept;
-    Caster(const Caster&) = delete;
+    Caster(const Caster&);  ///< the copy shares the trees, which never change
     Caster& operator=(const Caster&) = delete;
 
     /// The same trees with the bodies at these poses. The time grows with the number of bodies, not

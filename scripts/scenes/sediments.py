@@ -1,5 +1,5 @@
 """Maps of the ground of bathymetry.tif: what it is made of, as a picture of colours, and how strong its
-echo is besides, as a GeoTIFF of decibels in pixels of 10 cm."""
+echo is besides, as a GeoTIFF of decibels in pixels of 20 cm."""
 import math
 import struct
 import zlib
@@ -8,7 +8,7 @@ from .bathymetry import COLUMNS, PIXEL_M, ROWS
 from .noise import Relief
 
 SAND, MUD, GRAVEL, ROCK = (0xC8, 0xB4, 0x78), (0x6E, 0x5A, 0x46), (0x96, 0x96, 0x8C), (0x50, 0x50, 0x5A)
-MOSAIC_PIXEL_M = 0.1
+MOSAIC_PIXEL_M = 0.2
 # Strokes of a letter F, as boxes of x and y: no mirrored or turned map looks like it.
 LETTER = ((10, 11.5, 6, 17), (10, 17, 15.5, 17), (10, 15, 11, 12.5))
 

@@ -58,6 +58,8 @@ QUICK = ("--quick --poses 1 --reference-rays 1000000 "
 FEW = f"--set trajectory.rate_hz=1 {TINY}"
 INSTEAD = {
     "./scripts/render.sh configs/tank_imaging.yaml": f"./scripts/render.sh configs/tank_imaging.yaml {FEW}",
+    "./scripts/render.sh configs/sediment_maps.yaml":
+        "./scripts/render.sh configs/sediment_maps.yaml --set trajectory.rate_hz=0.5",
     "./scripts/render.sh configs/detection.yaml":
         f"./scripts/render.sh configs/detection.yaml --set variants=2 --set trajectory.rate_hz=0.5 {TINY}",
     "sonarsim merge PART... OUT": "sonarsim merge PART1 PART2 OUT",

@@ -1,15 +1,13 @@
 """Maps of material and of strength on the ground: their place, what is refused, and missions that
 differ by a map."""
 import array
-import json
 import math
-import pathlib
 import struct
 import unittest
 import zlib
 
 from composed import Composed
-from test_heightmap import numbers_of, png
+from test_heightmap import png
 
 MISSION = """\
 seed: 5
@@ -157,20 +155,13 @@ class GroundMaps(Composed):
                 ((QUARTERS % "").replace("{1: north_west, 2: north_east, 3: south_west, 4: Concrete}", "{}"),
                  ("'materials' must name",)),
                 (DECIBELS % ", scale_db: 20", ("db.png: row 0, column 0: 10 makes 200 dB, and at most 100 are "
-                                               "believed", "mission.yaml:5:")),
-                ((DECIBELS % "").replace("db.png", "box.gltf"), ("box.gltf: is JSON",)),
-                ((DECIBELS % "").replace("db.png", "none.png"), ("none.png: no such file",))):
+                                               "believed", "mission.yaml:5:"))):
             with self.subTest(maps=maps):
                 self.mission(maps)
                 self.assert_refused(self.run_sonarsim("validate", "mission.yaml"), *fragments)
         (self.folder / "db.png").write_bytes(colour_png([[(1, 2, 3, 4)]]))
         self.mission(DECIBELS % "")
         self.refused("db.png: has 4 channels, and a map of decibels has one")
-        (self.folder / "db.png").write_bytes(b"\x89PNG\r\n\x1a\n cut")
-        result = self.run_sonarsim("render", "mission.yaml")
-        self.assertEqual(result.returncode, 2, result.stderr)
-        self.assertIn("db.png: cannot be read", result.stderr)
-        self.assertFalse(self.out.exists())
 
 
 if __name__ == "__main__":

@@ -1,6 +1,7 @@
 #include "core/child_process.h"
 
 #include <doctest/doctest.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <cstdlib>
@@ -51,6 +52,12 @@ TEST_SUITE("core") {
                       }
                   },
                   {std::size_t{1} << 28, 1}) == "took more than 1 s");
+        CHECK(error_of_child(
+                  [](const ChildOutput& output) {
+                      output("x", 1);
+                      pause();  // as for a lock that nobody opens
+                  },
+                  {std::size_t{1} << 28, 60, 0.25}) == "took more than 0.25 s");
         CHECK(error_of_child([](const ChildOutput& output) {
                   const std::vector<char> much(std::size_t{1} << 32);
                   output(much.data(), 1);

@@ -99,6 +99,46 @@ TEST_SUITE("lay maps") {
         CHECK(count > 20);
     }
 
+    TEST_CASE("speckle keeps the mean power of fields smaller than a scatterer's cell") {
+        // Materials of 0.1 and 0.3 in fields of 2 cm, or strengths of 0.5 and 1.5, send back as
+        // much as one of 0.2. Both images have the same scatterers, so that their sums, over more
+        // than 1,000 cells a ping, differ by less than speckle does.
+        Scene plain = wide_floor();
+        const std::uint32_t dark = add_material(plain, 0.1F);
+        const std::uint32_t bright = add_material(plain, 0.3F);
+        for (Material& material : plain.materials) {
+            material.slope_rms_deg = 0.0;
+            material.lambert_db = db(static_cast<double>(material.reflection));
+        }
+        const auto field = [](int row, int column) {
+            return static_cast<std::uint16_t>((row + column) % 2);
+        };
+        Scene by_material = plain;
+        lay(by_material, material_texels(square_frame(1400, 28.0), {dark, bright}, field), {});
+        Scene by_strength = plain;
+        lay(by_strength, {}, strengths(square_frame(1400, 28.0), [&](int row, int column) {
+                return 0.5F + static_cast<float>(field(row, column));
+            }));
+        Sonar sonar = imaging(ModelKind::calibrated, 80);
+        SonarConfig config = sonar.config;
+        config.instrument.speckle.mode = SpeckleMode::scene;
+        sonar = make_sonar(config, {0.01});
+        const auto sum_of = [&](const Scene& scene) {
+            const auto engine = make_engine(scene, {.type = EngineKind::slices, .octree = {}});
+            double sum = 0.0;
+            for (const double yaw_deg : {0.0, 40.0, 80.0, 120.0}) {
+                const Ping ping = render_ping(sonar, scene, *engine, above_floor(yaw_deg),
+                                              {.seed = 1, .ping = 0}, {.multipath = false});
+                for (const float x : ping.intensity)
+                    sum += static_cast<double>(x);
+            }
+            return sum;
+        };
+        const double expected = sum_of(plain);
+        CHECK(std::fabs(db(sum_of(by_material) / expected)) < 0.1);
+        CHECK(std::fabs(db(sum_of(by_strength) / expected)) < 0.1);
+    }
+
     TEST_CASE("a side-scan reads a mosaic back") {
         // A smooth random texture of 14 m, drawn as waves of 1 m and more, and a track of 10 m.
         Draws draws(3);
@@ -126,36 +166,41 @@ TEST_SUITE("lay maps") {
                 return static_cast<float>(std::pow(
                     10.0, 0.1 * db_at(-14.0 + 0.1 * (column + 0.5), 14.0 - 0.1 * (row + 0.5))));
             }));
-        for (const ModelKind model : {ModelKind::paper, ModelKind::calibrated}) {
-            const Sonar sonar = sidescan(model, 0.1);
+        const auto correlation = [&](const Sonar& sonar, const Terms& terms) {
             const View& view = sonar.settings.view;
+            const auto engine = make_engine(scene, {.type = EngineKind::slices, .octree = {}});
             double n = 0.0, a = 0.0, b = 0.0, aa = 0.0, bb = 0.0, ab = 0.0;
             for (int ping = 0; ping < 12; ++ping) {
                 const Pose pose{Eigen::Quaterniond::Identity(), {-5.0 + 0.9 * ping, 0.0, 3.0}};
                 const std::vector<float> image =
-                    clean_image(sonar, scene, EngineKind::slices, pose);
+                    render_ping(sonar, scene, *engine, pose, {.seed = 1, .ping = 0}, terms)
+                        .intensity;
                 const std::vector<float> without =
                     clean_image(sonar, plain, EngineKind::slices, pose);
-                for (int i = 0; i < view.range_bins; ++i) {
-                    const double range = view.range_min_m + (i + 0.5) * view.bin_m();
+                for (int k = 0; k < 2 * view.range_bins; ++k) {
+                    const double range = view.range_min_m + (k / 2 + 0.5) * view.bin_m();
                     const double across = std::sqrt(range * range - 9.0);
-                    for (int j = 0; j < 2; ++j) {
-                        const std::size_t k = 2 * static_cast<std::size_t>(i) + j;
-                        const double found = db(static_cast<double>(image[k] / without[k]));
-                        // Beam 0 is starboard, the south.
-                        const double truth = db_at(pose.translation.x(), j == 0 ? -across : across);
-                        n += 1.0;
-                        a += found;
-                        b += truth;
-                        aa += found * found;
-                        bb += truth * truth;
-                        ab += found * truth;
-                    }
+                    const double found = db(static_cast<double>(image[k] / without[k]));
+                    // Beam 0 is starboard, the south.
+                    const double truth = db_at(pose.translation.x(), k % 2 == 0 ? -across : across);
+                    n += 1.0;
+                    a += found;
+                    b += truth;
+                    aa += found * found;
+                    bb += truth * truth;
+                    ab += found * truth;
                 }
             }
-            const double correlation =
-                (n * ab - a * b) / std::sqrt((n * aa - a * a) * (n * bb - b * b));
-            CHECK(correlation > 0.99);
-        }
+            return (n * ab - a * b) / std::sqrt((n * aa - a * a) * (n * bb - b * b));
+        };
+        CHECK(correlation(sidescan(ModelKind::paper, 0.1), direct_echoes_alone) > 0.99);
+        const Sonar instrument = sidescan(ModelKind::calibrated, 0.1);
+        CHECK(correlation(instrument, direct_echoes_alone) > 0.99);
+        // Speckle of one look has 5.6 dB in a bin, the texture 4.5: sqrt(4.5^2 / (4.5^2 + 5.6^2)).
+        SonarConfig config = instrument.config;
+        config.instrument.speckle.mode = SpeckleMode::scene;
+        const double with_speckle =
+            correlation(make_sonar(config, {0.01}), {.multipath = false, .random = 1});
+        CHECK(with_speckle == doctest::Approx(0.63).epsilon(0.15));
     }
 }

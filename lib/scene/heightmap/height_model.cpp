@@ -150,7 +150,8 @@ tinygltf::Model height_model(const std::filesystem::path& path, const HeightmapR
     require_heights(image, where);
     const PixelGrid grid =
         grid_in_metres(image, rule.pixel_m, rule.size_m, "scene.heightmap", where);
-    const std::optional<double> no_data = rule.no_data ? rule.no_data : image.reference.no_data;
+    std::optional<double> no_data = rule.no_data ? rule.no_data : image.reference.no_data;
+    if (no_data && std::isnan(*no_data)) no_data.reset();  // NaN is no height anyway
     const PixelWindow window = window_of(image, grid, rule, where);
     const HeightGrid heights = heights_of(image, window, no_data, where);
     const std::vector<std::uint32_t> corners =

@@ -106,7 +106,7 @@ void read_in_child(const ChildOutput& write, const std::string& format, const st
 std::string bytes_of_image(const std::filesystem::path& path, const std::string& format,
                            const Location& where) {
     // The libraries, and twice the largest image as doubles.
-    constexpr ChildLimits limits{(std::size_t{1} << 30) + 16 * most_image_values, 120};
+    constexpr ChildLimits limits{(std::size_t{1} << 30) + 16 * most_image_values, 120, 300.0};
     try {
         return bytes_of_child(
             [&](const ChildOutput& write) { read_in_child(write, format, path.string()); }, limits);

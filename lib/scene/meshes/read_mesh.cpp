@@ -75,8 +75,9 @@ SonarsimReadMesh reader_for(const Location& where) {
 std::string parts_of(const std::string& format, std::string_view bytes, const Location& where) {
     const SonarsimReadMesh read = reader_for(where);
     // Many times what a sound file takes, also on a slow machine.
-    const ChildLimits limits{(std::size_t{1} << 29) + 64 * bytes.size(),
-                             30 + static_cast<unsigned long>(bytes.size() / 100'000)};
+    const unsigned long cpu_s = 30 + static_cast<unsigned long>(bytes.size() / 100'000);
+    const ChildLimits limits{(std::size_t{1} << 29) + 64 * bytes.size(), cpu_s,
+                             5.0 * static_cast<double>(cpu_s)};
     const auto work = [&](const ChildOutput& output) {
         std::array<char, 400> error{};
         ChildOutput write = output;

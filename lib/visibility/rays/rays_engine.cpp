@@ -75,7 +75,12 @@ class RaysEngine final : public VisibilityEngine {
 }  // namespace
 
 std::unique_ptr<VisibilityEngine> make_rays_engine(const Scene& scene, bool coverage) {
-    return std::make_unique<RaysEngine>(scene, Caster(scene), SceneCoverage(scene, coverage),
+    return make_rays_engine(scene, Caster(scene), coverage);
+}
+
+std::unique_ptr<VisibilityEngine> make_rays_engine(const Scene& scene, const Caster& caster,
+                                                   bool coverage) {
+    return std::make_unique<RaysEngine>(scene, caster, SceneCoverage(scene, coverage),
                                         std::span<const Pose>());
 }
 

@@ -104,10 +104,11 @@ class BeamCutter {
 
 class SlicesEngine final : public VisibilityEngine {
   public:
-    SlicesEngine(const Scene& scene, const SlicesOptions& options, bool coverage)
+    SlicesEngine(const Scene& scene, const Caster& caster, const SlicesOptions& options,
+                 bool coverage)
         : scene_(&scene),
           options_(options),
-          caster_(scene),
+          caster_(caster),
           coverage_(scene, coverage),
           mesh_(make_clusters(scene)) {}
 
@@ -189,7 +190,12 @@ class SlicesEngine final : public VisibilityEngine {
 
 std::unique_ptr<VisibilityEngine> make_slices_engine(const Scene& scene,
                                                      const SlicesOptions& options, bool coverage) {
-    return std::make_unique<SlicesEngine>(scene, options, coverage);
+    return make_slices_engine(scene, Caster(scene), options, coverage);
+}
+
+std::unique_ptr<VisibilityEngine> make_slices_engine(const Scene& scene, const Caster& caster,
+                                                     const SlicesOptions& options, bool coverage) {
+    return std::make_unique<SlicesEngine>(scene, caster, options, coverage);
 }
 
 }  // namespace sonarsim

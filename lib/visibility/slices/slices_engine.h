@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "scene/scene.h"
+#include "visibility/caster.h"
 #include "visibility/engine.h"
 
 namespace sonarsim {
@@ -17,5 +18,8 @@ struct SlicesOptions {
 std::unique_ptr<VisibilityEngine> make_slices_engine(const Scene& scene,
                                                      const SlicesOptions& options,
                                                      bool coverage = false);
+/// The same with a caster over the scene, whose trees engines may share.
+std::unique_ptr<VisibilityEngine> make_slices_engine(const Scene& scene, const Caster& caster,
+                                                     const SlicesOptions& options, bool coverage);
 
 }  // namespace sonarsim
