@@ -53,7 +53,7 @@ PARTS = {
 AFTER_THE_TRACE = {"paper", "calibrated", "ping", "labels", "product", "sonar", "assembly", "dataset", "checks", "job"}
 RANGE_OF_POSITION = re.compile(r"\bposition\.norm\(\)|\bposition / range\b|arctan2\w*\([^)]*position")
 # These folders make values of files, which are the same on every processor.
-SAME_BYTES = {"trace", "paper", "calibrated", "ping", "labels", "product", "sonar"}
+SAME_BYTES = ("trace/", "paper/", "calibrated/", "ping/", "labels/", "product/", "sonar/", "scene/seabed/")
 OF_THE_C_LIBRARY = re.compile(r"\bstd::(a?(sin|cos|tan)h?|atan2|exp[2m]?1?|log(2|10|1p)?|pow|cbrt|hypot|erfc?)\(")
 # Which folder alone may use a library.
 OWNERS = {
@@ -135,7 +135,7 @@ def faults_in_code(root: pathlib.Path) -> tuple[int, list[str]]:
         for number, line in enumerate(path.read_text().splitlines(), 1):
             if here in AFTER_THE_TRACE and RANGE_OF_POSITION.search(line):
                 faults.append(f"{relative}:{number}: take ranges and directions from trace/arrivals.h")
-            if here in SAME_BYTES and OF_THE_C_LIBRARY.search(line):
+            if unit.startswith(SAME_BYTES) and OF_THE_C_LIBRARY.search(line):
                 faults.append(f"{relative}:{number}: take elementary functions from core/elementary.h")
             match = re.match(r'\s*#\s*include\s*([<"])([^">]+)[">]', line)
             if not match:

@@ -42,7 +42,10 @@ void add_automatic(const Mission& mission, const Scene& scene, const SceneObject
                    std::vector<std::uint8_t>& background) {
     std::vector<std::string> bottom = mission.scene.bottom;
     if (mission.scene.heightmap && bottom.empty()) bottom.emplace_back(heightmap_instance);
-    if (mission.scene.seabed && bottom.empty()) bottom.emplace_back(seabed_instance);
+    if (mission.scene.seabed && bottom.empty()) {
+        bottom.emplace_back(seabed_instance);
+        bottom.emplace_back("plants");  // clutter all over the bed
+    }
     for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
         for (const std::string& pattern : bottom) {
             if (fits_pattern(pattern, scene.instances[i]))
@@ -57,6 +60,9 @@ void add_automatic(const Mission& mission, const Scene& scene, const SceneObject
 
 /// True if objects of this class may be scattered, though there may be none in this variant.
 bool may_be_scattered(const Mission& mission, const std::string& name) {
+    const auto& seabed = mission.scene.seabed;
+    if (seabed && seabed->rocks && seabed->rocks->class_name == name) return true;
+    if (seabed && seabed->plants && seabed->plants->class_name == name) return true;
     return std::ranges::any_of(mission.scene.scatter, [&](const ScatterConfig& scatter) {
         return name == (scatter.class_name.empty() ? scatter.name : scatter.class_name);
     });

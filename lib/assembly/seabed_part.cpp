@@ -18,6 +18,32 @@ BedRipples ripples_of(const BedRippleConfig& config) {
             .patch_m = config.patch_m};
 }
 
+BedScars scars_of(const BedScarConfig& config) {
+    return {.density_per_m2 = config.density_per_m2,
+            .length_m = config.length_m,
+            .width_m = config.width_m,
+            .depth_m = config.depth_m,
+            .direction_rad = {radians(config.direction_deg[0]), radians(config.direction_deg[1])}};
+}
+
+BedRocks rocks_of(const BedRockConfig& config) {
+    return {.density_per_m2 = config.density_per_m2,
+            .diameter_m = config.diameter_m,
+            .exponent = config.exponent,
+            .buried = config.buried,
+            .material = config.material,
+            .class_name = config.class_name};
+}
+
+BedPlants plants_of(const BedPlantConfig& config) {
+    return {.density_per_m2 = config.density_per_m2,
+            .height_m = config.height_m,
+            .share = config.share,
+            .patch_m = config.patch_m,
+            .material = config.material,
+            .class_name = config.class_name};
+}
+
 }  // namespace
 
 SeabedRule rule_of(const SeabedConfig& config, std::uint64_t seed) {
@@ -38,6 +64,18 @@ SeabedRule rule_of(const SeabedConfig& config, std::uint64_t seed) {
     }
     if (config.ripples) rule.ripples = ripples_of(*config.ripples);
     if (config.waves) rule.waves = ripples_of(*config.waves);
+    if (config.pockmarks) {
+        rule.pockmarks = BedPockmarks{config.pockmarks->density_per_m2,
+                                      config.pockmarks->diameter_m, config.pockmarks->depth_m};
+    }
+    if (config.scars) rule.scars = scars_of(*config.scars);
+    if (config.rocks) rule.rocks = rocks_of(*config.rocks);
+    if (config.plants) rule.plants = plants_of(*config.plants);
+    for (const auto& [material, share] : config.sediments)
+        rule.sediments.push_back({material, share});
+    rule.patch_m = config.patch_m;
+    rule.border_m = config.border_m;
+    rule.material = config.material;
     rule.class_name = config.class_name;
     rule.place = config.place.location;
     return rule;
@@ -47,13 +85,12 @@ PlacedFile seabed_of(const SeabedConfig& config, std::uint64_t seed,
                      const Eigen::AlignedBox2d& needed) {
     SeabedRule rule = rule_of(config, seed);
     const Eigen::Vector2d origin(config.origin_m.data());
-    const Eigen::Vector2d low = needed.min() + origin;
-    const Eigen::Vector2d high = needed.max() + origin;
+    // A rock beyond the ranges may reach into them.
+    const double margin_m = rule.rocks ? 0.5 * rule.rocks->diameter_m[1] : 0.0;
+    const Eigen::Vector2d low = needed.min() + origin - Eigen::Vector2d::Constant(margin_m);
+    const Eigen::Vector2d high = needed.max() + origin + Eigen::Vector2d::Constant(margin_m);
     rule.window = {low.x(), low.y(), high.x(), high.y()};
-    PlacedFile file{.file = "scene.seabed",
-                    .z_up = true,
-                    .material = config.material,
-                    .place = config.place.location};
+    PlacedFile file{.file = "scene.seabed", .z_up = true, .place = config.place.location};
     file.seabed = std::make_shared<const Seabed>(make_seabed(rule));
     return file;
 }

@@ -104,8 +104,9 @@ std::vector<std::string> read_products(const CheckedJson& json, const std::strin
         }
         products.push_back(product.text());
         const std::string& path = products.back();
-        if (!is_inner_path(path) || !(path.starts_with("labels/") || path.starts_with("split/")))
-            product.refuse("the path of a file in 'labels/' or 'split/'");
+        if (!is_inner_path(path) || !(path.starts_with("labels/") || path.starts_with("split/") ||
+                                      path.starts_with("seabed/")))
+            product.refuse("the path of a file in 'labels/', 'split/' or 'seabed/'");
     }
     return products;
 }

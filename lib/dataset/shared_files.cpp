@@ -59,6 +59,8 @@ void write_shared_products(const Layout& layout, const Mission& mission,
                 write_file(layout.folder / product.file,
                            pose_list(layout, product.part, part_of_pose));
                 break;
+            case SharedProduct::Kind::seabed:
+                break;
             case SharedProduct::Kind::statistics:
                 write_statistics(layout.folder, coco_files, false);
                 break;

@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "dataset/labelled_ping.h"
+#include "dataset/seabed_files.h"
 #include "mission/dataset_names.h"
 #include "sonar/kinds.h"
 
@@ -72,6 +73,10 @@ std::vector<SharedProduct> shared_products(const Mission& mission) {
     if (is_asked(mission, Label::yolo) || is_asked(mission, Label::yolo_polygons)) {
         products.push_back(
             {SharedProduct::Kind::class_names, labels_folder_name + std::string("/classes.txt")});
+    }
+    if (mission.scene.seabed) {
+        for (std::string& file : seabed_file_names())
+            products.push_back({SharedProduct::Kind::seabed, std::move(file)});
     }
     return products;
 }

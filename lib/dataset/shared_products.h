@@ -19,7 +19,13 @@ enum class CocoPicture {
 
 /// A file that is made of the pings of all sonars once all of them are rendered.
 struct SharedProduct {
-    enum class Kind { coco, class_names, split, statistics };
+    enum class Kind {
+        coco,
+        class_names,
+        split,
+        statistics,
+        seabed,  ///< the truth of a bed, which is there from the beginning
+    };
     Kind kind;
     std::string file;                  ///< relative to the folder of the dataset
     CocoPicture picture = {};          ///< COCO only: its pictures

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace sonarsim {
@@ -23,6 +24,9 @@ struct MapPlace {
 /// Throws std::system_error when the disk does not take the file.
 void write_geotiff(const std::filesystem::path& path, std::span<const float> values, int columns,
                    const MapPlace& place);
+
+/// The same file in memory.
+std::string geotiff_bytes(std::span<const float> values, int columns, const MapPlace& place);
 
 struct GeotiffShape {
     std::size_t rows = 0;

@@ -53,6 +53,8 @@ struct CommonFiles {
     nlohmann::ordered_json description;  ///< dataset.json
     std::string mission;                 ///< mission.resolved.yaml
     std::string trajectory;              ///< trajectory.tum
+    /// Names relative to the folder and bytes of the truth of a bed that was made.
+    std::vector<std::pair<std::string, std::string>> seabed = {};
 };
 
 /// Makes the folder ready for pings: common files and subfolders, dataset.json first, durably and

@@ -38,8 +38,15 @@ constexpr std::size_t largest_common_file = std::size_t{1} << 32;
 CommonFiles read_common(const fs::path& folder) {
     Json description = require_dataset(folder).json;
     description["complete"] = false;
-    return {std::move(description), read_file(folder / mission_name, largest_common_file),
-            read_file(folder / trajectory_name, largest_common_file)};
+    CommonFiles common{std::move(description),
+                       read_file(folder / mission_name, largest_common_file),
+                       read_file(folder / trajectory_name, largest_common_file)};
+    for (const Json& product : common.description.value("products", Json::array())) {
+        const auto name = product.get<std::string>();
+        if (!name.starts_with(std::string(seabed_folder_name) + "/")) continue;
+        common.seabed.emplace_back(name, read_file(folder / name, largest_common_file));
+    }
+    return common;
 }
 
 void require_same(const fs::path& part, const CommonFiles& found, const fs::path& first,
@@ -48,7 +55,8 @@ void require_same(const fs::path& part, const CommonFiles& found, const fs::path
     if (difference == of_another_mission)
         difference += differing_keys(found.mission, expected.mission);
     if (difference.empty() &&
-        (found.mission != expected.mission || found.trajectory != expected.trajectory))
+        (found.mission != expected.mission || found.trajectory != expected.trajectory ||
+         found.seabed != expected.seabed))
         difference = "of this mission whose inputs or poses were changed since";
     if (difference.empty()) {
         const auto key = first_difference(found.description, expected.description);

@@ -13,6 +13,7 @@
 #include "core/ordered_pipeline.h"
 #include "dataset/encode_ping.h"
 #include "dataset/metadata.h"
+#include "dataset/seabed_files.h"
 #include "job/completion.h"
 #include "job/folder.h"
 #include "job/folder_lock.h"
@@ -197,8 +198,10 @@ void run_in_folder(const Run& run, const std::vector<PingId>& all) {
     RenderSummary& summary = run.summary;
     const std::vector<Writers> writers = make_writers(mission, assembly);
     const Layout layout = make_layout(mission, writers, assembly.trajectory.size());
-    const CommonFiles common{describe_dataset(mission, assembly, layout, writers),
-                             resolved_text(mission, assembly), write_tum(assembly.trajectory)};
+    const CommonFiles common{
+        describe_dataset(mission, assembly, layout, writers), resolved_text(mission, assembly),
+        write_tum(assembly.trajectory),
+        assembly.seabed ? seabed_files(*assembly.seabed) : decltype(CommonFiles::seabed){}};
     protect_inputs(layout, mission);
     std::optional<FolderLock> lock = lock_for_run(layout.folder, options.shards, run.stop);
     summary.stopped = !lock;

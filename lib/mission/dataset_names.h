@@ -17,6 +17,7 @@ inline constexpr const char* journal_name = "journal.txt";
 inline constexpr const char* journal_folder_name = "journal.d";
 inline constexpr const char* labels_folder_name = "labels";
 inline constexpr const char* split_folder_name = "split";
+inline constexpr const char* seabed_folder_name = "seabed";
 inline constexpr const char* gallery_name = "index.html";
 /// Pictures that the page shows and that are in archives, beside it.
 inline constexpr const char* gallery_folder_name = "index_files";
@@ -27,10 +28,10 @@ inline constexpr const char* collection_name = "collection.json";
 
 /// True if the dataset has a file or folder of this name, so that no sensor may have it.
 inline bool is_taken_by_dataset(std::string_view name) {
-    constexpr std::array<std::string_view, 10> taken{
-        description_name, mission_name,        trajectory_name,    checksums_name,
-        journal_name,     journal_folder_name, labels_folder_name, split_folder_name,
-        gallery_name,     gallery_folder_name};
+    constexpr std::array<std::string_view, 11> taken{
+        description_name,   mission_name,        trajectory_name,    checksums_name,
+        journal_name,       journal_folder_name, labels_folder_name, split_folder_name,
+        seabed_folder_name, gallery_name,        gallery_folder_name};
     return std::ranges::find(taken, name) != taken.end();
 }
 

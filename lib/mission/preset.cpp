@@ -61,7 +61,8 @@ std::vector<std::filesystem::path> shipped_folders() {
     return out;
 }
 
-/// The path of a preset that comes with the program, "sensors/NAME.yaml". Empty if there is none.
+/// The path of a preset that comes with the program, such as "sensors/NAME.yaml". Empty if there is
+/// none.
 std::filesystem::path shipped_preset(const std::filesystem::path& name) {
     std::error_code unknown;
     if (name.is_absolute()) return {};
@@ -72,7 +73,8 @@ std::filesystem::path shipped_preset(const std::filesystem::path& name) {
     return {};
 }
 
-YamlNode read_preset(const YamlNode& name, const std::filesystem::path& base_folder) {
+YamlNode read_preset(const YamlNode& name, const std::filesystem::path& base_folder,
+                     const std::string& kind) {
     if (name.kind != YamlNode::Kind::scalar || name.text.empty()) {
         throw InputError(name.place.location(), "'preset' must be the path of a YAML file");
     }
@@ -83,7 +85,8 @@ YamlNode read_preset(const YamlNode& name, const std::filesystem::path& base_fol
             throw InputError(name.place.location(),
                              "there is no preset " + in_quotes(path.string()) +
                                  ", and none of this name came with the program" +
-                                 shipped_hint(name.text) + ", written as sensors/NAME.yaml");
+                                 shipped_hint(name.text, kind) + ", written as " + kind +
+                                 "/NAME.yaml");
         }
         path = shipped;
     }
@@ -97,13 +100,25 @@ YamlNode read_preset(const YamlNode& name, const std::filesystem::path& base_fol
     return preset;
 }
 
+/// Fills in the keys of the file that the key `preset` of a section names, if there is one.
+void fill_in_section(YamlNode& section, const std::filesystem::path& base_folder,
+                     const std::string& kind) {
+    if (section.kind != YamlNode::Kind::map) return;
+    const YamlNode* const name = section.find(preset_key);
+    if (name == nullptr) return;
+    const YamlNode preset = read_preset(*name, base_folder, kind);
+    std::erase_if(section.items, [](const YamlNode& item) { return item.key == preset_key; });
+    section.implied = false;
+    fill_in(section, preset);
+}
+
 }  // namespace
 
-std::vector<std::string> shipped_presets() {
+std::vector<std::string> shipped_presets(const std::string& kind) {
     std::vector<std::string> names;
     std::error_code unknown;
     for (const std::filesystem::path& folder : shipped_folders()) {
-        for (const auto& file : std::filesystem::directory_iterator(folder / "sensors", unknown)) {
+        for (const auto& file : std::filesystem::directory_iterator(folder / kind, unknown)) {
             if (file.path().extension() == ".yaml") names.push_back(file.path().stem().string());
         }
     }
@@ -112,26 +127,23 @@ std::vector<std::string> shipped_presets() {
     return names;
 }
 
-std::string shipped_hint(std::string name) {
+std::string shipped_hint(std::string name, const std::string& kind) {
     std::ranges::replace(name, '\\', '/');
-    const std::vector<std::string> names = shipped_presets();
+    const std::vector<std::string> names = shipped_presets(kind);
     return did_you_mean(std::filesystem::path(name).stem().string(), names) +
            "; there are: " + listed(names);
 }
 
 void fill_in_presets(YamlNode& mission, const std::filesystem::path& base_folder) {
-    YamlNode* const sensors =
-        mission.kind == YamlNode::Kind::map ? mission.find("sensors") : nullptr;
+    const auto section_of = [](YamlNode* node, const char* key) -> YamlNode* {
+        return node != nullptr && node->kind == YamlNode::Kind::map ? node->find(key) : nullptr;
+    };
+    if (YamlNode* const seabed = section_of(section_of(&mission, "scene"), "seabed"))
+        fill_in_section(*seabed, base_folder, seabed_presets);
+    YamlNode* const sensors = section_of(&mission, "sensors");
     if (sensors == nullptr || sensors->kind != YamlNode::Kind::map) return;
-    for (YamlNode& sensor : sensors->items) {
-        if (sensor.kind != YamlNode::Kind::map) continue;
-        const YamlNode* const name = sensor.find(preset_key);
-        if (name == nullptr) continue;
-        const YamlNode preset = read_preset(*name, base_folder);
-        std::erase_if(sensor.items, [](const YamlNode& item) { return item.key == preset_key; });
-        sensor.implied = false;
-        fill_in(sensor, preset);
-    }
+    for (YamlNode& sensor : sensors->items)
+        fill_in_section(sensor, base_folder, sensor_presets);
 }
 
 }  // namespace sonarsim

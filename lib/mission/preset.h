@@ -8,17 +8,21 @@
 
 namespace sonarsim {
 
-/// The presets that come with the program, as "oculus_m750d_750khz", sorted.
-std::vector<std::string> shipped_presets();
+/// The folders of the presets that come with the program.
+inline constexpr const char* sensor_presets = "sensors";
+inline constexpr const char* seabed_presets = "seabeds";
+
+/// The presets in one of these folders, as "oculus_m750d_750khz", sorted.
+std::vector<std::string> shipped_presets(const std::string& kind = sensor_presets);
 
 /// The end of a message about an unknown preset: the nearest name, and all of them. `name` may be
 /// a path.
-std::string shipped_hint(std::string name);
+std::string shipped_hint(std::string name, const std::string& kind = sensor_presets);
 
-/// Fills the sections `sensors.NAME` with the keys of the files that `sensors.NAME.preset` names,
-/// and removes the key `preset`. Keys that a section already has stay as they are. Relative paths
-/// start at `base_folder`. InputError for a file that cannot be read, is no section or names a
-/// preset itself.
+/// Fills the sections `sensors.NAME` and `scene.seabed` with the keys of the file that their key
+/// `preset` names, and removes that key. Keys that a section already has stay as they are. Relative
+/// paths start at `base_folder`. InputError for a file that cannot be read, is no section or names
+/// a preset itself.
 void fill_in_presets(YamlNode& mission, const std::filesystem::path& base_folder);
 
 }  // namespace sonarsim

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -104,6 +105,7 @@ struct SeabedConfig {
     double border_m = 1.0;  ///< size of the bays of their borders
     std::optional<BedRockConfig> rocks;
     std::optional<BedPlantConfig> plants;
+    std::filesystem::path preset;  ///< empty after reading: its keys are filled in
     MissionPlace place;
 
     bool operator==(const SeabedConfig&) const = default;

@@ -16,6 +16,7 @@
 #include "scene/gltf/mesh_builder.h"
 #include "scene/gltf/primitives.h"
 #include "scene/gltf/repeats.h"
+#include "scene/seabed/seabed.h"
 
 namespace sonarsim {
 
@@ -174,6 +175,10 @@ Scene compose(std::span<const PlacedFile> files, SceneFiles& models, const Mater
 void require_materials(std::span<const PlacedFile> files, const MaterialTable& table) {
     for (const PlacedFile& file : files) {
         if (!file.material.empty()) require_material(table, file.material, file.place);
+        if (file.seabed) {
+            for (const std::string& material : materials_of(*file.seabed))
+                require_material(table, material, file.place);
+        }
         for (const auto& renamed : file.renamed_materials)
             require_material(table, renamed.second, file.place);
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -23,6 +24,12 @@ struct BedGrid {
     /// The centres of a column and of a row, in metres of the bed.
     double x_m(int column) const { return (static_cast<double>(west + column) + 0.5) * cell_m; }
     double y_m(int row) const { return (static_cast<double>(north - row) + 0.5) * cell_m; }
+    /// The index of the cell at a point of the grid.
+    std::size_t cell_at(double x, double y) const {
+        const auto column = static_cast<std::int64_t>(std::floor(x / cell_m)) - west;
+        const auto row = north - static_cast<std::int64_t>(std::floor(y / cell_m));
+        return static_cast<std::size_t>(row * columns + column);
+    }
 };
 
 /// The subjects of the draws for a bed. Draws of different subjects are independent.

@@ -20,7 +20,7 @@ struct BedRoughness {
 double roughness_strength(double spectral_strength_cm4, double exponent);
 
 /// Adds random heights with this spectrum, in metres. The spectrum holds within 0.6 dB from the
-/// corner down to wavelengths of 4 cells, and falls to 2 to 3 dB less at 2 cells, the shortest that
+/// corner down to wavelengths of 4 cells, and is 1 to 3 dB lower at 2 cells, the shortest that
 /// the grid holds.
 ///
 /// (k^2 + k0^2)^-a is the integral of t^(a-1) exp(-t (k^2 + k0^2)) dt / Gamma(a), a mixture of the

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace sonarsim {
 
@@ -28,7 +29,7 @@ std::array<double, 2> cells_within(double low, double high, double cell_m, doubl
 
 BedGrid grid_of_rule(const SeabedRule& rule) {
     const std::array<double, 2> size = rule.size_m.value_or(std::array{0.0, 0.0});
-    const auto& w = rule.window;
+    const BedArea& w = rule.window;
     const auto x = cells_within(w[0], w[2], rule.cell_m, size[0]);
     const auto y = cells_within(w[1], w[3], rule.cell_m, size[1]);
     const double columns = x[1] - x[0];
@@ -60,7 +61,110 @@ std::vector<double> smooth_heights(const BedGrid& grid, const SeabedRule& rule) 
     return out;
 }
 
+/// The ground within the outer heights of a grid, where every point has a height.
+BedArea area_of_grid(const BedGrid& grid) {
+    return {grid.x_m(0), grid.y_m(grid.rows - 1), grid.x_m(grid.columns - 1), grid.y_m(0)};
+}
+
+/// All of a bed.
+BedArea area_of_bed(const SeabedRule& rule) {
+    constexpr double endless = std::numeric_limits<double>::max();
+    if (!rule.size_m) return {-endless, -endless, endless, endless};
+    return {0.0, 0.0, (*rule.size_m)[0], (*rule.size_m)[1]};
+}
+
+/// InputError for more things than have room.
+void require_room(const SeabedRule& rule, const BedArea& area, double density_per_m2, double most,
+                  const char* what) {
+    const double count = (area[2] - area[0]) * (area[3] - area[1]) * density_per_m2;
+    if (count <= most) return;
+    throw InputError(rule.place, fmt::format("the part of the seabed that the mission needs has "
+                                             "some {:.0f} {}, and at most {:.0f} have room; lower "
+                                             "their density_per_m2",
+                                             count, what, most));
+}
+
+/// The height of the bed between the heights of the grid, on its triangles.
+double height_at(const Seabed& bed, double x_m, double y_m) {
+    const BedGrid& grid = bed.grid;
+    // Counted from the bed's (0, 0), so that the rounding is the same in every part.
+    const double across = x_m / grid.cell_m - 0.5;
+    const double up = y_m / grid.cell_m - 0.5;
+    const double west = std::floor(across);
+    const double north = std::ceil(up);
+    const double u = across - west;
+    const double v = north - up;
+    const int column =
+        std::clamp(static_cast<int>(west - static_cast<double>(grid.west)), 0, grid.columns - 2);
+    const int row =
+        std::clamp(static_cast<int>(static_cast<double>(grid.north) - north), 0, grid.rows - 2);
+    const auto z = [&](int r, int c) {
+        return static_cast<double>(
+            bed.heights[static_cast<std::size_t>(row + r) * static_cast<std::size_t>(grid.columns) +
+                        static_cast<std::size_t>(column + c)]);
+    };
+    // The diagonal runs from the north-west to the south-east.
+    if (u > v) return z(0, 0) + u * (z(0, 1) - z(0, 0)) + v * (z(1, 1) - z(0, 1));
+    return z(0, 0) + v * (z(1, 0) - z(0, 0)) + u * (z(1, 1) - z(1, 0));
+}
+
+void press_hollows(const SeabedRule& rule, Seabed& bed, std::vector<double>& heights) {
+    const BedArea area = area_of_grid(bed.grid);
+    const BedArea whole = area_of_bed(rule);
+    if (rule.pockmarks) bed.pockmarks = pockmarks_in(area, whole, *rule.pockmarks, rule.seed);
+    if (rule.scars) bed.scars = scars_in(area, whole, *rule.scars, rule.seed);
+    for (const Pockmark& pockmark : bed.pockmarks)
+        press(bed.grid, pockmark, heights);
+    for (const Scar& scar : bed.scars)
+        press(bed.grid, scar, heights);
+}
+
+void lay_rocks(const SeabedRule& rule, Seabed& bed) {
+    constexpr double most_rocks = 50000.0;
+    const BedArea area = area_of_grid(bed.grid);
+    require_room(rule, area, rule.rocks->density_per_m2, most_rocks, "rocks");
+    bed.rock_shapes = rock_shapes(rule.seed);
+    bed.rocks = rocks_in(area, *rule.rocks, rule.cell_m, rule.seed);
+    bed.rock_material = rule.rocks->material;
+    bed.rock_class = rule.rocks->class_name;
+    for (Rock& rock : bed.rocks) {
+        auto at = rock.T_world_shape.translation();
+        const Eigen::AlignedBox3d box = box_of(bed.rock_shapes[rock.shape]);
+        const double z = height_at(bed, at.x(), at.y());
+        at.z() = z - rock.diameter_m * (box.min().z() + rock.buried * box.sizes().z());
+        at.x() -= rule.origin_m[0];
+        at.y() -= rule.origin_m[1];
+    }
+}
+
+void plant_tufts(const SeabedRule& rule, Seabed& bed) {
+    constexpr double most_tufts = 500000.0;
+    const BedArea area = area_of_grid(bed.grid);
+    require_room(rule, area, rule.plants->density_per_m2 * rule.plants->share, most_tufts,
+                 "plants");
+    bed.plant_material = rule.plants->material;
+    bed.plant_class = rule.plants->class_name;
+    for (const Plant& plant : plants_in(area, bed.grid, *rule.plants, rule.seed)) {
+        const double z = height_at(bed, plant.x_m, plant.y_m);
+        add_leaves(plant, {plant.x_m - rule.origin_m[0], plant.y_m - rule.origin_m[1], z},
+                   rule.seed, bed.plants);
+        ++bed.tufts;
+    }
+}
+
 }  // namespace
+
+std::string rock_name(std::size_t index) {
+    return "rock_" + std::to_string(index + 1);
+}
+
+std::vector<std::string> materials_of(const Seabed& bed) {
+    std::vector<std::string> names = bed.materials;
+    names.push_back(bed.rock_material);
+    names.push_back(bed.plant_material);
+    std::erase(names, "");
+    return names;
+}
 
 Seabed make_seabed(const SeabedRule& rule) {
     Seabed bed;
@@ -77,9 +181,17 @@ Seabed make_seabed(const SeabedRule& rule) {
                     heights);
     }
     if (rule.roughness) add_roughness(bed.grid, *rule.roughness, rule.seed, heights);
+    press_hollows(rule, bed, heights);
     bed.heights.reserve(heights.size());
     for (const double z : heights)
         bed.heights.push_back(static_cast<float>(z));
+    bed.materials = {rule.material};
+    if (!rule.sediments.empty()) bed.materials.clear();
+    for (const BedSediment& sediment : rule.sediments)
+        bed.materials.push_back(sediment.material);
+    bed.sediments = sediments_of(bed.grid, rule.sediments, rule.patch_m, rule.border_m, rule.seed);
+    if (rule.rocks) lay_rocks(rule, bed);
+    if (rule.plants) plant_tufts(rule, bed);
     return bed;
 }
 

@@ -8,8 +8,13 @@
 
 #include "core/error.h"
 #include "scene/seabed/bed_grid.h"
+#include "scene/seabed/hollows.h"
+#include "scene/seabed/plants.h"
 #include "scene/seabed/ripples.h"
+#include "scene/seabed/rocks.h"
 #include "scene/seabed/roughness.h"
+#include "scene/seabed/sediments.h"
+#include "scene/surface.h"
 
 namespace sonarsim {
 
@@ -18,14 +23,20 @@ struct SeabedRule {
     std::uint64_t seed = 0;
     double cell_m = 1.0;
     std::optional<std::array<double, 2>> size_m = {};  ///< x, y from (0, 0); none: no end
-    /// The part that is made, in the coordinates of the bed: least x and y, largest x and y.
-    std::array<double, 4> window{};
-    std::array<double, 2> origin_m{};  ///< point of the bed that is the world's (0, 0)
-    double z_m = 0.0;                  ///< height of the smooth bed there
-    std::array<double, 2> slope{};     ///< rise per metre along x and y
+    BedArea window{};                                  ///< the part that is made
+    std::array<double, 2> origin_m{};                  ///< point that is the world's (0, 0)
+    double z_m = 0.0;                                  ///< height of the smooth bed there
+    std::array<double, 2> slope{};                     ///< rise per metre along x and y
     std::optional<BedRoughness> roughness = {};
     std::optional<BedRipples> ripples = {};
     std::optional<BedRipples> waves = {};
+    std::optional<BedPockmarks> pockmarks = {};
+    std::optional<BedScars> scars = {};
+    std::vector<BedSediment> sediments = {};  ///< none: `material` everywhere
+    double patch_m = 10.0;
+    double border_m = 1.0;
+    std::optional<BedRocks> rocks = {};
+    std::optional<BedPlants> plants = {};
     std::string material = {};  ///< "": none
     std::string class_name = {};
     Location place = {};  ///< in the mission, for messages
@@ -34,13 +45,32 @@ struct SeabedRule {
 /// A bed, or a part of one.
 struct Seabed {
     BedGrid grid;
-    std::array<double, 2> origin_m{};  ///< point of the bed that is the world's (0, 0)
-    std::vector<float> heights;        ///< world z of the cells, in the order of the grid
+    std::array<double, 2> origin_m{};     ///< point of the bed that is the world's (0, 0)
+    std::vector<float> heights;           ///< world z of the cells, in the order of the grid
+    std::vector<std::string> materials;   ///< the bed's; "" is none
+    std::vector<std::uint8_t> sediments;  ///< index into `materials` for each cell
     std::string class_name;
+    std::vector<Pockmark> pockmarks;
+    std::vector<Scar> scars;
+    std::vector<Surface> rock_shapes;
+    std::vector<Rock> rocks;
+    std::string rock_material;
+    std::string rock_class;
+    Surface plants;  ///< the leaves of all tufts, world
+    std::size_t tufts = 0;
+    std::string plant_material;
+    std::string plant_class;
 };
 
-/// Makes a part of a bed. The same rule makes the same heights in every part. InputError at the
-/// rule's place for a part with more than 2^25 heights, or fewer than 2 x 2.
+/// "rock_1", the node of the first rock.
+std::string rock_name(std::size_t index);
+
+/// The names of all materials that a bed names.
+std::vector<std::string> materials_of(const Seabed& bed);
+
+/// Makes a part of a bed. The same rule makes the same bed in every part, but for the numbers of
+/// the rocks. InputError at the rule's place for a part with more than 2^25 heights, fewer than 2 x
+/// 2, or more than 50,000 rocks or 500,000 tufts.
 Seabed make_seabed(const SeabedRule& rule);
 
 }  // namespace sonarsim

@@ -1,0 +1,154 @@
+#include "scene/seabed/rocks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "core/elementary.h"
+#include "core/units.h"
+
+namespace sonarsim {
+
+namespace {
+
+constexpr std::uint32_t sorts = 12;  ///< different rocks
+constexpr std::uint32_t levels = 3;  ///< levels of detail of each
+
+Surface icosahedron() {
+    const double g = 0.5 * (1.0 + std::sqrt(5.0));
+    Surface out;
+    for (const auto& [x, y, z] : std::array<std::array<double, 3>, 12>{{{-1, g, 0},
+                                                                        {1, g, 0},
+                                                                        {-1, -g, 0},
+                                                                        {1, -g, 0},
+                                                                        {0, -1, g},
+                                                                        {0, 1, g},
+                                                                        {0, -1, -g},
+                                                                        {0, 1, -g},
+                                                                        {g, 0, -1},
+                                                                        {g, 0, 1},
+                                                                        {-g, 0, -1},
+                                                                        {-g, 0, 1}}})
+        out.vertices.push_back(Eigen::Vector3d(x, y, z) / std::sqrt(1.0 + g * g));
+    out.triangles = {{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11},
+                     {1, 5, 9},  {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
+                     {3, 9, 4},  {3, 4, 2},  {3, 2, 6},   {3, 6, 8},  {3, 8, 9},
+                     {4, 9, 5},  {2, 4, 11}, {6, 2, 10},  {8, 6, 7},  {9, 8, 1}};
+    return out;
+}
+
+/// A ball with four triangles for each.
+Surface refined(const Surface& ball) {
+    Surface out;
+    out.vertices = ball.vertices;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
+    const auto middle = [&](std::uint32_t a, std::uint32_t b) {
+        const auto [entry, is_new] = middles.emplace(std::minmax(a, b), out.vertices.size());
+        if (is_new) {
+            const Eigen::Vector3d sum = out.vertices[a] + out.vertices[b];
+            out.vertices.push_back(sum / std::sqrt(sum.squaredNorm()));
+        }
+        return entry->second;
+    };
+    for (const auto& [a, b, c] : ball.triangles) {
+        const std::uint32_t ab = middle(a, b);
+        const std::uint32_t bc = middle(b, c);
+        const std::uint32_t ca = middle(c, a);
+        for (const auto& part : std::array<std::array<std::uint32_t, 3>, 4>{
+                 {{a, ab, ca}, {b, bc, ab}, {c, ca, bc}, {ab, bc, ca}}})
+            out.triangles.push_back(part);
+    }
+    return out;
+}
+
+/// A plane that cuts a piece off the unit ball.
+struct Cut {
+    Eigen::Vector3d normal;
+    double distance;
+};
+
+std::vector<Cut> cuts_of(std::uint32_t sort, std::uint64_t seed) {
+    constexpr std::uint32_t planes = 14;
+    const PhiloxKey key = bed_key(seed, BedDraw::rock_shapes, sort);
+    std::vector<Cut> out;
+    out.reserve(planes);
+    for (std::uint32_t n = 0; n < planes; ++n) {
+        const PhiloxBlock block = philox({n, 0, 0, 0}, key);
+        const PhiloxBlock other = philox({n, 1, 0, 0}, key);
+        const double z = 2.0 * unit_double(block.x0, block.x1) - 1.0;
+        const SinCos turn = sincos(2.0 * pi * unit_double(block.x2, block.x3));
+        const double across = std::sqrt(1.0 - z * z);
+        // Flat above and below, as rocks come to lie.
+        const double least = 0.45 + 0.25 * across;
+        out.push_back({{across * turn.cos, across * turn.sin, z},
+                       least + 0.3 * unit_double(other.x0, other.x1)});
+    }
+    return out;
+}
+
+Surface cut_rock(const Surface& ball, const std::vector<Cut>& cuts) {
+    Surface out = ball;
+    double farthest = 0.0;
+    for (Eigen::Vector3d& vertex : out.vertices) {
+        double radius = 1.0;
+        for (const Cut& cut : cuts) {
+            const double along = vertex.dot(cut.normal);
+            if (along > cut.distance) radius = std::min(radius, cut.distance / along);
+        }
+        vertex *= radius;
+        farthest = std::max(farthest, std::sqrt(vertex.squaredNorm()));
+    }
+    for (Eigen::Vector3d& vertex : out.vertices)
+        vertex *= 0.5 / farthest;
+    return out;
+}
+
+/// The diameter below which a share u of the rocks lies.
+double diameter_at(double u, const BedRocks& rocks) {
+    const auto [least, most] = rocks.diameter_m;
+    if (least == most) return least;
+    // N(>D) = D^-q between the limits: D^-q is uniform.
+    const double q = rocks.exponent;
+    const double share = 1.0 - u * (1.0 - power(least / most, q));
+    return std::clamp(least * power(share, -1.0 / q), least, most);
+}
+
+}  // namespace
+
+std::vector<Surface> rock_shapes(std::uint64_t seed) {
+    std::vector<Surface> out;
+    const Surface ball = icosahedron();
+    const Surface finer = refined(ball);
+    const Surface finest = refined(finer);
+    out.reserve(std::size_t{sorts} * levels);
+    for (std::uint32_t sort = 0; sort < sorts; ++sort) {
+        const std::vector<Cut> cuts = cuts_of(sort, seed);
+        for (const Surface* one : {&ball, &finer, &finest})
+            out.push_back(cut_rock(*one, cuts));
+    }
+    return out;
+}
+
+std::vector<Rock> rocks_in(const BedArea& area, const BedRocks& rocks, double cell_m,
+                           std::uint64_t seed) {
+    const PhiloxKey key = bed_key(seed, BedDraw::rocks);
+    std::vector<Rock> out;
+    for (const BedPoint& point : poisson_points(area, rocks.density_per_m2, key)) {
+        Rock& rock = out.emplace_back();
+        rock.diameter_m = diameter_at(draw_of(point, 1, key), rocks);
+        rock.buried = draw_in(rocks.buried, point, 2, key);
+        const double cells = rock.diameter_m / cell_m;
+        const std::uint32_t level = (cells > 3.0 ? 1U : 0U) + (cells > 12.0 ? 1U : 0U);
+        rock.shape = levels * static_cast<std::uint32_t>(draw_of(point, 3, key) * sorts) + level;
+        const SinCos turn = sincos(2.0 * pi * draw_of(point, 4, key));
+        rock.T_world_shape = Eigen::Affine3d::Identity();
+        rock.T_world_shape.linear() << turn.cos, -turn.sin, 0.0, turn.sin, turn.cos, 0.0, 0.0, 0.0,
+            1.0;
+        rock.T_world_shape.linear() *= rock.diameter_m;
+        rock.T_world_shape.translation() << point.x_m, point.y_m, 0.0;
+    }
+    return out;
+}
+
+}  // namespace sonarsim

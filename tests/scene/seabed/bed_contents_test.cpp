@@ -1,0 +1,260 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "scene/gltf/load.h"
+#include "scene/gltf/surface_of.h"
+#include "scene/seabed/seabed.h"
+#include "support/statistics.h"
+
+using namespace sonarsim;
+using sonarsim::test::ks_p_value;
+
+namespace {
+
+SeabedRule bare_rule(double half_m) {
+    SeabedRule rule;
+    rule.cell_m = 0.25;
+    rule.seed = 21;
+    rule.window = {-half_m, -half_m, half_m, half_m};
+    return rule;
+}
+
+/// The area in which the rocks of a bed lie.
+double area_of_heights(const Seabed& bed) {
+    const double cell = bed.grid.cell_m;
+    return (bed.grid.columns - 1) * cell * (bed.grid.rows - 1) * cell;
+}
+
+bool same_rock(const Rock& a, const Rock& b) {
+    return a.diameter_m == b.diameter_m && a.buried == b.buried && a.shape == b.shape &&
+           a.T_world_shape.matrix() == b.T_world_shape.matrix();
+}
+
+}  // namespace
+
+TEST_CASE("rocks are a Poisson process with sizes of a power law") {
+    SeabedRule rule = bare_rule(30.0);
+    rule.rocks = BedRocks{0.7, {0.1, 2.0}, 2.4, {0.1, 0.5}};
+    const Seabed bed = make_seabed(rule);
+    const double expected = 0.7 * area_of_heights(bed);
+    CHECK(std::abs(static_cast<double>(bed.rocks.size()) - expected) < 4.0 * std::sqrt(expected));
+    std::vector<double> diameters;
+    std::vector<double> buried;
+    std::vector<double> x;
+    std::vector<double> y;
+    for (const Rock& rock : bed.rocks) {
+        diameters.push_back(rock.diameter_m);
+        buried.push_back(rock.buried);
+        x.push_back(rock.T_world_shape.translation().x());
+        y.push_back(rock.T_world_shape.translation().y());
+    }
+    // P(below D) = (a^-q - D^-q) / (a^-q - b^-q).
+    const auto law = [](double d) {
+        const auto at = [](double z) { return std::pow(z, -2.4); };
+        return (at(0.1) - at(d)) / (at(0.1) - at(2.0));
+    };
+    CHECK(ks_p_value(diameters, law) > 1e-4);
+    CHECK(ks_p_value(buried, [](double u) { return (u - 0.1) / 0.4; }) > 1e-4);
+    const double half = 0.5 * (bed.grid.columns - 1) * bed.grid.cell_m;
+    const auto even = [&](double at) { return (at + half) / (2.0 * half); };
+    CHECK(ks_p_value(x, even) > 1e-4);
+    CHECK(ks_p_value(y, even) > 1e-4);
+    // Counts of squares of 5 m, which hold 17.5 on average, vary as Poisson's do: the index of
+    // dispersion of n squares has the deviation sqrt(2 / n).
+    std::array<double, 121> counts{};
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        const auto column = static_cast<std::size_t>((x[i] + 27.5) / 5.0);
+        const auto row = static_cast<std::size_t>((y[i] + 27.5) / 5.0);
+        if (std::abs(x[i]) < 27.5 && std::abs(y[i]) < 27.5) counts[row * 11 + column] += 1.0;
+    }
+    double mean = 0.0;
+    double squares = 0.0;
+    for (const double count : counts) {
+        mean += count / 121.0;
+        squares += count * count / 121.0;
+    }
+    CHECK(std::abs((squares - mean * mean) / mean - 1.0) < 4.0 * std::sqrt(2.0 / 121.0));
+}
+
+TEST_CASE("rocks lie in the bed to their share, and their shapes fit a ball of their diameter") {
+    SeabedRule rule = bare_rule(20.0);
+    rule.z_m = -5.0;
+    rule.slope = {0.2, 0.1};
+    rule.rocks = BedRocks{0.3, {0.05, 4.0}, 1.0, {0.25, 0.25}};
+    const Seabed bed = make_seabed(rule);
+    REQUIRE(bed.rocks.size() > 100);
+    for (const Rock& rock : bed.rocks) {
+        const Surface placed = moved(bed.rock_shapes[rock.shape], rock.T_world_shape);
+        const Eigen::Vector3d middle = rock.T_world_shape.translation();
+        double farthest = 0.0;
+        for (const Eigen::Vector3d& vertex : placed.vertices)
+            farthest = std::max(farthest, (vertex - middle).norm());
+        CHECK(farthest == doctest::Approx(0.5 * rock.diameter_m));
+        const Eigen::AlignedBox3d box = box_of(placed);
+        const double bed_z = -5.0 + 0.2 * middle.x() + 0.1 * middle.y();
+        CHECK((bed_z - box.min().z()) / box.sizes().z() == doctest::Approx(0.25).epsilon(1e-3));
+    }
+    // Outwards, for the engines that care.
+    for (const Surface& shape : bed.rock_shapes) {
+        for (std::size_t t = 0; t < shape.triangles.size(); ++t) {
+            const auto c = corners_of(shape, t);
+            CHECK((c[1] - c[0]).cross(c[2] - c[0]).dot(c[0] + c[1] + c[2]) > 0.0);
+        }
+    }
+}
+
+TEST_CASE("sediments cover their shares, in patches of their size") {
+    SeabedRule rule = bare_rule(30.0);
+    rule.cell_m = 0.125;
+    rule.sediments = {{"mud", 1.0}, {"sand", 2.0}, {"gravel", 1.0}};
+    rule.patch_m = 6.0;
+    rule.border_m = 2.0;
+    std::array<double, 3> shares{};
+    double crossings = 0.0;
+    double length_m = 0.0;
+    constexpr int beds = 4;
+    for (int b = 0; b < beds; ++b) {
+        rule.seed = static_cast<std::uint64_t>(b);
+        const Seabed bed = make_seabed(rule);
+        for (const std::uint8_t sediment : bed.sediments)
+            shares[sediment] += 1.0 / (beds * static_cast<double>(bed.sediments.size()));
+        for (std::size_t i = 0; i + 1 < bed.sediments.size(); ++i) {
+            const int step = bed.sediments[i + 1] - bed.sediments[i];
+            const bool same_row = (i + 1) % static_cast<std::size_t>(bed.grid.columns) != 0;
+            crossings += same_row && step != 0;
+        }
+        length_m += bed.grid.rows * (bed.grid.columns - 1) * rule.cell_m;
+    }
+    // The squared correlation has the area 2 pi length^2 with length = patch / (2 pi sqrt 2), some
+    // 3 m^2: 4 beds have 5,000 independent places, and shares a deviation of 0.7 %.
+    CHECK(std::abs(shares[0] - 0.25) < 0.028);
+    CHECK(std::abs(shares[1] - 0.5) < 0.028);
+    // Rice: a limit at 0.674 deviations is crossed upwards exp(-0.674^2 / 2) / patch times a metre,
+    // and as often downwards. The waves of the borders have a sixteenth of the variance and 3 times
+    // the slope, so that the slope is sqrt(15 / 16 + 9 / 16) = 1.22 times that of the patches.
+    const double expected = 2.0 * 2.0 * 0.797 / 6.0 * 1.22;
+    CHECK(crossings / length_m == doctest::Approx(expected).epsilon(0.12));
+}
+
+TEST_CASE("hollows have their depth and their place") {
+    SeabedRule rule = bare_rule(30.0);
+    rule.pockmarks = BedPockmarks{0.002, {3.0, 3.0}, {0.5, 0.5}};
+    rule.scars = BedScars{0.001, {10, 20}, {1.0, 1.5}, {0.2, 0.2}, {0.5, 0.6}};
+    const Seabed bed = make_seabed(rule);
+    REQUIRE(!bed.pockmarks.empty());
+    REQUIRE(!bed.scars.empty());
+    double area = 0.0;
+    for (const float z : bed.heights)
+        area += z < 0.0F ? 0.0625 : 0.0;
+    double expected = 0.0;
+    for (const Pockmark& one : bed.pockmarks)
+        expected += 0.7854 * one.diameter_m * one.diameter_m;
+    for (const Scar& one : bed.scars)
+        expected += one.length_m * one.width_m;
+    CHECK(area > 0.3 * expected);
+    CHECK(area < 1.05 * expected);
+    for (const Pockmark& one : bed.pockmarks) {
+        const BedGrid& grid = bed.grid;
+        if (std::abs(one.x_m) > 29.0 || std::abs(one.y_m) > 29.0) continue;
+        // The nearest cell lies within 0.18 m of the centre.
+        CHECK(bed.heights[grid.cell_at(one.x_m, one.y_m)] < -0.5F * 0.97F);
+    }
+}
+
+TEST_CASE("a part of a bed has the same rocks, hollows, sediments and plants") {
+    SeabedRule rule = bare_rule(12.0);
+    rule.roughness = BedRoughness{1e-4, 3.25, 2.0};
+    rule.pockmarks = BedPockmarks{0.02, {1.0, 3.0}, {0.2, 0.5}};
+    rule.scars = BedScars{0.01, {10, 20}, {1.0, 1.5}, {0.2, 0.2}, {0.0, 3.0}};
+    rule.sediments = {{"mud", 1.0}, {"sand", 2.0}};
+    rule.rocks = BedRocks{1.0, {0.1, 2.0}, 2.4, {0.1, 0.5}};
+    rule.plants = BedPlants{2.0, {0.3, 0.6}, 0.5, 3.0};
+    const Seabed whole = make_seabed(rule);
+    CHECK(whole.tufts > 100);
+    CHECK(whole.plants.triangles.size() == 6 * whole.tufts);
+    rule.window = {-3.0, 1.0, 4.0, 5.0};
+    const Seabed part = make_seabed(rule);
+    bool same = true;
+    for (int row = 0; row < part.grid.rows; ++row) {
+        for (int column = 0; column < part.grid.columns; ++column) {
+            const std::size_t in_whole =
+                whole.grid.cell_at(part.grid.x_m(column), part.grid.y_m(row));
+            const std::size_t in_part =
+                part.grid.cell_at(part.grid.x_m(column), part.grid.y_m(row));
+            same = same && whole.heights[in_whole] == part.heights[in_part] &&
+                   whole.sediments[in_whole] == part.sediments[in_part];
+        }
+    }
+    CHECK(same);
+    CHECK(part.rocks.size() > 20);
+    for (const Rock& rock : part.rocks) {
+        CHECK(std::ranges::any_of(whole.rocks,
+                                  [&](const Rock& other) { return same_rock(rock, other); }));
+    }
+    for (const Eigen::Vector3d& vertex : part.plants.vertices) {
+        CHECK(std::ranges::any_of(whole.plants.vertices,
+                                  [&](const Eigen::Vector3d& other) { return vertex == other; }));
+    }
+}
+
+TEST_CASE("a bed becomes instances with classes and materials") {
+    SeabedRule rule = bare_rule(4.0);
+    rule.class_name = "bottom";
+    rule.sediments = {{"mud", 1.0}, {"sand", 2.0}};
+    rule.patch_m = 2.0;
+    rule.rocks = BedRocks{0.3, {0.1, 2.0}, 2.4, {0.1, 0.5}, "rock", "boulder"};
+    rule.plants = BedPlants{2.0, {0.3, 0.6}, 1.0, 3.0, "grass", "plant"};
+    PlacedFile placed;
+    placed.file = "scene.seabed";
+    placed.z_up = true;
+    placed.seabed = std::make_shared<const Seabed>(make_seabed(rule));
+    SceneFiles files;
+    const Scene scene = load_scene_geometry(placed, files);
+    const std::size_t rocks = placed.seabed->rocks.size();
+    REQUIRE(rocks > 3);
+    REQUIRE(scene.instances.size() == rocks + 2);
+    CHECK(scene.instances[0] == "seabed");
+    CHECK(scene.instances[1] == "rock_1");
+    CHECK(scene.instances.back() == "plants");
+    CHECK(scene.instance_classes[0] == "bottom");
+    CHECK(scene.instance_classes[1] == "boulder");
+    CHECK(scene.instance_classes.back() == "plant");
+    const auto area_of = [&](const char* material) {
+        std::size_t count = 0;
+        for (const std::uint32_t m : scene.triangle_material)
+            count += scene.materials[m].name == material;
+        return count;
+    };
+    CHECK(area_of("mud") > 0);
+    CHECK(area_of("sand") > area_of("mud"));
+    CHECK(area_of("grass") == 6 * placed.seabed->tufts);
+    CHECK(area_of("rock") >= 20 * rocks);
+    // The node that objects rest on is the bed alone.
+    const std::vector<std::string> bed{"seabed"};
+    const Surface surface = surface_of(placed, files, bed);
+    CHECK(surface.triangles.size() ==
+          2 * static_cast<std::size_t>(placed.seabed->grid.columns - 1) *
+              static_cast<std::size_t>(placed.seabed->grid.rows - 1));
+}
+
+TEST_CASE("more rocks or plants than have room are refused") {
+    SeabedRule rule = bare_rule(20.0);
+    rule.place = {"mission.yaml", 3, 5};
+    rule.rocks = BedRocks{100.0, {0.1, 2.0}};
+    CHECK_THROWS_WITH_AS(make_seabed(rule),
+                         doctest::Contains("mission.yaml:3:5: the part of the seabed that the "
+                                           "mission needs has some"),
+                         InputError);
+    rule.rocks.reset();
+    rule.plants = BedPlants{1000.0, {0.1, 0.2}};
+    CHECK_THROWS_WITH_AS(make_seabed(rule), doctest::Contains("plants, and at most 500000"),
+                         InputError);
+}
