@@ -1,6 +1,7 @@
 #include "visibility/slices/beam_check.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/random.h"
 #include "visibility/slices/patch_limits.h"
@@ -12,18 +13,22 @@ namespace {
 constexpr PhiloxKey draw_key{0x64726177U, 0};
 
 // Views of up to this many beams are checked whole, since one of their beams may have a large share
-// of the error. Set after a drawn lattice of 64 beams was missed with 16 of them; the lattices of
-// the tests have at most 64, so they do not judge views of more.
+// of the error. Set after a drawn lattice of 64 beams was missed with 16 of them.
 constexpr int few_beams = 64;
 
-// The number of drawn beams of others if all may have errors; this many times more are drawn from
-// where the estimate leaves no margin. The first was chosen among 12, 16, 32 and all for its cost.
+// The number of drawn beams of others if all may have errors, and how many times more are drawn
+// where it decides. The first was chosen among 12, 16, 32 and all for its cost.
 constexpr int drawn_beams = 16;
-constexpr std::uint32_t more_if_close = 8;
+constexpr std::uint32_t more_if_close = 4;
 
-// 1 / (1 - exp(-1)): see BeamCheck. The derivation gives 4/3 to 2 and more; this one was chosen
-// among them on the drawn lattices 1000 to 1099.
-constexpr double error_per_distance = 1.582;
+// Errors per distance of a checked beam, whose check is returned, and of another beam; see
+// BeamCheck.
+constexpr double error_if_checked = 1.0;
+constexpr double error_if_not = 1.414;
+
+// Standard deviation of |x| - |y| for two independent normal variables, in theirs:
+// sqrt(2 (1 - 2 / pi)).
+constexpr double deviation_of_bins = 0.853;
 
 // Standard deviations of a one-sided limit with a confidence of 95 %.
 constexpr double deviations = 1.645;
@@ -33,8 +38,8 @@ constexpr double deviations = 1.645;
 // (docs/notes/2026-11-21-slices-estimate.md).
 constexpr double error_of_fine_patches = 0.0023;
 
-std::uint32_t step_for(const View& view) {
-    return view.beams <= few_beams ? 1U : static_cast<std::uint32_t>(view.beams / drawn_beams);
+std::uint32_t step_for(const View& view, BeamsToCheck which) {
+    return which == BeamsToCheck::all ? 1U : static_cast<std::uint32_t>(view.beams / drawn_beams);
 }
 
 /// The patches of the check are those of a third of the error goal at most.
@@ -45,38 +50,49 @@ PatchLimits fine_limits(View view) {
 
 }  // namespace
 
-BeamCheck::BeamCheck(const View& view, const FrameScan& scan, std::span<const Material> materials)
+BeamsToCheck beams_to_check(const View& view) {
+    return view.beams <= few_beams || !is_coarse(view.relative_l1) ? BeamsToCheck::all
+                                                                   : BeamsToCheck::drawn;
+}
+
+BeamCheck::BeamCheck(const View& view, BeamsToCheck which, const FrameScan& scan,
+                     std::span<const Material> materials)
     : sums_(view),
       sampler_(scan, materials, fine_limits(view), sums_, samples_),
       quads_(scan, fine_limits(view), sampler_),
-      calm_step_(step_for(view)),
+      calm_step_(step_for(view, which)),
       all_(view.beams <= 2) {}
 
-void BeamCheck::look_at(AdaptiveSlices& adaptive, bool closely) {
-    drawn_ = false;
-    if (!all_ && !adaptive.uncertain()) return;
+bool BeamCheck::look_at(AdaptiveSlices& adaptive, bool closely) {
+    if (!all_ && !adaptive.uncertain()) return false;
     const std::uint32_t at = uncertain_++;
     if (at == begin_ + step_) {
         begin_ = at;
         step_ = closely ? std::max(calm_step_ / more_if_close, 1U) : calm_step_;
         next_ = begin_ + philox({at, 0, 0, 0}, draw_key).x0 % step_;
     }
-    if (at != next_) return;
-    drawn_ = true;
+    if (at != next_) return false;
     samples_.clear();
     sums_.clear();
     for (const Strip& strip : adaptive.check_strips())
         quads_.add(*strip.slice, *strip.low, *strip.high);
     quads_.end_beam();
+    return true;
 }
 
 void BeamCheck::hand_over(BeamErrors& errors) const {
-    if (drawn_) errors.add_check(sums_, 1.0 / static_cast<double>(step_));
+    errors.add_check(sums_, 1.0 / static_cast<double>(step_));
+}
+
+double likely_error(const BeamErrors& errors) {
+    return error_of_fine_patches + errors.edge_bins() + error_if_checked * errors.of_checked() +
+           error_if_not * errors.of_others();
 }
 
 double estimated_error(const BeamErrors& errors) {
-    return error_of_fine_patches + errors.edge_bins() +
-           error_per_distance * (errors.to_check() + deviations * errors.to_check_deviation());
+    const double bins = deviation_of_bins * errors.root_of_squares();
+    const double draw = error_if_not * errors.others_deviation();
+    return likely_error(errors) + deviations * std::sqrt(bins * bins + draw * draw);
 }
 
 }  // namespace sonarsim

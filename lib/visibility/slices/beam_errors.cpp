@@ -46,19 +46,26 @@ void BeamErrors::add_check(const BinSums& check, double share) {
     share_ = share;
 }
 
-double BeamErrors::to_check_deviation() const {
+double BeamErrors::others_deviation() const {
     return signal_ > 0.0 ? std::sqrt(variance_) / signal_ : 0.0;
 }
 
-/// One beam of every 1 / share is drawn, so the distances divided by their shares sum to an
-/// unbiased estimate. The mean square of the difference of two draws is twice their variance.
+double BeamErrors::root_of_squares() const {
+    return signal_ > 0.0 ? std::sqrt(squares_) / signal_ : 0.0;
+}
+
+/// One of `step` beams is drawn, so step - 1 times its distance is that of the others on average.
+/// The mean square of the difference of two draws is twice their variance.
 void BeamErrors::end_beam() {
-    add_edge_bins();
+    add_edge_bins(share_ > 0.0 ? check_ : sums_);
     if (share_ > 0.0) {
+        const double step = 1.0 / share_;
         const double distance = BinSums::difference(sums_, check_);
-        to_check_ += distance / share_;
-        const double change = last_ < 0.0 ? 0.0 : (distance - last_) / share_;
-        variance_ += 0.5 * (1.0 - share_) * change * change;
+        const double change = last_ < 0.0 ? 0.0 : distance - last_;
+        checked_ += distance;
+        squares_ += BinSums::squared_difference(sums_, check_);
+        others_ += (step - 1.0) * distance;
+        variance_ += 0.5 * step * (step - 1.0) * change * change;
         last_ = distance;
         check_.clear();
         share_ = 0.0;
@@ -67,29 +74,29 @@ void BeamErrors::end_beam() {
 }
 
 /// Adds the intensities of all bins, and those of the probable errors of edge bins.
-void BeamErrors::add_edge_bins() {
+void BeamErrors::add_edge_bins(BinSums& sums) {
     Lanes all{};
     Lanes edge_bins{};
-    for (int begin = sums_.first(); begin <= sums_.last(); begin += lanes) {
+    for (int begin = sums.first(); begin <= sums.last(); begin += lanes) {
         for (int k = 0; k < lanes; ++k) {
             const int i = begin + k;
-            const float fuller = std::max(sums_.area(i - 1), sums_.area(i + 1));
-            const float intensity = sums_.intensity(i);
-            const float share = sums_.area(i) < thin_share * fuller ? thin_error_rate : 0.0F;
+            const float fuller = std::max(sums.area(i - 1), sums.area(i + 1));
+            const float intensity = sums.intensity(i);
+            const float share = sums.area(i) < thin_share * fuller ? thin_error_rate : 0.0F;
             all[k] += intensity;
             edge_bins[k] +=
-                intensity * (sums_.area(i) < thinnest_share * fuller ? thinnest_error_rate : share);
+                intensity * (sums.area(i) < thinnest_share * fuller ? thinnest_error_rate : share);
         }
     }
     signal_ += sum_of(all);
     edge_bins_ += sum_of(edge_bins);
-    std::vector<int>& touched = sums_.touched();
+    std::vector<int>& touched = sums.touched();
     std::ranges::sort(touched);
     touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
     for (const int i : touched) {
-        if (i < 0 || i >= sums_.count() || sums_.area(i) > 0.0F) continue;
-        const int fuller = sums_.area(i - 1) > sums_.area(i + 1) ? i - 1 : i + 1;
-        edge_bins_ += static_cast<double>(touched_error_rate * sums_.intensity(fuller));
+        if (i < 0 || i >= sums.count() || sums.area(i) > 0.0F) continue;
+        const int fuller = sums.area(i - 1) > sums.area(i + 1) ? i - 1 : i + 1;
+        edge_bins_ += static_cast<double>(touched_error_rate * sums.intensity(fuller));
     }
 }
 

@@ -9,7 +9,8 @@ namespace sonarsim {
 ///
 /// - Edge bins, which surface only just fills or only just misses. A bin is as bright for a sliver
 ///   of surface as for a wall, so rounding decides about it, and all slices have the same rounding.
-/// - The distance of drawn beams from their check: an image by more slices (beam_check.h).
+/// - The distance of drawn beams from their check, an image by more slices (beam_check.h). The
+///   check is the image of these beams.
 class BeamErrors {
   public:
     explicit BeamErrors(const View& view);
@@ -26,18 +27,24 @@ class BeamErrors {
     /// The expected error of edge bins over the finished beams.
     double edge_bins() const { return signal_ > 0.0 ? edge_bins_ / signal_ : 0.0; }
 
-    /// The distance of the image from its check, estimated from the drawn beams.
-    double to_check() const { return signal_ > 0.0 ? to_check_ / signal_ : 0.0; }
+    /// The distance of the drawn beams from their checks.
+    double of_checked() const { return signal_ > 0.0 ? checked_ / signal_ : 0.0; }
 
-    /// Standard deviation of to_check() from the draw of beams.
-    double to_check_deviation() const;
+    /// The root of the sum over their bins of the squared distances.
+    double root_of_squares() const;
+
+    /// The distance of the other beams from checks of theirs, estimated from the drawn ones.
+    double of_others() const { return signal_ > 0.0 ? others_ / signal_ : 0.0; }
+
+    /// Standard deviation of of_others() from the draw of beams.
+    double others_deviation() const;
 
     /// Ends the last beam.
     void finish() { end_beam(); }
 
   private:
     void end_beam();
-    void add_edge_bins();
+    void add_edge_bins(BinSums& sums);
 
     BinSums sums_;
     BinSums check_;
@@ -45,7 +52,9 @@ class BeamErrors {
     int beam_ = -1;
     double signal_ = 0.0;  ///< intensities of all bins of all beams
     double edge_bins_ = 0.0;
-    double to_check_ = 0.0;
+    double checked_ = 0.0;
+    double squares_ = 0.0;
+    double others_ = 0.0;
     double variance_ = 0.0;
     double last_ = -1.0;  ///< distance of the last drawn beam; negative: none
 };

@@ -49,6 +49,7 @@ void BinSums::add(const BinSums& other) {
         area_[i + 1] += other.area(i);
         echo_[i + 1] += other.echo(i);
     }
+    touched_.insert(touched_.end(), other.touched_.begin(), other.touched_.end());
     first_ = std::min(first_, other.first_);
     last_ = std::max(last_, other.last_);
 }
@@ -65,6 +66,16 @@ double BinSums::difference(const BinSums& a, const BinSums& b) {
     const int last = std::max(a.last_, b.last_);
     for (int i = std::min(a.first_, b.first_); i <= last; ++i)
         sum += static_cast<double>(std::fabs(a.intensity(i) - b.intensity(i)));
+    return sum;
+}
+
+double BinSums::squared_difference(const BinSums& a, const BinSums& b) {
+    double sum = 0.0;
+    const int last = std::max(a.last_, b.last_);
+    for (int i = std::min(a.first_, b.first_); i <= last; ++i) {
+        const auto d = static_cast<double>(a.intensity(i) - b.intensity(i));
+        sum += d * d;
+    }
     return sum;
 }
 

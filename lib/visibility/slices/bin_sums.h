@@ -26,6 +26,7 @@ class BinSums {
 
     /// The sum over the bins of the absolute difference of the intensities.
     static double difference(const BinSums& a, const BinSums& b);
+    static double squared_difference(const BinSums& a, const BinSums& b);
 
     int count() const { return count_; }
     /// Bins outside of [first, last] are dark.

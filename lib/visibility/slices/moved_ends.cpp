@@ -1,6 +1,7 @@
 #include "visibility/slices/moved_ends.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace sonarsim {
 
@@ -12,7 +13,8 @@ void move_ends(const Slice& slice, std::span<const VisibleSpan> spans, float u, 
     const float lowest = slice.w_low + slice.w_low_slope * aside;
     const float highest = slice.w_high + slice.w_high_slope * aside;
     const auto move = [&](float w, const Border& border, std::size_t i) {
-        const float to = std::clamp(u, border.extent.from, border.extent.to) - slice.u;
+        const float there = slice.widens ? u * std::sqrt(1.0F + w * w) : u;
+        const float to = std::clamp(there, border.extent.from, border.extent.to) - slice.u;
         const float alone = std::clamp(w + border.slope * to, lowest, highest);
         ends[i] = {w, alone, alone, border.q, static_cast<std::uint32_t>(i)};
     };

@@ -127,7 +127,7 @@ Strips strips_over(double low, double width, int beams, int per_beam, int first_
 }  // namespace
 
 Slice slice_at(const SliceFrame& frame, float u) {
-    if (!frame.meridians) return {u, frame.tan_low, frame.tan_high, 0.0F, 0.0F};
+    if (!frame.meridians) return {u, frame.tan_low, frame.tan_high, 0.0F, 0.0F, true};
     // A parallel of the view is a hyperbola of the picture plane: w = tan(latitude) sqrt(1 + u^2).
     const float secant = std::sqrt(1.0F + u * u);
     return {u, frame.tan_low * secant, frame.tan_high * secant, frame.tan_low * u / secant,

@@ -31,6 +31,8 @@ struct Slice {
     float w_high;
     float w_low_slope;  ///< dw/du of the view's borders there
     float w_high_slope;
+    /// Its strip is bounded by lines of u sqrt(1 + w^2): SliceFrame::meridians is false.
+    bool widens = false;
 };
 
 /// The slices of one sector, from low u to high. Gap k lies between slices k and k + 1.

@@ -40,9 +40,6 @@ constexpr double error_per_difference = 0.16;
 constexpr int most_passes = 3;
 constexpr double aimed_share = 0.8;
 
-// Above this share of the goal more beams are checked.
-constexpr double close_share = 0.5;
-
 /// Error of an image without errors of visibility: patches of surface become boxes in range.
 double error_of_shapes(double relative_l1) {
     return 0.002 + 0.003 * std::clamp(relative_l1 / 0.03, 0.1, 1.0);
@@ -70,6 +67,13 @@ class BeamCutter {
     BeamCutter(const SliceFrame& frame, StripQuads& quads, BeamErrors& errors, Samples& samples)
         : frame_(frame), quads_(quads), errors_(errors), samples_(samples) {
         errors_.begin_beam(frame_.first_beam);
+        begin_ = samples_.items.size();
+    }
+
+    /// Replaces the samples of the beam that is being cut.
+    void replace(const std::vector<Sample>& by) {
+        replaced_ = true;
+        by_ = by;
     }
 
     /// Adds the samples of a strip. Strips must be added from low u to high, without gaps.
@@ -89,6 +93,13 @@ class BeamCutter {
   private:
     void end_beam() {
         quads_.end_beam();
+        std::vector<Sample>& items = samples_.items;
+        if (replaced_) {
+            items.resize(begin_);
+            items.insert(items.end(), by_.begin(), by_.end());
+        }
+        replaced_ = false;
+        begin_ = items.size();
         samples_.beam_begin[frame_.first_beam + ++beam_] =
             static_cast<std::uint32_t>(samples_.items.size());
         if (beam_ + 1 < std::ssize(frame_.beam_u)) errors_.begin_beam(frame_.first_beam + beam_);
@@ -99,7 +110,10 @@ class BeamCutter {
     BeamErrors& errors_;
     Samples& samples_;
     MovedEnds at_border_[2];
-    int beam_ = 0;  ///< beam of the frame in which the next strip begins
+    int beam_ = 0;           ///< beam of the frame in which the next strip begins
+    std::size_t begin_ = 0;  ///< its first sample
+    bool replaced_ = false;
+    std::vector<Sample> by_;  ///< its samples if it is replaced
 };
 
 class SlicesEngine final : public VisibilityEngine {
@@ -116,14 +130,19 @@ class SlicesEngine final : public VisibilityEngine {
         const LocalPose pose = local_pose(T_world_sensor, scene_->origin);
         const double goal = view.relative_l1;
         View finer = view;
+        BeamsToCheck which = beams_to_check(view);
         for (int pass = 1;; ++pass) {
-            Pass seen = see(finer, goal, pose);
+            Pass seen = see(finer, which, goal, pose);
             const double error = seen.samples.estimated_l1;
             // More slices do not help against edge bins.
             const bool hopeless = seen.edge_bins > goal;
             if (error <= goal || hopeless || pass == most_passes || options_.per_beam > 0)
                 return std::move(seen.samples);
-            finer.relative_l1 *= std::clamp(aimed_share * goal / error, 0.25, 0.67);
+            if (which == BeamsToCheck::drawn) {
+                which = BeamsToCheck::all;
+            } else {
+                finer.relative_l1 *= std::clamp(aimed_share * goal / error, 0.25, 0.67);
+            }
         }
     }
 
@@ -144,37 +163,41 @@ class SlicesEngine final : public VisibilityEngine {
     };
 
     /// One pass over a ping, as fine as `view` asks; `goal` is that of the mission.
-    Pass see(const View& view, double goal, const LocalPose& pose) const {
+    Pass see(const View& view, BeamsToCheck which, double goal, const LocalPose& pose) const {
         const int per_beam =
             options_.per_beam > 0 ? options_.per_beam : slices_for(view.relative_l1);
         Samples samples;
         samples.beam_begin.assign(view.beams + 1, 0);
         BeamErrors errors(view);
         for (const SliceFrame& frame : slice_frames(view, per_beam))
-            see_frame(view, goal, pose, frame, samples, errors);
+            see_frame(view, which, goal, pose, frame, samples, errors);
         errors.finish();
         samples.estimated_l1 = estimated_error(errors);
         return {std::move(samples), errors.edge_bins()};
     }
 
-    void see_frame(const View& view, double goal, const LocalPose& pose, const SliceFrame& frame,
-                   Samples& samples, BeamErrors& errors) const {
+    void see_frame(const View& view, BeamsToCheck which, double goal, const LocalPose& pose,
+                   const SliceFrame& frame, Samples& samples, BeamErrors& errors) const {
         const PatchLimits limits = patch_limits(view);
         FrameScan scan(mesh_, *scene_, frame, pose, limits.range_max_m);
         AdaptiveSlices adaptive(view, scene_->materials, scan);
         QuadSampler sampler(scan, scene_->materials, limits, errors.sums(), samples.items);
         StripQuads quads(scan, limits, sampler);
         BeamCutter cutter(frame, quads, errors, samples);
-        BeamCheck check(view, scan, scene_->materials);
+        BeamCheck check(view, which, scan, scene_->materials);
         const auto most = [&] {
             return options_.per_beam > 0 ? unlimited
                                          : slice_error_limit(view.relative_l1, errors.edge_bins());
         };
         while (adaptive.scan_next(most())) {
-            check.look_at(adaptive, estimated_error(errors) > close_share * goal);
+            // More draws decide if the estimate and its limit are on different sides of the goal.
+            const bool closely = likely_error(errors) <= goal && estimated_error(errors) > goal;
+            const bool drawn = check.look_at(adaptive, closely);
             for (const SliceResult* result : adaptive.slices())
                 cutter.add(*result);
+            if (!drawn) continue;
             check.hand_over(errors);
+            cutter.replace(check.samples());
         }
         samples.dropped += scan.scene().dropped;
     }
