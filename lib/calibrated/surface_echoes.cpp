@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "calibrated/mirrored_echoes.h"
 #include "calibrated/model.h"
 #include "calibrated/patches.h"
 #include "calibrated/target_pieces.h"
-#include "core/groups.h"
 #include "trace/arrivals.h"
 
 namespace sonarsim {
@@ -35,26 +35,24 @@ struct FoundEcho {
     const Sample* sample;
 };
 
-/// The order of echoes by beam.
-Groups order_by_beam(const std::vector<FoundEcho>& found, int beams) {
-    std::vector<std::uint32_t> beam(found.size());
-    std::ranges::transform(found, beam.begin(), &FoundEcho::beam);
-    return sort_into_groups(beam, beams);
-}
-
-BeamEchoes in_order(const std::vector<FoundEcho>& found, const Groups& order) {
+/// The echoes sorted by beam; those of a beam keep their order.
+BeamEchoes by_beam(const std::vector<FoundEcho>& found, int beams) {
     BeamEchoes out;
+    out.beam_begin.resize(static_cast<std::size_t>(beams) + 1);
+    for (const FoundEcho& echo : found)
+        ++out.beam_begin[echo.beam + 1];
+    std::partial_sum(out.beam_begin.begin(), out.beam_begin.end(), out.beam_begin.begin());
+    std::vector<std::uint32_t> next = out.beam_begin;
     out.boxes.resize(found.size());
     out.sample.resize(found.size());
-    for (std::size_t k = 0; k < found.size(); ++k) {
-        const FoundEcho& echo = found[order.items[k]];
+    std::ranges::fill(out.boxes.intensity, 1.0F);
+    for (const FoundEcho& echo : found) {
+        const std::uint32_t k = next[echo.beam]++;
         out.boxes.range_m[k] = echo.range_m;
         out.boxes.half_m[k] = echo.half_m;
         out.boxes.weight[k] = echo.power;
-        out.boxes.intensity[k] = 1.0F;
         out.sample[k] = echo.sample;
     }
-    out.beam_begin = order.begin;
     return out;
 }
 
@@ -134,13 +132,14 @@ class SurfaceEchoFinder {
         };
         const auto half_sine = [&](int k) { return cut_at(k).half.sine; };
         subdivide(surface, limits_, pieces_, [&](const PatchBlock& pieces) {
+            last_piece_ = -1;
             apply_sonar_equation(pieces, *scattering_, model_.equation, echoes_);
             for_each_beam(pieces, echoes_, nullptr, half_sine, [&](int beam, int k, float power) {
                 const CutSample& of = cut_at(k);
                 if (targets.has(of.sample->instance)) return;
                 direct_.push_back({static_cast<std::uint32_t>(beam), echoes_.range_m[k],
                                    of.half.range_m, power, of.sample});
-                if (patches_) found_.push_back(patch_of(pieces, k, of, power));
+                if (patches_) add_echo(beam, k, power, [&] { return patch_of(pieces, k, of); });
             });
         });
     }
@@ -154,6 +153,7 @@ class SurfaceEchoFinder {
             const auto place = [&](int k) {
                 return Eigen::Vector3f(points.x[k], points.y[k], points.z[k]);
             };
+            last_piece_ = -1;
             PatchBlock::Array<HalfExtents> half;
             for (int k = 0; k < points.count; ++k)
                 half[k] = half_extents(cut.edge_u[k], cut.edge_v[k], arrival_of(place(k)));
@@ -164,11 +164,12 @@ class SurfaceEchoFinder {
                 direct_.push_back({static_cast<std::uint32_t>(beam), echoes_.range_m[k],
                                    half[k].range_m, power, sample});
                 if (!patches_) return;
-                found_.push_back({.position = place(k),
-                                  .edge_u = cut.edge_u[k],
-                                  .edge_v = cut.edge_v[k],
-                                  .echo = power,
-                                  .sample = sample});
+                add_echo(beam, k, power, [&] {
+                    return EchoPatch{.position = place(k),
+                                     .edge_u = cut.edge_u[k],
+                                     .edge_v = cut.edge_v[k],
+                                     .sample = sample};
+                });
             });
         });
     }
@@ -190,25 +191,34 @@ class SurfaceEchoFinder {
 
     SurfaceEchoes take(int beams) {
         SurfaceEchoes out;
-        const Groups order = order_by_beam(direct_, beams);
-        out.direct = in_order(direct_, order);
-        out.multipath = in_order(multipath_, order_by_beam(multipath_, beams));
+        out.direct = by_beam(direct_, beams);
+        out.multipath = by_beam(multipath_, beams);
         out.cones = model_.cones;
         out.target_samples = std::move(target_samples_);
-        if (!patches_) return out;
-        out.patch_begin = order.begin;
-        out.patches.reserve(found_.size());
-        for (const std::uint32_t k : order.items)
-            out.patches.push_back(found_[k]);
+        out.patches = std::move(found_);
+        out.patch_echoes = std::move(patch_echoes_);
         return out;
     }
 
   private:
-    static EchoPatch patch_of(const PatchBlock& pieces, int k, const CutSample& cut, float power) {
+    /// Adds the echo of piece k of a block in a beam. What a line array receives of a piece in
+    /// several beams belongs to one patch.
+    template <class PatchOfPiece>
+    void add_echo(int beam, int k, float power, PatchOfPiece patch_of_piece) {
+        const auto at = static_cast<std::uint32_t>(patch_echoes_.size());
+        if (k != last_piece_) {
+            found_.push_back(patch_of_piece());
+            found_.back().echo_begin = at;
+        }
+        last_piece_ = k;
+        found_.back().echo_end = at + 1;
+        patch_echoes_.push_back({static_cast<std::uint32_t>(beam), power});
+    }
+
+    static EchoPatch patch_of(const PatchBlock& pieces, int k, const CutSample& cut) {
         return {.position = {pieces.x[k], pieces.y[k], pieces.z[k]},
                 .edge_u = cut.sample->edge_u / cut.rows,
                 .edge_v = cut.sample->edge_v / cut.columns,
-                .echo = power,
                 .sample = cut.sample};
     }
 
@@ -256,7 +266,9 @@ class SurfaceEchoFinder {
     PatchBlock::Array<float> sent_{}, received_{};
     std::vector<Sample> target_samples_;
     std::vector<FoundEcho> direct_, multipath_;
-    std::vector<EchoPatch> found_;  ///< one for each of direct_
+    std::vector<EchoPatch> found_;
+    std::vector<PatchEcho> patch_echoes_;  ///< one for each of direct_
+    int last_piece_ = -1;  ///< the piece of the block that is the last of found_; -1: none
 };
 
 }  // namespace

@@ -34,12 +34,12 @@ LabelPlan plan_labels(const Mission& mission, const Assembly& assembly, const So
     const bool in_fan = asked(Label::fan) || (output.fan && (objects || asked(Label::semantic)));
     if (has_images && in_fan) plan.fan = make_fan_bins(sonar, output.fan_width_px);
     plan.seen = asked(Label::objects) || (masks && has_images);
+    if (masks || asked(Label::shadow)) plan.annotated = annotated_objects(assembly);
     if (!masks) return plan;
     const View& view = sonar.settings.view;
     if (plan.fan_masks)
         plan.fan_boxes =
             bin_boxes(plan.fan, static_cast<std::size_t>(view.beams) * view.range_bins);
-    plan.annotated = annotated_objects(assembly);
     return plan;
 }
 

@@ -25,7 +25,7 @@ struct LabelPlan {
     FanBins fan;                      ///< empty if no label is in the fan
     bool seen = false;                ///< a writer needs the table of objects
     std::vector<PixelBox> fan_boxes;  ///< bin_boxes() of `fan`, for annotations
-    AnnotatedObjects annotated;       ///< empty if nothing is annotated
+    AnnotatedObjects annotated;       ///< empty without annotations and shadows
 };
 LabelPlan plan_labels(const Mission& mission, const Assembly& assembly, const Sonar& sonar);
 

@@ -1,12 +1,10 @@
 #include "labels/elevation.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
 #include "core/elementary.h"
-#include "labels/range_path.h"
 #include "trace/arrivals.h"
 
 namespace sonarsim {
@@ -30,45 +28,50 @@ double spread_at_one_range(const EchoPatch& patch) {
 
 }  // namespace
 
-void ElevationFinder::add(const EchoPatch& patch) {
-    const RangePath path = range_path(patch, Eigen::Vector3f::UnitZ());
-    const double echo = patch.echo;
-    if (!(echo > 0.0)) return;
-    const double besides = spread_at_one_range(patch);
-    const auto sine_at = [&](double r) { return std::clamp(rise_at(path, r) / r, -1.0, 1.0); };
-    for_each_covered(path, bins_, sine_at, [&](const CoveredBins& covered) {
-        first_bin_ = std::min(first_bin_, covered.first);
-        last_bin_ = std::max(last_bin_, covered.first + covered.count);
-        double* const __restrict sum = moments_.echo.data() + covered.first;
-        double* const __restrict first = moments_.first.data() + covered.first;
-        double* const __restrict second = moments_.second.data() + covered.first;
-        for (int k = 0; k < covered.count; ++k) {
-            const double part = echo * covered.share[k];
-            const double sine = 0.5 * (covered.values[k] + covered.values[k + 1]);
-            const double along = covered.values[k + 1] - covered.values[k];
-            sum[k] += part;
-            first[k] += part * sine;
-            second[k] += part * (sine * sine + along * along / 12.0 + besides);
-        }
-    });
+ElevationFinder::ElevationFinder(const RangeBins& bins, int rows) : sums_(rows, bins.count) {}
+
+void ElevationFinder::begin(const EchoPatch& patch, const RangePath& path) {
+    const Eigen::Vector3f axis = Eigen::Vector3f::UnitZ();
+    rise_m_ = patch.position.dot(axis);
+    slope_ = path.per_range.dot(axis);
+    besides_ = spread_at_one_range(patch);
 }
 
-void ElevationFinder::find(std::span<const EchoPatch> patches, std::span<float> elevation_rad,
+void ElevationFinder::cover(const CoveredBins& covered) {
+    const auto sine_at = [&](int k) {
+        return std::clamp((rise_m_ + slope_ * covered.way[k]) / covered.range_m[k], -1.0, 1.0);
+    };
+    for (int k = 0; k < covered.whole; ++k) {
+        const double enters = sine_at(k);
+        const double leaves = sine_at(k + 1);
+        const double along = leaves - enters;
+        mean_[k] = 0.5 * (enters + leaves);
+        square_[k] = mean_[k] * mean_[k] + along * along / 12.0 + besides_;
+    }
+}
+
+void ElevationFinder::add(std::uint32_t row, double echo, const CoveredBins& covered) {
+    const auto [to_echo, to_first, to_second] = sums_.at(row, covered);
+    double* const __restrict sum = to_echo;
+    double* const __restrict first = to_first;
+    double* const __restrict second = to_second;
+    for (int k = 0; k < covered.whole; ++k) {
+        const double part = echo * covered.share[k];
+        sum[k] += part;
+        first[k] += part * mean_[k];
+        second[k] += part * square_[k];
+    }
+}
+
+void ElevationFinder::find(std::uint32_t row, std::span<float> elevation_rad,
                            std::span<float> spread_rad) {
-    const std::array sums{&moments_.echo, &moments_.first, &moments_.second};
-    for (std::vector<double>* const sum : sums)
-        sum->resize(bins_.count);
-    first_bin_ = bins_.count;
-    last_bin_ = 0;
-    for (const EchoPatch& patch : patches)
-        add(patch);
     constexpr float none = std::numeric_limits<float>::quiet_NaN();
     std::ranges::fill(elevation_rad, none);
     std::ranges::fill(spread_rad, none);
-    if (first_bin_ >= last_bin_) return;
-    const double* const __restrict echo = moments_.echo.data();
-    const double* const __restrict first = moments_.first.data();
-    const double* const __restrict second = moments_.second.data();
+    const BinSumRows<3>::Row sums = sums_.row(row);
+    const double* const __restrict echo = sums.of[0];
+    const double* const __restrict first = sums.of[1];
+    const double* const __restrict second = sums.of[2];
     float* const __restrict elevation = elevation_rad.data();
     float* const __restrict spread = spread_rad.data();
     const auto find_bin = [=](int i) {
@@ -85,14 +88,13 @@ void ElevationFinder::find(std::span<const EchoPatch> patches, std::span<float> 
     };
     // Most bins between occupied ones hold water.
     constexpr int block = 16;
-    for (int from = first_bin_; from < last_bin_; from += block) {
-        const int end = std::min(from + block, last_bin_);
+    for (int from = sums.first; from < sums.last; from += block) {
+        const int end = std::min(from + block, sums.last);
         if (std::all_of(echo + from, echo + end, [](double e) { return e == 0.0; })) continue;
         for (int i = from; i < end; ++i)
             find_bin(i);
     }
-    for (std::vector<double>* const sum : sums)
-        std::fill(sum->begin() + first_bin_, sum->begin() + last_bin_, 0.0);
+    sums_.clear(row);
 }
 
 }  // namespace sonarsim

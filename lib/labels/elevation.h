@@ -1,34 +1,36 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
+#include "labels/range_path.h"
 #include "trace/surface_echoes.h"
 
 namespace sonarsim {
 
-/// Finds the elevation of the surface in the bins of a beam.
+/// Finds the elevation of the surface in the bins of some beams.
 class ElevationFinder {
   public:
-    explicit ElevationFinder(const RangeBins& bins) : bins_(bins) {}
+    /// `rows`: the number of beams that are summed at once.
+    ElevationFinder(const RangeBins& bins, int rows);
+
+    /// Begins the next patch.
+    void begin(const EchoPatch& patch, const RangePath& path);
+    /// Works out these bins of the patch.
+    void cover(const CoveredBins& covered);
+    /// Adds an echo of the patch to these bins of a row.
+    void add(std::uint32_t row, double echo, const CoveredBins& covered);
 
     /// The mean elevation of the echo of each bin and its standard deviation, rad; both are NaN in
-    /// bins without an echo. Means are of sin(theta), weighted with the echo.
-    void find(std::span<const EchoPatch> patches, std::span<float> elevation_rad,
-              std::span<float> spread_rad);
+    /// bins without an echo. Means are of sin(theta), weighted with the echo. Clears the row.
+    void find(std::uint32_t row, std::span<float> elevation_rad, std::span<float> spread_rad);
 
   private:
-    /// Moments of sin(theta) by bin. Doubles, since a spread is a small difference of squares;
-    /// arrays, so that loops vectorise.
-    struct Moments {
-        std::vector<double> echo, first, second;
-    };
-
-    void add(const EchoPatch& patch);
-
-    RangeBins bins_;
-    Moments moments_;                   ///< 0 between calls
-    int first_bin_ = 0, last_bin_ = 0;  ///< the bins [first, last) of this beam have an echo
+    /// The echo and its moments of sin(theta). Doubles, since a spread is a small difference of
+    /// squares.
+    BinSumRows<3> sums_;
+    // This patch:
+    double rise_m_ = 0.0, slope_ = 0.0, besides_ = 0.0;
+    std::array<double, CoveredBins::at_once> mean_{}, square_{};  ///< sin(theta), by bin
 };
 
 }  // namespace sonarsim

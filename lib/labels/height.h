@@ -1,38 +1,40 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
 #include "core/pose.h"
+#include "labels/range_path.h"
 #include "scene/placing/bottom.h"
 #include "trace/surface_echoes.h"
 
 namespace sonarsim {
 
-/// Finds the height above the bottom of the surface in the bins of a beam.
+/// Finds the height above the bottom of the surface in the bins of some beams.
 class HeightFinder {
   public:
-    /// The bottom must outlive the finder. Without a bottom nothing has a height.
-    HeightFinder(const RangeBins& bins, const Bottom* bottom, const Pose& T_world_sensor)
-        : bins_(bins), bottom_(bottom), T_world_sensor_(T_world_sensor) {}
+    /// `rows`: the number of beams that are summed at once. The bottom must outlive the finder.
+    HeightFinder(const RangeBins& bins, int rows, const Bottom& bottom, const Pose& T_world_sensor);
 
-    /// The mean height of the echo of each bin, m, weighted with the echo: the distance to the next
-    /// surface of the bottom straight below. 0 for the bottom itself, NaN in bins
-    /// without an echo or without a bottom below. The bottom below one patch is taken as level.
-    void find(std::span<const EchoPatch> patches, std::span<float> height_m);
+    /// Begins the next patch. False: there is no bottom below it, so that it has no height.
+    bool begin(const EchoPatch& patch, const RangePath& path);
+    /// Works out these bins of the patch.
+    void cover(const CoveredBins& covered);
+    /// Adds an echo of the patch to these bins of a row.
+    void add(std::uint32_t row, double echo, const CoveredBins& covered);
+
+    /// The mean height of the echo of each bin above the highest bottom below it; NaN in bins
+    /// without an echo and where there is no bottom. Clears the row.
+    void find(std::uint32_t row, std::span<float> height_m);
 
   private:
-    struct Sums {
-        double echo = 0.0, height = 0.0;
-    };
-
-    void add(const EchoPatch& patch, const Eigen::Vector3f& up);
-
-    RangeBins bins_;
-    const Bottom* bottom_;
+    const Bottom& bottom_;
     Pose T_world_sensor_;
-    std::vector<Sums> sums_;            ///< 0 between calls
-    int first_bin_ = 0, last_bin_ = 0;  ///< the bins [first, last) of this beam have an echo
+    Eigen::Vector3f up_;  ///< sensor frame
+    BinSumRows<2> sums_;  ///< the echo, and the echo times the height
+    // This patch:
+    bool is_bottom_ = false;
+    double height_m_ = 0.0, rise_m_ = 0.0, slope_ = 0.0;
+    std::array<double, CoveredBins::at_once> mean_{};  ///< height, by bin
 };
 
 }  // namespace sonarsim

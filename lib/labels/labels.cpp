@@ -4,8 +4,7 @@
 #include <limits>
 #include <optional>
 
-#include "labels/elevation.h"
-#include "labels/height.h"
+#include "labels/patch_labels.h"
 #include "labels/shadow.h"
 #include "labels/shares.h"
 
@@ -173,11 +172,10 @@ PingLabels blank_labels(const View& view, const LabelRequest& request) {
 /// Finds the shadows of objects that are no background, and the visible shares of these.
 ShadowFinder find_object_shadows(const TracedPing& traced, const ConeBeams& cones, const View& view,
                                  const SceneObjects& objects, const VisibilityEngine& engine,
-                                 const LabelRequest& request, ShadowFinder::Behind& behind,
+                                 const ObjectDirections& directions, ShadowFinder::Behind& behind,
                                  std::vector<float>& visible_share) {
-    const ObjectDirections directions(request.annotated, request.surface, traced.T_world_sensor,
-                                      view.range_min_m, view.range_max_m);
-    ShadowFinder finder(traced, cones, view, objects, engine, behind, &directions);
+    ShadowFinder finder(traced, cones, view, objects, engine, directions,
+                        ShadowFinder::Of::annotated, behind);
     if (!visible_share.empty()) return finder;
     visible_share = finder.visible_shares();
     for (std::uint32_t k = 0; k < visible_share.size(); ++k) {
@@ -197,19 +195,23 @@ PingLabels label_ping(const TracedPing& traced, const PingSettings& settings, co
         settings.model->surface_echoes(traced, view, scene, request.elevation || request.height);
     BeamLabeller labeller(echoes, view, objects, request);
     ShadowFinder::Behind behind;
+    std::optional<ObjectDirections> directions;
+    if (request.shadow || request.annotations) {
+        directions.emplace(request.annotated, request.surface, traced.T_world_sensor,
+                           view.range_min_m, view.range_max_m);
+    }
     std::optional<ShadowFinder> shadows;
     if (request.shadow) {
-        shadows.emplace(traced, echoes.cones, view, objects, engine, behind);
+        shadows.emplace(traced, echoes.cones, view, objects, engine, *directions,
+                        ShadowFinder::Of::all, behind);
         labels.visible_share = shadows->visible_shares();
     }
     std::optional<ShadowFinder> object_shadows;
     if (request.annotations) {
-        object_shadows = find_object_shadows(traced, echoes.cones, view, objects, engine, request,
-                                             behind, labels.visible_share);
+        object_shadows = find_object_shadows(traced, echoes.cones, view, objects, engine,
+                                             *directions, behind, labels.visible_share);
     }
     const bool shares = request.objects || request.classes || request.materials;
-    ElevationFinder elevations(range_bins(view));
-    HeightFinder heights(range_bins(view), request.bottom, traced.T_world_sensor);
     for (int j = 0; j < view.beams; ++j) {
         const auto own = [&](auto& all) {
             return std::span(all).subspan(static_cast<std::size_t>(j) * view.range_bins,
@@ -219,11 +221,10 @@ PingLabels label_ping(const TracedPing& traced, const PingSettings& settings, co
         if (shadows) shadows->find(j, labeller.occupied(j, shares), own(labels.shadow));
         if (object_shadows)
             object_shadows->find(j, labeller.occupied(j, shares), own(labels.object_shadow));
-        if (request.elevation) {
-            elevations.find(echoes.patches_of(j), own(labels.elevation_rad),
-                            own(labels.elevation_spread_rad));
-        }
-        if (request.height) heights.find(echoes.patches_of(j), own(labels.height_m));
+    }
+    if (request.elevation || request.height) {
+        label_patches(echoes, view, traced.T_world_sensor, request.bottom,
+                      {labels.elevation_rad, labels.elevation_spread_rad, labels.height_m});
     }
     return labels;
 }

@@ -23,7 +23,8 @@ struct LabelRequest {
     /// Needs objects: what annotations say of the objects that are no background.
     bool annotations = false;
     std::span<const ObjectSphere> annotated = {};  ///< around these objects, for annotations
-    const Eigen::AlignedBox3d* surface = nullptr;  ///< around all surface, world; null: not known
+    /// Around all surface, world; null: not known. Shadows are then the same, but found slower.
+    const Eigen::AlignedBox3d* surface = nullptr;
     const Bottom* bottom = nullptr;  ///< reference of heights; null: nothing has a height
 };
 

@@ -5,7 +5,7 @@
 
 namespace sonarsim {
 
-RangePath range_path(const EchoPatch& patch, const Eigen::Vector3f& axis) {
+RangePath range_path(const EchoPatch& patch) {
     const auto [range, departure, d] = arrival_of(patch.position);
     const float u = d.dot(patch.edge_u);
     const float v = d.dot(patch.edge_v);
@@ -17,12 +17,11 @@ RangePath range_path(const EchoPatch& patch, const Eigen::Vector3f& axis) {
         path = (u * patch.edge_u + v * patch.edge_v) / static_cast<float>(depth_2);
     }
     return {.range_m = range,
-            .rise_m = patch.position.dot(axis),
             .before_m = along_u.before + along_v.before,
             .after_m = along_u.after + along_v.after,
             .depth_m = std::fabs(u) + std::fabs(v),
             .bend = path.squaredNorm(),
-            .slope = path.dot(axis)};
+            .per_range = path};
 }
 
 }  // namespace sonarsim

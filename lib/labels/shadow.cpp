@@ -49,8 +49,9 @@ bool fill_gaps(std::span<std::uint16_t> ids) {
 
 ShadowFinder::ShadowFinder(const TracedPing& traced, const ConeBeams& cones, const View& view,
                            const SceneObjects& objects, const VisibilityEngine& engine,
-                           Behind& behind, const ObjectDirections* annotated)
-    : bins_(range_bins(view)), follows_objects_(annotated != nullptr) {
+                           const ObjectDirections& directions, Of of, Behind& behind)
+    : bins_(range_bins(view)), follows_objects_(of == Of::annotated) {
+    const bool annotated = of == Of::annotated;
     std::vector<SightLine> lines = sight_lines(traced, cones, view.beams);
     const std::size_t count = lines.size();
     std::vector<WayNode> nodes;
@@ -64,9 +65,8 @@ ShadowFinder::ShadowFinder(const TracedPing& traced, const ConeBeams& cones, con
         return !annotated || !objects.is_background(nodes[line.first].object);
     };
     const auto is_wanted = [&](const SightLine& line) {
-        if (!annotated) return true;
-        if (annotated->is_empty_behind(line.direction, line.range_m)) return false;
-        return is_shadow(line) || annotated->may_lie_behind(line.direction, line.range_m);
+        if (directions.is_empty_behind(line.direction, line.range_m)) return false;
+        return is_shadow(line) || directions.may_lie_behind(line.direction, line.range_m);
     };
     std::erase_if(lines, [&](const SightLine& line) { return !is_wanted(line); });
     std::vector<Ray> rays;

@@ -24,13 +24,17 @@ class ShadowFinder {
     /// of the line.
     using Behind = std::vector<std::vector<Intersection>>;
 
-    /// Traces the hidden surface. With `annotated` only that which objects that are no background
-    /// hide, or that of these objects, which lie in those directions; this costs little where they
-    /// are small. A finder without `annotated` writes to `behind`; one with it then traces nothing,
-    /// but reads from it unless it is empty. The arguments must outlive the finder.
+    /// The shadows to find: those of all objects, or those of objects that are no background.
+    enum class Of { all, annotated };
+
+    /// Traces the hidden surface, but not where `directions` say that there is none. With
+    /// `annotated` only that which objects that are no background hide, or that of these objects,
+    /// which lie in `directions`; this costs little where they are small. A finder for `all` writes
+    /// to `behind`; one for `annotated` then traces nothing, but reads from it unless it is empty.
+    /// The arguments must outlive the finder.
     ShadowFinder(const TracedPing& traced, const ConeBeams& cones, const View& view,
-                 const SceneObjects& objects, const VisibilityEngine& engine, Behind& behind,
-                 const ObjectDirections* annotated = nullptr);
+                 const SceneObjects& objects, const VisibilityEngine& engine,
+                 const ObjectDirections& directions, Of of, Behind& behind);
 
     /// Fills `shadow` [range bins] of beam j with 1 + the index of the object that hides, or 0.
     /// `occupied` is 1 for the bins that show surface, else 0.

@@ -49,9 +49,14 @@ SurfaceEchoes PaperModel::surface_echoes(const TracedPing& traced, const View& v
     if (!patches) return out;
     out.patch_begin = samples.beam_begin;
     out.patches.reserve(samples.items.size());
-    for (const Sample& sample : samples.items) {
-        out.patches.push_back({sample.position, sample.edge_u, sample.edge_v,
-                               echo_of(sample, scene.materials[sample.material]), &sample});
+    out.patch_echoes.reserve(samples.items.size());
+    for (std::uint32_t j = 0; j + 1 < samples.beam_begin.size(); ++j) {
+        for (const Sample& sample : samples.beam(static_cast<int>(j))) {
+            const auto at = static_cast<std::uint32_t>(out.patch_echoes.size());
+            out.patch_echoes.push_back({j, echo_of(sample, scene.materials[sample.material])});
+            out.patches.push_back(
+                {sample.position, sample.edge_u, sample.edge_v, at, at + 1, &sample});
+        }
     }
     return out;
 }

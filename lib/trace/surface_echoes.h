@@ -19,10 +19,16 @@ struct BeamEchoes {
     std::vector<std::uint32_t> beam_begin;  ///< beams + 1 offsets into `boxes`
 };
 
-/// A piece of visible surface and its echo.
-struct EchoPatch {
-    Eigen::Vector3f position, edge_u, edge_v;  ///< as those of Sample
+/// The echo of a piece of visible surface in a beam.
+struct PatchEcho {
+    std::uint32_t beam;
     double echo;
+};
+
+/// A piece of visible surface. A line array may receive it in several beams.
+struct EchoPatch {
+    Eigen::Vector3f position, edge_u, edge_v;    ///< as those of Sample
+    std::uint32_t echo_begin = 0, echo_end = 0;  ///< its echoes in `patch_echoes`
     const Sample* sample;
 };
 
@@ -36,16 +42,15 @@ struct SurfaceEchoes {
 
     BeamEchoes direct;
     BeamEchoes multipath;  ///< the samples are those that mirror the sound
-    /// The visible surface, sorted by beam; empty if it was not asked for.
+    /// The visible surface; empty if it was not asked for.
     std::vector<EchoPatch> patches;
-    std::vector<std::uint32_t> patch_begin;  ///< beams + 1 offsets into `patches`
-    std::vector<Sample> target_samples;      ///< one for each facet of TracedPing::targets
+    std::vector<PatchEcho> patch_echoes;
+    /// beams + 1 offsets into `patches`, if these are sorted by beam and have one echo each; else
+    /// empty.
+    std::vector<std::uint32_t> patch_begin;
+    std::vector<Sample> target_samples;  ///< one for each facet of TracedPing::targets
     /// The beams of a line array; empty: those of the view.
     ConeBeams cones;
-
-    std::span<const EchoPatch> patches_of(int beam) const {
-        return {patches.data() + patch_begin[beam], patches.data() + patch_begin[beam + 1]};
-    }
 };
 
 }  // namespace sonarsim

@@ -27,6 +27,27 @@ Eigen::AlignedBox2d area_of(const Surface& surface, std::uint32_t triangle) {
     return box;
 }
 
+/// height_above() without an optional number, which compilers pass through memory. False: there is
+/// none, and z is as it was.
+[[gnu::always_inline]] inline bool find_height(const Eigen::Vector3d& corner_a,
+                                               const Eigen::Vector3d& corner_b,
+                                               const Eigen::Vector3d& corner_c,
+                                               const Eigen::Vector2d& point, double& z) {
+    // Coordinates are relative to the point, so that large ones lose nothing.
+    const double a_x = corner_a.x() - point.x(), a_y = corner_a.y() - point.y();
+    const double b_x = corner_b.x() - point.x(), b_y = corner_b.y() - point.y();
+    const double c_x = corner_c.x() - point.x(), c_y = corner_c.y() - point.y();
+    const double of_a = b_x * c_y - b_y * c_x;
+    const double of_b = c_x * a_y - c_y * a_x;
+    const double of_c = a_x * b_y - a_y * b_x;
+    const bool inside =
+        (of_a >= 0.0 && of_b >= 0.0 && of_c >= 0.0) || (of_a <= 0.0 && of_b <= 0.0 && of_c <= 0.0);
+    const double sum = of_a + of_b + of_c;
+    if (!inside || sum == 0.0) return false;
+    z = (of_a * corner_a.z() + of_b * corner_b.z() + of_c * corner_c.z()) / sum;
+    return true;
+}
+
 }  // namespace
 
 Bottom::Bottom(Surface surface) : surface_(std::move(surface)) {
@@ -98,7 +119,8 @@ std::optional<Bottom::Heights> Bottom::heights(const Eigen::Vector2d& point) con
 std::optional<double> Bottom::highest_below(const Eigen::Vector3d& point, double tolerance) const {
     const Eigen::Vector2d at = point.head<2>();
     const double most = point.z() + tolerance;
-    std::optional<double> found;
+    constexpr double none = -std::numeric_limits<double>::infinity();
+    double found = none;
     const Eigen::Array3f from = (Eigen::Vector3d(at.x(), at.y(), most) - corner_).cast<float>();
     const __m128 high = _mm_setr_ps(from.x(), from.y(), from.z(), 0.0F);
     const __m128 low =
@@ -112,32 +134,21 @@ std::optional<double> Bottom::highest_below(const Eigen::Vector3d& point, double
         const __m128 above = _mm_cmple_ps(_mm_load_ps(box.min.data()), high);
         const __m128 below = _mm_cmple_ps(low, _mm_load_ps(box.max.data()));
         if (_mm_movemask_ps(_mm_and_ps(above, below)) != 0xF) continue;
-        const auto z = height_above(corners_of(surface_, triangles_[k]), at);
-        if (!z || *z > most || (found && *z <= *found)) continue;
+        const auto& [a, b, c] = surface_.triangles[triangles_[k]];
+        double z = none;
+        find_height(surface_.vertices[a], surface_.vertices[b], surface_.vertices[c], at, z);
+        if (z > most || !(z > found)) continue;
         found = z;
-        found_z = static_cast<float>(*z - corner_.z());
+        found_z = static_cast<float>(z - corner_.z());
     }
-    return found;
+    return found > none ? std::optional(found) : std::nullopt;
 }
 
 std::optional<double> height_above(const std::array<Eigen::Vector3d, 3>& corners,
                                    const Eigen::Vector2d& point) {
-    // Coordinates are relative to the point, so that large ones lose nothing.
-    const auto at = [&](int k) -> Eigen::Vector2d { return corners[k].head<2>() - point; };
-    const auto cross = [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-        return a.x() * b.y() - a.y() * b.x();
-    };
-    const Eigen::Vector2d a = at(0);
-    const Eigen::Vector2d b = at(1);
-    const Eigen::Vector2d c = at(2);
-    const double of_a = cross(b, c);
-    const double of_b = cross(c, a);
-    const double of_c = cross(a, b);
-    const bool inside =
-        (of_a >= 0.0 && of_b >= 0.0 && of_c >= 0.0) || (of_a <= 0.0 && of_b <= 0.0 && of_c <= 0.0);
-    const double sum = of_a + of_b + of_c;
-    if (!inside || sum == 0.0) return std::nullopt;
-    return (of_a * corners[0].z() + of_b * corners[1].z() + of_c * corners[2].z()) / sum;
+    double z = 0.0;
+    if (!find_height(corners[0], corners[1], corners[2], point, z)) return std::nullopt;
+    return z;
 }
 
 }  // namespace sonarsim
