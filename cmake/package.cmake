@@ -39,7 +39,7 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME sonarsim)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS python3)
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS python3-numpy)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "python3-numpy, fonts-dejavu-core")
 set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "simulator of sonars that writes datasets
 Turns a mission (a glTF scene, a trajectory and sonars) into a dataset of
 imaging, profiling, side-scan, scanning and echosounder data that can be

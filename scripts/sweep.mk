@@ -5,7 +5,7 @@
 #        sensors.fls.range_max_m="10 20" seed="1 2"
 #
 # writes OUT/sensors.fls.range_max_m=10,seed=1/ and so on, OUT/index.csv with the values of every
-# folder, and OUT/contact_sheet.png with a picture of each (where python3-matplotlib is installed).
+# folder, and OUT/contact_sheet.png with a picture of each.
 # The parameters of the noise have short names; SENSOR names the sensors that they are for:
 #
 #        SENSOR=fls add_sigma="0 0.1 0.2" mult_sigma="0 0.2"
@@ -17,12 +17,11 @@
 
 noise_keys := range_lambda_m scatterer_m add_sigma mult_sigma
 keys := $(noise_keys) seed engine
-known := MISSION OUT SENSOR SONARSIM PYTHON $(keys)
+known := MISSION OUT SENSOR SONARSIM $(keys)
 
 root := $(abspath $(dir $(lastword $(MAKEFILE_LIST)))/..)
 OUT ?= out/sweep
 SONARSIM ?= $(or $(wildcard $(root)/build/sonarsim),sonarsim)
-PYTHON ?= $(if $(wildcard /usr/bin/python3),/usr/bin/python3,python3)
 
 comma := ,
 empty :=
@@ -103,7 +102,7 @@ failed = $(foreach f,$(folders),$(if $(wildcard $(OUT)/failed/$(f).txt),$(f)))
 $(OUT)/index.csv: $(targets) again
 	@$(eval finished := $(are_done))$(file >$@.part,$(subst $(space),$(comma),$(strip $(axes))),folder)$(foreach p,$(points),$(if $(call whole,$(p)),$(file >>$@.part,$(call row,$(p)),"$(call folder,$(p))")))
 	@mv $@.part $@
-	@$(PYTHON) -B '$(root)/scripts/contact_sheet.py' '$(OUT)'
+	@$(SONARSIM) contact-sheet '$(OUT)' --out '$(OUT)/contact_sheet.png' --quiet || :
 	@rmdir '$(OUT)/failed' 2>/dev/null || :
 	@[ -z '$(strip $(failed))' ] || { \
 	    echo '$(OUT): of $(words $(points)) points these failed, see $(OUT)/failed/:' >&2; \

@@ -18,6 +18,7 @@ void add_merge(CLI::App& app, int& exit_code);
 void add_validate(CLI::App& app, int& exit_code);
 void add_preview(CLI::App& app, int& exit_code);
 void add_gallery(CLI::App& app, int& exit_code);
+void add_contact_sheet(CLI::App& app, int& exit_code);
 void add_export(CLI::App& app, int& exit_code);
 void add_inspect(CLI::App& app, int& exit_code);
 void add_materials(CLI::App& app, int& exit_code);

@@ -86,6 +86,7 @@ int run(int argc, char** argv) {
     add_validate(app, exit_code);
     add_preview(app, exit_code);
     add_gallery(app, exit_code);
+    add_contact_sheet(app, exit_code);
     add_export(app, exit_code);
     add_inspect(app, exit_code);
     add_materials(app, exit_code);

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace sonarsim {
+
+/// The pictures that a contact sheet shows.
+struct SheetOptions {
+    std::string sensor;                 ///< this sensor alone; empty: all
+    std::optional<std::uint64_t> ping;  ///< this one, counted from 0
+    std::size_t most = 36;              ///< at most so many pictures of each sensor of one dataset
+};
+
+struct SheetSummary {
+    std::size_t pictures = 0;
+};
+
+/// Writes a contact sheet of the pictures of a dataset: of each sensor some pings, spread evenly,
+/// with the sensor's name and the ping's number. For the variants of a mission, a sweep or a
+/// collection it shows one picture of each, by its first sensor and from its middle ping. The file
+/// is a PNG, a JPEG or a WebP, as its extension says. OpenImageIO draws it in a child process,
+/// since damaged files make such libraries crash. InputError when a dataset or a picture is
+/// damaged, when there is no picture, for another extension, and without OpenImageIO or its font.
+SheetSummary write_contact_sheet(const std::filesystem::path& folder,
+                                 const std::filesystem::path& file, const SheetOptions& options);
+
+}  // namespace sonarsim

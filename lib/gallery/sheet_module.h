@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+// The interface between the program and its module of images for contact sheets
+// (apps/modules/contact_sheet.cpp), which alone is linked with OpenImageIO. C, so that a symbol's
+// name is all that dlsym needs.
+
+extern "C" {
+
+struct SonarsimThumbnail {
+    const char* file;      ///< a PNG
+    const char* caption;   ///< lines in ASCII
+    std::uint32_t turned;  ///< 1: by half a turn
+};
+
+struct SonarsimSheet {
+    const SonarsimThumbnail* thumbnails;  ///< row by row
+    std::size_t count;
+    std::size_t columns;
+    std::uint32_t side_px;  ///< the greatest width and height of a thumbnail
+    const char* font;       ///< a TrueType file
+    const char* format;     ///< "png", "jpeg" or "webp"
+    const char* out;        ///< the file to write
+};
+
+/// Writes a contact sheet. Returns 0, or 1 with the reason in `error`, which ends with a zero.
+using SonarsimWriteSheet = int (*)(const SonarsimSheet* sheet, char* error, std::size_t error_size);
+}
+
+namespace sonarsim {
+
+/// Raised with every change above, so that a module of another version is found out.
+inline constexpr const char* sheet_module_symbol = "sonarsim_write_sheet_1";
+
+}  // namespace sonarsim
