@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "assembly/heightmap_part.h"
 #include "core/error.h"
 #include "core/text.h"
 
@@ -40,12 +41,9 @@ std::vector<double> surfaces_of(const Scene& scene, const SceneObjects& objects)
 
 void add_automatic(const Mission& mission, const Scene& scene, const SceneObjects& objects,
                    std::vector<std::uint8_t>& background) {
-    std::vector<std::string> bottom = mission.scene.bottom;
-    if (mission.scene.heightmap && bottom.empty()) bottom.emplace_back(heightmap_instance);
-    if (mission.scene.seabed && bottom.empty()) {
-        bottom.emplace_back(seabed_instance);
-        bottom.emplace_back("plants");  // clutter all over the bed
-    }
+    std::vector<std::string> bottom = bottom_patterns(mission.scene);
+    // Clutter all over the bed.
+    if (mission.scene.seabed && mission.scene.bottom.empty()) bottom.emplace_back("plants");
     for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
         for (const std::string& pattern : bottom) {
             if (fits_pattern(pattern, scene.instances[i]))

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "assembly/heightmap_part.h"
 #include "core/error.h"
 #include "core/named_at.h"
 #include "core/text.h"
@@ -22,11 +23,7 @@ namespace {
 std::vector<char> instances_of(const LaidMapConfig& map, const std::string& section,
                                const SceneConfig& config, const Scene& scene) {
     std::vector<std::string> patterns = map.instances;
-    if (patterns.empty() && config.heightmap && config.bottom.empty())
-        patterns.emplace_back(heightmap_instance);
-    if (patterns.empty() && config.seabed && config.bottom.empty())
-        patterns.emplace_back(seabed_instance);
-    if (patterns.empty()) patterns = config.bottom;
+    if (patterns.empty()) patterns = bottom_patterns(config);
     if (patterns.empty()) {
         throw InputError(map.place.location, section +
                                                  " does not say what it lies on; write instances: "

@@ -21,6 +21,13 @@ Eigen::AlignedBox2d seen_by(std::span<const Sonar> sonars, const Trajectory& veh
     return seen;
 }
 
+std::vector<std::string> bottom_patterns(const SceneConfig& scene) {
+    if (!scene.bottom.empty()) return scene.bottom;
+    if (scene.heightmap) return {heightmap_instance};
+    if (scene.seabed) return {seabed_instance};
+    return {};
+}
+
 Eigen::AlignedBox2d needed_ground(const SceneConfig& scene, const Eigen::AlignedBox2d& seen,
                                   Shapes& shapes) {
     Eigen::AlignedBox2d needed = seen;

@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <optional>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "assembly/shapes.h"
 #include "mission/scene_config.h"
@@ -15,6 +17,9 @@ namespace sonarsim {
 /// A box around the ground within the range of every ping, world x and y. What lies beyond it
 /// returns no echo and hides nothing that does.
 Eigen::AlignedBox2d seen_by(std::span<const Sonar> sonars, const Trajectory& vehicle);
+
+/// Patterns of the instances that are the bottom: scene.bottom, else the heightmap or the seabed.
+std::vector<std::string> bottom_patterns(const SceneConfig& scene);
 
 /// `seen`, and the ground that still objects may stand on; world x and y.
 Eigen::AlignedBox2d needed_ground(const SceneConfig& scene, const Eigen::AlignedBox2d& seen,
