@@ -15,12 +15,12 @@ nlohmann::ordered_json measured_columns(const std::filesystem::path& folder,
                                         const nlohmann::ordered_json& sensor);
 
 /// The boxes in a sort of pictures of a sensor's pings.
-struct PictureBoxes {
+struct PictureBoxes {               // NOLINT(bugprone-exception-escape): moving JSON throws nothing
     nlohmann::ordered_json pings;   ///< a list of boxes per ping, or 0 for none; null: no labels
     std::uint64_t mask_height = 0;  ///< height of the labelled picture, px; 0: without masks
 };
 
-struct PingBoxes {
+struct PingBoxes {          // NOLINT(bugprone-exception-escape): moving JSON throws nothing
     PictureBoxes in_image;  ///< beams to the right, ranges down
     PictureBoxes in_fan;
 };

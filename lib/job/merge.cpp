@@ -268,6 +268,7 @@ MergeSummary merge_datasets(const std::vector<fs::path>& folders, const fs::path
     adopt_packs(layout, check_description(common.description, folders[0].string()));
     require_as_made(common.description, folders[0], context, layout, writers);
     std::vector<std::unique_ptr<Part>> parts;
+    parts.reserve(folders.size());
     for (const fs::path& folder : folders)
         parts.push_back(std::make_unique<Part>(layout, folder, folders.size() + 1));
 

@@ -20,9 +20,10 @@ void describe_laid_map(Visitor& v, LaidMapConfig& c) {
     v.numbers("origin_m", c.origin_m, any_position_m,
               "the point of the map, in its own coordinates, that becomes x = 0, y = 0 of the "
               "mission. With pixel_m or size_m they begin at the map's south-west corner");
-    v.texts("instances", c.instances,
-            "names of the nodes and objects that the map is laid on; default: the heightmap or "
-            "seabed, else the nodes of scene.bottom. `*` stands for any text. What moves has no map");
+    v.texts(
+        "instances", c.instances,
+        "names of the nodes and objects that the map is laid on; default: the heightmap or "
+        "seabed, else the nodes of scene.bottom. `*` stands for any text. What moves has no map");
     v.number_or_auto("no_data", c.no_data, {-4e38, 4e38},
                      "value of pixels that change nothing; `auto` takes the file's. NaN and pixels "
                      "whose alpha is 0 never change anything");
