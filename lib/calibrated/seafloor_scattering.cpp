@@ -215,7 +215,7 @@ double SeafloorScattering::share(double grazing_rad) const {
     return 1.0 / (1.0 + exponential(beyond));
 }
 
-double SeafloorScattering::lit_share(double grazing_rad) const {
+double SeafloorScattering::unshadowed_share(double grazing_rad) const {
     const SinCos angle = sincos(grazing_rad);
     // The angle by the slope. Above 2 the report has no shadows.
     const double t = angle.sin / std::max(angle.cos * shadowing_slope_, 1e-9);
@@ -233,14 +233,14 @@ double SeafloorScattering::lit_share(double grazing_rad) const {
 }
 
 double SeafloorScattering::diffuse(double grazing_rad) const {
-    return lit_share(grazing_rad) *
+    return unshadowed_share(grazing_rad) *
            ((1.0 - share(grazing_rad)) * composite(grazing_rad) + volume(grazing_rad));
 }
 
 double SeafloorScattering::specular(double grazing_rad) const {
     // The report has no Kirchhoff integral below 40 degrees, and no shadows on it. Here it reaches
     // down to grazing incidence where the roughness is large.
-    return lit_share(grazing_rad) * share(grazing_rad) * kirchhoff(grazing_rad);
+    return unshadowed_share(grazing_rad) * share(grazing_rad) * kirchhoff(grazing_rad);
 }
 
 }  // namespace sonarsim

@@ -56,7 +56,7 @@ class SeafloorScattering {
     double share(double grazing_rad) const;
     /// The share of the surface that is not in the shadow of its own slopes, by the report, Eq. 43
     /// to 45.
-    double lit_share(double grazing_rad) const;
+    double unshadowed_share(double grazing_rad) const;
 
     SeaBed bed_;
     double wavenumber_;

@@ -201,11 +201,11 @@ constexpr std::array table{
                 "goes on once there is room"},
     WarningText{
         WarningCode::multipath_missed,
-        "{0} of {1} pings miss more than 5 % of the bins with multipath or light others by "
+        "{0} of {1} pings miss more than 5 % of the bins with multipath or fill others by "
         "mistake, the worst an estimated {2:.2g} %: facets are too small for the rays, or their "
         "echoes thinner than a bin",
-        "raise multipath.columns_per_beam, which takes as much more time, or lower "
-        "accuracy.relative_l1",
+        "raise multipath.columns_per_beam (2 cost two to three times the time, 4 about eight "
+        "times), or lower accuracy.relative_l1",
         "one ping of a fan whose estimate is above 5 % of 16 or more bins with multipath",
         "accuracy.relative_l1 holds for direct echoes: a facet that is narrower than a column of "
         "rays hardly counts for them, but its echo over a second surface may have bins of its "

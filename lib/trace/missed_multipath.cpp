@@ -25,23 +25,23 @@ constexpr float most_pieces = 64.0F;
 // More beams than twice these would cost time and tell little more.
 constexpr int enough_beams = 128;
 
-// The images that light a bin.
+// The images that occupy a bin.
 constexpr unsigned by_even_columns = 1;
 constexpr unsigned by_odd_columns = 2;
 
 /// The bins with multipath of two images, in all beams of the view or in every n-th.
-class LitBins {
+class OccupiedBins {
   public:
-    explicit LitBins(const View& view)
+    explicit OccupiedBins(const View& view)
         : beams_(static_cast<float>(view.beams)),
           every_(std::max(1, view.beams / enough_beams)),
           bins_(view.range_bins),
           range_min_m_(static_cast<float>(view.range_min_m)),
           per_bin_(static_cast<float>(1.0 / view.bin_m())),
-          lit_((static_cast<std::size_t>(view.beams / every_) + 1) *
-               static_cast<std::size_t>(bins_)) {}
+          images_((static_cast<std::size_t>(view.beams / every_) + 1) *
+                  static_cast<std::size_t>(bins_)) {}
 
-    /// Lights the bins of a footprint. It is cut into pieces as by multipath_echoes().
+    /// Marks the bins of a footprint. It is cut into pieces as by multipath_echoes().
     void add(const BouncePath& b, unsigned image) {
         const int n_u = pieces(b.beam_u);
         const int n_v = pieces(b.beam_v);
@@ -59,14 +59,14 @@ class LitBins {
                 const int row = static_cast<int>(beam);
                 if (row % every_ != 0) continue;
                 const float range_m = b.range_m + s * b.range_u + t * b.range_v;
-                light(row / every_, (range_m - range_min_m_) * per_bin_, half, image);
+                mark(row / every_, (range_m - range_min_m_) * per_bin_, half, image);
             }
         }
     }
 
-    /// The number of bins that just these images light.
+    /// The number of bins that just these images occupy.
     double count(unsigned images) const {
-        return static_cast<double>(std::ranges::count(lit_, static_cast<std::uint8_t>(images)));
+        return static_cast<double>(std::ranges::count(images_, static_cast<std::uint8_t>(images)));
     }
 
   private:
@@ -75,14 +75,14 @@ class LitBins {
             std::ceil(std::clamp(2.0F * std::fabs(half_beams), 1.0F, most_pieces)));
     }
 
-    void light(int row, float centre, float half, unsigned image) {
+    void mark(int row, float centre, float half, unsigned image) {
         // A footprint without depth still lies in a bin.
         constexpr float least_half = 1e-3F;
         const float depth = std::max(half, least_half);
         const OverlappedBins<float> covered(centre - depth, centre + depth, bins_);
         const std::size_t first = static_cast<std::size_t>(row) * static_cast<std::size_t>(bins_);
         for (int i = covered.begin; i < covered.end; ++i)
-            lit_[first + static_cast<std::size_t>(i)] |= static_cast<std::uint8_t>(image);
+            images_[first + static_cast<std::size_t>(i)] |= static_cast<std::uint8_t>(image);
     }
 
     float beams_;
@@ -90,7 +90,7 @@ class LitBins {
     int bins_;
     float range_min_m_;
     float per_bin_;
-    std::vector<std::uint8_t> lit_;
+    std::vector<std::uint8_t> images_;
 };
 
 /// Columns of the view, several for a beam, as sources of sound.
@@ -140,14 +140,14 @@ double missed_multipath(const View& view, int columns_per_beam, const Samples& s
     if (bounces.empty() || view.shape != ViewShape::fan || view.beams * columns_per_beam < 2)
         return none;
     const Columns columns{BeamLocator(view), static_cast<float>(columns_per_beam)};
-    LitBins lit(view);
+    OccupiedBins bins(view);
     for (const BouncePath& b : bounces) {
         const Sample& sample = samples.items[b.sample];
         const bool odd = static_cast<int>(columns.at(sample.position)) % 2 != 0;
-        lit.add(stretched(b, sample, columns), odd ? by_odd_columns : by_even_columns);
+        bins.add(stretched(b, sample, columns), odd ? by_odd_columns : by_even_columns);
     }
-    const double alone = lit.count(by_even_columns) + lit.count(by_odd_columns);
-    const double common = lit.count(by_even_columns | by_odd_columns);
+    const double alone = bins.count(by_even_columns) + bins.count(by_odd_columns);
+    const double common = bins.count(by_even_columns | by_odd_columns);
     if (alone + common < fewest_bins) return none;
     const double in_one_image = 0.5 * alone + common;
     const double found = common / in_one_image;

@@ -8,12 +8,12 @@
 
 namespace sonarsim {
 
-/// Estimates the share of the bins with multipath that `bounces` do not light, plus twice its
+/// Estimates the share of the bins with multipath that `bounces` do not reach, plus twice its
 /// standard error, by capture and recapture. The samples of even and of odd columns each form an
 /// image, with footprints twice as wide, which cover the columns in between. What one image finds
 /// of the other's bins is the share that it finds of all bins. An image of all columns has half of
-/// their spacing and misses about half as much, or less. Bins that are lit by mistake, beyond the
-/// edge of a facet, are not found again and raise the estimate. A beam has `columns_per_beam`
+/// their spacing and misses about half as much, or less. Bins that are occupied by mistake, beyond
+/// the edge of a facet, are not found again and raise the estimate. A beam has `columns_per_beam`
 /// columns. NaN for fewer than 16 bins, and for views other than fans of two columns or more.
 double missed_multipath(const View& view, int columns_per_beam, const Samples& samples,
                         std::span<const BouncePath> bounces);

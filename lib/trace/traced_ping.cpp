@@ -56,7 +56,7 @@ void trace_multipath(const TraceSettings& settings, const Scene& scene,
                                        .engine = engine,
                                        .T_world_sensor = traced.T_world_sensor},
                                       traced.samples, traced.counts.multipath);
-        // Surface that scatters sound back may light what the bounces miss.
+        // Surface that scatters sound back may fill bins that the bounces miss.
         if (!settings.multipath.scattered) {
             const View view = traced_view(settings.view, settings.guard_beams);
             const int columns = sampling_for(view).columns * settings.guard_beams.divided;

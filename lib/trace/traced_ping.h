@@ -38,7 +38,7 @@ struct TracedPing {
     TargetSurface targets;               ///< takes the place of the samples of its instances
     CoherentSurface coherent;            ///< reflects coherently; samples may lie on it as well
     std::vector<BouncePath> bounces;     ///< multipath paths from `samples`
-    /// The estimated share of bins with multipath that `bounces` do not light, see
+    /// The estimated share of bins with multipath that `bounces` do not reach, see
     /// missed_multipath(); NaN without an estimate.
     double missed_multipath = std::numeric_limits<double>::quiet_NaN();
     PingCounts counts;
