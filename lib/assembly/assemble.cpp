@@ -154,6 +154,7 @@ Assembly assemble(const Mission& mission, SceneFiles& models) {
     Assembly assembly;
     ErrorList errors;
     errors.attempt([&] { assembly.trajectory = vehicle_poses(mission); });
+    assembly.reported = navigation_poses(mission, assembly.trajectory);
     const EngineSettings settings = engine_settings(mission);
     for (const SonarConfig& sensor : mission.sensors)
         errors.attempt(

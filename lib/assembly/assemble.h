@@ -26,6 +26,7 @@ struct Assembly {
     Scene scene;
     SceneObjects objects;  ///< objects of the scene for labels
     Trajectory trajectory;
+    Trajectory reported;  ///< the poses that the navigation reports; empty: the true ones
     std::vector<Trajectory> motions;       ///< motions of Scene::bodies, over all of `trajectory`
     std::shared_ptr<const Bottom> bottom;  ///< reference of the label `height`; null: none
     std::shared_ptr<const Seabed> seabed;  ///< the part of scene.seabed that was made; null: none

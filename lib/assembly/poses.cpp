@@ -5,12 +5,15 @@
 
 #include "core/error.h"
 #include "core/input_limits.h"
+#include "core/random.h"
 #include "core/text.h"
 #include "core/units.h"
 #include "mission/ping_draws.h"
 #include "trajectory/files.h"
 #include "trajectory/interpolate.h"
+#include "trajectory/navigation.h"
 #include "trajectory/patterns.h"
+#include "trajectory/wave_motion.h"
 
 namespace sonarsim {
 
@@ -37,6 +40,17 @@ Trajectory form_of(const LawnmowerTrajectoryConfig& config) {
                       config.line_spacing_m, config.speed_m_s, config.rate_hz});
 }
 
+WaveMotion wave_motion(const MotionConfig& config) {
+    WaveMotion motion{.position_m = config.position_m, .period_s = config.period_s};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        motion.turn_rad[axis] = radians(config.turn_deg[axis]);
+    return motion;
+}
+
+PhiloxKey vehicle_key(const Mission& mission, const char* name) {
+    return stream_key(mission.seed, 0, 0, stream_named(name));
+}
+
 /// A dataset has its poses in trajectory.tum, which its reader takes within the limits of inputs.
 void require_readable(const Trajectory& poses) {
     for (const TimedPose& pose : poses) {
@@ -46,7 +60,7 @@ void require_readable(const Trajectory& poses) {
                              " s; let the vehicle be faster (speed_m_s), or begin at 0");
         }
         if (!(pose.T_world_vehicle.translation.cwiseAbs().maxCoeff() <= furthest_m)) {
-            throw InputError("trajectory: with vehicle.offset_m a pose at " +
+            throw InputError("trajectory: with vehicle.offset_m or vehicle.motion a pose at " +
                              number_text(pose.t_s) + " s lies beyond " + number_text(furthest_m) +
                              " m; move the scene and the trajectory towards the origin");
         }
@@ -79,7 +93,8 @@ Trajectory vehicle_poses(const Mission& mission) {
     }
     for (std::size_t i = 0; i < poses.size(); ++i) {
         const VehicleConfig off = vehicle_at(mission, static_cast<std::uint32_t>(i));
-        if (off == VehicleConfig{}) continue;
+        if (off.offset_m == VehicleConfig{}.offset_m && off.turn_deg == VehicleConfig{}.turn_deg)
+            continue;
         const auto& [roll, pitch, yaw] = off.turn_deg;
         Pose& pose = poses[i].T_world_vehicle;
         pose.translation += Eigen::Vector3d(off.offset_m.data());
@@ -87,8 +102,25 @@ Trajectory vehicle_poses(const Mission& mission) {
             (pose.rotation * rotation_from_rpy(radians(roll), radians(pitch), radians(yaw)))
                 .normalized();
     }
+    add_wave_motion(wave_motion(mission.vehicle.motion), vehicle_key(mission, "wave motion"),
+                    poses);
     require_readable(poses);
     return poses;
+}
+
+Trajectory navigation_poses(const Mission& mission, const Trajectory& truth) {
+    constexpr double seconds_per_hour = 3600.0;
+    const NavigationConfig& config = mission.vehicle.navigation;
+    const NavigationErrors errors{
+        .position_m = config.position_m,
+        .depth_m = config.depth_m,
+        .tilt_rad = radians(config.tilt_deg),
+        .heading_rad = radians(config.heading_deg),
+        .heading_bias_rad = radians(config.heading_bias_deg),
+        .heading_drift_rad_s = radians(config.heading_drift_deg_h) / seconds_per_hour,
+        .speed_scale = config.speed_scale};
+    if (!errors.is_on()) return {};
+    return reported_poses(truth, errors, vehicle_key(mission, "navigation"));
 }
 
 }  // namespace sonarsim

@@ -15,7 +15,10 @@ std::vector<Pose> poses_at(std::span<const Trajectory> motions, double t_s);
 Trajectory poses_of(const TrajectoryConfig& config);
 
 /// The poses of a mission's vehicle: its trajectory with the offset `vehicle`, whose numbers may be
-/// drawn for every ping.
+/// drawn for every ping, and with the movements of `vehicle.motion`.
 Trajectory vehicle_poses(const Mission& mission);
+
+/// The poses that the vehicle's navigation reports at true poses; empty when it reports the truth.
+Trajectory navigation_poses(const Mission& mission, const Trajectory& truth);
 
 }  // namespace sonarsim

@@ -11,6 +11,7 @@
 #include "dataset/metadata.h"
 #include "mission/schema.h"
 #include "trajectory/interpolate.h"
+#include "mission/dataset_names.h"
 
 namespace sonarsim {
 
@@ -104,9 +105,11 @@ std::vector<std::string> read_products(const CheckedJson& json, const std::strin
         }
         products.push_back(product.text());
         const std::string& path = products.back();
-        if (!is_inner_path(path) || !(path.starts_with("labels/") || path.starts_with("split/") ||
-                                      path.starts_with("seabed/")))
-            product.refuse("the path of a file in 'labels/', 'split/' or 'seabed/'");
+        const bool in_folder = path.starts_with("labels/") || path.starts_with("split/") ||
+                               path.starts_with("seabed/");
+        if (path != navigation_name && (!in_folder || !is_inner_path(path)))
+            product.refuse(
+                "navigation.tum or the path of a file in 'labels/', 'split/' or 'seabed/'");
     }
     return products;
 }

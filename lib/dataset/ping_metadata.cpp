@@ -48,6 +48,10 @@ Json describe_ping(const Mission& mission, const Assembly& assembly, const Finis
         {"full_scale", assembly.full_scales[id.sensor]},
         {"clipped_pixels", finished.clipped_pixels},
         {"counts", json_object<Json>(ping_counters, counts)}};
+    if (!assembly.reported.empty()) {
+        json["T_world_vehicle_reported"] =
+            describe_pose(assembly.reported[id.pose].T_world_vehicle);
+    }
     json["counts"]["multipath"] = json_object<Json>(multipath_counters, counts.multipath);
     // To three digits: it is an estimate.
     if (const double error = finished.ping.estimated_l1; !std::isnan(error))

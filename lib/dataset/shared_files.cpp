@@ -59,7 +59,7 @@ void write_shared_products(const Layout& layout, const Mission& mission,
                 write_file(layout.folder / product.file,
                            pose_list(layout, product.part, part_of_pose));
                 break;
-            case SharedProduct::Kind::seabed:
+            case SharedProduct::Kind::initial:
                 break;
             case SharedProduct::Kind::statistics:
                 write_statistics(layout.folder, coco_files, false);

@@ -76,8 +76,10 @@ std::vector<SharedProduct> shared_products(const Mission& mission) {
     }
     if (mission.scene.seabed) {
         for (std::string& file : seabed_file_names())
-            products.push_back({SharedProduct::Kind::seabed, std::move(file)});
+            products.push_back({SharedProduct::Kind::initial, std::move(file)});
     }
+    if (mission.vehicle.navigation != NavigationConfig{})
+        products.push_back({SharedProduct::Kind::initial, navigation_name});
     return products;
 }
 

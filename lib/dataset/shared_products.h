@@ -17,14 +17,15 @@ enum class CocoPicture {
     scan,    ///< sweeps of a scanning sonar
 };
 
-/// A file that is made of the pings of all sonars once all of them are rendered.
+/// A file of the dataset: made of the pings of all sonars once all of them are rendered, or
+/// initial.
 struct SharedProduct {
     enum class Kind {
         coco,
         class_names,
         split,
         statistics,
-        seabed,  ///< the truth of a bed, which is there from the beginning
+        initial,  ///< is there from the beginning: the truth of a bed, reported poses
     };
     Kind kind;
     std::string file;                  ///< relative to the folder of the dataset

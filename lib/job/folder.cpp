@@ -148,7 +148,7 @@ void begin_dataset(const Layout& layout, const CommonFiles& files) {
     write_file(layout.folder / trajectory_name, files.trajectory);
     for (const fs::path& folder : layout.folders())
         fs::create_directories(folder);
-    for (const auto& [name, bytes] : files.seabed)
+    for (const auto& [name, bytes] : files.initial)
         write_file(layout.folder / name, bytes);
 }
 

@@ -53,8 +53,9 @@ struct CommonFiles {
     nlohmann::ordered_json description;  ///< dataset.json
     std::string mission;                 ///< mission.resolved.yaml
     std::string trajectory;              ///< trajectory.tum
-    /// Names relative to the folder and bytes of the truth of a bed that was made.
-    std::vector<std::pair<std::string, std::string>> seabed = {};
+    /// Names relative to the folder and bytes of the shared products that are there from the
+    /// beginning.
+    std::vector<std::pair<std::string, std::string>> initial = {};
 };
 
 /// Makes the folder ready for pings: common files and subfolders, dataset.json first, durably and

@@ -43,8 +43,9 @@ CommonFiles read_common(const fs::path& folder) {
                        read_file(folder / trajectory_name, largest_common_file)};
     for (const Json& product : common.description.value("products", Json::array())) {
         const auto name = product.get<std::string>();
-        if (!name.starts_with(std::string(seabed_folder_name) + "/")) continue;
-        common.seabed.emplace_back(name, read_file(folder / name, largest_common_file));
+        if (name != navigation_name && !name.starts_with(std::string(seabed_folder_name) + "/"))
+            continue;
+        common.initial.emplace_back(name, read_file(folder / name, largest_common_file));
     }
     return common;
 }
@@ -56,7 +57,7 @@ void require_same(const fs::path& part, const CommonFiles& found, const fs::path
         difference += differing_keys(found.mission, expected.mission);
     if (difference.empty() &&
         (found.mission != expected.mission || found.trajectory != expected.trajectory ||
-         found.seabed != expected.seabed))
+         found.initial != expected.initial))
         difference = "of this mission whose inputs or poses were changed since";
     if (difference.empty()) {
         const auto key = first_difference(found.description, expected.description);

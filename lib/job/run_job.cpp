@@ -190,6 +190,15 @@ bool complete_once(const Layout& layout, const Mission& mission,
     return true;
 }
 
+/// The names and bytes of the shared products that are there from the beginning.
+std::vector<std::pair<std::string, std::string>> initial_files(const Assembly& assembly) {
+    std::vector<std::pair<std::string, std::string>> files;
+    if (assembly.seabed) files = seabed_files(*assembly.seabed);
+    if (!assembly.reported.empty())
+        files.emplace_back(navigation_name, write_tum(assembly.reported));
+    return files;
+}
+
 /// Renders into the folder of the mission what is missing there, and completes the dataset.
 void run_in_folder(const Run& run, const std::vector<PingId>& all) {
     const Mission& mission = run.mission;
@@ -198,10 +207,9 @@ void run_in_folder(const Run& run, const std::vector<PingId>& all) {
     RenderSummary& summary = run.summary;
     const std::vector<Writers> writers = make_writers(mission, assembly);
     const Layout layout = make_layout(mission, writers, assembly.trajectory.size());
-    const CommonFiles common{
-        describe_dataset(mission, assembly, layout, writers), resolved_text(mission, assembly),
-        write_tum(assembly.trajectory),
-        assembly.seabed ? seabed_files(*assembly.seabed) : decltype(CommonFiles::seabed){}};
+    const CommonFiles common{describe_dataset(mission, assembly, layout, writers),
+                             resolved_text(mission, assembly), write_tum(assembly.trajectory),
+                             initial_files(assembly)};
     protect_inputs(layout, mission);
     std::optional<FolderLock> lock = lock_for_run(layout.folder, options.shards, run.stop);
     summary.stopped = !lock;

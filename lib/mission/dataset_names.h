@@ -12,6 +12,8 @@ namespace sonarsim {
 inline constexpr const char* description_name = "dataset.json";
 inline constexpr const char* mission_name = "mission.resolved.yaml";
 inline constexpr const char* trajectory_name = "trajectory.tum";
+/// The poses that the vehicle's navigation reports.
+inline constexpr const char* navigation_name = "navigation.tum";
 inline constexpr const char* checksums_name = "SHA256SUMS";
 inline constexpr const char* journal_name = "journal.txt";
 inline constexpr const char* journal_folder_name = "journal.d";
@@ -28,10 +30,10 @@ inline constexpr const char* collection_name = "collection.json";
 
 /// True if the dataset has a file or folder of this name, so that no sensor may have it.
 inline bool is_taken_by_dataset(std::string_view name) {
-    constexpr std::array<std::string_view, 11> taken{
-        description_name,   mission_name,        trajectory_name,    checksums_name,
-        journal_name,       journal_folder_name, labels_folder_name, split_folder_name,
-        seabed_folder_name, gallery_name,        gallery_folder_name};
+    constexpr std::array<std::string_view, 12> taken{
+        description_name,   mission_name,        trajectory_name,     checksums_name,
+        journal_name,       journal_folder_name, labels_folder_name,  split_folder_name,
+        seabed_folder_name, gallery_name,        gallery_folder_name, navigation_name};
     return std::ranges::find(taken, name) != taken.end();
 }
 

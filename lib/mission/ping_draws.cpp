@@ -18,19 +18,21 @@ namespace {
 
 /// The visitor that lists the numbers of sections.
 struct NumberList {
-    std::string section;  ///< with a dot at its end
+    std::string prefix;  ///< before the keys, with a dot at its end
     std::vector<std::pair<std::string, double*>> list = {};
 
     void number(const char* key, double& value, const Limits&, const char* /*meaning*/) {
-        list.emplace_back(section + key, &value);
+        list.emplace_back(prefix + key, &value);
     }
     template <std::size_t N>
     void numbers(const char* key, std::array<double, N>& values, const Limits&,
                  const char* /*meaning*/) {
         for (std::size_t k = 0; k < N; ++k)
-            list.emplace_back(section + key + "." + std::to_string(k), &values[k]);
+            list.emplace_back(prefix + key + "." + std::to_string(k), &values[k]);
     }
     void flag(const char*, bool, const char*) const {}
+    template <class T>
+    void section(const char*, T&, const char*) const {}
     template <class T, std::size_t N>
     void choice(const char*, T&, const std::array<Choice<T>, N>&, const char*) const {}
 
@@ -52,9 +54,9 @@ std::string section_of(std::string_view sensor) {
 NumberList numbers_of(SonarConfig& sensor, const std::string& section) {
     NumberList numbers{section + "mount."};
     describe(numbers, sensor.mount);
-    numbers.section = section + "noise.";
+    numbers.prefix = section + "noise.";
     describe(numbers, sensor.noise);
-    numbers.section = section + "streaks.";
+    numbers.prefix = section + "streaks.";
     describe(numbers, sensor.streaks);
     return numbers;
 }

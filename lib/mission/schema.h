@@ -122,7 +122,8 @@ void describe(Visitor& v, Mission& c) {
     v.section("scene", c.scene, "what the sonars look at", required);
     v.section("trajectory", c.trajectory, "where the vehicle goes; exactly one of the three forms",
               required);
-    v.section("vehicle", c.vehicle, "offset of the vehicle from its trajectory");
+    v.section("vehicle", c.vehicle,
+              "how the vehicle departs from its trajectory, and what it reports");
     v.named("sensors", c.sensors, "one section per sonar; NAME is its folder in the dataset");
     v.section("accuracy", c.accuracy, "error goal of the images");
     v.choice("engine", c.engine, engine_kinds,

@@ -44,10 +44,34 @@ struct LawnmowerTrajectoryConfig {
     bool operator==(const LawnmowerTrajectoryConfig&) const = default;
 };
 
-/// Offset of a vehicle from the poses of its trajectory.
+/// Standard deviations of the movements that waves add to a trajectory.
+struct MotionConfig {
+    std::array<double, 3> position_m{};  ///< surge, sway, heave
+    std::array<double, 3> turn_deg{};    ///< roll, pitch, yaw
+    double period_s = 8.0;               ///< at the spectrum's peak
+
+    bool operator==(const MotionConfig&) const = default;
+};
+
+/// Standard deviations of the errors of what a vehicle's navigation reports.
+struct NavigationConfig {
+    double position_m = 0.0;
+    double depth_m = 0.0;
+    double tilt_deg = 0.0;
+    double heading_deg = 0.0;
+    double heading_bias_deg = 0.0;
+    double heading_drift_deg_h = 0.0;
+    double speed_scale = 0.0;
+
+    bool operator==(const NavigationConfig&) const = default;
+};
+
+/// The offset of a vehicle from its trajectory, its movements and what it knows of them.
 struct VehicleConfig {
     std::array<double, 3> offset_m{};  ///< world frame
     std::array<double, 3> turn_deg{};  ///< roll, pitch, yaw, vehicle frame
+    MotionConfig motion = {};
+    NavigationConfig navigation = {};
 
     bool operator==(const VehicleConfig&) const = default;
 };

@@ -18,7 +18,7 @@ GROUPS = (
     ("seafloor_imaging", "seafloor_calibrated", "seafloor_bathymetry", "survey"),
     ("close_bottom",),
     ("wreck_imaging", "wreck_calibrated", "wreck_echosounder_calibrated", "seafloor_sidescan",
-     "seafloor_sidescan_calibrated"),
+     "seafloor_sidescan_calibrated", "rough_sea_sidescan"),
     ("minefield_variants", "detection"),
     ("lifeboat_imaging",), ("own_bathymetry", "sediment_maps"), ("made_seabeds",),
     ("tank_imaging", "tank_calibrated", "tank_detection", "tank_echosounder", "tank_labels",

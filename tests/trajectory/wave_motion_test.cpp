@@ -1,0 +1,98 @@
+#include "trajectory/wave_motion.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstdint>
+
+#include "core/pose.h"
+#include "core/units.h"
+
+namespace sonarsim {
+
+namespace {
+
+Trajectory poses_on_the_spot(std::initializer_list<double> times_s) {
+    Trajectory poses;
+    for (const double t_s : times_s)
+        poses.push_back({t_s, {rotation_from_rpy(0.0, 0.0, 0.5 * pi), {1.0, 2.0, 3.0}}});
+    return poses;
+}
+
+PhiloxKey wave_key(std::uint32_t seed) {
+    return stream_key(seed, 0, 0, stream_named("wave motion"));
+}
+
+}  // namespace
+
+TEST_SUITE("wave motion") {
+    TEST_CASE("Heave has the variance and the autocorrelation of the spectrum") {
+        // With energy shares u as the variable, the autocorrelation of the Pierson-Moskowitz
+        // spectrum is r(lag) = s^2 integral over u from 0 to 1 of
+        // cos(2 pi lag / period (1.25 / -ln u)^(1/4)).
+        constexpr int seeds = 4000;
+        constexpr double deviation = 0.3;
+        constexpr double period_s = 8.0;
+        constexpr double lag_s = 3.0;
+        WaveMotion motion{.period_s = period_s};
+        motion.position_m[2] = deviation;
+        double variance = 0.0;
+        double product = 0.0;
+        for (std::uint32_t seed = 0; seed < seeds; ++seed) {
+            Trajectory poses = poses_on_the_spot({10.0, 21.0, 21.0 + lag_s});
+            add_wave_motion(motion, wave_key(seed), poses);
+            const double a = poses[1].T_world_vehicle.translation.z() - 3.0;
+            const double b = poses[2].T_world_vehicle.translation.z() - 3.0;
+            variance += a * a / seeds;
+            product += a * b / seeds;
+        }
+        double correlation = 0.0;
+        constexpr int steps = 100000;
+        for (int k = 0; k < steps; ++k) {
+            const double share = (k + 0.5) / steps;
+            correlation +=
+                std::cos(2.0 * pi * lag_s / period_s * std::pow(1.25 / -std::log(share), 0.25)) /
+                steps;
+        }
+        // Both are means of products of two normal numbers, whose variance is at most 2 s^4. Four
+        // standard errors are exceeded once in 16,000 runs.
+        const double four_errors = 4.0 * std::sqrt(2.0 / seeds) * deviation * deviation;
+        CHECK(std::fabs(variance - deviation * deviation) < four_errors);
+        CHECK(std::fabs(product - correlation * deviation * deviation) < four_errors);
+        CHECK(correlation < -0.2);
+    }
+
+    TEST_CASE("A vehicle moves in its own frame, and only where it was asked to") {
+        WaveMotion motion;
+        motion.position_m[0] = 0.5;  // surge
+        motion.turn_rad[0] = 0.1;    // roll
+        Trajectory poses = poses_on_the_spot({0.0, 1.0, 2.0});
+        add_wave_motion(motion, wave_key(7), poses);
+        for (const TimedPose& pose : poses) {
+            // It heads along y.
+            CHECK(pose.T_world_vehicle.translation.x() == doctest::Approx(1.0));
+            CHECK(std::fabs(pose.T_world_vehicle.translation.y() - 2.0) > 1e-3);
+            CHECK(pose.T_world_vehicle.translation.z() == doctest::Approx(3.0));
+            const Rpy rpy = rpy_from_rotation(pose.T_world_vehicle.rotation);
+            CHECK(std::fabs(rpy.roll) > 1e-4);
+            CHECK(rpy.pitch == doctest::Approx(0.0));
+            CHECK(rpy.yaw == doctest::Approx(0.5 * pi));
+        }
+    }
+
+    TEST_CASE("Waves of twice the period take twice the time") {
+        WaveMotion motion{.period_s = 4.0};
+        motion.turn_rad[1] = 0.2;
+        Trajectory quick = poses_on_the_spot({5.0, 6.0, 9.0});
+        add_wave_motion(motion, wave_key(3), quick);
+        motion.period_s = 8.0;
+        Trajectory slow = poses_on_the_spot({5.0, 7.0, 13.0});
+        add_wave_motion(motion, wave_key(3), slow);
+        for (std::size_t i = 0; i < slow.size(); ++i) {
+            CHECK(slow[i].T_world_vehicle.rotation.isApprox(quick[i].T_world_vehicle.rotation,
+                                                            1e-12));
+        }
+    }
+}
+
+}  // namespace sonarsim
