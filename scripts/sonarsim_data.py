@@ -416,6 +416,57 @@ def read_npy(data):
     return np.load(io.BytesIO(data))
 
 
+def read_exr(data):
+    """The intensities in an OpenEXR file of sonarsim; exr_channels() gives all of its channels."""
+    return exr_channels(data)["Y"]
+
+
+def exr_channels(data):
+    """The channels of an OpenEXR file as {name: [row, column]}: "Y", "instance.Y", ... ValueError
+    unless it has one part in rows that are not compressed."""
+    if data[:8] != struct.pack("<II", 20000630, 2):
+        raise ValueError("is no OpenEXR file of one part in rows")
+    try:
+        at, header = 8, {}
+        while data[at]:
+            name_end = data.index(b"\0", at)
+            type_end = data.index(b"\0", name_end + 1)
+            size, = struct.unpack_from("<I", data, type_end + 1)
+            header[data[at:name_end]] = data[type_end + 5:type_end + 5 + size]
+            at = type_end + 5 + size
+        left, top, right, bottom = struct.unpack("<4i", header[b"dataWindow"])
+        rows, columns = bottom - top + 1, right - left + 1
+        names, types, listed = [], [], header[b"channels"]
+        while listed[0]:
+            end = listed.index(b"\0")
+            names.append(listed[:end].decode())
+            types.append(("<u4", "<f2", "<f4")[struct.unpack_from("<I", listed, end + 1)[0]])
+            listed = listed[end + 17:]
+        # After a table of offsets each row has its number, its size and one channel after the other.
+        row = np.dtype([("head", "<i4", 2), *((n, t, columns) for n, t in zip(names, types))])
+        if header[b"compression"] != b"\0" or len(data) != at + 1 + rows * (8 + row.itemsize):
+            raise ValueError("is compressed or not as long as its header says")
+        pixels = np.frombuffer(data, row, rows, at + 1 + 8 * rows)
+    except (KeyError, IndexError, struct.error) as fault:
+        raise ValueError(f"is a damaged OpenEXR file: {fault!r}") from fault
+    return {name: pixels[name].copy() for name in names}
+
+
+def read_tiff(data):
+    """The float32 array in a TIFF of sonarsim; ValueError if it is another TIFF."""
+    tags = {}
+    if data[:8] == b"II*\0\x08\0\0\0" and len(data) > 10:
+        count, = struct.unpack_from("<H", data, 8)
+        for at in range(10, min(10 + 12 * count, len(data) - 11), 12):
+            tag, kind, _ = struct.unpack_from("<HHI", data, at)
+            tags[tag], = struct.unpack_from("<H" if kind == 3 else "<I", data, at + 8)
+    columns, rows, at = tags.get(256, 0), tags.get(257, 0), tags.get(273, 0)
+    if tags.get(258) != 32 or tags.get(259) != 1 or tags.get(278) != rows or (
+            len(data) != at + 4 * rows * columns):
+        raise ValueError("is no TIFF of sonarsim, or damaged")
+    return np.frombuffer(data, "<f4", rows * columns, at).reshape(rows, columns).copy()
+
+
 def read_json(data):
     try:
         return json.loads(data)
@@ -423,7 +474,8 @@ def read_json(data):
         raise ValueError("is JSON that is nested too deep") from fault
 
 
-DECODERS = {".npy": read_npy, ".png": read_png, ".json": read_json, ".txt": bytes.decode}
+DECODERS = {".npy": read_npy, ".png": read_png, ".exr": read_exr, ".tif": read_tiff,
+            ".json": read_json, ".txt": bytes.decode}
 
 
 def main(folder):

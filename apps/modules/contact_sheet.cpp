@@ -39,7 +39,10 @@ constexpr float ink[] = {0.92F, 0.92F, 0.92F};
 /// A picture in three channels of 8 bits.
 ImageBuf read_picture(const std::string& file) {
     constexpr std::size_t most_values = std::size_t{1} << 28;
-    const std::unique_ptr<ImageInput> input = ImageInput::create("png");
+    // The content is read as the file's name says.
+    const std::string extension = file.substr(file.rfind('.') + 1);
+    const std::unique_ptr<ImageInput> input =
+        ImageInput::create(extension == "jpg" || extension == "webp" ? extension : "png");
     if (!input) throw std::runtime_error(OIIO::geterror());
     ImageSpec spec;
     if (!input->open(file, spec)) fail(file, input->geterror());

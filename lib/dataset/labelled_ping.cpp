@@ -30,8 +30,9 @@ LabelPlan plan_labels(const Mission& mission, const Assembly& assembly, const So
                     .annotations = masks,
                     .bottom = assembly.bottom.get()};
     plan.polar_masks = has_images && objects;
-    plan.fan_masks = has_images && objects && output.fan;
-    const bool in_fan = asked(Label::fan) || (output.fan && (objects || asked(Label::semantic)));
+    plan.fan_masks = has_images && objects && output.has_fan();
+    const bool in_fan =
+        asked(Label::fan) || (output.has_fan() && (objects || asked(Label::semantic)));
     if (has_images && in_fan) plan.fan = make_fan_bins(sonar, output.fan_width_px);
     plan.seen = asked(Label::objects) || (masks && has_images);
     if (masks || asked(Label::shadow)) plan.annotated = annotated_objects(assembly);

@@ -23,7 +23,8 @@ bool has_pictures(const Mission& mission, CocoPicture picture) {
             return shape.pictures == wanted && shape.is_written(output);
         });
     }
-    const bool written = picture == CocoPicture::fan ? output.fan : output.image || output.polar;
+    const bool written =
+        picture == CocoPicture::fan ? output.has_fan() : output.image || output.has_polar();
     return written && std::ranges::any_of(mission.sensors, [](const SonarConfig& sensor) {
                return kind_of(sensor.kind).has_images;
            });

@@ -111,10 +111,15 @@ std::string PixelReader::file(const SourcePicture& picture) {
 
 Pixels PixelReader::read(const SourcePicture& picture, const std::string& bytes) const {
     const std::string name = (picture.file / picture.member).string();
+    const std::string own = picture.member.empty() ? picture.file.string() : picture.member;
+    const bool is_array = own.ends_with(".npy");
+    if (!is_array && !own.ends_with(".png")) {
+        throw InputError({name},
+                         "is neither PNG nor .npy, of which pictures are exported; set "
+                         "output.image: true, or for fans output.fan: true, and render it again");
+    }
     Pixels pixels;
     try {
-        const bool is_array =
-            (picture.member.empty() ? picture.file.string() : picture.member).ends_with(".npy");
         pixels = is_array ? pixels_of_npy(bytes, picture.full_scale) : pixels_of_png(bytes);
     } catch (const std::runtime_error& fault) {
         throw InputError({name}, fault.what());

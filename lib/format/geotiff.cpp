@@ -59,32 +59,39 @@ class TiffHeader {
     std::string values_;
 };
 
-/// The header of an image whose pixels begin at byte `pixels_at`.
-std::string header(std::uint32_t columns, std::uint32_t rows, const MapPlace& place,
-                   std::uint32_t pixels_at) {
-    constexpr std::uint16_t one = 1;
+constexpr std::uint16_t tags_of_image = 10;
+constexpr std::uint16_t tags_of_map = 13;
+
+void add_place(const MapPlace& place, TiffHeader& out) {
     const double pixel_scale[] = {place.cell_m, place.cell_m, 0.0};
     // Raster (0, 0), the outer corner of the first cell, lies at the world's (west, north).
     const double tie_point[] = {0.0, 0.0, 0.0, place.west_m, place.north_m, 0.0};
-    TiffHeader out(13);
-    out.add(256, columns);                                   // ImageWidth
-    out.add(257, rows);                                      // ImageLength
-    out.add(258, std::uint16_t{32});                         // BitsPerSample
-    out.add(259, one);                                       // Compression: none
-    out.add(262, one);                                       // greater is brighter
-    out.add(273, pixels_at);                                 // StripOffsets
-    out.add(277, one);                                       // SamplesPerPixel
-    out.add(278, rows);                                      // RowsPerStrip: one strip
-    out.add(279, 4 * columns * rows);                        // StripByteCounts
-    out.add(339, std::uint16_t{3});                          // SampleFormat: floating point
     out.add(33550, TagType::f64, 3, bytes_of(pixel_scale));  // ModelPixelScaleTag
     out.add(33922, TagType::f64, 6, bytes_of(tie_point));    // ModelTiepointTag
     out.add(42113, TagType::ascii, 4, bytes_of("nan"));      // GDAL_NODATA
+}
+
+/// The header of an image whose pixels begin at byte `pixels_at`; that of a map has a place.
+std::string header(std::uint32_t columns, std::uint32_t rows, const MapPlace* place,
+                   std::uint32_t pixels_at) {
+    constexpr std::uint16_t one = 1;
+    TiffHeader out(place ? tags_of_map : tags_of_image);
+    out.add(256, columns);             // ImageWidth
+    out.add(257, rows);                // ImageLength
+    out.add(258, std::uint16_t{32});   // BitsPerSample
+    out.add(259, one);                 // Compression: none
+    out.add(262, one);                 // greater is brighter
+    out.add(273, pixels_at);           // StripOffsets
+    out.add(277, one);                 // SamplesPerPixel
+    out.add(278, rows);                // RowsPerStrip: one strip
+    out.add(279, 4 * columns * rows);  // StripByteCounts
+    out.add(339, std::uint16_t{3});    // SampleFormat: floating point
+    if (place) add_place(*place, out);
     return out.bytes();
 }
 
 /// The header of a file of these values.
-std::string header_of(std::span<const float> values, int columns, const MapPlace& place) {
+std::string header_of(std::span<const float> values, int columns, const MapPlace* place) {
     const auto width = static_cast<std::uint32_t>(columns);
     const auto height = static_cast<std::uint32_t>(values.size() / width);
     const auto size = static_cast<std::uint32_t>(header(width, height, place, 0).size());
@@ -94,7 +101,13 @@ std::string header_of(std::span<const float> values, int columns, const MapPlace
 }  // namespace
 
 std::string geotiff_bytes(std::span<const float> values, int columns, const MapPlace& place) {
-    std::string out = header_of(values, columns, place);
+    std::string out = header_of(values, columns, &place);
+    out.append(reinterpret_cast<const char*>(values.data()), values.size_bytes());
+    return out;
+}
+
+std::string tiff_bytes(std::span<const float> values, int columns) {
+    std::string out = header_of(values, columns, nullptr);
     out.append(reinterpret_cast<const char*>(values.data()), values.size_bytes());
     return out;
 }
@@ -102,7 +115,7 @@ std::string geotiff_bytes(std::span<const float> values, int columns, const MapP
 void write_geotiff(const std::filesystem::path& path, std::span<const float> values, int columns,
                    const MapPlace& place) {
     StreamedFile file(path);
-    file.append(header_of(values, columns, place));
+    file.append(header_of(values, columns, &place));
     file.append({reinterpret_cast<const char*>(values.data()), values.size_bytes()});
     file.finish();
 }
@@ -119,12 +132,15 @@ GeotiffShape geotiff_shape(std::string_view start) {
         std::memcpy(&height, &start[height_at], sizeof height);
     }
     // Headers of such files differ only in the numbers in the tags.
-    const std::size_t size = header(width, height, {}, 0).size();
-    const std::string own = header(width, height, {}, static_cast<std::uint32_t>(size));
-    constexpr std::size_t tags = 10 + 13 * 12;
-    if (width == 0 || height == 0 || start.substr(0, tags) != own.substr(0, tags))
-        throw std::runtime_error("is no map of sonarsim");
-    return {height, width, size + std::uint64_t{4} * width * height};
+    const MapPlace any_place;
+    for (const MapPlace* place : {&any_place, static_cast<const MapPlace*>(nullptr)}) {
+        const std::size_t size = header(width, height, place, 0).size();
+        const std::string own = header(width, height, place, static_cast<std::uint32_t>(size));
+        const std::size_t tags = 10 + 12 * std::size_t{place ? tags_of_map : tags_of_image};
+        if (width > 0 && height > 0 && start.substr(0, tags) == own.substr(0, tags))
+            return {height, width, size + std::uint64_t{4} * width * height};
+    }
+    throw std::runtime_error("is no TIFF of sonarsim");
 }
 
 }  // namespace sonarsim

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "format/exr_shape.h"
 #include "format/geotiff.h"
 #include "format/npy.h"
 #include "format/png_reader.h"
@@ -62,6 +63,11 @@ OpenedFile open_geotiff(std::istream& file, std::uint64_t bytes) {
     return {{shape.rows, shape.columns}};
 }
 
+OpenedFile open_exr(std::istream& file, std::uint64_t bytes) {
+    const ExrShape shape = exr_shape(file, bytes);
+    return {{shape.rows, shape.columns}};
+}
+
 /// `file` is at its start and has `bytes` bytes.
 OpenedFile open_npy(std::istream& file, std::uint64_t bytes) {
     std::string start(longest_header, '\0');
@@ -100,25 +106,26 @@ void open_json(std::istream& file) {
     if (!nlohmann::json::accept(file)) throw std::runtime_error("is no JSON");
 }
 
-}  // namespace
-
-OpenedFile open_file(const fs::path& path) {
-    const std::string extension = path.extension().string();
-    std::ifstream file(path, std::ios::binary);
-    if (extension == ".png") return open_png(file, fs::file_size(path));
-    if (extension == ".tif") return open_geotiff(file, fs::file_size(path));
-    if (extension == ".npy") return open_npy(file, fs::file_size(path));
+/// `file` has `bytes` bytes and this extension.
+OpenedFile open_stream(const std::string& extension, std::istream& file, std::uint64_t bytes) {
+    if (extension == ".png") return open_png(file, bytes);
+    if (extension == ".tif") return open_geotiff(file, bytes);
+    if (extension == ".exr") return open_exr(file, bytes);
+    if (extension == ".npy") return open_npy(file, bytes);
     if (extension == ".json") open_json(file);  // COCO files may be longer than memory
     return {};
 }
 
+}  // namespace
+
+OpenedFile open_file(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return open_stream(path.extension().string(), file, fs::file_size(path));
+}
+
 OpenedFile open_bytes(const std::string& name, const std::string& bytes) {
-    const std::string extension = fs::path(name).extension().string();
     std::istringstream file(bytes);
-    if (extension == ".png") return open_png(file, bytes.size());
-    if (extension == ".npy") return open_npy(file, bytes.size());
-    if (extension == ".json") open_json(file);
-    return {};
+    return open_stream(fs::path(name).extension().string(), file, bytes.size());
 }
 
 std::string shape_text(const std::vector<std::size_t>& shape) {

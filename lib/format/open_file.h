@@ -16,11 +16,12 @@ struct OpenedFile {
 };
 
 /// Opens a file of a dataset as a reader would. It decodes every pixel of a PNG, compares the size
-/// of an .npy or GeoTIFF file with its header, reads .npy files of 16 bits whole, and parses JSON;
-/// other files are not read. Throws std::runtime_error with the reason when the file does not open.
+/// of an .npy, TIFF or OpenEXR file with its header, reads .npy files of 16 bits whole, and parses
+/// JSON; other files are not read. Throws std::runtime_error with the reason when the file does not
+/// open.
 OpenedFile open_file(const std::filesystem::path& path);
 
-/// The same for a PNG, .npy or JSON file in memory that has this name.
+/// The same for a file in memory that has this name.
 OpenedFile open_bytes(const std::string& name, const std::string& bytes);
 
 /// "512 x 256".

@@ -10,7 +10,7 @@
 extern "C" {
 
 struct SonarsimThumbnail {
-    const char* file;      ///< a PNG
+    const char* file;      ///< a PNG; a JPEG or a WebP if its name ends in .jpg or .webp
     const char* caption;   ///< lines in ASCII
     std::uint32_t turned;  ///< 1: by half a turn
 };

@@ -115,7 +115,7 @@ std::string note_about(const Json& sensor, const Json& views) {
     if (!views.empty()) return {};
     if (sensor.at("files").contains("polar")) {
         return "The pings of " + name +
-               " are arrays (.npy), which a browser does not open from a folder: render with "
+               " are arrays, which a browser does not open from a folder: render with "
                "output.fan or output.image set to true.";
     }
     return "The dataset has no pictures of " + name + ".";

@@ -101,6 +101,7 @@ void note_opened(Look& look, const DescribedFile& file, const std::optional<std:
     }
     if (!file.sensor || file.kind.empty() || file.kind == "records") return;
     const Shape& shape = opened.shape;
+    if (shape.empty()) return;  // a JPEG, a WebP or a text
     const DescribedArray* const array = array_of(file);
     Shape expected = array ? array->shape : Shape{};
     const std::string kind = file.sensor->name + "/" + file.kind;

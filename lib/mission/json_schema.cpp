@@ -106,8 +106,11 @@ class SchemaBuilder {
     void choice(const char* key, const T& value, const std::array<Choice<T>, N>& choices,
                 const char* meaning, Presence presence = Presence::optional) {
         const auto chosen = std::ranges::find(choices, value, &Choice<T>::value);
-        add(key, "choice", {{"enum", names_of(choices)}}, meaning, presence,
-            chosen == choices.end() ? SchemaJson() : SchemaJson(chosen->name));
+        SchemaJson names = SchemaJson::array();
+        for (const Choice<T>& one : choices)
+            names.push_back(choice_json(one.name));
+        add(key, "choice", {{"enum", std::move(names)}}, meaning, presence,
+            chosen == choices.end() ? SchemaJson() : choice_json(chosen->name));
     }
 
     template <class T, std::size_t N>

@@ -13,6 +13,11 @@ SchemaJson number_json(double value) {
     return value;
 }
 
+SchemaJson choice_json(const std::string& name) {
+    if (name == "true" || name == "false") return name == "true";
+    return name;
+}
+
 SchemaJson within_limits(const char* type, const Limits& limits) {
     SchemaJson json{{"type", type}};
     json[limits.low_allowed ? "minimum" : "exclusiveMinimum"] = number_json(limits.low);

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <nlohmann/json.hpp>
+#include <string>
 
 #include "mission/limits.h"
 
@@ -14,6 +15,9 @@ using SchemaJson = nlohmann::ordered_json;
 
 /// Writes a whole number as 5, not as 5.0.
 SchemaJson number_json(double value);
+
+/// `true` and `false` among the names of a choice are flags.
+SchemaJson choice_json(const std::string& name);
 
 /// `type`: "number" or "integer".
 SchemaJson within_limits(const char* type, const Limits& limits);

@@ -171,11 +171,17 @@ struct FanStyleConfig {
     bool operator==(const FanStyleConfig&) const = default;
 };
 
+/// File of the intensities of a ping.
+enum class PolarFormat { none, npy, exr, tiff };
+
+/// File of the fan of a ping.
+enum class FanFormat { none, png, jpeg, webp };
+
 struct OutputConfig {
     std::filesystem::path folder;
-    bool polar = true;     ///< float32 .npy
-    bool image = false;    ///< 16-bit polar PNG
-    bool fan = true;       ///< 8-bit Cartesian PNG
+    PolarFormat polar = PolarFormat::npy;
+    bool image = false;  ///< 16-bit polar PNG
+    FanFormat fan = FanFormat::png;
     bool meta = true;      ///< JSON per ping
     bool stages = false;   ///< 8-bit PNG of five fans that add the model's terms one by one
     int fan_width_px = 0;  ///< 0: one pixel per range bin, at most 1024
@@ -198,6 +204,8 @@ struct OutputConfig {
     bool mosaic = false;             ///< side-scan sonars: the waterfall georeferenced
     double mosaic_cell_m = 0.0;      ///< 0: from the distance between pings
 
+    bool has_polar() const { return polar != PolarFormat::none; }
+    bool has_fan() const { return fan != FanFormat::none; }
     bool operator==(const OutputConfig&) const = default;
 };
 

@@ -32,6 +32,14 @@ inline constexpr std::array fan_colours{
     Choice<FanColours>{"grey", FanColours::grey}, Choice<FanColours>{"copper", FanColours::copper},
     Choice<FanColours>{"amber", FanColours::amber}, Choice<FanColours>{"sea", FanColours::sea}};
 
+inline constexpr std::array polar_formats{
+    Choice<PolarFormat>{"true", PolarFormat::npy}, Choice<PolarFormat>{"false", PolarFormat::none},
+    Choice<PolarFormat>{"exr", PolarFormat::exr}, Choice<PolarFormat>{"tiff", PolarFormat::tiff}};
+
+inline constexpr std::array fan_formats{
+    Choice<FanFormat>{"true", FanFormat::png}, Choice<FanFormat>{"false", FanFormat::none},
+    Choice<FanFormat>{"jpeg", FanFormat::jpeg}, Choice<FanFormat>{"webp", FanFormat::webp}};
+
 inline constexpr std::array packs{Choice<Pack>{"none", Pack::none}, Choice<Pack>{"tar", Pack::tar}};
 
 template <class Visitor>
@@ -61,14 +69,17 @@ void describe(Visitor& v, FanStyleConfig& c) {
 template <class Visitor>
 void describe(Visitor& v, OutputConfig& c) {
     v.path("folder", c.folder, "folder of the dataset; default: out/NAME in the current directory");
-    v.flag("polar", c.polar, "write every ping of imaging and profiling sonars as float32");
+    v.choice("polar", c.polar, polar_formats,
+             "write every ping of imaging and profiling sonars as float32: `true` as .npy, `tiff` "
+             "as TIFF, `exr` as OpenEXR with a layer for each label and for `raw`");
     v.flag("image", c.image,
            "write every ping of these sonars as a 16-bit PNG, which holds no more than `polar`");
     v.flag("raw", c.raw,
            "with the calibrated model, write every ping as the instrument delivers it: a PNG for "
            "imaging and profiling sonars, a record of raw.npy for others");
-    v.flag("fan", c.fan,
-           "write every ping of these sonars as an 8-bit fan, as an operator sees it");
+    v.choice("fan", c.fan, fan_formats,
+             "write every ping of these sonars as an 8-bit fan, as an operator sees it: `true` as "
+             "PNG; `jpeg` and `webp` lose a little and take less space");
     v.flag("meta", c.meta, "write a JSON file per ping");
     v.flag("stages", c.stages,
            "write a fan for each stage of the echo model side by side: direct echoes, then with "

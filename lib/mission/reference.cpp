@@ -74,8 +74,8 @@ void add_values(const Json& key, KeyReference& row) {
     };
     for (const Json* schema : value_schemas(key)) {
         if (schema->contains("const")) add_choice((*schema)["const"].get<std::string>());
-        for (const std::string& name : schema->value("enum", std::vector<std::string>{}))
-            add_choice(name);
+        for (const Json& name : schema->value("enum", Json::array()))
+            add_choice(name.is_string() ? name.get<std::string>() : name.dump());
         // A list that has no default has no range in the tables.
         if (!schema->contains("maximum") || row.limits) continue;
         if (key.contains("items") && !key.contains("default") && !row.required) continue;

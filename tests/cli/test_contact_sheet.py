@@ -48,6 +48,10 @@ class ContactSheet(Sandbox):
         webp = self.assert_draws("sheet.webp")[0]
         self.assertEqual(webp[:4] + webp[8:12], b"RIFFWEBP")
 
+    def test_fans_in_webp(self):
+        self.assert_renders("--set", "output.fan=webp")
+        self.assertIn("4 pictures", self.assert_draws("sheet.png")[1])
+
     def test_variants(self):
         self.assert_renders("--set", "variants=2", "--set", "seed=3")
         _, log = self.assert_draws("sheet.png")

@@ -2,11 +2,12 @@
 import json
 import os
 import pathlib
+import shutil
 import subprocess
 import sys
 import unittest
 
-from sandbox import Sandbox, path_csv, python_with
+from sandbox import SONARSIM, Sandbox, path_csv, python_with
 
 SCRIPTS = pathlib.Path(__file__).resolve().parents[2] / "scripts"
 sys.path.insert(0, str(SCRIPTS))
@@ -131,6 +132,43 @@ class Reader(Sandbox):
         self.assertGreater(likeness(ours), 0.8)
         self.assertGreater(likeness(ours), likeness(ours[:, ::-1]) + 0.05)
         self.assertGreater(likeness(ours), likeness(ours[::-1]) + 0.3)
+
+    def test_tiff_and_openexr(self):
+        """They hold the numbers of the .npy files, and in archives."""
+        arrays = self.open()
+        for polar, *more in (("tiff",), ("exr", "--set", "output.pack=tar")):
+            self.assert_renders("--overwrite", "--out", "other", "--set", f"output.polar={polar}", *more)
+            result = self.run_sonarsim("verify", "other")
+            self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+            for name in ("fls", "mbes"):
+                sensor = self.open("other")[name]
+                for mine, other in zip(arrays[name], sensor, strict=True):
+                    np.testing.assert_array_equal(other["polar"], mine["polar"])
+                    if polar == "tiff":
+                        continue
+                    channels = sonarsim_data.exr_channels(sensor.raw(other.index, "polar"))
+                    for layer in ("instance", "elevation", "semantic", "share"):
+                        np.testing.assert_array_equal(channels[layer + ".Y"], mine[layer])
+                self.assertEqual("exr_channels" in sensor.description, polar == "exr")
+        for data in (b"", b"II*\0", b"v/1\x01\x02\0\0\0" + bytes(40)):
+            with self.assertRaises(ValueError):
+                sonarsim_data.read_exr(data)
+            with self.assertRaises(ValueError):
+                sonarsim_data.read_tiff(data)
+
+    def test_openexr_without_its_library(self):
+        """The mission ends before the first ping, with the name of the package and without a folder."""
+        if pathlib.Path("/usr/local/lib/sonarsim").exists():
+            self.skipTest("an installed module takes the place of a missing one")
+        own = self.folder / "deep/er/bin/sonarsim"
+        own.parent.mkdir(parents=True)
+        shutil.copy(SONARSIM, own)
+        for key in ("polar=exr", "fan=jpeg"):
+            result = subprocess.run([own, "render", "mission.yaml", "--out", "none", "--set", f"output.{key}"],
+                                    cwd=self.folder, capture_output=True, text=True, check=False)
+            self.assertEqual(result.returncode, 2, result.stderr)
+            self.assertRegex(result.stderr, "libsonarsim_images.so .*install libopenimageio-dev")
+            self.assertFalse((self.folder / "none").exists())
 
     def test_an_unfinished_pack_is_read_as_far_as_it_goes(self):
         self.assert_renders("--out", "packed", "--set", "output.pack=tar")

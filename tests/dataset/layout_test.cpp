@@ -43,7 +43,8 @@ TEST_SUITE("dataset") {
 
     TEST_CASE("layout: output chooses the files, and there must be some") {
         Mission mission = small_mission("out");
-        mission.output.polar = mission.output.fan = false;
+        mission.output.polar = PolarFormat::none;
+        mission.output.fan = FanFormat::none;
         CHECK(per_ping(layout_of(mission, 1).sensors[1]) == Names{"image", "meta"});
         mission.output.image = mission.output.meta = false;
         CHECK_THROWS_WITH_AS(layout_of(mission, 1),

@@ -100,7 +100,8 @@ TEST_SUITE("job") {
     TEST_CASE("job: output chooses what is written") {
         const TemporaryFolder temporary;
         Mission mission = small_mission(temporary.path / "out");
-        mission.output.polar = mission.output.image = mission.output.meta = false;
+        mission.output.polar = PolarFormat::none;
+        mission.output.image = mission.output.meta = false;
         run(mission);
         CHECK(contents(temporary.path / "out").size() == 5 + pings);
         CHECK(fs::exists(temporary.path / "out/left/fan/000006.png"));

@@ -24,7 +24,7 @@ TEST_CASE("an override replaces a key or adds one, the last one winning") {
     CHECK(mission.sensors[0].every == 2);
     CHECK(mission.sensors[0].noise.add_sigma == 0.2);
     CHECK(mission.sensors[0].mount.translation_m == std::array{1.0, 2.0, 3.0});
-    CHECK(!mission.output.fan);
+    CHECK(!mission.output.has_fan());
     CHECK(mission.scene.file == "/other.glb");  // from the mission's folder, as in the file
     CHECK(mission.water == WaterConfig{});
 }
@@ -59,8 +59,10 @@ TEST_CASE("an override is checked like the file and named in the message") {
           "--set sensors.fls.noise.add_sigma=-1: 'add_sigma' must be at least 0, not '-1'");
     CHECK(set_refusal("seed=") ==
           "--set seed=: 'seed' must be a whole number from 0 to 2^64 - 1, not nothing");
-    CHECK(set_refusal("output.fan=on") ==
-          "--set output.fan=on: 'fan' must be true or false, not 'on'");
+    CHECK(set_refusal("output.meta=on") ==
+          "--set output.meta=on: 'meta' must be true or false, not 'on'");
+    CHECK(set_refusal("output.polar=on") ==
+          "--set output.polar=on: unknown polar 'on'; known: true, false, exr, tiff");
     CHECK(set_refusal("sensors.fls.range_max_m=0.05") ==
           "--set sensors.fls.range_max_m=0.05: range_min_m must be below range_max_m "
           "(range_min_m is 0.1, range_max_m is 0.05)");

@@ -36,9 +36,9 @@ Mission unusual_mission() {
     mission.engine = EngineKind::octree;
     mission.octree = {0.0234, 77, true};
     mission.output = {.folder = "/o",
-                      .polar = false,
+                      .polar = PolarFormat::exr,
                       .image = true,
-                      .fan = false,
+                      .fan = FanFormat::webp,
                       .meta = false,
                       .stages = true,
                       .fan_width_px = 99,

@@ -249,7 +249,7 @@ std::vector<std::unique_ptr<Writer>> make_label_writers(const WriterContext& con
     };
     const Mission& mission = context.mission;
     const bool has_images = context.kind().has_images;
-    const bool has_fan = has_images && mission.output.fan && is_asked(mission, Label::fan);
+    const bool has_fan = has_images && mission.output.has_fan() && is_asked(mission, Label::fan);
     for (const LabelFile& file : label_files) {
         // COCO files of waterfalls and echograms are made of the records.
         const bool for_coco =

@@ -89,7 +89,7 @@ std::vector<std::unique_ptr<Writer>> make_semantic_writers(const WriterContext& 
     const View& view = context.sonar().settings.view;
     writers.push_back(
         std::make_unique<SemanticWriter>(context, false, view.beams, view.range_bins));
-    if (mission.output.fan) {
+    if (mission.output.has_fan()) {
         const FanFrame frame = fan_frame(context.sonar(), mission.output.fan_width_px);
         writers.push_back(
             std::make_unique<SemanticWriter>(context, true, frame.width, frame.height));

@@ -95,7 +95,7 @@ std::vector<std::unique_ptr<Writer>> make_yolo_writers(const WriterContext& cont
     if (!context.kind().has_images) return writers;
     const View& view = context.sonar().settings.view;
     std::vector<LabelledPicture> pictures{{false, view.beams, view.range_bins}};
-    if (context.mission.output.fan) {
+    if (context.mission.output.has_fan()) {
         const FanFrame frame = fan_frame(context.sonar(), context.mission.output.fan_width_px);
         pictures.push_back({true, frame.width, frame.height});
     }

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstdint>
+#include <istream>
+
+namespace sonarsim {
+
+struct ExrShape {
+    std::size_t rows = 0;
+    std::size_t columns = 0;
+};
+
+/// The shape of an OpenEXR file of one part in rows that are not compressed. It reads the header,
+/// and that the last row ends where the file of `bytes` bytes does. std::runtime_error for another
+/// file.
+ExrShape exr_shape(std::istream& file, std::uint64_t bytes);
+
+}  // namespace sonarsim
