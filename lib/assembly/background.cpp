@@ -5,6 +5,7 @@
 #include "assembly/heightmap_part.h"
 #include "core/error.h"
 #include "core/text.h"
+#include "scene/seabed/seabed.h"
 
 namespace sonarsim {
 
@@ -43,7 +44,7 @@ void add_automatic(const Mission& mission, const Scene& scene, const SceneObject
                    std::vector<std::uint8_t>& background) {
     std::vector<std::string> bottom = bottom_patterns(mission.scene);
     // Clutter all over the bed.
-    if (mission.scene.seabed && mission.scene.bottom.empty()) bottom.emplace_back("plants");
+    if (mission.scene.seabed && mission.scene.bottom.empty()) bottom.emplace_back(plants_node);
     for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
         for (const std::string& pattern : bottom) {
             if (fits_pattern(pattern, scene.instances[i]))

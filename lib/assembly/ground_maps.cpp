@@ -88,7 +88,7 @@ void warn_of_place(const TexelFrame& frame, const std::string& section, Scene& s
         return "x " + metres(box.min().x()) + " to " + metres(box.max().x()) + " m, y " +
                metres(box.min().y()) + " to " + metres(box.max().y()) + " m";
     };
-    scene.warnings.push_back(section + " lies beside the scene and changes nothing: the map has " +
+    scene.warnings.push_back(section + " lies outside the scene and changes nothing: the map has " +
                              text(map) + ", the scene " + text(ground) +
                              "; write the point of the map that is x = 0, y = 0 as origin_m");
 }

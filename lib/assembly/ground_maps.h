@@ -7,7 +7,7 @@
 namespace sonarsim {
 
 /// Reads the maps of a mission and lays them on the scene, whose materials become those of its
-/// surfaces and of the map. Warns of a map that lies beside the scene. InputError for a map that
+/// surfaces and of the map. Warns of a map that lies outside the scene. InputError for a map that
 /// cannot be read, a material that the table lacks, and instances that do not exist.
 void lay_ground_maps(const SceneConfig& config, const MaterialTable& table, const Water& water,
                      Scene& scene);

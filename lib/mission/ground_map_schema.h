@@ -7,11 +7,9 @@
 
 namespace sonarsim {
 
-template <class Visitor>
-void describe_laid_map(Visitor& v, LaidMapConfig& c) {
-    v.place(c.place);
-    v.path("file", c.file, "an image, PNG, TIFF (GeoTIFF) or OpenEXR, whose first row is the north",
-           required);
+/// The keys that say where an image lies.
+template <class Visitor, class Config>
+void describe_image_place(Visitor& v, Config& c) {
     v.number_or_auto("pixel_m", c.pixel_m, above(0),
                      "size of a pixel; `auto` takes the GeoTIFF tags or the world file, which "
                      "pixel_m and size_m replace");
@@ -20,6 +18,14 @@ void describe_laid_map(Visitor& v, LaidMapConfig& c) {
     v.numbers("origin_m", c.origin_m, any_position_m,
               "the point of the map, in its own coordinates, that becomes x = 0, y = 0 of the "
               "mission. With pixel_m or size_m they begin at the map's south-west corner");
+}
+
+template <class Visitor>
+void describe_laid_map(Visitor& v, LaidMapConfig& c) {
+    v.place(c.place);
+    v.path("file", c.file, "an image, PNG, TIFF (GeoTIFF) or OpenEXR, whose first row is the north",
+           required);
+    describe_image_place(v, c);
     v.texts(
         "instances", c.instances,
         "names of the nodes and objects that the map is laid on; default: the heightmap or "

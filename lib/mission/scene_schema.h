@@ -113,14 +113,7 @@ void describe(Visitor& v, HeightmapConfig& c) {
            "an image of one channel, PNG, TIFF (GeoTIFF) or OpenEXR, whose pixels are heights and "
            "whose first row is the north",
            required);
-    v.number_or_auto("pixel_m", c.pixel_m, above(0),
-                     "size of a pixel; `auto` takes the GeoTIFF tags or the world file, which "
-                     "pixel_m and size_m replace");
-    v.optional_numbers("size_m", c.size_m, above(0),
-                       "extent of the map along x and y, from edge to edge, instead of pixel_m");
-    v.numbers("origin_m", c.origin_m, any_position_m,
-              "the point of the map, in its own coordinates, that becomes x = 0, y = 0 of the "
-              "mission. With pixel_m or size_m they begin at the map's south-west corner");
+    describe_image_place(v, c);
     v.number("height_scale", c.height_scale, {-largest_scale, largest_scale},
              "metres for each step of the pixels' values; -1 for depths");
     v.number("height_offset_m", c.height_offset_m, any_position_m,

@@ -23,7 +23,7 @@ struct HeightmapRule {
     std::array<double, 2> size_m{};
     std::optional<double> no_data = {};  ///< value of unknown heights; none: the file's
     /// The part that is made, in the coordinates of the map: least x and y, largest x and y. None,
-    /// or one beside the map: all of it.
+    /// or one outside the map: all of it.
     std::optional<std::array<double, 4>> window = {};
 
     bool operator==(const HeightmapRule&) const = default;

@@ -125,17 +125,18 @@ class GroundMaps(Composed):
         self.assertEqual(*outs)
 
     def test_another_map_is_another_mission(self):
-        """A folder that was made with another map is not resumed."""
+        """A folder that was made with another map is not continued."""
         self.mission(DECIBELS % "")
         self.assert_renders()
         (self.folder / "db.png").write_bytes(png([[10, 16], [13, 11]], 8))
-        result = self.run_sonarsim("render", "mission.yaml", "--resume")
-        self.assertEqual(result.returncode, 2, result.stderr)
+        result = self.run_sonarsim("render", "mission.yaml")
+        self.assert_refused(result, "holds a dataset of this mission made from other scene, "
+                            "material or trajectory files (db.png)")
 
-    def test_beside_the_scene(self):
+    def test_outside_the_scene(self):
         self.mission((DECIBELS % "").replace("origin_m: [10, 10]", "origin_m: [1000, 10]"))
         result = self.run_sonarsim("validate", "mission.yaml")
-        self.assertIn("scene.backscatter_map lies beside the scene and changes nothing: the map has x -1000 to "
+        self.assertIn("scene.backscatter_map lies outside the scene and changes nothing: the map has x -1000 to "
                       "-980 m, y -10 to 10 m, the scene x -10 to 10 m", result.stdout + result.stderr)
 
     def test_refused(self):

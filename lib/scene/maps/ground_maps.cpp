@@ -172,10 +172,13 @@ std::optional<MappedPoint> GroundMaps::alike_over(std::uint32_t instance, std::u
     const TexelBox box = box_around(frame, footprint.centre, half_m);
     if (is_within_texel(frame, box)) return centre;
     const auto texel = texel_at(frame, frame.texels(footprint.centre));
-    if (!texel || materials_->choice[*texel] == MaterialTexels::own) return std::nullopt;
     const TexelBox whole = whole_texels(box);
-    const double same = counts_[materials_->choice[*texel]].over(whole);
-    return same >= area_of(whole) ? std::optional(centre) : std::nullopt;
+    const bool is_own = !texel || materials_->choice[*texel] == MaterialTexels::own;
+    // All is the ground's own material where no texel of the box has another.
+    const bool is_alike =
+        is_own ? std::ranges::all_of(counts_, [&](const auto& c) { return c.over(whole) == 0.0; })
+               : counts_[materials_->choice[*texel]].over(whole) >= area_of(whole);
+    return is_alike ? std::optional(centre) : std::nullopt;
 }
 
 void GroundMaps::shares_over(std::uint32_t instance, std::uint32_t own,

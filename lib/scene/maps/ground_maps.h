@@ -89,7 +89,6 @@ class GroundMaps {
     static bool is_on(const std::vector<char>& on, std::uint32_t instance) {
         return instance < on.size() && on[instance] != 0;
     }
-    double least_texel_m() const;
 
     std::optional<MaterialTexels> materials_;
     std::vector<TexelSums<std::uint32_t>> counts_;  ///< texels of each of MaterialTexels::materials

@@ -14,7 +14,6 @@ namespace sonarsim {
 namespace {
 
 constexpr const char* bed_node = "seabed";
-constexpr const char* plants_node = "plants";
 
 /// Column, row and height of each vertex.
 std::vector<float> vertices_of(const Seabed& bed) {

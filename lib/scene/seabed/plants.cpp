@@ -22,6 +22,7 @@ std::vector<Plant> plants_in(const BedArea& area, const BedGrid& grid, const Bed
 
 void add_leaves(const Plant& plant, const Eigen::Vector3d& foot, std::uint64_t seed,
                 Surface& surface) {
+    // These three are chosen so that tufts look like sea grass. They have no source.
     constexpr std::uint32_t leaves = 6;
     constexpr double width = 0.08;  // width of a leaf / height of the tuft
     constexpr double most_lean = radians(35.0);

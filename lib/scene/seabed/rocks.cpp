@@ -12,6 +12,8 @@ namespace sonarsim {
 
 namespace {
 
+// The shapes of rocks, here and in cuts_of(), are chosen so that they look like boulders. They have
+// no source.
 constexpr std::uint32_t sorts = 12;  ///< different rocks
 constexpr std::uint32_t levels = 3;  ///< levels of detail of each
 

@@ -18,6 +18,9 @@
 
 namespace sonarsim {
 
+/// The node with the leaves of all plants.
+inline constexpr const char* plants_node = "plants";
+
 /// The numbers that make a bed, and the part of it that is made.
 struct SeabedRule {
     std::uint64_t seed = 0;

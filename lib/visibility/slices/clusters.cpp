@@ -2,12 +2,13 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <bit>
+#include <functional>
 #include <limits>
-#include <numeric>
 #include <optional>
-#include <tuple>
 #include <utility>
 
+#include "core/groups.h"
 #include "visibility/slices/merge_triangles.h"
 
 namespace sonarsim {
@@ -69,21 +70,30 @@ SliceFacet facet_of(const Scene& scene, std::uint32_t triangle) {
             scene.triangle_instance[triangle], 0};
 }
 
-/// The first vertex with the same position, for every vertex.
+/// A number that equal positions share.
+std::uint64_t hash_of(const Eigen::Vector3f& p) {
+    std::uint64_t hash = 0;
+    for (int k = 0; k < 3; ++k) {
+        const float x = p[k] + 0.0F;  // -0 becomes 0, which equals it
+        hash = (hash ^ std::bit_cast<std::uint32_t>(x)) * 0x9e3779b97f4a7c15U;
+        hash ^= hash >> 32U;
+    }
+    return hash;
+}
+
+/// The first vertex with the same position, for every vertex: a hash table whose slots are searched
+/// one after the other.
 std::vector<std::uint32_t> welded(const Scene& scene) {
-    std::vector<std::uint32_t> order(scene.vertices.size());
-    std::iota(order.begin(), order.end(), 0U);
-    const auto place = [&](std::uint32_t v) {
-        const Eigen::Vector3f& p = scene.vertices[v];
-        return std::tuple(p.x(), p.y(), p.z());
-    };
-    std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) {
-        return std::tuple_cat(place(a), std::tuple(a)) < std::tuple_cat(place(b), std::tuple(b));
-    });
-    std::vector<std::uint32_t> first(order.size());
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        const bool again = i > 0 && place(order[i - 1]) == place(order[i]);
-        first[order[i]] = again ? first[order[i - 1]] : order[i];
+    const std::size_t slots = std::bit_ceil(2 * scene.vertices.size() + 1);
+    std::vector<std::uint32_t> table(slots, ClusterMesh::nothing);
+    std::vector<std::uint32_t> first(scene.vertices.size());
+    for (std::uint32_t v = 0; v < first.size(); ++v) {
+        std::size_t slot = hash_of(scene.vertices[v]) & (slots - 1);
+        while (table[slot] != ClusterMesh::nothing &&
+               scene.vertices[table[slot]] != scene.vertices[v])
+            slot = (slot + 1) & (slots - 1);
+        if (table[slot] == ClusterMesh::nothing) table[slot] = v;
+        first[v] = table[slot];
     }
     return first;
 }
@@ -131,31 +141,42 @@ class Components {
 std::vector<std::array<std::uint32_t, 3>> across_edges(const Scene& scene,
                                                        const std::vector<std::uint32_t>& vertex) {
     struct Edge {
-        std::uint64_t key;
+        std::uint32_t end;  ///< the end with the greater number
         std::uint32_t triangle;
         std::uint32_t side;
     };
-    std::vector<Edge> edges;
-    edges.reserve(3 * scene.triangles.size());
+    const auto ends = [&](std::uint32_t triangle, std::uint32_t side) {
+        return std::minmax(vertex[scene.triangles[triangle][side]],
+                           vertex[scene.triangles[triangle][(side + 1) % 3]],
+                           std::less<std::uint32_t>{});
+    };
+    // Sides by their end with the lesser number: few share one.
+    std::vector<std::uint32_t> lesser_end;
+    lesser_end.reserve(3 * scene.triangles.size());
     for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
-        for (std::uint32_t k = 0; k < 3; ++k) {
-            const std::uint64_t a = vertex[scene.triangles[i][k]];
-            const std::uint64_t b = vertex[scene.triangles[i][(k + 1) % 3]];
-            edges.push_back({std::min(a, b) << 32U | std::max(a, b), i, k});
-        }
+        for (std::uint32_t k = 0; k < 3; ++k)
+            lesser_end.push_back(ends(i, k).first);
     }
-    std::ranges::sort(edges, [](const Edge& a, const Edge& b) {
-        return std::tie(a.key, a.triangle, a.side) < std::tie(b.key, b.triangle, b.side);
-    });
+    const Groups sides = sort_into_groups(lesser_end, vertex.size());
+    lesser_end = {};
     constexpr std::uint32_t nothing = ClusterMesh::nothing;
     std::vector<std::array<std::uint32_t, 3>> out(scene.triangles.size(),
                                                   {nothing, nothing, nothing});
-    for (std::size_t i = 1; i < edges.size(); ++i) {
-        const Edge& a = edges[i - 1];
-        const Edge& b = edges[i];
-        if (a.key != b.key) continue;
-        out[a.triangle][a.side] = scene.triangles[b.triangle][(b.side + 2) % 3];
-        out[b.triangle][b.side] = scene.triangles[a.triangle][(a.side + 2) % 3];
+    std::vector<Edge> edges;
+    for (std::size_t v = 0; v < vertex.size(); ++v) {
+        edges.clear();
+        for (std::uint32_t n = sides.begin[v]; n < sides.begin[v + 1]; ++n) {
+            const std::uint32_t side = sides.items[n];
+            edges.push_back({ends(side / 3, side % 3).second, side / 3, side % 3});
+        }
+        std::ranges::stable_sort(edges, {}, &Edge::end);
+        for (std::size_t i = 1; i < edges.size(); ++i) {
+            const Edge& a = edges[i - 1];
+            const Edge& b = edges[i];
+            if (a.end != b.end) continue;
+            out[a.triangle][a.side] = scene.triangles[b.triangle][(b.side + 2) % 3];
+            out[b.triangle][b.side] = scene.triangles[a.triangle][(a.side + 2) % 3];
+        }
     }
     return out;
 }
@@ -213,9 +234,12 @@ ClusterMesh make_clusters(const Scene& whole) {
     mesh.corners.reserve(order.size());
     mesh.facets.reserve(order.size());
     Components components(scene, vertex);
-    const std::vector<std::array<std::uint32_t, 3>> beyond = across_edges(scene, vertex);
-    for (const std::uint32_t triangle : order)
-        mesh.beyond.push_back(beyond[triangle]);
+    {
+        const std::vector<std::array<std::uint32_t, 3>> beyond = across_edges(scene, vertex);
+        mesh.beyond.reserve(order.size());
+        for (const std::uint32_t triangle : order)
+            mesh.beyond.push_back(beyond[triangle]);
+    }
     for (std::size_t first = 0; first < order.size(); first += ClusterMesh::most_triangles) {
         const std::size_t count =
             std::min<std::size_t>(ClusterMesh::most_triangles, order.size() - first);

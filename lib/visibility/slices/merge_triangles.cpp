@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/groups.h"
+
 namespace sonarsim {
 
 namespace {
@@ -41,29 +43,93 @@ struct Neighbour {
     bool is_border = false;
 };
 
+/// The greatest motion of the surface, m.
+double most_moved_m(const Scene& scene) {
+    float greatest = 0.0F;
+    for (const Eigen::Vector3f& p : scene.vertices)
+        greatest = std::max(greatest, p.cwiseAbs().maxCoeff());
+    return most_moved * static_cast<double>(greatest);
+}
+
+/// A triangle of the scene.
+Face face_of(const Scene& scene, const std::vector<std::uint32_t>& welded, std::uint32_t triangle) {
+    const auto place = [&](std::uint32_t v) { return scene.vertices[v].cast<double>(); };
+    Face face{};
+    face.triangle = triangle;
+    for (std::size_t k = 0; k < 3; ++k)
+        face.corners[k] = welded[scene.triangles[triangle][k]];
+    const auto& [a, b, c] = face.corners;
+    const Eigen::Vector3d across = (place(b) - place(a)).cross(place(c) - place(a));
+    const double length = across.norm();
+    face.normal = length > 0.0 ? Eigen::Vector3d(across / length) : Eigen::Vector3d::Zero();
+    face.height = face.normal.dot(place(a));
+    return face;
+}
+
+bool on_plane(const Scene& scene, double most_m, const Face& face, std::uint32_t v) {
+    return std::fabs(face.normal.dot(scene.vertices[v].cast<double>()) - face.height) <= most_m;
+}
+
+/// Tells if there is enough to merge. It needs less memory than the faces of a Merger.
+class MergerTrial {
+  public:
+    MergerTrial(const Scene& scene, const std::vector<std::uint32_t>& welded)
+        : scene_(scene), welded_(welded), most_m_(most_moved_m(scene)) {
+        std::vector<std::uint32_t> corners;
+        corners.reserve(3 * scene.triangles.size());
+        for (const auto& triangle : scene.triangles) {
+            for (const std::uint32_t corner : triangle)
+                corners.push_back(welded[corner]);
+        }
+        around_ = sort_into_groups(corners, scene.vertices.size());
+    }
+
+    bool is_worth_it() const {
+        std::size_t flat = 0;
+        std::size_t used = 0;
+        for (std::size_t v = 0; v < welded_.size(); ++v) {
+            if (around_.begin[v] == around_.begin[v + 1]) continue;
+            ++used;
+            flat += at_most_two_planes(v) ? 1 : 0;
+        }
+        return static_cast<double>(flat) > least_gone * static_cast<double>(used);
+    }
+
+  private:
+    /// True if the faces around a vertex lie in two planes, or in one.
+    bool at_most_two_planes(std::size_t v) const {
+        std::array<Face, 2> planes;
+        std::size_t count = 0;
+        for (std::uint32_t n = around_.begin[v]; n < around_.begin[v + 1]; ++n) {
+            const Face face = face_of(scene_, welded_, around_.items[n] / 3);
+            const auto known = [&](const Face& plane) {
+                return std::ranges::all_of(plane.corners, [&](std::uint32_t corner) {
+                    return on_plane(scene_, most_m_, face, corner);
+                });
+            };
+            if (std::any_of(planes.begin(), planes.begin() + count, known)) continue;
+            if (count == 2) return false;
+            planes[count++] = face;
+        }
+        return true;
+    }
+
+    const Scene& scene_;
+    const std::vector<std::uint32_t>& welded_;
+    double most_m_;
+    Groups around_;  ///< corners of triangles at each vertex
+};
+
 class Merger {
   public:
     Merger(const Scene& scene, const std::vector<std::uint32_t>& welded)
-        : scene_(scene), welded_(welded), around_(scene.vertices.size()) {
-        float greatest = 0.0F;
-        for (const Eigen::Vector3f& p : scene.vertices)
-            greatest = std::max(greatest, p.cwiseAbs().maxCoeff());
-        most_m_ = most_moved * static_cast<double>(greatest);
+        : scene_(scene), around_(scene.vertices.size()), most_m_(most_moved_m(scene)) {
         faces_.reserve(scene.triangles.size());
-        for (std::uint32_t i = 0; i < scene.triangles.size(); ++i)
-            add_face(i);
-    }
-
-    /// True if there is enough to merge.
-    bool is_worth_it() {
-        std::size_t flat = 0;
-        std::size_t used = 0;
-        for (std::uint32_t v = 0; v < around_.size(); ++v) {
-            if (around_[v].empty()) continue;
-            ++used;
-            flat += planes_around(v) <= 2 ? 1 : 0;
+        for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
+            faces_.push_back(face_of(scene, welded, i));
+            for (const std::uint32_t corner : faces_.back().corners)
+                around_[corner].push_back(i);
         }
-        return static_cast<double>(flat) > least_gone * static_cast<double>(used);
     }
 
     void run() {
@@ -89,40 +155,8 @@ class Merger {
   private:
     Eigen::Vector3d place(std::uint32_t v) const { return scene_.vertices[v].cast<double>(); }
 
-    void add_face(std::uint32_t i) {
-        Face face{};
-        face.triangle = i;
-        for (int k = 0; k < 3; ++k)
-            face.corners[k] = welded_[scene_.triangles[i][k]];
-        const auto& [a, b, c] = face.corners;
-        const Eigen::Vector3d across = (place(b) - place(a)).cross(place(c) - place(a));
-        const double length = across.norm();
-        face.normal = length > 0.0 ? Eigen::Vector3d(across / length) : Eigen::Vector3d::Zero();
-        face.height = face.normal.dot(place(a));
-        for (const std::uint32_t corner : face.corners)
-            around_[corner].push_back(static_cast<std::uint32_t>(faces_.size()));
-        faces_.push_back(face);
-    }
-
     bool on_plane(const Face& face, std::uint32_t v) const {
-        return std::fabs(face.normal.dot(place(v)) - face.height) <= most_m_;
-    }
-
-    /// Number of planes that meet at a vertex; 3 means three or more.
-    int planes_around(std::uint32_t v) const {
-        std::array<std::uint32_t, 2> planes{};
-        int count = 0;
-        for (const std::uint32_t f : around_[v]) {
-            const auto known = [&](std::uint32_t g) {
-                return std::ranges::all_of(faces_[g].corners, [&](std::uint32_t corner) {
-                    return on_plane(faces_[f], corner);
-                });
-            };
-            if (std::any_of(planes.begin(), planes.begin() + count, known)) continue;
-            if (count == 2) return 3;
-            planes[count++] = f;
-        }
-        return count;
+        return sonarsim::on_plane(scene_, most_m_, face, v);
     }
 
     /// Removes a vertex by moving it to a neighbour, if the surface does not change.
@@ -231,19 +265,18 @@ class Merger {
     }
 
     const Scene& scene_;
-    const std::vector<std::uint32_t>& welded_;
     std::vector<Face> faces_;
     std::vector<std::vector<std::uint32_t>> around_;  ///< faces of each vertex
     std::vector<Neighbour> neighbours_;               ///< neighbours of the current vertex
-    double most_m_ = 0.0;
+    double most_m_;
 };
 
 }  // namespace
 
 std::optional<Scene> with_flat_faces_merged(const Scene& scene,
                                             const std::vector<std::uint32_t>& welded) {
+    if (!MergerTrial(scene, welded).is_worth_it()) return std::nullopt;
     Merger merger(scene, welded);
-    if (!merger.is_worth_it()) return std::nullopt;
     merger.run();
     return merger.result();
 }

@@ -132,7 +132,7 @@ TEST_CASE("a window of a heightmap is a part of its surface") {
         for (double y = 1993.0; y <= 1995.0; y += 0.125)
             CHECK(some.heights({x, y})->highest == all.heights({x, y})->highest);
     }
-    // A window beside the map leaves all of it.
+    // A window outside the map leaves all of it.
     const MapFile beside(heights, 20, place, {.window = std::array{0.0, 0.0, 9.0, 9.0}});
     CHECK(beside.surface().triangles.size() == whole.surface().triangles.size());
 }
