@@ -54,6 +54,8 @@ std::string surface_warning(const Mission& mission, const Assembly& assembly) {
     }
     const std::string name = "scene.water_surface ";
     if (pings == 0) {
+        // Layers of the water lie below it.
+        if (!mission.water.layers.empty()) return "";
         return name +
                "has no effect because no sensor has multipath: set sensors.NAME.multipath.method";
     }

@@ -113,8 +113,8 @@ void form_beams(const Beamformer& former, const EchoGrid* grid, ElementNoiseOfPi
 ArrayBeams array_beams(const BeamConfig& beam, const std::vector<double>& beam_sines, double noise,
                        double common_mode, const std::vector<float>& taps) {
     const LineArray array = receiving_array(beam);
-    ArrayBeams out{.amplitudes = Beamformer(array, beam_sines, false),
-                   .powers = Beamformer(array, beam_sines, true),
+    ArrayBeams out{.amplitudes = Beamformer(array, beam_sines, false, beam.elements),
+                   .powers = Beamformer(array, beam_sines, true, beam.elements),
                    .noise = {}};
     out.noise.element_sigma =
         static_cast<float>(std::sqrt(noise)) * out.amplitudes.element_sigma_of_unit();

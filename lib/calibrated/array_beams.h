@@ -26,6 +26,10 @@ ArrayBeams array_beams(const BeamConfig& beam, const std::vector<double>& beam_s
 inline int columns_of(const ArrayBeams& beams) {
     return beams.amplitudes.grid().columns;
 }
+/// The sines of the columns.
+inline const SineGrid* sines_of(const ArrayBeams& beams) {
+    return &beams.amplitudes.grid();
+}
 /// The scalloping correction across the columns: mean power over positions between two columns /
 /// power at a column.
 inline float scalloping_gain(const ArrayBeams& beams) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <complex>
 
+#include "calibrated/element_errors.h"
 #include "core/elementary.h"
 #include "core/units.h"
 
@@ -39,6 +40,18 @@ Complexes element_weights(const LineArray& array, double elements) {
         out.push_back(array.weight(x) * (share / elements));
     }
     return out;
+}
+
+/// Applies the errors of the array's elements. Their mean side lobe is their variance over their
+/// number, so that the errors of more or fewer samples of the aperture have more or less variance.
+void add_element_errors(const LineArray& array, const ElementsConfig& elements, double samples,
+                        Complexes& weights) {
+    if (!elements.exist()) return;
+    const double scale = std::sqrt(samples / element_count(array));
+    const Complexes errors =
+        element_errors(elements, static_cast<int>(weights.size()), ElementAxis::beams);
+    for (std::size_t k = 0; k < weights.size(); ++k)
+        weights[k] *= 1.0 + scale * errors[k];
 }
 
 /// The weights of the squared pattern: the weights correlated with themselves.
@@ -122,13 +135,15 @@ SineGrid sine_grid(const LineArray& array, const std::vector<double>& beam_sines
     return grid;
 }
 
-Beamformer::Beamformer(const LineArray& array, const std::vector<double>& beam_sines, bool powers)
+Beamformer::Beamformer(const LineArray& array, const std::vector<double>& beam_sines, bool powers,
+                       const ElementsConfig& element_errors)
     : powers_(powers),
       grid_(sine_grid(array, beam_sines)),
       fourier_(transform_size(grid_.columns + gap)) {
     const int size = fourier_.size();
     const double elements = std::min(size * grid_.step * array.wavelengths, size - 1.0);
     Complexes weights = element_weights(array, elements);
+    add_element_errors(array, element_errors, elements, weights);
     if (powers) {
         weights = correlated(weights);
         // The transform holds no more elements than its size.

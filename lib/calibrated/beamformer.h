@@ -7,6 +7,7 @@
 #include "calibrated/fourier.h"
 #include "calibrated/line_array.h"
 #include "core/random.h"
+#include "mission/instrument.h"
 
 namespace sonarsim {
 
@@ -30,7 +31,8 @@ class Beamformer {
   public:
     /// `beam_sines` are the sines of the beams' middles. `powers`: the grid holds powers, and the
     /// weights are those of the squared pattern.
-    Beamformer(const LineArray& array, const std::vector<double>& beam_sines, bool powers);
+    Beamformer(const LineArray& array, const std::vector<double>& beam_sines, bool powers,
+               const ElementsConfig& elements = {});
 
     const SineGrid& grid() const { return grid_; }
     int beams() const { return static_cast<int>(first_tap_.size()); }

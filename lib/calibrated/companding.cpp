@@ -36,13 +36,15 @@ std::vector<std::uint16_t> companded(std::span<const float> powers,
                                      const ReceiverConfig& receiver) {
     const Law law = law_of(receiver);
     const auto greatest = static_cast<float>((1 << receiver.bits) - 1);
+    const auto offset = static_cast<float>(receiver.offset);
     std::vector<std::uint16_t> out(powers.size());
     for (std::size_t i = 0; i < out.size(); ++i) {
         const float power = std::min(std::max(powers[i], least_power), 1.0F);
         const float logarithm_of_power = std::min(natural_log(power), 0.0F);
         const float value = law.logarithmic ? std::max(1.0F + law.factor * logarithm_of_power, 0.0F)
                                             : exp_neg(-law.factor * logarithm_of_power);
-        out[i] = static_cast<std::uint16_t>(static_cast<std::int32_t>(greatest * value + 0.5F));
+        const float above = std::max(value - offset, 0.0F);
+        out[i] = static_cast<std::uint16_t>(static_cast<std::int32_t>(greatest * above + 0.5F));
     }
     return out;
 }

@@ -43,6 +43,16 @@ void EchoGrid::add(const EchoGrid& more) {
     }
 }
 
+std::size_t EchoGrid::occupied() const {
+    std::size_t cells = 0;
+    for (int c = 0; c < columns_; ++c) {
+        const float* const values = column(c);
+        for (int row = 0; row < rows_; ++row)
+            cells += values[2 * row] != 0.0F || values[2 * row + 1] != 0.0F ? 1 : 0;
+    }
+    return cells;
+}
+
 std::size_t EchoGrid::convolve_pulse(const RangeTaps& taps) {
     const std::size_t length = 2 * static_cast<std::size_t>(rows_);
     const std::size_t beside = 2 * static_cast<std::size_t>(taps.reach);

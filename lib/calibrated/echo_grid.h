@@ -32,6 +32,8 @@ class EchoGrid {
 
     /// Adds a grid of the same shape.
     void add(const EchoGrid& more);
+    /// The number of cells that hold an echo.
+    std::size_t occupied() const;
     /// Convolves every column with the pulse. Returns how many cells held an echo before.
     std::size_t convolve_pulse(const RangeTaps& taps);
 

@@ -3,14 +3,13 @@
 #include <cmath>
 #include <optional>
 
+#include "calibrated/form_look.h"
 #include "calibrated/mirrored_echoes.h"
-#include "calibrated/model.h"
 #include "calibrated/plate_image.h"
 #include "calibrated/scatterer_search.h"
 #include "calibrated/speckle.h"
 #include "calibrated/target_pieces.h"
 #include "calibrated/target_scatterers.h"
-#include "core/clock.h"
 
 namespace sonarsim {
 
@@ -67,9 +66,15 @@ class ImageFormer {
             add_coherent(of_powers ? *coherent : grid);
         }
 
+        // 5. The water's volume. Bins that hold nothing else count as empty.
+        const bool has_water = context_.terms.direct && model_.water;
+        const std::size_t seen_bins = has_water ? grid.occupied() : 0;
+        if (has_water) add_water_column(traced, of_powers, grid);
+
         // 3. Pulse.
-        ping_.counts.occupied_bins =
+        const std::size_t echo_bins =
             grid.convolve_pulse(of_powers ? model_.power_taps : model_.amplitude_taps);
+        ping_.counts.occupied_bins = has_water ? seen_bins : echo_bins;
         if (coherent) {
             ping_.counts.occupied_bins = std::max<std::uint64_t>(
                 ping_.counts.occupied_bins, coherent->convolve_pulse(model_.amplitude_taps));
@@ -96,6 +101,17 @@ class ImageFormer {
     void add_coherent(EchoGrid& grid) {
         ping_.counts.out_of_range +=
             add_plate_amplitudes(beams_, plates_, model_.equation, model_.limits, grid);
+    }
+
+    void add_water_column(const TracedPing& traced, bool of_powers, EchoGrid& grid) {
+        std::optional<double> surface_z_m;
+        if (context_.scene.water_surface) surface_z_m = context_.scene.water_surface->height_m;
+        const std::vector<float> received =
+            received_water(*model_.water, water_ends(model_.water->sight.cells, traced),
+                           traced.T_world_sensor, surface_z_m, grid.rows());
+        add_water(*model_.water, received, sines_of(beams_),
+                  of_powers ? WaterEcho::power : WaterEcho::amplitude, speckle_gain_,
+                  context_.draws.of(stream_named("water")), grid);
     }
 
     /// Adds the incoherent echoes of a surface without its targets.
@@ -233,14 +249,13 @@ class ImageFormer {
 
 }  // namespace
 
-void CalibratedModel::form(const TracedPing& traced, const FormContext& context, Ping& ping) const {
-    Stopwatch watch;
+void form_look(const CalibratedModel& model, const TracedPing& traced, const FormContext& context,
+               Ping& ping) {
     std::visit(
         [&]<class Beams>(const Beams& of_model) {
-            ImageFormer<Beams>(*this, of_model, traced, context, ping).form(traced);
+            ImageFormer<Beams>(model, of_model, traced, context, ping).form(traced);
         },
-        beams);
-    ping.seconds.accumulate = watch.lap();
+        model.beams);
 }
 
 }  // namespace sonarsim

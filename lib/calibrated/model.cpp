@@ -91,10 +91,26 @@ TargetCells target_cells(const BeamConfig& beam, double resolution_m, double wav
     return cells;
 }
 
+/// The view with a range bin for each sample of the receiver.
+View sampled_view(View view, int samples) {
+    view.range_bins *= samples;
+    return view;
+}
+
+/// The mean value of noise in each range bin of the image.
+std::vector<float> noise_values(const std::vector<float>& row_gain, double noise, int samples) {
+    std::vector<float> out;
+    out.reserve(row_gain.size() / samples);
+    for (std::size_t row = 0; row < row_gain.size(); row += samples)
+        out.push_back(std::min(row_gain[row] * static_cast<float>(noise), most_value));
+    return out;
+}
+
 }  // namespace
 
 CalibratedModel calibrated_model(const InstrumentConfig& instrument, const WaterConfig& water,
-                                 const View& view, const BeamSines& sines) {
+                                 const View& view_of_image, const BeamSines& sines) {
+    const View view = sampled_view(view_of_image, instrument.receiver.samples);
     const double bin_m = view.bin_m();
     const double resolution_m =
         instrument.pulse.resolution_m > 0.0 ? instrument.pulse.resolution_m : bin_m;
@@ -139,12 +155,14 @@ CalibratedModel calibrated_model(const InstrumentConfig& instrument, const Water
                       .loss_per_m = static_cast<float>(0.2 * ln_10 * model.absorption_db_per_m),
                       .raised = static_cast<float>(0.1 * ln_10 * raised_db),
                       .elevation = elevation_pattern(radians(beam.elevation_width_deg),
-                                                     beam.elevation_side_lobe_db)};
+                                                     beam.elevation_side_lobe_db, beam.elements)};
+    model.water = water_column(water, widened_view(view, model.guard), model.beams, model.equation);
     model.cells = scatterer_cells(instrument.speckle.per_cell, std::max(resolution_m, 0.5 * bin_m),
                                   radians(beam.width_deg), view.range_min_m, model.wavelength_m);
     model.target_cells =
         target_cells(beam, std::max(resolution_m, 0.5 * bin_m), model.wavelength_m);
     model.row_gain = row_gains(receiver, model.levels, view, model.absorption_db_per_m, raised_db);
+    model.noise_values = noise_values(model.row_gain, noise + common_mode, receiver.samples);
     return model;
 }
 

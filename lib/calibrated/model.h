@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <variant>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "calibrated/specular_path.h"
 #include "calibrated/target_scatterers.h"
 #include "calibrated/transducer_beams.h"
+#include "calibrated/water_column.h"
 #include "core/pose.h"
 #include "mission/mission.h"
 #include "scene/scene.h"
@@ -33,8 +35,11 @@ struct CalibratedModel final : EchoModel {
     Clutter clutter;
     RangeTaps amplitude_taps, power_taps;
     std::variant<TransducerBeams, ArrayBeams> beams;
-    /// [range bins] The factor from the power of an echo to the value of the image.
+    /// [samples in range] The factor from the power of an echo to the value of the image.
     std::vector<float> row_gain;
+    /// [range bins of the image] The value of the receiver's mean noise.
+    std::vector<float> noise_values;
+    std::optional<WaterColumn> water;  ///< its volume scattering; nothing: none
     GuardBeams guard;
     ConeBeams cones;  ///< the beams of a line array
     SpeckleMode speckle = SpeckleMode::scene;

@@ -47,7 +47,10 @@ double CalibratedModel::working_bytes(bool multipath) const {
     const auto columns =
         std::visit([](const auto& of_model) { return columns_of(of_model); }, beams);
     const double grids = multipath ? 2.0 : 1.0;  // multipath has a grid of its own
-    return grids * columns * equation.rows * sizeof(float) * 2.0;
+    // Several samples or looks are formed beside the image.
+    const bool beside = instrument.receiver.samples > 1 || instrument.receiver.looks > 1;
+    const double images = beside ? 2.0 * columns * equation.rows * sizeof(float) : 0.0;
+    return grids * columns * equation.rows * sizeof(float) * 2.0 + images;
 }
 
 EchoModel::SignalAndNoise CalibratedModel::signal_and_noise(float clean, float noisy,
@@ -70,6 +73,7 @@ void CalibratedModel::describe(nlohmann::ordered_json& sensor) const {
         {"tvg_makes_up_for_absorption", receiver.tvg_absorption},
         {"sound_speed_m_s", sound_speed_m_s},
         {"wavelength_m", wavelength_m}};
+    if (receiver.tvg_step_db > 0.0) sensor["instrument"]["tvg_step_db"] = receiver.tvg_step_db;
 }
 
 std::vector<std::uint16_t> CalibratedModel::raw(const Ping& ping) const {

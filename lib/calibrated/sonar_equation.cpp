@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "calibrated/element_errors.h"
 #include "calibrated/lanes.h"
 #include "calibrated/levels.h"
 #include "calibrated/line_array.h"
@@ -99,14 +100,19 @@ class BackscatterTable {
 
 }  // namespace
 
-ElevationPattern elevation_pattern(double width_rad, double side_lobe_db) {
+ElevationPattern elevation_pattern(double width_rad, double side_lobe_db,
+                                   const ElementsConfig& elements) {
     ElevationPattern out;
     if (width_rad <= 0.0) return out;
     const LineArray array = line_array(width_rad, side_lobe_db);
     for (int k = 0; k <= ElevationPattern::steps + 1; ++k) {
         const double sine = 2.0 * k / ElevationPattern::steps - 1.0;
         const double pattern = line_pattern(array, sine);
-        out.power.push_back(static_cast<float>(pattern * pattern));
+        const double power =
+            elements.exist()
+                ? std::norm(pattern_with_errors(array, elements, ElementAxis::elevation, sine))
+                : pattern * pattern;
+        out.power.push_back(static_cast<float>(power));
     }
     return out;
 }

@@ -7,6 +7,7 @@
 #include "calibrated/bottom.h"
 #include "calibrated/echo_grid.h"
 #include "calibrated/patches.h"
+#include "mission/instrument.h"
 #include "scene/scene.h"
 
 namespace sonarsim {
@@ -19,7 +20,8 @@ struct ElevationPattern {
 
 /// The two-way pattern is that of a line array of half-power width `width_rad`, as if only the
 /// transmitter were directed in elevation; 0: omnidirectional.
-ElevationPattern elevation_pattern(double width_rad, double side_lobe_db);
+ElevationPattern elevation_pattern(double width_rad, double side_lobe_db,
+                                   const ElementsConfig& elements = {});
 
 /// The echo of a piece of surface, and its range bin:
 ///

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calibrated/element_errors.h"
 #include "calibrated/filtered_noise.h"
 #include "calibrated/levels.h"
 #include "calibrated/piston.h"
@@ -89,6 +90,9 @@ TransducerBeams transducer_beams(const BeamConfig& beam, const View& view, doubl
         const LineArray across = line_array(radians(beam.width_deg), beam.side_lobe_db);
         const double end = sincos(0.5 * view.azimuth_rad).sin;
         out.pattern = sine_table(-end, end, [&](double sine) {
+            if (beam.elements.exist())
+                return std::norm(
+                    pattern_with_errors(across, beam.elements, ElementAxis::beams, sine));
             const double one_way = line_pattern(across, sine);
             return one_way * one_way;
         });

@@ -48,6 +48,9 @@ inline int columns_of(const TransducerBeams& beams) {
     return beams.beams();
 }
 /// A beam has a column of the grid to itself.
+inline const SineGrid* sines_of(const TransducerBeams& /*beams*/) {
+    return nullptr;
+}
 inline float scalloping_gain(const TransducerBeams& /*beams*/) {
     return 1.0F;
 }

@@ -65,15 +65,29 @@ void judge_height(const ObjectConfig& object, std::vector<Warning>& out) {
                     z_m)));
 }
 
+bool has_calibrated(const Mission& mission) {
+    return std::ranges::any_of(mission.sensors, [](const SonarConfig& sensor) {
+        return sensor.model == ModelKind::calibrated;
+    });
+}
+
+/// The paper's model has no echo of the water.
+void judge_water(const Mission& mission, std::vector<Warning>& out) {
+    const WaterConfig& water = mission.water;
+    const bool scatters =
+        water.content != WaterContent::none || water.scattering_db_per_m3 || !water.layers.empty();
+    if (!scatters || has_calibrated(mission)) return;
+    out.push_back(make_warning(WarningCode::reading, "water",
+                               "its scattering has no effect because no sensor has model: "
+                               "calibrated: set sensors.NAME.model"));
+}
+
 /// The depth of the water decides on absorption and on sound_speed_m_s: auto. Fifty metres change
 /// the speed by 0.8 m/s. Only a trajectory that lies wholly below the surface tells
 /// where that is.
 void judge_depth(const Mission& mission, const Trajectory& trajectory, std::vector<Warning>& out) {
     constexpr double least_m = 50.0;
-    const bool matters = std::ranges::any_of(mission.sensors, [](const SonarConfig& sensor) {
-        return sensor.model == ModelKind::calibrated;
-    });
-    if (!matters) return;
+    if (!has_calibrated(mission)) return;
     const auto& surface = mission.scene.water_surface;
     double sum_m = 0.0;
     for (const TimedPose& pose : trajectory) {
@@ -103,6 +117,7 @@ std::vector<Warning> mission_warnings(const Mission& mission, const Trajectory& 
         judge_height(object, out);
     }
     judge_depth(mission, trajectory, out);
+    judge_water(mission, out);
     return out;
 }
 

@@ -27,6 +27,16 @@ enum class SpeckleMode {
 
 enum class Companding { gamma, log, linear };
 
+/// The errors of an array's elements, which are drawn once for each instrument.
+struct ElementsConfig {
+    double gain_error_db = 0.0;    ///< standard deviation
+    double phase_error_deg = 0.0;  ///< standard deviation
+    int serial = 0;                ///< one instrument of its type
+
+    bool exist() const { return gain_error_db > 0.0 || phase_error_deg > 0.0; }
+    bool operator==(const ElementsConfig&) const = default;
+};
+
 struct BeamConfig {
     Aperture aperture = Aperture::line;
     double width_deg = 1.0;       ///< one-way half-power beamwidth
@@ -40,6 +50,7 @@ struct BeamConfig {
     double elevation_side_lobe_db = -13.3;
     double across_width_deg = 50.0;  ///< port_starboard: one-way half-power width across track
     double tilt_deg = 20.0;          ///< port_starboard: depression of the axes
+    ElementsConfig elements = {};
 
     bool operator==(const BeamConfig&) const = default;
 };
@@ -61,6 +72,18 @@ struct SpeckleConfig {
     bool operator==(const SpeckleConfig&) const = default;
 };
 
+/// The rule by which several samples become the one that is delivered.
+enum class SampleRule { maximum, mean, rms };
+
+/// Sound of another sonar that arrives as if it were an echo.
+struct InterferenceConfig {
+    double level_db = 0.0;  ///< above the noise; 0: none
+    double length_m = 0.1;  ///< length of its pulse in range
+    double step_m = 1.0;    ///< it moves so far in range from ping to ping
+
+    bool operator==(const InterferenceConfig&) const = default;
+};
+
 struct ReceiverConfig {
     std::optional<double> noise_db;  ///< noise power in a beam; without it by instrument_levels()
     double efficiency = 0.5;         ///< transducer: sound out by electric power in
@@ -75,6 +98,20 @@ struct ReceiverConfig {
     double gamma = 0.5;            ///< value = (amplitude / full scale)^gamma
     double dynamic_range_db = 60;  ///< for Companding::log
     int bits = 8;
+    int samples = 1;  ///< for each range bin
+    SampleRule combine = SampleRule::maximum;
+    int looks = 1;                   ///< their powers are averaged
+    double offset = 0.0;             ///< taken from raw/, as a share of its largest value
+    double tvg_step_db = 0.0;        ///< 0: the TVG is smooth
+    double blanking_m = 0.0;         ///< nothing is received up to this range
+    double ring_down_db = 0.0;       ///< at range 0, above the noise; 0: none
+    double ring_down_m = 0.1;        ///< range over which it falls by 10 dB
+    double gain_drift_db = 0.0;      ///< standard deviation of the gain of pings
+    double gain_drift_pings = 20.0;  ///< pings over which the gain changes
+    double dropped_share = 0.0;      ///< share of the pings
+    double spikes_per_ping = 0.0;
+    double spike_db = 40.0;  ///< above the noise
+    InterferenceConfig interference = {};
 
     bool operator==(const ReceiverConfig&) const = default;
 };

@@ -21,8 +21,24 @@ inline constexpr std::array compandings{Choice<Companding>{"gamma", Companding::
                                         Choice<Companding>{"linear", Companding::linear}};
 
 inline constexpr Limits any_level_db{-300.0, 300.0};
+inline constexpr std::array sample_rules{Choice<SampleRule>{"max", SampleRule::maximum},
+                                         Choice<SampleRule>{"mean", SampleRule::mean},
+                                         Choice<SampleRule>{"rms", SampleRule::rms}};
+/// Above the noise.
+inline constexpr Limits raised_levels_db{0.0, 200.0};
 /// Between a Hamming taper and none.
 inline constexpr Limits side_lobes_db{-42.0, -13.0};
+
+template <class Visitor>
+void describe(Visitor& v, ElementsConfig& c) {
+    v.number("gain_error_db", c.gain_error_db, between(0, 6),
+             "standard deviation of the gains of the array's elements");
+    v.number("phase_error_deg", c.phase_error_deg, between(0, 60),
+             "standard deviation of their phases");
+    v.integer("serial", c.serial, between(0, 2e9),
+              "serial number of the instrument; each has errors of its own, the same in all its "
+              "datasets");
+}
 
 template <class Visitor>
 void describe(Visitor& v, BeamConfig& c) {
@@ -39,6 +55,9 @@ void describe(Visitor& v, BeamConfig& c) {
                  "depression angle of each side's axis below the horizontal");
         return;
     }
+    v.section("elements", c.elements,
+              "errors of the array's elements, half a wavelength apart; they fill the nulls of "
+              "its pattern");
     if (c.aperture == Aperture::line) {
         v.numbers("aberration_rad", c.aberration_rad, between(-100, 100),
                   "phase error at the ends of the array: quadratic, cubic and quartic part");
@@ -96,6 +115,46 @@ void describe(Visitor& v, SpeckleConfig& c) {
 }
 
 template <class Visitor>
+void describe(Visitor& v, InterferenceConfig& c) {
+    v.number("level_db", c.level_db, raised_levels_db,
+             "level of another sonar's pulse above the noise; 0 means none");
+    v.number("length_m", c.length_m, between(1e-3, 1e4), "its length in range");
+    v.number("step_m", c.step_m, between(-1e4, 1e4),
+             "range by which it moves from ping to ping; it starts anew at the other end");
+}
+
+/// The keys of a receiver besides noise, gain and companding.
+template <class Visitor>
+void describe_chain(Visitor& v, ReceiverConfig& c) {
+    v.integer("samples", c.samples, between(1, 16), "samples that become one range bin");
+    v.choice("combine", c.combine, sample_rules,
+             "what these become: their largest amplitude, the mean of the amplitudes, or the root "
+             "of the mean power");
+    v.integer("looks", c.looks, between(1, 16),
+              "looks with independent speckle and noise whose powers are averaged, as of several "
+              "pulses or bands");
+    v.number("offset", c.offset, between(0, 0.9),
+             "share of the largest value that is taken from the values of raw/; what would be "
+             "negative is 0");
+    v.number("tvg_step_db", c.tvg_step_db, between(0, 60),
+             "step in which the TVG grows; 0 means smoothly");
+    v.number("blanking_m", c.blanking_m, between(0, 1e5), "range up to which the receiver is off");
+    v.number("ring_down_db", c.ring_down_db, raised_levels_db,
+             "level of the transducer's ringing at range 0 above the noise; 0 means none");
+    v.number("ring_down_m", c.ring_down_m, between(1e-4, 1e4),
+             "range over which the ringing falls by 10 dB");
+    v.number("gain_drift_db", c.gain_drift_db, between(0, 30),
+             "standard deviation of a gain that drifts from ping to ping");
+    v.number("gain_drift_pings", c.gain_drift_pings, between(1, 1e6),
+             "pings over which this gain changes");
+    v.number("dropped_share", c.dropped_share, between(0, 1), "share of the pings that are lost");
+    v.number("spikes_per_ping", c.spikes_per_ping, between(0, 1e4),
+             "mean number of bins of a ping with an electric spike");
+    v.number("spike_db", c.spike_db, raised_levels_db, "level of a spike above the noise");
+    v.section("interference", c.interference, "pulses of another sonar");
+}
+
+template <class Visitor>
 void describe(Visitor& v, ReceiverConfig& c) {
     v.number_or_auto("noise_db", c.noise_db, any_level_db,
                      "noise level in a beam before TVG, in the unit of source_level_db; `auto` "
@@ -123,6 +182,7 @@ void describe(Visitor& v, ReceiverConfig& c) {
     v.number("dynamic_range_db", c.dynamic_range_db, between(10, 200),
              "decibels between the values 0 and the largest one with `log`");
     v.integer("bits", c.bits, between(4, 16), "bits of raw/; more than 8 make 16-bit files");
+    describe_chain(v, c);
 }
 
 /// Levels are in one unit: all in dB re 1 uPa, or all relative to the source level.

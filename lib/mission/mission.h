@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -23,6 +24,17 @@ namespace sonarsim {
 // The defaults of a mission are here and in the headers above. Names carry the unit and are the
 // YAML keys.
 
+/// The volume scattering of the water, by what is in it.
+enum class WaterContent { none, clear, coastal, plankton, plume };
+
+/// A layer of water that scatters more than the rest.
+struct WaterLayerConfig {
+    std::array<double, 2> depth_m{};  ///< top and bottom, below scene.water_surface
+    double scattering_db_per_m3 = 0.0;
+
+    bool operator==(const WaterLayerConfig&) const = default;
+};
+
 struct WaterConfig {
     double density_kg_m3 = 997.0;
     double sound_speed_m_s = 1480.0;
@@ -33,6 +45,10 @@ struct WaterConfig {
     double ph = 8.0;
     // A gentle breeze. Above 100 kHz the noise of wind lies below that of heat.
     double wind_m_s = 5.0;
+    WaterContent content = WaterContent::none;
+    /// Volume backscattering strength, dB re 1 m^2 per m^3; without it that of `content`.
+    std::optional<double> scattering_db_per_m3 = {};
+    std::vector<WaterLayerConfig> layers = {};  ///< their scattering adds to that
 
     bool operator==(const WaterConfig&) const = default;
 };

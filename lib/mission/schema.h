@@ -32,6 +32,25 @@ inline bool is_folder_name(std::string_view name) {
            name.find('/') == std::string_view::npos && !is_taken_by_collection(name);
 }
 
+inline constexpr std::array water_contents{Choice<WaterContent>{"none", WaterContent::none},
+                                           Choice<WaterContent>{"clear", WaterContent::clear},
+                                           Choice<WaterContent>{"coastal", WaterContent::coastal},
+                                           Choice<WaterContent>{"plankton", WaterContent::plankton},
+                                           Choice<WaterContent>{"plume", WaterContent::plume}};
+/// Stronger than -200 dB is any water, weaker than 0 dB is any cloud of bubbles.
+inline constexpr Limits volume_strengths_db{-200.0, 0.0};
+
+template <class Visitor>
+void describe(Visitor& v, WaterLayerConfig& c) {
+    v.numbers("depth_m", c.depth_m, between(0, 12000),
+              "top and bottom of the layer, below scene.water_surface", required);
+    v.require(c.depth_m[0] < c.depth_m[1], {"depth_m"},
+              "'depth_m' is the top and the bottom of a layer; the first must be below the second");
+    v.number("scattering_db_per_m3", c.scattering_db_per_m3, volume_strengths_db,
+             "volume backscattering strength, which is added to that of the water as a power",
+             required);
+}
+
 template <class Visitor>
 void describe(Visitor& v, WaterConfig& c) {
     v.number("density_kg_m3", c.density_kg_m3, between(least_medium, largest_medium),
@@ -47,6 +66,16 @@ void describe(Visitor& v, WaterConfig& c) {
     v.number("ph", c.ph, between(6, 9), "acidity, for the absorption of the calibrated model");
     v.number("wind_m_s", c.wind_m_s, between(0, 100),
              "speed of the wind, for the noise of the sea in receiver.noise_db: auto");
+    v.choice(
+        "content", c.content, water_contents,
+        "what is in the water and sends sound back, for the calibrated model: `none` nothing, "
+        "`clear` -90 dB, `coastal` -75 dB, `plankton` -65 dB, `plume` -55 dB re 1 m^2 per m^3");
+    v.number_or_auto("scattering_db_per_m3", c.scattering_db_per_m3, volume_strengths_db,
+                     "volume backscattering strength of the water, dB re 1 m^2 per m^3, for the "
+                     "calibrated model; `auto` takes that of `content`");
+    v.list("layers", c.layers, 0,
+           "layers of the water that scatter more; they need "
+           "scene.water_surface");
 }
 
 template <class Visitor>
@@ -124,6 +153,10 @@ void describe(Visitor& v, Mission& c) {
               required);
     v.section("vehicle", c.vehicle,
               "how the vehicle departs from its trajectory, and what it reports");
+    v.require(c.water.layers.empty() || c.scene.water_surface, {"water", "scene"},
+              "water.layers are depths below the water's surface: give its height by "
+              "scene.water_surface");
+    v.section("vehicle", c.vehicle, "offset of the vehicle from its trajectory");
     v.named("sensors", c.sensors, "one section per sonar; NAME is its folder in the dataset");
     v.section("accuracy", c.accuracy, "error goal of the images");
     v.choice("engine", c.engine, engine_kinds,

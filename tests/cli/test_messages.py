@@ -38,6 +38,9 @@ REFUSED = {
     "a mission that is a mesh": ({"mission.yaml": GLB}, ("is a .glb mesh, not YAML",)),
     "a reversed range": (edited("range_max_m: 12", "range_min_m: 20\n    range_max_m: 12"),
                          ("mission.yaml:14:18", "(range_min_m is 20, range_max_m is 12)")),
+    "layers of water without its surface": (
+        edited("scene:\n", "water: {layers: [{depth_m: [2, 3], scattering_db_per_m3: -60}]}\nscene:\n"),
+        ("give its height by scene.water_surface",)),
     "shares of a split": (edited("[coco]", "[coco], split: {train: 0.8, val: 0.1}"),
                           ("(train is 0.8, val is 0.1, test is 0)",)),
     "a rule for a key that is misspelt": (
@@ -112,6 +115,9 @@ WARNED = {
                edited("scene:\n", "water: {depth_m: 10}\nscene:\n", CALIBRATED)["mission.yaml"])
         | {"path.csv": test_mistakes.path(z=-195), "bottom.gltf": DEEP.replace("-100", "-200")},
         "W01", "water: depth_m is 10, and the vehicle is 195 m below z = 0"),
+    "scattering water and the paper's model": (
+        edited("scene:\n", "water: {content: coastal}\nscene:\n"), "W01",
+        "water: its scattering has no effect because no sensor has model: calibrated"),
 }
 
 

@@ -1,0 +1,48 @@
+#include "calibrated/element_errors.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "calibrated/decibel.h"
+#include "core/elementary.h"
+#include "core/normal_pair.h"
+#include "core/random.h"
+#include "core/units.h"
+
+namespace sonarsim {
+
+std::vector<std::complex<double>> element_errors(const ElementsConfig& elements, int count,
+                                                 ElementAxis axis) {
+    const PhiloxKey key{static_cast<std::uint32_t>(elements.serial),
+                        number_of_name("element errors")};
+    std::vector<std::complex<double>> out;
+    out.reserve(count);
+    for (int n = 0; n < count; ++n) {
+        const PhiloxBlock draw =
+            philox({static_cast<std::uint32_t>(n), static_cast<std::uint32_t>(axis), 0, 0}, key);
+        const NormalPair normals = normal_pair(draw.x0);
+        const double gain = power_of_db(0.5 * elements.gain_error_db * normals.first);
+        const SinCos phase = sincos(radians(elements.phase_error_deg) * normals.second);
+        out.emplace_back(gain * phase.cos - 1.0, gain * phase.sin);
+    }
+    return out;
+}
+
+double element_count(const LineArray& array) {
+    return std::max(1.0, std::round(2.0 * array.wavelengths));
+}
+
+std::complex<double> pattern_with_errors(const LineArray& array, const ElementsConfig& elements,
+                                         ElementAxis axis, double u) {
+    const int count = static_cast<int>(element_count(array));
+    const std::vector<std::complex<double>> errors = element_errors(elements, count, axis);
+    std::complex<double> sum = 0.0;
+    for (int n = 0; n < count; ++n) {
+        const double x = (n + 0.5) / count - 0.5;
+        const SinCos phase = sincos(2.0 * pi * array.wavelengths * x * u);
+        sum += array.weight(x) * errors[n] * std::complex<double>(phase.cos, phase.sin);
+    }
+    return line_pattern(array, u) + sum / static_cast<double>(count);
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <span>
+
+#include "core/random.h"
+#include "mission/instrument.h"
+#include "trace/ping.h"
+
+namespace sonarsim {
+
+// The stages of a receiver behind its beams and its gain; section 4 of
+// docs/calibrated.md. Each is off by default.
+
+/// True if something of it changes an image behind its beams.
+bool has_faults(const ReceiverConfig& receiver);
+
+/// Makes one row of `samples` rows of an image of powers: [rows * samples, beams] becomes [rows,
+/// beams].
+void combine_samples(std::span<const float> powers, int samples, SampleRule rule, int beams,
+                     std::span<float> combined);
+
+/// The rows of an image in range.
+struct ImageRows {
+    double range_min_m = 0.0;
+    double bin_m = 1.0;
+    int rows = 0;
+    int beams = 0;
+    std::span<const float> noise;  ///< [rows] the value of the mean noise
+};
+
+/// Sets the rows up to the blanking range to 0.
+void blank(const ReceiverConfig& receiver, const ImageRows& rows, std::span<float> image);
+
+/// Adds ringing, interference and spikes, applies the drift of the gain, and drops pings.
+void add_faults(const ReceiverConfig& receiver, const ImageRows& rows, const PingDraws& draws,
+                std::span<float> image);
+
+/// The gain of a ping that drifts, dB: normal with the standard deviation `gain_drift_db`.
+double drifting_gain_db(const ReceiverConfig& receiver, const PingDraws& draws);
+
+}  // namespace sonarsim

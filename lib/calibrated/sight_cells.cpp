@@ -1,0 +1,183 @@
+#include "calibrated/sight_cells.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/elementary.h"
+#include "core/units.h"
+
+namespace sonarsim {
+
+namespace {
+
+constexpr double cell_rad = radians(1.0);
+constexpr int fewest_cells = 4;
+constexpr int most_cells = 128;
+constexpr int cone_rings = 48;
+constexpr int cone_turns = 16;
+// A cell is integrated over so many directions along either side.
+constexpr int parts = 4;
+// The range at which a transducer is in its far field, m.
+constexpr float far_m = 1e6F;
+
+int cells_over(double extent) {
+    return std::clamp(static_cast<int>(std::ceil(extent / cell_rad)), fewest_cells, most_cells);
+}
+
+/// The axis, then the two axes between which the turn is measured.
+std::array<int, 3> axes_of(int axis) {
+    if (axis == 1) return {1, 0, 2};
+    return axis == 2 ? std::array{2, 0, 1} : std::array{0, 1, 2};
+}
+
+Eigen::Vector3f direction_of(int axis, double sine, double turn_rad) {
+    const SinCos turn = sincos(turn_rad);
+    const double across = std::sqrt(std::max(1.0 - sine * sine, 0.0));
+    const auto [along, first, second] = axes_of(axis);
+    Eigen::Vector3f out;
+    out[along] = static_cast<float>(sine);
+    out[first] = static_cast<float>(across * turn.cos);
+    out[second] = static_cast<float>(across * turn.sin);
+    return out;
+}
+
+bool is_in_view(const View& view, const Eigen::Vector3f& direction) {
+    if (view.shape == ViewShape::cone) return direction.x() >= sincos(0.5 * view.elevation_rad).cos;
+    return std::fabs(direction.z()) <= sincos(std::min(0.5 * view.elevation_rad, 0.5 * pi)).sin &&
+           std::fabs(arctan2(direction.y(), direction.x())) <= 0.5 * view.azimuth_rad;
+}
+
+SightCells empty_cells(int axis, double low_sine, double high_sine, double turn_rad, int sines,
+                       int turns) {
+    SightCells out;
+    out.axis = axis;
+    out.sines = sines;
+    out.turns = turns;
+    out.first_sine = static_cast<float>(low_sine);
+    out.sine_step = static_cast<float>((high_sine - low_sine) / sines);
+    out.first_turn_rad = static_cast<float>(-turn_rad);
+    out.turn_step_rad = static_cast<float>(2.0 * turn_rad / turns);
+    return out;
+}
+
+/// The cells about y, between two sines, as far as an elevation reaches.
+SightCells cells_about_y(const View& view, double low_sine, double high_sine) {
+    const double most = std::max(std::fabs(low_sine), std::fabs(high_sine));
+    const double across = std::sqrt(std::max(1.0 - most * most, 0.0));
+    const double up = sincos(std::min(0.5 * view.elevation_rad, 0.5 * pi)).sin;
+    double turn = up < across ? arcsin(up / across) : 0.5 * pi;
+    if (view.azimuth_rad > pi) turn = pi;
+    return empty_cells(1, low_sine, high_sine, turn, cells_over(high_sine - low_sine),
+                       cells_over(2.0 * turn));
+}
+
+/// Fills the cells, and adds the weights of their directions by weigh(block, echoes, channel),
+/// which multiplies the powers of a block by the pattern of a channel.
+template <class Weigh>
+void add_weights(const View& view, int channels, bool by_sine, Weigh weigh, WeightedCells& out) {
+    SightCells& cells = out.cells;
+    const double part_sr =
+        double{cells.sine_step} * cells.turn_step_rad / (static_cast<double>(parts) * parts);
+    out.channels = by_sine ? cells.sines : channels;
+    for (int cell = 0; cell < cells.count(); ++cell) {
+        const int s = cell / cells.turns;
+        const int t = cell % cells.turns;
+        PatchBlock block;
+        for (int k = 0; k < parts * parts; ++k) {
+            const double sine =
+                cells.first_sine + (s + (k / parts + 0.5) / parts) * cells.sine_step;
+            const double turn =
+                cells.first_turn_rad + (t + (k % parts + 0.5) / parts) * cells.turn_step_rad;
+            const Eigen::Vector3f direction = direction_of(cells.axis, sine, turn);
+            if (!is_in_view(view, direction)) continue;
+            const Eigen::Vector3f place = far_m * direction;
+            block.x[block.count] = place.x();
+            block.y[block.count] = place.y();
+            // A side-scan sonar's pattern along the track is left out.
+            block.z[block.count] = cells.axis == 2 ? 0.0F : place.z();
+            ++block.count;
+        }
+        const double middle_sine = cells.first_sine + (s + 0.5) * cells.sine_step;
+        const double middle_turn = cells.first_turn_rad + (t + 0.5) * cells.turn_step_rad;
+        cells.direction.push_back(direction_of(cells.axis, middle_sine, middle_turn));
+        cells.seen_sr.push_back(static_cast<float>(part_sr * block.count));
+        if (block.count == 0) continue;
+        for (int channel = 0; channel < channels; ++channel) {
+            PointEchoes echoes{};
+            echoes.count = block.count;
+            std::fill_n(echoes.range_m.begin(), block.count, far_m);
+            std::fill_n(echoes.power.begin(), block.count, 1.0F);
+            weigh(block, echoes, channel);
+            double sum = 0.0;
+            for (int k = 0; k < block.count; ++k)
+                sum += echoes.power[k];
+            const double weight = sum * part_sr / (by_sine ? double{cells.sine_step} : 1.0);
+            if (weight > 0.0)
+                out.weights.push_back({by_sine ? s : channel, cell, static_cast<float>(weight)});
+        }
+    }
+}
+
+}  // namespace
+
+PointLimits SightCells::limits() const {
+    if (axis == 0) {
+        // The cells about the axis of a cone are long and thin: half of the side of a square.
+        const float side = 0.5F * std::sqrt(sine_step * turn_step_rad);
+        return {.depth_m = 0.0F, .sine = side, .elevation_sine = side};
+    }
+    return {.depth_m = 0.0F,
+            .sine = axis == 1 ? sine_step : turn_step_rad,
+            .elevation_sine = axis == 1 ? turn_step_rad : sine_step};
+}
+
+int SightCells::at(float x, float y, float z, float range) const {
+    const std::array<float, 3> place{x, y, z};
+    const auto [along, first, second] = axes_of(axis);
+    const float s = (place[along] / range - first_sine) / sine_step;
+    const float t = (arctan2_float(place[second], place[first]) - first_turn_rad) / turn_step_rad;
+    const bool inside =
+        s >= 0.0F && s < static_cast<float>(sines) && t >= 0.0F && t < static_cast<float>(turns);
+    return inside ? static_cast<int>(s) * turns + static_cast<int>(t) : -1;
+}
+
+WeightedCells weighted_cells(const ArrayBeams& beams, const View& view,
+                             const ElevationPattern& elevation) {
+    const SineGrid& grid = beams.amplitudes.grid();
+    const double last = grid.first + (grid.columns - 1) * grid.step;
+    WeightedCells out;
+    out.cells = cells_about_y(view, std::max(grid.first, -1.0), std::min(last, 1.0));
+    const auto weigh = [&](const PatchBlock& block, PointEchoes& echoes, int /*channel*/) {
+        weigh_by_elevation(elevation, block, block.count, echoes);
+    };
+    add_weights(view, 1, true, weigh, out);
+    return out;
+}
+
+WeightedCells weighted_cells(const TransducerBeams& beams, const View& view,
+                             const ElevationPattern& elevation) {
+    WeightedCells out;
+    const double half_azimuth = std::min(0.5 * view.azimuth_rad, pi);
+    if (view.shape == ViewShape::cone) {
+        const double edge = sincos(0.5 * view.elevation_rad).cos;
+        out.cells = empty_cells(0, edge, 1.0, pi, cone_rings, cone_turns);
+    } else if (view.shape == ViewShape::port_starboard) {
+        const double up = sincos(std::min(0.5 * view.elevation_rad, 0.5 * pi)).sin;
+        out.cells = empty_cells(2, -up, up, half_azimuth, 1, cells_over(2.0 * half_azimuth));
+    } else {
+        const double side = half_azimuth < 0.5 * pi ? sincos(half_azimuth).sin : 1.0;
+        out.cells = cells_about_y(view, -side, side);
+    }
+    const auto weigh = [&](const PatchBlock& block, PointEchoes& echoes, int channel) {
+        PatchBlock::Array<float> gains{};
+        find_gains(beams, channel, block, echoes, gains);
+        weigh_by_elevation(elevation, block, block.count, echoes);
+        for (int k = 0; k < block.count; ++k)
+            echoes.power[k] *= gains[k];
+    };
+    add_weights(view, beams.beams(), false, weigh, out);
+    return out;
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,237 @@
+#include "calibrated/water_column.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "calibrated/decibel.h"
+#include "calibrated/lanes.h"
+#include "calibrated/levels.h"
+#include "calibrated/normals.h"
+#include "calibrated/patches.h"
+#include "calibrated/volume_strengths.h"
+#include "core/units.h"
+
+namespace sonarsim {
+
+namespace {
+
+constexpr float no_end = std::numeric_limits<float>::infinity();
+
+/// The share of a side-scan sonar's pattern along the track that its view receives, by range; 1 for
+/// other sonars, whose weights have it.
+double mean_along_track(const std::variant<TransducerBeams, ArrayBeams>& beams, const View& view,
+                        double range_m) {
+    const auto* const sides = std::get_if<TransducerBeams>(&beams);
+    if (sides == nullptr || sides->sides.empty()) return 1.0;
+    const double up = sincos(std::min(0.5 * view.elevation_rad, 0.5 * pi)).sin;
+    constexpr int steps = 512;
+    double sum = 0.0;
+    for (int k = 0; k < steps; ++k) {
+        const double sine = up * ((2.0 * k + 1.0) / steps - 1.0);
+        sum += std::norm(sides->along.at(static_cast<float>(sine), static_cast<float>(range_m)));
+    }
+    return sum / steps;
+}
+
+/// Adds a constant to the rows from one range to another, of a row whose values are the sums of
+/// all before: a bin that a border cuts has its share.
+class RowDifferences {
+  public:
+    RowDifferences(const WaterColumn& water, int rows)
+        : first_(water.range_min_m), per_bin_(1.0F / water.bin_m), rows_(rows) {}
+
+    void add(float from_m, float to_m, float value, float* differences) const {
+        if (!(to_m > from_m)) return;
+        add_from(from_m, value, differences);
+        add_from(to_m, -value, differences);
+    }
+
+  private:
+    void add_from(float range_m, float value, float* differences) const {
+        const float at = std::max((range_m - first_) * per_bin_, 0.0F);
+        if (at >= static_cast<float>(rows_)) return;
+        const float whole = std::floor(at);
+        const int row = static_cast<int>(whole);
+        const float later = (at - whole) * value;
+        differences[row] += value - later;
+        differences[row + 1] += later;
+    }
+
+    float first_, per_bin_;
+    int rows_;
+};
+
+/// The stretch of a ray, [from, to], on which its depth lies between two. `fall`: the depth that it
+/// gains by metre.
+std::array<float, 2> stretch_between(float depth_m, float fall, float top_m, float bottom_m) {
+    const bool inside = depth_m >= top_m && depth_m < bottom_m;
+    if (std::fabs(fall) < 1e-6F) return {0.0F, inside ? no_end : 0.0F};
+    const float a = (top_m - depth_m) / fall;
+    const float b = (bottom_m - depth_m) / fall;
+    return {std::max(std::min(a, b), 0.0F), std::max(std::max(a, b), 0.0F)};
+}
+
+/// Adds the amplitudes or the powers of the water to 8 bins of a column.
+void add_eight(WaterEcho echo, Floats8 power, float half_gain, int row, int column, PhiloxKey key,
+               float* cells) {
+    std::array<float, std::size_t{2} * lanes> added;
+    if (echo == WaterEcho::power) {
+        store_complex(power, 0.0F, added.data());
+    } else {
+        std::array<std::uint32_t, lanes> a, b;
+        for (int lane = 0; lane < lanes; ++lane) {
+            a[lane] = static_cast<std::uint32_t>(row + lane);
+            b[lane] = static_cast<std::uint32_t>(column);
+        }
+        philox_pairs(a.data(), b.data(), lanes, key);
+        Lanes re, im;
+        complex_normals(a.data(), re, im);
+        const Floats8 amplitude = sqrt(half_gain * power);
+        store_complex(amplitude * Floats8::load(re.data()), amplitude * Floats8::load(im.data()),
+                      added.data());
+    }
+    (Floats8::load(cells) + Floats8::load(added.data())).store(cells);
+    (Floats8::load(cells + lanes) + Floats8::load(added.data() + lanes)).store(cells + lanes);
+}
+
+/// The two channels that a column lies between, and its share of the second one.
+struct BetweenChannels {
+    int first, second;
+    float share;
+};
+
+BetweenChannels channels_of(const SightCells& cells, const SineGrid& grid, int column) {
+    const double sine = grid.first + column * grid.step;
+    const double at = (sine - cells.middle_sine(0)) / cells.sine_step;
+    const double inside = std::clamp(at, 0.0, cells.sines - 1.0);
+    const int first = std::min(static_cast<int>(inside), cells.sines - 2);
+    return {first, first + 1, static_cast<float>(inside - first)};
+}
+
+}  // namespace
+
+std::optional<WaterColumn> water_column(const WaterConfig& water, const View& view,
+                                        const std::variant<TransducerBeams, ArrayBeams>& beams,
+                                        const SonarEquation& equation) {
+    const std::optional<double> strength_db = volume_strength_db(water);
+    if (!strength_db && water.layers.empty()) return std::nullopt;
+    WaterColumn out;
+    if (strength_db) out.strength = static_cast<float>(power_of_db(*strength_db));
+    for (const WaterLayerConfig& layer : water.layers) {
+        out.layers.push_back(
+            {.top_m = static_cast<float>(layer.depth_m[0]),
+             .bottom_m = static_cast<float>(layer.depth_m[1]),
+             .strength = static_cast<float>(power_of_db(layer.scattering_db_per_m3))});
+    }
+    out.sight = std::visit(
+        [&](const auto& of_model) { return weighted_cells(of_model, view, equation.elevation); },
+        beams);
+    out.range_min_m = equation.range_min_m;
+    out.bin_m = equation.bin_m;
+    const int padded = (equation.rows + lanes - 1) / lanes * lanes;
+    out.row_power.resize(padded);
+    for (int row = 0; row < equation.rows; ++row) {
+        const double range_m = equation.range_min_m + (row + 0.5) * equation.bin_m;
+        const double loss = equation.loss_per_m * range_m - equation.raised;
+        const double power = equation.bin_m / (range_m * range_m) * exponential(-loss) *
+                             mean_along_track(beams, view, range_m);
+        out.row_power[row] = static_cast<float>(std::min<double>(power, most_echo));
+    }
+    return out;
+}
+
+std::vector<float> water_ends(const SightCells& cells, const TracedPing& traced) {
+    std::vector<float> covered_sr(cells.count(), 0.0F);
+    std::vector<float> ends(cells.count(), 0.0F);
+    const PointLimits limits = cells.limits();
+    const auto add = [&](std::span<const Sample> surface) {
+        for (const Sample& sample : surface) {
+            const auto [range, departure, direction] = arrival_of(sample.position);
+            if (!(range > 0.0F)) continue;
+            const int rows = patches_along(sample.edge_u, direction, range, limits);
+            const int columns = patches_along(sample.edge_v, direction, range, limits);
+            const float covers = sample.area_m2 * sample.height_m / static_cast<float>(rows) /
+                                 static_cast<float>(columns);
+            for (int k = 0; k < rows * columns; ++k) {
+                const auto share = [](int at, int of) {
+                    return (2.0F * static_cast<float>(at) + 1.0F) / static_cast<float>(of) - 1.0F;
+                };
+                const Eigen::Vector3f place = sample.position +
+                                              share(k / columns, rows) * sample.edge_u +
+                                              share(k % columns, columns) * sample.edge_v;
+                const float r = arrival_range(place);
+                const int cell = cells.at(place.x(), place.y(), place.z(), r);
+                if (cell < 0) continue;
+                covered_sr[cell] += covers / (r * r * r);
+                ends[cell] += covers / (r * r);
+            }
+        }
+    };
+    add(traced.samples.items);
+    add(traced.outside_sector);
+    for (int cell = 0; cell < cells.count(); ++cell) {
+        const bool closed = covered_sr[cell] > 0.5F * cells.seen_sr[cell];
+        ends[cell] = closed ? ends[cell] / covered_sr[cell] : no_end;
+    }
+    return ends;
+}
+
+std::vector<float> received_water(const WaterColumn& water, std::span<const float> ends_m,
+                                  const Pose& T_world_sensor,
+                                  const std::optional<double>& surface_z_m, int rows) {
+    // One more row takes what a border at the last bin leaves for the next.
+    const std::size_t stride = static_cast<std::size_t>(rows) + 1;
+    std::vector<float> out(stride * water.sight.channels);
+    const Eigen::Matrix3f R_world_sensor = T_world_sensor.rotation.toRotationMatrix().cast<float>();
+    const float depth_m =
+        surface_z_m ? static_cast<float>(*surface_z_m - T_world_sensor.translation.z()) : 0.0F;
+    const RowDifferences differences(water, rows);
+    for (const auto& [channel, cell, weight] : water.sight.weights) {
+        float* const of_channel = out.data() + channel * stride;
+        const float fall = -R_world_sensor.row(2).dot(water.sight.cells.direction[cell]);
+        const auto [begin, surfaced] =
+            surface_z_m ? stretch_between(depth_m, fall, 0.0F, no_end) : std::array{0.0F, no_end};
+        const float end = std::min(ends_m[cell], surfaced);
+        differences.add(begin, end, weight * water.strength, of_channel);
+        for (const WaterColumn::Layer& layer : water.layers) {
+            const auto [from, to] = stretch_between(depth_m, fall, layer.top_m, layer.bottom_m);
+            differences.add(from, std::min(to, end), weight * layer.strength, of_channel);
+        }
+    }
+    for (int channel = 0; channel < water.sight.channels; ++channel) {
+        float* const of_channel = out.data() + channel * stride;
+        for (int row = 1; row < rows; ++row)
+            of_channel[row] += of_channel[row - 1];
+    }
+    return out;
+}
+
+void add_water(const WaterColumn& water, std::span<const float> received, const SineGrid* by_sine,
+               WaterEcho echo, float gain, PhiloxKey key, EchoGrid& grid) {
+    const std::size_t stride = static_cast<std::size_t>(grid.rows()) + 1;
+    const std::size_t rows = water.row_power.size();
+    std::vector<float> mean(rows);
+    for (int c = 0; c < grid.columns(); ++c) {
+        if (by_sine == nullptr) {
+            std::copy_n(received.data() + c * stride, grid.rows(), mean.begin());
+        } else {
+            const auto [first, second, share] = channels_of(water.sight.cells, *by_sine, c);
+            const float* const one = received.data() + first * stride;
+            const float* const other = received.data() + second * stride;
+            const auto step = static_cast<float>(by_sine->step);
+            for (int row = 0; row < grid.rows(); ++row)
+                mean[row] = step * std::fma(share, other[row] - one[row], one[row]);
+        }
+        float* const column = grid.column(c);
+        for (std::size_t row = 0; row < rows; row += lanes) {
+            // Sums of differences may fall below 0 by rounding.
+            const Floats8 power = greatest(Floats8::load(mean.data() + row), 0.0F) *
+                                  Floats8::load(water.row_power.data() + row);
+            add_eight(echo, power, 0.5F * gain, static_cast<int>(row), c, key, column + 2 * row);
+        }
+    }
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <variant>
+#include <vector>
+
+#include "calibrated/echo_grid.h"
+#include "calibrated/sight_cells.h"
+#include "core/pose.h"
+#include "core/random.h"
+#include "mission/mission.h"
+#include "trace/traced_ping.h"
+
+namespace sonarsim {
+
+/// The water's volume scattering, ready for the pings of a sonar; section 5 of docs/calibrated.md.
+struct WaterColumn {
+    struct Layer {
+        float top_m, bottom_m;  ///< below the water's surface
+        float strength;         ///< m^2 per m^3
+    };
+    float strength = 0.0F;  ///< m^2 per m^3 without the layers
+    std::vector<Layer> layers;
+    WeightedCells sight;
+    float range_min_m = 0.0F, bin_m = 1.0F;
+    /// The power of a bin of water of 1 m^2 per m^3 in one steradian, by range bin; 0 behind the
+    /// last bin, up to a multiple of 8.
+    std::vector<float> row_power;
+};
+
+/// Nothing if no water scatters. `view` is that in which surface is traced, with its guard beams.
+std::optional<WaterColumn> water_column(const WaterConfig& water, const View& view,
+                                        const std::variant<TransducerBeams, ArrayBeams>& beams,
+                                        const SonarEquation& equation);
+
+/// The range at which the surface ends the water of each cell; infinite if it does not.
+std::vector<float> water_ends(const SightCells& cells, const TracedPing& traced);
+
+/// The mean scattering that the channels receive, weighted as WeightedCells are, [channels][rows].
+/// `surface_z_m`: the height of the water's surface in the world, if there is one.
+std::vector<float> received_water(const WaterColumn& water, std::span<const float> ends_m,
+                                  const Pose& T_world_sensor,
+                                  const std::optional<double>& surface_z_m, int rows);
+
+/// The form in which the water is added to a cell of the grid.
+enum class WaterEcho {
+    power,     ///< it is added to the power that is there
+    amplitude  ///< a complex normal amplitude of that power is added
+};
+
+/// Adds the water's echoes to a grid whose columns are `by_sine` those of a line array, else the
+/// beams. `gain`: the factor of draw_speckle() for amplitudes, which the key draws.
+void add_water(const WaterColumn& water, std::span<const float> received, const SineGrid* by_sine,
+               WaterEcho echo, float gain, PhiloxKey key, EchoGrid& grid);
+
+}  // namespace sonarsim

@@ -1,0 +1,131 @@
+#include "calibrated/element_errors.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "calibrated/directivity.h"
+#include "calibrated/sonar_equation.h"
+#include "core/units.h"
+#include "support/calibrated.h"
+
+using namespace sonarsim;
+using namespace sonarsim::test;
+
+namespace {
+
+constexpr ElementsConfig errors{.gain_error_db = 0.5, .phase_error_deg = 3.0, .serial = 0};
+
+/// s^2 of element_errors.h.
+double error_variance() {
+    const double gain = std::log(10.0) / 20.0 * errors.gain_error_db;
+    const double phase = radians(errors.phase_error_deg);
+    return gain * gain + phase * phase;
+}
+
+/// The mean side lobe relative to the main lobe, s^2 / N_eff.
+double mean_side_lobe(const LineArray& array) {
+    return error_variance() / (element_count(array) / taper_loss(array));
+}
+
+}  // namespace
+
+TEST_SUITE("calibrated") {
+    // The mean over 300 instruments of the power less that of the array without errors. The powers
+    // about a null are exponential, so the mean of 300 times 5 is known to 2.6 %; this is 4 sigma.
+    TEST_CASE("element errors: the mean side lobe is their variance over the elements") {
+        for (const double side_lobe_db : {-13.3, -30.0}) {
+            const LineArray array = line_array(radians(1.0), side_lobe_db);
+            double sum = 0.0;
+            double expected = 0.0;
+            for (int serial = 0; serial < 300; ++serial) {
+                ElementsConfig drawn = errors;
+                drawn.serial = serial;
+                for (const double lobe : {7.0, 19.0, 31.0, 43.0, 55.0}) {
+                    // A null of the array, tapered or not.
+                    const double u = lobe / array.wavelengths;
+                    sum += std::norm(pattern_with_errors(array, drawn, ElementAxis::beams, u));
+                    expected += mean_side_lobe(array);
+                }
+            }
+            CHECK(sum == doctest::Approx(expected).epsilon(0.11));
+        }
+    }
+
+    TEST_CASE("element errors: each instrument and each of its arrays has its own") {
+        const LineArray array = line_array(radians(2.0), -20.0);
+        for (const double u : {0.0, 0.01, 0.1, 0.7}) {
+            const std::complex<double> pattern =
+                pattern_with_errors(array, {}, ElementAxis::beams, u);
+            CHECK(std::abs(pattern - line_pattern(array, u)) < 1e-12);
+        }
+        const auto one = element_errors(errors, 50, ElementAxis::beams);
+        CHECK(one == element_errors(errors, 50, ElementAxis::beams));
+        CHECK(one != element_errors(errors, 50, ElementAxis::elevation));
+        ElementsConfig other = errors;
+        other.serial = 1;
+        CHECK(one != element_errors(other, 50, ElementAxis::beams));
+    }
+
+    // A point straight ahead, in the beams of 30 instruments. Beams two lobes apart are
+    // independent: the mean of 30 times 20 powers is known to 4.1 %.
+    TEST_CASE("element errors: the side lobes of the beams are those of the elements") {
+        InstrumentConfig config = bare({});
+        config.beam.width_deg = 2.0;
+        config.beam.side_lobe_db = -40.0;
+        const View view{.azimuth_rad = radians(90.0),
+                        .elevation_rad = radians(20.0),
+                        .range_min_m = 4.0,
+                        .range_max_m = 6.0,
+                        .range_bins = 40,
+                        .beams = 61,
+                        .relative_l1 = 0.03};
+        BeamSines sines;
+        for (int k = 0; k <= 61; ++k)
+            sines.edges.push_back(0.707 * (2.0 * k / 61 - 1.0));
+        for (int k = 0; k < 61; ++k)
+            sines.middles.push_back(0.707 * (2.0 * (k + 0.5) / 61 - 1.0));
+        Samples samples;
+        samples.items = {{.position = {5.0F, 0.0F, 0.0F},
+                          .edge_u = {0.0F, 1e-4F, 0.0F},
+                          .edge_v = {0.0F, 0.0F, 1e-4F},
+                          .normal = {-1.0F, 0.0F, 0.0F},
+                          .height_m = 5.0F,
+                          .area_m2 = 4e-8F,
+                          .material = 0,
+                          .instance = 0}};
+        // The mean of the outer beams over the beam ahead.
+        const auto side_lobes = [&] {
+            const CalibratedModel model = calibrated_model(config, {}, view, sines);
+            const std::vector<float> image = image_of_samples(model, view, samples, {});
+            const float* const row = image.data() + std::size_t{20} * 61;
+            double sum = 0.0;
+            for (int beam = 0; beam < 61; ++beam)
+                sum += std::abs(beam - 30) < 8 ? 0.0 : row[beam];
+            return sum / 46.0 / row[30];
+        };
+        const double without = side_lobes();
+        config.beam.elements = errors;
+        double with = 0.0;
+        for (int serial = 0; serial < 30; ++serial) {
+            config.beam.elements.serial = serial;
+            with += side_lobes() / 30.0;
+        }
+        const LineArray array = line_array(radians(2.0), -40.0);
+        CHECK(with - without == doctest::Approx(mean_side_lobe(array)).epsilon(0.17));
+    }
+
+    // Uniform elevation of 20 degrees has deep nulls. Errors fill them.
+    TEST_CASE("element errors: nulls in elevation fill") {
+        const auto lowest = [](const ElevationPattern& pattern) {
+            float least = 1.0F;
+            for (int k = 512; k < 1536; ++k)
+                least = std::min(least, pattern.power[k]);
+            return least;
+        };
+        const ElementsConfig wide{.gain_error_db = 1.0, .phase_error_deg = 10.0, .serial = 1};
+        CHECK(lowest(elevation_pattern(radians(20.0), -13.3)) < 1e-5F);
+        CHECK(lowest(elevation_pattern(radians(20.0), -13.3, wide)) > 1e-5F);
+    }
+}

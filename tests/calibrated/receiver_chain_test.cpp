@@ -1,0 +1,266 @@
+#include "calibrated/receiver_chain.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "calibrated/companding.h"
+#include "calibrated/decibel.h"
+#include "core/units.h"
+#include "support/calibrated.h"
+#include "support/statistics.h"
+
+using namespace sonarsim;
+using namespace sonarsim::test;
+
+namespace {
+
+constexpr int chain_rows = 2000;
+
+View chain_view() {
+    return {.azimuth_rad = 0.3,
+            .elevation_rad = 0.3,
+            .range_min_m = 10.0,
+            .range_max_m = 30.0,
+            .range_bins = chain_rows,
+            .beams = 1,
+            .relative_l1 = 0.03,
+            .shape = ViewShape::cone};
+}
+
+/// An echosounder that hears noise of -100 dB alone, without TVG. The pulse is so short that
+/// samples are independent.
+CalibratedModel noisy_sounder(const ReceiverConfig& chain) {
+    InstrumentConfig config;
+    config.frequency_hz = 2e5;
+    config.beam.aperture = Aperture::piston;
+    config.beam.width_deg = 10.0;
+    config.pulse.resolution_m = 1e-4;
+    config.source_level_db = 0.0;
+    config.receiver = chain;
+    config.receiver.noise_db = -100.0;
+    config.receiver.full_scale_db = 0.0;
+    config.receiver.tvg_log = 0.0;
+    config.receiver.tvg_absorption = false;
+    return calibrated_model(config, {}, chain_view(), {});
+}
+
+std::vector<float> noise_image(const ReceiverConfig& chain, std::uint32_t ping = 0) {
+    return image_of_traced(noisy_sounder(chain), chain_view(), {}, {}, {3, 2, ping});
+}
+
+/// The powers of several pings over the mean of the noise.
+std::vector<double> noise_powers(const ReceiverConfig& chain) {
+    std::vector<double> out;
+    for (std::uint32_t ping = 0; ping < 8; ++ping) {
+        for (const float power : noise_image(chain, ping))
+            out.push_back(power / 1e-10);
+    }
+    return out;
+}
+
+struct AmplitudeShape {
+    double variation, weibull;
+};
+
+/// The coefficient of variation of the amplitudes, and the shape of the Weibull distribution whose
+/// logarithm varies as much as theirs: pi / (sqrt(6) sigma of ln A).
+AmplitudeShape shape_of(const std::vector<double>& powers) {
+    double sum = 0.0;
+    double sum2 = 0.0;
+    double logs = 0.0;
+    double logs2 = 0.0;
+    for (const double power : powers) {
+        const double log_amplitude = 0.5 * std::log(power);
+        sum += std::sqrt(power);
+        sum2 += power;
+        logs += log_amplitude;
+        logs2 += log_amplitude * log_amplitude;
+    }
+    const auto n = static_cast<double>(powers.size());
+    const double mean = sum / n;
+    const double variance_of_log = logs2 / n - logs * logs / (n * n);
+    return {std::sqrt(sum2 / n - mean * mean) / mean, pi / std::sqrt(6.0 * variance_of_log)};
+}
+
+/// The same of the largest of n Rayleigh amplitudes. The largest of n exponential powers has the
+/// density sum over k of C(n, k) (-1)^(k+1) k exp(-k x): means are such sums of those of
+/// exponential powers of rate k. E[sqrt x] = sqrt(pi / k) / 2, E[x] = 1 / k, E[ln x] = -g - ln k
+/// and E[ln^2 x] = (g + ln k)^2 + pi^2 / 6, g being Euler's constant.
+AmplitudeShape shape_of_largest(int n) {
+    constexpr double euler = 0.57721566490153286;
+    double root = 0.0;
+    double mean = 0.0;
+    double log = 0.0;
+    double log2 = 0.0;
+    double binomial = 1.0;
+    for (int k = 1; k <= n; ++k) {
+        binomial *= -static_cast<double>(n - k + 1) / k;
+        const double weight = -binomial;
+        const double shift = euler + std::log(k);
+        root += weight * 0.5 * std::sqrt(pi / k);
+        mean += weight / k;
+        log -= weight * shift;
+        log2 += weight * (shift * shift + pi * pi / 6.0);
+    }
+    return {std::sqrt(mean - root * root) / root, pi / std::sqrt(6.0 * 0.25 * (log2 - log * log))};
+}
+
+}  // namespace
+
+TEST_SUITE("calibrated") {
+    // 16,000 draws: the coefficient of variation is known to about 0.7 %, the shape to 0.8 %.
+    TEST_CASE("receiver: one look has Rayleigh's amplitudes") {
+        const AmplitudeShape one = shape_of(noise_powers({}));
+        CHECK(one.variation == doctest::Approx(0.5227).epsilon(0.025));
+        CHECK(one.weibull == doctest::Approx(2.0).epsilon(0.03));
+        const AmplitudeShape closed = shape_of_largest(1);
+        CHECK(closed.variation == doctest::Approx(0.5227).epsilon(1e-3));
+        CHECK(closed.weibull == doctest::Approx(2.0));
+    }
+
+    // The largest of n exponential powers lies below x with the probability (1 - exp(-x))^n.
+    TEST_CASE("receiver: the largest of several samples follows order statistics") {
+        for (const int n : {2, 3}) {
+            ReceiverConfig chain;
+            chain.samples = n;
+            const std::vector<double> powers = noise_powers(chain);
+            CHECK(ks_p_value(powers, [&](double x) { return std::pow(1.0 - std::exp(-x), n); }) >
+                  1e-3);
+            const AmplitudeShape found = shape_of(powers);
+            const AmplitudeShape closed = shape_of_largest(n);
+            CHECK(found.variation == doctest::Approx(closed.variation).epsilon(0.025));
+            CHECK(found.weibull == doctest::Approx(closed.weibull).epsilon(0.03));
+        }
+        CHECK(shape_of_largest(2).variation == doctest::Approx(0.3776).epsilon(1e-3));
+        CHECK(shape_of_largest(3).variation == doctest::Approx(0.3180).epsilon(1e-3));
+    }
+
+    // The mean of two exponential powers is gamma distributed with shape 2. The variance of ln A is
+    // a quarter of the trigamma function at 2, pi^2 / 6 - 1, and the variation of A follows from
+    // E[A] = Gamma(5/2) / (Gamma(2) sqrt 2).
+    TEST_CASE("receiver: two looks average powers") {
+        const double mean = 0.75 * std::sqrt(pi) / std::sqrt(2.0);
+        const double variation = std::sqrt(1.0 - mean * mean) / mean;
+        const double weibull = pi / std::sqrt(6.0 * 0.25 * (pi * pi / 6.0 - 1.0));
+        ReceiverConfig looks;
+        looks.looks = 2;
+        ReceiverConfig samples;
+        samples.samples = 2;
+        samples.combine = SampleRule::rms;
+        for (const ReceiverConfig& chain : {looks, samples}) {
+            const std::vector<double> powers = noise_powers(chain);
+            CHECK(ks_p_value(powers, [](double x) {
+                      return 1.0 - (1.0 + 2.0 * x) * std::exp(-2.0 * x);
+                  }) > 1e-3);
+            const AmplitudeShape found = shape_of(powers);
+            CHECK(found.variation == doctest::Approx(variation).epsilon(0.025));
+            CHECK(found.weibull == doctest::Approx(weibull).epsilon(0.03));
+        }
+        ReceiverConfig of_amplitudes = samples;
+        of_amplitudes.combine = SampleRule::mean;
+        // The mean of two Rayleigh amplitudes varies by 1 / sqrt 2 of one.
+        CHECK(shape_of(noise_powers(of_amplitudes)).variation ==
+              doctest::Approx(0.5227 / std::sqrt(2.0)).epsilon(0.025));
+    }
+
+    // 5,000 pings, of which one in 20 is a draw of its own: 250 draws, the spread within 4.5 % x 4.
+    TEST_CASE("receiver: the gain drifts with its spread, slowly") {
+        ReceiverConfig chain;
+        chain.gain_drift_db = 2.0;
+        double sum2 = 0.0;
+        double steps2 = 0.0;
+        double last = 0.0;
+        for (std::uint32_t ping = 0; ping < 5000; ++ping) {
+            const double gain = drifting_gain_db(chain, {5, 2, ping});
+            sum2 += gain * gain;
+            if (ping > 0) steps2 += (gain - last) * (gain - last);
+            last = gain;
+        }
+        CHECK(std::sqrt(sum2 / 5000) == doctest::Approx(2.0).epsilon(0.18));
+        // Between two draws the gain turns by a right angle: (pi / 2 / 20)^2 of the variance.
+        CHECK(std::sqrt(steps2 / 4999) == doctest::Approx(2.0 * pi / 40.0).epsilon(0.18));
+    }
+
+    TEST_CASE("receiver: ringing, blanking, interference and spikes lie where they should") {
+        const std::vector<float> plain = noise_image({});
+        ReceiverConfig ringing;
+        ringing.ring_down_db = 200.0;
+        ringing.ring_down_m = 1.0;
+        const std::vector<float> rung = noise_image(ringing);
+        for (const int row : {0, 200, 500})
+            CHECK(10.0 * std::log10((rung[row] - plain[row]) / 1e-10) ==
+                  doctest::Approx(200.0 - 10.0 * (10.005 + 0.01 * row)).epsilon(1e-3));
+        ReceiverConfig blanked = ringing;
+        blanked.blanking_m = 12.0;
+        const std::vector<float> after = noise_image(blanked);
+        CHECK(after[199] == 0.0F);
+        CHECK(after[200] == rung[200]);
+
+        ReceiverConfig disturbed;
+        disturbed.interference = {.level_db = 60.0, .length_m = 0.5, .step_m = 3.0};
+        const auto strong = [&](std::uint32_t ping) {
+            const std::vector<float> image = noise_image(disturbed, ping);
+            std::vector<int> rows;
+            for (int row = 0; row < chain_rows; ++row)
+                if (image[row] > 5e-5F) rows.push_back(row);
+            return rows;
+        };
+        const std::vector<int> first = strong(0);
+        const std::vector<int> second = strong(1);
+        REQUIRE(first.size() >= 50);
+        CHECK(first.size() <= 51);
+        CHECK((second.front() - first.front() + chain_rows) % chain_rows == 300);
+
+        ReceiverConfig spiky;
+        spiky.spikes_per_ping = 5.0;
+        int spikes = 0;
+        for (std::uint32_t ping = 0; ping < 40; ++ping) {
+            for (const float power : noise_image(spiky, ping))
+                spikes += power > 5e-7F ? 1 : 0;
+        }
+        CHECK(std::abs(spikes - 200) < 57);  // Poisson, 4 sigma
+    }
+
+    TEST_CASE("receiver: pings are lost with their share, and an offset makes zeros") {
+        ReceiverConfig chain;
+        chain.dropped_share = 0.3;
+        int lost = 0;
+        const CalibratedModel model = noisy_sounder(chain);
+        for (std::uint32_t ping = 0; ping < 200; ++ping)
+            lost += image_of_traced(model, chain_view(), {}, {}, {3, 2, ping})[0] == 0.0F ? 1 : 0;
+        CHECK(std::abs(lost - 60) < 26);  // binomial, 4 sigma
+        ReceiverConfig offset;
+        offset.offset = 0.25;
+        // Amplitudes of 1, 1/4, 1/16 and 1/100 of full scale have the values 1, 1/2, 1/4 and 1/10.
+        const std::vector<float> powers{1.0F, 1.0F / 16, 1.0F / 256, 1e-4F};
+        CHECK(companded(powers, offset) == std::vector<std::uint16_t>{191, 64, 0, 0});
+        CHECK(companded(powers, {}) == std::vector<std::uint16_t>{255, 128, 64, 26});
+    }
+
+    TEST_CASE("receiver: a gain in steps stays below the smooth one by less than a step") {
+        ReceiverConfig smooth;
+        smooth.tvg_log = 40.0;
+        ReceiverConfig stepped = smooth;
+        stepped.tvg_step_db = 3.0;
+        InstrumentConfig config = bare({});
+        const auto gains = [&](const ReceiverConfig& receiver) {
+            config.receiver = receiver;
+            config.receiver.full_scale_db = -1.0;
+            config.beam.aperture = Aperture::piston;
+            return calibrated_model(config, {}, chain_view(), {}).row_gain;
+        };
+        const std::vector<float> one = gains(smooth);
+        const std::vector<float> other = gains(stepped);
+        int changes = 0;
+        for (int row = 0; row < chain_rows; ++row) {
+            const double below = 10.0 * std::log10(one[row] / other[row]);
+            CHECK(below > -1e-4);
+            CHECK(below < 3.0001);
+            if (row > 0 && other[row] != other[row - 1]) ++changes;
+        }
+        CHECK(changes > 3);
+        CHECK(changes < 100);
+    }
+}
