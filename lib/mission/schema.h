@@ -156,7 +156,6 @@ void describe(Visitor& v, Mission& c) {
     v.require(c.water.layers.empty() || c.scene.water_surface, {"water", "scene"},
               "water.layers are depths below the water's surface: give its height by "
               "scene.water_surface");
-    v.section("vehicle", c.vehicle, "offset of the vehicle from its trajectory");
     v.named("sensors", c.sensors, "one section per sonar; NAME is its folder in the dataset");
     v.section("accuracy", c.accuracy, "error goal of the images");
     v.choice("engine", c.engine, engine_kinds,

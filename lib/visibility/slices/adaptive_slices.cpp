@@ -36,6 +36,21 @@ float to_five_eighths(float x) {
 
 }  // namespace
 
+float strip_border(const SliceResult& low, const SliceResult& high) {
+    const float middle = 0.5F * (low.slice.u + high.slice.u);
+    if (low.spans.empty() && high.spans.empty()) return middle;
+    float end = low.slice.u;
+    for (const VisibleSpan& span : low.spans)
+        end = std::max(end, span.facet_extent.u.to);
+    float begin = high.slice.u;
+    for (const VisibleSpan& span : high.spans)
+        begin = std::min(begin, span.facet_extent.u.from);
+    float border = middle;
+    if (end < middle) border = std::max(end, std::min(begin, middle));
+    if (begin > middle) border = std::min(begin, std::max(end, middle));
+    return low.slice.u < border && border < high.slice.u ? border : middle;
+}
+
 AdaptiveSlices::AdaptiveSlices(const View& view, std::span<const Material> materials,
                                FrameScan& scan)
     : materials_(materials),
@@ -146,11 +161,11 @@ void AdaptiveSlices::refine(const SliceErrorLimit& most) {
     }
 }
 
-/// Compares the predictions of both slices midway, at the border of their strips.
+/// Compares the predictions of both slices at the border of their strips.
 void AdaptiveSlices::estimate(Subgap& subgap) {
     SliceResult& a = results_[subgap.low];
     SliceResult& b = results_[subgap.high];
-    const float u = 0.5F * (a.slice.u + b.slice.u);
+    const float u = strip_border(a, b);
     const float share = width(subgap) / beam_width_;
     move_ends(a.slice, a.spans, u, a.high);
     move_ends(b.slice, b.spans, u, b.low);
@@ -186,10 +201,9 @@ void AdaptiveSlices::find_outstanding(const Subgap& subgap) {
     outstanding_.clear();
     const SliceResult& a = results_[subgap.low];
     const SliceResult& b = results_[subgap.high];
-    const float middle = 0.5F * (a.slice.u + b.slice.u);
     for (const UnseenPiece& piece : around_[subgap.gap - first_gap_].unseen) {
         if (!(a.slice.u < piece.facet_u.from && piece.facet_u.to < b.slice.u)) continue;
-        if (piece.u < middle ? stands_out(piece, a, a.high) : stands_out(piece, b, b.low))
+        if (piece.u < a.high.u ? stands_out(piece, a, a.high) : stands_out(piece, b, b.low))
             outstanding_.push_back(&piece);
     }
 }

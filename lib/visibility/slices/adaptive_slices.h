@@ -31,6 +31,10 @@ struct Strip {
     const MovedEnds* high;
 };
 
+/// The border between the strips of two neighbouring slices: midway, or where all surface of one of
+/// them ends, so that the other's goes on up to there.
+float strip_border(const SliceResult& low, const SliceResult& high);
+
 /// Scans the slices of a frame, one beam at a time, and adds slices between them until neighbours
 /// agree.
 class AdaptiveSlices {

@@ -11,23 +11,6 @@ namespace {
 
 constexpr PhiloxKey check_key{0x63686563U, 0};
 
-/// The border between the strips of two neighbouring slices: midway, or the end of a surface that
-/// ends before a slice that shows nothing.
-float border_between(const SliceResult& low, const SliceResult& high) {
-    const float middle = 0.5F * (low.slice.u + high.slice.u);
-    if (low.spans.empty() == high.spans.empty()) return middle;
-    if (high.spans.empty()) {
-        float end = middle;
-        for (const VisibleSpan& span : low.spans)
-            end = std::max(end, span.facet_extent.u.to);
-        return end < high.slice.u ? end : middle;
-    }
-    float begin = middle;
-    for (const VisibleSpan& span : high.spans)
-        begin = std::min(begin, span.facet_extent.u.from);
-    return begin > low.slice.u ? begin : middle;
-}
-
 }  // namespace
 
 /// True if both slices predict the same, and no triangle lies between the slices of the frame.
@@ -97,7 +80,8 @@ std::span<const Strip> AdaptiveSlices::check_strips() {
     for (std::size_t i = 0; i < count; ++i) {
         const SliceResult& at = *checked_[i];
         move_ends(at.slice, at.spans, border, borders_[2 * i]);
-        border = i + 1 == count ? beam_border(next_gap_) : border_between(at, *checked_[i + 1]);
+        border = beam_border(next_gap_);
+        if (i + 1 < count) border = std::min(strip_border(at, *checked_[i + 1]), border);
         move_ends(at.slice, at.spans, border, borders_[2 * i + 1]);
         strips_.push_back({&at, &borders_[2 * i], &borders_[2 * i + 1]});
     }

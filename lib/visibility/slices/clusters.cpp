@@ -137,6 +137,12 @@ class Components {
     std::uint32_t count_ = 0;
 };
 
+/// True if two triangles have one material and one instance.
+bool alike(const Scene& scene, std::uint32_t a, std::uint32_t b) {
+    return scene.triangle_material[a] == scene.triangle_material[b] &&
+           scene.triangle_instance[a] == scene.triangle_instance[b];
+}
+
 /// ClusterMesh::beyond, in the order of the scene's triangles.
 std::vector<std::array<std::uint32_t, 3>> across_edges(const Scene& scene,
                                                        const std::vector<std::uint32_t>& vertex) {
@@ -173,7 +179,7 @@ std::vector<std::array<std::uint32_t, 3>> across_edges(const Scene& scene,
         for (std::size_t i = 1; i < edges.size(); ++i) {
             const Edge& a = edges[i - 1];
             const Edge& b = edges[i];
-            if (a.end != b.end) continue;
+            if (a.end != b.end || !alike(scene, a.triangle, b.triangle)) continue;
             out[a.triangle][a.side] = scene.triangles[b.triangle][(b.side + 2) % 3];
             out[b.triangle][b.side] = scene.triangles[a.triangle][(a.side + 2) % 3];
         }

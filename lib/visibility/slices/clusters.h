@@ -38,7 +38,8 @@ struct ClusterMesh {
     std::vector<std::array<std::uint8_t, 3>> corners;
     std::vector<SliceFacet> facets;
     /// The neighbour over each edge, from corner k to the next: its vertex that is not on the edge,
-    /// as an index into Scene::vertices, or `nothing`.
+    /// as an index into Scene::vertices, or `nothing`. A neighbour of another material or instance
+    /// does not count.
     std::vector<std::array<std::uint32_t, 3>> beyond;
     std::uint32_t components = 0;
 };

@@ -63,4 +63,19 @@ FrontPart part_in_front(const Corners& c, float nearest_m) {
     return part;
 }
 
+Interval u_between(const Corners& corners, const Interval& w) {
+    Interval u{unbounded, -unbounded};
+    const auto widen = [&](float to) { u = {std::min(u.from, to), std::max(u.to, to)}; };
+    for (int k = 0; k < 3; ++k) {
+        const Corner& a = corners[k];
+        const Corner& b = corners[(k + 1) % 3];
+        if (w.from <= a.w && a.w <= w.to) widen(a.u);
+        for (const float border : {w.from, w.to}) {
+            if ((a.w < border) != (b.w < border))
+                widen(a.u + (border - a.w) / (b.w - a.w) * (b.u - a.u));
+        }
+    }
+    return u;
+}
+
 }  // namespace sonarsim

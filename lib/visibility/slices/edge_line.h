@@ -50,4 +50,8 @@ struct FrontPart {
 
 FrontPart part_in_front(const Corners& c, float nearest_m);
 
+/// The extent in u of the part of a triangle of the picture plane that lies between two w; from >
+/// to if there is none.
+Interval u_between(const Corners& corners, const Interval& w);
+
 }  // namespace sonarsim

@@ -9,7 +9,7 @@ namespace sonarsim {
 namespace {
 
 // The plane of a triangle with neighbours is followed beyond the triangle by at most this share of
-// the range.
+// the range, and no farther than the neighbours reach.
 constexpr float neighbour_share = 0.002F;
 
 constexpr FacetExtent unknown{{0.0F, 0.0F}, {-1.0F, -1.0F}};
@@ -28,6 +28,13 @@ Interval range_of(const Corners& corners, float height_m) {
     const float edge2 =
         std::max({(a - b).squaredNorm(), (b - c).squaredNorm(), (c - a).squaredNorm()});
     return {std::max(nearest - edge2 / (4.0F * nearest), height_m), farthest};
+}
+
+/// The range of a triangle's plane where it stands for the neighbours as well, whose range is
+/// `all`.
+Interval followed(const Interval& own, const Interval& all) {
+    return {std::max(all.from, own.from / (1.0F + neighbour_share)),
+            std::min(all.to, own.to * (1.0F + neighbour_share))};
 }
 
 /// The u of corner k if it is the outermost in the direction of `sign`; else infinite.
@@ -52,13 +59,25 @@ const FacetExtent& FacetExtents::of(std::uint32_t facet_index) {
         const Corners corners = setup_.corners_of(facet.facet);
         extent = {u_of(corners, facet.facet), range_of(corners, facet.height_m)};
         if (std::isinf(extent.u.from) || std::isinf(extent.u.to)) {
-            extent.range_m.from /= 1.0F + neighbour_share;
-            extent.range_m.to *= 1.0F + neighbour_share;
+            extent.range_m = followed(extent.range_m, with_neighbours(corners, facet));
         }
         const Interval& component = scene_.component_u[mesh_.facets[facet.facet].component];
         extent.u = {std::max(extent.u.from, component.from), std::min(extent.u.to, component.to)};
     }
     return extent;
+}
+
+/// The range of a triangle and of those over its sides.
+Interval FacetExtents::with_neighbours(const Corners& corners, const FrontFacet& facet) const {
+    Interval all = range_of(corners, facet.height_m);
+    for (int side = 0; side < 3; ++side) {
+        const std::uint32_t vertex = mesh_.beyond[facet.facet][side];
+        if (vertex == ClusterMesh::nothing) continue;
+        const Corner third = corner_at(setup_.in_frame(vertices_[vertex]), setup_.nearest_m());
+        const Interval next = range_of({corners[side], corners[(side + 1) % 3], third}, 0.0F);
+        all = {std::min(all.from, next.from), std::max(all.to, next.to)};
+    }
+    return all;
 }
 
 /// The surface ends at an outermost corner unless it continues beyond both sides that meet there.

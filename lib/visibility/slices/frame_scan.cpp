@@ -69,13 +69,13 @@ void FrameScan::find_unseen(std::uint32_t gap, std::vector<UnseenPiece>& out) {
     const std::uint32_t begin = notes.begin[gap];
     const std::uint32_t end = notes.begin[gap + 1];
     const std::uint32_t step = 1 + (end - begin) / most_unseen;
+    const Interval w = w_over(frame_, {frame_.slices[gap].u, frame_.slices[gap + 1].u});
     for (std::uint32_t k = begin; k < end; k += step) {
         const FacetInGap& note = scene_.in_gaps[notes.items[k]];
         if (!note.whole) continue;
         const SliceFacet& facet = mesh_.facets[note.facet];
         add_unseen_pieces(setup_.corners_of(note.facet), setup_.turned(facet.normal),
-                          materials_[facet.material].reflection, {frame_.w_low, frame_.w_high},
-                          out);
+                          materials_[facet.material].reflection, w, out);
     }
     for (UnseenPiece& piece : out)
         piece.area_m2 *= static_cast<float>(step);

@@ -60,6 +60,11 @@ class FrameScan {
     /// instance.
     bool one_plane(std::uint32_t a, std::uint32_t b, float range_m) const;
 
+    /// The extent of the facet of SliceScene::facets[facet_index].
+    const FacetExtent& facet_extent(std::uint32_t facet_index) const {
+        return facet_extents_.of(facet_index);
+    }
+
     const SliceFrame& frame() const { return frame_; }
     const ClusterMesh& mesh() const { return mesh_; }
     const SliceScene& scene() const { return scene_; }
@@ -74,7 +79,7 @@ class FrameScan {
     SliceScene scene_;
     SliceSetup setup_;
     std::vector<WantedSlice> wanted_;
-    FacetExtents facet_extents_;
+    mutable FacetExtents facet_extents_;  ///< computed on demand
     SliceWalk walk_;
     int next_ = 0;
     EnvelopeScratch envelope_;

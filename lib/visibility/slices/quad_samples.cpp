@@ -24,16 +24,25 @@ constexpr float longest_ratio = 1.5F;
 // Rounding margin for the area of a quadrilateral that is narrow in the picture.
 constexpr float area_rounding = 1.01F;
 
-/// The area of a quadrilateral on a plane at most, m^2. On a plane dA = X^3 du dw / h.
-/// QuadPoints lie within the range of their triangle. Where the quadrilateral reaches beyond its
-/// triangle, this moves corners off the plane. If the surface is nearly edge-on and two u are
-/// nearly equal, the four corners span an area along the line of sight that does not exist. It was
-/// up to hundreds of times the area of the triangle, and dominated the mean of a bin.
-float most_area(const QuadPoints& p, float height_m) {
+/// The area of a quadrilateral on a plane if it lies as far as `X3`, the cube of its X, m^2. On a
+/// plane dA = X^3 du dw / h.
+float area_at(const QuadPoints& p, float X3, float height_m) {
     const float picture =
         std::fabs((p.u[2] - p.u[0]) * (p.w[3] - p.w[1]) - (p.u[3] - p.u[1]) * (p.w[2] - p.w[0]));
+    return 0.5F * picture * X3 / height_m;
+}
+
+/// The area of a quadrilateral, m^2. QuadPoints lie within the range of their surface. Where the
+/// plane reaches beyond it, this moves corners off the plane. They then span less area than is
+/// seen, or, if the surface is nearly edge-on and two u are nearly equal, an area along the line of
+/// sight that does not exist: up to hundreds of times that of the triangle. So the area of moved
+/// corners is that of their picture.
+float area_of(const QuadPoints& p, const Interval& range_m, float height_m) {
+    const bool moved = (p.range <= range_m.from || p.range >= range_m.to).any();
+    if (moved) return area_at(p, p.X.cube().mean(), height_m);
     const float X = p.X.maxCoeff();
-    return 0.5F * picture * X * X * X / height_m;
+    const float area = 0.5F * (p.at(2) - p.at(0)).cross(p.at(3) - p.at(1)).norm();
+    return std::min(area, area_rounding * area_at(p, X * X * X, height_m));
 }
 
 RangeLine range_line(const Eigen::Vector3f& from, const Eigen::Vector3f& to) {
@@ -208,8 +217,7 @@ void QuadSampler::add_sample(const Quad& quad, const QuadPoints& corners) {
     const Eigen::Vector3f b = corners.at(1);
     const Eigen::Vector3f c = corners.at(2);
     const Eigen::Vector3f d = corners.at(3);
-    const float area = std::min(0.5F * (c - a).cross(d - b).norm(),
-                                area_rounding * most_area(corners, seen.height_m));
+    const float area = area_of(corners, quad.range_m, seen.height_m);
     if (!(area > 0.0F)) return;
     Sample& sample = out_.emplace_back();
     Eigen::Vector3f middle = 0.25F * (a + b + c + d);

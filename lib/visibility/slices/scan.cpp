@@ -134,6 +134,14 @@ Slice slice_at(const SliceFrame& frame, float u) {
             frame.tan_high * u / secant};
 }
 
+Interval w_over(const SliceFrame& frame, const Interval& u) {
+    // The borders are straight, or bend one way on each side of u = 0.
+    const Slice at[] = {slice_at(frame, u.from), slice_at(frame, u.to),
+                        slice_at(frame, std::clamp(0.0F, u.from, u.to))};
+    return {std::min({at[0].w_low, at[1].w_low, at[2].w_low}),
+            std::max({at[0].w_high, at[1].w_high, at[2].w_high})};
+}
+
 std::vector<SliceFrame> slice_frames(const View& view, int per_beam) {
     std::vector<SliceFrame> frames;
     const double half_azimuth = 0.5 * view.azimuth_rad;

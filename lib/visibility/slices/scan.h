@@ -59,6 +59,9 @@ struct SliceFrame {
 /// The slice of a frame at u.
 Slice slice_at(const SliceFrame& frame, float u);
 
+/// The least and the greatest w of the view over an interval of u.
+Interval w_over(const SliceFrame& frame, const Interval& u);
+
 /// Divides each beam of `view` into `per_beam` equal strips, more if it is wide, with a slice on
 /// both borders of each; adjacent strips share a slice. Frames are in the order of their beams.
 /// Slices are offset slightly from their places, by different amounts, so that they do not run

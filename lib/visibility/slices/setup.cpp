@@ -117,6 +117,7 @@ void SliceSetup::add_triangle(const Corners& corners, std::uint32_t facet) {
             out_.in_gaps.push_back({facet, begin - 1, true});
         return;
     }
+    if (!lazy_) note_clipped(corners, facet, {first->u, last->u});
     if (!add_facet(facet, a)) return;
     const EdgeLine whole = edge_line(*first, *last, nearest_m_);
     const bool above = middle->w > whole.w_at(middle->u);
@@ -126,6 +127,22 @@ void SliceSetup::add_triangle(const Corners& corners, std::uint32_t facet) {
     };
     part(*first, *middle);
     part(*middle, *last);
+}
+
+/// Notes a triangle that slices meet outside of the view only: the view shows a corner of it
+/// between two of them.
+void SliceSetup::note_clipped(const Corners& corners, std::uint32_t facet, Interval u) {
+    const auto& [a, b, c] = corners;
+    // The view's borders depend on u, so the part between them is found in two steps.
+    for (int step = 0; step < 2; ++step) {
+        const Interval w = w_over(frame_, {std::max(u.from, u_low_), std::min(u.to, u_high_)});
+        if (w.from <= std::min({a.w, b.w, c.w}) && std::max({a.w, b.w, c.w}) <= w.to) return;
+        u = u_between(corners, w);
+        if (!(u.from < u.to && u.from <= u_high_ && u.to > u_low_)) return;
+    }
+    const std::uint32_t begin = find_slice_(u.from);
+    if (begin == find_slice_(u.to) && begin > 0 && begin < frame_.slices.size())
+        out_.in_gaps.push_back({facet, begin - 1, true});
 }
 
 /// FacetInGap neighbouring corners a polygon has two sides, one above the other.

@@ -35,7 +35,7 @@ struct Trapezoid {
 struct FacetInGap {
     std::uint32_t facet;  ///< index into ClusterMesh::facets
     std::uint32_t gap;
-    bool whole;
+    bool whole;  ///< all that the view shows of it lies there
 };
 
 /// The facets and trapezoids that the slices of a frame meet.
@@ -81,6 +81,7 @@ class SliceSetup {
     bool in_view(const TriangleCluster& cluster) const;
     void add_cluster(const TriangleCluster& cluster);
     void add_triangle(const Corners& corners, std::uint32_t facet);
+    void note_clipped(const Corners& corners, std::uint32_t facet, Interval u);
     void add_part_in_front(const Corners& corners, std::uint32_t facet);
     void widen_component(std::uint32_t facet, const Interval& by);
     bool add_facet(std::uint32_t facet, const Corner& corner);

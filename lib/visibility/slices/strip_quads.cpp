@@ -60,10 +60,14 @@ StripQuads::StripQuads(const FrameScan& scan, const PatchLimits& limits, QuadSam
 void StripQuads::add(const SliceResult& result, const MovedEnds& low, const MovedEnds& high) {
     const Slice& slice = result.slice;
     fresh_.clear();
+    begin_.clear();
+    end_.clear();
     for (std::size_t i = 0; i < result.spans.size(); ++i)
         add_span(slice, result.spans[i], quad_side(slice, low, i), quad_side(slice, high, i));
+    fill_holes(low.u);
     join(low.u);
     std::swap(open_, fresh_);
+    std::swap(behind_, end_);
     std::erase_if(open_, [&](const Quad& quad) {
         if (quad.high.u == high.u) return false;
         out_.add(quad);
@@ -75,6 +79,7 @@ void StripQuads::end_beam() {
     for (const Quad& quad : open_)
         out_.add(quad);
     open_.clear();
+    behind_.clear();
 }
 
 void StripQuads::add_span(const Slice& slice, const VisibleSpan& span, const QuadSide& low,
@@ -101,6 +106,8 @@ void StripQuads::add_span(const Slice& slice, const VisibleSpan& span, const Qua
     };
     quad.low = kept(low);
     quad.high = kept(high);
+    if (quad.low.u > low.u) begin_.push_back({low, quad.low.u < high.u ? quad.low : high});
+    if (quad.high.u < high.u) end_.push_back({quad.high.u > low.u ? quad.high : low, high});
     // Ends that bend at the slice make two quadrilaterals.
     if (quad.low.u < slice.u && slice.u < quad.high.u && !straight(quad.low, on_slice, quad.high)) {
         const QuadSide end = std::exchange(quad.high, on_slice);
@@ -109,6 +116,42 @@ void StripQuads::add_span(const Slice& slice, const VisibleSpan& span, const Qua
         quad.high = end;
     }
     fresh_.push_back(quad);
+}
+
+/// Fills the holes on both sides of the border at u with the quadrilaterals on the other side.
+void StripQuads::fill_holes(float u) {
+    for (const Hole& hole : begin_) {
+        for (const Quad& quad : open_)
+            fill(hole, quad, quad.high, quad.low);
+    }
+    for (const Hole& hole : behind_) {
+        for (const Quad& quad : fresh_) {
+            if (quad.low.u == u) fill(hole, quad, quad.low, quad.high);
+        }
+    }
+}
+
+/// Continues a quadrilateral over its side `near`, at a border of strips, into a hole.
+void StripQuads::fill(const Hole& hole, const Quad& quad, const QuadSide& near,
+                      const QuadSide& far) {
+    const Interval& extent = scan_.facet_extent(quad.facet_index).u;
+    const float from = std::max(hole.low.u, extent.from);
+    const float to = std::min(hole.high.u, extent.to);
+    if (!(from < to) || near.u == far.u) return;
+    const auto at = [](const QuadSide& a, const QuadSide& b, float u) -> QuadSide {
+        const float share = (u - a.u) / (b.u - a.u);
+        return {u, a.low + share * (b.low - a.low), a.high + share * (b.high - a.high)};
+    };
+    const auto side = [&](float u) -> QuadSide {
+        const QuadSide here = at(hole.low, hole.high, u);
+        const QuadSide there = at(near, far, u);
+        const float low = std::max(here.low, there.low);
+        return {u, low, std::max(std::min(here.high, there.high), low)};
+    };
+    Quad more = quad;
+    more.low = side(from);
+    more.high = side(to);
+    if (more.low.low < more.low.high || more.high.low < more.high.high) out_.add(more);
 }
 
 /// Joins the open quadrilaterals with the new ones at u, and passes the others on.

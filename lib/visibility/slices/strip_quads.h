@@ -10,7 +10,8 @@
 namespace sonarsim {
 
 /// Converts the strips of slices to quadrilaterals. If two adjacent strips show the same surface
-/// between the same lines, their quadrilaterals are joined.
+/// between the same lines, their quadrilaterals are joined. If surface ends within its strip, what
+/// the adjacent slice sees there goes on up to that end.
 class StripQuads {
   public:
     /// All arguments must outlive it.
@@ -24,17 +25,26 @@ class StripQuads {
     void end_beam();
 
   private:
+    /// The part of a span's strip that its surface does not reach.
+    struct Hole {
+        QuadSide low, high;
+    };
+
     void add_span(const Slice& slice, const VisibleSpan& span, const QuadSide& low,
                   const QuadSide& high);
+    void fill_holes(float u);
+    void fill(const Hole& hole, const Quad& quad, const QuadSide& near, const QuadSide& far);
     void join(float u);
     bool go_on(const Quad& open, const Quad& quad) const;
 
     const FrameScan& scan_;
     const float most_wedge_m_;
     QuadSampler& out_;
-    const float widest_;       ///< greatest width of a quadrilateral, in u at u = 0
-    std::vector<Quad> open_;   ///< quadrilaterals at the last strip's end, by w
-    std::vector<Quad> fresh_;  ///< quadrilaterals of this strip
+    const float widest_;             ///< greatest width of a quadrilateral, in u at u = 0
+    std::vector<Quad> open_;         ///< quadrilaterals at the last strip's end, by w
+    std::vector<Quad> fresh_;        ///< quadrilaterals of this strip
+    std::vector<Hole> behind_;       ///< holes of the last strip that reach its end
+    std::vector<Hole> begin_, end_;  ///< holes of this strip that reach its begin or its end
 };
 
 }  // namespace sonarsim

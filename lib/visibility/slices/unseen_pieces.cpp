@@ -28,7 +28,7 @@ Interval chord(const Corners& corners, float w) {
 
 void add_unseen_pieces(const Corners& corners, const Eigen::Vector3f& normal, float reflection,
                        const Interval& view_w, std::vector<UnseenPiece>& out) {
-    const auto [u_from, u_to] = std::minmax({corners[0].u, corners[1].u, corners[2].u});
+    const Interval seen_u = u_between(corners, view_w);
     const auto [w_from, w_to] = std::minmax({corners[0].w, corners[1].w, corners[2].w});
     const Interval w{std::max(w_from, view_w.from), std::min(w_to, view_w.to)};
     const float height = -normal.dot(Eigen::Vector3f(corners[0].X, corners[0].U, corners[0].W));
@@ -54,7 +54,7 @@ void add_unseen_pieces(const Corners& corners, const Eigen::Vector3f& normal, fl
         if (!(q > 0.0F && low > 0.0F && high > 0.0F)) continue;
         const auto [near, far] =
             std::minmax({range_at(at - 0.5F * step), range_at(at + 0.5F * step)});
-        out.push_back({{u_from, u_to},
+        out.push_back({seen_u,
                        u,
                        at,
                        q,

@@ -8,7 +8,7 @@ namespace sonarsim {
 
 /// A piece of a triangle that lies between two slices, so that no slice meets it.
 struct UnseenPiece {
-    Interval facet_u;  ///< extent of its triangle
+    Interval facet_u;  ///< extent of its triangle within the view
     float u, w, q;     ///< its middle; q = 1 / X
     float area_m2;
     Interval range_m;

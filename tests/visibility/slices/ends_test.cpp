@@ -1,0 +1,139 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/elementary.h"
+#include "core/units.h"
+#include "support/draws.h"
+#include "validation/shapes.h"
+#include "visibility/slices/fixtures.h"
+
+using namespace sonarsim;
+using test::area_of;
+using test::fan_view;
+using test::seen;
+
+namespace {
+
+/// A closed prism of six sides and a radius of 2 cm, with fans at both ends.
+void add_cable(Scene& scene, const Eigen::Vector3f& a, const Eigen::Vector3f& b,
+               std::uint32_t material) {
+    const Eigen::Vector3f along = (b - a).normalized();
+    const Eigen::Vector3f up = 0.02F * along.unitOrthogonal();
+    const Eigen::Vector3f side = along.cross(up);
+    const auto rim = [&](int k) -> Eigen::Vector3f {
+        const SinCos at = sincos(2.0 * pi * (k % 6) / 6.0);
+        return static_cast<float>(at.cos) * up + static_cast<float>(at.sin) * side;
+    };
+    for (int k = 0; k < 6; ++k) {
+        const Eigen::Vector3f p = rim(k);
+        const Eigen::Vector3f q = rim(k + 1);
+        shapes::add_quad(scene, a + p, a + q, b + q, b + p, material);
+        shapes::add_quad(scene, a, a, a + p, a + q, material);
+        shapes::add_quad(scene, b, b, b + p, b + q, material);
+    }
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("slices");
+
+TEST_CASE("slices: two materials that meet along a slice share the beam as they lie") {
+    // A level floor 3 m below the sonar, of one material left of a line that starts below the sonar
+    // and of another one right of it. The line is an azimuth, so at each range the left part has
+    // the share of the beam left of that azimuth.
+    View view = fan_view();
+    view.azimuth_rad = radians(2.0);
+    view.elevation_rad = radians(60.0);
+    view.beams = 1;
+    test::Draws draws(31);
+    for (int k = 0; k < 40; ++k) {
+        const float share = k == 0 ? 0.5F : draws.between(0.05F, 0.95F);
+        CAPTURE(share);
+        const double azimuth = view.azimuth_rad * (0.5 - static_cast<double>(share));
+        const SinCos at = sincos(azimuth);
+        const Eigen::Vector3f along(static_cast<float>(at.cos), static_cast<float>(at.sin), 0.0F);
+        const Eigen::Vector3f left(-along.y(), along.x(), 0.0F);
+        Scene scene = shapes::empty_scene();
+        const std::uint32_t hard = shapes::add_material(scene, 0.9F);
+        const std::uint32_t soft = shapes::add_material(scene, 0.1F);
+        const Eigen::Vector3f near(0.0F, 0.0F, -3.0F);
+        const Eigen::Vector3f far = near + 30.0F * along;
+        shapes::add_quad(scene, near, far, far + 30.0F * left, near + 30.0F * left, hard);
+        shapes::add_quad(scene, near - 30.0F * left, far - 30.0F * left, far, near, soft);
+        // In every other scene a wall stands beyond the floor, so that slices show two things.
+        if (k % 2 == 1) {
+            const std::uint32_t wall = shapes::add_material(scene, 0.5F);
+            shapes::add_quad(scene, {11.0F, -9.0F, -3.0F}, {11.0F, 9.0F, -3.0F},
+                             {11.0F, 9.0F, 9.0F}, {11.0F, -9.0F, 9.0F}, wall);
+        }
+        double of_hard = 0.0;
+        double of_floor = 0.0;
+        const Samples samples = seen(scene, view, Pose{}, 2);
+        for (const Sample& sample : samples.items) {
+            if (sample.material == hard) of_hard += sample.area_m2;
+            if (sample.material <= soft) of_floor += sample.area_m2;
+        }
+        CHECK(of_hard / of_floor == doctest::Approx(share).epsilon(2e-3));
+    }
+}
+
+TEST_CASE("slices: a corner that enters the view between two slices is seen") {
+    // A leaf below the view, ten beams wide at its foot, with a tip that reaches a fiftieth of its
+    // height into the view, where it is a fifth of a beam wide.
+    View view = fan_view();
+    view.elevation_rad = radians(2.0);
+    test::Draws draws(32);
+    for (int k = 0; k < 40; ++k) {
+        CAPTURE(k);
+        const float beam = 5.0F * static_cast<float>(view.azimuth_rad) / 64.0F;  // at 5 m
+        const float low = -5.0F * static_cast<float>(radians(1.0));
+        const float y = draws.between(-2.0F, 2.0F);
+        const float height = 0.04F;
+        const Eigen::Vector3f tip(5.0F, y, low + height);
+        const Eigen::Vector3f a(5.0F, y - 5.0F * beam, low - 49.0F * height);
+        const Eigen::Vector3f b(5.0F, y + 5.0F * beam, low - 49.0F * height);
+        Scene scene = shapes::empty_scene();
+        shapes::add_quad(scene, tip, a, b, b, shapes::add_material(scene, 0.5F));
+        CHECK(area_of(seen(scene, view, Pose{}, 0)) > 0.0);
+    }
+}
+
+TEST_CASE("slices: a cable ends in range where its corners do") {
+    // Two cables that meet below the view in a common node, so that their mesh is one part. The
+    // planes of faces with neighbours were followed by 0.2 % of the range beyond the face, here by
+    // 1.5 bins, and bins were lit that the cable does not reach. A bin is allowed, since patches
+    // are parallelograms and the ends of faces are not.
+    View view = fan_view();
+    view.elevation_rad = radians(2.0);
+    view.range_bins = 1024;
+    const auto bin = static_cast<float>(view.bin_m());
+    test::Draws draws(33);
+    for (int k = 0; k < 40; ++k) {
+        CAPTURE(k);
+        Scene scene = shapes::empty_scene();
+        const std::uint32_t material = shapes::add_material(scene, 0.5F);
+        const float y = draws.between(-2.0F, 2.0F);
+        const Eigen::Vector3f node(7.0F, y, draws.between(-0.3F, 0.0F));
+        const float length = draws.between(0.5F, 2.0F);
+        const Eigen::Vector3f end =
+            node + Eigen::Vector3f(length, draws.between(-0.5F, 0.5F), 0.3F);
+        add_cable(scene, node, end, material);
+        add_cable(scene, node, {5.0F, -y, -3.0F}, material);
+        float farthest = 0.0F;
+        for (const Eigen::Vector3f& p : scene.vertices)
+            farthest = std::max(farthest, p.norm());
+        for (const Sample& sample : seen(scene, view, Pose{}, 0).items) {
+            for (const float u : {-1.0F, 1.0F}) {
+                for (const float v : {-1.0F, 1.0F}) {
+                    const Eigen::Vector3f corner =
+                        sample.position + u * sample.edge_u + v * sample.edge_v;
+                    CHECK(corner.norm() < farthest + bin);
+                }
+            }
+        }
+    }
+}
+
+TEST_SUITE_END();
