@@ -38,6 +38,18 @@ void require_whole_type(const ImageSpec& spec, unsigned bits) {
                              " bits are not read; make 16 of them with gdal_translate -ot UInt16");
 }
 
+/// All channels are read as numbers of one type. OpenImageIO would make whole numbers shares of the
+/// largest.
+void require_one_type(const ImageSpec& spec) {
+    for (const TypeDesc& format : spec.channelformats) {
+        const bool is_half = format == TypeDesc::HALF && spec.format == TypeDesc::FLOAT;
+        if (format == spec.format || is_half) continue;
+        throw std::runtime_error(
+            "channels of different types are not read; write the one that is needed to an image "
+            "of its own");
+    }
+}
+
 template <class T>
 void read_rows(ImageInput& input, const ImageSpec& spec, TypeDesc type, SonarsimImageRows rows,
                void* user) {
@@ -100,6 +112,7 @@ extern "C" [[gnu::visibility("default")]] int sonarsim_read_image_1(
             static_cast<std::uint64_t>(spec.width), static_cast<std::uint64_t>(spec.height),
             static_cast<std::uint32_t>(spec.nchannels), bits, is_whole(spec) ? 0U : 1U};
         if (start(user, &head) != 0) return 0;
+        require_one_type(spec);
         if (spec.nchannels == 1) require_whole_type(spec, bits);
         read_pixels(*input, spec, rows, user);
         return 0;

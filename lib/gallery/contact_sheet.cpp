@@ -16,6 +16,7 @@
 #include "core/text.h"
 #include "dataset/dataset_file.h"
 #include "dataset/file_names.h"
+#include "format/text_font.h"
 #include "gallery/members.h"
 #include "gallery/sheet_module.h"
 #include "mission/dataset_names.h"
@@ -29,7 +30,6 @@ namespace {
 namespace fs = std::filesystem;
 using SheetJson = nlohmann::ordered_json;
 
-constexpr const char* sheet_font = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
 constexpr std::size_t most_on_sheet = 1024;
 constexpr std::size_t many_on_sheet = 36;  // beyond which they are smaller
 constexpr std::size_t most_letters = 44;   // in a line of a caption
@@ -195,9 +195,9 @@ void draw_sheet_file(std::span<const SheetPicture> pictures, const fs::path& fil
     const std::string part = written.part().string();
     const SonarsimSheet sheet{
         thumbnails.data(), count,          columns,     count > many_on_sheet ? 200U : 320U,
-        sheet_font,        format.c_str(), part.c_str()};
+        text_font(file),   format.c_str(), part.c_str()};
     // The libraries, a picture of 2^28 bytes and what it is scaled with; the sheet.
-    constexpr ChildLimits limits{std::size_t{4} << 30, 600};
+    constexpr ChildLimits limits{std::size_t{4} << 30, 600, 300.0};
     std::string reason;
     try {
         reason =
@@ -224,14 +224,10 @@ SheetSummary write_contact_sheet(const fs::path& folder, const fs::path& file,
                              "(output.pack_pings) have to be unpacked");
     }
     if (pictures.size() > most_on_sheet) {
-        throw InputError({folder.string()},
-                         "has " + std::to_string(pictures.size()) +
-                             " pictures to show, and a sheet has at most 1024; give a lower "
-                             "--most, or a --sensor");
-    }
-    if (!fs::exists(sheet_font)) {
-        throw InputError({file.string()}, "needs the font " + std::string(sheet_font) +
-                                              "; install fonts-dejavu-core");
+        throw InputError({folder.string()}, "has " + std::to_string(pictures.size()) +
+                                                " pictures to show, and a sheet has at most " +
+                                                std::to_string(most_on_sheet) +
+                                                "; give a lower --most, or a --sensor");
     }
     draw_sheet_file(pictures, file, format);
     return {pictures.size()};

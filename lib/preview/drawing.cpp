@@ -69,10 +69,15 @@ void draw_dot(Picture& picture, const Eigen::Vector2d& at, int half, Rgb colour)
          static_cast<int>(std::floor(at.y())) - half, 2 * half + 1, 2 * half + 1, colour);
 }
 
-void paste(Picture& picture, const Picture& part, int x, int y) {
+void paste(Drawing& drawing, const Drawing& part, int x, int y) {
     for (int row = 0; row < part.height; ++row) {
         const auto from = part.pixels.begin() + static_cast<std::ptrdiff_t>(row) * part.width;
-        std::copy_n(from, part.width, picture.row(y + row) + x);
+        std::copy_n(from, part.width, drawing.row(y + row) + x);
+    }
+    for (PictureText text : part.texts) {
+        text.x += x;
+        text.y += y;
+        drawing.texts.push_back(std::move(text));
     }
 }
 
@@ -85,15 +90,30 @@ Eigen::Vector2d PlaneFrame::metres(int column, int row) const {
     return {low.x() + (column + 0.5) * pixel_m, low.y() + (plot_height - row - 0.5) * pixel_m};
 }
 
+namespace {
+
+/// The margin holds the longest number of the vertical axis.
+int left_margin(const Eigen::Vector2d& low, const Eigen::Vector2d& high) {
+    const double furthest = std::max(std::fabs(low.y()), std::fabs(high.y()));
+    const std::string longest = "-" + std::to_string(std::llround(furthest)) + ".5 m";
+    return std::max(least_left_margin, estimated_width(longest) + 12);
+}
+
+}  // namespace
+
+int fitting_height(int width, const Eigen::Vector2d& low, const Eigen::Vector2d& high) {
+    const int plot_width = width - left_margin(low, high) - 1;
+    const Eigen::Vector2d extent = (high - low).cwiseMax(1e-3);
+    const double rows = std::min(extent.y() / extent.x(), 10.0) * plot_width;
+    return static_cast<int>(std::ceil(rows)) + bottom_margin;
+}
+
 PlaneFrame plane_frame(int width, int height, const Eigen::Vector2d& low,
                        const Eigen::Vector2d& high) {
     PlaneFrame frame;
     frame.width = width;
     frame.height = height;
-    // The margin holds the longest number of the vertical axis.
-    const double furthest = std::max(std::fabs(low.y()), std::fabs(high.y()));
-    const std::string longest = "-" + std::to_string(std::llround(furthest)) + ".5 m";
-    frame.left = std::max(least_left_margin, text_width(longest) + 12);
+    frame.left = left_margin(low, high);
     frame.plot_width = width - frame.left - 1;
     frame.plot_height = height - bottom_margin;
     const Eigen::Vector2d extent = (high - low).cwiseMax(1e-3);
@@ -104,7 +124,7 @@ PlaneFrame plane_frame(int width, int height, const Eigen::Vector2d& low,
     return frame;
 }
 
-void draw_axes(Picture& tile, const PlaneFrame& frame) {
+void draw_axes(Drawing& tile, const PlaneFrame& frame) {
     const int bottom = frame.top + frame.plot_height;
     fill(tile, 0, 0, frame.left, frame.height, backdrop);
     fill(tile, 0, bottom, frame.width, frame.height - bottom, backdrop);
@@ -118,15 +138,15 @@ void draw_axes(Picture& tile, const PlaneFrame& frame) {
         const int at = static_cast<int>(frame.pixel({x, frame.low.y()}).x());
         fill(tile, at, bottom, 1, 4, ink);
         const std::string number = number_text(x) + " m";
-        const int half = text_width(number) / 2;
+        const int half = estimated_width(number) / 2;
         if (at - half > 0 && at + half < tile.width)
-            write(tile, at, bottom + 8, number, Align::middle, ink);
+            tile.texts.push_back({at, bottom + 12, number, Align::middle});
     }
     for (const double y : axis_marks(frame.low.y(), high.y(), 5.0)) {
         const int at = static_cast<int>(frame.pixel({frame.low.x(), y}).y());
         fill(tile, frame.left - 5, at, 4, 1, ink);
-        write(tile, frame.left - 8, std::clamp(at - 3, 0, tile.height - 8), number_text(y) + " m",
-              Align::right, ink);
+        tile.texts.push_back({frame.left - 8, std::clamp(at, 6, tile.height - 6),
+                              number_text(y) + " m", Align::right});
     }
 }
 

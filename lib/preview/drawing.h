@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "product/picture.h"
+#include "preview/labels.h"
 
 namespace sonarsim {
 
@@ -25,8 +25,8 @@ void draw_line(Picture& picture, Eigen::Vector2d from, Eigen::Vector2d to, Rgb c
 /// Draws a square of 2 `half` + 1 pixels around a point.
 void draw_dot(Picture& picture, const Eigen::Vector2d& at, int half, Rgb colour);
 
-/// Copies a picture into another one, which must be large enough.
-void paste(Picture& picture, const Picture& part, int x, int y);
+/// Copies a drawing into another one, which must be large enough.
+void paste(Drawing& drawing, const Drawing& part, int x, int y);
 
 /// The mapping of a plane to a tile: metres to pixels, with the same scale on both axes and margins
 /// for the numbers of the axes.
@@ -49,7 +49,10 @@ struct PlaneFrame {
 PlaneFrame plane_frame(int width, int height, const Eigen::Vector2d& low,
                        const Eigen::Vector2d& high);
 
+/// The height of a tile of this width that has no empty space above or below `low` to `high`.
+int fitting_height(int width, const Eigen::Vector2d& low, const Eigen::Vector2d& high);
+
 /// Darkens the margins and writes the numbers of both axes there.
-void draw_axes(Picture& tile, const PlaneFrame& frame);
+void draw_axes(Drawing& tile, const PlaneFrame& frame);
 
 }  // namespace sonarsim

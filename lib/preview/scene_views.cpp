@@ -5,6 +5,7 @@
 
 #include "core/units.h"
 #include "preview/drawing.h"
+#include "preview/object_boxes.h"
 #include "preview/scene_raster.h"
 #include "product/colour_map.h"
 #include "visibility/angles.h"
@@ -16,6 +17,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
+constexpr int least_section_px = 180;
 constexpr Rgb path_colour{255, 255, 255};
 constexpr Rgb surface_colour{205, 195, 170};
 
@@ -27,6 +29,8 @@ struct Box2 {
         low = low.cwiseMin(at);
         high = high.cwiseMax(at);
     }
+    Vector2d size() const { return high - low; }
+
     /// Enlarges the area on all sides by a share of its longer side, at least by a metre.
     Box2 padded(double share) const {
         const double by = std::max(0.5, share * (high - low).maxCoeff());
@@ -82,6 +86,63 @@ Vector2d heading_of(const Pose& T_world_vehicle) {
     return bow.head<2>().norm() < 1e-6 ? Vector2d(1.0, 0.0) : Vector2d(bow.head<2>().normalized());
 }
 
+Vector2d flat(const Vector3d& p) {
+    return p.head<2>();
+}
+
+/// The area that the plan shows.
+Box2 plan_box(const Moment& moment) {
+    Box2 box;
+    for (const TimedPose& pose : moment.assembly.trajectory)
+        box.add(flat(pose.T_world_vehicle.translation));
+    for (const BeamOutline& beam : moment.beams) {
+        for (const Vector3d& end : beam.ends)
+            box.add(flat(end));
+    }
+    box = box.padded(0.1);
+    // The plan shows all of the scene if it is not much larger.
+    const Scene& scene = moment.assembly.scene;
+    const Vector2d scene_low = flat(scene.bounds_min);
+    const Vector2d scene_high = flat(scene.bounds_max);
+    if ((scene_high - scene_low).maxCoeff() < 2.0 * (box.high - box.low).maxCoeff()) {
+        box.add(scene_low);
+        box.add(scene_high);
+    }
+    return box;
+}
+
+/// The upright plane of a section.
+struct SectionPlane {
+    Vector3d origin;  ///< position of the vehicle
+    Vector2d axis;    ///< to the right in the picture
+
+    Vector2d project(const Vector3d& p) const {
+        return {axis.dot(p.head<2>() - origin.head<2>()), p.z()};
+    }
+};
+
+SectionPlane section_plane(const Moment& moment, bool across) {
+    const Pose& now = moment.assembly.trajectory[moment.pose].T_world_vehicle;
+    const Vector2d ahead = heading_of(now);
+    // The axis across points to starboard, so that port is on the left as seen from astern.
+    return {now.translation, across ? Vector2d(ahead.y(), -ahead.x()) : ahead};
+}
+
+Box2 section_box(const Moment& moment, const SectionPlane& plane) {
+    Box2 beams;
+    beams.add(plane.project(plane.origin));
+    for (const BeamOutline& beam : moment.beams) {
+        for (const Vector3d& end : beam.ends)
+            beams.add(plane.project(end));
+    }
+    Box2 box = beams.padded(0.08);
+    // The longer side does not decide on the room above and below.
+    const double above = std::max(0.5, 0.15 * (beams.high - beams.low).y());
+    box.low.y() = beams.low.y() - above;
+    box.high.y() = beams.high.y() + above;
+    return box;
+}
+
 constexpr int edge_steps = 48;  // rays along each side, or around a cone
 
 Ray ray_along(const Eigen::Vector3d& direction) {
@@ -122,27 +183,21 @@ BeamOutline beam_outline(const Sonar& sonar, const VisibilityEngine& engine,
     return outline;
 }
 
-Picture draw_plan(const Moment& moment, int width, int height) {
-    const auto flat = [](const Vector3d& p) -> Vector2d { return p.head<2>(); };
+double plan_shape(const Moment& moment) {
+    const Vector2d size = plan_box(moment).size();
+    return size.y() / size.x();
+}
+
+double section_shape(const Moment& moment, bool across) {
+    const Vector2d size = section_box(moment, section_plane(moment, across)).size();
+    return size.y() / size.x();
+}
+
+Drawing draw_plan(const Moment& moment, int width, int height) {
     const Trajectory& trajectory = moment.assembly.trajectory;
-    Box2 box;
-    for (const TimedPose& pose : trajectory)
-        box.add(flat(pose.T_world_vehicle.translation));
-    for (const BeamOutline& beam : moment.beams) {
-        for (const Vector3d& end : beam.ends)
-            box.add(flat(end));
-    }
-    box = box.padded(0.1);
-    // The plan shows all of the scene if it is not much larger.
-    const Scene& scene = moment.assembly.scene;
-    const Vector2d scene_low = flat(scene.bounds_min);
-    const Vector2d scene_high = flat(scene.bounds_max);
-    if ((scene_high - scene_low).maxCoeff() < 2.0 * (box.high - box.low).maxCoeff()) {
-        box.add(scene_low);
-        box.add(scene_high);
-    }
+    const Box2 box = plan_box(moment);
     const PlaneFrame frame = plane_frame(width, height, box.low, box.high);
-    Picture tile(width, height, backdrop);
+    Drawing tile(width, height, backdrop);
     const Pose& now = trajectory[moment.pose].T_world_vehicle;
     draw_heights(tile, frame, heights_below(moment.assembly, moment.pose, frame));
     for (std::size_t k = 1; k < trajectory.size(); ++k) {
@@ -155,35 +210,27 @@ Picture draw_plan(const Moment& moment, int width, int height) {
     const Vector2d ahead = heading_of(now);
     draw_line(tile, here, here + 18.0 * Vector2d(ahead.x(), -ahead.y()), path_colour);
     draw_dot(tile, here, 2, path_colour);
+    draw_objects(tile, frame, object_boxes(moment.assembly, moment.pose));
     draw_axes(tile, frame);
     return tile;
 }
 
-Picture draw_section(const Moment& moment, bool across, int width, int height) {
-    const Pose& now = moment.assembly.trajectory[moment.pose].T_world_vehicle;
-    const Vector2d ahead = heading_of(now);
-    // The axis across points to starboard, so that port is on the left as seen from astern.
-    const Vector2d axis = across ? Vector2d(ahead.y(), -ahead.x()) : ahead;
-    const auto project = [&](const Vector3d& p) -> Vector2d {
-        return {axis.dot(p.head<2>() - now.translation.head<2>()), p.z()};
-    };
-    Box2 box;
-    box.add(project(now.translation));
-    for (const BeamOutline& beam : moment.beams) {
-        for (const Vector3d& end : beam.ends)
-            box.add(project(end));
-    }
-    box = box.padded(0.15);
+Drawing draw_section(const Moment& moment, bool across, int width, int most_height) {
+    const SectionPlane plane = section_plane(moment, across);
+    const auto project = [&](const Vector3d& p) { return plane.project(p); };
+    const Box2 box = section_box(moment, plane);
+    const int height =
+        std::clamp(fitting_height(width, box.low, box.high), least_section_px, most_height);
     const PlaneFrame frame = plane_frame(width, height, box.low, box.high);
-    Picture tile(width, height, backdrop);
+    Drawing tile(width, height, backdrop);
     for (const BeamOutline& beam : moment.beams)
         draw_beam(tile, frame, beam, project);
-    for_each_cut(moment.assembly, moment.pose, now.translation, axis,
+    for_each_cut(moment.assembly, moment.pose, plane.origin, plane.axis,
                  [&](const Vector3d& a, const Vector3d& b) {
                      draw_line(tile, frame.pixel(project(a)), frame.pixel(project(b)),
                                surface_colour);
                  });
-    draw_dot(tile, frame.pixel(project(now.translation)), 2, path_colour);
+    draw_dot(tile, frame.pixel(project(plane.origin)), 2, path_colour);
     draw_axes(tile, frame);
     return tile;
 }

@@ -5,7 +5,7 @@
 
 #include "assembly/assemble.h"
 #include "ping/sonar.h"
-#include "product/picture.h"
+#include "preview/labels.h"
 #include "visibility/engine.h"
 
 namespace sonarsim {
@@ -28,13 +28,20 @@ struct Moment {
     std::vector<BeamOutline> beams;  ///< one per sonar
 };
 
+/// Height by width of what draw_plan() shows.
+double plan_shape(const Moment& moment);
+
+/// Height by width of what draw_section() shows.
+double section_shape(const Moment& moment, bool across);
+
 /// Draws a plan, north (y) up: the height of the highest surface below the vehicle, dark where
-/// there is none, the trajectory, and the footprints of the sonars.
-Picture draw_plan(const Moment& moment, int width, int height);
+/// there is none, the trajectory, the footprints of the sonars and the boxes and names of objects.
+Drawing draw_plan(const Moment& moment, int width, int height);
 
 /// Draws a section along or across the vehicle's heading: the surface in the vertical plane through
 /// the vehicle, and the beams of all sonars seen from the side. The horizontal axis counts from the
-/// vehicle, ahead or to starboard; the vertical axis is world z.
-Picture draw_section(const Moment& moment, bool across, int width, int height);
+/// vehicle, ahead or to starboard; the vertical axis is world z. It is less than `most_height` high
+/// if the beams are.
+Drawing draw_section(const Moment& moment, bool across, int width, int most_height);
 
 }  // namespace sonarsim

@@ -49,8 +49,19 @@ SonarPanel draw_fan(const Sonar& sonar, const Ping& ping, int width, int height)
     const FanMap map = make_fan_map(sonar, fits);
     Gain gain;
     gain.add(ping.intensity);
-    const FanStyle style = make_fan_style(sonar, map.frame, fan_style);
-    return {styled_fan(style, render_fan(map, ping, gain.white())), gain.white()};
+    const FanStyle style = make_fan_style(sonar, map.frame, fan_style, false);
+    const Picture fan = styled_fan(style, render_fan(map, ping, gain.white()));
+    Drawing drawing(fan.width, fan.height, backdrop);
+    drawing.pixels = fan.pixels;
+    for (const FanNumber& number : fan_numbers(sonar, map.frame, fan_style)) {
+        std::string text = number.value + (number.is_bearing ? "\u00b0" : " m");
+        if (!number.side.empty()) text += " " + number.side;
+        const int half = estimated_width(text) / 2;
+        drawing.texts.push_back({std::clamp(number.x, half, std::max(half, fan.width - half)),
+                                 std::clamp(number.y, 7, std::max(7, fan.height - 7)), text,
+                                 Align::middle, mark_colour, label_px, true});
+    }
+    return {std::move(drawing), gain.white()};
 }
 
 SonarPanel draw_scan(const Sonar& sonar, std::uint32_t pose, const RenderPing& render, int width,
@@ -127,23 +138,27 @@ SonarPanel draw_rows(const Sonar& sonar, const RecordShape& shape, const Series&
         const std::vector<float> row = record_values(shape, config, ping.intensity, 0.0F);
         values.value.insert(values.value.end(), row.begin(), row.end());
     }
-    Picture picture(width, height, backdrop);
+    Drawing picture(width, height, backdrop);
     const int bottom = height - axis_px;
     draw_values(picture, 0, width, bottom, values, series.white, stops_of(FanColours::copper));
     const auto mark_at = [&](double range, int x) {
         fill(picture, x, bottom, 1, 4, ink);
         const std::string text = number_text(range) + " m";
-        const int half = text_width(text) / 2 + 1;
-        if (x >= half && x + half < width) write(picture, x, bottom + 8, text, Align::middle, ink);
+        const int half = estimated_width(text) / 2 + 1;
+        if (x >= half && x + half < width)
+            picture.texts.push_back({x, bottom + 12, text, Align::middle});
     };
     if (shape.two_sides) {
         const double px_per_m = 0.5 * width / config.range_max_m;
+        mark_at(0.0, width / 2);
         for (const double range : axis_marks(0.0, config.range_max_m, 5.0)) {
+            if (range == 0.0) continue;
             for (const double side : {-1.0, 1.0})
                 mark_at(range, static_cast<int>(0.5 * width + side * range * px_per_m));
         }
-        write(picture, 18, 3, "port", Align::left, mark_colour);
-        write(picture, width - 18, 3, "starboard", Align::right, mark_colour);
+        picture.texts.push_back({18, 10, "port", Align::left, mark_colour, label_px, true});
+        picture.texts.push_back(
+            {width - 18, 10, "starboard", Align::right, mark_colour, label_px, true});
     } else {
         const double px_per_m = width / (config.range_max_m - config.range_min_m);
         for (const double range : axis_marks(config.range_min_m, config.range_max_m, 8.0))
@@ -168,7 +183,7 @@ SonarPanel draw_columns(const Sonar& sonar, const RecordShape& shape, const Seri
         for (std::size_t i = 0; i < column.size(); ++i)
             values.value[i * columns + k] = column[i];
     }
-    Picture picture(width, height, backdrop);
+    Drawing picture(width, height, backdrop);
     const int left = number_px;
     draw_values(picture, left, width - left, height, values, series.white,
                 stops_of(FanColours::sea));
@@ -176,8 +191,8 @@ SonarPanel draw_columns(const Sonar& sonar, const RecordShape& shape, const Seri
     for (const double range : axis_marks(config.range_min_m, config.range_max_m, 8.0)) {
         const int y = static_cast<int>((range - config.range_min_m) * px_per_m);
         fill(picture, left - 5, y, 5, 1, ink);
-        write(picture, left - 8, std::clamp(y - 3, 0, height - 8), number_text(range) + " m",
-              Align::right, ink);
+        picture.texts.push_back(
+            {left - 8, std::clamp(y, 6, height - 6), number_text(range) + " m", Align::right});
     }
     const int x = left + static_cast<int>((series.here + 0.5) * (width - left) / columns);
     fill(picture, x, 0, 1, 14, mark_colour);

@@ -81,27 +81,35 @@ Pixel pixel_of(const FanFrame& frame, const View& view, double range_m, double a
             static_cast<int>(std::floor((view.range_max_m - range_m * at.cos) / frame.pixel_m))};
 }
 
-/// Writes a number within the picture; `x` is the left end.
-void write_inside(Picture& text, int x, int y, const std::string& number) {
-    x = std::clamp(x, 1, std::max(1, text.width - text_width(number) - 1));
-    y = std::clamp(y, 1, std::max(1, text.height - 8));
-    write(text, x, y, number, Align::left, mark_colour);
+/// The text in the small letters of product/picture.h.
+std::string small_text(const FanNumber& number) {
+    return number.value + (number.is_bearing ? number.side : " m");
 }
 
-void write_range(Picture& text, const FanFrame& frame, const View& view, double range_m) {
+FanNumber range_number(const FanFrame& frame, const View& view, double range_m) {
     const bool wide = view.azimuth_rad > pi;
     const Pixel at = pixel_of(frame, view, range_m, wide ? 0.0 : -0.5 * view.azimuth_rad);
-    write_inside(text, at.x + 5, wide ? at.y + 3 : at.y - 1, number_text(range_m) + " m");
+    FanNumber number{at.x + 5, wide ? at.y + 6 : at.y + 2, number_text(range_m), "", false};
+    number.x += text_width(small_text(number)) / 2;
+    return number;
 }
 
-void write_bearing(Picture& text, const FanFrame& frame, const View& view, double bearing_deg) {
+FanNumber bearing_number(const FanFrame& frame, const View& view, double bearing_deg) {
     const double in_m = 14.0 * frame.pixel_m;
     const Pixel at = pixel_of(frame, view, view.range_max_m - in_m, radians(bearing_deg));
     const char* side = "";
     if (bearing_deg > 0.0 && bearing_deg < 180.0) side = "P";
     if (bearing_deg < 0.0) side = "S";
-    const std::string number = number_text(std::fabs(bearing_deg)) + side;
-    write_inside(text, at.x - text_width(number) / 2, at.y - 3, number);
+    return {at.x, at.y, number_text(std::fabs(bearing_deg)), side, true};
+}
+
+/// Writes a number within the picture.
+void write_inside(Picture& text, const FanNumber& number) {
+    const std::string letters = small_text(number);
+    const int width = text_width(letters);
+    const int x = std::clamp(number.x - width / 2, 1, std::max(1, text.width - width - 1));
+    const int y = std::clamp(number.y - 3, 1, std::max(1, text.height - 8));
+    write(text, x, y, letters, Align::left, mark_colour);
 }
 
 /// Marks the text and a dark seam around it, so that it is legible on any picture.
@@ -125,30 +133,38 @@ void mark_text(FanStyle& style, const Picture& text) {
     }
 }
 
-void mark_numbers(FanStyle& style, const View& view, const FanStyleConfig& config) {
-    const FanFrame& frame = style.frame;
-    if (std::min(frame.width, frame.height) < least_px) return;
-    Picture text(frame.width, frame.height, backdrop);
+}  // namespace
+
+std::vector<FanNumber> fan_numbers(const Sonar& sonar, const FanFrame& frame,
+                                   const FanStyleConfig& config) {
+    std::vector<FanNumber> numbers;
+    const View& view = sonar.settings.view;
+    if (std::min(frame.width, frame.height) < least_px) return numbers;
     if (config.rings) {
         for (const double range : ring_ranges(view)) {
             // The outermost bearing has its number there.
             const bool taken = config.bearings && range > 0.97 * view.range_max_m;
-            if (!taken) write_range(text, frame, view, range);
+            if (!taken) numbers.push_back(range_number(frame, view, range));
         }
     }
     if (config.bearings) {
         for (const double bearing : bearings_deg(view))
-            write_bearing(text, frame, view, bearing);
+            numbers.push_back(bearing_number(frame, view, bearing));
     }
-    mark_text(style, text);
+    return numbers;
 }
 
-}  // namespace
-
-FanStyle make_fan_style(const Sonar& sonar, const FanFrame& frame, const FanStyleConfig& config) {
+FanStyle make_fan_style(const Sonar& sonar, const FanFrame& frame, const FanStyleConfig& config,
+                        bool numbers) {
     FanStyle style{frame, colour_table(config.colours), {}};
     mark_lines(style, sonar.settings.view, config);
-    mark_numbers(style, sonar.settings.view, config);
+    if (!numbers) return style;
+    const std::vector<FanNumber> all = fan_numbers(sonar, frame, config);
+    if (all.empty()) return style;
+    Picture text(frame.width, frame.height, backdrop);
+    for (const FanNumber& number : all)
+        write_inside(text, number);
+    mark_text(style, text);
     return style;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "mission/mission.h"
@@ -29,7 +30,22 @@ struct FanStyle {
     std::vector<Mark> marks;  ///< in the order in which they are drawn
 };
 
-FanStyle make_fan_style(const Sonar& sonar, const FanFrame& frame, const FanStyleConfig& config);
+/// `numbers`: also draws fan_numbers(), in the small letters of product/picture.h.
+FanStyle make_fan_style(const Sonar& sonar, const FanFrame& frame, const FanStyleConfig& config,
+                        bool numbers = true);
+
+/// A number beside a ring or at a bearing.
+struct FanNumber {
+    int x = 0;  ///< pixel of its middle
+    int y = 0;
+    std::string value;  ///< metres of a ring, degrees of a bearing
+    std::string side;   ///< "P", "S" or, for rings and for 0 and 180 degrees, ""
+    bool is_bearing = false;
+};
+
+/// The numbers for which there is room.
+std::vector<FanNumber> fan_numbers(const Sonar& sonar, const FanFrame& frame,
+                                   const FanStyleConfig& config);
 
 /// Draws the grey values of render_fan() in this style.
 Picture styled_fan(const FanStyle& style, std::span<const std::uint8_t> grey);

@@ -125,6 +125,10 @@ TEST_SUITE("dataset") {
         const Mission mission = small_mission("");
         CHECK(azimuth[0] == doctest::Approx(-radians(0.5 * mission.sensors[1].azimuth_deg)));
         CHECK(in->spec().get_string_attribute("DateTime").empty());
+        // As a map it would have ids and intensities as numbers of one type.
+        CHECK_THROWS_WITH_AS(read_image(layers / "front/polar/000000.exr"),
+                             doctest::Contains("channels of different types are not read"),
+                             InputError);
     }
 
     TEST_CASE("polar: TIFF holds the image, and the program itself reads it") {

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <string>
+#include <vector>
+
+#include "assembly/assemble.h"
+#include "preview/drawing.h"
+
+namespace sonarsim {
+
+/// An object of the scene and the box around it, world.
+struct ObjectBox {
+    std::string name;
+    Eigen::AlignedBox3d box;
+};
+
+/// The objects at a pose of the trajectory, without those that are background. Nodes of the scene
+/// are the objects if the mission asks for no labels and has no classes.
+std::vector<ObjectBox> object_boxes(const Assembly& assembly, std::uint32_t pose);
+
+/// Draws the boxes in a plan of x and y, without those that fill most of it, and the names for
+/// which there is room, those of large objects first. No name lies over another one.
+void draw_objects(Drawing& tile, const PlaneFrame& frame, const std::vector<ObjectBox>& objects);
+
+}  // namespace sonarsim
