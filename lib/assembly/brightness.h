@@ -13,7 +13,7 @@
 namespace sonarsim {
 
 struct Brightness {
-    std::vector<double> full_scales;       ///< by sonar
+    std::vector<double> full_scales;       ///< for each sonar
     std::shared_ptr<const Caster> caster;  ///< made over the scene on the way; null: none was
 };
 
