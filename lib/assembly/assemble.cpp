@@ -175,7 +175,8 @@ Assembly assemble(const Mission& mission, SceneFiles& models) {
                                 {mission.water.density_kg_m3, mission.water.sound_speed_m_s},
                                 share_beyond(mission.scene.repeats, settings.type));
     lay_ground_maps(mission.scene, materials,
-                    {mission.water.density_kg_m3, mission.water.sound_speed_m_s}, assembly.scene);
+                    {mission.water.density_kg_m3, mission.water.sound_speed_m_s}, parts.files,
+                    models, assembly.scene);
     for (std::string& question : parts.questions)
         assembly.scene.warnings.push_back(std::move(question));
     assembly.motions = std::move(parts.motions);

@@ -22,7 +22,7 @@ struct SceneParts {
     /// The bottom that objects rest on, for the label `height`; null if not needed or not there.
     std::shared_ptr<const Bottom> bottom;
     std::shared_ptr<const Seabed> seabed;  ///< the part of scene.seabed that was made; null: none
-    Thinning heightmap;                    ///< that of scene.heightmap
+    Thinning heightmap;                    ///< rows that were left out
     std::vector<std::string> questions;    ///< sentences about files that may lie on their side
 };
 

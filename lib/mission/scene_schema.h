@@ -177,6 +177,10 @@ void describe(Visitor& v, SceneConfig& c) {
         "the surface of the water: it reflects multipath and is invisible otherwise");
     v.require(!c.file.empty() || c.heightmap || c.seabed || !c.objects.empty(), {},
               "'scene' needs the key 'file', a heightmap, a seabed or objects");
+    v.require(!c.sediment_map || !c.backscatter_map ||
+                  c.sediment_map->laid.placed == c.backscatter_map->laid.placed,
+              {"sediment_map", "backscatter_map"},
+              "sediment_map and backscatter_map must be placed alike, both above or both by uv");
     v.require(!c.heightmap || !c.seabed, {"heightmap", "seabed"},
               "heightmap and seabed are both the bottom; give one of them");
 }
