@@ -173,18 +173,19 @@ Assembly assemble(const Mission& mission, SceneFiles& models) {
     // the files themselves are checked.
     if (errors.count() > 0) errors.attempt([&] { read_scene_files(mission, models); });
     errors.raise();
-    SceneParts parts = place_scene(mission, assembly.trajectory,
-                                   seen_by(assembly.sonars, assembly.trajectory), models);
+    SceneParts parts = place_scene(mission, assembly.trajectory, assembly.sonars, models);
     assembly.scene = load_scene(parts.files, models, materials, mission.scene.material_default,
                                 {mission.water.density_kg_m3, mission.water.sound_speed_m_s},
                                 share_beyond(mission.scene.repeats, settings.type));
     lay_ground_maps(mission.scene, materials,
-                    {mission.water.density_kg_m3, mission.water.sound_speed_m_s}, assembly.scene);
+                    {mission.water.density_kg_m3, mission.water.sound_speed_m_s}, parts.files,
+                    models, assembly.scene);
     for (std::string& question : parts.questions)
         assembly.scene.warnings.push_back(std::move(question));
     assembly.motions = std::move(parts.motions);
     assembly.bottom = std::move(parts.bottom);
     assembly.seabed = std::move(parts.seabed);
+    assembly.heightmap = parts.heightmap;
     add_water_surface(mission, assembly);
     warn_of_empty_scatter(mission, assembly.scene);
     if (!mission.output.labels.empty() || !mission.classes.empty()) {
@@ -202,8 +203,11 @@ Assembly assemble(const Mission& mission, SceneFiles& models) {
     }
     find_targets(assembly.sonars, assembly.scene);
     assembly.inputs = inputs_of(mission);
-    assembly.full_scales = find_full_scales(mission, assembly.scene, assembly.trajectory,
-                                            assembly.motions, assembly.sonars);
+    Brightness brightness = find_full_scales(mission, assembly.scene, assembly.trajectory,
+                                             assembly.motions, assembly.sonars);
+    assembly.full_scales = std::move(brightness.full_scales);
+    // The octree has trees of its own.
+    if (settings.type != EngineKind::octree) assembly.caster = std::move(brightness.caster);
     return assembly;
 }
 

@@ -10,7 +10,7 @@
 #include "assembly/sample_pings.h"
 #include "sonar/setup.h"
 #include "sonar/sonar_at_pose.h"
-#include "visibility/make_engine.h"
+#include "visibility/rays/rays_engine.h"
 
 namespace sonarsim {
 
@@ -79,23 +79,26 @@ double find_full_scale(const Mission& mission, const Scene& scene, const Traject
 
 }  // namespace
 
-std::vector<double> find_full_scales(const Mission& mission, const Scene& scene,
-                                     const Trajectory& trajectory,
-                                     std::span<const Trajectory> motions,
-                                     std::span<const Sonar> sonars) {
-    if (mission.output.full_scale > 0.0)
-        return std::vector<double>(sonars.size(), mission.output.full_scale);
-    std::vector<double> scales;
+Brightness find_full_scales(const Mission& mission, const Scene& scene,
+                            const Trajectory& trajectory, std::span<const Trajectory> motions,
+                            std::span<const Sonar> sonars) {
+    Brightness out;
+    if (mission.output.full_scale > 0.0) {
+        out.full_scales.assign(sonars.size(), mission.output.full_scale);
+        return out;
+    }
     // An own arena throws if there is no memory for more threads; Embree would end the program.
     tbb::task_arena arena;
     arena.execute([&] {
+        out.caster = std::make_shared<const Caster>(scene);
         const std::unique_ptr<VisibilityEngine> engine =
-            make_engine(scene, {.type = EngineKind::rays, .octree = {}});
+            make_rays_engine(scene, *out.caster, false);
         for (const Sonar& sonar : sonars) {
-            scales.push_back(find_full_scale(mission, scene, trajectory, motions, sonar, *engine));
+            out.full_scales.push_back(
+                find_full_scale(mission, scene, trajectory, motions, sonar, *engine));
         }
     });
-    return scales;
+    return out;
 }
 
 }  // namespace sonarsim

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -7,17 +8,22 @@
 #include "ping/sonar.h"
 #include "scene/scene.h"
 #include "trajectory/trajectory.h"
+#include "visibility/caster.h"
 
 namespace sonarsim {
+
+struct Brightness {
+    std::vector<double> full_scales;       ///< for each sonar
+    std::shared_ptr<const Caster> caster;  ///< made over the scene on the way; null: none was
+};
 
 /// The intensity that becomes white in pictures, by sonar: output.full_scale, or for `auto` the 99
 /// % quantile of the occupied bins of a few pings spread over the trajectory, at most ten times
 /// their 90 % quantile, rounded up to two digits; 1 if these pings see nothing. It does not depend
 /// on the shard, the number of threads or the engine, since the probes always use rays. `motions`
 /// are those of the scene's bodies.
-std::vector<double> find_full_scales(const Mission& mission, const Scene& scene,
-                                     const Trajectory& trajectory,
-                                     std::span<const Trajectory> motions,
-                                     std::span<const Sonar> sonars);
+Brightness find_full_scales(const Mission& mission, const Scene& scene,
+                            const Trajectory& trajectory, std::span<const Trajectory> motions,
+                            std::span<const Sonar> sonars);
 
 }  // namespace sonarsim

@@ -38,4 +38,10 @@ EngineSettings engine_settings(const Mission& mission, const Assembly& assembly)
     return settings;
 }
 
+std::unique_ptr<VisibilityEngine> make_engine(const Mission& mission, const Assembly& assembly) {
+    EngineSettings settings = engine_settings(mission, assembly);
+    settings.caster = assembly.caster;
+    return make_engine(assembly.scene, settings);
+}
+
 }  // namespace sonarsim

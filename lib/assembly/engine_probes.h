@@ -11,4 +11,8 @@ namespace sonarsim {
 /// rendered.
 EngineSettings engine_settings(const Mission& mission, const Assembly& assembly);
 
+/// The engine of a mission, over the trees that its assembly has made. The assembly must outlive
+/// it.
+std::unique_ptr<VisibilityEngine> make_engine(const Mission& mission, const Assembly& assembly);
+
 }  // namespace sonarsim

@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "core/named_at.h"
 #include "core/text.h"
+#include "scene/gltf/uv_triangles.h"
 #include "scene/maps/ground_maps.h"
 #include "scene/maps/read_maps.h"
 #include "scene/objects.h"
@@ -55,7 +56,8 @@ LaidMapRule rule_of(const LaidMapConfig& map, const std::string& section, const 
             .origin_m = map.origin_m,
             .no_data = map.no_data,
             .section = section,
-            .needed_m = {scene.bounds_min.head<2>(), scene.bounds_max.head<2>()}};
+            .needed_m = {scene.bounds_min.head<2>(), scene.bounds_max.head<2>()},
+            .by_uv = map.placed == MapPlacing::uv};
 }
 
 /// The indices of the map's materials in the scene, which gets those that it lacks.
@@ -107,7 +109,7 @@ auto read_map(const LaidMapConfig& map, const Read& read) {
 }  // namespace
 
 void lay_ground_maps(const SceneConfig& config, const MaterialTable& table, const Water& water,
-                     Scene& scene) {
+                     std::span<const PlacedFile> files, SceneFiles& models, Scene& scene) {
     if (!config.sediment_map && !config.backscatter_map) return;
     std::optional<MaterialTexels> materials;
     std::optional<StrengthTexels> strengths;
@@ -121,7 +123,7 @@ void lay_ground_maps(const SceneConfig& config, const MaterialTable& table, cons
         resolve_materials(scene, table, water);
         materials = read_map(
             laid, [&] { return read_material_map(rule_of(laid, section, scene), of_scene); });
-        warn_of_place(materials->frame, section, scene);
+        if (laid.placed == MapPlacing::above) warn_of_place(materials->frame, section, scene);
     }
     if (config.backscatter_map) {
         const std::string section = "scene.backscatter_map";
@@ -131,10 +133,23 @@ void lay_ground_maps(const SceneConfig& config, const MaterialTable& table, cons
             return read_strength_map(rule_of(map.laid, section, scene), map.scale_db,
                                      map.offset_db);
         });
-        warn_of_place(strengths->frame, section, scene);
+        if (map.laid.placed == MapPlacing::above) warn_of_place(strengths->frame, section, scene);
+    }
+    const LaidMapConfig& laid =
+        config.sediment_map ? config.sediment_map->laid : config.backscatter_map->laid;
+    std::shared_ptr<const UvMesh> uv;
+    if (laid.placed == MapPlacing::uv) {
+        std::vector<char> on(scene.instances.size(), 0);
+        for (std::size_t i = 0; i < on.size(); ++i) {
+            on[i] = static_cast<char>((i < on_materials.size() && on_materials[i] != 0) ||
+                                      (i < on_strengths.size() && on_strengths[i] != 0));
+        }
+        uv = read_map(
+            laid, [&] { return std::make_shared<const UvMesh>(uv_triangles(files, models, on)); });
     }
     scene.maps = std::make_shared<const GroundMaps>(std::move(materials), std::move(on_materials),
-                                                    std::move(strengths), std::move(on_strengths));
+                                                    std::move(strengths), std::move(on_strengths),
+                                                    std::move(uv));
 }
 
 }  // namespace sonarsim

@@ -1,7 +1,11 @@
 #pragma once
 
+#include <span>
+
 #include "mission/scene_config.h"
+#include "scene/gltf/scene_files.h"
 #include "scene/materials.h"
+#include "scene/placed_file.h"
 #include "scene/scene.h"
 
 namespace sonarsim {
@@ -9,7 +13,8 @@ namespace sonarsim {
 /// Reads the maps of a mission and lays them on the scene, whose materials become those of its
 /// surfaces and of the map. Warns of a map that lies outside the scene. InputError for a map that
 /// cannot be read, a material that the table lacks, and instances that do not exist.
+/// `files` are those that the scene was loaded from, for maps that texture coordinates place.
 void lay_ground_maps(const SceneConfig& config, const MaterialTable& table, const Water& water,
-                     Scene& scene);
+                     std::span<const PlacedFile> files, SceneFiles& models, Scene& scene);
 
 }  // namespace sonarsim

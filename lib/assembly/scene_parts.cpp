@@ -228,12 +228,17 @@ void scatter_files(const ScatterConfig& config, std::uint32_t index, std::uint64
 }  // namespace
 
 SceneParts place_scene(const Mission& mission, const Trajectory& vehicle,
-                       const Eigen::AlignedBox2d& seen, SceneFiles& models) {
+                       std::span<const Sonar> sonars, SceneFiles& models) {
     const SceneConfig& scene = mission.scene;
+    const Eigen::AlignedBox2d seen = seen_by(sonars, vehicle);
     SceneParts parts;
     if (!scene.file.empty()) parts.files.push_back(file_of(scene.file, scene.mesh, scene.place));
     Shapes shapes(models);
     std::optional<PlacedFile> ground = heightmap_of(scene, seen, shapes);
+    if (ground && may_be_thinned(mission)) {
+        parts.heightmap = thin_heights(*ground, sonars, vehicle, mission.accuracy.relative_l1);
+        ground->heightmap->every = parts.heightmap.every;
+    }
     if (scene.seabed) {
         ground = seabed_of(*scene.seabed, mission.seed, needed_ground(scene, seen, shapes));
         parts.seabed = ground->seabed;

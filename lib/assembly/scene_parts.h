@@ -1,13 +1,16 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "assembly/thin_heights.h"
 #include "mission/mission.h"
 #include "scene/gltf/scene_files.h"
 #include "scene/placed_file.h"
 #include "scene/placing/bottom.h"
+#include "sonar/sonar.h"
 #include "trajectory/trajectory.h"
 
 namespace sonarsim {
@@ -19,6 +22,7 @@ struct SceneParts {
     /// The bottom that objects rest on, for the label `height`; null if not needed or not there.
     std::shared_ptr<const Bottom> bottom;
     std::shared_ptr<const Seabed> seabed;  ///< the part of scene.seabed that was made; null: none
+    Thinning heightmap;                    ///< rows that were left out
     std::vector<std::string> questions;    ///< sentences about files that may lie on their side
 };
 
@@ -27,9 +31,9 @@ struct SceneParts {
 /// object below or beside the bottom, for one that finds no room, and for a motion that does not
 /// last from the first to the last ping.
 ///
-/// `seen` is the ground that the sonars can reach, world x and y: of a heightmap or seabed no
-/// more is made than this and what still objects stand on.
+/// A heightmap or seabed is made where the sonars reach it or still objects stand on it. Heights
+/// that the sonars do not resolve are left out, see thin_heights().
 SceneParts place_scene(const Mission& mission, const Trajectory& vehicle,
-                       const Eigen::AlignedBox2d& seen, SceneFiles& models);
+                       std::span<const Sonar> sonars, SceneFiles& models);
 
 }  // namespace sonarsim

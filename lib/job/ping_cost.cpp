@@ -14,8 +14,7 @@ std::vector<PingCost> measure_pings(const Mission& mission, const Assembly& asse
                                     const std::vector<Writers>& writers, double& set_up_s) {
     constexpr std::size_t most_pings = 3;  // after the first
     Stopwatch watch;
-    const std::unique_ptr<VisibilityEngine> engine =
-        make_engine(assembly.scene, engine_settings(mission, assembly));
+    const std::unique_ptr<VisibilityEngine> engine = make_engine(mission, assembly);
     set_up_s += watch.lap();
     std::vector<PingCost> costs(assembly.sonars.size());
     for (std::uint32_t i = 0; i < costs.size(); ++i) {

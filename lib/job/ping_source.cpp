@@ -36,7 +36,7 @@ PingNumbers take_image(const Sonar& sonar, Ping& ping) {
 PingSource::PingSource(Mission mission, Assembly assembly)
     : mission_(std::move(mission)),
       assembly_(std::move(assembly)),
-      engine_(make_engine(assembly_.scene, engine_settings(mission_, assembly_))) {
+      engine_(make_engine(mission_, assembly_)) {
     const std::vector<std::size_t> pings = count_pings(mission_, assembly_.trajectory.size());
     for (std::size_t i = 0; i < pings.size(); ++i) {
         plans_.push_back(plan_labels(mission_, assembly_, assembly_.sonars[i]));

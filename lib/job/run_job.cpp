@@ -126,8 +126,7 @@ void render(const Run& run, const std::vector<PingId>& todo, const Destination* 
     std::vector<LabelPlan> labels;
     for (const Sonar& sonar : assembly.sonars)
         labels.push_back(plan_labels(run.mission, assembly, sonar));
-    const std::unique_ptr<VisibilityEngine> engine =
-        make_engine(assembly.scene, engine_settings(run.mission, assembly));
+    const std::unique_ptr<VisibilityEngine> engine = make_engine(run.mission, assembly);
     Stopwatch watch;
     ordered_pipeline(
         todo.size(), 2 * static_cast<std::size_t>(run.threads), run.stop,

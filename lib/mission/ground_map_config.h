@@ -14,9 +14,13 @@ namespace sonarsim {
 /// Pairs of a name and its replacement, in the order of the file.
 using Renaming = std::vector<std::pair<std::string, std::string>>;
 
-/// An image that is laid on surfaces from above.
+/// The way in which an image is laid on surfaces: from above, or by their texture coordinates.
+enum class MapPlacing { above, uv };
+
+/// An image that is laid on surfaces.
 struct LaidMapConfig {
     std::filesystem::path file;
+    MapPlacing placed = MapPlacing::above;
     double pixel_m = 0.0;                         ///< 0: the file says it, or size_m does
     std::optional<std::array<double, 2>> size_m;  ///< x, y, from edge to edge of the map
     std::array<double, 2> origin_m{};             ///< point of the map that is the world's (0, 0)

@@ -1,11 +1,16 @@
 #pragma once
 
+#include <array>
+
 #include "mission/ground_map_config.h"
 #include "mission/limits.h"
 
 // The keys of the maps that are laid on the ground. As in mission/schema.h.
 
 namespace sonarsim {
+
+inline constexpr std::array map_placings{Choice<MapPlacing>{"above", MapPlacing::above},
+                                         Choice<MapPlacing>{"uv", MapPlacing::uv}};
 
 /// The keys that say where an image lies.
 template <class Visitor, class Config>
@@ -25,6 +30,9 @@ void describe_laid_map(Visitor& v, LaidMapConfig& c) {
     v.place(c.place);
     v.path("file", c.file, "an image, PNG, TIFF (GeoTIFF) or OpenEXR, whose first row is the north",
            required);
+    v.choice("placed", c.placed, map_placings,
+             "`above` lays the map on the ground from above; `uv` lays it by TEXCOORD_0 of the "
+             "glTF's meshes, as their own textures");
     describe_image_place(v, c);
     v.texts(
         "instances", c.instances,
@@ -35,6 +43,11 @@ void describe_laid_map(Visitor& v, LaidMapConfig& c) {
                      "whose alpha is 0 never change anything");
     v.require(c.pixel_m == 0.0 || !c.size_m, {"pixel_m", "size_m"},
               "pixel_m and size_m say the same; give one of them");
+    const bool has_place = c.pixel_m != 0.0 || c.size_m || c.origin_m != std::array{0.0, 0.0};
+    v.require(c.placed == MapPlacing::above || !has_place,
+              {"placed", "pixel_m", "size_m", "origin_m"},
+              "with placed: uv the mesh says where the map lies; leave out pixel_m, size_m and "
+              "origin_m");
 }
 
 template <class Visitor>

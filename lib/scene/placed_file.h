@@ -25,6 +25,7 @@ struct HeightmapRule {
     /// The part that is made, in the coordinates of the map: least x and y, largest x and y. None,
     /// or one outside the map: all of it.
     std::optional<std::array<double, 4>> window = {};
+    int every = 1;  ///< every n-th row and column is kept
 
     bool operator==(const HeightmapRule&) const = default;
 };

@@ -37,14 +37,15 @@ struct MapPiece {
 /// Cuts the samples of a ping.
 class MapLayer {
   public:
-    MapLayer(const GroundMaps& maps, const View& view, const Pose& T_world_sensor)
+    MapLayer(const GroundMaps& maps, const View& view, const Pose& T_world_sensor, double size)
         : maps_(maps),
+          pose_(T_world_sensor),
           R_(T_world_sensor.rotation.toRotationMatrix().topRows<2>()),
           sensor_(T_world_sensor.translation.head<2>()),
-          depth_m_(static_cast<float>(depth_in_bins * view.bin_m())),
-          sine_y_(static_cast<float>(view.azimuth_rad /
+          depth_m_(static_cast<float>(size * depth_in_bins * view.bin_m())),
+          sine_y_(static_cast<float>(size * view.azimuth_rad /
                                      (view.shape == ViewShape::fan ? view.beams : parts_of_cone))),
-          sine_z_(static_cast<float>(view.elevation_rad / parts_of_cone)) {}
+          sine_z_(static_cast<float>(size * view.elevation_rad / parts_of_cone)) {}
 
     /// Appends the pieces of a sample.
     void lay(const Sample& sample, std::vector<Sample>& out) {
@@ -53,13 +54,14 @@ class MapLayer {
             return;
         }
         sample_ = &sample;
-        cut({sample.position,
-             sample.edge_u,
-             sample.edge_v,
-             {from_above(sample.position) + sensor_, from_above(sample.edge_u),
-              from_above(sample.edge_v)},
-             sample.area_m2},
-            most_halvings, out);
+        MapPiece piece{sample.position,
+                       sample.edge_u,
+                       sample.edge_v,
+                       {from_above(sample.position) + sensor_, from_above(sample.edge_u),
+                        from_above(sample.edge_v)},
+                       sample.area_m2};
+        if (maps_.are_by_uv()) find_ground(piece);
+        cut(piece, most_halvings, out);
     }
 
   private:
@@ -68,6 +70,15 @@ class MapLayer {
     static constexpr int most_halvings = 16;
 
     Eigen::Vector2d from_above(const Eigen::Vector3f& v) const { return R_ * v.cast<double>(); }
+
+    /// Finds a piece's place on the maps by texture coordinates. A piece is flat and the triangles
+    /// below it need not be, so each has that of its own centre.
+    void find_ground(MapPiece& piece) const {
+        const Eigen::Matrix3d R = pose_.rotation.toRotationMatrix();
+        piece.ground = maps_.footprint(sample_->instance,
+                                       R * piece.position.cast<double>() + pose_.translation,
+                                       R * piece.u.cast<double>(), R * piece.v.cast<double>());
+    }
 
     /// The extent of an edge by what a piece may have.
     float size_of(const Eigen::Vector3f& half_edge, const Arrival& at) const {
@@ -87,8 +98,11 @@ class MapLayer {
         if (size_v > size_u) piece.swap_edges();
         // In this order of arguments NaN, of a piece at the sonar, ends here.
         if (std::max(size_u, size_v) > 1.0F && halvings > 0) {
-            cut(piece.between(-1.0, 0.0), halvings - 1, out);
-            cut(piece.between(0.0, 1.0), halvings - 1, out);
+            for (const double low : {-1.0, 0.0}) {
+                MapPiece half = piece.between(low, low + 1.0);
+                if (maps_.are_by_uv()) find_ground(half);
+                cut(half, halvings - 1, out);
+            }
             return;
         }
         // Strips that lie side by side along the edge with the lesser depth blur ranges the least.
@@ -124,6 +138,7 @@ class MapLayer {
     }
 
     const GroundMaps& maps_;
+    const Pose& pose_;
     Eigen::Matrix<double, 2, 3> R_;  ///< from the sensor frame to the world's x and y
     Eigen::Vector2d sensor_;
     float depth_m_, sine_y_, sine_z_;  ///< the greatest extents of a piece
@@ -134,8 +149,8 @@ class MapLayer {
 }  // namespace
 
 void lay_maps(const GroundMaps& maps, const View& view, const Pose& T_world_sensor,
-              Samples& samples, std::vector<Sample>& outside_sector) {
-    MapLayer layer(maps, view, T_world_sensor);
+              Samples& samples, std::vector<Sample>& outside_sector, double size) {
+    MapLayer layer(maps, view, T_world_sensor, size);
     std::vector<Sample> items;
     items.reserve(2 * samples.items.size());
     std::uint32_t begin = 0;
@@ -158,7 +173,7 @@ MappedPoint mapped_point(const GroundMaps& maps, const Pose& T_world_sensor,
                          std::uint32_t material) {
     const Eigen::Vector3d world =
         T_world_sensor.rotation * point.cast<double>() + T_world_sensor.translation;
-    return maps.at(instance, material, world.head<2>());
+    return maps.at_point(instance, material, world);
 }
 
 }  // namespace sonarsim

@@ -12,8 +12,9 @@ namespace sonarsim {
 /// on which the maps change is cut until its pieces are half a range bin deep and as wide as a
 /// beam; a piece with several materials becomes strips with the area of each. So the strips tile
 /// the surface as the samples did, and a bin's echo is the mean over the area that it sees.
+/// `size` is a factor on the extents of the pieces.
 void lay_maps(const GroundMaps& maps, const View& view, const Pose& T_world_sensor,
-              Samples& samples, std::vector<Sample>& outside_sector);
+              Samples& samples, std::vector<Sample>& outside_sector, double size = 1.0);
 
 /// The material and strength of a point in the sensor frame.
 MappedPoint mapped_point(const GroundMaps& maps, const Pose& T_world_sensor,

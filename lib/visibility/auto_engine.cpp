@@ -129,8 +129,14 @@ bool rays_are_better(const RaysTrial& trial, const View& view) {
 
 std::unique_ptr<VisibilityEngine> make_auto_engine(const Scene& scene, const SlicesOptions& options,
                                                    std::span<const Probe> probes, bool coverage) {
-    if (!scene.bodies.empty() || !scene.copies.empty()) return make_rays_engine(scene, coverage);
-    const Caster caster(scene);
+    return make_auto_engine(scene, Caster(scene), options, probes, coverage);
+}
+
+std::unique_ptr<VisibilityEngine> make_auto_engine(const Scene& scene, const Caster& caster,
+                                                   const SlicesOptions& options,
+                                                   std::span<const Probe> probes, bool coverage) {
+    if (!scene.bodies.empty() || !scene.copies.empty())
+        return make_rays_engine(scene, caster, coverage);
     auto slices = make_slices_engine(scene, caster, options, coverage);
     const bool few = scene.triangles.size() < few_triangles;
     if (few && std::ranges::all_of(probes, [](const Probe& p) { return p.rays_goal == 0.0; }))

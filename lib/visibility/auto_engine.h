@@ -44,5 +44,9 @@ bool rays_are_better(const RaysTrial& trial, const View& view);
 std::unique_ptr<VisibilityEngine> make_auto_engine(const Scene& scene, const SlicesOptions& slices,
                                                    std::span<const Probe> probes,
                                                    bool coverage = false);
+/// The same with a caster over the scene, whose trees engines may share.
+std::unique_ptr<VisibilityEngine> make_auto_engine(const Scene& scene, const Caster& caster,
+                                                   const SlicesOptions& slices,
+                                                   std::span<const Probe> probes, bool coverage);
 
 }  // namespace sonarsim

@@ -22,17 +22,15 @@ constexpr double least_error_in_cones = 0.01;
 }  // namespace
 
 std::unique_ptr<VisibilityEngine> make_engine(const Scene& scene, const EngineSettings& settings) {
-    switch (settings.type) {
-        case EngineKind::octree:
-            return make_octree_engine(scene, settings.octree, settings.coverage);
-        case EngineKind::slices:
-            return make_slices_engine(scene, settings.slices, settings.coverage);
-        case EngineKind::automatic:
-            return make_auto_engine(scene, settings.slices, settings.probes, settings.coverage);
-        case EngineKind::rays:
-            break;
+    if (settings.type == EngineKind::octree)
+        return make_octree_engine(scene, settings.octree, settings.coverage);
+    const Caster caster = settings.caster ? *settings.caster : Caster(scene);
+    if (settings.type == EngineKind::slices)
+        return make_slices_engine(scene, caster, settings.slices, settings.coverage);
+    if (settings.type == EngineKind::automatic) {
+        return make_auto_engine(scene, caster, settings.slices, settings.probes, settings.coverage);
     }
-    return make_rays_engine(scene, settings.coverage);
+    return make_rays_engine(scene, caster, settings.coverage);
 }
 
 std::string unsupported(const EngineSettings& settings, const Scene& scene) {

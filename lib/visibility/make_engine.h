@@ -7,6 +7,7 @@
 #include "core/engine_kind.h"
 #include "scene/scene.h"
 #include "visibility/auto_engine.h"
+#include "visibility/caster.h"
 #include "visibility/engine.h"
 #include "visibility/octree/octree_engine.h"
 #include "visibility/slices/slices_engine.h"
@@ -21,6 +22,8 @@ struct EngineSettings {
     std::vector<Probe> probes = {};
     bool coverage =
         false;  ///< covered_bins() will be called: what it needs is made with the engine
+    /// A caster over the scene, whose trees the rays and the slices then use; null: they make one.
+    std::shared_ptr<const Caster> caster = {};
 };
 
 /// Makes the engine over a scene, which must outlive it. Throws InputError when octree.leaf_m is

@@ -1,12 +1,14 @@
 """Maps of material and of strength on the ground: their place, what is refused, and missions that
 differ by a map."""
 import array
+import base64
+import json
 import math
 import struct
 import unittest
 import zlib
 
-from composed import Composed
+from composed import Composed, floor_mesh, gltf
 from test_heightmap import png
 
 MISSION = """\
@@ -54,6 +56,22 @@ def records_of(path):
     numbers = array.array("f" if "f4" in head else "H")
     numbers.frombytes(data[10 + size:])
     return [numbers[k * shape[1]:(k + 1) * shape[1]] for k in range(shape[0])]
+
+
+UV = "  sediment_map: {file: quarters.png, placed: uv, instances: [floor]%s,\n" + QUARTERS.split("\n")[1] + "\n"
+
+
+def unwrapped_floor(uv):
+    """The floor with texture coordinates uv(x, y), x east and y north."""
+    points, indices, material = floor_mesh(cells=5)
+    floor = json.loads(gltf([{"name": "floor", "mesh": 0}], [(points, indices, material)]))
+    data = b"".join(struct.pack("<2f", *uv(x, -z)) for x, _, z in points)
+    floor["buffers"].append({"byteLength": len(data), "uri": "data:application/octet-stream;base64,"
+                             + base64.b64encode(data).decode()})
+    floor["bufferViews"].append({"buffer": 1, "byteLength": len(data)})
+    floor["accessors"].append({"bufferView": 2, "componentType": 5126, "count": len(points), "type": "VEC2"})
+    floor["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = 2
+    return floor
 
 
 class GroundMaps(Composed):
@@ -109,6 +127,60 @@ class GroundMaps(Composed):
         self.mission(colours)
         self.assert_renders()
         self.assertEqual(self.material_names(), ["north_west", "south_west", "south_west", "Concrete"])
+
+    def test_by_texture_coordinates(self):
+        """Coordinates that are the place of the ground give the image of the map from above; turned ones
+        turn the map."""
+        self.mission(QUARTERS % "" + DECIBELS % "")
+        self.assert_renders()
+        above = records_of(self.folder / "out/side/clean.npy")
+        for out, uv, names in (
+                ("uv", lambda x, y: ((x + 10) / 20, (10 - y) / 20),
+                 ["north_west", "south_west", "north_east", "Concrete"]),
+                ("turned", lambda x, y: ((10 - x) / 20, (y + 10) / 20),
+                 ["Concrete", "north_east", "south_west", "north_west"])):
+            self.write("floor.gltf", json.dumps(unwrapped_floor(uv)))
+            self.mission(UV % "" + '  backscatter_map: {file: db.png, placed: uv, instances: ["*"]}\n', out)
+            self.assert_renders()
+            materials = self.dataset(self.folder / out)["labels"]["materials"]
+            materials = {entry["id"]: entry["name"] for entry in materials}
+            self.assertEqual([materials[value] for value in self.rows("material", out)], names)
+            rows = records_of(self.folder / out / "side/clean.npy")
+            off = sum(abs(a - b) for one, other in zip(rows, above, strict=True)
+                      for a, b in zip(one, other, strict=True))
+            whole = sum(sum(row) for row in above)
+            if out == "uv":
+                self.assertLess(off, 1e-4 * whole)
+            else:
+                self.assertGreater(off, 0.1 * whole)
+
+    def test_texture_coordinates_refused(self):
+        def write(change):
+            floor = unwrapped_floor(lambda x, y: (x, y))
+            change(floor)
+            self.write("floor.gltf", json.dumps(floor))
+
+        def primitive(floor):
+            return floor["meshes"][0]["primitives"][0]
+
+        for change, fragment in (
+                (lambda floor: primitive(floor)["attributes"].pop("TEXCOORD_0"),
+                 "of node 'floor' has no TEXCOORD_0, by which a map is placed with placed: uv"),
+                (lambda floor: floor["accessors"][2].update(count=35), "TEXCOORD_0 has 35 elements, and POSITION has 36"),
+                (lambda floor: floor["accessors"][2].update(count=10**6), "bufferView 2 is too short"),
+                (lambda floor: floor["accessors"][2].update(type="VEC3"), "TEXCOORD_0: expected an accessor of type VEC2"),
+                (lambda floor: floor["accessors"][2].update(componentType=5125),
+                 "texture coordinates must be float"),
+                (lambda floor: primitive(floor)["attributes"].update(TEXCOORD_0=9), "accessor 9 does not exist")):
+            with self.subTest(fragment=fragment):
+                write(change)
+                self.mission(UV % "")
+                self.assert_refused(self.run_sonarsim("validate", "mission.yaml"), fragment, "floor.gltf")
+        for maps, fragment in ((UV % ", size_m: [20, 20]", "with placed: uv the mesh says where the map lies"),
+                               (UV % "" + DECIBELS % "", "must be placed alike")):
+            write(lambda floor: None)
+            self.mission(maps)
+            self.assert_refused(self.run_sonarsim("validate", "mission.yaml"), fragment)
 
     def test_no_data(self):
         self.mission((QUARTERS % ", no_data: 3").replace(", 3: south_west", "") + DECIBELS % ", no_data: 16")

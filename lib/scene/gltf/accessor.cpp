@@ -32,6 +32,11 @@ Eigen::Vector3d three(const unsigned char* element, bool is_normalized) {
             component<T>(element, 2, is_normalized)};
 }
 
+template <class T>
+Eigen::Vector2d two(const unsigned char* element, bool is_normalized) {
+    return {component<T>(element, 0, is_normalized), component<T>(element, 1, is_normalized)};
+}
+
 std::uint32_t unsigned_value(const unsigned char* bytes, int component_type) {
     switch (component_type) {
         case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
@@ -129,12 +134,15 @@ void open_sparse(const tinygltf::Model& model, const tinygltf::Accessor& from, A
     }
 }
 
+std::string name_of_type(std::size_t components) {
+    return components == 1 ? "SCALAR" : "VEC" + std::to_string(components);
+}
+
 Accessor open(const tinygltf::Model& model, int index, int type, std::size_t components,
               const std::string& where) {
     const tinygltf::Accessor& from = model.accessors[static_cast<std::size_t>(index)];
     if (from.type != type) {
-        throw InputError(where + ": expected an accessor of type " +
-                         (type == TINYGLTF_TYPE_VEC3 ? "VEC3" : "SCALAR"));
+        throw InputError(where + ": expected an accessor of type " + name_of_type(components));
     }
     if (from.count == 0 || from.count > max_count) {
         throw InputError(where + ": count " + std::to_string(from.count) +
@@ -194,6 +202,19 @@ Accessor open_indices(const tinygltf::Model& model, int index, const std::string
     return open(model, index, TINYGLTF_TYPE_SCALAR, 1, where);
 }
 
+Accessor open_texcoords(const tinygltf::Model& model, int index, const std::string& where) {
+    check_exists(model, index, where);
+    const tinygltf::Accessor& from = model.accessors[static_cast<std::size_t>(index)];
+    const bool is_whole = from.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
+                          from.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT;
+    if (from.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT && !(is_whole && from.normalized)) {
+        throw InputError(where +
+                         ": texture coordinates must be float, or normalized unsigned integers of "
+                         "8 or 16 bits");
+    }
+    return open(model, index, TINYGLTF_TYPE_VEC2, 2, where);
+}
+
 Eigen::Vector3d position(const Accessor& accessor, std::size_t i) {
     const unsigned char* bytes = element(accessor, i);
     if (!bytes) return Eigen::Vector3d::Zero();
@@ -209,6 +230,19 @@ Eigen::Vector3d position(const Accessor& accessor, std::size_t i) {
             return three<std::uint16_t>(bytes, is_normalized);
         default:
             return three<float>(bytes, false);
+    }
+}
+
+Eigen::Vector2d texcoord(const Accessor& accessor, std::size_t i) {
+    const unsigned char* bytes = element(accessor, i);
+    if (!bytes) return Eigen::Vector2d::Zero();
+    switch (accessor.component_type) {
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+            return two<std::uint8_t>(bytes, true);
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+            return two<std::uint16_t>(bytes, true);
+        default:
+            return two<float>(bytes, false);
     }
 }
 

@@ -40,7 +40,8 @@ inline constexpr std::array node{Rule{"name", Kind::name},
                                  Rule{"scale", Kind::number, Holds::array, {}, 3},
                                  Rule{"weights", Kind::number, Holds::array},
                                  Rule{"extras", Kind::extras, Holds::one, extras}};
-inline constexpr std::array attributes{Rule{"POSITION", Kind::index}};
+inline constexpr std::array attributes{Rule{"POSITION", Kind::index},
+                                       Rule{"TEXCOORD_0", Kind::index}};
 inline constexpr std::array primitive{Rule{"attributes", Kind::object, Holds::one, attributes},
                                       Rule{"indices", Kind::index}, Rule{"material", Kind::index},
                                       Rule{"mode", Kind::index}};

@@ -38,39 +38,6 @@ Eigen::Vector3d choose_origin(const Eigen::AlignedBox3d& box) {
     return grid * (cells.array() + 0.5 + aside).floor().matrix();
 }
 
-/// Opens the files and names their instances. Names of objects in the mission take precedence:
-/// nodes with the same name get another one.
-std::vector<OpenFile> open_files(std::span<const PlacedFile> files, SceneFiles& models,
-                                 Scene& scene) {
-    UniqueNames names;
-    for (const PlacedFile& file : files) {
-        if (file.name.empty() || names.taken.insert(file.name).second) continue;
-        throw InputError(file.place, "there is an object '" + printable(file.name) +
-                                         "' already; give each a name of its own");
-    }
-    std::vector<OpenFile> open;
-    for (const PlacedFile& file : files) {
-        OpenFile& next = open.emplace_back();
-        next.placed = &file;
-        next.model = &models.model(file);
-        next.meshes = place_meshes(*next.model, file, names);
-        if (next.meshes.empty() && !file.exclude.empty()) {
-            throw InputError(file.place, "exclude leaves nothing of " + file.file.string() +
-                                             "; `sonarsim inspect` lists the names of its nodes");
-        }
-        for (const PlacedMesh& mesh : next.meshes) {
-            const bool is_part = !file.name.empty() && !next.instance_of_mesh.empty();
-            if (!is_part) {
-                scene.instances.push_back(mesh.instance);
-                scene.instance_classes.push_back(file.class_name.empty() ? mesh.label
-                                                                         : file.class_name);
-            }
-            next.instance_of_mesh.push_back(static_cast<std::uint32_t>(scene.instances.size() - 1));
-        }
-    }
-    return open;
-}
-
 /// Warns once for each file and unit if the file is implausibly long or short.
 void warn_of_unit(const OpenFile& file, const Eigen::AlignedBox3d& box,
                   std::set<std::pair<std::string, double>>& warned, Scene& scene) {
@@ -185,6 +152,37 @@ void require_materials(std::span<const PlacedFile> files, const MaterialTable& t
 }
 
 }  // namespace
+
+std::vector<OpenFile> open_files(std::span<const PlacedFile> files, SceneFiles& models,
+                                 Scene& scene) {
+    UniqueNames names;
+    for (const PlacedFile& file : files) {
+        if (file.name.empty() || names.taken.insert(file.name).second) continue;
+        throw InputError(file.place, "there is an object '" + printable(file.name) +
+                                         "' already; give each a name of its own");
+    }
+    std::vector<OpenFile> open;
+    for (const PlacedFile& file : files) {
+        OpenFile& next = open.emplace_back();
+        next.placed = &file;
+        next.model = &models.model(file);
+        next.meshes = place_meshes(*next.model, file, names);
+        if (next.meshes.empty() && !file.exclude.empty()) {
+            throw InputError(file.place, "exclude leaves nothing of " + file.file.string() +
+                                             "; `sonarsim inspect` lists the names of its nodes");
+        }
+        for (const PlacedMesh& mesh : next.meshes) {
+            const bool is_part = !file.name.empty() && !next.instance_of_mesh.empty();
+            if (!is_part) {
+                scene.instances.push_back(mesh.instance);
+                scene.instance_classes.push_back(file.class_name.empty() ? mesh.label
+                                                                         : file.class_name);
+            }
+            next.instance_of_mesh.push_back(static_cast<std::uint32_t>(scene.instances.size() - 1));
+        }
+    }
+    return open;
+}
 
 Scene load_scene(std::span<const PlacedFile> files, SceneFiles& models, const MaterialTable& table,
                  const std::string& material_default, const Water& water,

@@ -1,78 +1,25 @@
 #include "scene/heightmap/height_model.h"
 
-#include <spdlog/fmt/fmt.h>
-
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
 #include "core/error.h"
-#include "core/text.h"
-#include "scene/images/image_place.h"
-#include "scene/images/read_image.h"
-#include "scene/images/unknown_pixels.h"
+#include "scene/heightmap/height_field.h"
 #include "scene/model_data.h"
 
 namespace sonarsim {
 
 namespace {
 
-void require_heights(const Image& image, const Location& where) {
-    if (image.channels != 1) {
-        throw InputError(where, "has " + std::to_string(image.channels) +
-                                    " channels, and a heightmap has one: take one out, as with "
-                                    "gdal_translate -b 1");
-    }
-    if (image.width < 2 || image.height < 2) {
-        throw InputError(where, "has " + std::to_string(image.width) + " x " +
-                                    std::to_string(image.height) +
-                                    " pixels, and a surface needs 2 x 2");
-    }
-}
-
-/// InputError for a value that is no height. `no_data`: the mark of unknown heights, if one is
-/// known.
-void require_height(float value, const std::optional<double>& no_data, int row, int column,
-                    const Location& where) {
-    constexpr std::array<float, 5> usual_marks{-9999.0F, -99999.0F, -32767.0F, -32768.0F,
-                                               -2147483648.0F};
-    bool is_odd = !(std::fabs(value) <= huge_pixel);
-    for (const float mark : usual_marks)
-        is_odd = is_odd || (!no_data && value == mark);
-    if (!is_odd) return;
-    const std::string text = number_text(static_cast<double>(value));
-    throw InputError(where,
-                     fmt::format("row {}, column {}: {} looks like the mark of an unknown height; "
-                                 "write scene.heightmap.no_data: {}, or another number that does "
-                                 "not occur if it is a height",
-                                 row, column, text, std::isfinite(value) ? text : "3.4e38"));
-}
-
-PixelWindow window_of(const Image& image, const PixelGrid& grid, const HeightmapRule& rule,
-                      const Location& where) {
-    PixelWindow window{0, image.height, 0, image.width};
-    if (rule.window) {
-        const auto& w = *rule.window;
-        window =
-            pixels_within(image, grid, {Eigen::Vector2d(w[0], w[1]), Eigen::Vector2d(w[2], w[3])});
-    }
-    if (window.width() * window.height() <= most_heights) return window;
-    throw InputError(where, fmt::format("the mission needs {} x {} heights of it, and at most 2^25 "
-                                        "have room; make it coarser with gdal_translate -outsize "
-                                        "50% 50%, or cut a part out with gdal_translate -projwin",
-                                        window.width(), window.height()));
-}
-
 /// The two triangles of every four neighbours whose heights are known. Counter-clockwise as seen
 /// from above where rows run to the south and columns to the east.
-std::vector<std::uint32_t> corners_of_cells(const PixelWindow& window,
-                                            const std::vector<bool>& known, bool mirrored) {
-    const std::size_t width = window.width();
+std::vector<std::uint32_t> corners_of_cells(std::size_t width, const std::vector<bool>& known,
+                                            bool mirrored) {
+    const std::size_t height = known.size() / width;
     std::vector<std::uint32_t> corners;
-    corners.reserve(6 * (width - 1) * (window.height() - 1));
+    corners.reserve(6 * (width - 1) * (height - 1));
     const auto add = [&](std::size_t a, std::size_t b, std::size_t c) {
         if (!known[a] || !known[b] || !known[c]) return;
         if (mirrored) std::swap(b, c);
@@ -80,7 +27,7 @@ std::vector<std::uint32_t> corners_of_cells(const PixelWindow& window,
         corners.push_back(static_cast<std::uint32_t>(b));
         corners.push_back(static_cast<std::uint32_t>(c));
     };
-    for (std::size_t row = 0; row + 1 < window.height(); ++row) {
+    for (std::size_t row = 0; row + 1 < height; ++row) {
         for (std::size_t column = 0; column + 1 < width; ++column) {
             const std::size_t north_west = row * width + column;
             const std::size_t south_west = north_west + width;
@@ -96,28 +43,28 @@ std::vector<std::uint32_t> corners_of_cells(const PixelWindow& window,
     return corners;
 }
 
-/// The pixels of a window.
-struct HeightGrid {
+/// The heights that become vertices.
+struct HeightVertices {
     std::vector<float> positions;  ///< column, row and value of each
     std::vector<bool> known;       ///< false for those without a height
+    std::size_t width = 0;         ///< vertices of a row
 };
 
-HeightGrid heights_of(const Image& image, const PixelWindow& window,
-                      const std::optional<double>& no_data, const Location& where) {
-    const UnknownPixels unknown(no_data);
-    HeightGrid out;
-    const std::size_t count = window.width() * window.height();
-    out.positions.reserve(3 * count);
-    out.known.reserve(count);
-    for (int row = window.first_row; row < window.last_row; ++row) {
-        for (int column = window.first_column; column < window.last_column; ++column) {
-            const float value = *image.pixel(row, column);
-            const bool is_known = !unknown.has(value);
-            if (is_known) require_height(value, no_data, row, column, where);
-            out.known.push_back(is_known);
+HeightVertices vertices_of(const HeightField& field, int every) {
+    const PixelWindow& window = field.window;
+    const std::vector<int> rows = every_of(window.first_row, window.last_row, every);
+    const std::vector<int> columns = every_of(window.first_column, window.last_column, every);
+    HeightVertices out;
+    out.width = columns.size();
+    out.positions.reserve(3 * rows.size() * columns.size());
+    out.known.reserve(rows.size() * columns.size());
+    for (const int row : rows) {
+        for (const int column : columns) {
+            const std::size_t k = field.index(row, column);
+            out.known.push_back(field.known[k]);
             out.positions.push_back(static_cast<float>(column));
             out.positions.push_back(static_cast<float>(row));
-            out.positions.push_back(value);
+            out.positions.push_back(field.heights[k]);
         }
     }
     return out;
@@ -145,21 +92,16 @@ void add_height_node(tinygltf::Model& model, const PixelGrid& grid, int position
 }  // namespace
 
 tinygltf::Model height_model(const std::filesystem::path& path, const HeightmapRule& rule) {
-    const Location where{path.string()};
-    const Image image = read_image(path);
-    require_heights(image, where);
-    const PixelGrid grid =
-        grid_in_metres(image, rule.pixel_m, rule.size_m, "scene.heightmap", where);
-    std::optional<double> no_data = rule.no_data ? rule.no_data : image.reference.no_data;
-    if (no_data && std::isnan(*no_data)) no_data.reset();  // NaN is no height anyway
-    const PixelWindow window = window_of(image, grid, rule, where);
-    const HeightGrid heights = heights_of(image, window, no_data, where);
+    const HeightField field = read_heights(path, rule);
+    const PixelGrid& grid = field.grid;
+    const HeightVertices vertices = vertices_of(field, rule.every);
     const std::vector<std::uint32_t> corners =
-        corners_of_cells(window, heights.known, grid.column_m * grid.row_m > 0.0);
+        corners_of_cells(vertices.width, vertices.known, grid.column_m * grid.row_m > 0.0);
     if (corners.empty())
-        throw InputError(where, "has no three neighbours with known heights; check no_data");
+        throw InputError(Location{path.string()},
+                         "has no three neighbours with known heights; check no_data");
     tinygltf::Model model;
-    const int positions = add_accessor(model, heights.positions, heights.known.size(),
+    const int positions = add_accessor(model, vertices.positions, vertices.known.size(),
                                        TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3);
     const int indices = add_accessor(model, corners, corners.size(),
                                      TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, TINYGLTF_TYPE_SCALAR);

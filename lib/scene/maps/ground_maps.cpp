@@ -113,12 +113,14 @@ std::string bytes_hash(const std::vector<T>& values) {
 }  // namespace
 
 GroundMaps::GroundMaps(std::optional<MaterialTexels> materials, std::vector<char> on_materials,
-                       std::optional<StrengthTexels> strengths, std::vector<char> on_strengths)
+                       std::optional<StrengthTexels> strengths, std::vector<char> on_strengths,
+                       std::shared_ptr<const UvMesh> uv)
     : materials_(std::move(materials)),
       on_materials_(std::move(on_materials)),
       strengths_(std::move(strengths)),
       on_strengths_(std::move(on_strengths)),
-      least_texel_m_(std::numeric_limits<double>::infinity()) {
+      least_texel_m_(std::numeric_limits<double>::infinity()),
+      uv_(std::move(uv)) {
     if (materials_) {
         const MaterialTexels& map = *materials_;
         least_texel_m_ = texel_size(map.frame);
@@ -141,6 +143,15 @@ GroundMaps::GroundMaps(std::optional<MaterialTexels> materials, std::vector<char
             return static_cast<double>(map.factor[k]) - 1.0;
         });
     }
+}
+
+GroundFootprint GroundMaps::footprint(std::uint32_t instance, const Eigen::Vector3d& centre,
+                                      const Eigen::Vector3d& u, const Eigen::Vector3d& v) const {
+    if (!uv_) return {centre.head<2>(), u.head<2>(), v.head<2>()};
+    const auto found = uv_->at(instance, centre);
+    if (found) return {found->uv, found->per_m * u, found->per_m * v};
+    constexpr double outside = -1.0;
+    return {Eigen::Vector2d::Constant(outside), Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
 }
 
 MappedPoint GroundMaps::at(std::uint32_t instance, std::uint32_t own,
@@ -224,6 +235,7 @@ std::string GroundMaps::identity() const {
         out += "\nstrengths " + frame_text(strengths_->frame) + bytes_hash(strengths_->factor) +
                bytes_hash(on_strengths_);
     }
+    if (uv_) out += "\nuv " + uv_->identity();
     return out;
 }
 

@@ -2,16 +2,19 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "scene/maps/texel_sums.h"
+#include "scene/maps/uv_mesh.h"
 
 namespace sonarsim {
 
-/// The place of an image in the world: texel coordinates are (p - corner) * per_m.
+/// The place of an image in the world: texel coordinates are (p - corner) * per_m. For a map that
+/// is placed by texture coordinates, these stand for metres of the world.
 struct TexelFrame {
     int width = 0;
     int height = 0;
@@ -61,15 +64,32 @@ struct MaterialShare {
 class GroundMaps {
   public:
     /// `materials` lies on the instances whose element of `on_materials` is not 0, `strengths` on
-    /// those of `on_strengths`.
+    /// those of `on_strengths`. `uv`: the texture coordinates that place both; null: they lie on
+    /// the ground from above.
     GroundMaps(std::optional<MaterialTexels> materials, std::vector<char> on_materials,
-               std::optional<StrengthTexels> strengths, std::vector<char> on_strengths);
+               std::optional<StrengthTexels> strengths, std::vector<char> on_strengths,
+               std::shared_ptr<const UvMesh> uv = nullptr);
 
     bool lie_on(std::uint32_t instance) const {
         return is_on(on_materials_, instance) || is_on(on_strengths_, instance);
     }
 
+    /// True if texture coordinates place the maps.
+    bool are_by_uv() const { return uv_ != nullptr; }
+
+    /// A parallelogram of surface as the maps see it: its centre and its half edges, world. With
+    /// texture coordinates it lies on the plane of the triangle at its centre.
+    GroundFootprint footprint(std::uint32_t instance, const Eigen::Vector3d& centre,
+                              const Eigen::Vector3d& u, const Eigen::Vector3d& v) const;
+
     /// The material and strength of a point of an instance whose own material is `own`.
+    MappedPoint at_point(std::uint32_t instance, std::uint32_t own,
+                         const Eigen::Vector3d& world) const {
+        const Eigen::Vector3d none = Eigen::Vector3d::Zero();
+        return at(instance, own, footprint(instance, world, none, none).centre);
+    }
+
+    /// The same of a point on the plane of the maps: from above, or texture coordinates.
     MappedPoint at(std::uint32_t instance, std::uint32_t own, const Eigen::Vector2d& world) const;
 
     /// The material and strength of all of a footprint, if a quick look says that they are alike
@@ -97,6 +117,7 @@ class GroundMaps {
     TexelSums<double> gains_;  ///< sums of the factors less 1
     std::vector<char> on_strengths_;
     double least_texel_m_ = 0.0;
+    std::shared_ptr<const UvMesh> uv_;
 };
 
 }  // namespace sonarsim

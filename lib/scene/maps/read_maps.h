@@ -25,6 +25,7 @@ struct LaidMapRule {
     std::optional<double> no_data = {};  ///< value of pixels that change nothing; none: the file's
     std::string section = {};            ///< section of the mission, for messages
     Eigen::AlignedBox2d needed_m = {};   ///< the part that is kept, world x and y
+    bool by_uv = false;  ///< texture coordinates place it: all is kept, and no size is needed
 };
 
 /// A map of materials, from an image of one channel with a number for each, or of colours.

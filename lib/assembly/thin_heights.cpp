@@ -1,0 +1,149 @@
+#include "assembly/thin_heights.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "assembly/sample_pings.h"
+#include "core/elementary.h"
+#include "core/units.h"
+#include "scene/heightmap/height_patch.h"
+#include "trace/visible_surface.h"
+#include "visibility/image_change.h"
+#include "visibility/rays/rays_engine.h"
+
+namespace sonarsim {
+
+namespace {
+
+constexpr int most_left_out = 16;
+constexpr double share_of_goal = 0.25;   // that thinning may take
+constexpr std::size_t most_poses = 3;    // for each sonar; the lowest one is added
+constexpr int most_beams = 6;            // that one trial has from a fan
+constexpr std::array places{0.25, 0.8};  // at which a fan is tried
+
+/// A part of a sonar's view at one pose.
+struct Sector {
+    View view;
+    Pose T_world_sensor;
+};
+
+/// Parts of a view that cost little. A fan has some of its beams, any other view is whole.
+std::vector<Sector> sectors_of(const View& view, const Pose& T_world_sensor) {
+    if (view.shape != ViewShape::fan || view.beams <= 2 * most_beams)
+        return {{view, T_world_sensor}};
+    std::vector<Sector> out;
+    const double beam_rad = view.azimuth_rad / view.beams;
+    for (const double place : places) {
+        View part = view;
+        part.beams = most_beams;
+        part.azimuth_rad = most_beams * beam_rad;
+        const double first = std::floor(place * (view.beams - most_beams));
+        const double yaw_rad = -0.5 * view.azimuth_rad + (first + 0.5 * most_beams) * beam_rad;
+        Pose pose = T_world_sensor;
+        const SinCos half = sincos(0.5 * yaw_rad);
+        pose.rotation = pose.rotation * Eigen::Quaterniond(half.cos, 0.0, 0.0, half.sin);
+        out.push_back({part, pose});
+    }
+    return out;
+}
+
+/// True if a ball in the sensor frame may lie within a view.
+bool may_see(const View& view, const Eigen::Vector3d& centre, double radius_m) {
+    const double range = centre.norm();
+    if (range - radius_m > view.range_max_m) return false;
+    const double across = std::sqrt(centre.x() * centre.x() + centre.y() * centre.y());
+    const SinCos elevation = sincos(0.5 * view.elevation_rad);
+    if (view.shape == ViewShape::cone) {
+        const double aside = std::sqrt(centre.y() * centre.y() + centre.z() * centre.z());
+        return aside * elevation.cos - centre.x() * elevation.sin <= radius_m;
+    }
+    if (std::fabs(centre.z()) * elevation.cos - across * elevation.sin > radius_m) return false;
+    if (view.azimuth_rad >= pi) return true;
+    const SinCos azimuth = sincos(0.5 * view.azimuth_rad);
+    return std::fabs(centre.y()) * azimuth.cos - centre.x() * azimuth.sin <= radius_m;
+}
+
+std::vector<double> image_of(const HeightPatches& patches, const std::vector<std::size_t>& seen,
+                             int every, const Sector& sector) {
+    const Scene scene = patches.scene(seen, every, sector.T_world_sensor.translation);
+    if (scene.triangles.empty()) return {};
+    const auto engine = make_rays_engine(scene);
+    return mean_echoes(scene, sector.view,
+                       engine->visible_surface(sector.view, sector.T_world_sensor));
+}
+
+/// The poses of a sonar at which images are compared.
+std::vector<Pose> poses_of_trial(const Sonar& sonar, const Trajectory& vehicle) {
+    const auto at = [&](std::uint32_t i) {
+        return sensor_pose(sonar, vehicle[i].T_world_vehicle, i);
+    };
+    const auto step = static_cast<std::uint32_t>(sonar.config.every);
+    std::uint32_t lowest = 0;
+    for (std::uint32_t i = 0; i < vehicle.size(); i += step) {
+        if (vehicle[i].T_world_vehicle.translation.z() <
+            vehicle[lowest].T_world_vehicle.translation.z())
+            lowest = i;
+    }
+    std::vector<Pose> out{at(lowest)};
+    for (const std::uint32_t i : sample_pings(vehicle.size(), sonar.config.every, most_poses))
+        out.push_back(at(i));
+    return out;
+}
+
+}  // namespace
+
+bool may_be_thinned(const Mission& mission) {
+    const SceneConfig& scene = mission.scene;
+    if (!scene.heightmap || scene.heightmap->keep == KeptHeights::all) return false;
+    const bool has_truth = !mission.output.labels.empty() || !scene.scatter.empty() ||
+                           std::ranges::any_of(scene.objects, [](const ObjectConfig& object) {
+                               return object.place_on == ObjectPlace::on_bottom;
+                           });
+    return !has_truth && std::ranges::none_of(mission.sensors, [](const SonarConfig& sensor) {
+        return sensor.kind == SonarKind::profiling ||
+               sensor.multipath.method != MultipathMethod::none;
+    });
+}
+
+Thinning thin_heights(const PlacedFile& map, std::span<const Sonar> sonars,
+                      const Trajectory& vehicle, double relative_l1, std::size_t few) {
+    const HeightPatches patches(map, most_left_out);
+    Thinning out;
+    if (patches.heights() < few || patches.has_unknown()) return out;
+    // The greatest change for 2, 4, 8 and 16.
+    std::array<double, 4> change{};
+    for (const Sonar& sonar : sonars) {
+        View view = traced_view(sonar.settings.view, sonar.settings.guard_beams);
+        view.relative_l1 = std::min(view.relative_l1, relative_l1);
+        for (const Pose& pose : poses_of_trial(sonar, vehicle)) {
+            for (const Sector& sector : sectors_of(view, pose)) {
+                const Eigen::Matrix3d to_sensor =
+                    sector.T_world_sensor.rotation.toRotationMatrix().transpose();
+                const std::vector<std::size_t> seen =
+                    patches.where([&](const Eigen::Vector3d& centre, double radius_m) {
+                        return may_see(sector.view,
+                                       to_sensor * (centre - sector.T_world_sensor.translation),
+                                       radius_m);
+                    });
+                const std::vector<double> whole = image_of(patches, seen, 1, sector);
+                for (std::size_t k = 0; k < change.size() && !whole.empty(); ++k) {
+                    // A coarser grid than one that fails is not tried.
+                    if (change[k] > share_of_goal * relative_l1) break;
+                    change[k] = std::max(
+                        change[k], image_change(image_of(patches, seen, 2 << k, sector), whole));
+                }
+            }
+        }
+    }
+    for (std::size_t k = 0; k < change.size(); ++k) {
+        if (change[k] > share_of_goal * relative_l1) break;
+        out = {2 << k, change[k]};
+    }
+    return out;
+}
+
+}  // namespace sonarsim

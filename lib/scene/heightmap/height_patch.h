@@ -1,0 +1,49 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include "scene/heightmap/height_field.h"
+#include "scene/placed_file.h"
+#include "scene/scene.h"
+
+namespace sonarsim {
+
+/// A map of heights as square patches of `side` x `side` cells, of which scenes are made without
+/// the rest of the map. InputError as read_heights().
+class HeightPatches {
+  public:
+    HeightPatches(const PlacedFile& map, int side);
+
+    std::size_t heights() const { return field_.heights.size(); }
+    bool has_unknown() const { return has_unknown_; }
+
+    /// The patches that a test takes. It gets a ball around each, its centre in the world.
+    std::vector<std::size_t> where(
+        const std::function<bool(const Eigen::Vector3d& centre, double radius_m)>& is_needed) const;
+
+    /// A scene of patches about an origin, with one material and one instance. Every n-th row and
+    /// column is kept, as height_model() does; n divides `side`.
+    Scene scene(const std::vector<std::size_t>& patches, int every,
+                const Eigen::Vector3d& origin) const;
+
+  private:
+    struct Patch {
+        int row = 0;  ///< row of its first height
+        int column = 0;
+        Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+        double radius_m = 0.0;
+    };
+
+    Eigen::Vector3d world(int row, int column) const;
+
+    HeightField field_;
+    Eigen::Affine3d T_world_file_;
+    int side_;
+    bool has_unknown_;
+    std::vector<Patch> patches_;
+};
+
+}  // namespace sonarsim
