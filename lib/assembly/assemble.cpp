@@ -17,6 +17,7 @@
 #include "core/sha256.h"
 #include "core/text.h"
 #include "mission/files.h"
+#include "mission/scattering_water.h"
 #include "scene/gltf/load.h"
 #include "scene/gltf/scene_files.h"
 #include "scene/maps/ground_maps.h"
@@ -54,8 +55,8 @@ std::string surface_warning(const Mission& mission, const Assembly& assembly) {
     }
     const std::string name = "scene.water_surface ";
     if (pings == 0) {
-        // Layers of the water lie below it.
-        if (!mission.water.layers.empty()) return "";
+        // It ends the water.
+        if (scatters(mission.water)) return "";
         return name +
                "has no effect because no sensor has multipath: set sensors.NAME.multipath.method";
     }

@@ -85,10 +85,11 @@ void add_weights(const View& view, int channels, bool by_sine, Weigh weigh, Weig
         const int t = cell % cells.turns;
         PatchBlock block;
         for (int k = 0; k < parts * parts; ++k) {
-            const double sine =
-                cells.first_sine + (s + (k / parts + 0.5) / parts) * cells.sine_step;
+            const int row = k / parts;
+            const int column = k % parts;
+            const double sine = cells.first_sine + (s + (row + 0.5) / parts) * cells.sine_step;
             const double turn =
-                cells.first_turn_rad + (t + (k % parts + 0.5) / parts) * cells.turn_step_rad;
+                cells.first_turn_rad + (t + (column + 0.5) / parts) * cells.turn_step_rad;
             const Eigen::Vector3f direction = direction_of(cells.axis, sine, turn);
             if (!is_in_view(view, direction)) continue;
             const Eigen::Vector3f place = far_m * direction;
@@ -121,15 +122,17 @@ void add_weights(const View& view, int channels, bool by_sine, Weigh weigh, Weig
 
 }  // namespace
 
-PointLimits SightCells::limits() const {
-    if (axis == 0) {
-        // The cells about the axis of a cone are long and thin: half of the side of a square.
-        const float side = 0.5F * std::sqrt(sine_step * turn_step_rad);
-        return {.depth_m = 0.0F, .sine = side, .elevation_sine = side};
-    }
-    return {.depth_m = 0.0F,
-            .sine = axis == 1 ? sine_step : turn_step_rad,
-            .elevation_sine = axis == 1 ? turn_step_rad : sine_step};
+int SightCells::spanned(const Eigen::Vector3f& half_edge, const Eigen::Vector3f& direction,
+                        float range_m) const {
+    constexpr float most = 64.0F;
+    const auto [along, first, second] = axes_of(axis);
+    const Eigen::Vector3f moved = (2.0F / range_m) * half_edge;
+    const float sine = std::fabs(moved[along] - moved.dot(direction) * direction[along]);
+    const float across2 = 1.0F - direction[along] * direction[along];
+    const float turn =
+        std::fabs(direction[first] * moved[second] - direction[second] * moved[first]);
+    const float by_turn = turn / std::max(across2 * turn_step_rad, 1e-6F);
+    return static_cast<int>(std::ceil(std::clamp(std::max(sine / sine_step, by_turn), 1.0F, most)));
 }
 
 int SightCells::at(float x, float y, float z, float range) const {

@@ -26,8 +26,10 @@ struct SightCells {
     float middle_sine(int s) const {
         return first_sine + (static_cast<float>(s) + 0.5F) * sine_step;
     }
-    /// The greatest size of a piece of surface that may count as in one cell.
-    PointLimits limits() const;
+    /// The cells that an edge spans, from its half and the place of its middle: the number of
+    /// pieces of it that are no longer than a cell, at most 64.
+    int spanned(const Eigen::Vector3f& half_edge, const Eigen::Vector3f& direction,
+                float range_m) const;
     /// The cell of a direction, -1 beyond them. `x`, `y`, `z` may have any length; `range` is it.
     int at(float x, float y, float z, float range) const;
 };

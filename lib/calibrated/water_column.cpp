@@ -9,15 +9,19 @@
 #include "calibrated/lanes.h"
 #include "calibrated/levels.h"
 #include "calibrated/normals.h"
-#include "calibrated/patches.h"
 #include "calibrated/volume_strengths.h"
 #include "core/units.h"
+#include "trace/arrivals.h"
 
 namespace sonarsim {
 
 namespace {
 
 constexpr float no_end = std::numeric_limits<float>::infinity();
+
+// A cell that the surface covers wholly has the middle of at least one of its pieces, and a piece
+// is at least a quarter of a cell or does not reach over it.
+constexpr float least_cover = 0.2F;
 
 /// The share of a side-scan sonar's pattern along the track that its view receives, by range; 1 for
 /// other sonars, whose weights have it.
@@ -71,6 +75,26 @@ std::array<float, 2> stretch_between(float depth_m, float fall, float top_m, flo
     const float a = (top_m - depth_m) / fall;
     const float b = (bottom_m - depth_m) / fall;
     return {std::max(std::min(a, b), 0.0F), std::max(std::max(a, b), 0.0F)};
+}
+
+/// The view cuts cells at its border, and pieces of surface have their middles farther in. So the
+/// water of a cut cell that no piece ends goes as far as that of the cells beside it that the view
+/// has more of.
+void end_at_borders(const SightCells& cells, std::vector<float>& ends) {
+    const std::vector<float> found = ends;
+    for (int cell = 0; cell < cells.count(); ++cell) {
+        const float seen = cells.seen_sr[cell];
+        if (found[cell] != no_end || seen == 0.0F) continue;
+        const int turn = cell % cells.turns;
+        const auto take = [&](bool exists, int beside) {
+            if (!exists || cells.seen_sr[beside] <= seen) return;
+            ends[cell] = std::min(ends[cell], found[beside]);
+        };
+        take(turn > 0, cell - 1);
+        take(turn + 1 < cells.turns, cell + 1);
+        take(cell >= cells.turns, cell - cells.turns);
+        take(cell + cells.turns < cells.count(), cell + cells.turns);
+    }
 }
 
 /// Adds the amplitudes or the powers of the water to 8 bins of a column.
@@ -145,13 +169,12 @@ std::optional<WaterColumn> water_column(const WaterConfig& water, const View& vi
 std::vector<float> water_ends(const SightCells& cells, const TracedPing& traced) {
     std::vector<float> covered_sr(cells.count(), 0.0F);
     std::vector<float> ends(cells.count(), 0.0F);
-    const PointLimits limits = cells.limits();
     const auto add = [&](std::span<const Sample> surface) {
         for (const Sample& sample : surface) {
             const auto [range, departure, direction] = arrival_of(sample.position);
             if (!(range > 0.0F)) continue;
-            const int rows = patches_along(sample.edge_u, direction, range, limits);
-            const int columns = patches_along(sample.edge_v, direction, range, limits);
+            const int rows = cells.spanned(sample.edge_u, direction, range);
+            const int columns = cells.spanned(sample.edge_v, direction, range);
             const float covers = sample.area_m2 * sample.height_m / static_cast<float>(rows) /
                                  static_cast<float>(columns);
             for (int k = 0; k < rows * columns; ++k) {
@@ -172,9 +195,10 @@ std::vector<float> water_ends(const SightCells& cells, const TracedPing& traced)
     add(traced.samples.items);
     add(traced.outside_sector);
     for (int cell = 0; cell < cells.count(); ++cell) {
-        const bool closed = covered_sr[cell] > 0.5F * cells.seen_sr[cell];
+        const bool closed = covered_sr[cell] > least_cover * cells.seen_sr[cell];
         ends[cell] = closed ? ends[cell] / covered_sr[cell] : no_end;
     }
+    end_at_borders(cells, ends);
     return ends;
 }
 

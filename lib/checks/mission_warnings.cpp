@@ -6,6 +6,7 @@
 #include "checks/find_warnings.h"
 #include "core/text.h"
 #include "core/units.h"
+#include "mission/scattering_water.h"
 
 namespace sonarsim {
 
@@ -73,10 +74,7 @@ bool has_calibrated(const Mission& mission) {
 
 /// The paper's model has no echo of the water.
 void judge_water(const Mission& mission, std::vector<Warning>& out) {
-    const WaterConfig& water = mission.water;
-    const bool scatters =
-        water.content != WaterContent::none || water.scattering_db_per_m3 || !water.layers.empty();
-    if (!scatters || has_calibrated(mission)) return;
+    if (!scatters(mission.water) || has_calibrated(mission)) return;
     out.push_back(make_warning(WarningCode::reading, "water",
                                "its scattering has no effect because no sensor has model: "
                                "calibrated: set sensors.NAME.model"));

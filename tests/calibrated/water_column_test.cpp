@@ -232,6 +232,41 @@ TEST_SUITE("calibrated") {
         }
     }
 
+    // A wall 8 m ahead fills the view, whose corners see it at 8 / cos(45) / cos(15) = 11.7 m.
+    TEST_CASE("water: a wall ends it in every beam, with every engine") {
+        SonarConfig config = calibrated(kind_of(SonarKind::imaging).keys.defaults, 2e5);
+        config.azimuth_deg = 90.0;
+        config.elevation_deg = 30.0;
+        config.azimuth_bins = 48;
+        config.range_min_m = 2.0;
+        config.range_max_m = 22.0;
+        config.range_bins = 200;
+        config.instrument = instrument_of(Aperture::line, 2.0);
+        const Sonar full = make_sonar(config, {}, scattering_water());
+        const Sonar empty = make_sonar(config, {}, {});
+        Scene scene = empty_scene();
+        const std::uint32_t rock = add_material(scene, 0.4F);
+        add_quad(scene, {8.0F, -20.0F, -10.0F}, {8.0F, 20.0F, -10.0F}, {8.0F, 20.0F, 10.0F},
+                 {8.0F, -20.0F, 10.0F}, rock);
+        for (const EngineKind engine : {EngineKind::slices, EngineKind::rays, EngineKind::octree}) {
+            const std::vector<float> wall = expected_image(empty, scene, engine);
+            const std::vector<float> both = expected_image(full, scene, engine);
+            double before = 0.0;
+            double behind = 0.0;
+            for (int row = 0; row < 200; ++row) {
+                const double range_m = 2.05 + 0.1 * row;
+                for (int beam = 0; beam < 48; ++beam) {
+                    const std::size_t at = static_cast<std::size_t>(row) * 48 + beam;
+                    const double water = (both[at] - wall[at]) * range_m * range_m;
+                    if (row > 30 && row < 45) before += water / 14.0;
+                    if (row > 120 && row < 180) behind += water / 59.0;
+                }
+            }
+            CHECK(before > 0.0);
+            CHECK(behind < 0.005 * before);
+        }
+    }
+
     TEST_CASE("water: the levels of what it holds, and none of none") {
         WaterConfig water;
         CHECK_FALSE(volume_strength_db(water).has_value());

@@ -83,6 +83,9 @@ water:
   depth_m: 10
   ph: 8
   wind_m_s: 5
+  content: none
+  scattering_db_per_m3: auto
+  layers: []
 scene:
   file: "/base/a.glb"
   materials: "/base/a.csv"
