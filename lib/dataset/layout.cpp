@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "dataset/file_names.h"
 #include "dataset/shared_products.h"
 #include "format/tar.h"
 
@@ -200,7 +201,7 @@ void remove_gallery_pictures(const std::filesystem::path& folder) {
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(pictures)) {
         const fs::file_type type = entry.symlink_status().type();
         if (type == fs::file_type::directory) folders.push_back(entry.path());
-        if (type == fs::file_type::regular && entry.path().extension() == ".png")
+        if (type == fs::file_type::regular && is_picture_name(entry.path().filename().string()))
             files.push_back(entry.path());
     }
     for (const fs::path& file : files)

@@ -34,7 +34,7 @@ void make_folder(const fs::path& page, const fs::path& inner) {
 std::optional<std::string> member_of(const DescribedPacks& packs, const std::string& kind) {
     const auto found =
         std::ranges::find(packs.members, kind, &std::pair<std::string, std::string>::first);
-    if (found == packs.members.end() || !found->second.ends_with(".png")) return std::nullopt;
+    if (found == packs.members.end() || !is_picture_name(found->second)) return std::nullopt;
     return found->second;
 }
 

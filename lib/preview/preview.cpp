@@ -99,6 +99,7 @@ std::vector<int> widths_of_row(std::span<const double> shapes, int all) {
     const double equal = static_cast<double>(all) / static_cast<double>(shapes.size());
     const auto any = static_cast<double>(std::ranges::count(shapes, 0.0));
     std::vector<double> wanted;
+    wanted.reserve(shapes.size());
     double shaped = 0.0;
     for (const double shape : shapes) {
         if (any > 0.0)
@@ -124,6 +125,7 @@ std::vector<int> widths_of_row(std::span<const double> shapes, int all) {
 std::vector<int> tile_widths(const std::vector<int>& rows, std::span<const double> shapes) {
     const int all = rows.front() * (tile_width + gap) - gap;
     std::vector<int> widths;
+    widths.reserve(shapes.size());
     for (const int count : rows) {
         const auto own = static_cast<std::size_t>(count);
         for (const int width : widths_of_row(shapes.subspan(widths.size(), own), all))
@@ -185,6 +187,8 @@ Picture draw_preview(const Mission& mission, const Assembly& assembly, std::uint
     Moment moment{assembly, pose, {}};
     std::vector<Sonar> sonars;
     std::vector<double> shapes;
+    sonars.reserve(assembly.sonars.size());
+    shapes.reserve(assembly.sonars.size() + 3);
     for (std::size_t i = 0; i < assembly.sonars.size(); ++i) {
         sonars.push_back(coarse(assembly.sonars[i]));
         shapes.push_back(0.0);

@@ -10,14 +10,14 @@ from sandbox import digest
 
 class GalleryPacks(GalleryCase):
     def test_packed_pictures_are_copied_beside_the_page(self):
-        self.assert_renders("--out", "loose")
-        self.assert_renders("--set", "output.pack=tar")
+        self.assert_renders("--out", "loose", "--set", "output.fan=jpeg")
+        self.assert_renders("--set", "output.pack=tar", "--set", "output.fan=jpeg")
         before = digest(self.out)
         page = self.gallery()
         copied = self.out / "index_files/fls/fan"
         for loose in (self.folder / "loose/fls/fan").iterdir():
             ping = int(loose.stem)
-            self.assertEqual((copied / f"fls-{ping:06}.fan.png").read_bytes(), loose.read_bytes())
+            self.assertEqual((copied / f"fls-{ping:06}.fan.jpg").read_bytes(), loose.read_bytes())
         views = [sensor["views"] for sensor in dataset_of(page)["sensors"]]
         others = [sensor["views"] for sensor in dataset_of(self.gallery("loose"))["sensors"]]
         for packed, loose in zip(views, others, strict=True):

@@ -63,7 +63,7 @@ std::vector<float> as_floats(const std::vector<double>& values) {
 /// polar/NNNNNN.exr: the intensities as the channel Y, and in layers of their own, as in
 /// "instance.Y", the files of the ping that have the same rows and columns: raw and labels.
 ///
-/// It is not compressed: ZIP takes 52 to 83 ms a ping instead of 3, which is more than most pings
+/// It is not compressed: ZIP takes 52 to 83 ms a ping instead of less than 1, more than most pings
 /// take to simulate, and speckle hardly compresses.
 class PolarExrWriter final : public Writer {
   public:
@@ -78,6 +78,7 @@ class PolarExrWriter final : public Writer {
             const auto* const file = std::get_if<PingFile>(&outputs.per_ping);
             return file == nullptr || file->array != PingArray::bins;
         });
+        names_.reserve(layers_.size());
         for (const auto& layer : layers_)
             names_.push_back(std::get<PingFile>(layer->outputs().per_ping).name + ".Y");
     }
@@ -97,6 +98,7 @@ class PolarExrWriter final : public Writer {
         std::vector<PingNumbers> numbers;
         std::vector<SonarsimChannel> channels{{"Y", ping.intensity.data(), sizeof(float), 4}};
         numbers.reserve(layers_.size());
+        channels.reserve(1 + layers_.size());
         for (std::size_t k = 0; k < layers_.size(); ++k) {
             numbers.push_back(layers_[k]->numbers(finished).value());
             channels.push_back(std::visit(
