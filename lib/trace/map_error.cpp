@@ -10,8 +10,8 @@ namespace sonarsim {
 
 double error_of_maps(const Scene& scene, const View& view, const Pose& T_world_sensor,
                      const Samples& samples) {
-    constexpr int blocks = 64;  // equal parts of the range
-    constexpr int every = 8;    // one in so many of them is looked at
+    constexpr int blocks = 128;  // equal parts of the range
+    constexpr int every = 16;    // one in so many of them is looked at
     constexpr double finer = 0.5;
     Samples usual;
     usual.beam_begin.push_back(0);
