@@ -235,7 +235,7 @@ SceneParts place_scene(const Mission& mission, const Trajectory& vehicle,
     if (!scene.file.empty()) parts.files.push_back(file_of(scene.file, scene.mesh, scene.place));
     Shapes shapes(models);
     std::optional<PlacedFile> ground = heightmap_of(scene, seen, shapes);
-    if (ground && may_be_thinned(mission)) {
+    if (ground && may_be_thinned(mission, *ground, models)) {
         parts.heightmap = thin_heights(*ground, sonars, vehicle, mission.accuracy.relative_l1);
         ground->heightmap->every = parts.heightmap.every;
     }

@@ -96,7 +96,13 @@ std::vector<Pose> poses_of_trial(const Sonar& sonar, const Trajectory& vehicle) 
 
 }  // namespace
 
-bool may_be_thinned(const Mission& mission) {
+bool may_be_thinned(const Mission& mission, const PlacedFile& map, SceneFiles& models) {
+    constexpr std::size_t few_heights = std::size_t{1} << 18;
+    if (!map.heightmap || !has_no_truth_of_heights(mission)) return false;
+    return heights_in(models.model(map)) >= few_heights;
+}
+
+bool has_no_truth_of_heights(const Mission& mission) {
     const SceneConfig& scene = mission.scene;
     if (!scene.heightmap || scene.heightmap->keep == KeptHeights::all) return false;
     const bool has_truth = !mission.output.labels.empty() || !scene.scatter.empty() ||
@@ -110,10 +116,10 @@ bool may_be_thinned(const Mission& mission) {
 }
 
 Thinning thin_heights(const PlacedFile& map, std::span<const Sonar> sonars,
-                      const Trajectory& vehicle, double relative_l1, std::size_t few) {
+                      const Trajectory& vehicle, double relative_l1) {
     const HeightPatches patches(map, most_left_out);
     Thinning out;
-    if (patches.heights() < few || patches.has_unknown()) return out;
+    if (patches.has_unknown()) return out;
     // The greatest change for 2, 4, 8 and 16.
     std::array<double, 4> change{};
     for (const Sonar& sonar : sonars) {

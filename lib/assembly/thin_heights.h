@@ -1,9 +1,9 @@
 #pragma once
 
-#include <cstddef>
 #include <span>
 
 #include "mission/mission.h"
+#include "scene/gltf/scene_files.h"
 #include "scene/placed_file.h"
 #include "sonar/sonar.h"
 #include "trajectory/trajectory.h"
@@ -16,12 +16,13 @@ struct Thinning {
     double error = 0.0;  ///< relative L1 of the images against those of all heights
 };
 
-/// True if no truth of the mission depends on the heights that thinning leaves out: it has no
-/// labels, no soundings, no objects on the bottom and no multipath.
-bool may_be_thinned(const Mission& mission);
+/// True if thinning a mission's heightmap may be worth its time, and no truth depends on the
+/// heights that it leaves out: the map has at least 2^18 heights, and the mission no labels, no
+/// soundings, no objects on the bottom and no multipath. It reads the map.
+bool may_be_thinned(const Mission& mission, const PlacedFile& map, SceneFiles& models);
 
-/// Smaller maps are not thinned: they cost little.
-inline constexpr std::size_t few_heights = std::size_t{1} << 18;
+/// The second part of that.
+bool has_no_truth_of_heights(const Mission& mission);
 
 /// The greatest of 1, 2, 4, 8 and 16 for which every n-th row and column of a map is enough for the
 /// sonars: their images change by no more than a quarter of `relative_l1`. That is measured: rays
@@ -29,6 +30,6 @@ inline constexpr std::size_t few_heights = std::size_t{1} << 18;
 /// once over all heights and once over those that are kept. The greatest change of these images is
 /// Thinning::error. A map with unknown heights keeps all. InputError as read_heights().
 Thinning thin_heights(const PlacedFile& map, std::span<const Sonar> sonars,
-                      const Trajectory& vehicle, double relative_l1, std::size_t few = few_heights);
+                      const Trajectory& vehicle, double relative_l1);
 
 }  // namespace sonarsim

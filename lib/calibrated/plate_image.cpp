@@ -30,7 +30,7 @@ EdgeLimits edge_limits(const PointLimits& limits) {
 PlateSurface surface_of(const PlateOfPing& plate, const PlateScene& scene) {
     if (plate.mirrors.empty()) {
         const Material& material = scene.materials[plate.material];
-        return {.reflection = material.reflection,
+        return {.reflection = plate.strength * material.reflection,
                 .roughness_m = material.roughness_m.value_or(0.0)};
     }
     PlateSurface out;

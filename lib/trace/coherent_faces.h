@@ -18,6 +18,7 @@ struct ScenePlate {
     Eigen::Vector3f normal = Eigen::Vector3f::Zero();    ///< unit, world
     std::uint32_t material = 0;                          ///< index into Scene::materials
     std::uint32_t instance = 0;                          ///< index into Scene::instances
+    bool mapped = false;  ///< maps lie on it: its material is that of a texel
 };
 
 /// A line along which a curved surface is straight, from one end of a strip to the other.

@@ -28,6 +28,7 @@ struct PlateOfPing {
     bool foot_seen = true;        ///< so is the foot of the perpendicular, if it is on the plate
     std::uint32_t material = 0;   ///< index into Scene::materials
     std::vector<Mirror> mirrors;  ///< the faces of a corner; empty: the plate itself reflects
+    float strength = 1.0F;        ///< factor on its power, from a map
 };
 
 /// A part of the line along a cylinder on which its normal points at the axis through the sonar.

@@ -31,6 +31,17 @@ void add_faces(const FaceMesh& mesh, std::uint32_t instance, CoherentFaces& out)
     }
 }
 
+/// Adds the plates of an instance with maps, whatever its own materials are. Its strips and corners
+/// are left out.
+void add_mapped_plates(const FaceMesh& mesh, std::uint32_t instance, CoherentFaces& out) {
+    CoherentFaces found;
+    add_faces(mesh, instance, found);
+    for (ScenePlate& plate : found.plates) {
+        plate.mapped = true;
+        out.plates.push_back(std::move(plate));
+    }
+}
+
 /// A mesh at the place of a copy.
 class Placement {
   public:
@@ -105,18 +116,29 @@ std::shared_ptr<const CoherentFaces> find_coherent_faces(const Scene& scene) {
     if (std::ranges::find(coherent, 1) == coherent.end()) return nullptr;
     auto out = std::make_shared<CoherentFaces>();
     const Groups groups = sort_into_groups(scene.triangle_instance, scene.instances.size());
-    for (std::uint32_t instance = 0; instance < scene.instances.size(); ++instance) {
-        if (scene.maps && scene.maps->lie_on(instance)) continue;
+    const auto mesh_of = [&](std::uint32_t instance, bool all) {
         FaceMesh triangles;
         for (std::uint32_t k = groups.begin[instance]; k < groups.begin[instance + 1]; ++k) {
             const std::uint32_t t = groups.items[k];
-            if (coherent[scene.triangle_material[t]] != 0)
+            if (all || coherent[scene.triangle_material[t]] != 0)
                 triangles.add(scene.vertices, scene.triangles[t], scene.triangle_material[t]);
         }
-        add_faces(triangles, instance, *out);
+        return triangles;
+    };
+    const auto is_mapped = [&](std::uint32_t instance) {
+        return scene.maps && scene.maps->lie_on(instance);
+    };
+    for (std::uint32_t instance = 0; instance < scene.instances.size(); ++instance) {
+        if (!is_mapped(instance)) add_faces(mesh_of(instance, false), instance, *out);
     }
     add_copied_faces(scene, coherent, *out);
     find_corners(*out);
+    const bool in_texels =
+        scene.maps && std::ranges::any_of(scene.maps->materials(),
+                                          [&](std::uint32_t m) { return coherent[m] != 0; });
+    for (std::uint32_t instance = 0; instance < scene.instances.size(); ++instance) {
+        if (is_mapped(instance)) add_mapped_plates(mesh_of(instance, in_texels), instance, *out);
+    }
     return out;
 }
 

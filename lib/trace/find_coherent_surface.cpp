@@ -10,6 +10,7 @@
 #include "trace/arrivals.h"
 #include "trace/corners.h"
 #include "trace/cut_triangle.h"
+#include "trace/lay_maps.h"
 #include "trace/strips.h"
 
 namespace sonarsim {
@@ -63,6 +64,7 @@ class CoherentSurfaceFinder {
                           const VisibilityEngine& engine, const Pose& T_world_sensor,
                           const View& view)
         : faces_(faces),
+          scene_(scene),
           engine_(engine),
           T_world_sensor_(T_world_sensor),
           view_(view),
@@ -121,7 +123,7 @@ class CoherentSurfaceFinder {
         const auto face =
             face_at(plate.border.front()[0], plate.normal, plate.material, plate.instance);
         if (!face) return;
-        out_.faces.push_back(*face);
+        plate.mapped ? add_faces_of_texels(*face) : out_.faces.push_back(*face);
         PlateOfPing at;
         at.normal = face->normal;
         at.height_m = face->height_m;
@@ -140,10 +142,32 @@ class CoherentSurfaceFinder {
         }
         const double size = box.diagonal().norm();
         const Seen seen = find_seen(at);
+        if (plate.mapped && !take_texel(plate, at)) return;
         if (seen == Seen::partly && size < small_plate * box.center().norm())
             add_seen_parts(plate, at, static_cast<float>(size));
         else if (seen != Seen::none)
             out_.plates.push_back(std::move(at));
+    }
+
+    /// Any coherent material may lie on a plane with maps.
+    void add_faces_of_texels(FaceOfPing face) {
+        for (std::uint32_t m = 0; m < scene_.materials.size(); ++m) {
+            if (!scene_.materials[m].roughness_m) continue;
+            face.material = m;
+            out_.faces.push_back(face);
+        }
+    }
+
+    /// Gives a plate the material and strength of the texel at the foot of the perpendicular, where
+    /// its echo comes from. False if that is not in view or not coherent.
+    bool take_texel(const ScenePlate& plate, PlateOfPing& at) const {
+        if (!at.foot_seen) return false;
+        const MappedPoint texel =
+            mapped_point(*scene_.maps, T_world_sensor_, (at.height_m * at.normal).cast<float>(),
+                         plate.instance, plate.material);
+        at.material = texel.material;
+        at.strength = texel.strength;
+        return scene_.materials[texel.material].roughness_m.has_value();
     }
 
     enum class Seen { none, partly, all };
@@ -194,6 +218,7 @@ class CoherentSurfaceFinder {
                 part.normal = whole.normal;
                 part.height_m = whole.height_m;
                 part.material = whole.material;
+                part.strength = whole.strength;
                 for (std::size_t k = 0; k < 4; ++k)
                     part.edges.push_back({point(cut.corners[k]), point(cut.corners[(k + 1) % 4])});
                 points.ask(point(cut.centroid));
@@ -255,6 +280,7 @@ class CoherentSurfaceFinder {
     }
 
     const CoherentFaces& faces_;
+    const Scene& scene_;
     const VisibilityEngine& engine_;
     const Pose& T_world_sensor_;
     const View& view_;

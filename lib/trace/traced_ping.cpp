@@ -1,11 +1,13 @@
 #include "trace/traced_ping.h"
 
+#include <cmath>
 #include <limits>
 #include <utility>
 
 #include "core/clock.h"
 #include "trace/find_coherent_surface.h"
 #include "trace/lay_maps.h"
+#include "trace/map_error.h"
 #include "trace/missed_multipath.h"
 #include "visibility/rays/sampling.h"
 
@@ -26,6 +28,10 @@ TracedPing trace_ping(const TraceSettings& settings, const Scene& scene,
     traced.counts.samples = traced.samples.items.size() + traced.outside_sector.size();
     traced.counts.dropped_samples = traced.samples.dropped;
     if (scene.maps) {
+        // The texels' errors do not depend on the signs of the engine's.
+        const double of_maps = error_of_maps(scene, settings.view, T_world_sensor, traced.samples);
+        double& estimate = traced.samples.estimated_l1;
+        estimate = std::sqrt(estimate * estimate + of_maps * of_maps);
         lay_maps(*scene.maps, settings.view, T_world_sensor, traced.samples, traced.outside_sector);
     }
     if (settings.targets) {

@@ -27,7 +27,8 @@ void add_box(const Sample& sample, double reflection, const View& view, BeamSums
     const double low = (range - half - view.range_min_m) / bin;
     const double high = std::max((range + half - view.range_min_m) / bin, low + 1e-6);
     const double density = static_cast<double>(sample.area_m2) / (high - low);
-    const double intensity = reflection * static_cast<double>(sample.height_m) / range;
+    const double intensity = reflection * static_cast<double>(sample.strength) *
+                             static_cast<double>(sample.height_m) / range;
     const OverlappedBins bins(low, high, view.range_bins);
     for (int i = bins.begin; i < bins.end; ++i) {
         sums.weight[i] += density * bins.overlap(i);

@@ -50,7 +50,7 @@ struct ThinnedMap {
 
     Thinning thinned(const Sonar& sonar) const {
         const Trajectory vehicle{{0.0, above_floor()}};
-        return thin_heights(placed, {&sonar, 1}, vehicle, 0.03, 1);
+        return thin_heights(placed, {&sonar, 1}, vehicle, 0.03);
     }
 
     std::vector<double> image(const Sonar& sonar, int every) const {
@@ -95,14 +95,14 @@ TEST_SUITE("thin heights") {
 
     TEST_CASE("truth keeps all heights") {
         Mission mission;
-        CHECK_FALSE(may_be_thinned(mission));
+        CHECK_FALSE(has_no_truth_of_heights(mission));
         mission.scene.heightmap.emplace();
         mission.sensors.emplace_back();
-        CHECK(may_be_thinned(mission));
+        CHECK(has_no_truth_of_heights(mission));
         const auto refused = [&](const auto& change) {
             Mission other = mission;
             change(other);
-            return !may_be_thinned(other);
+            return !has_no_truth_of_heights(other);
         };
         CHECK(refused([](Mission& m) { m.output.labels = {Label::instance}; }));
         CHECK(refused([](Mission& m) { m.scene.heightmap->keep = KeptHeights::all; }));

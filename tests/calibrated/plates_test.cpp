@@ -10,6 +10,7 @@
 
 #include "calibrated/decibel.h"
 #include "support/calibrated.h"
+#include "support/maps.h"
 #include "support/scenes.h"
 #include "trace/find_coherent_faces.h"
 
@@ -101,6 +102,29 @@ TEST_SUITE("calibrated") {
         add_sphere(scene, {5.0F, 0.0F, 0.0F}, 1.0F, smooth, 64);
         add_box(scene, {9.0F, 0.0F, 0.0F}, {10.0F, 2.0F, 3.0F}, rough);
         CHECK(find_coherent_faces(scene)->plates.size() == 6);
+    }
+
+    TEST_CASE("plates: on ground with maps the texel before the sonar reflects") {
+        const Sonar sonar = plate_sonar(SonarKind::imaging);
+        const double smooth_db = peak_db(image_of(sonar, scene_of_plate(0.0)));
+        const auto mapped_db = [&](bool own_smooth, bool texel_smooth, float strength) {
+            Scene scene = scene_of_plate(0.0);
+            const std::uint32_t rough = add_material(scene, 0.5F);
+            if (!own_smooth) scene.triangle_material.assign(scene.triangles.size(), rough);
+            const TexelFrame frame = square_frame(1, 100.0);
+            lay(scene,
+                material_texels(frame, {texel_smooth ? 0U : rough},
+                                [](int, int) { return std::uint16_t{0}; }),
+                strengths(frame, [&](int, int) { return strength; }));
+            return peak_db(image_of(sonar, scene));
+        };
+        for (const bool own_smooth : {false, true}) {
+            CHECK(std::fabs(mapped_db(own_smooth, true, 1.0F) - smooth_db) < 0.01);
+            CHECK(std::fabs(mapped_db(own_smooth, true, 4.0F) - smooth_db - db_of_power(4.0)) <
+                  0.01);
+            // A rough plate of 10 cm scatters 20 dB less.
+            CHECK(mapped_db(own_smooth, false, 1.0F) < smooth_db - 15.0);
+        }
     }
 
     TEST_CASE("plates: their level in images of three kinds, with and without speckle") {

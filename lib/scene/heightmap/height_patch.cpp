@@ -1,9 +1,15 @@
 #include "scene/heightmap/height_patch.h"
 
+#include <tiny_gltf.h>
+
 #include <algorithm>
 #include <cstdint>
 
 namespace sonarsim {
+
+std::size_t heights_in(const tinygltf::Model& model) {
+    return model.accessors.front().count;  // the positions
+}
 
 HeightPatches::HeightPatches(const PlacedFile& map, int side)
     : field_(read_heights(map.file, *map.heightmap)),

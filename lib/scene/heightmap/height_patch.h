@@ -9,7 +9,14 @@
 #include "scene/placed_file.h"
 #include "scene/scene.h"
 
+namespace tinygltf {
+class Model;
+}
+
 namespace sonarsim {
+
+/// The number of heights in a model of height_model().
+std::size_t heights_in(const tinygltf::Model& model);
 
 /// A map of heights as square patches of `side` x `side` cells, of which scenes are made without
 /// the rest of the map. InputError as read_heights().
@@ -17,7 +24,6 @@ class HeightPatches {
   public:
     HeightPatches(const PlacedFile& map, int side);
 
-    std::size_t heights() const { return field_.heights.size(); }
     bool has_unknown() const { return has_unknown_; }
 
     /// The patches that a test takes. It gets a ball around each, its centre in the world.

@@ -74,6 +74,12 @@ class GroundMaps {
         return is_on(on_materials_, instance) || is_on(on_strengths_, instance);
     }
 
+    /// The materials that texels may have, indices into Scene::materials.
+    std::span<const std::uint32_t> materials() const {
+        if (!materials_) return {};
+        return materials_->materials;
+    }
+
     /// True if texture coordinates place the maps.
     bool are_by_uv() const { return uv_ != nullptr; }
 

@@ -1,0 +1,34 @@
+#include "trace/map_error.h"
+
+#include <vector>
+
+#include "trace/arrivals.h"
+#include "trace/lay_maps.h"
+#include "visibility/image_change.h"
+
+namespace sonarsim {
+
+double error_of_maps(const Scene& scene, const View& view, const Pose& T_world_sensor,
+                     const Samples& samples) {
+    constexpr int blocks = 128;  // equal parts of the range
+    constexpr int every = 16;    // one in so many of them is looked at
+    constexpr double finer = 0.5;
+    Samples usual;
+    usual.beam_begin.push_back(0);
+    const double per_m = blocks / (view.range_max_m - view.range_min_m);
+    for (int beam = 0; beam < view.beams; ++beam) {
+        for (const Sample& sample : samples.beam(beam)) {
+            const auto range = static_cast<double>(arrival_range(sample.position));
+            const int block = static_cast<int>((range - view.range_min_m) * per_m);
+            if ((block + beam) % every == 0) usual.items.push_back(sample);
+        }
+        usual.beam_begin.push_back(static_cast<std::uint32_t>(usual.items.size()));
+    }
+    Samples fine = usual;
+    std::vector<Sample> none;
+    lay_maps(*scene.maps, view, T_world_sensor, usual, none);
+    lay_maps(*scene.maps, view, T_world_sensor, fine, none, finer);
+    return image_change(mean_echoes(scene, view, usual), mean_echoes(scene, view, fine)) / finer;
+}
+
+}  // namespace sonarsim
