@@ -8,6 +8,7 @@
 #include <map>
 #include <utility>
 
+#include "support/slivers.h"
 #include "validation/image_error.h"
 #include "visibility/make_engine.h"
 
@@ -43,12 +44,15 @@ std::vector<LatticeError> lattice_errors(std::uint32_t number, const Lattice& la
     for (const double goal : goals) {
         const auto made = make_engine(lattice.scene, {.type = engine, .octree = {}});
         const Ping ping = render(lattice, *made, goal);
+        Reference known = reference;
+        add_slivers(lattice.scene, make_sonar(lattice.sonar, {}).settings.view, ping.intensity,
+                    known);
         // The octree has no estimate for a ping; it warns of its view.
         const double estimate =
             made->warnings().empty() ? ping.estimated_l1 : std::numeric_limits<double>::infinity();
         errors.push_back({lattice.sonar.kind, lattice.shape, number, goal,
-                          image_error(ping.intensity, reference.intensity).relative_l1,
-                          reference.apart, estimate});
+                          image_error(ping.intensity, known.intensity).relative_l1, reference.apart,
+                          estimate});
     }
     return errors;
 }

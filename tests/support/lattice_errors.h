@@ -28,7 +28,8 @@ struct LatticeError {
 /// surface, in two independent halves.
 Reference lattice_reference(const Lattice& lattice, std::uint64_t rays);
 
-/// Renders scene `number` at each goal and compares it with its reference. Empty if the sonar sees
+/// Renders scene `number` at each goal and compares it with its reference and the slivers that the
+/// reference missed (support/slivers.h). Empty if the sonar sees
 /// too few bins to judge.
 std::vector<LatticeError> lattice_errors(std::uint32_t number, const Lattice& lattice,
                                          const Reference& reference, EngineKind engine,

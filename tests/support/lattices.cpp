@@ -226,7 +226,8 @@ SonarConfig draw_sonar(Draws& draws, std::uint32_t number, float size_m, float d
     config.name = "sonar";
     config.kind = kinds[number % kinds.size()];
     config.range_bins = 128;
-    config.azimuth_bins = 64;
+    // A quarter each of the imaging sonars has 64, 128, 256 and 512 beams.
+    config.azimuth_bins = config.kind == SonarKind::imaging ? 64 << (number / 8 % 4) : 64;
     config.range_min_m = 0.2;
     config.range_max_m = static_cast<double>(distance_m + draws.between(0.8F, 1.5F) * size_m);
     config.azimuth_deg = static_cast<double>(draws.between(30.0F, 90.0F));

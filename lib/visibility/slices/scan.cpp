@@ -12,9 +12,9 @@ namespace {
 // The picture plane stretches by 1 / cos^2 towards the edges of a sector.
 constexpr double widest_sector = 2.1;  // rad
 
-// A strip of a side has constant elevation; its slice is a great circle. Over this azimuth the two
-// differ by 2 % of the elevation.
-constexpr double widest_side = 0.4;  // rad
+// A strip of a side has constant elevation; its slice is a great circle. At an azimuth d from the
+// middle of a sector the two differ by d^2 / 2 of the elevation: 0.5 % at the ends of this one.
+constexpr double widest_side = 0.2;  // rad
 
 constexpr double widest_strip = 0.0088;      // fan, rad~
 constexpr double widest_side_strip = 0.035;  // port_starboard, rad~

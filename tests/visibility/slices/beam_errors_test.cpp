@@ -34,11 +34,11 @@ double error_of(const std::vector<Interval>& surfaces) {
 
 TEST_CASE("slices: bins that surface only just reaches count as errors") {
     // The surface fills bins 2 to 4, the last with 0.0005, 0.002 or half a bin.
-    CHECK(error_of({{2.5F, 4.0005F}}) == doctest::Approx(0.7 / 3.0).epsilon(1e-3));
-    CHECK(error_of({{2.5F, 4.002F}}) == doctest::Approx(0.3 / 3.0).epsilon(1e-3));
+    CHECK(error_of({{2.5F, 4.0005F}}) == doctest::Approx(0.16 / 3.0).epsilon(1e-3));
+    CHECK(error_of({{2.5F, 4.002F}}) == doctest::Approx(0.09 / 3.0).epsilon(1e-3));
     CHECK(error_of({{2.5F, 4.5F}}) == 0.0);
     // Surface that ends just before the border fills two bins.
-    CHECK(error_of({{2.5F, 3.9995F}}) == doctest::Approx(0.6 / 2.0).epsilon(1e-3));
+    CHECK(error_of({{2.5F, 3.9995F}}) == doctest::Approx(0.26 / 2.0).epsilon(1e-3));
     // A sliver in a bin that another surface fills is harmless.
     CHECK(error_of({{2.5F, 4.0005F}, {4.2F, 4.9F}}) == 0.0);
     CHECK(error_of({}) == 0.0);
@@ -50,11 +50,11 @@ TEST_CASE("slices: the error of edge bins is that of the beams so far") {
     errors.sums().add({2.5F, 4.0005F}, 1.5005F, 4.0005F, 1.0F);
     CHECK(errors.edge_bins() == 0.0);
     errors.begin_beam(1);
-    CHECK(errors.edge_bins() == doctest::Approx(0.7 / 3.0).epsilon(1e-3));
+    CHECK(errors.edge_bins() == doctest::Approx(0.16 / 3.0).epsilon(1e-3));
     // Three more bins without sliver.
     errors.sums().add({6.5F, 8.5F}, 2.0F, 8.5F, 1.0F);
     errors.finish();
-    CHECK(errors.edge_bins() == doctest::Approx(0.7 / 6.0).epsilon(1e-3));
+    CHECK(errors.edge_bins() == doctest::Approx(0.16 / 6.0).epsilon(1e-3));
 }
 
 TEST_CASE("slices: a drawn beam has its check's image, and stands for its neighbours") {
