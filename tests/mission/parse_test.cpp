@@ -134,11 +134,11 @@ TEST_CASE("numbers are decimal and booleans are true and false") {
                   "'");
     }
     for (const char* text : {"on", "yes", "True", "TRUE", "y", "1"}) {
-        CHECK(refusal(smallest_mission + "output: {fan: " + text + "}\n") ==
-              "m.yaml:6:15: 'fan' must be true or false, not '" + std::string(text) + "'");
+        CHECK(refusal(smallest_mission + "output: {meta: " + text + "}\n") ==
+              "m.yaml:6:16: 'meta' must be true or false, not '" + std::string(text) + "'");
     }
-    CHECK(refusal(smallest_mission + "output: {fan: \"true\"}\n") ==
-          "m.yaml:6:15: 'fan' must be true or false, not the quoted text 'true'");
+    CHECK(refusal(smallest_mission + "output: {meta: \"true\"}\n") ==
+          "m.yaml:6:16: 'meta' must be true or false, not the quoted text 'true'");
     CHECK(refusal(smallest_mission + key + "'60'\n") ==
           "m.yaml:6:18: 'azimuth_deg' must be a finite number, not the quoted text '60'");
     CHECK(refusal(smallest_mission + key + "[60]\n") ==

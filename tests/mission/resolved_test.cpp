@@ -100,6 +100,18 @@ trajectory:
 vehicle:
   offset_m: [0, 0, 0]
   turn_deg: [0, 0, 0]
+  motion:
+    position_m: [0, 0, 0]
+    turn_deg: [0, 0, 0]
+    period_s: 8
+  navigation:
+    position_m: 0
+    depth_m: 0
+    tilt_deg: 0
+    heading_deg: 0
+    heading_bias_deg: 0
+    heading_drift_deg_h: 0
+    speed_scale: 0
 sensors:
   "fls":
     kind: imaging
