@@ -47,8 +47,8 @@ std::size_t EchoGrid::occupied() const {
     std::size_t cells = 0;
     for (int c = 0; c < columns_; ++c) {
         const float* const values = column(c);
-        for (int row = 0; row < rows_; ++row)
-            cells += values[2 * row] != 0.0F || values[2 * row + 1] != 0.0F ? 1 : 0;
+        for (std::size_t i = 0; i < 2 * static_cast<std::size_t>(rows_); i += 2)
+            cells += values[i] != 0.0F || values[i + 1] != 0.0F ? 1 : 0;
     }
     return cells;
 }

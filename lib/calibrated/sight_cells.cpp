@@ -122,15 +122,14 @@ void add_weights(const View& view, int channels, bool by_sine, Weigh weigh, Weig
 
 }  // namespace
 
-int SightCells::spanned(const Eigen::Vector3f& half_edge, const Eigen::Vector3f& direction,
+int SightCells::spanned(const Eigen::Vector3f& half_edge, const Eigen::Vector3f& towards,
                         float range_m) const {
     constexpr float most = 64.0F;
     const auto [along, first, second] = axes_of(axis);
     const Eigen::Vector3f moved = (2.0F / range_m) * half_edge;
-    const float sine = std::fabs(moved[along] - moved.dot(direction) * direction[along]);
-    const float across2 = 1.0F - direction[along] * direction[along];
-    const float turn =
-        std::fabs(direction[first] * moved[second] - direction[second] * moved[first]);
+    const float sine = std::fabs(moved[along] - moved.dot(towards) * towards[along]);
+    const float across2 = 1.0F - towards[along] * towards[along];
+    const float turn = std::fabs(towards[first] * moved[second] - towards[second] * moved[first]);
     const float by_turn = turn / std::max(across2 * turn_step_rad, 1e-6F);
     return static_cast<int>(std::ceil(std::clamp(std::max(sine / sine_step, by_turn), 1.0F, most)));
 }

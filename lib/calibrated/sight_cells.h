@@ -28,7 +28,7 @@ struct SightCells {
     }
     /// The cells that an edge spans, from its half and the place of its middle: the number of
     /// pieces of it that are no longer than a cell, at most 64.
-    int spanned(const Eigen::Vector3f& half_edge, const Eigen::Vector3f& direction,
+    int spanned(const Eigen::Vector3f& half_edge, const Eigen::Vector3f& towards,
                 float range_m) const;
     /// The cell of a direction, -1 beyond them. `x`, `y`, `z` may have any length; `range` is it.
     int at(float x, float y, float z, float range) const;

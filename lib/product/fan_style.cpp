@@ -33,10 +33,10 @@ std::vector<double> ring_ranges(const View& view) {
 std::vector<double> bearings_deg(const View& view) {
     const double azimuth_deg = degrees(view.azimuth_rad);
     const double step = bearing_step_deg(azimuth_deg);
-    const double last = std::floor(0.5 * azimuth_deg / step + 1e-9);
+    const int last = static_cast<int>(std::floor(0.5 * azimuth_deg / step + 1e-9));
     std::vector<double> bearings;
-    for (double k = -last; k <= last; ++k)
-        bearings.push_back(k * step + 0.0);
+    for (int k = -last; k <= last; ++k)
+        bearings.push_back(k * step);
     // In a full turn the first and the last line are both astern.
     if (azimuth_deg >= 360.0 && bearings.size() > 1) bearings.erase(bearings.begin());
     return bearings;
