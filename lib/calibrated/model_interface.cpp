@@ -47,9 +47,9 @@ double CalibratedModel::working_bytes(bool multipath) const {
     const auto columns =
         std::visit([](const auto& of_model) { return columns_of(of_model); }, beams);
     const double grids = multipath ? 2.0 : 1.0;  // multipath has a grid of its own
-    // Several samples or looks are formed beside the image.
-    const bool beside = instrument.receiver.samples > 1 || instrument.receiver.looks > 1;
-    const double images = beside ? 2.0 * columns * equation.rows * sizeof(float) : 0.0;
+    // Several samples or looks are images of their own.
+    const bool several = instrument.receiver.samples > 1 || instrument.receiver.looks > 1;
+    const double images = several ? 2.0 * columns * equation.rows * sizeof(float) : 0.0;
     return grids * columns * equation.rows * sizeof(float) * 2.0 + images;
 }
 

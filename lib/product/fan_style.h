@@ -34,7 +34,7 @@ struct FanStyle {
 FanStyle make_fan_style(const Sonar& sonar, const FanFrame& frame, const FanStyleConfig& config,
                         bool numbers = true);
 
-/// A number beside a ring or at a bearing.
+/// A number at a ring or at a bearing.
 struct FanNumber {
     int x = 0;  ///< pixel of its middle
     int y = 0;

@@ -29,7 +29,7 @@ View chain_view() {
             .shape = ViewShape::cone};
 }
 
-/// An echosounder that hears noise of -100 dB alone, without TVG. The pulse is so short that
+/// An echosounder that receives noise of -100 dB alone, without TVG. The pulse is so short that
 /// samples are independent.
 CalibratedModel noisy_sounder(const ReceiverConfig& chain) {
     InstrumentConfig config;

@@ -8,7 +8,7 @@
 
 namespace sonarsim::test {
 
-/// Adds to a reference what its rays missed in bins that `image` lights: the parts of triangles in
+/// Adds to a reference what its rays missed in bins that `image` fills: the parts of triangles in
 /// such a bin are found by halving the triangles' sides, and rays are cast to them. A bin stays
 /// dark if none of them is visible. The pose is that of the world frame.
 ///

@@ -103,7 +103,7 @@ TEST_CASE("slices: a corner that enters the view between two slices is seen") {
 TEST_CASE("slices: a cable ends in range where its corners do") {
     // Two cables that meet below the view in a common node, so that their mesh is one part. The
     // planes of faces with neighbours were followed by 0.2 % of the range beyond the face, here by
-    // 1.5 bins, and bins were lit that the cable does not reach. A bin is allowed, since patches
+    // 1.5 bins, and bins were filled that the cable does not reach. A bin is allowed, since patches
     // are parallelograms and the ends of faces are not.
     View view = fan_view();
     view.elevation_rad = radians(2.0);
