@@ -3,9 +3,7 @@
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <memory>
-#include <new>
 #include <span>
 #include <sstream>
 #include <stdexcept>
@@ -13,6 +11,7 @@
 #include <vector>
 
 #include "gallery/sheet_module.h"
+#include "guarded.h"
 
 // Contact sheets through OpenImageIO, which scales the pictures, writes text with a TrueType font
 // and knows the formats.
@@ -167,13 +166,5 @@ void write_sheet(const SonarsimSheet& wanted) {
 extern "C" [[gnu::visibility("default")]] int sonarsim_write_sheet_1(const SonarsimSheet* sheet,
                                                                      char* error,
                                                                      std::size_t error_size) {
-    try {
-        write_sheet(*sheet);
-        return 0;
-    } catch (const std::bad_alloc&) {
-        std::snprintf(error, error_size, "the pictures need more memory than there is");
-    } catch (const std::exception& fault) {
-        std::snprintf(error, error_size, "%s", fault.what());
-    }
-    return 1;
+    return guarded(error, error_size, [&] { write_sheet(*sheet); });
 }

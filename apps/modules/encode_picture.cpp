@@ -3,17 +3,16 @@
 #include <OpenImageIO/imageio.h>
 
 #include <cstdint>
-#include <cstdio>
 #include <cstring>
 #include <memory>
 #include <mutex>
-#include <new>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "format/picture_module.h"
+#include "guarded.h"
 
 // Pictures into memory through OpenImageIO.
 
@@ -117,14 +116,8 @@ std::vector<unsigned char> encode(const SonarsimPicture& picture) {
 extern "C" [[gnu::visibility("default")]] int sonarsim_encode_picture_1(
     const SonarsimPicture* picture, SonarsimTakeBytes take, void* user, char* error,
     std::size_t error_size) {
-    try {
+    return guarded(error, error_size, [&] {
         const std::vector<unsigned char> file = encode(*picture);
         take(user, file.data(), file.size());
-        return 0;
-    } catch (const std::bad_alloc&) {
-        std::snprintf(error, error_size, "it needs more memory than there is");
-    } catch (const std::exception& fault) {
-        std::snprintf(error, error_size, "%s", fault.what());
-    }
-    return 1;
+    });
 }

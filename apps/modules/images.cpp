@@ -1,13 +1,12 @@
 #include <OpenImageIO/imageio.h>
 
 #include <cstdint>
-#include <cstdio>
 #include <memory>
-#include <new>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "guarded.h"
 #include "scene/images/module.h"
 
 // PNG, TIFF and OpenEXR through OpenImageIO. Pixels are taken as they are in the file: OpenImageIO
@@ -102,7 +101,7 @@ bool is_whole(const ImageSpec& spec) {
 extern "C" [[gnu::visibility("default")]] int sonarsim_read_image_1(
     const char* format, const char* file, SonarsimImageStart start, SonarsimImageRows rows,
     void* user, char* error, std::size_t error_size) {
-    try {
+    return guarded(error, error_size, [&] {
         ImageSpec spec;
         const std::unique_ptr<ImageInput> input = open_image(format, file, spec);
         const auto bits = static_cast<unsigned>(8 * spec.format.size());
@@ -111,15 +110,9 @@ extern "C" [[gnu::visibility("default")]] int sonarsim_read_image_1(
         const SonarsimImageHead head{
             static_cast<std::uint64_t>(spec.width), static_cast<std::uint64_t>(spec.height),
             static_cast<std::uint32_t>(spec.nchannels), bits, is_whole(spec) ? 0U : 1U};
-        if (start(user, &head) != 0) return 0;
+        if (start(user, &head) != 0) return;
         require_one_type(spec);
         if (spec.nchannels == 1) require_whole_type(spec, bits);
         read_pixels(*input, spec, rows, user);
-        return 0;
-    } catch (const std::bad_alloc&) {
-        std::snprintf(error, error_size, "it needs more memory than there is");
-    } catch (const std::exception& fault) {
-        std::snprintf(error, error_size, "%s", fault.what());
-    }
-    return 1;
+    });
 }

@@ -2,14 +2,13 @@
 #include <OpenImageIO/imagebufalgo.h>
 
 #include <cstdint>
-#include <cstdio>
-#include <new>
 #include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "guarded.h"
 #include "preview/text_module.h"
 
 // Texts in pictures through OpenImageIO.
@@ -86,18 +85,12 @@ void write_one(const SonarsimText& text, const std::string& font, ImageBuf& pict
 extern "C" [[gnu::visibility("default")]] int sonarsim_write_texts_1(
     std::uint8_t* pixels, std::uint32_t width, std::uint32_t height, const SonarsimText* texts,
     std::size_t count, const char* font, char* error, std::size_t error_size) {
-    try {
+    return guarded(error, error_size, [&] {
         OIIO::attribute("threads", 1);
         ImageBuf picture(
             ImageSpec(static_cast<int>(width), static_cast<int>(height), 3, TypeDesc::UINT8),
             pixels);
         for (const SonarsimText& text : std::span(texts, count))
             write_one(text, font, picture);
-        return 0;
-    } catch (const std::bad_alloc&) {
-        std::snprintf(error, error_size, "the texts need more memory than there is");
-    } catch (const std::exception& fault) {
-        std::snprintf(error, error_size, "%s", fault.what());
-    }
-    return 1;
+    });
 }

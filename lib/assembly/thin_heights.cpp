@@ -14,11 +14,13 @@
 #include "trace/visible_surface.h"
 #include "visibility/image_change.h"
 #include "visibility/rays/rays_engine.h"
+#include "visibility/view_volume.h"
 
 namespace sonarsim {
 
 namespace {
 
+// These are chosen.
 constexpr int most_left_out = 16;
 constexpr double share_of_goal = 0.25;   // that thinning may take
 constexpr std::size_t most_poses = 3;    // for each sonar; the lowest one is added
@@ -49,22 +51,6 @@ std::vector<Sector> sectors_of(const View& view, const Pose& T_world_sensor) {
         out.push_back({part, pose});
     }
     return out;
-}
-
-/// True if a ball in the sensor frame may lie within a view.
-bool may_see(const View& view, const Eigen::Vector3d& centre, double radius_m) {
-    const double range = centre.norm();
-    if (range - radius_m > view.range_max_m) return false;
-    const double across = std::sqrt(centre.x() * centre.x() + centre.y() * centre.y());
-    const SinCos elevation = sincos(0.5 * view.elevation_rad);
-    if (view.shape == ViewShape::cone) {
-        const double aside = std::sqrt(centre.y() * centre.y() + centre.z() * centre.z());
-        return aside * elevation.cos - centre.x() * elevation.sin <= radius_m;
-    }
-    if (std::fabs(centre.z()) * elevation.cos - across * elevation.sin > radius_m) return false;
-    if (view.azimuth_rad >= pi) return true;
-    const SinCos azimuth = sincos(0.5 * view.azimuth_rad);
-    return std::fabs(centre.y()) * azimuth.cos - centre.x() * azimuth.sin <= radius_m;
 }
 
 std::vector<double> image_of(const HeightPatches& patches, const std::vector<std::size_t>& seen,
@@ -127,13 +113,13 @@ Thinning thin_heights(const PlacedFile& map, std::span<const Sonar> sonars,
         view.relative_l1 = std::min(view.relative_l1, relative_l1);
         for (const Pose& pose : poses_of_trial(sonar, vehicle)) {
             for (const Sector& sector : sectors_of(view, pose)) {
-                const Eigen::Matrix3d to_sensor =
-                    sector.T_world_sensor.rotation.toRotationMatrix().transpose();
+                const ViewVolume volume(sector.view, sector.T_world_sensor);
                 const std::vector<std::size_t> seen =
                     patches.where([&](const Eigen::Vector3d& centre, double radius_m) {
-                        return may_see(sector.view,
-                                       to_sensor * (centre - sector.T_world_sensor.translation),
-                                       radius_m);
+                        const Eigen::Vector3d away = centre - volume.position();
+                        return volume.containment(away.cast<float>(),
+                                                  static_cast<float>(radius_m)) !=
+                               Containment::outside;
                     });
                 const std::vector<double> whole = image_of(patches, seen, 1, sector);
                 for (std::size_t k = 0; k < change.size() && !whole.empty(); ++k) {

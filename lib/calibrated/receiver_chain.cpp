@@ -41,7 +41,7 @@ void add_ringing(const ReceiverConfig& receiver, const ImageRows& rows, std::spa
     for (int row = 0; row < rows.rows; ++row) {
         const double range_m = rows.range_min_m + (row + 0.5) * rows.bin_m;
         const double level_db = receiver.ring_down_db - 10.0 * range_m / receiver.ring_down_m;
-        if (level_db < -60.0) return;
+        if (level_db < -60.0) return;  // a millionth of the noise
         const auto level = static_cast<float>(power_of_db(level_db));
         add_to_row(rows.noise[row] * level, row, rows, image);
     }

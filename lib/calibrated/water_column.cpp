@@ -19,8 +19,9 @@ namespace {
 
 constexpr float no_end = std::numeric_limits<float>::infinity();
 
-// A cell that the surface covers wholly has the middle of at least one of its pieces, and a piece
-// is at least a quarter of a cell or does not reach over it.
+// Pieces of surface count for the cell of their middle, so a cell that is covered wholly may have
+// less than its solid angle. This share, which is chosen, also closes a cell that is cut by an
+// edge.
 constexpr float least_cover = 0.2F;
 
 /// The share of a side-scan sonar's pattern along the track that its view receives, by range; 1 for

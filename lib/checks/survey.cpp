@@ -242,19 +242,6 @@ SonarSurvey survey_sonar(const Mission& mission, const Assembly& assembly, Sonar
 
 }  // namespace
 
-std::vector<Eigen::AlignedBox3d> boxes_of_instances(const Scene& scene) {
-    std::vector<Eigen::AlignedBox3d> boxes(scene.instances.size());
-    for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
-        for (const std::uint32_t corner : scene.triangles[t])
-            boxes[scene.triangle_instance[t]].extend(scene.origin +
-                                                     scene.vertices[corner].cast<double>());
-    }
-    const std::vector<Eigen::AlignedBox3d> copies = boxes_of_copies(scene);
-    for (std::size_t k = 0; k < copies.size(); ++k)
-        boxes[scene.copies[k].instance].extend(copies[k]);
-    return boxes;
-}
-
 std::vector<SonarSurvey> survey(const Mission& mission, const Assembly& assembly,
                                 const VisibilityEngine& rays) {
     const std::vector<Eigen::AlignedBox3d> boxes = boxes_of_instances(assembly.scene);

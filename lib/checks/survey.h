@@ -65,7 +65,4 @@ struct SonarSurvey {
 std::vector<SonarSurvey> survey(const Mission& mission, const Assembly& assembly,
                                 const VisibilityEngine& rays);
 
-/// World boxes around the instances that stand still, by Scene::instances; empty for the others.
-std::vector<Eigen::AlignedBox3d> boxes_of_instances(const Scene& scene);
-
 }  // namespace sonarsim

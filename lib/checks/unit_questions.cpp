@@ -4,8 +4,8 @@
 
 #include "assembly/placed_files.h"
 #include "checks/find_warnings.h"
-#include "checks/survey.h"
 #include "core/text.h"
+#include "scene/copies.h"
 #include "scene/unit_question.h"
 
 namespace sonarsim {

@@ -6,6 +6,7 @@
 #include "checks/find_warnings.h"
 #include "core/text.h"
 #include "core/units.h"
+#include "scene/copies.h"
 #include "sonar/sonar.h"
 #include "trace/arrivals.h"
 #include "visibility/angles.h"

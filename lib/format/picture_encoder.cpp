@@ -17,7 +17,7 @@ void keep_bytes(void* user, const void* bytes, std::size_t size) {
 
 PictureEncoder::PictureEncoder()
     : encode_(reinterpret_cast<SonarsimEncodePicture>(
-          module_symbol("images", encode_module_symbol, "libopenimageio-dev"))) {}
+          module_symbol(image_module, encode_module_symbol, image_package))) {}
 
 std::string PictureEncoder::encode(const SonarsimPicture& picture) const {
     std::string bytes;

@@ -169,7 +169,7 @@ void draw_in_child(const ChildOutput& write, const SonarsimSheet& sheet) {
     std::string reason;
     try {
         const auto draw = reinterpret_cast<SonarsimWriteSheet>(
-            module_symbol(image_module, sheet_module_symbol, "libopenimageio-dev"));
+            module_symbol(image_module, sheet_module_symbol, image_package));
         if (draw(&sheet, error.data(), error.size()) != 0)
             reason = std::string(error.data()) + " (OpenImageIO says so)";
     } catch (const InputError& fault) {

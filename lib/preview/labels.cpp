@@ -21,7 +21,7 @@ int estimated_width(std::string_view text, int size_px) {
 void draw_texts(Drawing& drawing) {
     const char* const font = text_font("preview");
     const auto write_texts = reinterpret_cast<SonarsimWriteTexts>(
-        module_symbol("images", text_module_symbol, "libopenimageio-dev"));
+        module_symbol(image_module, text_module_symbol, image_package));
     std::vector<SonarsimText> texts;
     texts.reserve(drawing.texts.size());
     for (const PictureText& one : drawing.texts) {

@@ -19,28 +19,16 @@ constexpr std::size_t most_names = 20;
 constexpr double most_of_plot = 0.3;  // a larger object is the floor or the walls
 constexpr Rgb box_colour{230, 230, 230};
 
-/// The box of each of Scene::instances, world.
-std::vector<AlignedBox3d> boxes_of_instances(const Assembly& assembly, std::uint32_t pose) {
+/// The box of each of Scene::instances at a pose, world.
+std::vector<AlignedBox3d> boxes_at(const Assembly& assembly, std::uint32_t pose) {
     const Scene& scene = assembly.scene;
-    std::vector<AlignedBox3d> boxes(scene.instances.size());
-    const auto add = [&](std::uint32_t instance, const Vector3d& at) {
-        if (instance < boxes.size()) boxes[instance].extend(at);
-    };
-    for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
-        for (const std::uint32_t vertex : scene.triangles[t])
-            add(scene.triangle_instance[t], scene.origin + scene.vertices[vertex].cast<double>());
-    }
+    std::vector<AlignedBox3d> boxes = boxes_of_instances(scene);
     const std::vector<Pose> poses = body_poses(assembly, assembly.trajectory[pose].t_s);
     for (std::size_t k = 0; k < poses.size(); ++k) {
         for (const Eigen::Vector3f& vertex : scene.bodies[k].vertices) {
-            add(scene.bodies[k].instance,
-                poses[k].rotation * vertex.cast<double>() + poses[k].translation);
+            boxes[scene.bodies[k].instance].extend(poses[k].rotation * vertex.cast<double>() +
+                                                   poses[k].translation);
         }
-    }
-    const std::vector<AlignedBox3d> copies = boxes_of_copies(scene);
-    for (std::size_t k = 0; k < copies.size(); ++k) {
-        if (scene.copies[k].instance < boxes.size() && !copies[k].isEmpty())
-            boxes[scene.copies[k].instance].extend(copies[k]);
     }
     return boxes;
 }
@@ -51,7 +39,7 @@ AlignedBox2d box_in_plan(const PlaneFrame& frame, const AlignedBox3d& box) {
     return pixels.extend(frame.pixel(box.max().head<2>()));
 }
 
-/// The box of a name beside that of its object: on its right, on its left, above or below.
+/// The box of a name next to that of its object: on its right, on its left, above or below.
 AlignedBox2d box_of_name(const AlignedBox2d& object, int width, int side) {
     const Vector2d size(width, label_px + 2.0);
     const Vector2d middle = object.center() - 0.5 * size;
@@ -78,7 +66,7 @@ void draw_box(Drawing& tile, const AlignedBox2d& box) {
 }  // namespace
 
 std::vector<ObjectBox> object_boxes(const Assembly& assembly, std::uint32_t pose) {
-    const std::vector<AlignedBox3d> instances = boxes_of_instances(assembly, pose);
+    const std::vector<AlignedBox3d> instances = boxes_at(assembly, pose);
     const SceneObjects& objects = assembly.objects;
     // Objects are grouped only for a mission with labels or classes.
     const bool is_grouped = objects.object_of_instance.size() == instances.size();
@@ -116,7 +104,7 @@ void draw_objects(Drawing& tile, const PlaneFrame& frame, const std::vector<Obje
             return plot.contains(name) && std::ranges::none_of(taken, overlaps) &&
                    (over_objects || std::ranges::none_of(shown, hides));
         };
-        // Beside the other objects if possible, over them if not.
+        // Clear of the other objects if possible, over them if not.
         for (int k = 0; k < 8 && taken.size() < most_names; ++k) {
             const AlignedBox2d name = box_of_name(one.first, width, k % 4);
             if (!is_free(name, k >= 4)) continue;

@@ -18,6 +18,19 @@ std::vector<Eigen::AlignedBox3d> boxes_of_copies(const Scene& scene) {
     return boxes;
 }
 
+std::vector<Eigen::AlignedBox3d> boxes_of_instances(const Scene& scene) {
+    std::vector<Eigen::AlignedBox3d> boxes(scene.instances.size());
+    for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
+        for (const std::uint32_t corner : scene.triangles[t])
+            boxes[scene.triangle_instance[t]].extend(scene.origin +
+                                                     scene.vertices[corner].cast<double>());
+    }
+    const std::vector<Eigen::AlignedBox3d> copies = boxes_of_copies(scene);
+    for (std::size_t k = 0; k < copies.size(); ++k)
+        boxes[scene.copies[k].instance].extend(copies[k]);
+    return boxes;
+}
+
 std::size_t triangles_of_copies(const Scene& scene) {
     std::size_t count = 0;
     for (const MeshCopy& copy : scene.copies)

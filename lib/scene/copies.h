@@ -14,6 +14,9 @@ namespace sonarsim {
 /// itself. Exact boxes would need every vertex of every copy.
 std::vector<Eigen::AlignedBox3d> boxes_of_copies(const Scene& scene);
 
+/// World boxes around the instances that stand still, by Scene::instances; empty for the others.
+std::vector<Eigen::AlignedBox3d> boxes_of_instances(const Scene& scene);
+
 /// Number of triangles of all copies.
 std::size_t triangles_of_copies(const Scene& scene);
 

@@ -31,7 +31,6 @@ using SonarsimReadImage = int (*)(const char* format, const char* file, Sonarsim
 
 namespace sonarsim {
 
-inline constexpr const char* image_module = "images";
 /// Raised with every change above, so that a module of another version is found out.
 inline constexpr const char* image_module_symbol = "sonarsim_read_image_1";
 

@@ -87,7 +87,7 @@ void read_in_child(const ChildOutput& write, const std::string& format, const st
     HandOver output{write};
     try {
         const auto read = reinterpret_cast<SonarsimReadImage>(
-            module_symbol(image_module, image_module_symbol, "libopenimageio-dev"));
+            module_symbol(image_module, image_module_symbol, image_package));
         if (read(format.c_str(), file.c_str(), &hand_over_head, &hand_over_rows, &output,
                  error.data(), error.size()) != 0)
             reason = std::string(error.data()) + " (OpenImageIO says so)";

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdio>
+#include <exception>
+#include <new>
+
+/// Runs a function for the program, which no exception may reach. Returns 0, or 1 with the reason
+/// in `error`, which ends with a zero.
+template <class Run>
+int guarded(char* error, std::size_t error_size, const Run& run) {
+    try {
+        run();
+        return 0;
+    } catch (const std::bad_alloc&) {
+        std::snprintf(error, error_size, "it needs more memory than there is");
+    } catch (const std::exception& fault) {
+        std::snprintf(error, error_size, "%s", fault.what());
+    }
+    return 1;
+}
