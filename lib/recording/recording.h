@@ -1,0 +1,61 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace sonarsim {
+
+/// What a number of a recording means: `255 (A / A_max)^exponent` of the echo's amplitude A, or
+/// decibels spread evenly over the values.
+struct RecordedLaw {
+    enum class Kind {
+        amplitude,  ///< proportional to the amplitude A
+        power,      ///< proportional to A^2
+        gamma,      ///< full_value (A / A_max)^exponent
+        decibel     ///< 20 log A, `range_db` from value 0 to `full_value`
+    };
+
+    Kind kind = Kind::amplitude;
+    double exponent = 0.5;    ///< of `gamma`
+    double range_db = 0;      ///< of `decibel`
+    double full_value = 255;  ///< the largest value that the instrument delivers; 0 for none
+};
+
+/// What an instrument delivers.
+enum class RecordedKind { imaging, sidescan, scanning, echosounder, soundings };
+
+/// One ping as delivered, before any law is undone.
+struct RecordedPing {
+    double time_s = 0;
+    int ranges = 0;
+    int beams = 0;              ///< side-scan: 2, port first; scanning and echosounder: 1
+    std::vector<float> values;  ///< [ranges x beams], a range after the other
+    double bearing_rad = 0;     ///< direction of the head of a scanning sonar
+};
+
+/// The detected bottom of one ping, one entry per beam; beams without a detection are left out.
+struct RecordedSoundings {
+    double time_s = 0;
+    std::vector<float> range_m;
+    std::vector<float> angle_rad;  ///< from the vertical, negative to port
+    std::vector<float> intensity;  ///< by the recording's law
+};
+
+/// Pings of one instrument, in the order of time, from a real sonar or from a dataset.
+struct Recording {
+    std::string name;  ///< for messages and tables
+    RecordedKind kind = RecordedKind::imaging;
+    RecordedLaw law;
+    double sound_speed_m_s = 1500;
+    double first_range_m = 0;  ///< slant range of the middle of the first sample
+    double range_step_m = 0;
+    std::vector<double> bearing_rad;  ///< of each beam; positive to port as in a mission
+    std::optional<double> frequency_hz;
+    std::optional<double> altitude_m;
+    std::optional<double> pitch_rad;  ///< of the mount; positive turns the axis down
+    std::vector<RecordedPing> pings;
+    std::vector<RecordedSoundings> soundings;  ///< for `soundings`, instead of `pings`
+};
+
+}  // namespace sonarsim
