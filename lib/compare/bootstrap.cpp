@@ -18,7 +18,7 @@ namespace {
 
 constexpr int replicates = 300;
 constexpr int cell_replicates = 100;
-constexpr double least_mean = 1e-12;
+constexpr double least_mean = 1e-16;
 constexpr int fewest_locations = 8;
 
 enum class Units : std::uint32_t { locations = 1, pings = 2, cells = 3 };

@@ -42,6 +42,7 @@ RecordedImages images_of(const Recording& recording) {
     if (recording.law.full_value > 0.0)
         images.full_power =
             static_cast<float>(power_of(recording.law, clipped_share * recording.law.full_value));
+    images.least_power = static_cast<float>(power_of(recording.law, 0.0));
     if (recording.kind == RecordedKind::imaging) {
         images.bearing_rad = recording.bearing_rad;
         for (const RecordedPing& ping : recording.pings)

@@ -16,7 +16,8 @@ struct RecordedImages {
     int ranges = 0;
     int columns = 0;
     bool columns_are_pings = false;
-    float full_power = 0.0F;  ///< powers from here on are clipped; 0: none are
+    float full_power = 0.0F;   ///< powers from here on are clipped; 0: none are
+    float least_power = 0.0F;  ///< powers up to here are at the end of the scale
     double first_range_m = 0.0;
     double range_step_m = 0.0;
     std::vector<double> bearing_rad;  ///< the columns'; empty where they are pings

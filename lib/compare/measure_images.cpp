@@ -19,7 +19,7 @@ constexpr int range_bands = 12;
 constexpr int bearing_bands = 8;
 constexpr double homogeneous = 0.35;  ///< trend of a patch of water or tail
 constexpr double uneven = 0.5;        ///< trend of a patch of the bottom
-constexpr double least_level_power = 1e-12;
+constexpr double least_level_power = 1e-16;
 
 /// "0.5".
 std::string short_number(double value) {
@@ -146,7 +146,7 @@ void measure_shares(const RecordedImages& images, PatchSize size, Measurement& o
             int empty = 0;
             int full = 0;
             for_each_power(image, block, [&](float power, int, int) {
-                empty += power > 0.0F ? 0 : 1;
+                empty += power > images.least_power ? 0 : 1;
                 full += images.full_power > 0.0F && power >= images.full_power ? 1 : 0;
             });
             const float share = 1.0F / static_cast<float>(size.ranges * size.beams);
@@ -159,11 +159,11 @@ void measure_shares(const RecordedImages& images, PatchSize size, Measurement& o
     if (images.full_power > 0.0F) out.figures.push_back(std::move(clipped));
 }
 
-/// The histogram of levels, and percentiles of it. The bins have half a decibel from -120 dB on.
+/// The histogram of levels, and percentiles of it. The bins have half a decibel from -160 dB on.
 void measure_histograms(const RecordedImages& images, PatchSize size, Measurement& out) {
-    constexpr int bins = 260;
+    constexpr int bins = 340;
     constexpr double bin_db = 0.5;
-    constexpr double lowest_db = -120.0;
+    constexpr double lowest_db = -160.0;
     MeasuredHistogram levels{"levels", bin_db, "dB", {}};
     MeasuredHistogram texture{"texture", 1.0, "patterns", {}};
     const std::vector<Block> blocks = blocks_of(images, size);

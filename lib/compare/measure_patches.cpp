@@ -64,12 +64,16 @@ std::vector<Measured> empty_figures(const std::string& zone, bool columns_are_pi
     return figures;
 }
 
-double clipped_share_of(const PowerImage& image, PatchSize size, int range, int beam, float full) {
-    if (!(full > 0.0F)) return 0.0;
+/// The share of a patch that lies at either end of the scale.
+double clipped_share_of(const RecordedImages& images, const PowerImage& image, PatchSize size,
+                        int range, int beam) {
     int clipped = 0;
     for (int i = range; i < range + size.ranges; ++i) {
-        for (int j = beam; j < beam + size.beams; ++j)
-            clipped += image.at(i, j) >= full ? 1 : 0;
+        for (int j = beam; j < beam + size.beams; ++j) {
+            const float power = image.at(i, j);
+            const bool is_full = images.full_power > 0.0F && power >= images.full_power;
+            clipped += is_full || power <= images.least_power ? 1 : 0;
+        }
     }
     return static_cast<double>(clipped) / (static_cast<double>(size.ranges) * size.beams);
 }
@@ -88,7 +92,7 @@ std::vector<std::optional<FoundPatch>> patches_at(const RecordedImages& images,
     const PatchSize size = detrender.size();
     for (std::size_t k = 0; k < found.size(); ++k) {
         const PowerImage image = images.image(k);
-        if (clipped_share_of(image, size, range, beam, images.full_power) > most_clipped) continue;
+        if (clipped_share_of(images, image, size, range, beam) > most_clipped) continue;
         std::optional<Patch> patch = detrender.patch_of(image, range, beam);
         if (!patch || patch->trend > most_trend) continue;
         found[k] = FoundPatch{values_of(*patch, size), std::move(patch->amplitude)};

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double bottom_db = 10.0;
 constexpr double stands_out_db = 15.0;
-constexpr double least_power = 1e-12;
+constexpr double least_power = 1e-16;
 constexpr int ring_share = 28;
 constexpr int smoothed_share = 44;
 
