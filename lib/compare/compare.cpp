@@ -156,13 +156,20 @@ struct BothMeasured {
     Pairing pairing;
 };
 
-BothMeasured measure_both(const Recording& real, const Recording& simulated) {
+BothMeasured measure_both(const Recording& real, const Recording& simulated, bool is_relative) {
     if (real.kind == RecordedKind::soundings) {
         const CommonAngles angles = common_angles(real, simulated);
-        return {measure_soundings(real, angles), measure_soundings(simulated, angles), {}};
+        const auto measured = [&](const Recording& one) {
+            return measure_soundings(one, angles, is_relative ? mean_power_of_soundings(one) : 1.0);
+        };
+        return {measured(real), measured(simulated), {}};
     }
-    const RecordedImages a = images_of(real);
-    const RecordedImages b = images_of(simulated);
+    RecordedImages a = images_of(real);
+    RecordedImages b = images_of(simulated);
+    if (is_relative) {
+        make_relative(a);
+        make_relative(b);
+    }
     const bool has_one_grid = have_one_grid(a, b);
     const auto [zones_a, zones_b] = zones_of_both(a, b, has_one_grid);
     const PatchSize patch = patch_size_of(a, b);
@@ -194,13 +201,16 @@ Comparison compare_recordings(const Recording& real, const Recording& simulated,
         throw InputError(real.name + " is of the kind " + name_of_kind(real.kind) + ", " +
                          simulated.name + " of the kind " + name_of_kind(simulated.kind) +
                          "; compare recordings of one kind");
-    BothMeasured both = measure_both(real, simulated);
+    // Without its largest value a recording has no level of its own.
+    const bool is_relative = real.law.full_value == 0.0 || simulated.law.full_value == 0.0;
+    BothMeasured both = measure_both(real, simulated, is_relative);
     Comparison out;
     out.real = real.name;
     out.simulated = simulated.name;
     out.real_pings = std::max(real.pings.size(), real.soundings.size());
     out.simulated_pings = std::max(simulated.pings.size(), simulated.soundings.size());
     out.has_one_grid = both.pairing.locations;
+    out.has_relative_levels = is_relative;
     std::vector<std::pair<const Measured*, const Measured*>> pairs;
     for (const Measured& figure : both.real.figures) {
         const auto found = std::ranges::find(both.simulated.figures, figure.name, &Measured::name);

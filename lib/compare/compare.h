@@ -40,6 +40,7 @@ struct Comparison {
     std::size_t real_pings = 0;
     std::size_t simulated_pings = 0;
     bool has_one_grid = false;
+    bool has_relative_levels = false;  ///< powers are relative to the mean of each recording
     std::vector<ComparedFigure> figures;
     std::vector<ComparedHistogram> histograms;
     std::size_t agreeing = 0;

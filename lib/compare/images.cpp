@@ -70,6 +70,20 @@ std::vector<double> mean_powers_of(const RecordedImages& images) {
     return sums;
 }
 
+void make_relative(RecordedImages& images) {
+    double mean = 0.0;
+    for (const double power : mean_powers_of(images))
+        mean += power / images.ranges;
+    if (!(mean > 0.0)) return;
+    const auto factor = static_cast<float>(1.0 / mean);
+    for (std::vector<float>& powers : images.powers) {
+        for (float& power : powers)
+            power *= factor;
+    }
+    images.full_power *= factor;
+    images.least_power *= factor;
+}
+
 bool have_one_grid(const RecordedImages& a, const RecordedImages& b) {
     // Ranges that differ by less than half a sample at the far end are the same.
     const double off = std::fabs(a.first_range_m - b.first_range_m) +

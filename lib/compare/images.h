@@ -27,6 +27,9 @@ struct RecordedImages {
 
 RecordedImages images_of(const Recording& recording);
 
+/// Divides all powers by their mean.
+void make_relative(RecordedImages& images);
+
 /// The mean power of each range, over all columns and images.
 std::vector<double> mean_powers_of(const RecordedImages& images);
 

@@ -78,7 +78,7 @@ BandSoundings soundings_in(const RecordedSoundings& ping, const RecordedLaw& law
     return own;
 }
 
-void measure_band(const Recording& recording, double from, Measurement& out) {
+void measure_band(const Recording& recording, double from, double unit_power, Measurement& out) {
     const std::string degrees = number_text(std::round(from * 180.0 / pi)) + " to " +
                                 number_text(std::round((from + band_width) * 180.0 / pi)) +
                                 " degrees";
@@ -98,7 +98,8 @@ void measure_band(const Recording& recording, double from, Measurement& out) {
         }
         const double deviation = std::sqrt(std::max(0.0, square - mean * mean) * n / (n - 1.0));
         const double off = spread_of_ranges(own);
-        level.cells.push_back({group, 0, static_cast<float>(mean), static_cast<float>(n)});
+        level.cells.push_back(
+            {group, 0, static_cast<float>(mean / unit_power), static_cast<float>(n)});
         if (mean > 0.0)
             variation.cells.push_back({group, 0, static_cast<float>(deviation / mean), 1.0F});
         if (std::isfinite(off))
@@ -127,12 +128,23 @@ CommonAngles common_angles(const Recording& a, const Recording& b) {
     return {std::max(of_a.from_rad, of_b.from_rad), std::min(of_a.to_rad, of_b.to_rad)};
 }
 
-Measurement measure_soundings(const Recording& recording, CommonAngles angles) {
+double mean_power_of_soundings(const Recording& recording) {
+    double sum = 0.0;
+    double count = 0.0;
+    for (const RecordedSoundings& ping : recording.soundings) {
+        for (const float intensity : ping.intensity)
+            sum += power_of(recording.law, intensity);
+        count += static_cast<double>(ping.intensity.size());
+    }
+    return sum > 0.0 ? sum / count : 1.0;
+}
+
+Measurement measure_soundings(const Recording& recording, CommonAngles angles, double unit_power) {
     Measurement out;
     const int first = static_cast<int>(std::ceil(angles.from_rad / band_width - 0.5));
     const int last = static_cast<int>(std::floor(angles.to_rad / band_width + 0.5));
     for (int band = first; band < last; ++band)
-        measure_band(recording, band * band_width, out);
+        measure_band(recording, band * band_width, unit_power, out);
     return out;
 }
 

@@ -68,6 +68,8 @@ std::string comparison_text(const Comparison& c) {
             h.name, digits(h.jensen_shannon), digits(h.usual_jensen_shannon),
             digits(h.kullback_leibler), digits(h.earth_movers), h.unit);
     }
+    if (c.has_relative_levels)
+        text += "Levels are relative to the mean of each recording: one has no full_value.\n";
     text += verdict_text(c);
     if (c.first_change >= 0) {
         const ComparedFigure& first = c.figures[static_cast<std::size_t>(c.first_change)];
@@ -83,6 +85,7 @@ Json comparison_json(const Comparison& c) {
                  {"real", {{"name", c.real}, {"pings", c.real_pings}}},
                  {"simulated", {{"name", c.simulated}, {"pings", c.simulated_pings}}},
                  {"one_grid", c.has_one_grid},
+                 {"relative_levels", c.has_relative_levels},
                  {"figures_agreeing", c.agreeing},
                  {"figures_differing", c.differing},
                  {"agreement", c.agreement()},

@@ -3,10 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <map>
 #include <optional>
-#include <stdexcept>
-#include <system_error>
 
 #include "core/error.h"
 #include "core/file.h"
@@ -14,12 +11,13 @@
 #include "dataset/checked_json.h"
 #include "dataset/dataset_file.h"
 #include "dataset/file_names.h"
-#include "format/tar.h"
 #include "mission/dataset_names.h"
 #include "mission/document.h"
 #include "mission/node_values.h"
 #include "recording/arrays.h"
 #include "recording/check_recording.h"
+#include "recording/dataset_soundings.h"
+#include "recording/dataset_source.h"
 
 namespace sonarsim {
 
@@ -29,18 +27,6 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t largest_resolved_yaml = std::size_t{1} << 26;
 constexpr std::size_t most_dataset_pings = std::size_t{1} << 20;
-
-/// A sensor of a dataset that becomes a recording.
-struct Source {
-    fs::path folder;
-    const DescribedSensor* sensor = nullptr;
-    const nlohmann::ordered_json* json = nullptr;  ///< the sensor in dataset.json
-    std::string file;                              ///< dataset.json, for messages
-    std::size_t most_pings = 0;
-
-    CheckedJson checked() const { return {*json, file}; }
-    std::size_t pings() const { return std::min<std::size_t>(sensor->pings, most_pings); }
-};
 
 const DescribedSensor& sensor_named(const DatasetFile& dataset, const std::string& name,
                                     const fs::path& folder) {
@@ -57,50 +43,6 @@ const DescribedSensor& sensor_named(const DatasetFile& dataset, const std::strin
                                             "; there are: " + listed(names));
 }
 
-/// The pattern of a kind's files, or of its members in packs.
-std::optional<std::string> pattern_of(const NamedTexts& patterns, const std::string& kind) {
-    for (const auto& [name, pattern] : patterns) {
-        if (name == kind) return pattern;
-    }
-    return std::nullopt;
-}
-
-/// The bytes of the files of `kind`, loose or packed, in the order of the pings.
-template <class Visit>
-void for_each_ping_file(const Source& source, const std::string& pattern, const Visit& visit) {
-    const DescribedSensor& sensor = *source.sensor;
-    if (!sensor.packs) {
-        for (std::size_t k = 0; k < source.pings(); ++k) {
-            const fs::path path = source.folder / numbered(pattern, k * sensor.every);
-            visit(k, read_array_file(path), path.string());
-        }
-        return;
-    }
-    const std::uint64_t each = sensor.packs->pings;
-    for (std::size_t first = 0; first < source.pings(); first += each) {
-        const fs::path path = source.folder / numbered(sensor.packs->file, first / each);
-        const std::size_t last = std::min<std::size_t>(first + each, source.pings());
-        std::map<std::string, std::size_t> wanted;
-        for (std::size_t k = first; k < last; ++k)
-            wanted[numbered(pattern, k * sensor.every)] = k;
-        try {
-            for_each_in_tar(path, [&](const std::string& name, const std::string& bytes) {
-                const auto found = wanted.find(name);
-                if (found == wanted.end()) return;
-                visit(found->second, read_array(bytes, path.string() + "/" + name), name);
-                wanted.erase(found);
-            });
-        } catch (const std::system_error&) {
-            throw;
-        } catch (const InputError&) {
-            throw;
-        } catch (const std::runtime_error& fault) {
-            throw InputError({path.string()}, fault.what());
-        }
-        if (!wanted.empty()) throw InputError({path.string()}, "lacks " + wanted.begin()->first);
-    }
-}
-
 void require_shape(const RecordedArray& array, const std::vector<std::size_t>& shape,
                    const std::string& name) {
     if (array.shape != shape)
@@ -108,11 +50,11 @@ void require_shape(const RecordedArray& array, const std::vector<std::size_t>& s
                          "has another shape than dataset.json says; sonarsim verify says more");
 }
 
-void read_images(const Source& source, const std::string& pattern, Recording& recording) {
+void read_images(const DatasetSource& source, const std::string& pattern, Recording& recording) {
     const DescribedSensor& sensor = *source.sensor;
     std::size_t values = 0;
     recording.pings.resize(source.pings());
-    for_each_ping_file(
+    for_each_ping_array(
         source, pattern, [&](std::size_t k, const RecordedArray& array, const std::string& name) {
             require_shape(array, {sensor.range_bins, sensor.azimuth_bins}, name);
             values += array.values.size();
@@ -129,7 +71,7 @@ void read_images(const Source& source, const std::string& pattern, Recording& re
 
 /// Records [ping, range] or [range, ping]; of a side-scan port from the largest range to nadir,
 /// then starboard.
-void read_records(const Source& source, const std::string& file, Recording& recording) {
+void read_records(const DatasetSource& source, const std::string& file, Recording& recording) {
     const fs::path path = source.folder / file;
     const RecordedArray array = read_array_file(path);
     const bool is_sidescan = recording.kind == RecordedKind::sidescan;
@@ -157,14 +99,6 @@ void read_records(const Source& source, const std::string& file, Recording& reco
             }
         }
     }
-}
-
-std::vector<double> middles(const CheckedJson& edges) {
-    std::vector<double> out;
-    const std::vector<CheckedJson> all = edges.items();
-    for (std::size_t k = 0; k + 1 < all.size(); ++k)
-        out.push_back(0.5 * (all[k].number() + all[k + 1].number()));
-    return out;
 }
 
 const YamlNode* find_node(const YamlNode* node, std::initializer_list<std::string_view> keys) {
@@ -195,14 +129,13 @@ RecordedLaw law_of_raw(const YamlNode* receiver, const std::string& file) {
     return law;
 }
 
-void set_facts(const Source& source, bool is_raw, Recording& recording) {
+void set_facts(const DatasetSource& source, bool is_raw, Recording& recording) {
     const fs::path file = source.folder / mission_name;
     const YamlNode mission = read_document(read_file(file, largest_resolved_yaml), file.string());
     const YamlNode* own = find_node(&mission, {"sensors", source.sensor->name});
     const bool is_calibrated = source.json->contains("instrument");
-    recording.law = {
-        .kind = is_calibrated ? RecordedLaw::Kind::power : RecordedLaw::Kind::amplitude,
-        .full_value = 0};
+    recording.law.kind = is_calibrated ? RecordedLaw::Kind::power : RecordedLaw::Kind::amplitude;
+    recording.law.full_value = is_calibrated ? 1.0 : source.sensor->full_scale;
     if (is_raw)
         recording.law = law_of_raw(find_node(own, {"instrument", "receiver"}), file.string());
     if (const YamlNode* speed = find_node(&mission, {"water", "sound_speed_m_s"});
@@ -213,11 +146,12 @@ void set_facts(const Source& source, bool is_raw, Recording& recording) {
         recording.frequency_hz = read_number(*frequency, "frequency_hz", above(0));
 }
 
-RecordedKind kind_of_sensor(const Source& source) {
+RecordedKind kind_of_sensor(const DatasetSource& source) {
     const std::string kind = source.checked().at("kind").text();
     if (kind == "sidescan") return RecordedKind::sidescan;
     if (kind == "echosounder") return RecordedKind::echosounder;
     if (kind == "scanning") return RecordedKind::scanning;
+    if (kind == "profiling") return RecordedKind::soundings;
     return RecordedKind::imaging;
 }
 
@@ -225,7 +159,7 @@ RecordedKind kind_of_sensor(const Source& source) {
 
 Recording read_dataset_recording(const fs::path& folder, const RecordingOptions& options) {
     const DatasetFile dataset = require_dataset(folder);
-    Source source{.folder = folder, .file = (folder / description_name).string()};
+    DatasetSource source{.folder = folder, .file = (folder / description_name).string()};
     source.sensor = &sensor_named(dataset, options.sensor, folder);
     const auto index = static_cast<std::size_t>(source.sensor - dataset.sensors.data());
     source.json = &dataset.json.at("sensors").at(index);
@@ -243,16 +177,22 @@ Recording read_dataset_recording(const fs::path& folder, const RecordingOptions&
     const auto raw_records = pattern_of(source.sensor->label_records, "raw");
     const auto raw = pattern_of(patterns, "raw");
     set_facts(source, raw || raw_records, recording);
-    if (recording.kind == RecordedKind::imaging) {
+    const bool is_imaging = recording.kind == RecordedKind::imaging;
+    const bool is_soundings = recording.kind == RecordedKind::soundings;
+    if (!is_imaging && !source.sensor->records)
+        throw InputError({folder.string()}, "has no file of records of this sensor");
+    if (is_imaging || is_soundings) {
         const auto polar = raw ? raw : pattern_of(patterns, "polar");
         if (!polar)
             throw InputError({folder.string()},
                              "has neither raw/ nor polar/ of this sensor; set output.polar: npy");
-        recording.bearing_rad = middles(source.checked().at("azimuth_edges_rad"));
-        read_images(source, *polar, recording);
+        if (is_soundings) {
+            read_dataset_soundings(source, *polar, recording);
+        } else {
+            recording.bearing_rad = middles(source.checked().at("azimuth_edges_rad"));
+            read_images(source, *polar, recording);
+        }
     } else {
-        if (!source.sensor->records)
-            throw InputError({folder.string()}, "has no file of records of this sensor");
         read_records(source, raw_records ? *raw_records : *source.sensor->records, recording);
     }
     // The time of a ping stands in its metadata; no figure needs more than the order.

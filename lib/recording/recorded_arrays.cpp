@@ -8,6 +8,7 @@
 #include "core/units.h"
 #include "recording/arrays.h"
 #include "recording/check_recording.h"
+#include "recording/recorded_oculus.h"
 #include "recording/recorded_xtf.h"
 
 namespace sonarsim {
@@ -172,6 +173,12 @@ Recording read_recorded_arrays(const RecordingFile& file, std::size_t most_pings
     }
     if (!file.xtf.empty()) {
         read_xtf_pings(file, most_pings, recording);
+        check_recording(recording, file.place.location.file);
+        return recording;
+    }
+    if (!file.oculus.empty()) {
+        read_oculus_pings(file, most_pings, recording);
+        set_times(file, recording);
         check_recording(recording, file.place.location.file);
         return recording;
     }

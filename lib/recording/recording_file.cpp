@@ -52,11 +52,15 @@ void describe(MissionReader& v, RecordingFile& c) {
     v.paths("xtf", c.xtf, "XTF files of a side-scan", Presence::optional);
     v.require(c.xtf.empty() || c.kind == RecordedKind::sidescan, {"kind", "xtf"},
               "XTF files are read for the kind sidescan");
-    const bool has_own_ranges = is_soundings || !c.xtf.empty();
+    v.paths("oculus", c.oculus, "messages or logs of an Oculus", Presence::optional);
+    v.require(c.oculus.empty() || c.kind == RecordedKind::imaging, {"kind", "oculus"},
+              "files of an Oculus are read for the kind imaging");
+    const bool is_format = !c.xtf.empty() || !c.oculus.empty();
+    const bool has_own_ranges = is_soundings || is_format;
     const Presence of_images = has_own_ranges ? Presence::optional : required;
     v.paths("files", c.files, "arrays of the pings", of_images);
-    v.require(c.xtf.empty() || c.files.empty(), {"files", "xtf"},
-              "a recording has `files` or `xtf`, not both");
+    v.require(!is_format || c.files.empty(), {"files", "xtf", "oculus"},
+              "a recording has one of `files`, `xtf` and `oculus`");
     v.optional_section("soundings", c.soundings, "files of soundings");
     v.require(is_soundings == c.soundings.has_value(), {"kind", "soundings"},
               "the kind soundings has the section `soundings`, other kinds have `files`");
@@ -64,7 +68,7 @@ void describe(MissionReader& v, RecordingFile& c) {
               "the kind soundings has the section `soundings` in place of `files`");
     v.section("law", c.law, "meaning of the values", required);
     v.number("sound_speed_m_s", c.sound_speed_m_s, between(300, 10000), "speed of sound",
-             c.xtf.empty() ? required : Presence::optional);
+             is_format ? Presence::optional : required);
     v.number("first_range_m", c.first_range_m, at_least(0), "middle of the first sample",
              of_images);
     v.number("range_step_m", c.range_step_m, has_own_ranges ? at_least(0) : above(0),

@@ -2,7 +2,7 @@
 import json
 import unittest
 
-from sandbox import Sandbox
+from sandbox import Sandbox, path_csv
 
 CALIBRATED = """\
 sensors:
@@ -19,6 +19,16 @@ sensors:
 output:
   folder: out
   raw: true
+"""
+KINDS = """\
+sensors:
+  fls: {kind: imaging, azimuth_deg: 60, range_max_m: 6, range_bins: 96, azimuth_bins: 32}
+  sss: {kind: sidescan, range_max_m: 6, range_bins: 96, mount: {translation_m: [0, 0, 0]}}
+  sounder: {kind: echosounder, range_max_m: 6, range_bins: 96}
+  head: {kind: scanning, range_max_m: 6, range_bins: 96}
+  mbes: {kind: profiling, range_max_m: 9, range_bins: 96, azimuth_bins: 128}
+output:
+  folder: out
 """
 RECORDING = """\
 kind: imaging
@@ -70,6 +80,20 @@ class Compare(Sandbox):
         told = json.loads(self.assert_compares("out", "out", "--json", "--pings", "1").stdout)
         self.assertEqual(told["agreement"], 1.0)
         self.assertEqual(told["real"]["pings"], 1)
+
+    def test_every_kind_of_sonar_loose_and_packed(self):
+        self.write("path.csv", path_csv(72))
+        text = (self.folder / "mission.yaml").read_text()
+        self.write("mission.yaml", text[:text.index("sensors:")] + KINDS)
+        self.assert_renders()
+        self.assert_renders("--out", "packed", "--set", "output.pack=tar")
+        self.assert_refused(self.compare("out", "packed"), "several sensors", "fls, sss, sounder, head, mbes")
+        for sensor in ("fls", "sss", "sounder", "head", "mbes"):
+            told = json.loads(self.assert_compares("out", "packed", "--sensor", sensor, "--real-sensor", sensor,
+                                                   "--json").stdout)
+            self.assertEqual((told["agreement"], told["same"]), (1.0, True), sensor)
+            self.assertEqual(told["real"]["pings"], 72)
+        self.assert_refused(self.compare("out", "out", "--sensor", "fls", "--real-sensor", "sss"), "one kind")
 
     def test_what_is_refused(self):
         self.assert_renders()

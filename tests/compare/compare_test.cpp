@@ -118,10 +118,12 @@ TEST_SUITE("compare") {
 
     TEST_CASE("compare: soundings of another roughness and level") {
         // Ranges of a flat bottom 10 m below with a relative error of 0.1 or 0.2 %.
-        const auto soundings = [](std::uint32_t number, double spread, float intensity) {
+        const auto soundings = [](std::uint32_t number, double spread, float intensity,
+                                  double full_value = 1.0) {
             Recording recording;
             recording.kind = RecordedKind::soundings;
-            recording.law = {.kind = RecordedLaw::Kind::power, .full_value = 0};
+            recording.law.kind = RecordedLaw::Kind::power;
+            recording.law.full_value = full_value;
             for (std::uint32_t k = 0; k < 160; ++k) {
                 RecordedSoundings& ping = recording.soundings.emplace_back();
                 for (std::uint32_t i = 0; i < 120; ++i) {
@@ -147,6 +149,11 @@ TEST_SUITE("compare") {
         CHECK(std::fabs(spread.estimate.simulated - 0.2) < 0.02);
         CHECK(figure_of(one, "10 to 20 degrees: level, dB").estimate.simulated ==
               doctest::Approx(3.01).epsilon(0.1));
+        // Without a largest value a factor of all powers is none.
+        const Comparison relative =
+            compare_recordings(soundings(1, 1e-3, 1.0F, 0.0), soundings(2, 1e-3, 2.0F));
+        CHECK(relative.has_relative_levels);
+        CHECK(relative.is_same());
     }
 
     TEST_CASE("student: tails as in tables") {

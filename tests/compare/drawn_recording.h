@@ -24,7 +24,7 @@ inline Recording drawn_recording(std::uint32_t number, const DrawnLaw& law) {
     constexpr int ranges = 128, beams = 64;
     Recording recording;
     recording.law.kind = RecordedLaw::Kind::power;
-    recording.law.full_value = 0;
+    recording.law.full_value = 1;
     recording.first_range_m = 1.0;
     recording.range_step_m = 0.01;
     for (int j = 0; j < beams; ++j)

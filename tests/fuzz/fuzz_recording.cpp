@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "core/error.h"
+#include "format/oculus_reader.h"
 #include "format/xtf_reader.h"
 #include "recording/arrays.h"
 #include "recording/recording_file.h"
@@ -40,6 +41,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         } else if (data[0] == 'x') {
             for (const XtfSidescanPing& ping : read_xtf(text, 1000).pings)
                 require_that(!ping.port.samples.empty() && ping.starboard.slant_range_m > 0.0);
+        } else if (data[0] == 'o') {
+            for (const OculusPing& ping : read_oculus(text, 1000))
+                require_that(!ping.values.empty() &&
+                             ping.bearing_deg.size() * static_cast<std::size_t>(ping.ranges) ==
+                                 ping.values.size());
         } else {
             check_array(read_array(text, "in"));
         }
