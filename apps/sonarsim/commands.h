@@ -20,6 +20,7 @@ void add_preview(CLI::App& app, int& exit_code);
 void add_gallery(CLI::App& app, int& exit_code);
 void add_contact_sheet(CLI::App& app, int& exit_code);
 void add_export(CLI::App& app, int& exit_code);
+void add_compare(CLI::App& app, int& exit_code);
 void add_inspect(CLI::App& app, int& exit_code);
 void add_materials(CLI::App& app, int& exit_code);
 void add_preset(CLI::App& app, int& exit_code);

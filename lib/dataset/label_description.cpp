@@ -105,20 +105,20 @@ AnnotationRules annotation_rules(const CheckedJson& labels) {
     AnnotationRules rules;
     const std::vector<CheckedJson> classes = labels.at("classes").items();
     rules.background.assign(classes.size(), 0);
-    const std::optional<CheckedJson> told = labels.find("annotations");
-    if (!told) return rules;
-    for (const CheckedJson& name : told->at("background").items()) {
+    const std::optional<CheckedJson> annotations = labels.find("annotations");
+    if (!annotations) return rules;
+    for (const CheckedJson& name : annotations->at("background").items()) {
         const auto found = std::ranges::find_if(
             classes, [&](const CheckedJson& one) { return one.at("name").text() == name.text(); });
         if (found == classes.end()) name.refuse("the name of a class");
         rules.background[static_cast<std::size_t>(found - classes.begin())] = 1;
     }
     constexpr std::uint64_t most_pixels = 1'000'000'000;
-    rules.config.min_pixels = static_cast<int>(told->at("min_pixels").whole(1, most_pixels));
-    rules.config.min_visible_share = told->at("min_visible_share").number();
-    rules.config.min_contrast_db = told->at("min_contrast_db").number();
-    rules.config.faint = value_of(told->at("faint"), faint_objects);
-    rules.config.box = value_of(told->at("box"), label_boxes);
+    rules.config.min_pixels = static_cast<int>(annotations->at("min_pixels").whole(1, most_pixels));
+    rules.config.min_visible_share = annotations->at("min_visible_share").number();
+    rules.config.min_contrast_db = annotations->at("min_contrast_db").number();
+    rules.config.faint = value_of(annotations->at("faint"), faint_objects);
+    rules.config.box = value_of(annotations->at("box"), label_boxes);
     return rules;
 }
 

@@ -46,7 +46,7 @@ Json identity_of(const ExportSource& source, const ExportOptions& options) {
                  {"licence", options.licence}};
     json["datasets"] = Json::array();
     for (const SourceDataset& dataset : source.datasets)
-        json["datasets"].push_back(dataset.told);
+        json["datasets"].push_back(dataset.description);
     return json;
 }
 

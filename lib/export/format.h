@@ -28,7 +28,7 @@ struct ExportContext {
     std::filesystem::path folder;
     ExportOptions options;
     std::vector<std::string> classes;
-    nlohmann::ordered_json datasets;  ///< SourceDataset::told of each
+    nlohmann::ordered_json datasets;  ///< SourceDataset::description of each
 };
 
 /// Writes an export in the layout of a trainer.

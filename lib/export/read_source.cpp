@@ -60,21 +60,21 @@ SourceDataset describe_source(const Place& place, const ExportOptions& options) 
                          "has no label 'coco', from which objects are exported; set output.labels: "
                          "[coco] and render it again");
     }
-    const std::string told = (place.folder / description_name).string();
+    const std::string file_name = (place.folder / description_name).string();
     SourceDataset dataset{.folder = place.folder,
                           .name = place.name,
-                          .told = {},
+                          .description = {},
                           .classes = file.labels.classes,
-                          .rules = annotation_rules({file.json.at("labels"), told}),
+                          .rules = annotation_rules({file.json.at("labels"), file_name}),
                           .coco_files = {},
                           .pictures = {}};
-    dataset.told = {{"folder", place.name},
-                    {"mission", file.mission},
-                    {"mission_hash", file.mission_hash},
-                    {"inputs_hash", file.inputs_hash},
-                    {"seed", std::to_string(file.seed)},
-                    {"program_version", file.json.at("program_version")},
-                    {"sha256sums", sha256_of_file(sums)}};
+    dataset.description = {{"folder", place.name},
+                           {"mission", file.mission},
+                           {"mission_hash", file.mission_hash},
+                           {"inputs_hash", file.inputs_hash},
+                           {"seed", std::to_string(file.seed)},
+                           {"program_version", file.json.at("program_version")},
+                           {"sha256sums", sha256_of_file(sums)}};
     add_pictures(file, place.part, options, dataset);
     for (SourcePicture& picture : dataset.pictures) {
         picture.box = dataset.rules.config.box;

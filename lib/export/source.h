@@ -38,8 +38,9 @@ struct SourcePicture {
 /// A dataset that is exported.
 struct SourceDataset {
     std::filesystem::path folder;
-    std::string name;             ///< the name of its folder beside others; empty if it is alone
-    nlohmann::ordered_json told;  ///< mission, hashes and version, for the files of an export
+    std::string name;  ///< the name of its folder beside others; empty if it is alone
+    nlohmann::ordered_json
+        description;  ///< mission, hashes and version, for the files of an export
     std::vector<std::string> classes;
     AnnotationRules rules;  ///< that it annotates by
     std::vector<std::string> coco_files;

@@ -49,7 +49,7 @@ void remove_variant(const fs::path& folder, const Mission& mission) {
 }
 
 /// Removes the files beside the variants. variants.json stays: the folder is recognised by it.
-void remove_files_beside(const fs::path& folder) {
+void remove_common_files(const fs::path& folder) {
     fs::remove(folder / checksums_name);
     remove_gallery(folder);  // it shows files that are gone
     for (const std::string_view part : split_part_names)
@@ -67,7 +67,7 @@ void keep_or_write(const fs::path& file, const std::string& text) {
 }
 
 /// The texts of variants.json and of the lists of its parts by file, in the order of SHA256SUMS.
-std::vector<std::pair<std::string, std::string>> files_beside(const Json& json) {
+std::vector<std::pair<std::string, std::string>> common_files(const Json& json) {
     std::vector<std::pair<std::string, std::string>> files{{variants_name, json_text(json)}};
     for (const auto& [name, lines] : split_lists(json))
         files.emplace_back(name, lines);
@@ -75,20 +75,20 @@ std::vector<std::pair<std::string, std::string>> files_beside(const Json& json) 
 }
 
 /// The lines of SHA256SUMS for these files.
-std::string sums_beside(const Json& json) {
+std::string common_sums(const Json& json) {
     std::string sums;
-    for (const auto& [name, text] : files_beside(json))
+    for (const auto& [name, text] : common_files(json))
         sums += checksum_line(sha256(text), name);
     return sums;
 }
 
 /// Writes variants.json, the lists of its parts and the sums of both. SHA256SUMS keeps the lines of
 /// the joined labels.
-void write_files_beside(const fs::path& folder, const Json& json) {
-    for (const auto& [name, text] : files_beside(json))
+void write_common_files(const fs::path& folder, const Json& json) {
+    for (const auto& [name, text] : common_files(json))
         keep_or_write(folder / name, text);
     const fs::path file = folder / checksums_name;
-    const std::string sums = sums_beside(json);
+    const std::string sums = common_sums(json);
     const bool is_begun =
         fs::is_regular_file(file) && read_file(file, largest_index).starts_with(sums);
     if (!is_begun) write_file_durably(file, sums);
@@ -221,13 +221,13 @@ void begin_variants(const fs::path& folder, const Json& json, std::span<const Mi
     if (found && overwrite) {
         for (const fs::path& old : folders_of_variants(folder, *found))
             remove_variant(old, variants.front());
-        remove_files_beside(folder);
+        remove_common_files(folder);
     }
-    write_files_beside(folder, json);
+    write_common_files(folder, json);
 }
 
 void finish_variants(const fs::path& folder, const Json& json) {
-    write_label_files(folder, json, folders_of_variants(folder, json), sums_beside(json));
+    write_label_files(folder, json, folders_of_variants(folder, json), common_sums(json));
 }
 
 std::map<std::string, std::string> split_lists(const Json& json) {

@@ -29,7 +29,7 @@ Json require_variants(const fs::path& folder) {
 }
 
 /// The files beside the variants but SHA256SUMS. The joined labels are there once all variants are.
-std::set<std::string> names_beside(const fs::path& folder, const Json& json) {
+std::set<std::string> common_names(const fs::path& folder, const Json& json) {
     std::set<std::string> names{variants_name};
     for (const auto& [name, lines] : split_lists(json))
         names.insert(name);
@@ -46,7 +46,7 @@ bool is_label_file(const std::string& name) {
 }
 
 /// Compares the files beside the variants with the sums of them.
-void check_files_beside(const fs::path& folder, const std::set<std::string>& expected,
+void check_common_files(const fs::path& folder, const std::set<std::string>& expected,
                         DatasetCheck& check) {
     const fs::path sums_file = folder / checksums_name;
     if (!fs::is_regular_file(sums_file)) {
@@ -158,8 +158,8 @@ DatasetCheck verify_variants(const fs::path& folder, int threads, const Progress
     const Json json = require_variants(folder);
     const std::vector<fs::path> folders = folders_of_variants(folder, json);
     DatasetCheck all;
-    const std::set<std::string> names = names_beside(folder, json);
-    check_files_beside(folder, names, all);
+    const std::set<std::string> names = common_names(folder, json);
+    check_common_files(folder, names, all);
     list_unknown_files(folder, json, names, all);
     for (std::size_t i = 0; i < folders.size() && !all.stopped; ++i) {
         const std::string name = folders[i].filename().string();

@@ -8,6 +8,7 @@
 #include "core/units.h"
 #include "recording/arrays.h"
 #include "recording/check_recording.h"
+#include "recording/recorded_xtf.h"
 
 namespace sonarsim {
 
@@ -168,6 +169,11 @@ Recording read_recorded_arrays(const RecordingFile& file, std::size_t most_pings
     for (const std::filesystem::path& path : file.files) {
         if (recording.pings.size() == most_pings) break;
         add_pings(read_array_file(path), path.string(), most_pings, values, recording);
+    }
+    if (!file.xtf.empty()) {
+        read_xtf_pings(file, most_pings, recording);
+        check_recording(recording, file.place.location.file);
+        return recording;
     }
     if (file.soundings) read_soundings(*file.soundings, most_pings, recording);
     if (recording.kind == RecordedKind::imaging && !recording.pings.empty())

@@ -49,18 +49,25 @@ void describe(MissionReader& v, RecordingFile& c) {
     v.place(c.place);
     v.choice("kind", c.kind, recorded_kinds, "what the instrument delivers", required);
     const bool is_soundings = c.kind == RecordedKind::soundings;
-    const Presence of_images = is_soundings ? Presence::optional : required;
+    v.paths("xtf", c.xtf, "XTF files of a side-scan", Presence::optional);
+    v.require(c.xtf.empty() || c.kind == RecordedKind::sidescan, {"kind", "xtf"},
+              "XTF files are read for the kind sidescan");
+    const bool has_own_ranges = is_soundings || !c.xtf.empty();
+    const Presence of_images = has_own_ranges ? Presence::optional : required;
     v.paths("files", c.files, "arrays of the pings", of_images);
+    v.require(c.xtf.empty() || c.files.empty(), {"files", "xtf"},
+              "a recording has `files` or `xtf`, not both");
     v.optional_section("soundings", c.soundings, "files of soundings");
     v.require(is_soundings == c.soundings.has_value(), {"kind", "soundings"},
               "the kind soundings has the section `soundings`, other kinds have `files`");
     v.require(!is_soundings || c.files.empty(), {"kind", "files"},
               "the kind soundings has the section `soundings` in place of `files`");
     v.section("law", c.law, "meaning of the values", required);
-    v.number("sound_speed_m_s", c.sound_speed_m_s, between(300, 10000), "speed of sound", required);
+    v.number("sound_speed_m_s", c.sound_speed_m_s, between(300, 10000), "speed of sound",
+             c.xtf.empty() ? required : Presence::optional);
     v.number("first_range_m", c.first_range_m, at_least(0), "middle of the first sample",
              of_images);
-    v.number("range_step_m", c.range_step_m, is_soundings ? at_least(0) : above(0),
+    v.number("range_step_m", c.range_step_m, has_own_ranges ? at_least(0) : above(0),
              "distance of samples", of_images);
     v.number("bearing_first_deg", c.bearing_first_deg, any_angle_deg, "of the first beam");
     v.number("bearing_last_deg", c.bearing_last_deg, any_angle_deg, "of the last beam");

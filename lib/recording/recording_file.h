@@ -25,6 +25,7 @@ struct SoundingFiles {
 struct RecordingFile {
     RecordedKind kind = RecordedKind::imaging;
     std::vector<std::filesystem::path> files;
+    std::vector<std::filesystem::path> xtf;  ///< a side-scan's, in place of `files` and ranges
     std::optional<SoundingFiles> soundings;
     RecordedLaw law;
     double sound_speed_m_s = 0;

@@ -16,6 +16,7 @@
 #include "format/npy.h"
 #include "format/png.h"
 #include "format/png_file.h"
+#include "format/xtf.h"
 #include "recording/arrays.h"
 #include "recording/law.h"
 #include "support/temporary_folder.h"
@@ -89,6 +90,31 @@ TEST_SUITE("recording") {
         // The row 0 1 2 | 3 4 5: port is 2, 1, 0 from nadir on, starboard 3, 4, 5.
         CHECK(recording.pings[0].values == std::vector<float>{2, 3, 1, 4, 0, 5});
         CHECK(recording.pings[1].time_s == 3.0);
+    }
+
+    TEST_CASE("recording: XTF files of a side-scan") {
+        const TemporaryFolder folder;
+        const std::vector<std::uint16_t> row{1, 2, 3, 4, 5, 6};
+        XtfPing ping;
+        ping.range_max_m = 30.0;
+        ping.sound_speed_m_s = 1480.0;
+        ping.t_s = 10.0;
+        const std::string one = xtf_header({}) + xtf_record(ping, row);
+        ping.range_max_m = 60.0;
+        write_file(folder.path / "a.xtf", one);
+        write_file(folder.path / "b.xtf", one + xtf_record(ping, row));
+        const std::string yaml = "kind: sidescan\nlaw: {kind: power, full_value: 65535}\nxtf: ";
+        write_file(folder.path / "recording.yaml", yaml + "[a.xtf, a.xtf]\n");
+        const Recording recording = load_recording(folder.path);
+        REQUIRE(recording.pings.size() == 2);
+        CHECK(recording.pings[1].values == std::vector<float>{3, 4, 2, 5, 1, 6});
+        CHECK(recording.sound_speed_m_s == 1480.0);
+        CHECK(recording.range_step_m == 10.0);
+        CHECK(recording.first_range_m == 5.0);
+        write_file(folder.path / "recording.yaml", yaml + "b.xtf\n");
+        CHECK(message_of(folder.path).find("split the file") != std::string::npos);
+        write_file(folder.path / "recording.yaml", yaml + "recording.yaml\n");
+        CHECK(message_of(folder.path).find("is no XTF file") != std::string::npos);
     }
 
     TEST_CASE("recording: soundings leave out what a beam did not find") {

@@ -19,11 +19,11 @@ double SetDisagreement::error() const {
     // Two independent values a and b of a bin, each off by s on average, have a mean that is off by
     // s / sqrt(2), and |a - b| is sqrt(2) s on average: the mean is off by half of it.
     //
-    // A bin that one set of rays lights with probability p, and the other with q, is missed by both
-    // with probability (1 - p) (1 - q). Signal of p (1 - q) is lit by the first alone and of
-    // (1 - p) q by the other alone. The root of their product is sqrt(p q (1 - p) (1 - q)), which
-    // is at least as much when p q >= (1 - p) (1 - q). For p = q it is half of what one set alone
-    // lights, as above.
+    // One set of rays finds a bin with probability p, the other with q, so both miss it with
+    // probability (1 - p) (1 - q). The share p (1 - q) of the signal is found by the first set
+    // alone, (1 - p) q by the other alone. The root of their product, sqrt(p q (1 - p) (1 - q)), is
+    // no less than the missed share when p q >= (1 - p) (1 - q). For p = q it is half of what one
+    // set alone finds, as above.
     //
     // Every bin is one draw of its error, and half of its difference another one of the same size:
     // so the variance of their sums is 2 sum (d / 2)^2.
@@ -40,7 +40,7 @@ SetComparison::SetComparison(const View& view, std::span<const Material> materia
       begin_(view.range_bins) {
     result_.every = std::max(1, view.beams / most_compared_beams);
     const int compared = (view.beams + result_.every - 1) / result_.every;
-    result_.lit.resize(static_cast<std::size_t>(compared) * view.range_bins);
+    result_.occupied.resize(static_cast<std::size_t>(compared) * view.range_bins);
 }
 
 void SetComparison::add_beam(int beam, std::span<const Sample> samples,
@@ -48,7 +48,7 @@ void SetComparison::add_beam(int beam, std::span<const Sample> samples,
     if (beam % result_.every != 0) return;
     for (std::size_t i = 0; i < samples.size(); ++i)
         add(samples[i], sets[i]);
-    compare_bins(result_.lit.data() +
+    compare_bins(result_.occupied.data() +
                  static_cast<std::size_t>(beam / result_.every) * bins_.size());
 }
 
@@ -95,12 +95,12 @@ void SetComparison::compare_bin(const Bin& bin, SetDisagreement& out) {
         out.difference += apart;
 }
 
-/// Compares the bins and clears them; `lit` are those of the beam.
-void SetComparison::compare_bins(std::uint8_t* lit) {
+/// Compares the bins of a beam and clears them. `occupied` [range bins] of the beam is set.
+void SetComparison::compare_bins(std::uint8_t* occupied) {
     for (int i = begin_; i < end_; ++i) {
         Bin& bin = bins_[i];
         if (bin[0].weight == 0.0F && bin[1].weight == 0.0F && bin[2].weight == 0.0F) continue;
-        lit[i] = 1;
+        occupied[i] = 1;
         compare_bin(bin, result_);
         bin = {};
     }

@@ -13,13 +13,14 @@ namespace sonarsim {
 
 /// A comparison of the noise-free images of two sets of rays, see RaySet.
 struct SetDisagreement {
-    double signal = 0.0;            ///< signal of the image by all rays
-    double difference = 0.0;        ///< sum over bins that both sets light
-    double first_alone = 0.0;       ///< signal of bins that only the first set lights
-    double second_alone = 0.0;      ///< signal of bins that only the second set lights
-    double squares = 0.0;           ///< squared differences of all bins
-    int every = 1;                  ///< these beams were compared: 0, every, 2 every, ...
-    std::vector<std::uint8_t> lit;  ///< [compared beams, range bins]: 1 if the image has an echo
+    double signal = 0.0;        ///< signal of the image by all rays
+    double difference = 0.0;    ///< sum over bins that both sets light
+    double first_alone = 0.0;   ///< signal of bins that only the first set lights
+    double second_alone = 0.0;  ///< signal of bins that only the second set lights
+    double squares = 0.0;       ///< squared differences of all bins
+    int every = 1;              ///< these beams were compared: 0, every, 2 every, ...
+    std::vector<std::uint8_t>
+        occupied;  ///< [compared beams, range bins]: 1 if the image has an echo
 
     /// Relative L1 of the image of all samples, and twice its standard error; 0 without signal.
     double error() const;
@@ -38,7 +39,7 @@ class SetComparison {
 
   private:
     void add(const Sample& sample, RaySet set);
-    void compare_bins(std::uint8_t* lit);
+    void compare_bins(std::uint8_t* occupied);
 
     /// Sums over the samples in a bin. Their quotient is the mean echo.
     struct Sum {

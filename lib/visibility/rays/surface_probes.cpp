@@ -47,7 +47,7 @@ class SurfacePoints {
 /// A point of the view, as seen from the sonar.
 struct SurfaceProbe {
     float range_m;
-    std::uint32_t bin;  ///< index into SetDisagreement::lit
+    std::uint32_t bin;  ///< index into SetDisagreement::occupied
 };
 
 /// A bin that shows surface, and the echo of that surface.
@@ -109,7 +109,7 @@ double share_of_dark_bins(const Scene& scene, const Caster& caster, const View& 
     for (std::size_t k = 0; k < seen.size(); ++k) {
         if (k > 0 && seen[k].bin == seen[k - 1].bin) continue;
         all += static_cast<double>(seen[k].echo);
-        if (image.lit[seen[k].bin] == 0) dark += static_cast<double>(seen[k].echo);
+        if (image.occupied[seen[k].bin] == 0) dark += static_cast<double>(seen[k].echo);
     }
     return all > 0.0 ? dark / all : 0.0;
 }

@@ -17,34 +17,34 @@ enum class BeamsToCheck { drawn, all };
 /// Views of few beams and those with fine goals are checked whole at first.
 BeamsToCheck beams_to_check(const View& view);
 
-/// Measures the error of a ping: drawn beams are seen again by twice the slices, in smaller
-/// patches. The image of a drawn beam is that of its check.
+/// Measures the error of a ping. Some beams are drawn at random and checked by twice the slices, in
+/// smaller patches. A checked beam keeps the image of its check.
 ///
-/// Let A be the image of a beam by n slices, C that by these and as many more, at random places
-/// between them, and B the truth. The sum of |A - C| over the bins, D, is known; |C - B| is wanted
-/// for drawn beams, |A - B| for the others.
+/// Let A be the image of a beam by n slices, C its image by 2 n slices, the new ones at random
+/// places between the old ones, and B the true image. The sum D of |A - C| over the bins is known.
+/// The error of a checked beam is |C - B|, that of another beam |A - B|.
 ///
 /// - The new slices have an independent error of the same size: C is the mean of two images, and
 ///   A - C half the difference of their errors. So |C - B| = D and |A - B| = sqrt(2) D on average.
 /// - Both errors have one sign and fall as 1/n: |C - B| = D. As 1/n^2: |C - B| = D / 3.
-/// - A bin is lit by a bar that takes up the share p of the beam, and dark without it. The slices
-///   miss it with the probability exp(-n p), both sets with exp(-2 n p); so |C - B| is
-///   D / (exp(n p) - 1). For n p = 1, a bar as wide as the mean distance of two slices, that is
-///   0.58 D. Thinner bars are found by one more slice, through a triangle that is drawn by its area
-///   among those that no slice meets.
+/// - A bin is occupied by a bar as wide as the share p of the beam, and empty without it. The n
+///   slices miss the bar with the probability exp(-n p), all 2 n slices with exp(-2 n p). So
+///   |C - B| is D / (exp(n p) - 1): 0.58 D for n p = 1, a bar as wide as the mean distance of two
+///   slices. Thinner bars are found by one more slice, through a triangle that no slice meets; it
+///   is drawn with a probability proportional to its area.
 ///
-/// The first case is taken for all of them. Then |C - B| and |A - C| of a bin are the sizes of two
-/// independent variables, normal with the same variance s^2, whose sum over the bins is that of
-/// (A - C)^2. Their sums over the bins differ by a standard deviation of 0.853 s: much of D if few
-/// bins decide, and little of it otherwise.
+/// The first case is assumed. Then the errors |C - B| and |A - C| of a bin are the magnitudes of
+/// two independent normal variables with the same variance. Let s^2 be the sum of (A - C)^2 over
+/// the bins. The sums of the two magnitudes over the bins differ by a standard deviation of 0.853
+/// s: much of D if few bins decide, and little of it otherwise.
 ///
-/// Patches of C are as small as those of an image with a third of the error goal, and not joined
-/// over slices, so D has the errors of A's patches as well.
+/// C has the patches of a third of the error goal and does not join them over slices. So D contains
+/// the errors of A's patches as well.
 ///
-/// One of `step` beams is drawn, at random among so many neighbours that may have errors. The sum
-/// of `step` D over the drawn beams is an unbiased estimate of the sum over all of them: which
-/// beams are drawn is independent of their errors. Beams in which neighbouring slices predict the
-/// same and no triangle lies between them are their own check.
+/// Beams that may have errors are grouped by `step` neighbours, and one of each group is drawn.
+/// The draw is independent of the errors, so the sum of `step` D over the drawn beams is an
+/// unbiased estimate of the sum over all beams. A beam needs no check if neighbouring slices
+/// predict the same image and no triangle lies between them.
 class BeamCheck {
   public:
     /// All arguments but `view` must outlive it.
@@ -63,23 +63,23 @@ class BeamCheck {
 
   private:
     std::vector<Sample> samples_;
-    BinSums sums_;
+    BeamSums sums_;
     QuadSampler sampler_;
     StripQuads quads_;
-    const std::uint32_t calm_step_;  ///< one of so many uncertain beams is drawn
+    const std::uint32_t calm_step_;  ///< `step` while the errors are small
     /// Several frames may share a beam of a view with one or two, and make its image together.
     const bool all_;
     std::uint32_t uncertain_ = 0;  ///< number of uncertain beams so far
-    std::uint32_t begin_ = 0;      ///< the uncertain beams from here on,
-    std::uint32_t step_ = 0;       ///< so many, are a block
-    std::uint32_t next_ = 0;       ///< the one of the block that is drawn
+    std::uint32_t begin_ = 0;      ///< first uncertain beam of the group
+    std::uint32_t step_ = 0;       ///< number of uncertain beams in the group
+    std::uint32_t next_ = 0;       ///< the beam of the group that is drawn
 };
 
-/// The error of an image as a share of its signal, as the distances tell it.
+/// The expected error of an image as a share of its signal.
 double likely_error(const BeamErrors& errors);
 
-/// Upper limit of the error of an image, as a share of its signal, with a confidence of 95 % as far
-/// as the draw of beams and the independence of bins are concerned.
+/// Upper limit of the error of an image as a share of its signal. The confidence is 95 % if bins
+/// are independent.
 double estimated_error(const BeamErrors& errors);
 
 }  // namespace sonarsim

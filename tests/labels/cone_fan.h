@@ -1,0 +1,74 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <random>
+#include <vector>
+
+#include "core/units.h"
+#include "support/calibrated.h"
+#include "support/labelled.h"
+#include "support/scenes.h"
+#include "visibility/angles.h"
+
+namespace sonarsim::test {
+
+enum class Spacing { angle, sine, table };
+constexpr std::array spacings{Spacing::angle, Spacing::sine, Spacing::table};
+
+/// Uniform numbers; std::uniform_real_distribution differs between libraries.
+class Uniform {
+  public:
+    explicit Uniform(std::uint32_t seed) : bits_(seed) {}
+    double between(double low, double high) {
+        return low + (high - low) * (bits_() / 4294967296.0);
+    }
+
+  private:
+    std::mt19937 bits_;
+};
+
+/// 90 degrees of azimuth and of elevation, 1 to 9 m in 320 bins, 160 narrow beams, no noise.
+inline Sonar wide_fan(Spacing spacing) {
+    SonarConfig config = calibrated(default_sonar(SonarKind::imaging), 1e6);
+    config.name = "fls";
+    config.azimuth_deg = 90.0;
+    config.elevation_deg = 90.0;
+    config.range_min_m = 1.0;
+    config.range_max_m = 9.0;
+    config.range_bins = 320;
+    config.azimuth_bins = 160;
+    config.instrument = bare(config.instrument);
+    BeamConfig& beam = config.instrument.beam;
+    beam.width_deg = 0.5;
+    beam.side_lobe_db = -40.0;
+    beam.view_azimuth_deg = 150.0;
+    if (spacing == Spacing::sine) beam.spread = BeamSpacing::equal_sine;
+    if (spacing == Spacing::table) {
+        // From steps of 0.4 degrees at starboard to 0.72 degrees at port.
+        for (int j = 0; j < config.azimuth_bins; ++j) {
+            const double t = (j + 0.5) / config.azimuth_bins;
+            beam.azimuths_deg.push_back(-45.0 + 90.0 * (0.71 * t + 0.29 * t * t));
+        }
+    }
+    return make_sonar(config, {0.02});
+}
+
+inline int beam_at(const Sonar& sonar, double sine) {
+    const std::vector<double>& edges = sonar.azimuth_edges_rad;
+    const auto above = std::ranges::upper_bound(edges, std::asin(sine));
+    return above == edges.begin() || above == edges.end()
+               ? -1
+               : static_cast<int>(above - edges.begin()) - 1;
+}
+
+/// A thing with its middle in some direction of the sensor, and a sonar that is pitched.
+struct Thing {
+    Scene scene = empty_scene();
+    Pose pose;
+    Eigen::Vector3d middle;  ///< sensor frame
+};
+
+}  // namespace sonarsim::test

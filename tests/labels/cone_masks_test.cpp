@@ -1,0 +1,197 @@
+// The masks of objects in the calibrated model: they lie where its beams, which are cones, receive
+// the echo.
+#include <doctest/doctest.h>
+
+#include <numeric>
+
+#include "labels/cone_fan.h"
+#include "support/sanitized.h"
+
+using namespace sonarsim;
+using namespace sonarsim::test;
+
+namespace {
+
+/// Half-open; empty: last = first.
+struct Box {
+    int bin_first = 1 << 20, bin_last = 0, beam_first = 1 << 20, beam_last = 0;
+
+    void add(int bin, int beam) {
+        bin_first = std::min(bin_first, bin);
+        bin_last = std::max(bin_last, bin + 1);
+        beam_first = std::min(beam_first, beam);
+        beam_last = std::max(beam_last, beam + 1);
+    }
+    int bins() const { return std::max(bin_last - bin_first, 0); }
+    int beams() const { return std::max(beam_last - beam_first, 0); }
+    double area() const { return static_cast<double>(bins()) * beams(); }
+};
+
+double overlap(const Box& a, const Box& b) {
+    Box both = a;
+    both.bin_first = std::max(a.bin_first, b.bin_first);
+    both.bin_last = std::min(a.bin_last, b.bin_last);
+    both.beam_first = std::max(a.beam_first, b.beam_first);
+    both.beam_last = std::min(a.beam_last, b.beam_last);
+    return both.area() / (a.area() + b.area() - both.area());
+}
+
+Thing draw_thing(Uniform& draw) {
+    Thing out;
+    const double tilt = radians(draw.between(0.0, 40.0));
+    const double elevation = radians(draw.between(-38.0, 38.0));
+    const double azimuth = radians(draw.between(-40.0, 40.0));
+    const double range = draw.between(3.0, 7.0);
+    out.pose = {rotation_from_rpy(0.0, tilt, 0.0), Eigen::Vector3d::Zero()};
+    out.middle = range * direction_of(azimuth, elevation);
+    const Eigen::Vector3f at = (out.pose.rotation * out.middle).cast<float>();
+    const std::uint32_t m = add_material(out.scene, 0.4F);
+    out.scene.materials[m].slope_rms_deg = 0.0F;  // Lambert's law alone
+    if (draw.between(0.0, 1.0) < 0.5) {
+        add_sphere(out.scene, at, static_cast<float>(draw.between(0.6, 1.0)), m, 32);
+        return out;
+    }
+    const auto side = [&] { return static_cast<float>(draw.between(0.4, 0.8)); };
+    const Eigen::Vector3f half(side(), side(), side());
+    add_box(out.scene, at - half, at + half, m);
+    return out;
+}
+
+/// The energy by Lambert's law in each bin, [range bins, beams]: of many points of each sample, for
+/// each of which range and sine say where the array receives it.
+std::vector<double> energies_of_points(const TracedPing& traced, const Sonar& sonar) {
+    const View& view = sonar.settings.view;
+    std::vector<double> energies(static_cast<std::size_t>(view.range_bins) * view.beams);
+    std::vector<Sample> samples = traced.samples.items;
+    samples.insert(samples.end(), traced.outside_sector.begin(), traced.outside_sector.end());
+    for (const Sample& sample : samples) {
+        const Eigen::Vector3f to = sample.position.normalized();
+        // Four points to a bin, and to the width of the sample in beams.
+        const auto points_along = [&](const Eigen::Vector3f& half_edge) {
+            const double depth_m = 2.0 * std::fabs(half_edge.dot(to));
+            return 8 + static_cast<int>(4.0 * depth_m / view.bin_m());
+        };
+        const int rows = points_along(sample.edge_u);
+        const int columns = points_along(sample.edge_v);
+        for (int k = 0; k < rows * columns; ++k) {
+            const auto at = [](int i, int n) {
+                return (2.0F * static_cast<float>(i) + 1.0F) / static_cast<float>(n) - 1.0F;
+            };
+            const Eigen::Vector3f p = sample.position + at(k / columns, rows) * sample.edge_u +
+                                      at(k % columns, columns) * sample.edge_v;
+            const double r = p.norm();
+            const int beam = beam_at(sonar, p.y() / r);
+            if (beam < 0 || r < view.range_min_m || r >= view.range_max_m) continue;
+            const double sine = sample.height_m / r;
+            energies[static_cast<std::size_t>(bin_at(sonar, r)) * view.beams + beam] +=
+                sample.area_m2 * sine * sine / (r * r * r * r * rows * columns);
+        }
+    }
+    return energies;
+}
+
+/// The energies of the echoes that labels are made of, likewise.
+std::vector<double> energies_of_labels(const SurfaceEchoes& echoes, const View& view) {
+    std::vector<double> energies(static_cast<std::size_t>(view.range_bins) * view.beams);
+    const BeamEchoes& direct = echoes.direct;
+    BinSums sums;
+    for (int j = 0; j < view.beams; ++j) {
+        sums.clear(view.range_bins);
+        accumulate(direct.boxes, direct.beam_begin[j], direct.beam_begin[j + 1], range_bins(view),
+                   sums);
+        for (int i = 0; i < view.range_bins; ++i)
+            energies[static_cast<std::size_t>(i) * view.beams + j] = sums.echo(i);
+    }
+    return energies;
+}
+
+/// The box of the bins above some energy, of those in the mask if there is one.
+Box box_above(const std::vector<double>& energies, double least, int beams,
+              const std::vector<bool>& mask = {}) {
+    Box box;
+    for (std::size_t at = 0; at < energies.size(); ++at) {
+        if (energies[at] > least && (mask.empty() || mask[at]))
+            box.add(static_cast<int>(at) / beams, static_cast<int>(at) % beams);
+    }
+    return box;
+}
+
+/// The box nearest to `box` that holds `least` and lies within `most`.
+Box between(const Box& box, const Box& least, const Box& most) {
+    return {std::clamp(box.bin_first, most.bin_first, least.bin_first),
+            std::clamp(box.bin_last, least.bin_last, most.bin_last),
+            std::clamp(box.beam_first, most.beam_first, least.beam_first),
+            std::clamp(box.beam_last, least.beam_last, most.beam_last)};
+}
+
+/// The correlation of a mask with an image in decibels above its noise, where the mask is moved by
+/// some beams. All such masks are of one size: those that correlate best cover most decibels.
+double decibels_in(const std::vector<bool>& mask, int shift, const Ping& image, double noise) {
+    double sum = 0.0;
+    for (std::size_t at = 0; at < mask.size(); ++at) {
+        const int beam = static_cast<int>(at % image.beams) + shift;
+        if (!mask[at] || beam < 0 || beam >= image.beams) continue;
+        const double value = image.intensity[at + shift];
+        if (value > noise) sum += std::log(value / noise);
+    }
+    return sum;
+}
+}  // namespace
+
+TEST_SUITE_BEGIN("ping");
+
+TEST_CASE("cone labels: masks of 500 things lie on their echoes" * doctest::skip(test::sanitized)) {
+    Uniform draw(7);
+    std::array<Sonar, 3> sonars;
+    for (const Spacing spacing : spacings)
+        sonars[static_cast<std::size_t>(spacing)] = wide_fan(spacing);
+    constexpr double noise = 1e-4;  // relative to the brightest bin
+    int measured = 0;
+    for (int n = 0; n < 500; ++n) {
+        CAPTURE(n);
+        const Thing thing = draw_thing(draw);
+        const Sonar& sonar = sonars[static_cast<std::size_t>(n % 3)];
+        const View& view = sonar.settings.view;
+        const auto engine = make_engine(thing.scene, {.type = EngineKind::slices, .octree = {}});
+        const TracedPing traced = trace(sonar, thing.scene, *engine, thing.pose, 0);
+        const SceneObjects objects = group_objects(thing.scene, {});
+        const PingLabels labels =
+            label_ping(traced, sonar.settings, thing.scene, objects, *engine, {.objects = true});
+        std::vector<bool> mask;
+        for (int i = 0; i < view.range_bins; ++i) {
+            for (int j = 0; j < view.beams; ++j)
+                mask.push_back(labels.object[static_cast<std::size_t>(j) * view.range_bins + i] >
+                               0);
+        }
+        // A bin within 3 dB of the noise may count or not.
+        const std::vector<double> by_points = energies_of_points(traced, sonar);
+        const double least = noise * *std::ranges::max_element(by_points);
+        const Box loud = box_above(by_points, 2.0 * least, view.beams);
+        const Box faint = box_above(by_points, 0.5 * least, view.beams);
+        if (loud.bins() < 20 || loud.beams() < 20) continue;  // a bin more or less tells nothing
+        ++measured;
+        const SurfaceEchoes echoes =
+            sonar.settings.model->surface_echoes(traced, view, thing.scene, false);
+        const std::vector<double> by_labels = energies_of_labels(echoes, view);
+        const auto sum = [](const std::vector<double>& of) {
+            return std::accumulate(of.begin(), of.end(), 0.0);
+        };
+        // Both have all of the energy, in another unit.
+        const double unit = sum(by_labels) / sum(by_points);
+        const Box box = box_above(by_labels, unit * least, view.beams, mask);
+        const double o = overlap(box, between(box, loud, faint));
+        // One bin and one beam more or less.
+        const double least_overlap = (1.0 - 1.0 / loud.bins()) * (1.0 - 1.0 / loud.beams());
+        CHECK(o >= std::min(0.95, least_overlap));
+        const Ping clean =
+            form_image(traced, sonar.settings, thing.scene, {}, without_random_terms);
+        const double quiet = noise * *std::ranges::max_element(clean.intensity);
+        const double here = decibels_in(mask, 0, clean, quiet);
+        for (int shift = 1; shift <= 20; ++shift) {
+            CHECK(here >= decibels_in(mask, shift, clean, quiet));
+            CHECK(here >= decibels_in(mask, -shift, clean, quiet));
+        }
+    }
+    CHECK(measured > 450);
+}
+TEST_SUITE_END();
