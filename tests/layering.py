@@ -33,7 +33,7 @@ ALLOWED = {
     "format": {"core"},
 }
 for upper in ("dataset", "checks", "job", "validation", "benchmark", "preview", "gallery",
-              "export", "recording", "compare"):
+              "export", "recording", "compare", "calibrate"):
     ALLOWED[upper] = set(ALLOWED)
 
 # The parts of the folders that have subfolders, from the bottom up; those in one row do not know
@@ -56,7 +56,7 @@ AFTER_THE_TRACE = {"paper", "calibrated", "ping", "labels", "product", "sonar", 
 RANGE_OF_POSITION = re.compile(r"\bposition\.norm\(\)|\bposition / range\b|arctan2\w*\([^)]*position")
 # These folders make values of files, which are the same on every processor.
 SAME_BYTES = ("trace/", "paper/", "calibrated/", "ping/", "labels/", "product/", "sonar/", "scene/seabed/",
-              "recording/", "compare/")
+              "recording/", "compare/", "calibrate/")
 OF_THE_C_LIBRARY = re.compile(r"\bstd::(a?(sin|cos|tan)h?|atan2|exp[2m]?1?|log(2|10|1p)?|pow|cbrt|hypot|erfc?)\(")
 # A class in a header; two of one name would be one to the linker.
 CLASS = re.compile(r"(?:class|struct) (\w+)(?: final)?(?: :[^;{]*)? \{")

@@ -25,6 +25,7 @@ void add_inspect(CLI::App& app, int& exit_code);
 void add_materials(CLI::App& app, int& exit_code);
 void add_preset(CLI::App& app, int& exit_code);
 void add_report(CLI::App& app, int& exit_code);
+void add_calibrate(CLI::App& app, int& exit_code);
 void add_status(CLI::App& app, int& exit_code);
 void add_keys(CLI::App& app, int& exit_code);
 void add_schema(CLI::App& app, int& exit_code);

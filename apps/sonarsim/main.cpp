@@ -93,6 +93,7 @@ int run(int argc, char** argv) {
     add_materials(app, exit_code);
     add_preset(app, exit_code);
     add_report(app, exit_code);
+    add_calibrate(app, exit_code);
     add_status(app, exit_code);
     add_keys(app, exit_code);
     add_schema(app, exit_code);
