@@ -48,7 +48,7 @@ std::string type_of(std::string_view header) {
     const std::size_t end = text.empty() ? 0 : text.find(text[0], 1);
     if (text.empty() || text[0] != '\'' || end == std::string_view::npos)
         refuse_npy("holds records, not numbers; save one array of them");
-    const std::string type(text.substr(1, end - 1));
+    std::string type(text.substr(1, end - 1));
     for (const char* known : {"|u1", "<u2", "<f4", "<f8"}) {
         if (type == known) return type;
     }
