@@ -37,7 +37,9 @@ struct Block {
 std::vector<Block> blocks_of(const RecordedImages& images, PatchSize size) {
     std::vector<Block> blocks;
     const int columns = images.columns / size.beams;
-    for (int i = 0; i < images.ranges / size.ranges; ++i) {
+    const int rows = images.ranges / size.ranges;
+    blocks.reserve(static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns));
+    for (int i = 0; i < rows; ++i) {
         for (int j = 0; j < columns; ++j)
             blocks.push_back({i * columns + j, i * size.ranges, j * size.beams, size});
     }
@@ -58,6 +60,7 @@ template <class Choose>
 std::vector<Measured> banded_levels(const RecordedImages& images, PatchSize size,
                                     const std::vector<std::string>& names, const Choose& choose) {
     std::vector<Measured> bands;
+    bands.reserve(names.size());
     for (const std::string& name : names)
         bands.push_back({name, Reduce::level, Tolerance::decibel, 0.5, {}});
     std::vector<double> sums(names.size());

@@ -99,7 +99,8 @@ std::string comparison_svg(const Comparison& c) {
     const double middle = 0.5 * (left_px + width_px);
     const double scale = (0.5 * (width_px - left_px) - 20.0) / most_standardised;
     out += fmt::format(
-        "<text x='{}' y='{}'>difference in standard errors, cut at {}; grey: 95 %"
+        "<text x='{}' y='{}'>difference in standard errors, cut at {}; grey: 1.96 of them; "
+        "blue: agrees"
         "</text>\n<rect x='{:.1f}' y='{}' width='{:.1f}' height='{}' fill='#eee'/>\n",
         left_px, top - 12, most_standardised, middle - 1.96 * scale, top - 6, 2.0 * 1.96 * scale,
         row_px * static_cast<int>(c.figures.size()) + 8);

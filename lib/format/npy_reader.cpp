@@ -20,7 +20,7 @@ constexpr std::uint64_t most_npy_values = std::uint64_t{1} << 40;
 }
 
 /// The text of the header, and where the data begin.
-std::string_view header_of(std::string_view bytes, std::size_t& data_at) {
+std::string_view npy_header_text(std::string_view bytes, std::size_t& data_at) {
     constexpr std::string_view magic("\x93NUMPY", 6);
     if (!bytes.starts_with(magic) || bytes.size() < 12) refuse_npy("is no .npy file");
     const auto byte = [&](std::size_t at) {
@@ -48,7 +48,7 @@ std::string type_of(std::string_view header) {
     const std::size_t end = text.empty() ? 0 : text.find(text[0], 1);
     if (text.empty() || text[0] != '\'' || end == std::string_view::npos)
         refuse_npy("holds records, not numbers; save one array of them");
-    const std::string type(text.substr(1, end - 1));
+    std::string type(text.substr(1, end - 1));
     for (const char* known : {"|u1", "<u2", "<f4", "<f8"}) {
         if (type == known) return type;
     }
@@ -98,7 +98,7 @@ std::size_t fortran_index(const std::vector<std::size_t>& shape, std::size_t k) 
 
 NpyView read_npy(std::string_view bytes) {
     std::size_t data_at = 0;
-    const std::string_view header = header_of(bytes, data_at);
+    const std::string_view header = npy_header_text(bytes, data_at);
     NpyView view;
     view.format.type = type_of(header);
     view.format.fortran_order = behind(header, "'fortran_order':").starts_with("True");

@@ -35,11 +35,12 @@ double lagged(std::span<const float> amplitudes, PatchSize size, int range_lag, 
     const int columns = size.beams - beam_lag;
     if (!(square > 0.0) || rows < 1 || columns < 1) return std::numeric_limits<double>::quiet_NaN();
     double sum = 0.0;
-    for (int i = 0; i < rows; ++i) {
-        const double* one = z.data() + i * size.beams;
-        const double* other = z.data() + (i + range_lag) * size.beams + beam_lag;
-        for (int j = 0; j < columns; ++j)
-            sum += one[j] * other[j];
+    const auto width = static_cast<std::size_t>(size.beams);
+    const auto down = static_cast<std::size_t>(range_lag);
+    const auto right = static_cast<std::size_t>(beam_lag);
+    for (std::size_t i = 0; i + down < static_cast<std::size_t>(size.ranges); ++i) {
+        for (std::size_t j = 0; j + right < width; ++j)
+            sum += z[i * width + j] * z[(i + down) * width + j + right];
     }
     return sum / (static_cast<double>(rows) * columns) / square;
 }
