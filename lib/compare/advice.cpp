@@ -47,6 +47,7 @@ constexpr std::array rules{
     Rule{"", "spread of levels", "instrument.receiver.looks, samples, offset, bits"},
     Rule{"", "zeros", "instrument.receiver.noise_db, offset, bits, blanking_m"},
     Rule{"", "clipped", "instrument.receiver.full_scale_db"},
+    Rule{"ring", "level", "instrument.receiver.ring_down_db, ring_down_m, blanking_m"},
     Rule{"water", "level", levels_of_noise},
     Rule{"tail", "level",
          "instrument.beam.elevation_side_lobe_db, instrument.receiver.noise_db, tvg_log"},

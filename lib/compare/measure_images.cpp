@@ -99,11 +99,12 @@ void measure_levels(const RecordedImages& images, const MeasureOptions& options,
     const auto zone_at = [&](int i) {
         if (z.bottom.holds(i, i + 1)) return 0;
         if (z.water.holds(i, i + 1)) return 1;
+        if (i < z.water.from) return 3;
         return z.tail.holds(i, i + 1) ? 2 : -1;
     };
     append(banded_levels(images, options.patch,
                          {is_one ? "image: level, dB" : "bottom: level, dB", "water: level, dB",
-                          "tail: level, dB"},
+                          "tail: level, dB", "ring: level, dB"},
                          [&](int i, int) { return zone_at(i); }),
            out);
     const CommonBands& b = options.bands;
