@@ -84,7 +84,11 @@ int calibrate_command(const CalibrateArguments& arguments) {
     write_file(arguments.out, preset_head(calibration, arguments.preset) + preset);
     if (!arguments.report.empty())
         write_file(arguments.report, json_line(calibration_json(calibration)));
-    fmt::print("{}", calibration_text(calibration));
+    if (arguments.log.json) {
+        fmt::print("{}", json_line(calibration_json(calibration)));
+    } else if (arguments.log.prints_result()) {
+        fmt::print("{}", calibration_text(calibration));
+    }
     return exit_done;
 }
 

@@ -16,7 +16,8 @@ namespace {
 constexpr double most_taper_interval_db = 8.0;
 constexpr double least_taper_db = -41.0;
 constexpr double no_taper_db = -13.3;
-// What the model's interpolation between the columns of its grid leaves in a width.
+// The error that the model's interpolation between the columns of its grid leaves in a width.
+constexpr double least_taper_error_db = 2.0;
 constexpr double least_width_share = 0.02;
 
 /// The correlation of noise between beams, pairs of one difference of number after the other, as a
@@ -109,8 +110,10 @@ struct Fitter {
             const double found = seen.along_beams[at];
             out[k] = std::isfinite(found) ? mean[at] - found : 0.0;
         }
-        // Where the taper hardly matters, its parameter stays near 0.
-        out[patch_lags] = 1e-3 * x[1];
+        // If the taper hardly matters, its parameter stays near 0. Beyond 4 nothing changes any
+        // more.
+        const double beyond = std::max(std::fabs(x[1]) - 4.0, 0.0);
+        out[patch_lags] = 1e-3 * x[1] + (x[1] > 0.0 ? 0.05 : -0.05) * beyond;
         return out;
     }
 
@@ -171,7 +174,8 @@ ArrayFit fit_array(const std::vector<PatchMoments>& patches, const std::vector<s
                                    fitter.tapers.at(fitter.tapers.side_lobe_db, array.pedestal)};
     };
     ArrayFit out;
-    const std::vector<Measured> found = bootstrap_all(places, estimate, {0.0, 1.0}, 40);
+    const std::vector<Bounded> found =
+        bootstrap_all(places, estimate, {0.0, least_taper_error_db}, 60);
     out.width_deg = found[0];
     out.side_lobe_db = found[1];
     out.taper_known = found[1].high - found[1].low < most_taper_interval_db &&

@@ -24,8 +24,8 @@ std::array<double, patch_lags> predicted_beam_correlations(const LineArray& arra
 
 /// The receiving array by the correlation of noise across the beams.
 struct ArrayFit {
-    Measured width_deg;
-    Measured side_lobe_db;
+    Bounded width_deg;
+    Bounded side_lobe_db;
     bool taper_known = false;  ///< else only the two together are
 };
 

@@ -18,7 +18,7 @@ std::vector<double> drawn_weights(int count, std::uint32_t draw) {
     return weights;
 }
 
-std::vector<Measured> bootstrap_all(
+std::vector<Bounded> bootstrap_all(
     int count, const std::function<std::vector<double>(const std::vector<double>&)>& estimate,
     const std::vector<double>& least, int draws) {
     const std::vector<double> whole =
@@ -35,7 +35,7 @@ std::vector<Measured> bootstrap_all(
             counts[k] += 1.0;
         }
     }
-    std::vector<Measured> out;
+    std::vector<Bounded> out;
     for (std::size_t k = 0; k < whole.size(); ++k) {
         const double mean = counts[k] > 0.0 ? sums[k] / counts[k] : 0.0;
         const double variance =
@@ -46,8 +46,8 @@ std::vector<Measured> bootstrap_all(
     return out;
 }
 
-Measured bootstrap(int count, const std::function<double(const std::vector<double>&)>& estimate,
-                   double least, int draws) {
+Bounded bootstrap(int count, const std::function<double(const std::vector<double>&)>& estimate,
+                  double least, int draws) {
     const auto one = [&](const std::vector<double>& weights) {
         return std::vector<double>{estimate(weights)};
     };

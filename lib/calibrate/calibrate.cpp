@@ -20,7 +20,7 @@ double full_angle(const std::vector<double>& bearings) {
     return (*most - *least) * beams / std::max(beams - 1.0, 1.0);
 }
 
-/// How uneven the steps of a row of numbers are: standard deviation by mean.
+/// Unevenness of the steps of a row of numbers: variance by squared mean.
 double unevenness(const std::vector<double>& row) {
     double sum = 0.0, square = 0.0;
     for (std::size_t k = 1; k < row.size(); ++k) {
@@ -67,7 +67,7 @@ void add_shape(const SonarConfig& config, std::vector<PresetValue>& out) {
 
 void add_estimates(const ImageFit& fit, const StartInstrument& start,
                    std::vector<PresetValue>& out) {
-    for (const Estimate& e : fit.estimates) {
+    for (const KeyEstimate& e : fit.estimates) {
         const std::string key = "instrument." + e.key;
         if (!e.word.empty()) {
             out.push_back({key, e.word, "fit"});
@@ -120,7 +120,7 @@ void calibrate_images(const SplitRecording& parts, const SonarConfig& start,
 
 /// A figure of soundings at one angle. The start predicts neither the bottom nor its spread, so its
 /// column repeats what was measured, without a prediction.
-JudgedFigure of_angle(const std::string& name, Tolerance tolerance, const Measured& fitted,
+JudgedFigure of_angle(const std::string& name, FitTolerance tolerance, const Bounded& fitted,
                       double predicted, double held_out) {
     const double missing = std::nan("");
     return {{name, tolerance, missing, {held_out, held_out, held_out}},
@@ -149,11 +149,12 @@ void calibrate_soundings(const SplitRecording& parts, const SonarConfig& start,
         const std::string at = ", " + short_number(std::round(degrees(a.angle_rad))) + " degrees";
         const double gain_db = geometry.gain_db(a.angle_rad, a.range_m);
         out.figures.push_back(of_angle("strength with the level of the sonar" + at + ", dB",
-                                       Tolerance::decibel, fit.strength_db[k],
+                                       FitTolerance::decibel, fit.strength_db[k],
                                        fit.level_db_at(a.angle_rad, a.range_m) - gain_db,
                                        a.level_db - gain_db));
-        out.figures.push_back(of_angle("spread of ranges" + at + ", m", Tolerance::three_twentieths,
-                                       fit.spread_m[k], fit.spread_m_at(a.angle_rad), a.spread_m));
+        out.figures.push_back(of_angle("spread of ranges" + at + ", m",
+                                       FitTolerance::three_twentieths, fit.spread_m[k],
+                                       fit.spread_m_at(a.angle_rad), a.spread_m));
     }
     out.notes = {
         "transmit level, gain and strength of the bottom cannot be separated here: the levels have "

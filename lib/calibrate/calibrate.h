@@ -17,20 +17,20 @@ namespace sonarsim {
 struct CalibrationOptions {
     double judged_share = 0.5;
     bool reversed = false;   ///< the first pings are judged, the last ones fitted
-    double slope_rad = 0.0;  ///< of the bottom across the track, positive down to port
+    double slope_rad = 0.0;  ///< bottom across the track, positive down to port
 };
 
 /// A figure in the columns of the report.
 struct JudgedFigure {
-    Figure start;      ///< what the start predicts, and the judged pings under its law
-    Figure in_sample;  ///< what the fit predicts, and the pings that it was fitted to
+    Figure start;      ///< the start's prediction, and the judged pings under its law
+    Figure in_sample;  ///< the fit's prediction, and the pings that it was fitted to
     Figure held_out;   ///< the same and the judged pings
 };
 
 struct Calibration {
-    std::string name;  ///< of the recording
+    std::string name;  ///< the recording's
     std::size_t pings_fitted = 0, pings_judged = 0;
-    std::vector<Estimate> estimates;
+    std::vector<KeyEstimate> estimates;
     std::optional<SoundingsFit> soundings;
     std::vector<JudgedFigure> figures;
     std::vector<std::string> notes;

@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string of_interval(const Measured& m) {
+std::string of_interval(const Bounded& m) {
     return fmt::format("{:.4g} ({:.4g} to {:.4g})", m.value, m.low, m.high);
 }
 
@@ -24,7 +24,7 @@ std::string prediction(const Figure& figure) {
     return std::isfinite(figure.predicted) ? fmt::format("{:.4g}", figure.predicted) : "-";
 }
 
-Json interval_json(const Measured& m) {
+Json interval_json(const Bounded& m) {
     return {{"value", m.value}, {"low", m.low}, {"high", m.high}};
 }
 
@@ -58,7 +58,7 @@ std::string short_number(double value) {
 std::string calibration_text(const Calibration& calibration) {
     std::string out = fmt::format("{}: {} pings fitted, {} judged\n\n", calibration.name,
                                   calibration.pings_fitted, calibration.pings_judged);
-    for (const Estimate& e : calibration.estimates) {
+    for (const KeyEstimate& e : calibration.estimates) {
         out += fmt::format("  {:28} {}\n", e.key, e.word.empty() ? of_interval(e.number) : e.word);
     }
     if (calibration.soundings) {
@@ -87,7 +87,7 @@ std::string calibration_text(const Calibration& calibration) {
 
 Json calibration_json(const Calibration& calibration) {
     Json estimates = Json::object();
-    for (const Estimate& e : calibration.estimates)
+    for (const KeyEstimate& e : calibration.estimates)
         estimates[e.key] = e.word.empty() ? interval_json(e.number) : Json(e.word);
     Json figures = Json::array();
     for (const JudgedFigure& f : calibration.figures) {

@@ -14,8 +14,9 @@ struct Correlations {
     int patches = 0;
 };
 
-/// Those of some patches, weighted by place: one less structure function by variance. The variance
-/// is that of values half a patch apart, so a correlation that lasts longer is not seen.
+/// The correlations of some patches, weighted by place: one less structure function by variance.
+/// The variance is that of values half a patch apart, so a correlation that lasts longer is not
+/// seen.
 Correlations correlations_of(const std::vector<PatchMoments>& patches,
                              const std::vector<std::size_t>& chosen,
                              const std::vector<double>& weights);

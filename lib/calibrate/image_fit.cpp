@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "calibrate/log_statistics.h"
 #include "calibrated/decibel.h"
@@ -13,20 +12,8 @@ namespace sonarsim {
 
 namespace {
 
-constexpr double least_echo_db = 6.0;
-constexpr double db_of_neper_of_power = 4.342944819032518;
-constexpr std::size_t least_noise_patches = 6;
+constexpr std::size_t least_noise_patches = 24;
 constexpr std::size_t least_patches_of_law = 24;
-
-/// True for a patch that has the beam straight ahead, where noise that all elements share is. Only
-/// images of many patches can do without it.
-bool straight_ahead(const PatchMoments& patch, const PatchSize& size,
-                    const std::vector<double>& sines) {
-    if (sines.size() < 4 * static_cast<std::size_t>(size.beams)) return false;
-    const double first = sines[static_cast<std::size_t>(patch.beam)];
-    const double last = sines[static_cast<std::size_t>(patch.beam + size.beams - 1)];
-    return first * last <= 0.0;
-}
 
 /// The places of patches that are noise, for a second fit of the law: noise is Rayleigh's for sure,
 /// and an even patch of echoes may still hold a texture.
@@ -64,7 +51,7 @@ void fit_law_and_looks(const Recording& recording, const StartInstrument& start,
     const double full_value = full_value_of(recording);
     int looks = std::max(start.config.receiver.looks, 1);
     fit.law = fit_law(recording.pings, full_value, looks);
-    const Measured slope = fit.law.slope;
+    const Bounded slope = fit.law.slope;
     fit.noise = fit_noise(noise_blocks(recording, fit.law), start.absorption_db_per_m);
     const std::vector<bool> places = noise_places(recording, fit.law, fit.noise);
     if (!places.empty()) fit.law = fit_law(recording.pings, full_value, looks, places);
@@ -98,7 +85,7 @@ void set_law(ImageFit& fit) {
     fit.estimates.push_back({"receiver.gamma", fit.law.gamma, ""});
 }
 
-void widen(Measured& m, double by) {
+void widen(Bounded& m, double by) {
     const double half = m.half_width();
     const double wider = std::sqrt(half * half + by * by) - half;
     m.low -= wider;
@@ -107,7 +94,7 @@ void widen(Measured& m, double by) {
 
 /// An error of the law scales all levels below full scale, and the gain with them.
 void widen_by_law(const LawFit& law, NoiseFit& noise) {
-    const Measured& scale = law.companding == Companding::log ? law.dynamic_range_db : law.gamma;
+    const Bounded& scale = law.companding == Companding::log ? law.dynamic_range_db : law.gamma;
     const double share = scale.half_width() / scale.value;
     widen(noise.level_db, share * noise.level_db.value);
     const double near = noise.at(noise.used.front().range_m);
@@ -157,7 +144,7 @@ void fit_pulse_of(const Recording& recording, const PatchClasses& classes, Image
         return;
     }
     const double step = recording.range_step_m;
-    const Measured& bins = *fit.pulse_bins;
+    const Bounded& bins = *fit.pulse_bins;
     pulse.resolution_m = step * bins.value;
     fit.estimates.push_back(
         {"pulse.resolution_m", {step * bins.value, step * bins.low, step * bins.high}, ""});
@@ -203,7 +190,7 @@ void fit_levels(const Recording& recording, const StartInstrument& start, ImageF
     const double noise_db = start.levels.noise_db;
     fit.noise_re_full_scale_db = noise_db - start.levels.full_scale_db;
     if (!fit.noise) return;
-    const Measured& level = fit.noise->level_db;
+    const Bounded& level = fit.noise->level_db;
     fit.noise_re_full_scale_db = level.value;
     receiver.noise_db = noise_db;
     receiver.full_scale_db = noise_db - level.value;
@@ -217,7 +204,7 @@ void fit_levels(const Recording& recording, const StartInstrument& start, ImageF
     fit.notes.emplace_back(
         "transmit level and strength of the bottom cannot be separated here: echoes "
         "have their sum");
-    Measured& shared = fit.noise->common_mode_db;
+    Bounded& shared = fit.noise->common_mode_db;
     shared = common_mode(recording, fit.law, *fit.noise, radians(fit.config.beam.width_deg));
     if (shared.value > -50.0) {
         receiver.common_mode_db = noise_db + shared.value;
@@ -232,27 +219,7 @@ void fit_levels(const Recording& recording, const StartInstrument& start, ImageF
     }
 }
 
-/// Adds the rows of a patch that are noise.
-bool all_rows_in(const PatchMoments& patch, int rows, const std::set<int>& blocks) {
-    for (int row = patch.row; row < patch.row + rows; row += rows_of_noise_block) {
-        if (!blocks.contains(row)) return false;
-    }
-    return true;
-}
-
 }  // namespace
-
-double range_of_row(const Recording& recording, int row) {
-    return recording.first_range_m + row * recording.range_step_m;
-}
-
-std::vector<double> beam_sines(const Recording& recording) {
-    std::vector<double> out;
-    if (recording.kind != RecordedKind::imaging) return out;
-    for (const double bearing : recording.bearing_rad)
-        out.push_back(sincos(bearing).sin);
-    return out;
-}
 
 LawFit stated_law(const ReceiverConfig& receiver) {
     LawFit out;
@@ -262,37 +229,6 @@ LawFit stated_law(const ReceiverConfig& receiver) {
     const double range_db = receiver.dynamic_range_db;
     out.dynamic_range_db = {range_db, range_db, range_db};
     out.looks = std::max(receiver.looks, 1);
-    return out;
-}
-
-PatchClasses classified(const Recording& recording, const LawFit& law,
-                        const std::optional<NoiseFit>& noise) {
-    const double full_value = full_value_of(recording);
-    const std::vector<double> sines = beam_sines(recording);
-    PatchClasses out;
-    out.places = patch_places(recording.pings);
-    out.patches = patch_moments(recording.pings, full_value, [&](double v, int row) {
-        const double level_db = noise ? noise->at(range_of_row(recording, row)) : 0.0;
-        return law.log_power(v, full_value) - level_db / db_of_neper_of_power;
-    });
-    const PatchSize size =
-        patch_size(recording.pings.front().ranges, recording.pings.front().beams);
-    std::set<int> blocks;
-    if (noise) {
-        for (const NoiseBlock& block : noise->used)
-            blocks.insert(block.row);
-    }
-    for (std::size_t k = 0; k < out.patches.size(); ++k) {
-        const PatchMoments& patch = out.patches[k];
-        if (noise && all_rows_in(patch, size.rows, blocks) && !straight_ahead(patch, size, sines) &&
-            patch.zeros < 0.003)
-            out.noise.push_back(k);
-    }
-    for (const std::size_t k : speckle_patches(out.patches, full_value > 15.0 ? 6.0 : 0.0)) {
-        const PatchMoments& patch = out.patches[k];
-        const double above_db = db_of_neper_of_power * (patch.mean - log_power_mean(law.looks));
-        if (!noise || above_db > least_echo_db) out.echoes.push_back(k);
-    }
     return out;
 }
 

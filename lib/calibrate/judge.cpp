@@ -13,14 +13,14 @@ namespace sonarsim {
 namespace {
 
 constexpr double db_of_log_power = 4.342944819032518;
-constexpr std::size_t least_patches_of_figure = 6;
+constexpr std::size_t least_patches_of_figure = 12;
 
-/// What figures_of() works on.
+/// The data that figures_of() works on.
 struct Judged {
     const Recording& recording;
     const InstrumentConfig& instrument;
-    LawFit law;      ///< that of the instrument
-    NoiseFit noise;  ///< that of the instrument, with the rows of the fit
+    LawFit law;      ///< the instrument's
+    NoiseFit noise;  ///< the instrument's, with the rows of the fit
     PatchClasses classes;
     std::vector<Figure> figures;
 };
@@ -37,7 +37,7 @@ NoiseFit stated_noise(const InstrumentConfig& instrument, double noise_re_full_s
     return out;
 }
 
-void add(Judged& judged, const std::string& name, Tolerance tolerance, double predicted,
+void add(Judged& judged, const std::string& name, FitTolerance tolerance, double predicted,
          const std::function<double(const std::vector<double>&)>& measured) {
     Figure figure{name, tolerance, predicted, bootstrap(judged.classes.places, measured, 0.0, 40)};
     if (std::isfinite(figure.measured.value)) judged.figures.push_back(std::move(figure));
@@ -66,7 +66,7 @@ void add_distribution(Judged& judged, const std::string& where,
             return exponential(0.5 * (law.log_power(v, full_value) - gain));
         });
     const std::vector<PatchMoments>& logs = judged.classes.patches;
-    add(judged, where + ": variation of the amplitude", Tolerance::tenth,
+    add(judged, where + ": variation of the amplitude", FitTolerance::tenth,
         amplitude_variation(law.looks), [&](const std::vector<double>& w) {
             double sum = 0.0, weight = 0.0;
             for (const std::size_t k : chosen) {
@@ -78,7 +78,7 @@ void add_distribution(Judged& judged, const std::string& where,
             return sum / weight;
         });
     const double to_shape = 2.0 * pi / std::sqrt(6.0);
-    add(judged, where + ": Weibull shape of the amplitude", Tolerance::tenth,
+    add(judged, where + ": Weibull shape of the amplitude", FitTolerance::tenth,
         to_shape / std::sqrt(log_power_variance(law.looks)), [&](const std::vector<double>& w) {
             return to_shape / std::sqrt(mean_of(logs, chosen, w, &PatchMoments::variance));
         });
@@ -96,7 +96,7 @@ void add_correlations(Judged& judged, const std::string& where,
         predicted_range_correlations(bins, pulse.side_lobe_db, kind, judged.law.looks);
     for (const std::size_t lag : {1U, 2U, 4U}) {
         add(judged, where + ": correlation " + std::to_string(lag) + " bins apart",
-            Tolerance::correlation, along_range[lag - 1],
+            FitTolerance::correlation, along_range[lag - 1],
             [&](const std::vector<double>& w) { return measured(w).along_range[lag - 1]; });
     }
     const std::vector<double> sines = beam_sines(judged.recording);
@@ -106,7 +106,7 @@ void add_correlations(Judged& judged, const std::string& where,
         line_array(radians(beam.width_deg), beam.side_lobe_db), sines, judged.law.looks);
     for (const std::size_t lag : {1U, 2U, 4U}) {
         add(judged, where + ": correlation " + std::to_string(lag) + " beams apart",
-            Tolerance::correlation, along_beams[lag - 1],
+            FitTolerance::correlation, along_beams[lag - 1],
             [&](const std::vector<double>& w) { return measured(w).along_beams[lag - 1]; });
     }
 }
@@ -121,7 +121,8 @@ void add_noise_levels(Judged& judged, const std::vector<NoiseBlock>& measured) {
         for (std::size_t k = third * rows.size() / 3; k < (third + 1) * rows.size() / 3; ++k) {
             const auto same = [&](const NoiseBlock& block) { return block.row == rows[k].row; };
             const auto at = std::find_if(measured.begin(), measured.end(), same);
-            if (at == measured.end()) continue;
+            // Noise below an echo that stays takes two pings to be seen.
+            if (at == measured.end() || !rows[k].alone) continue;
             levels.push_back(at->level_db);
             predicted += judged.noise.at(at->range_m);
         }
@@ -137,7 +138,7 @@ void add_noise_levels(Judged& judged, const std::vector<NoiseBlock>& measured) {
         };
         judged.figures.push_back(
             {std::string("noise: level by full scale, ") + names[third] + ", dB",
-             Tolerance::decibel, predicted / count,
+             FitTolerance::decibel, predicted / count,
              bootstrap(static_cast<int>(levels.size()), mean)});
     }
 }
@@ -146,9 +147,9 @@ void add_noise_levels(Judged& judged, const std::vector<NoiseBlock>& measured) {
 
 bool Figure::agrees() const {
     const double off = std::fabs(predicted - measured.value);
-    if (tolerance == Tolerance::decibel) return off <= 1.0;
-    if (tolerance == Tolerance::correlation) return off <= 0.05;
-    const double share = tolerance == Tolerance::tenth ? 0.1 : 0.15;
+    if (tolerance == FitTolerance::decibel) return off <= 1.0;
+    if (tolerance == FitTolerance::correlation) return off <= 0.05;
+    const double share = tolerance == FitTolerance::tenth ? 0.1 : 0.15;
     return off <= share * std::fabs(measured.value);
 }
 

@@ -7,15 +7,15 @@
 
 namespace sonarsim {
 
-/// What a figure may be off to agree: a share, decibels, or a difference of correlations.
-enum class Tolerance { tenth, three_twentieths, decibel, correlation };
+/// The most that a figure may be off to agree: a share, decibels, or a difference of correlations.
+enum class FitTolerance { tenth, three_twentieths, decibel, correlation };
 
 /// A figure that an instrument predicts and that pings have.
 struct Figure {
     std::string name;
-    Tolerance tolerance = Tolerance::tenth;
+    FitTolerance tolerance = FitTolerance::tenth;
     double predicted = 0.0;
-    Measured measured;
+    Bounded measured;
 
     /// True if the prediction is within 10 or 15 %, 1 dB or 0.05 of what was measured.
     bool agrees() const;

@@ -11,13 +11,13 @@ namespace sonarsim {
 
 namespace {
 
-constexpr double db_of_neper = 4.342944819032518;  // of power: 10 / ln 10
+constexpr double db_of_neper = 4.342944819032518;  // for powers: 10 / ln 10
 constexpr std::size_t least_patches = 8;
 // Between the laws' slopes of 1 and 0.
 constexpr double power_law_slope = 0.5;
 // Patches of about one level do not tell the slope.
 constexpr double least_spread_of_levels = 0.1;
-// What a finite patch, its trend and the steps of the values leave in a law.
+// The error that a finite patch, its trend and the steps of the values leave in a law.
 constexpr double least_error = 0.01;
 
 double log_of_value(double value, double step) {

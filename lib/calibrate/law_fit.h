@@ -15,12 +15,12 @@ namespace sonarsim {
 /// its mean. With v = M (1 + 20 log10(A) / range) v itself has the same variance at every level.
 struct LawFit {
     Companding companding = Companding::gamma;
-    Measured gamma;             ///< of `gamma` and `linear`
-    Measured dynamic_range_db;  ///< of `log`
+    Bounded gamma;             ///< for `gamma` and `linear`
+    Bounded dynamic_range_db;  ///< for `log`
     /// The slope of log standard deviation against log mean of v: 1 for a power, 0 for a logarithm.
-    Measured slope;
+    Bounded slope;
     double spread_of_levels = 0.0;  ///< standard deviation of the log means of patches
-    Measured skewness;              ///< of the logarithm of the power; -1.14 for one look
+    Bounded skewness;               ///< logarithm of the power; -1.14 for one look
     int looks = 1;                  ///< the number that the law was fitted for
     int patches = 0;
 

@@ -8,7 +8,7 @@ namespace sonarsim {
 
 namespace {
 
-/// What Eigen calls a functor.
+/// Eigen calls this a functor.
 struct Residuals {
     using Scalar = double;
     using InputType = Eigen::VectorXd;
@@ -38,6 +38,7 @@ Eigen::VectorXd least_squares_fit(
     Eigen::LevenbergMarquardt<Eigen::NumericalDiff<Residuals, Eigen::Central>> method(
         differentiated);
     method.parameters.maxfev = 400;
+    method.parameters.factor = 1.0;  // short first steps: MINPACK's 100 may leap out of a valley
     Eigen::VectorXd x = start;
     method.minimize(x);
     return x;

@@ -104,6 +104,7 @@ NoiseBlock block_of(const BlockSums& sums, const LawFit& law, int row, double ra
             return out;
         }
     }
+    out.alone = true;
     const double independent = sums.count / groups_of_beams / 6.0;
     out.even = out.even && spread_of_groups(sums) <
                                0.3 + 3.0 * std::sqrt(expected / std::max(independent, 1.0));
@@ -251,7 +252,7 @@ std::optional<NoiseFit> fit_noise(const std::vector<NoiseBlock>& blocks,
         }
         return std::vector<double>{best.level_db, best.shape.log_factor, best.shape.from_m};
     };
-    const std::vector<Measured> found = bootstrap_all(
+    const std::vector<Bounded> found = bootstrap_all(
         static_cast<int>(used.size()), fitted,
         {least_level_db, 0.2, law.shape.from_m > 0.0 ? 0.02 * used.back().range_m : 0.0});
     return NoiseFit{.level_db = found[0],
@@ -260,40 +261,6 @@ std::optional<NoiseFit> fit_noise(const std::vector<NoiseBlock>& blocks,
                     .used = used,
                     .common_mode_db = {-300.0, -300.0, -300.0},
                     .absorption_db_per_m = absorption_db_per_m};
-}
-
-Measured common_mode(const Recording& recording, const LawFit& law, const NoiseFit& noise,
-                     double width_rad) {
-    const std::vector<double>& bearings = recording.bearing_rad;
-    if (bearings.empty()) return {-300.0, -300.0, -300.0};
-    const auto ahead = std::min_element(bearings.begin(), bearings.end(), [](double a, double b) {
-        return std::fabs(a) < std::fabs(b);
-    });
-    if (std::fabs(*ahead) > 0.5 * width_rad) return {-300.0, -300.0, -300.0};
-    const auto beam = static_cast<std::size_t>(ahead - bearings.begin());
-    const double full_value = full_value_of(recording);
-    const auto excess = [&](const std::vector<double>& weights) {
-        double sum = 0.0, count = 0.0;
-        for (std::size_t b = 0; b < noise.used.size(); ++b) {
-            for (const RecordedPing& ping : recording.pings) {
-                for (int i = noise.used[b].row; i < noise.used[b].row + rows_of_noise_block; ++i) {
-                    const double value = ping.values[static_cast<std::size_t>(i) *
-                                                         static_cast<std::size_t>(ping.beams) +
-                                                     beam];
-                    sum += weights[b] * (law.log_power(value, full_value) -
-                                         noise.at(noise.used[b].range_m) / db_of_neper_power -
-                                         log_power_mean(law.looks));
-                    count += weights[b];
-                }
-            }
-        }
-        return db_of_neper_power * sum / count;
-    };
-    const Measured over = bootstrap(static_cast<int>(noise.used.size()), excess, 0.2);
-    // Half as strong as the noise of a beam is 1.8 dB more; less may be anything else.
-    if (over.low < 0.5) return {-300.0, -300.0, -300.0};
-    const auto shared = [](double db) { return db_of_power(power_of_db(db) - 1.0); };
-    return {shared(over.value), shared(over.low), shared(over.high)};
 }
 
 }  // namespace sonarsim

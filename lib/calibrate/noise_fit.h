@@ -15,22 +15,23 @@ struct NoiseBlock {
     double range_m = 0.0;
     double level_db = 0.0;  ///< re full scale
     bool even = false;      ///< beams and pings have one level, and no value is 0
+    bool alone = false;     ///< nothing of it stays from ping to ping, so there is no echo in it
 };
 
 inline constexpr int rows_of_noise_block = 8;
 
-/// What changes from ping to ping, by range. Noise N is new in every ping, and an echo of a still
-/// scene is not. With M the mean of the powers A and B of a place in two pings, the mean of (A -
-/// B)^2 is 2 (2 M N - N^2). Where pings have nothing in common, N is M.
+/// The part that changes from ping to ping, by range. Noise N is new in every ping, and an echo of
+/// a still scene is not. With M the mean of the powers A and B of a place in two pings, the mean of
+/// (A - B)^2 is 2 (2 M N - N^2). Where pings have nothing in common, N is M.
 std::vector<NoiseBlock> noise_blocks(const Recording& recording, const LawFit& law);
 
 /// The noise behind the gain: level_db + tvg_log log10(r) + 2 absorption r, r at least tvg_from_m.
 struct NoiseFit {
-    Measured level_db;  ///< noise less full scale, extrapolated to 1 m without absorption
-    Measured tvg_log;
-    Measured tvg_from_m;           ///< 0 where the pings do not tell it
+    Bounded level_db;  ///< noise less full scale, extrapolated to 1 m without absorption
+    Bounded tvg_log;
+    Bounded tvg_from_m;            ///< 0 where the pings do not tell it
     std::vector<NoiseBlock> used;  ///< the blocks that lie on it
-    Measured common_mode_db;       ///< re the noise of a beam; value below -50: none seen
+    Bounded common_mode_db;        ///< re the noise of a beam; value below -50: none seen
     double absorption_db_per_m = 0.0;
 
     double at(double range_m) const;
@@ -42,7 +43,7 @@ std::optional<NoiseFit> fit_noise(const std::vector<NoiseBlock>& blocks,
                                   double absorption_db_per_m);
 
 /// The noise straight ahead over that of the other beams, in the blocks of a fit.
-Measured common_mode(const Recording& recording, const LawFit& law, const NoiseFit& noise,
-                     double width_rad);
+Bounded common_mode(const Recording& recording, const LawFit& law, const NoiseFit& noise,
+                    double width_rad);
 
 }  // namespace sonarsim

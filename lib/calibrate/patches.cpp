@@ -90,7 +90,7 @@ void add_moments(const PatchField& field, PatchMoments& patch) {
     patch.unevenness = variance_of_quarters(field) / std::max(patch.variance, 1e-30);
 }
 
-PatchMoments moments_of(const RecordedPing& ping, const PatchSize& size, int row, int beam,
+PatchMoments moments_of(const RecordedPing& ping, const SpecklePatch& size, int row, int beam,
                         double full_value, const std::function<double(double, int)>& scaled) {
     PatchMoments out;
     out.row = row;
@@ -114,8 +114,8 @@ PatchMoments moments_of(const RecordedPing& ping, const PatchSize& size, int row
 
 }  // namespace
 
-PatchSize patch_size(int ranges, int beams) {
-    PatchSize size;
+SpecklePatch patch_size(int ranges, int beams) {
+    SpecklePatch size;
     size.beams = std::min(24, beams);
     if (size.beams < 8) size.rows = 96;
     size.rows = std::min(size.rows, ranges);
@@ -127,7 +127,7 @@ std::vector<PatchMoments> patch_moments(const std::vector<RecordedPing>& pings, 
     std::vector<PatchMoments> out;
     for (std::size_t number = 0; number < pings.size(); ++number) {
         const RecordedPing& ping = pings[number];
-        const PatchSize size = patch_size(ping.ranges, ping.beams);
+        const SpecklePatch size = patch_size(ping.ranges, ping.beams);
         int place = 0;
         for (int row = 0; row + size.rows <= ping.ranges; row += size.rows) {
             for (int beam = 0; beam + size.beams <= ping.beams; beam += size.beams) {
@@ -143,7 +143,7 @@ std::vector<PatchMoments> patch_moments(const std::vector<RecordedPing>& pings, 
 int patch_places(const std::vector<RecordedPing>& pings) {
     int most = 0;
     for (const RecordedPing& ping : pings) {
-        const PatchSize size = patch_size(ping.ranges, ping.beams);
+        const SpecklePatch size = patch_size(ping.ranges, ping.beams);
         most = std::max(most, (ping.ranges / size.rows) * (ping.beams / size.beams));
     }
     return most;
@@ -163,6 +163,21 @@ std::vector<std::size_t> speckle_patches(const std::vector<PatchMoments>& patche
     });
     out.resize((out.size() + 1) / 2);
     std::sort(out.begin(), out.end());
+    return out;
+}
+
+std::vector<std::size_t> without_uneven(const std::vector<PatchMoments>& patches,
+                                        const std::vector<std::size_t>& chosen) {
+    std::vector<std::size_t> out;
+    if (chosen.empty()) return out;
+    std::vector<double> sizes;
+    for (const std::size_t k : chosen)
+        sizes.push_back(patches[k].unevenness);
+    std::sort(sizes.begin(), sizes.end());
+    const double most = 4.0 * sizes[sizes.size() / 2];
+    for (const std::size_t k : chosen) {
+        if (patches[k].unevenness <= most) out.push_back(k);
+    }
     return out;
 }
 

@@ -9,7 +9,7 @@
 namespace sonarsim {
 
 /// The rows and beams of a patch.
-struct PatchSize {
+struct SpecklePatch {
     int rows = 24;
     int beams = 24;
 };
@@ -24,10 +24,10 @@ struct PatchMoments {
     int place = 0;            ///< patches of other pings at this place have the same number
     int row = 0;              ///< the first
     int beam = 0;             ///< the first
-    double mean_value = 0.0;  ///< of the recorded values
+    double mean_value = 0.0;  ///< mean of the recorded values
     double zeros = 0.0;       ///< share of the values
     double full = 0.0;        ///< share of values at the largest value
-    double mean = 0.0;        ///< of the scaled values, as the rest
+    double mean = 0.0;        ///< mean of the scaled values, as the rest
     double variance = 0.0;    ///< half the mean square difference of distant values
     double third = 0.0;       ///< third central moment, of three distant values in a line
     /// Half the mean square difference of values 1 to patch_lags apart; NaN where the patch is too
@@ -38,7 +38,7 @@ struct PatchMoments {
 
 /// The size of patches for pings of so many bins and beams. Distant values are half a patch apart
 /// along range and across the beams.
-PatchSize patch_size(int ranges, int beams);
+SpecklePatch patch_size(int ranges, int beams);
 
 /// The moments of all patches of some pings, of `scaled` values: a function of value and row.
 std::vector<PatchMoments> patch_moments(const std::vector<RecordedPing>& pings, double full_value,
@@ -51,5 +51,9 @@ int patch_places(const std::vector<RecordedPing>& pings);
 /// less than `least_mean` are too coarse for their logarithm.
 std::vector<std::size_t> speckle_patches(const std::vector<PatchMoments>& patches,
                                          double least_mean);
+
+/// Some patches without those that are four times as uneven as the median one.
+std::vector<std::size_t> without_uneven(const std::vector<PatchMoments>& patches,
+                                        const std::vector<std::size_t>& chosen);
 
 }  // namespace sonarsim

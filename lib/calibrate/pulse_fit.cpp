@@ -14,8 +14,8 @@ namespace {
 constexpr double least_correlation = 0.04;
 constexpr double shortest_bins = 0.6;
 constexpr double longest_bins = 8.0;
-constexpr int table_steps = 149;  // of 0.05 bins
-// What the taps of whole bins leave in a pulse, as a share of it.
+constexpr int table_steps = 149;  // steps of 0.05 bins
+// The error that taps of whole bins leave in a pulse, as a share of it.
 constexpr double least_share = 0.01;
 
 double product(const std::vector<float>& taps, int lag) {
@@ -92,9 +92,9 @@ std::array<double, patch_lags> predicted_range_correlations(double resolution_bi
     return out;
 }
 
-std::optional<Measured> fit_pulse(const std::vector<PatchMoments>& patches,
-                                  const std::vector<std::size_t>& chosen, int places,
-                                  double side_lobe_db, ReceivedKind kind, int looks) {
+std::optional<Bounded> fit_pulse(const std::vector<PatchMoments>& patches,
+                                 const std::vector<std::size_t>& chosen, int places,
+                                 double side_lobe_db, ReceivedKind kind, int looks) {
     const std::vector<double> all(static_cast<std::size_t>(places), 1.0);
     if (correlations_of(patches, chosen, all).along_range[0] < least_correlation) return {};
     const std::vector<Lags> table = prediction_table(side_lobe_db, kind, looks);

@@ -111,7 +111,7 @@ std::vector<double> bottom_of(const std::vector<double>& angles,
 }
 
 /// The value of a table at an angle, by a line between the nearest two.
-double in_table(const std::vector<double>& angles, const std::vector<Measured>& table,
+double in_table(const std::vector<double>& angles, const std::vector<Bounded>& table,
                 double angle) {
     const auto after = std::upper_bound(angles.begin(), angles.end(), angle);
     if (after == angles.begin()) return table.front().value;
@@ -201,7 +201,7 @@ SoundingsFit fit_soundings(const std::vector<RecordedSoundings>& pings, const Re
         return all;
     };
     const std::size_t count = whole.size();
-    const std::vector<Measured> found =
+    const std::vector<Bounded> found =
         bootstrap_all(stretches, estimate, std::vector<double>(2 * count + 3), 40);
     const auto at = [&](std::size_t k) { return found.begin() + static_cast<std::ptrdiff_t>(k); };
     out.strength_db.assign(at(0), at(count));

@@ -12,7 +12,7 @@ namespace sonarsim {
 struct SoundingsAtAngle {
     double angle_rad = 0.0;  ///< mean incidence on a flat bottom
     double range_m = 0.0;    ///< mean
-    double level_db = 0.0;   ///< of the mean power
+    double level_db = 0.0;   ///< level of the mean power
     double spread_m = 0.0;   ///< standard deviation of the ranges about their neighbours'
     int count = 0;
 };
@@ -26,12 +26,12 @@ inline constexpr double angle_step_deg = 4.0;
 std::vector<SoundingsAtAngle> soundings_by_angle(const std::vector<RecordedSoundings>& pings,
                                                  const RecordedLaw& law, double slope_rad);
 
-/// What a level has besides the strength of the bottom: the area, which is that of the beam or of
-/// the pulse, the smaller of the two, and the spreading, of which the gain leaves (40 - tvg_log)
-/// log10 r.
+/// The parts that a level has besides the strength of the bottom: the area, which is that of the
+/// beam or of the pulse, the smaller of the two, and the spreading, of which the gain leaves (40 -
+/// tvg_log) log10 r.
 struct SoundingsGeometry {
     double pulse_m = 0.0;    ///< length of the pulse in range
-    double width_rad = 0.0;  ///< of a beam across the track
+    double width_rad = 0.0;  ///< width of a beam across the track
     double tvg_log = 40.0;
 
     double gain_db(double angle_rad, double range_m) const;
@@ -41,14 +41,15 @@ struct SoundingsGeometry {
 struct SoundingsFit {
     SoundingsGeometry geometry;
     std::vector<double> angles_rad;
-    std::vector<Measured> strength_db;  ///< of the bottom, with source level and gain in it
-    std::vector<Measured> spread_m;     ///< of the ranges
+    std::vector<Bounded> strength_db;  ///< the bottom's, with source level and gain in it
+    std::vector<Bounded> spread_m;     ///< spread of the ranges
     /// The strength in short: Lambert's rule and the echo of facets, as in calibrated/bottom.h.
-    Measured lambert_db;     ///< with source level and gain in it
-    Measured facets_db;      ///< over Lambert's rule, at normal incidence
-    Measured slope_rms_deg;  ///< of the facets
+    Bounded lambert_db;     ///< with source level and gain in it
+    Bounded facets_db;      ///< over Lambert's rule, at normal incidence
+    Bounded slope_rms_deg;  ///< slope of the facets
 
-    /// What the fit expects at an angle and a range, by a line between the nearest two angles.
+    /// The number that the fit expects at an angle and a range, by a line between the nearest two
+    /// angles.
     double level_db_at(double angle_rad, double range_m) const;
     double spread_m_at(double angle_rad) const;
 };

@@ -37,7 +37,7 @@ std::map<std::string, double> numbers_of(const InstrumentConfig& instrument) {
             {"beam.side_lobe_db", instrument.beam.side_lobe_db}};
 }
 
-/// How many of the estimates of each key hold the true number.
+/// The count of the estimates of each key that hold the true number.
 struct Recovered {
     std::map<std::string, int> estimates, held;
     int figures = 0, agree_of_start = 0, agree_held_out = 0;
@@ -47,7 +47,7 @@ struct Recovered {
         const Recording pings = made_recording(truth, 20, draw + 1, bottom);
         const Calibration found = calibrate(pings, wrong_start(), {}, {});
         const std::map<std::string, double> numbers = numbers_of(truth.instrument);
-        for (const Estimate& e : found.estimates) {
+        for (const KeyEstimate& e : found.estimates) {
             const auto at = numbers.find(e.key);
             const bool is_log = truth.instrument.receiver.companding == Companding::log;
             if (at == numbers.end() && e.key != "receiver.companding") continue;

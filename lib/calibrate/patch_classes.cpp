@@ -1,0 +1,81 @@
+#include "calibrate/patch_classes.h"
+
+#include <set>
+
+#include "calibrate/log_statistics.h"
+#include "core/elementary.h"
+
+namespace sonarsim {
+
+namespace {
+
+constexpr double least_echo_db = 6.0;
+constexpr double db_of_neper_of_power = 4.342944819032518;
+
+/// True for a patch that has the beam straight ahead, where noise that all elements share is. Only
+/// images of many patches can do without it.
+bool straight_ahead(const PatchMoments& patch, const SpecklePatch& size,
+                    const std::vector<double>& sines) {
+    if (sines.size() < 4 * static_cast<std::size_t>(size.beams)) return false;
+    const double first = sines[static_cast<std::size_t>(patch.beam)];
+    const double last = sines[static_cast<std::size_t>(patch.beam + size.beams - 1)];
+    return first * last <= 0.0;
+}
+
+/// True if all rows of a patch are in these blocks.
+bool all_rows_in(const PatchMoments& patch, int rows, const std::set<int>& blocks) {
+    for (int row = patch.row; row < patch.row + rows; row += rows_of_noise_block) {
+        if (!blocks.contains(row)) return false;
+    }
+    return true;
+}
+
+}  // namespace
+
+double range_of_row(const Recording& recording, int row) {
+    return recording.first_range_m + row * recording.range_step_m;
+}
+
+std::vector<double> beam_sines(const Recording& recording) {
+    std::vector<double> out;
+    if (recording.kind != RecordedKind::imaging) return out;
+    for (const double bearing : recording.bearing_rad)
+        out.push_back(sincos(bearing).sin);
+    return out;
+}
+
+PatchClasses classified(const Recording& recording, const LawFit& law,
+                        const std::optional<NoiseFit>& noise) {
+    const double full_value = full_value_of(recording);
+    const std::vector<double> sines = beam_sines(recording);
+    PatchClasses out;
+    out.places = patch_places(recording.pings);
+    out.patches = patch_moments(recording.pings, full_value, [&](double v, int row) {
+        const double level_db = noise ? noise->at(range_of_row(recording, row)) : 0.0;
+        return law.log_power(v, full_value) - level_db / db_of_neper_of_power;
+    });
+    const SpecklePatch size =
+        patch_size(recording.pings.front().ranges, recording.pings.front().beams);
+    std::set<int> blocks;
+    if (noise) {
+        for (const NoiseBlock& block : noise->used) {
+            if (block.alone) blocks.insert(block.row);
+        }
+    }
+    for (std::size_t k = 0; k < out.patches.size(); ++k) {
+        const PatchMoments& patch = out.patches[k];
+        if (noise && all_rows_in(patch, size.rows, blocks) && !straight_ahead(patch, size, sines) &&
+            patch.zeros < 0.003)
+            out.noise.push_back(k);
+    }
+    // Particles in the water are bright points in some of them.
+    out.noise = without_uneven(out.patches, out.noise);
+    for (const std::size_t k : speckle_patches(out.patches, full_value > 15.0 ? 6.0 : 0.0)) {
+        const PatchMoments& patch = out.patches[k];
+        const double above_db = db_of_neper_of_power * (patch.mean - log_power_mean(law.looks));
+        if (!noise || above_db > least_echo_db) out.echoes.push_back(k);
+    }
+    return out;
+}
+
+}  // namespace sonarsim

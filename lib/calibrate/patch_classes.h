@@ -1,0 +1,31 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "calibrate/law_fit.h"
+#include "calibrate/noise_fit.h"
+#include "calibrate/patches.h"
+#include "recording/recording.h"
+
+namespace sonarsim {
+
+/// The patches that are noise, and those that are echoes well above it.
+struct PatchClasses {
+    std::vector<PatchMoments> patches;  ///< log powers less those of the noise, if it is known
+    std::vector<std::size_t> noise, echoes;
+    int places = 0;
+};
+
+/// Patches whose rows are all blocks of `noise` without echoes are noise, without those straight
+/// ahead. Even patches 6 dB above it are echoes; without noise, all even patches are.
+PatchClasses classified(const Recording& recording, const LawFit& law,
+                        const std::optional<NoiseFit>& noise);
+
+/// Slant range of the middle of a row.
+double range_of_row(const Recording& recording, int row);
+
+/// The sines of the recording's beams; empty for a sonar that forms none.
+std::vector<double> beam_sines(const Recording& recording);
+
+}  // namespace sonarsim
