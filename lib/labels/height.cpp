@@ -4,26 +4,30 @@
 #include <limits>
 #include <optional>
 
+#include "trace/true_place.h"
+
 namespace sonarsim {
 
 namespace {
 
 // Surface that lies below the bottom by at most this share of its range is on it: rounding.
 constexpr double on_bottom = 1e-4;
+// The same if sound bends: apparent pieces are flat, their true surface is not.
+constexpr double on_bottom_where_bent = 2e-3;
 
 }  // namespace
 
 HeightFinder::HeightFinder(const RangeBins& bins, int rows, const Bottom& bottom,
-                           const Pose& T_world_sensor)
+                           const Pose& T_world_sensor, const SoundProfile* profile)
     : bottom_(bottom),
+      profile_(profile),
       T_world_sensor_(T_world_sensor),
       up_((T_world_sensor.rotation.conjugate() * Eigen::Vector3d::UnitZ()).cast<float>()),
       sums_(rows, bins.count) {}
 
 bool HeightFinder::begin(const EchoPatch& patch, const RangePath& path) {
-    const Eigen::Vector3d at =
-        T_world_sensor_.rotation * patch.position.cast<double>() + T_world_sensor_.translation;
-    const double tolerance = on_bottom * path.range_m;
+    const Eigen::Vector3d at = true_place(profile_, T_world_sensor_, patch.position.cast<double>());
+    const double tolerance = (profile_ ? on_bottom_where_bent : on_bottom) * path.range_m;
     std::optional<double> below = bottom_.highest_below(at, tolerance);
     if (!below) {
         // A wall on the border of the bottom: the bottom begins before it.

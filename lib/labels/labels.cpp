@@ -197,8 +197,10 @@ PingLabels label_ping(const TracedPing& traced, const PingSettings& settings, co
     ShadowFinder::Behind behind;
     std::optional<ObjectDirections> directions;
     if (request.shadow || request.annotations) {
-        directions.emplace(request.annotated, request.surface, traced.T_world_sensor,
-                           view.range_min_m, view.range_max_m);
+        scene.sound_profile
+            ? directions.emplace()
+            : directions.emplace(request.annotated, request.surface, traced.T_world_sensor,
+                                 view.range_min_m, view.range_max_m);
     }
     std::optional<ShadowFinder> shadows;
     if (request.shadow) {
@@ -224,7 +226,8 @@ PingLabels label_ping(const TracedPing& traced, const PingSettings& settings, co
     }
     if (request.elevation || request.height) {
         label_patches(echoes, view, traced.T_world_sensor, request.bottom,
-                      {labels.elevation_rad, labels.elevation_spread_rad, labels.height_m});
+                      {labels.elevation_rad, labels.elevation_spread_rad, labels.height_m},
+                      scene.sound_profile.get());
     }
     return labels;
 }

@@ -6,6 +6,7 @@
 #include "scene/placing/bottom.h"
 #include "trace/surface_echoes.h"
 #include "visibility/view.h"
+#include "water/sound_profile.h"
 
 namespace sonarsim {
 
@@ -17,8 +18,9 @@ struct PatchLabels {
 };
 
 /// Fills these labels. They share the bins that a patch covers, which are worked out once for it.
-/// Without a `bottom` nothing has a height.
+/// Without a `bottom` nothing has a height. `profile` bends the sound, if not null.
 void label_patches(const SurfaceEchoes& echoes, const View& view, const Pose& T_world_sensor,
-                   const Bottom* bottom, const PatchLabels& labels);
+                   const Bottom* bottom, const PatchLabels& labels,
+                   const SoundProfile* profile = nullptr);
 
 }  // namespace sonarsim

@@ -83,7 +83,7 @@ ShadowFinder::ShadowFinder(const TracedPing& traced, const ConeBeams& cones, con
                 rays.push_back(
                     {line.direction * (line.range_m * (1.0F + step_behind)), line.direction});
             }
-            engine.intersect(traced.T_world_sensor, rays, met);
+            engine.intersect_behind(traced.T_world_sensor, rays, range_max, met);
         }
         if (!annotated) {
             std::vector<Intersection>& own = behind.emplace_back(count);
@@ -114,8 +114,8 @@ ShadowFinder::ShadowFinder(const TracedPing& traced, const ConeBeams& cones, con
     }
     sort_into_beams(view.beams);
     owners_.resize(view.beams);
-    covered_ = cones.exist() || annotated ? hidden_bins(view.beams)
-                                          : engine.covered_bins(view, traced.T_world_sensor);
+    if (!cones.exist() && !annotated) covered_ = engine.covered_bins(view, traced.T_world_sensor);
+    if (covered_.empty()) covered_ = hidden_bins(view.beams);
 }
 
 void ShadowFinder::add_to_cones(const SightLine& line, const Hidden& whole,

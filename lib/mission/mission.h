@@ -16,6 +16,7 @@
 #include "mission/paper_keys.h"
 #include "mission/place.h"
 #include "mission/scene_config.h"
+#include "mission/sound_profile_config.h"
 #include "mission/trajectory_config.h"
 #include "mission/variation_config.h"
 
@@ -48,7 +49,10 @@ struct WaterConfig {
     WaterContent content = WaterContent::none;
     /// Volume backscattering strength, dB re 1 m^2 per m^3; without it that of `content`.
     std::optional<double> scattering_db_per_m3 = {};
-    std::vector<WaterLayerConfig> layers = {};  ///< their scattering adds to that
+    std::vector<WaterLayerConfig> layers = {};       ///< their scattering adds to that
+    std::optional<SoundProfileConfig> profile = {};  ///< sound bends by it; none: it goes straight
+    /// The profile by which the instruments turn angles and times to soundings; none: constant.
+    std::optional<SoundProfileConfig> assumed_profile = {};
 
     bool operator==(const WaterConfig&) const = default;
 };

@@ -32,7 +32,8 @@ TracedPing trace_ping(const TraceSettings& settings, const Scene& scene,
         const double of_maps = error_of_maps(scene, settings.view, T_world_sensor, traced.samples);
         double& estimate = traced.samples.estimated_l1;
         estimate = std::sqrt(estimate * estimate + of_maps * of_maps);
-        lay_maps(*scene.maps, settings.view, T_world_sensor, traced.samples, traced.outside_sector);
+        lay_maps(*scene.maps, settings.view, T_world_sensor, traced.samples, traced.outside_sector,
+                 1.0, scene.sound_profile.get());
     }
     if (settings.targets) {
         traced.targets = target_surface(*settings.targets, settings.view, settings.guard_beams,
