@@ -8,6 +8,7 @@
 #include "assembly/brightness.h"
 #include "assembly/ground_maps.h"
 #include "assembly/heightmap_part.h"
+#include "assembly/ping_motions.h"
 #include "assembly/placed_files.h"
 #include "assembly/poses.h"
 #include "assembly/scene_parts.h"
@@ -190,6 +191,7 @@ Assembly assemble(const Mission& mission, SceneFiles& models) {
     assembly.heightmap = parts.heightmap;
     add_water_surface(mission, assembly);
     add_sound_profiles(mission, assembly.scene, assembly.sonars);
+    add_ping_motions(mission, assembly.trajectory, assembly.sonars);
     warn_of_empty_scatter(mission, assembly.scene);
     if (!mission.output.labels.empty() || !mission.classes.empty()) {
         std::vector<ClassRule> rules;
@@ -208,6 +210,7 @@ Assembly assemble(const Mission& mission, SceneFiles& models) {
         warn_of_lost_glints(assembly.sonars, assembly.scene);
     else
         find_targets(assembly.sonars, assembly.scene);
+    leave_out_glints(assembly.sonars, assembly.scene);
     assembly.inputs = inputs_of(mission);
     Brightness brightness = find_full_scales(mission, assembly.scene, assembly.trajectory,
                                              assembly.motions, assembly.sonars);

@@ -45,6 +45,15 @@ bool fill_gaps(std::span<std::uint16_t> ids) {
     return true;
 }
 
+/// The ray that goes on behind the end of a sight line, from the pose of transmission.
+Ray ray_behind(const SightLine& line, const PingMotion& motion, ViewShape shape) {
+    if (motion.is_still())
+        return {line.direction * (line.range_m * (1.0F + step_behind)), line.direction};
+    const Eigen::Vector3d measured = (line.range_m * line.direction).cast<double>();
+    const Eigen::Vector3f place = unmoved_place(motion, shape, measured).cast<float>();
+    return {place * (1.0F + step_behind), place.normalized()};
+}
+
 }  // namespace
 
 ShadowFinder::ShadowFinder(const TracedPing& traced, const ConeBeams& cones, const View& view,
@@ -79,10 +88,8 @@ ShadowFinder::ShadowFinder(const TracedPing& traced, const ConeBeams& cones, con
                 met[k] = behind[layer][lines[k].first];
         } else {
             rays.clear();
-            for (const SightLine& line : lines) {
-                rays.push_back(
-                    {line.direction * (line.range_m * (1.0F + step_behind)), line.direction});
-            }
+            for (const SightLine& line : lines)
+                rays.push_back(ray_behind(line, traced.motion, view.shape));
             engine.intersect_behind(traced.T_world_sensor, rays, range_max, met);
         }
         if (!annotated) {

@@ -93,6 +93,7 @@ struct SonarConfig {
     SonarKind kind = SonarKind::imaging;
     MountConfig mount;
     int every = 1;                ///< the sonar pings at every n-th pose
+    bool moves_in_ping = false;   ///< the sonar moves on between transmission and reception
     double azimuth_deg = 120.0;   ///< full angle
     double elevation_deg = 20.0;  ///< full angle
     double opening_deg = 30.0;    ///< full angle of a cone, in place of azimuth and elevation

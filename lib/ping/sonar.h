@@ -29,6 +29,8 @@ struct Sonar {
     // For soundings, where sound bends; null: it goes straight.
     std::shared_ptr<const SoundProfile> true_profile;
     std::shared_ptr<const SoundProfile> assumed_profile;  ///< the instrument believes in it
+    /// Its motion in the ping from each pose of the trajectory; null: it stands still in a ping.
+    std::shared_ptr<const std::vector<PingMotion>> motions;
 };
 
 /// The angle of the head at the pose with this index on the trajectory; 0 for a fixed sonar.
