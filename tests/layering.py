@@ -3,7 +3,7 @@
     python3 tests/layering.py <root of the repository>
 
 Rules: a folder of lib/ includes only the folders below it, a part of a folder only the parts below it,
-no files include each other in a circle, folders after the trace take ranges from
+no files include each other in a circle, no two headers define a class of one name, folders after the trace take ranges from
 lib/trace/arrivals.h, and folders whose results reach files take elementary functions from
 lib/core/elementary.h; x.h and x.cpp count as one. The tables of folders in docs/development.md and
 README.md name the same folders. Each rule is first tried on made-up files that break it.
@@ -34,7 +34,7 @@ ALLOWED = {
     "format": {"core"},
 }
 for upper in ("dataset", "checks", "job", "validation", "benchmark", "preview", "gallery",
-              "export"):
+              "export", "recording", "compare", "calibrate"):
     ALLOWED[upper] = set(ALLOWED)
 
 # The parts of the folders that have subfolders, from the bottom up; those in one row do not know
@@ -42,6 +42,8 @@ for upper in ("dataset", "checks", "job", "validation", "benchmark", "preview", 
 PARTS = {
     "dataset": [["*"], ["writers/"], ["writers"], ["layout"], ["metadata"], ["dataset_file"],
                 ["description", "ping_file_reader"], ["coco/"], ["encode_ping"], ["shared_files"]],
+    "compare": [["*"], ["figures/"], ["images"], ["measure_patches"], ["measure_images", "measure_soundings"],
+                ["compare"], ["plot", "report"]],
     "job": [["*"], ["folder_lock"], ["journal"], ["checksums"], ["folder"], ["listed_files", "resume"],
             ["ping_files"], ["ping_cost"], ["completion", "joined_labels"],
             ["collection", "run_job", "merge", "verify", "ping_source"],
@@ -54,8 +56,11 @@ PARTS = {
 AFTER_THE_TRACE = {"paper", "calibrated", "ping", "labels", "product", "sonar", "assembly", "dataset", "checks", "job"}
 RANGE_OF_POSITION = re.compile(r"\bposition\.norm\(\)|\bposition / range\b|arctan2\w*\([^)]*position")
 # These folders make values of files, which are the same on every processor.
-SAME_BYTES = ("water/", "trace/", "paper/", "calibrated/", "ping/", "labels/", "product/", "sonar/", "scene/seabed/")
+SAME_BYTES = ("water/", "trace/", "paper/", "calibrated/", "ping/", "labels/", "product/", "sonar/", "scene/seabed/",
+              "recording/", "compare/", "calibrate/")
 OF_THE_C_LIBRARY = re.compile(r"\bstd::(a?(sin|cos|tan)h?|atan2|exp[2m]?1?|log(2|10|1p)?|pow|cbrt|hypot|erfc?)\(")
+# A class in a header; two of one name would be one to the linker.
+CLASS = re.compile(r"(?:class|struct) (\w+)(?: final)?(?: :[^;{]*)? \{")
 # Which folder alone may use a library.
 OWNERS = {
     "yaml-cpp/": "mission",
@@ -123,7 +128,7 @@ def faults_in_code(root: pathlib.Path) -> tuple[int, list[str]]:
     files = sorted(p for top in ("lib", "apps") for p in (root / top).rglob("*")
                    if p.suffix in (".h", ".cpp"))
     faults = [] if files else [f"no sources under {root}"]
-    includes = {}
+    includes, classes = {}, {}
     for path in files:
         relative = path.relative_to(root)
         unit = relative.with_suffix("").as_posix().removeprefix("lib/")
@@ -138,6 +143,9 @@ def faults_in_code(root: pathlib.Path) -> tuple[int, list[str]]:
                 faults.append(f"{relative}:{number}: take ranges and directions from trace/arrivals.h")
             if unit.startswith(SAME_BYTES) and OF_THE_C_LIBRARY.search(line):
                 faults.append(f"{relative}:{number}: take elementary functions from core/elementary.h")
+            defined = CLASS.match(line) if path.suffix == ".h" else None
+            if defined and classes.setdefault(defined.group(1), relative) != relative:
+                faults.append(f"{relative}:{number}: {classes[defined.group(1)]} has a {defined.group(1)}")
             match = re.match(r'\s*#\s*include\s*([<"])([^">]+)[">]', line)
             if not match:
                 continue
@@ -183,7 +191,7 @@ def fault_when(files: dict[str, str]) -> list[str]:
 def try_the_rules():
     """Each rule finds what breaks it, and nothing else."""
     sound = {
-        "lib/core/text.h": "#include <string>\n",
+        "lib/core/text.h": "#include <string>\nclass Text;\nstruct Text {\n",
         "lib/visibility/engine.h": '#include "visibility/view.h"\n',
         "lib/visibility/view.h": '#include "core/text.h"\n',
         "lib/visibility/rays/rays.h": '#include "visibility/engine.h"\n',
@@ -204,6 +212,8 @@ def try_the_rules():
             ("lib/lamps/lamp.h", "", "no folder lamps"),
             ("lib/paper/file.h", "float r = sample.position.norm();", "from trace/arrivals.h"),
             ("lib/labels/file.h", "x = std::asin(y);", "from core/elementary.h"),
+
+            ("lib/visibility/view.h", "class Text final {", "lib/core/text.h has a Text"),
             ("lib/core/file.h", '#include "text.h"', 'write "folder/file.h"'),
             ("lib/core/file.h", "#include <yaml-cpp/yaml.h>", "belongs to mission alone"),
     ):

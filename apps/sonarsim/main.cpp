@@ -88,10 +88,12 @@ int run(int argc, char** argv) {
     add_gallery(app, exit_code);
     add_contact_sheet(app, exit_code);
     add_export(app, exit_code);
+    add_compare(app, exit_code);
     add_inspect(app, exit_code);
     add_materials(app, exit_code);
     add_preset(app, exit_code);
     add_report(app, exit_code);
+    add_calibrate(app, exit_code);
     add_status(app, exit_code);
     add_keys(app, exit_code);
     add_schema(app, exit_code);

@@ -36,12 +36,12 @@ std::vector<std::pair<std::string, double>> seen_most(const SonarSurvey& found,
     return seen;
 }
 
-std::string text_of(const Interval& interval, const char* unit) {
+std::string text_of(const ValueRange& interval, const char* unit) {
     if (interval.empty()) return "none";
     return fmt::format("{:.4g} to {:.4g} {}", interval.low, interval.high, unit);
 }
 
-Json json_of(const Interval& interval) {
+Json json_of(const ValueRange& interval) {
     if (interval.empty()) return nullptr;
     return {interval.low, interval.high};
 }
@@ -56,8 +56,8 @@ double round_off(double value) {
 
 std::string survey_text(const SonarSurvey& found, const Scene& scene) {
     const auto line = [](const std::string& text) { return result_line("", text); };
-    const Interval roll{round_off(found.roll_deg.low), round_off(found.roll_deg.high)};
-    const Interval pitch{round_off(found.pitch_deg.low), round_off(found.pitch_deg.high)};
+    const ValueRange roll{round_off(found.roll_deg.low), round_off(found.roll_deg.high)};
+    const ValueRange pitch{round_off(found.pitch_deg.low), round_off(found.pitch_deg.high)};
     std::string text =
         line(fmt::format("altitude {}, roll {}, pitch {}", text_of(found.altitude_m, "m"),
                          text_of(roll, "deg"), text_of(pitch, "deg")));

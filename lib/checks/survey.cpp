@@ -47,7 +47,7 @@ double elevation_deg(const Eigen::Vector3f& direction) {
 /// Finds out why a ping saw nothing.
 void explain(const View& view, const Surroundings& around, double to_scene_m,
              NoReturnReasons& why) {
-    Interval in_view;
+    ValueRange in_view;
     bool somewhere = false;
     double flattest = std::numeric_limits<double>::infinity();  // off the view's middle, in degrees
     for (std::size_t i = 0; i < around.directions.size(); ++i) {
@@ -147,7 +147,7 @@ void take_attitude(const Eigen::Quaterniond& rotation, SonarSurvey& out) {
 
 /// Adds the surface that a ping saw, and its distance.
 void take_samples(const View& view, const Samples& samples, SonarSurvey& out) {
-    Interval echoes;
+    ValueRange echoes;
     for (const Sample& sample : samples.items) {
         const double range = arrival_range(sample.position);
         if (range < view.range_min_m || range >= view.range_max_m) continue;

@@ -14,7 +14,7 @@
 namespace sonarsim {
 
 /// From the least of some values to the greatest; empty until one is taken in.
-struct Interval {
+struct ValueRange {
     double low = std::numeric_limits<double>::infinity();
     double high = -std::numeric_limits<double>::infinity();
 
@@ -33,10 +33,10 @@ struct NoReturnReasons {
     std::size_t elsewhere = 0;  ///< within range there is surface in other directions alone
     std::size_t nothing = 0;    ///< no surface within range in any direction
     std::size_t depths = 0;     ///< z above the scene whose negative would be a place over it
-    Interval in_view_m;         ///< begin of the surface in view, of the pings that are too far
-    Interval ends_m;            ///< end of the surface in view, of those that are too near
-    Interval elevation_deg;     ///< surface nearest to the view, of those that are too flat
-    Interval nearest_m;         ///< distance to the box around the scene, of those with nothing
+    ValueRange in_view_m;       ///< begin of the surface in view, of the pings that are too far
+    ValueRange ends_m;          ///< end of the surface in view, of those that are too near
+    ValueRange elevation_deg;   ///< surface nearest to the view, of those that are too flat
+    ValueRange nearest_m;       ///< distance to the box around the scene, of those with nothing
 };
 
 /// A sonar's view of the scene in a few of its pings along the trajectory.
@@ -47,11 +47,11 @@ struct SonarSurvey {
     std::size_t below_surface = 0;  ///< pings with surface above and none below
     std::size_t enclosed = 0;       ///< pings from within one instance of several
     std::string enclosed_by;        ///< the last of these instances
-    Interval altitude_m;            ///< empty if there is never anything below
-    Interval roll_deg;              ///< attitude of the vehicle
-    Interval pitch_deg;
-    Interval first_echo_m;  ///< one value for each ping that saw anything
-    Interval last_echo_m;
+    ValueRange altitude_m;          ///< empty if there is never anything below
+    ValueRange roll_deg;            ///< attitude of the vehicle
+    ValueRange pitch_deg;
+    ValueRange first_echo_m;  ///< one value for each ping that saw anything
+    ValueRange last_echo_m;
     double occupied_share = 0.0;  ///< a share of the bins of all pings
     double white_share = 0.0;     ///< share of the occupied bins above the white of pictures
     float brightest = 0.0F;

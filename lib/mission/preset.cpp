@@ -78,17 +78,13 @@ YamlNode read_preset(const YamlNode& name, const std::filesystem::path& base_fol
     if (name.kind != YamlNode::Kind::scalar || name.text.empty()) {
         throw InputError(name.place.location(), "'preset' must be the path of a YAML file");
     }
-    auto path = std::filesystem::absolute(base_folder / name.text).lexically_normal();
-    if (!std::filesystem::is_regular_file(path)) {
-        const std::filesystem::path shipped = shipped_preset(name.text);
-        if (shipped.empty()) {
-            throw InputError(name.place.location(),
-                             "there is no preset " + in_quotes(path.string()) +
-                                 ", and none of this name came with the program" +
-                                 shipped_hint(name.text, kind) + ", written as " + kind +
-                                 "/NAME.yaml");
-        }
-        path = shipped;
+    const std::filesystem::path path = preset_file(name.text, base_folder);
+    if (path.empty()) {
+        const auto asked = std::filesystem::absolute(base_folder / name.text).lexically_normal();
+        throw InputError(name.place.location(),
+                         "there is no preset " + in_quotes(asked.string()) +
+                             ", and none of this name came with the program" +
+                             shipped_hint(name.text, kind) + ", written as " + kind + "/NAME.yaml");
     }
     YamlNode preset = read_document(read_file(path, largest_preset), path.string());
     if (preset.kind != YamlNode::Kind::map) {
@@ -113,6 +109,12 @@ void fill_in_section(YamlNode& section, const std::filesystem::path& base_folder
 }
 
 }  // namespace
+
+std::filesystem::path preset_file(const std::filesystem::path& name,
+                                  const std::filesystem::path& base_folder) {
+    auto path = std::filesystem::absolute(base_folder / name).lexically_normal();
+    return std::filesystem::is_regular_file(path) ? path : shipped_preset(name);
+}
 
 std::vector<std::string> shipped_presets(const std::string& kind) {
     std::vector<std::string> names;

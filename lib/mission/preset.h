@@ -19,6 +19,11 @@ std::vector<std::string> shipped_presets(const std::string& kind = sensor_preset
 /// a path.
 std::string shipped_hint(std::string name, const std::string& kind = sensor_presets);
 
+/// The file that the path of a preset means: one below `base_folder`, else one that came with the
+/// program. Empty if there is none.
+std::filesystem::path preset_file(const std::filesystem::path& name,
+                                  const std::filesystem::path& base_folder);
+
 /// Fills the sections `sensors.NAME` and `scene.seabed` with the keys of the file that their key
 /// `preset` names, and removes that key. Keys that a section already has stay as they are. Relative
 /// paths start at `base_folder`. InputError for a file that cannot be read, is no section or names

@@ -6,7 +6,7 @@
 
 namespace sonarsim {
 
-/// What a number of a recording means: `255 (A / A_max)^exponent` of the echo's amplitude A, or
+/// The meaning of a number of a recording: `255 (A / A_max)^exponent` of the echo's amplitude A, or
 /// decibels spread evenly over the values.
 struct RecordedLaw {
     enum class Kind {
@@ -17,12 +17,13 @@ struct RecordedLaw {
     };
 
     Kind kind = Kind::amplitude;
-    double exponent = 0.5;    ///< of `gamma`
-    double range_db = 0;      ///< of `decibel`
+    double exponent = 0.5;    ///< the one of `gamma`
+    double range_db = 0;      ///< the one of `decibel`
     double full_value = 255;  ///< the largest value that the instrument delivers; 0 for none
+    double offset = 0;        ///< share of `full_value` that the instrument takes from the values
 };
 
-/// What an instrument delivers.
+/// The kinds of data that instruments deliver.
 enum class RecordedKind { imaging, sidescan, scanning, echosounder, soundings };
 
 /// One ping as delivered, before any law is undone.
@@ -39,7 +40,7 @@ struct RecordedSoundings {
     double time_s = 0;
     std::vector<float> range_m;
     std::vector<float> angle_rad;  ///< from the vertical, negative to port
-    std::vector<float> intensity;  ///< by the recording's law
+    std::vector<float> intensity;  ///< in values of the recording's law
 };
 
 /// Pings of one instrument, in the order of time, from a real sonar or from a dataset.
@@ -50,10 +51,10 @@ struct Recording {
     double sound_speed_m_s = 1500;
     double first_range_m = 0;  ///< slant range of the middle of the first sample
     double range_step_m = 0;
-    std::vector<double> bearing_rad;  ///< of each beam; positive to port as in a mission
+    std::vector<double> bearing_rad;  ///< each beam's; positive to port as in a mission
     std::optional<double> frequency_hz;
     std::optional<double> altitude_m;
-    std::optional<double> pitch_rad;  ///< of the mount; positive turns the axis down
+    std::optional<double> pitch_rad;  ///< the mount's; positive turns the axis down
     std::vector<RecordedPing> pings;
     std::vector<RecordedSoundings> soundings;  ///< for `soundings`, instead of `pings`
 };

@@ -1,5 +1,6 @@
 #include "trace/map_error.h"
 
+#include <algorithm>
 #include <vector>
 
 #include "trace/arrivals.h"
@@ -11,7 +12,9 @@ namespace sonarsim {
 double error_of_maps(const Scene& scene, const View& view, const Pose& T_world_sensor,
                      const Samples& samples) {
     constexpr int blocks = 128;  // equal parts of the range
-    constexpr int every = 16;    // one in so many of them is looked at
+    // One in so many of them is looked at. The borders of a map may lie in few of them, so that a
+    // side-scan of two beams needs all.
+    const int every = std::clamp(view.beams / 8, 1, 16);
     constexpr double finer = 0.5;
     Samples usual;
     usual.beam_begin.push_back(0);

@@ -99,6 +99,10 @@ INSTEAD = {
     "sonarsim export out/hull DEST --format yolo":
         f"sonarsim render hull.yaml {FEW} --set output.labels=[coco] --out out/labelled && "
         "sonarsim export out/labelled DEST --format yolo",
+    "sonarsim compare out/real out/hull": "sonarsim compare out/hull out/hull",
+    **{f"sonarsim render configs/tank_calibrated.yaml --set seed={seed} --out out/{name}":
+       f"sonarsim render configs/tank_calibrated.yaml --set seed={seed} --out out/{name} --set trajectory.rate_hz=1 "
+       "--set sensors.fls.range_bins=128 --set sensors.fls.azimuth_bins=64" for seed, name in ((1, "one"), (2, "two"))},
     "sonarsim preview mission.yaml [--ping N] [--out FILE.png]":
         "sonarsim preview mission.yaml --ping 1 --out FILE.png",
 }

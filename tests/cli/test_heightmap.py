@@ -145,6 +145,24 @@ class Heightmap(Composed):
         for one, other in zip(self.polar("mesh"), self.polar("map"), strict=True):
             self.assertLess(max(abs(a - b) for a, b in zip(one, other, strict=True)), 1e-6)
 
+    def test_validate_says_what_is_kept(self):
+        """600 x 600 heights of a slope are more than the sonar needs; with labels all are kept."""
+        slope = [round(30000 + 2000 * math.sin(0.005 * c + 0.004 * r)) for r in range(600) for c in range(600)]
+        (self.folder / "bed.png").write_bytes(png([slope[r * 600:(r + 1) * 600] for r in range(600)]))
+        self.map_mission(", pixel_m: 0.02, height_scale: 0.0001, height_offset_m: -3")
+        self.assertIn("all rows and columns of the part in range are kept",
+                      self.run_sonarsim("validate", "mission.yaml").stdout)
+        for json_option in ([], ["--json"]):
+            result = self.run_sonarsim("validate", "mission.yaml", "--set", "output.labels=false", *json_option)
+            self.assertIn(result.returncode, (0, 3), result.stderr)
+            if json_option:
+                kept = json.loads(result.stdout)["heightmap"]
+                self.assertIn(kept["every"], (2, 4, 8, 16))
+                self.assertLess(kept["relative_l1"], 0.25 * 0.03)
+            else:
+                self.assertRegex(result.stdout, r"heightmap +1 of \d+ rows and columns is kept, which changes "
+                                 r"images by [\d.]+ %")
+
     def test_extent_and_origin(self):
         """size_m instead of pixel_m, and another origin with a trajectory moved by as much."""
         self.assert_same(MAP % ("bed.png", ", size_m: [12, 10], origin_m: [0, 0], height_scale: 0.001, "

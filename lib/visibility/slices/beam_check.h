@@ -63,7 +63,7 @@ class BeamCheck {
 
   private:
     std::vector<Sample> samples_;
-    BinSums sums_;
+    BeamSums sums_;
     QuadSampler sampler_;
     StripQuads quads_;
     const std::uint32_t calm_step_;  ///< `step` while the errors are small

@@ -22,7 +22,7 @@ constexpr float thinnest_error_rate = 0.16F;
 // The same for dark bins that surface approaches to within a thousandth of a bin: 11 of 42.
 constexpr float touched_error_rate = 0.26F;
 
-constexpr int lanes = BinSums::padding;
+constexpr int lanes = BeamSums::padding;
 
 using Lanes = std::array<float, lanes>;
 
@@ -43,7 +43,7 @@ void BeamErrors::begin_beam(int beam) {
     beam_ = beam;
 }
 
-void BeamErrors::add_check(const BinSums& check, double share) {
+void BeamErrors::add_check(const BeamSums& check, double share) {
     check_.add(check);
     share_ = share;
 }
@@ -62,10 +62,10 @@ void BeamErrors::end_beam() {
     add_edge_bins(share_ > 0.0 ? check_ : sums_);
     if (share_ > 0.0) {
         const double step = 1.0 / share_;
-        const double distance = BinSums::difference(sums_, check_);
+        const double distance = BeamSums::difference(sums_, check_);
         const double change = last_ < 0.0 ? 0.0 : distance - last_;
         checked_ += distance;
-        squares_ += BinSums::squared_difference(sums_, check_);
+        squares_ += BeamSums::squared_difference(sums_, check_);
         others_ += (step - 1.0) * distance;
         variance_ += 0.5 * step * (step - 1.0) * change * change;
         last_ = distance;
@@ -76,7 +76,7 @@ void BeamErrors::end_beam() {
 }
 
 /// Adds the intensities of all bins, and those of the probable errors of edge bins.
-void BeamErrors::add_edge_bins(BinSums& sums) {
+void BeamErrors::add_edge_bins(BeamSums& sums) {
     Lanes all{};
     Lanes edge_bins{};
     for (int begin = sums.first(); begin <= sums.last(); begin += lanes) {

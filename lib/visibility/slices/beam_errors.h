@@ -1,6 +1,6 @@
 #pragma once
 
-#include "visibility/slices/bin_sums.h"
+#include "visibility/slices/beam_sums.h"
 
 namespace sonarsim {
 
@@ -19,10 +19,10 @@ class BeamErrors {
     /// order.
     void begin_beam(int beam);
 
-    BinSums& sums() { return sums_; }
+    BeamSums& sums() { return sums_; }
 
     /// Adds surface of the beam's check. The beam was drawn from 1 / `share` beams.
-    void add_check(const BinSums& check, double share);
+    void add_check(const BeamSums& check, double share);
 
     /// The expected error of edge bins over the finished beams.
     double edge_bins() const { return signal_ > 0.0 ? edge_bins_ / signal_ : 0.0; }
@@ -44,10 +44,10 @@ class BeamErrors {
 
   private:
     void end_beam();
-    void add_edge_bins(BinSums& sums);
+    void add_edge_bins(BeamSums& sums);
 
-    BinSums sums_;
-    BinSums check_;
+    BeamSums sums_;
+    BeamSums check_;
     double share_ = 0.0;  ///< one of 1 / share_ beams was drawn, this one; 0: not this one
     int beam_ = -1;
     double signal_ = 0.0;  ///< intensities of all bins of all beams

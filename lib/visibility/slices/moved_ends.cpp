@@ -15,8 +15,15 @@ void move_ends(const Slice& slice, std::span<const VisibleSpan> spans, float u, 
     const auto move = [&](float w, const Border& border, std::size_t i) {
         const float there = slice.widens ? u * std::sqrt(1.0F + w * w) : u;
         const float to = std::clamp(there, border.extent.from, border.extent.to) - slice.u;
-        const float alone = std::clamp(w + border.slope * to, lowest, highest);
-        ends[i] = {w, alone, alone, border.q, static_cast<std::uint32_t>(i)};
+        const float free = w + border.slope * to;
+        const float alone = std::clamp(free, lowest, highest);
+        ends[i] = {w, alone, alone, border.q, static_cast<std::uint32_t>(i), 1.0F, alone};
+        if (free == alone) return;
+        const float at_slice = free < lowest ? slice.w_low : slice.w_high;
+        const float before = std::fabs(at_slice - w);
+        const float share = before / (before + std::fabs(free - alone));
+        ends[i].stop = share;
+        ends[i].w_stop = at_slice + share * (alone - at_slice);
     };
     for (std::size_t i = 0; i < spans.size(); ++i) {
         move(spans[i].w_low, spans[i].low, 2 * i);
@@ -33,6 +40,8 @@ void move_ends(const Slice& slice, std::span<const VisibleSpan> spans, float u, 
             ends[k].w = leader.w;
             ends[k].q = leader.q;
             ends[k].by = leader.by;
+            ends[k].stop = 1.0F;
+            ends[k].w_stop = leader.w;
         }
     }
 }

@@ -15,6 +15,10 @@ struct MovedEnd {
     float w;           ///< w that it is moved to
     float q;           ///< q of the surface that it follows
     std::uint32_t by;  ///< index of the end that it follows
+    /// Share of the way at which it reaches the view's border, on which it stays, and w there; 1:
+    /// it does not reach it.
+    float stop;
+    float w_stop;
 };
 
 /// The ends of all spans of a slice at one vertical of the picture plane, two per span.

@@ -62,7 +62,7 @@ RangeLine range_line(const Eigen::Vector3f& from, const Eigen::Vector3f& to) {
 }  // namespace
 
 QuadSampler::QuadSampler(const FrameScan& scan, std::span<const Material> materials,
-                         const PatchLimits& limits, BinSums& sums, std::vector<Sample>& out)
+                         const PatchLimits& limits, BeamSums& sums, std::vector<Sample>& out)
     : scan_(scan),
       materials_(materials),
       sums_(sums),

@@ -5,7 +5,7 @@
 
 #include "scene/scene.h"
 #include "visibility/engine.h"
-#include "visibility/slices/bin_sums.h"
+#include "visibility/slices/beam_sums.h"
 #include "visibility/slices/frame_scan.h"
 #include "visibility/slices/patch_limits.h"
 #include "visibility/slices/quad.h"
@@ -28,7 +28,7 @@ class QuadSampler {
   public:
     /// All arguments must outlive it.
     QuadSampler(const FrameScan& scan, std::span<const Material> materials,
-                const PatchLimits& limits, BinSums& sums, std::vector<Sample>& out);
+                const PatchLimits& limits, BeamSums& sums, std::vector<Sample>& out);
 
     void add(const Quad& quad);
 
@@ -42,7 +42,7 @@ class QuadSampler {
 
     const FrameScan& scan_;
     const std::span<const Material> materials_;
-    BinSums& sums_;
+    BeamSums& sums_;
     const PatchLimits limits_;
     const bool any_width_;
     std::vector<Sample>& out_;

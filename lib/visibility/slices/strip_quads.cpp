@@ -11,36 +11,6 @@ namespace {
 // A plane next to the slice whose q falls below this share has run away to infinity.
 constexpr float least_q_share = 1e-3F;
 
-// Largest distance of a quadrilateral's end from the straight line, as a share of its height.
-constexpr float most_bend = 0.02F;
-
-/// The border of a span's quadrilateral on one side: the side itself, or before it the point where
-/// the two ends meet, or where one of them meets the end that both follow.
-QuadSide quad_side(const Slice& slice, const MovedEnds& side, std::size_t span) {
-    const MovedEnd& low = side.ends[2 * span];
-    const MovedEnd& high = side.ends[2 * span + 1];
-    if (low.w < high.w || low.by != high.by) return {side.u, low.w, high.w};
-    const MovedEnd& leader = side.ends[low.by];
-    const bool from_below = low.by <= 2 * span;
-    const float before =
-        from_below ? high.at_slice - leader.at_slice : leader.at_slice - low.at_slice;
-    const float after = from_below ? leader.w - high.alone : low.alone - leader.w;
-    const float share = after > 0.0F ? before / (before + after) : 1.0F;
-    const float w = leader.at_slice + share * (leader.w - leader.at_slice);
-    return {slice.u + share * (side.u - slice.u), w, w};
-}
-
-/// True if the straight lines from one side to another pass both ends of the side between them.
-bool straight(const QuadSide& low, const QuadSide& between, const QuadSide& high) {
-    const float share = (between.u - low.u) / (high.u - low.u);
-    const auto bend = [&](float begin, float at, float end) {
-        return std::fabs(begin + share * (end - begin) - at);
-    };
-    const float most = most_bend * (between.high - between.low);
-    return bend(low.low, between.low, high.low) <= most &&
-           bend(low.high, between.high, high.high) <= most;
-}
-
 /// Width of the frame's gaps, in u at u = 0; 1 % more, since they differ slightly.
 float gap_width(const SliceFrame& frame) {
     const std::size_t middle = frame.slices.size() / 2;
@@ -63,7 +33,7 @@ void StripQuads::add(const SliceResult& result, const MovedEnds& low, const Move
     begin_.clear();
     end_.clear();
     for (std::size_t i = 0; i < result.spans.size(); ++i)
-        add_span(slice, result.spans[i], quad_side(slice, low, i), quad_side(slice, high, i));
+        add_span(slice, result.spans[i], outline_of(slice, result.spans[i], i, low, high));
     fill_holes(low.u);
     join(low.u);
     std::swap(open_, fresh_);
@@ -82,8 +52,7 @@ void StripQuads::end_beam() {
     behind_.clear();
 }
 
-void StripQuads::add_span(const Slice& slice, const VisibleSpan& span, const QuadSide& low,
-                          const QuadSide& high) {
+void StripQuads::add_span(const Slice& slice, const VisibleSpan& span, const SpanOutline& outline) {
     const FrontFacet& front = scan_.scene().facets[span.facet_index];
     Quad quad;
     quad.facet_index = span.facet_index;
@@ -96,26 +65,17 @@ void StripQuads::add_span(const Slice& slice, const VisibleSpan& span, const Qua
     // Next to the slice a plane may run away from the sensor, but its triangle does not.
     quad.q_least = least_q_share * quad.q;
     quad.range_m = span.facet_extent.range_m;
-    const QuadSide on_slice{slice.u, span.w_low, span.w_high};
-    const auto kept = [&](const QuadSide& side) -> QuadSide {
-        const float u = std::clamp(side.u, span.facet_extent.u.from, span.facet_extent.u.to);
-        if (u == side.u) return side;
-        const float share = (u - slice.u) / (side.u - slice.u);
-        return {u, span.w_low + share * (side.low - span.w_low),
-                span.w_high + share * (side.high - span.w_high)};
-    };
-    quad.low = kept(low);
-    quad.high = kept(high);
-    if (quad.low.u > low.u) begin_.push_back({low, quad.low.u < high.u ? quad.low : high});
-    if (quad.high.u < high.u) end_.push_back({quad.high.u > low.u ? quad.high : low, high});
-    // Ends that bend at the slice make two quadrilaterals.
-    if (quad.low.u < slice.u && slice.u < quad.high.u && !straight(quad.low, on_slice, quad.high)) {
-        const QuadSide end = std::exchange(quad.high, on_slice);
-        fresh_.push_back(quad);
-        quad.low = on_slice;
-        quad.high = end;
+    const Interval& extent = span.facet_extent.u;
+    const SpanOutline part = cut(outline, extent);
+    const QuadSide& first = outline.first();
+    const QuadSide& last = outline.last();
+    if (extent.from > first.u) begin_.push_back({first, part.count > 0 ? part.first() : last});
+    if (extent.to < last.u) end_.push_back({part.count > 0 ? part.last() : first, last});
+    for (int k = 0; k + 1 < part.count; ++k) {
+        quad.low = part.sides[k];
+        quad.high = part.sides[k + 1];
+        if (quad.low.low < quad.low.high || quad.high.low < quad.high.high) fresh_.push_back(quad);
     }
-    fresh_.push_back(quad);
 }
 
 /// Fills the holes on both sides of the border at u with the quadrilaterals on the other side.
@@ -138,15 +98,11 @@ void StripQuads::fill(const Hole& hole, const Quad& quad, const QuadSide& near,
     const float from = std::max(hole.low.u, extent.from);
     const float to = std::min(hole.high.u, extent.to);
     if (!(from < to) || near.u == far.u) return;
-    const auto at = [](const QuadSide& a, const QuadSide& b, float u) -> QuadSide {
-        const float share = (u - a.u) / (b.u - a.u);
-        return {u, a.low + share * (b.low - a.low), a.high + share * (b.high - a.high)};
-    };
     const auto side = [&](float u) -> QuadSide {
-        const QuadSide here = at(hole.low, hole.high, u);
-        const QuadSide there = at(near, far, u);
-        const float low = std::max(here.low, there.low);
-        return {u, low, std::max(std::min(here.high, there.high), low)};
+        const QuadSide here = between(hole.low, hole.high, u);
+        const QuadSide there = between(near, far, u);
+        const float low = std::min(std::max(there.low, here.low), here.high);
+        return {u, low, std::max(std::min(there.high, here.high), low)};
     };
     Quad more = quad;
     more.low = side(from);

@@ -6,6 +6,7 @@
 #include "visibility/slices/moved_ends.h"
 #include "visibility/slices/quad.h"
 #include "visibility/slices/quad_samples.h"
+#include "visibility/slices/span_outline.h"
 
 namespace sonarsim {
 
@@ -30,8 +31,7 @@ class StripQuads {
         QuadSide low, high;
     };
 
-    void add_span(const Slice& slice, const VisibleSpan& span, const QuadSide& low,
-                  const QuadSide& high);
+    void add_span(const Slice& slice, const VisibleSpan& span, const SpanOutline& outline);
     void fill_holes(float u);
     void fill(const Hole& hole, const Quad& quad, const QuadSide& near, const QuadSide& far);
     void join(float u);

@@ -64,7 +64,7 @@ TEST_CASE("slices: a drawn beam has its check's image, and stands for its neighb
         BeamErrors errors(ten_bins());
         errors.begin_beam(0);
         errors.sums().add({2.5F, 4.5F}, 2.0F, 4.5F, 1.0F);
-        BinSums check(ten_bins());
+        BeamSums check(ten_bins());
         check.add(check_m, 1.0F, check_m.to, 1.0F);
         errors.add_check(check, share);
         errors.finish();

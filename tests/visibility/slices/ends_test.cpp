@@ -100,6 +100,43 @@ TEST_CASE("slices: a corner that enters the view between two slices is seen") {
     }
 }
 
+TEST_CASE("slices: a corner of surface and the border of the view is seen") {
+    // A leaf in a plane that recedes to the left and upwards. Its left edge leans to the right: the
+    // farthest point in view is where that edge crosses the upper border, between two slices.
+    // The corner was cut off there by up to 0.7 bins.
+    View view = fan_view();
+    view.elevation_rad = radians(2.0);
+    test::Draws draws(33);
+    for (int k = 0; k < 40; ++k) {
+        CAPTURE(k);
+        const float left = draws.between(-1.5F, 1.5F);
+        const float lean = draws.between(0.5F, 1.5F);
+        const auto on_plane = [&](float y, float z) -> Eigen::Vector3f {
+            return {5.0F + 4.0F * z + 2.0F * (y - left), y, z};
+        };
+        const auto on_edge = [&](float z) -> Eigen::Vector3f {
+            return on_plane(left - lean * z, z);
+        };
+        Scene scene = shapes::empty_scene();
+        shapes::add_quad(scene, on_edge(-0.3F), on_edge(0.3F), on_plane(left - 2.0F, 0.3F),
+                         on_plane(left - 2.0F, -0.3F), shapes::add_material(scene, 0.5F));
+        float low = 0.0F;
+        float high = 0.3F;
+        for (int step = 0; step < 40; ++step) {
+            const Eigen::Vector3f at = on_edge(0.5F * (low + high));
+            (std::asin(at.z() / at.norm()) < 0.5 * view.elevation_rad ? low : high) = at.z();
+        }
+        float farthest = 0.0F;
+        for (const Sample& sample : seen(scene, view, Pose{}, 1).items) {
+            const Eigen::Vector3f to = sample.position.normalized();
+            farthest =
+                std::max(farthest, sample.position.norm() + std::fabs(sample.edge_u.dot(to)) +
+                                       std::fabs(sample.edge_v.dot(to)));
+        }
+        CHECK(farthest > on_edge(low).norm() - 0.25F * static_cast<float>(view.bin_m()));
+    }
+}
+
 TEST_CASE("slices: a cable ends in range where its corners do") {
     // Two cables that meet below the view in a common node, so that their mesh is one part. The
     // planes of faces with neighbours were followed by 0.2 % of the range beyond the face, here by

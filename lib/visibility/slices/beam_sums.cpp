@@ -1,4 +1,4 @@
-#include "visibility/slices/bin_sums.h"
+#include "visibility/slices/beam_sums.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@ constexpr float touching_bins = 0.001F;
 
 }  // namespace
 
-BinSums::BinSums(const View& view)
+BeamSums::BeamSums(const View& view)
     : per_m_(static_cast<float>(1.0 / view.bin_m())),
       min_bins_(static_cast<float>(view.range_min_m / view.bin_m())),
       count_(view.range_bins),
@@ -22,7 +22,7 @@ BinSums::BinSums(const View& view)
       area_(view.range_bins + 2 + padding),
       echo_(view.range_bins + 2 + padding) {}
 
-void BinSums::add(const Interval& range_m, float area_m2, float height_m, float reflection) {
+void BeamSums::add(const Interval& range_m, float area_m2, float height_m, float reflection) {
     const float low = range_m.from * per_m_ - min_bins_;
     const float high = std::max(range_m.to * per_m_ - min_bins_, low + 1e-5F);
     const auto end = static_cast<float>(count_);
@@ -44,7 +44,7 @@ void BinSums::add(const Interval& range_m, float area_m2, float height_m, float 
     last_ = std::max(last_, last);
 }
 
-void BinSums::add(const BinSums& other) {
+void BeamSums::add(const BeamSums& other) {
     for (int i = other.first_; i <= other.last_; ++i) {
         area_[i + 1] += other.area(i);
         echo_[i + 1] += other.echo(i);
@@ -54,14 +54,14 @@ void BinSums::add(const BinSums& other) {
     last_ = std::max(last_, other.last_);
 }
 
-double BinSums::signal() const {
+double BeamSums::signal() const {
     double sum = 0.0;
     for (int i = first_; i <= last_; ++i)
         sum += static_cast<double>(intensity(i));
     return sum;
 }
 
-double BinSums::difference(const BinSums& a, const BinSums& b) {
+double BeamSums::difference(const BeamSums& a, const BeamSums& b) {
     double sum = 0.0;
     const int last = std::max(a.last_, b.last_);
     for (int i = std::min(a.first_, b.first_); i <= last; ++i)
@@ -69,7 +69,7 @@ double BinSums::difference(const BinSums& a, const BinSums& b) {
     return sum;
 }
 
-double BinSums::squared_difference(const BinSums& a, const BinSums& b) {
+double BeamSums::squared_difference(const BeamSums& a, const BeamSums& b) {
     double sum = 0.0;
     const int last = std::max(a.last_, b.last_);
     for (int i = std::min(a.first_, b.first_); i <= last; ++i) {
@@ -79,7 +79,7 @@ double BinSums::squared_difference(const BinSums& a, const BinSums& b) {
     return sum;
 }
 
-void BinSums::clear() {
+void BeamSums::clear() {
     touched_.clear();
     if (last_ >= 0) {
         std::fill(&area_[first_ + 1], &area_[last_ + 2], 0.0F);

@@ -8,16 +8,16 @@
 namespace sonarsim {
 
 /// Surface of one beam by range bin: area, and area times intensity. Their quotient is the image.
-class BinSums {
+class BeamSums {
   public:
-    explicit BinSums(const View& view);
+    explicit BeamSums(const View& view);
 
     /// Adds surface that is spread evenly over an interval of range. Its intensity follows from
     /// `reflection` and the sensor's distance from its plane.
     void add(const Interval& range_m, float area_m2, float height_m, float reflection);
 
     /// Adds the sums of the same beam by other surface.
-    void add(const BinSums& other);
+    void add(const BeamSums& other);
 
     void clear();
 
@@ -25,8 +25,8 @@ class BinSums {
     double signal() const;
 
     /// The sum over the bins of the absolute difference of the intensities.
-    static double difference(const BinSums& a, const BinSums& b);
-    static double squared_difference(const BinSums& a, const BinSums& b);
+    static double difference(const BeamSums& a, const BeamSums& b);
+    static double squared_difference(const BeamSums& a, const BeamSums& b);
 
     int count() const { return count_; }
     /// Bins outside of [first, last] are dark.

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "calibrate/bootstrap.h"
+#include "calibrate/patches.h"
+#include "calibrated/line_array.h"
+
+namespace sonarsim {
+
+/// Squared correlation of the complex amplitudes of two beams whose sines differ by `u`. Each
+/// element has noise of its own, and w(x) goes into both beams with the phases of their directions.
+/// So the correlation is the integral of w^2 exp(2 pi i u L x) over that of w^2, the Fourier
+/// transform of the squared weights; phase errors cancel. Speckle has the same: its scatterers are
+/// independent, and the overlap of two patterns is that transform as well.
+double beam_correlation(const LineArray& array, double u);
+
+/// The correlations of log powers 1 to patch_lags beams apart that an array has, the mean over all
+/// beams. `sines` are those of the beams.
+std::array<double, patch_lags> predicted_beam_correlations(const LineArray& array,
+                                                           const std::vector<double>& sines,
+                                                           int looks);
+
+/// The receiving array by the correlation of noise across the beams.
+struct ArrayFit {
+    Measured width_deg;
+    Measured side_lobe_db;
+    bool taper_known = false;  ///< else only the two together are
+};
+
+/// Fits width and taper to the correlations of the chosen patches. The taper counts as known when
+/// its interval is narrower than 8 dB.
+ArrayFit fit_array(const std::vector<PatchMoments>& patches, const std::vector<std::size_t>& chosen,
+                   int places, const std::vector<double>& sines, int looks, double start_width_deg);
+
+}  // namespace sonarsim

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace sonarsim {
+
+/// A number with the interval that holds the true one in 95 of 100 cases.
+struct Measured {
+    double value = 0.0;
+    double low = 0.0;
+    double high = 0.0;
+
+    double half_width() const { return 0.5 * (high - low); }
+    bool holds(double x) const { return low <= x && x <= high; }
+};
+
+/// How often each of `count` units is drawn when `count` are drawn with replacement.
+std::vector<double> drawn_weights(int count, std::uint32_t draw);
+
+/// `estimate` of the units as they are, with its interval over `draws` bootstrap samples of them:
+/// 1.96 standard deviations to either side, and at least `least` to either side, for what the
+/// closed forms leave out. Samples whose estimate is not finite do not count.
+Measured bootstrap(int count, const std::function<double(const std::vector<double>&)>& estimate,
+                   double least = 0.0, int draws = 80);
+
+/// The same for several numbers of one estimate.
+std::vector<Measured> bootstrap_all(
+    int count, const std::function<std::vector<double>(const std::vector<double>&)>& estimate,
+    const std::vector<double>& least, int draws = 80);
+
+}  // namespace sonarsim

@@ -1,0 +1,189 @@
+#include "calibrate/calibrate.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "calibrate/usable.h"
+#include "calibrated/model.h"
+#include "calibrated/pulse_band.h"
+#include "core/units.h"
+#include "sonar/sonar.h"
+
+namespace sonarsim {
+
+namespace {
+
+/// The full angle of a fan of these beams, half a step beyond the outer two.
+double full_angle(const std::vector<double>& bearings) {
+    const auto [least, most] = std::minmax_element(bearings.begin(), bearings.end());
+    const auto beams = static_cast<double>(bearings.size());
+    return (*most - *least) * beams / std::max(beams - 1.0, 1.0);
+}
+
+/// How uneven the steps of a row of numbers are: standard deviation by mean.
+double unevenness(const std::vector<double>& row) {
+    double sum = 0.0, square = 0.0;
+    for (std::size_t k = 1; k < row.size(); ++k) {
+        const double step = row[k] - row[k - 1];
+        sum += step;
+        square += step * step;
+    }
+    const double mean = sum / static_cast<double>(row.size() - 1);
+    return square / static_cast<double>(row.size() - 1) / (mean * mean) - 1.0;
+}
+
+/// The sonar of the start with the shape of the pings.
+SonarConfig of_shape(SonarConfig config, const Recording& recording) {
+    const double step_m = recording.range_step_m;
+    config.range_bins = recording.pings.front().ranges;
+    config.range_min_m = std::max(recording.first_range_m - 0.5 * step_m, 0.0);
+    config.range_max_m = recording.first_range_m + (config.range_bins - 0.5) * step_m;
+    if (config.kind != SonarKind::imaging || recording.bearing_rad.size() < 2) return config;
+    config.azimuth_bins = recording.pings.front().beams;
+    config.azimuth_deg = degrees(full_angle(recording.bearing_rad));
+    const bool sine = unevenness(beam_sines(recording)) < unevenness(recording.bearing_rad);
+    config.instrument.beam.spread = sine ? BeamSpacing::equal_sine : BeamSpacing::equal_angle;
+    return config;
+}
+
+StartInstrument start_instrument(const SonarConfig& config, const WaterConfig& water) {
+    const Sonar sonar = make_sonar(config, {}, water);
+    const auto& model = dynamic_cast<const CalibratedModel&>(*sonar.settings.model);
+    return {config.instrument, model.levels, model.absorption_db_per_m};
+}
+
+void add_shape(const SonarConfig& config, std::vector<PresetValue>& out) {
+    const char* const file = "file: of the pings";
+    if (config.kind == SonarKind::imaging) {
+        out.push_back({"azimuth_deg", short_number(config.azimuth_deg), file});
+        out.push_back({"azimuth_bins", std::to_string(config.azimuth_bins), file});
+        const bool sine = config.instrument.beam.spread == BeamSpacing::equal_sine;
+        out.push_back({"instrument.beam.spread", sine ? "sine" : "angle", file});
+    }
+    out.push_back({"range_min_m", short_number(config.range_min_m), file});
+    out.push_back({"range_max_m", short_number(config.range_max_m), file});
+    out.push_back({"range_bins", std::to_string(config.range_bins), file});
+}
+
+void add_estimates(const ImageFit& fit, const StartInstrument& start,
+                   std::vector<PresetValue>& out) {
+    for (const Estimate& e : fit.estimates) {
+        const std::string key = "instrument." + e.key;
+        if (!e.word.empty()) {
+            out.push_back({key, e.word, "fit"});
+            continue;
+        }
+        out.push_back(
+            {key, short_number(e.number.value),
+             "fit: " + short_number(e.number.low) + " to " + short_number(e.number.high)});
+    }
+    if (fit.noise && !start.config.receiver.noise_db) {
+        out.push_back({"instrument.receiver.noise_db", short_number(start.levels.noise_db),
+                       "rule: that of the start; full_scale_db is fitted to it"});
+    }
+}
+
+void judge_images(const SplitRecording& parts, const StartInstrument& start, const ImageFit& fit,
+                  Calibration& out) {
+    const std::vector<NoiseBlock> rows = fit.noise ? fit.noise->used : std::vector<NoiseBlock>{};
+    const double absorption = start.absorption_db_per_m;
+    const double start_level = start.levels.noise_db - start.levels.full_scale_db;
+    const auto of_fit = [&](const Recording& part) {
+        return figures_of(part, fit.config, fit.noise_re_full_scale_db, absorption, rows);
+    };
+    const std::vector<Figure> before =
+        figures_of(parts.judged, start.config, start_level, absorption, rows);
+    const std::vector<Figure> in_sample = of_fit(parts.fitted);
+    const std::vector<Figure> held_out = of_fit(parts.judged);
+    const auto named = [](const std::vector<Figure>& figures, const std::string& name) {
+        return std::find_if(figures.begin(), figures.end(),
+                            [&](const Figure& figure) { return figure.name == name; });
+    };
+    for (const Figure& figure : held_out) {
+        const auto a = named(before, figure.name);
+        const auto b = named(in_sample, figure.name);
+        if (a != before.end() && b != in_sample.end()) out.figures.push_back({*a, *b, figure});
+    }
+}
+
+void calibrate_images(const SplitRecording& parts, const SonarConfig& start,
+                      const WaterConfig& water, Calibration& out) {
+    const SonarConfig shaped = of_shape(start, parts.fitted);
+    const StartInstrument instrument = start_instrument(shaped, water);
+    const ImageFit fit = fit_image(parts.fitted, instrument);
+    out.estimates = fit.estimates;
+    out.notes = fit.notes;
+    add_shape(shaped, out.preset);
+    add_estimates(fit, instrument, out.preset);
+    judge_images(parts, instrument, fit, out);
+}
+
+/// A figure of soundings at one angle. The start predicts neither the bottom nor its spread, so its
+/// column repeats what was measured, without a prediction.
+JudgedFigure of_angle(const std::string& name, Tolerance tolerance, const Measured& fitted,
+                      double predicted, double held_out) {
+    const double missing = std::nan("");
+    return {{name, tolerance, missing, {held_out, held_out, held_out}},
+            {name, tolerance, fitted.value, fitted},
+            {name, tolerance, predicted, {held_out, held_out, held_out}}};
+}
+
+void calibrate_soundings(const SplitRecording& parts, const SonarConfig& start,
+                         const WaterConfig& water, const CalibrationOptions& options,
+                         Calibration& out) {
+    const InstrumentConfig& instrument = start.instrument;
+    const double bin_m = (start.range_max_m - start.range_min_m) / start.range_bins;
+    const PulseBand band = pulse_band(instrument.pulse, bin_m, water.sound_speed_m_s);
+    const SoundingsGeometry geometry{band.length_m, radians(instrument.beam.width_deg),
+                                     instrument.receiver.tvg_log};
+    out.soundings =
+        fit_soundings(parts.fitted.soundings, parts.fitted.law, options.slope_rad, geometry);
+    const SoundingsFit& fit = *out.soundings;
+    for (const SoundingsAtAngle& a :
+         soundings_by_angle(parts.judged.soundings, parts.judged.law, options.slope_rad)) {
+        const auto nearest =
+            std::min_element(fit.angles_rad.begin(), fit.angles_rad.end(), [&](double x, double y) {
+                return std::fabs(x - a.angle_rad) < std::fabs(y - a.angle_rad);
+            });
+        const auto k = static_cast<std::size_t>(nearest - fit.angles_rad.begin());
+        const std::string at = ", " + short_number(std::round(degrees(a.angle_rad))) + " degrees";
+        const double gain_db = geometry.gain_db(a.angle_rad, a.range_m);
+        out.figures.push_back(of_angle("strength with the level of the sonar" + at + ", dB",
+                                       Tolerance::decibel, fit.strength_db[k],
+                                       fit.level_db_at(a.angle_rad, a.range_m) - gain_db,
+                                       a.level_db - gain_db));
+        out.figures.push_back(of_angle("spread of ranges" + at + ", m", Tolerance::three_twentieths,
+                                       fit.spread_m[k], fit.spread_m_at(a.angle_rad), a.spread_m));
+    }
+    out.notes = {
+        "transmit level, gain and strength of the bottom cannot be separated here: the levels have "
+        "their sum",
+        "on a flat bottom range and angle go together: the gain by range and the strength by angle "
+        "cannot be separated, so tvg_log is that of the start",
+        "the spread of the ranges is a table by angle: it depends on how the sonar detects the "
+        "bottom, "
+        "which has no key. No key of the preset changes",
+    };
+}
+
+}  // namespace
+
+Calibration calibrate(const Recording& recording, const SonarConfig& start,
+                      const WaterConfig& water, const CalibrationOptions& options) {
+    check_usable(recording, start.kind);
+    const SplitRecording parts = split(recording, options.judged_share, options.reversed);
+    WaterConfig with_speed = water;
+    with_speed.sound_speed_m_s = recording.sound_speed_m_s;
+    Calibration out;
+    out.name = recording.name;
+    out.pings_fitted = std::max(parts.fitted.pings.size(), parts.fitted.soundings.size());
+    out.pings_judged = std::max(parts.judged.pings.size(), parts.judged.soundings.size());
+    if (recording.kind == RecordedKind::soundings) {
+        calibrate_soundings(parts, start, with_speed, options, out);
+    } else {
+        calibrate_images(parts, start, with_speed, out);
+    }
+    return out;
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,310 @@
+#include "calibrate/image_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "calibrate/log_statistics.h"
+#include "calibrated/decibel.h"
+#include "core/elementary.h"
+#include "core/units.h"
+
+namespace sonarsim {
+
+namespace {
+
+constexpr double least_echo_db = 6.0;
+constexpr double db_of_neper_of_power = 4.342944819032518;
+constexpr std::size_t least_noise_patches = 6;
+constexpr std::size_t least_patches_of_law = 24;
+
+/// True for a patch that has the beam straight ahead, where noise that all elements share is. Only
+/// images of many patches can do without it.
+bool straight_ahead(const PatchMoments& patch, const PatchSize& size,
+                    const std::vector<double>& sines) {
+    if (sines.size() < 4 * static_cast<std::size_t>(size.beams)) return false;
+    const double first = sines[static_cast<std::size_t>(patch.beam)];
+    const double last = sines[static_cast<std::size_t>(patch.beam + size.beams - 1)];
+    return first * last <= 0.0;
+}
+
+/// The places of patches that are noise, for a second fit of the law: noise is Rayleigh's for sure,
+/// and an even patch of echoes may still hold a texture.
+std::vector<bool> noise_places(const Recording& recording, const LawFit& law,
+                               const std::optional<NoiseFit>& noise) {
+    std::vector<bool> out;
+    const PatchClasses classes = classified(recording, law, noise);
+    if (classes.noise.size() < least_patches_of_law) return out;
+    out.assign(static_cast<std::size_t>(classes.places), false);
+    for (const std::size_t k : classes.noise)
+        out[static_cast<std::size_t>(classes.patches[k].place)] = true;
+    return out;
+}
+
+/// The number of looks: that of the start if it agrees with the skewness, else the one that does.
+int looks_of(const LawFit& law, int start, std::vector<std::string>& notes) {
+    if (law.skewness.holds(log_power_skewness(start))) return start;
+    int best = start;
+    for (int n = 1; n <= 8; ++n) {
+        const double off = std::fabs(log_power_skewness(n) - law.skewness.value);
+        if (off < std::fabs(log_power_skewness(best) - law.skewness.value)) best = n;
+    }
+    // Uneven patches and values at the ends of the scale move it by a tenth.
+    const double moved = std::fabs(log_power_skewness(best) - law.skewness.value);
+    if (best != start && law.skewness.holds(log_power_skewness(best))) return best;
+    if (moved > 0.1) {
+        notes.push_back(
+            "looks: the skewness of log powers fits no number of looks; that of the start "
+            "is kept");
+    }
+    return start;
+}
+
+void fit_law_and_looks(const Recording& recording, const StartInstrument& start, ImageFit& fit) {
+    const double full_value = full_value_of(recording);
+    int looks = std::max(start.config.receiver.looks, 1);
+    fit.law = fit_law(recording.pings, full_value, looks);
+    const Measured slope = fit.law.slope;
+    fit.noise = fit_noise(noise_blocks(recording, fit.law), start.absorption_db_per_m);
+    const std::vector<bool> places = noise_places(recording, fit.law, fit.noise);
+    if (!places.empty()) fit.law = fit_law(recording.pings, full_value, looks, places);
+    looks = looks_of(fit.law, looks, fit.notes);
+    if (looks != fit.law.looks) {
+        fit.law = fit_law(recording.pings, full_value, looks, places);
+        const auto n = static_cast<double>(looks);
+        fit.estimates.push_back({"receiver.looks", {n, n, n}, ""});
+        fit.config.receiver.looks = looks;
+    }
+    fit.law.slope = slope;
+    fit.noise = fit_noise(noise_blocks(recording, fit.law), start.absorption_db_per_m);
+    fit.notes.emplace_back(
+        "looks and companding are separated by the skewness of log powers alone: several looks "
+        "with "
+        "a larger gamma look much alike");
+}
+
+void set_law(ImageFit& fit) {
+    ReceiverConfig& receiver = fit.config.receiver;
+    if (fit.law.companding == Companding::log) {
+        receiver.companding = Companding::log;
+        receiver.dynamic_range_db = fit.law.dynamic_range_db.value;
+        fit.estimates.push_back({"receiver.companding", {}, "log"});
+        fit.estimates.push_back({"receiver.dynamic_range_db", fit.law.dynamic_range_db, ""});
+        return;
+    }
+    receiver.companding = Companding::gamma;
+    receiver.gamma = fit.law.gamma.value;
+    fit.estimates.push_back({"receiver.companding", {}, "gamma"});
+    fit.estimates.push_back({"receiver.gamma", fit.law.gamma, ""});
+}
+
+void widen(Measured& m, double by) {
+    const double half = m.half_width();
+    const double wider = std::sqrt(half * half + by * by) - half;
+    m.low -= wider;
+    m.high += wider;
+}
+
+/// An error of the law scales all levels below full scale, and the gain with them.
+void widen_by_law(const LawFit& law, NoiseFit& noise) {
+    const Measured& scale = law.companding == Companding::log ? law.dynamic_range_db : law.gamma;
+    const double share = scale.half_width() / scale.value;
+    widen(noise.level_db, share * noise.level_db.value);
+    const double near = noise.at(noise.used.front().range_m);
+    const double far = noise.at(noise.used.back().range_m);
+    const double decades =
+        0.1 * db_of_power(noise.used.back().range_m / noise.used.front().range_m);
+    widen(noise.tvg_log, share * (far - near) / decades);
+}
+
+void set_noise_law(ImageFit& fit) {
+    if (!fit.noise) {
+        fit.notes.emplace_back(
+            "noise and gain: no rows show noise alone (without zeros, even over the beams, on one "
+            "law "
+            "of range); noise_db, full_scale_db and tvg_log are those of the start");
+        return;
+    }
+    widen_by_law(fit.law, *fit.noise);
+    ReceiverConfig& receiver = fit.config.receiver;
+    receiver.tvg_log = fit.noise->tvg_log.value;
+    receiver.tvg_absorption = true;
+    fit.estimates.push_back({"receiver.tvg_log", fit.noise->tvg_log, ""});
+    fit.notes.emplace_back(
+        "tvg_log and the absorption of the water cannot be separated here: tvg_log is for the "
+        "water "
+        "of the start");
+    receiver.tvg_from_m = fit.noise->tvg_from_m.value;
+    if (receiver.tvg_from_m > 0.0)
+        fit.estimates.push_back({"receiver.tvg_from_m", fit.noise->tvg_from_m, ""});
+}
+
+void fit_pulse_of(const Recording& recording, const PatchClasses& classes, ImageFit& fit) {
+    PulseConfig& pulse = fit.config.pulse;
+    const ReceivedKind kind =
+        fit.pulse_of_echoes ? echo_kind(fit.config.speckle) : ReceivedKind::noise;
+    const std::vector<std::size_t>& chosen = fit.pulse_of_echoes ? classes.echoes : classes.noise;
+    if (fit.config.receiver.samples > 1) {
+        fit.notes.emplace_back("pulse: kept, since the start makes one bin of several samples");
+        return;
+    }
+    fit.pulse_bins =
+        fit_pulse(classes.patches, chosen, classes.places, pulse.side_lobe_db, kind, fit.law.looks);
+    if (!fit.pulse_bins) {
+        fit.notes.emplace_back(
+            "pulse: neighbouring bins are not correlated, so it is shorter than a "
+            "bin, and its length cannot be measured; that of the start is kept");
+        return;
+    }
+    const double step = recording.range_step_m;
+    const Measured& bins = *fit.pulse_bins;
+    pulse.resolution_m = step * bins.value;
+    fit.estimates.push_back(
+        {"pulse.resolution_m", {step * bins.value, step * bins.low, step * bins.high}, ""});
+}
+
+void fit_beams(const PatchClasses& classes, const std::vector<double>& sines, ImageFit& fit) {
+    BeamConfig& beam = fit.config.beam;
+    const std::vector<std::size_t>& chosen = fit.pulse_of_echoes ? classes.echoes : classes.noise;
+    fit.array =
+        fit_array(classes.patches, chosen, classes.places, sines, fit.law.looks, beam.width_deg);
+    beam.width_deg = fit.array->width_deg.value;
+    fit.estimates.push_back({"beam.width_deg", fit.array->width_deg, ""});
+    beam.side_lobe_db = fit.array->side_lobe_db.value;
+    fit.estimates.push_back({"beam.side_lobe_db", fit.array->side_lobe_db, ""});
+    if (!fit.array->taper_known) {
+        fit.notes.emplace_back(
+            "beam.width_deg and beam.side_lobe_db can hardly be separated here: the two belong "
+            "together");
+    }
+    fit.notes.emplace_back(
+        "beam.aberration_rad: noise and speckle do not depend on errors of phase; "
+        "they are those of the start");
+}
+
+/// The patches that tell pulse and array, and what they tell.
+void fit_pulse_and_array(const Recording& recording, ImageFit& fit) {
+    const PatchClasses classes = classified(recording, fit.law, fit.noise);
+    fit.pulse_of_echoes = classes.noise.size() < least_noise_patches;
+    const std::vector<std::size_t>& chosen = fit.pulse_of_echoes ? classes.echoes : classes.noise;
+    if (chosen.size() < least_noise_patches) {
+        fit.notes.emplace_back("pulse and beams: too few patches of noise or of even echoes");
+        return;
+    }
+    fit_pulse_of(recording, classes, fit);
+    const std::vector<double> sines = beam_sines(recording);
+    if (sines.size() > patch_lags) fit_beams(classes, sines, fit);
+}
+
+/// Levels by the noise, and the noise that all elements share. Only differences of levels show, so
+/// noise_db is that of the start and full_scale_db is fitted.
+void fit_levels(const Recording& recording, const StartInstrument& start, ImageFit& fit) {
+    ReceiverConfig& receiver = fit.config.receiver;
+    const double noise_db = start.levels.noise_db;
+    fit.noise_re_full_scale_db = noise_db - start.levels.full_scale_db;
+    if (!fit.noise) return;
+    const Measured& level = fit.noise->level_db;
+    fit.noise_re_full_scale_db = level.value;
+    receiver.noise_db = noise_db;
+    receiver.full_scale_db = noise_db - level.value;
+    fit.estimates.push_back({"receiver.full_scale_db",
+                             {noise_db - level.value, noise_db - level.high, noise_db - level.low},
+                             ""});
+    fit.notes.emplace_back(
+        "noise_db, full_scale_db and source_level_db cannot be separated here: the "
+        "pings have their differences; noise_db and source_level_db are those of "
+        "the start, and full_scale_db is fitted to them");
+    fit.notes.emplace_back(
+        "transmit level and strength of the bottom cannot be separated here: echoes "
+        "have their sum");
+    Measured& shared = fit.noise->common_mode_db;
+    shared = common_mode(recording, fit.law, *fit.noise, radians(fit.config.beam.width_deg));
+    if (shared.value > -50.0) {
+        receiver.common_mode_db = noise_db + shared.value;
+        fit.estimates.push_back(
+            {"receiver.common_mode_db",
+             {noise_db + shared.value, noise_db + shared.low, noise_db + shared.high},
+             ""});
+    } else if (receiver.common_mode_db > -300.0) {
+        fit.notes.emplace_back(
+            "receiver.common_mode_db: no noise straight ahead was seen; that of the "
+            "start is kept");
+    }
+}
+
+/// Adds the rows of a patch that are noise.
+bool all_rows_in(const PatchMoments& patch, int rows, const std::set<int>& blocks) {
+    for (int row = patch.row; row < patch.row + rows; row += rows_of_noise_block) {
+        if (!blocks.contains(row)) return false;
+    }
+    return true;
+}
+
+}  // namespace
+
+double range_of_row(const Recording& recording, int row) {
+    return recording.first_range_m + row * recording.range_step_m;
+}
+
+std::vector<double> beam_sines(const Recording& recording) {
+    std::vector<double> out;
+    if (recording.kind != RecordedKind::imaging) return out;
+    for (const double bearing : recording.bearing_rad)
+        out.push_back(sincos(bearing).sin);
+    return out;
+}
+
+LawFit stated_law(const ReceiverConfig& receiver) {
+    LawFit out;
+    out.companding = receiver.companding == Companding::log ? Companding::log : Companding::gamma;
+    const double gamma = receiver.companding == Companding::linear ? 1.0 : receiver.gamma;
+    out.gamma = {gamma, gamma, gamma};
+    const double range_db = receiver.dynamic_range_db;
+    out.dynamic_range_db = {range_db, range_db, range_db};
+    out.looks = std::max(receiver.looks, 1);
+    return out;
+}
+
+PatchClasses classified(const Recording& recording, const LawFit& law,
+                        const std::optional<NoiseFit>& noise) {
+    const double full_value = full_value_of(recording);
+    const std::vector<double> sines = beam_sines(recording);
+    PatchClasses out;
+    out.places = patch_places(recording.pings);
+    out.patches = patch_moments(recording.pings, full_value, [&](double v, int row) {
+        const double level_db = noise ? noise->at(range_of_row(recording, row)) : 0.0;
+        return law.log_power(v, full_value) - level_db / db_of_neper_of_power;
+    });
+    const PatchSize size =
+        patch_size(recording.pings.front().ranges, recording.pings.front().beams);
+    std::set<int> blocks;
+    if (noise) {
+        for (const NoiseBlock& block : noise->used)
+            blocks.insert(block.row);
+    }
+    for (std::size_t k = 0; k < out.patches.size(); ++k) {
+        const PatchMoments& patch = out.patches[k];
+        if (noise && all_rows_in(patch, size.rows, blocks) && !straight_ahead(patch, size, sines) &&
+            patch.zeros < 0.003)
+            out.noise.push_back(k);
+    }
+    for (const std::size_t k : speckle_patches(out.patches, full_value > 15.0 ? 6.0 : 0.0)) {
+        const PatchMoments& patch = out.patches[k];
+        const double above_db = db_of_neper_of_power * (patch.mean - log_power_mean(law.looks));
+        if (!noise || above_db > least_echo_db) out.echoes.push_back(k);
+    }
+    return out;
+}
+
+ImageFit fit_image(const Recording& recording, const StartInstrument& start) {
+    ImageFit fit;
+    fit.config = start.config;
+    fit_law_and_looks(recording, start, fit);
+    set_law(fit);
+    set_noise_law(fit);
+    fit_pulse_and_array(recording, fit);
+    fit_levels(recording, start, fit);
+    return fit;
+}
+
+}  // namespace sonarsim

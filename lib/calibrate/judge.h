@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "calibrate/image_fit.h"
+
+namespace sonarsim {
+
+/// What a figure may be off to agree: a share, decibels, or a difference of correlations.
+enum class Tolerance { tenth, three_twentieths, decibel, correlation };
+
+/// A figure that an instrument predicts and that pings have.
+struct Figure {
+    std::string name;
+    Tolerance tolerance = Tolerance::tenth;
+    double predicted = 0.0;
+    Measured measured;
+
+    /// True if the prediction is within 10 or 15 %, 1 dB or 0.05 of what was measured.
+    bool agrees() const;
+};
+
+/// The figures of pings, and what an instrument predicts for them by closed forms: distribution of
+/// the amplitude under the instrument's own law, correlations along range and beams of noise and of
+/// echoes, level of the noise by range. `rows` are the blocks that count as noise. Figures that the
+/// pings do not have are left out.
+std::vector<Figure> figures_of(const Recording& recording, const InstrumentConfig& instrument,
+                               double noise_re_full_scale_db, double absorption_db_per_m,
+                               const std::vector<NoiseBlock>& rows);
+
+}  // namespace sonarsim

@@ -1,0 +1,198 @@
+#include "calibrate/law_fit.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "calibrate/log_statistics.h"
+#include "core/elementary.h"
+#include "core/error.h"
+
+namespace sonarsim {
+
+namespace {
+
+constexpr double db_of_neper = 4.342944819032518;  // of power: 10 / ln 10
+constexpr std::size_t least_patches = 8;
+// Between the laws' slopes of 1 and 0.
+constexpr double power_law_slope = 0.5;
+// Patches of about one level do not tell the slope.
+constexpr double least_spread_of_levels = 0.1;
+// What a finite patch, its trend and the steps of the values leave in a law.
+constexpr double least_error = 0.01;
+
+double log_of_value(double value, double step) {
+    return logarithm(std::max(value, 0.5 * step));
+}
+
+/// Patches of the values and of their logarithms, and which of them are even speckle.
+struct LawPatches {
+    std::vector<PatchMoments> values, logs;
+    std::vector<std::size_t> even;
+    int places = 0;
+};
+
+struct WeightedSums {
+    double weight = 0.0, variance = 0.0, third = 0.0;
+};
+
+WeightedSums sums_of(const std::vector<PatchMoments>& patches, const std::vector<std::size_t>& even,
+                     const std::vector<double>& weights) {
+    WeightedSums out;
+    for (const std::size_t k : even) {
+        const double w = weights[static_cast<std::size_t>(patches[k].place)];
+        out.weight += w;
+        out.variance += w * patches[k].variance;
+        out.third += w * patches[k].third;
+    }
+    out.variance /= out.weight;
+    out.third /= out.weight;
+    return out;
+}
+
+double skewness_of(const std::vector<PatchMoments>& patches, const std::vector<std::size_t>& even,
+                   const std::vector<double>& weights) {
+    const WeightedSums sums = sums_of(patches, even, weights);
+    return sums.third / power(sums.variance, 1.5);
+}
+
+/// The slope of log standard deviation of v against the log of its mean.
+double slope_of(const LawPatches& patches, const std::vector<double>& weights) {
+    double w = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
+    for (const std::size_t k : patches.even) {
+        const PatchMoments& p = patches.values[k];
+        const double weight = weights[static_cast<std::size_t>(p.place)];
+        const double level = logarithm(p.mean_value);
+        const double spread = 0.5 * logarithm(p.variance);
+        w += weight;
+        x += weight * level;
+        y += weight * spread;
+        xx += weight * level * level;
+        xy += weight * level * spread;
+    }
+    return (xy - x * y / w) / (xx - x * x / w);
+}
+
+double spread_of_levels(const LawPatches& patches) {
+    double sum = 0.0, square = 0.0;
+    for (const std::size_t k : patches.even) {
+        const double level = logarithm(patches.values[k].mean_value);
+        sum += level;
+        square += level * level;
+    }
+    const auto n = static_cast<double>(patches.even.size());
+    return std::sqrt(std::max(square / n - sum * sum / (n * n), 0.0));
+}
+
+/// The share of the variance that a third of a patch leaves, along range.
+double lasting_correlation(const LawPatches& patches) {
+    double structure = 0.0, variance = 0.0;
+    for (const std::size_t k : patches.even) {
+        structure += patches.logs[k].along_range[patch_lags - 1];
+        variance += patches.logs[k].variance;
+    }
+    return 1.0 - structure / variance;
+}
+
+void check_speckle(const LawPatches& patches, double skewness_of_logs, double skewness_of_values) {
+    const auto speckle = [](double skewness) { return skewness > -2.0 && skewness < -0.3; };
+    const double lasting = lasting_correlation(patches);
+    if (lasting > 0.6) {
+        throw InputError("values 8 bins apart have the correlation " +
+                         std::to_string(lasting).substr(0, 4) +
+                         ", speckle of a sonar much less: is this a photograph, a picture that was "
+                         "smoothed, or a pulse of many bins?");
+    }
+    if (speckle(skewness_of_logs) || speckle(skewness_of_values)) return;
+    throw InputError("the logarithms of neighbouring values have a skewness of " +
+                     std::to_string(skewness_of_logs).substr(0, 5) +
+                     ", speckle of a sonar has -1.14: is this a photograph, or were the values "
+                     "changed after the sonar?");
+}
+
+LawPatches law_patches(const std::vector<RecordedPing>& pings, double full_value,
+                       const std::vector<bool>& places) {
+    const double step = full_value > 15.0 ? 1.0 : full_value / 65535.0;
+    LawPatches out;
+    out.values = patch_moments(pings, full_value, [](double v, int) { return v; });
+    out.logs =
+        patch_moments(pings, full_value, [&](double v, int) { return log_of_value(v, step); });
+    if (!places.empty()) {
+        const auto elsewhere = [&](const PatchMoments& patch) {
+            return !places[static_cast<std::size_t>(patch.place)];
+        };
+        std::erase_if(out.values, elsewhere);
+        std::erase_if(out.logs, elsewhere);
+    }
+    // Evenness is that of the logarithms, in which no law makes loud patches uneven.
+    out.even = speckle_patches(out.logs, full_value > 15.0 ? 6.0 : 0.0);
+    out.places = patch_places(pings);
+    if (out.even.size() < least_patches) {
+        throw InputError(
+            "fewer than 8 even patches of speckle, of 24 bins and 24 beams (96 bins "
+            "of a sonar with few beams), between the ends of the scale: record "
+            "longer pings, or with another gain");
+    }
+    return out;
+}
+
+}  // namespace
+
+double LawFit::log_power(double value, double full_value) const {
+    if (companding == Companding::log)
+        return (value / full_value - 1.0) * dynamic_range_db.value / db_of_neper;
+    const double step = full_value > 15.0 ? 1.0 : full_value / 65535.0;
+    return 2.0 / gamma.value * (log_of_value(value, step) - logarithm(full_value));
+}
+
+double full_value_of(const Recording& recording) {
+    if (recording.law.full_value > 0.0) return recording.law.full_value;
+    float most = 0.0F;
+    for (const RecordedPing& ping : recording.pings) {
+        for (const float v : ping.values)
+            most = std::max(most, v);
+    }
+    return most;
+}
+
+LawFit fit_law(const std::vector<RecordedPing>& pings, double full_value, int looks,
+               const std::vector<bool>& places) {
+    const LawPatches patches = law_patches(pings, full_value, places);
+    const std::vector<double> all(static_cast<std::size_t>(patches.places), 1.0);
+    const double skewness_of_logs = skewness_of(patches.logs, patches.even, all);
+    const double skewness_of_values = skewness_of(patches.values, patches.even, all);
+    check_speckle(patches, skewness_of_logs, skewness_of_values);
+
+    LawFit out;
+    out.looks = looks;
+    out.patches = static_cast<int>(patches.even.size());
+    out.spread_of_levels = spread_of_levels(patches);
+    out.slope = bootstrap(patches.places, [&](const std::vector<double>& weights) {
+        return slope_of(patches, weights);
+    });
+    const double expected = log_power_skewness(looks);
+    const bool by_slope = out.spread_of_levels > least_spread_of_levels;
+    const bool power_law = by_slope ? out.slope.value > power_law_slope
+                                    : std::fabs(skewness_of_logs - expected) <
+                                          std::fabs(skewness_of_values - expected);
+    out.companding = power_law ? Companding::gamma : Companding::log;
+    const std::vector<PatchMoments>& used = power_law ? patches.logs : patches.values;
+    out.skewness = bootstrap(patches.places, [&](const std::vector<double>& weights) {
+        return skewness_of(used, patches.even, weights);
+    });
+    const double sigma = std::sqrt(log_power_variance(looks));
+    const auto deviation = [&](const std::vector<double>& weights) {
+        return std::sqrt(sums_of(used, patches.even, weights).variance);
+    };
+    if (power_law) {
+        const auto gamma = [&](const std::vector<double>& w) { return 2.0 * deviation(w) / sigma; };
+        out.gamma = bootstrap(patches.places, gamma, least_error * gamma(all));
+    } else {
+        const auto range = [&](const std::vector<double>& w) {
+            return full_value * db_of_neper * sigma / deviation(w);
+        };
+        out.dynamic_range_db = bootstrap(patches.places, range, least_error * range(all));
+    }
+    return out;
+}
+
+}  // namespace sonarsim

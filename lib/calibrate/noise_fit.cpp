@@ -1,0 +1,299 @@
+#include "calibrate/noise_fit.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "calibrate/log_statistics.h"
+#include "calibrated/decibel.h"
+#include "core/elementary.h"
+
+namespace sonarsim {
+
+namespace {
+
+constexpr double db_of_neper_power = 4.342944819032518;
+constexpr int groups_of_beams = 8;
+// A block on the law is within so many dB of it.
+constexpr double near_db = 0.8;
+constexpr std::size_t least_blocks = 6;
+constexpr double least_share = 0.12;
+// The level of speckle is known to so many dB at best: the trend within a block and the law's
+// error.
+constexpr double least_level_db = 0.1;
+
+/// The sums over the values of one block of one ping and the next one.
+struct BlockSums {
+    double count = 0.0, zeros = 0.0, log_sum = 0.0, log_square = 0.0;
+    double pairs = 0.0, log_difference = 0.0, powers = 0.0, power_difference = 0.0;
+    double group_sum[groups_of_beams] = {}, group_count[groups_of_beams] = {};
+};
+
+void add_pair(double log_a, double log_b, BlockSums& sums) {
+    const double a = exponential(log_a);
+    const double b = exponential(log_b);
+    sums.pairs += 1.0;
+    sums.log_difference += (log_a - log_b) * (log_a - log_b);
+    sums.powers += 0.5 * (a + b);
+    sums.power_difference += (a - b) * (a - b);
+}
+
+BlockSums block_sums(const Recording& recording, const LawFit& law, double full_value, int row) {
+    BlockSums sums;
+    for (std::size_t k = 0; k < recording.pings.size(); ++k) {
+        const RecordedPing& ping = recording.pings[k];
+        const RecordedPing* next =
+            k + 1 < recording.pings.size() ? &recording.pings[k + 1] : nullptr;
+        if (row + rows_of_noise_block > ping.ranges) continue;
+        for (int i = row; i < row + rows_of_noise_block; ++i) {
+            for (int j = 0; j < ping.beams; ++j) {
+                const std::size_t at =
+                    static_cast<std::size_t>(i) * static_cast<std::size_t>(ping.beams) +
+                    static_cast<std::size_t>(j);
+                const double value = ping.values[at];
+                const double log_power = law.log_power(value, full_value);
+                const int group = j * groups_of_beams / ping.beams;
+                sums.count += 1.0;
+                sums.zeros += value <= 0.0 ? 1.0 : 0.0;
+                sums.log_sum += log_power;
+                sums.log_square += log_power * log_power;
+                sums.group_sum[group] += log_power;
+                sums.group_count[group] += 1.0;
+                if (next && next->values.size() == ping.values.size())
+                    add_pair(log_power, law.log_power(next->values[at], full_value), sums);
+            }
+        }
+    }
+    return sums;
+}
+
+/// The spread of the mean log powers of groups of beams: 1.48 times the median distance from their
+/// median, so that one group with a bright point does not count. The two in the middle do not count
+/// either: noise that all elements share is there.
+double spread_of_groups(const BlockSums& sums) {
+    std::vector<double> means;
+    for (int g = 0; g < groups_of_beams; ++g) {
+        const bool middle = g == groups_of_beams / 2 || g == groups_of_beams / 2 - 1;
+        if (sums.group_count[g] > 0.0 && !middle)
+            means.push_back(sums.group_sum[g] / sums.group_count[g]);
+    }
+    if (means.size() < 3) return 0.0;
+    const auto median = [](std::vector<double>& values) {
+        std::sort(values.begin(), values.end());
+        return values[values.size() / 2];
+    };
+    const double middle = median(means);
+    for (double& mean : means)
+        mean = std::fabs(mean - middle);
+    return 1.48 * median(means);
+}
+
+NoiseBlock block_of(const BlockSums& sums, const LawFit& law, int row, double range_m) {
+    NoiseBlock out{.row = row, .range_m = range_m};
+    const double expected = log_power_variance(law.looks);
+    const double mean = sums.log_sum / sums.count;
+    out.level_db = db_of_neper_power * (mean - log_power_mean(law.looks));
+    out.even = sums.zeros < 0.003 * sums.count;
+    if (sums.pairs > 0.0) {
+        // Log powers that have nothing in common differ by twice their variance.
+        const double kept = 1.0 - 0.5 * sums.log_difference / sums.pairs / expected;
+        const double power = sums.powers / sums.pairs;
+        const double half = 0.5 * sums.power_difference / sums.pairs;
+        if (kept > 0.25 && half < 0.75 * power * power) {
+            const double fresh = power - std::sqrt(power * power - half);
+            out.level_db = db_of_neper_power * logarithm(fresh);
+            return out;
+        }
+    }
+    const double independent = sums.count / groups_of_beams / 6.0;
+    out.even = out.even && spread_of_groups(sums) <
+                               0.3 + 3.0 * std::sqrt(expected / std::max(independent, 1.0));
+    return out;
+}
+
+struct Shape {
+    double log_factor, from_m;
+};
+
+double gain_of(const Shape& shape, double absorption_db_per_m, double range_m) {
+    const double r = std::max(range_m, shape.from_m);
+    return shape.log_factor * 0.1 * db_of_power(r) + 2.0 * absorption_db_per_m * r;
+}
+
+struct Candidate {
+    Shape shape{};
+    double level_db = 0.0, score = -1e30;
+};
+
+/// The level at which most blocks lie near the shape, less those that lie below it.
+Candidate best_level(const std::vector<NoiseBlock>& blocks, double absorption_db_per_m,
+                     const Shape& shape) {
+    std::vector<double> offsets;
+    for (const NoiseBlock& block : blocks) {
+        if (block.even)
+            offsets.push_back(block.level_db - gain_of(shape, absorption_db_per_m, block.range_m));
+    }
+    std::sort(offsets.begin(), offsets.end());
+    Candidate best{.shape = shape};
+    std::size_t end = 0;
+    for (std::size_t begin = 0; begin < offsets.size(); ++begin) {
+        while (end < offsets.size() && offsets[end] <= offsets[begin] + 2.0 * near_db)
+            ++end;
+        const double score = static_cast<double>(end - begin) - static_cast<double>(begin);
+        if (score > best.score) {
+            best.score = score;
+            best.level_db = 0.5 * (offsets[begin] + offsets[end - 1]);
+        }
+    }
+    return best;
+}
+
+/// Least squares of level and log factor for the blocks with these weights.
+Candidate least_squares(const std::vector<NoiseBlock>& blocks, double absorption_db_per_m,
+                        double from_m, const std::vector<double>& weights) {
+    double w = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
+    for (std::size_t k = 0; k < blocks.size(); ++k) {
+        const double r = std::max(blocks[k].range_m, from_m);
+        const double at = 0.1 * db_of_power(r);
+        const double level = blocks[k].level_db - 2.0 * absorption_db_per_m * r;
+        w += weights[k];
+        x += weights[k] * at;
+        y += weights[k] * level;
+        xx += weights[k] * at * at;
+        xy += weights[k] * at * level;
+    }
+    Candidate out;
+    out.shape = {(xy - x * y / w) / (xx - x * x / w), from_m};
+    out.level_db = (y - out.shape.log_factor * x) / w;
+    double error = 0.0;
+    for (std::size_t k = 0; k < blocks.size(); ++k) {
+        const double off = blocks[k].level_db - out.level_db -
+                           gain_of(out.shape, absorption_db_per_m, blocks[k].range_m);
+        error += weights[k] * off * off;
+    }
+    out.score = -error;
+    return out;
+}
+
+/// The ranges at which the gain may begin to grow: 0, and those of the nearest blocks.
+std::vector<double> starts_of(const std::vector<NoiseBlock>& blocks) {
+    std::vector<double> out{0.0};
+    if (blocks.empty()) return out;
+    const double last = blocks.back().range_m;
+    for (double r = 1.4 * blocks.front().range_m; r < 0.4 * last; r += 0.02 * last)
+        out.push_back(r);
+    return out;
+}
+
+Candidate lowest_law(const std::vector<NoiseBlock>& blocks, double absorption_db_per_m) {
+    Candidate best;
+    for (const double from_m : starts_of(blocks)) {
+        for (double log_factor = 0.0; log_factor <= 60.0; log_factor += 1.0) {
+            Candidate here = best_level(blocks, absorption_db_per_m, {log_factor, from_m});
+            // A start of its own has to be worth three blocks.
+            if (from_m > 0.0) here.score -= 3.0;
+            if (here.score > best.score) best = here;
+        }
+    }
+    return best;
+}
+
+std::vector<NoiseBlock> blocks_near(const std::vector<NoiseBlock>& blocks,
+                                    double absorption_db_per_m, const Candidate& law,
+                                    double within_db) {
+    std::vector<NoiseBlock> out;
+    for (const NoiseBlock& block : blocks) {
+        const double off =
+            block.level_db - law.level_db - gain_of(law.shape, absorption_db_per_m, block.range_m);
+        if (block.even && std::fabs(off) <= within_db) out.push_back(block);
+    }
+    return out;
+}
+
+}  // namespace
+
+std::vector<NoiseBlock> noise_blocks(const Recording& recording, const LawFit& law) {
+    std::vector<NoiseBlock> out;
+    const double full_value = full_value_of(recording);
+    for (int row = 0; row + rows_of_noise_block <= recording.pings.front().ranges;
+         row += rows_of_noise_block) {
+        const double middle = row + 0.5 * (rows_of_noise_block - 1);
+        const double range_m = recording.first_range_m + middle * recording.range_step_m;
+        const BlockSums sums = block_sums(recording, law, full_value, row);
+        if (sums.count > 0.0 && range_m > 0.0) out.push_back(block_of(sums, law, row, range_m));
+    }
+    return out;
+}
+
+double NoiseFit::at(double range_m) const {
+    return level_db.value +
+           gain_of({tvg_log.value, tvg_from_m.value}, absorption_db_per_m, range_m);
+}
+
+std::optional<NoiseFit> fit_noise(const std::vector<NoiseBlock>& blocks,
+                                  double absorption_db_per_m) {
+    Candidate law = lowest_law(blocks, absorption_db_per_m);
+    std::vector<NoiseBlock> used = blocks_near(blocks, absorption_db_per_m, law, near_db);
+    const double least = least_share * static_cast<double>(blocks.size());
+    if (used.size() < least_blocks || static_cast<double>(used.size()) < least) return {};
+    for (int round = 0; round < 3; ++round) {
+        const std::vector<double> all(used.size(), 1.0);
+        law = least_squares(used, absorption_db_per_m, law.shape.from_m, all);
+        used = blocks_near(blocks, absorption_db_per_m, law, 1.2 * near_db);
+        if (used.size() < least_blocks) return {};
+    }
+    const std::vector<double> starts =
+        law.shape.from_m > 0.0 ? starts_of(blocks) : std::vector<double>{0.0};
+    const auto fitted = [&](const std::vector<double>& weights) {
+        Candidate best;
+        for (const double from_m : starts) {
+            const Candidate here = least_squares(used, absorption_db_per_m, from_m, weights);
+            if (here.score > best.score) best = here;
+        }
+        return std::vector<double>{best.level_db, best.shape.log_factor, best.shape.from_m};
+    };
+    const std::vector<Measured> found = bootstrap_all(
+        static_cast<int>(used.size()), fitted,
+        {least_level_db, 0.2, law.shape.from_m > 0.0 ? 0.02 * used.back().range_m : 0.0});
+    return NoiseFit{.level_db = found[0],
+                    .tvg_log = found[1],
+                    .tvg_from_m = found[2],
+                    .used = used,
+                    .common_mode_db = {-300.0, -300.0, -300.0},
+                    .absorption_db_per_m = absorption_db_per_m};
+}
+
+Measured common_mode(const Recording& recording, const LawFit& law, const NoiseFit& noise,
+                     double width_rad) {
+    const std::vector<double>& bearings = recording.bearing_rad;
+    if (bearings.empty()) return {-300.0, -300.0, -300.0};
+    const auto ahead = std::min_element(bearings.begin(), bearings.end(), [](double a, double b) {
+        return std::fabs(a) < std::fabs(b);
+    });
+    if (std::fabs(*ahead) > 0.5 * width_rad) return {-300.0, -300.0, -300.0};
+    const auto beam = static_cast<std::size_t>(ahead - bearings.begin());
+    const double full_value = full_value_of(recording);
+    const auto excess = [&](const std::vector<double>& weights) {
+        double sum = 0.0, count = 0.0;
+        for (std::size_t b = 0; b < noise.used.size(); ++b) {
+            for (const RecordedPing& ping : recording.pings) {
+                for (int i = noise.used[b].row; i < noise.used[b].row + rows_of_noise_block; ++i) {
+                    const double value = ping.values[static_cast<std::size_t>(i) *
+                                                         static_cast<std::size_t>(ping.beams) +
+                                                     beam];
+                    sum += weights[b] * (law.log_power(value, full_value) -
+                                         noise.at(noise.used[b].range_m) / db_of_neper_power -
+                                         log_power_mean(law.looks));
+                    count += weights[b];
+                }
+            }
+        }
+        return db_of_neper_power * sum / count;
+    };
+    const Measured over = bootstrap(static_cast<int>(noise.used.size()), excess, 0.2);
+    // Half as strong as the noise of a beam is 1.8 dB more; less may be anything else.
+    if (over.low < 0.5) return {-300.0, -300.0, -300.0};
+    const auto shared = [](double db) { return db_of_power(power_of_db(db) - 1.0); };
+    return {shared(over.value), shared(over.low), shared(over.high)};
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "calibrate/bootstrap.h"
+#include "calibrate/law_fit.h"
+#include "recording/recording.h"
+
+namespace sonarsim {
+
+/// The level of the noise in a block of bins, all beams and pings together.
+struct NoiseBlock {
+    int row = 0;  ///< the first
+    double range_m = 0.0;
+    double level_db = 0.0;  ///< re full scale
+    bool even = false;      ///< beams and pings have one level, and no value is 0
+};
+
+inline constexpr int rows_of_noise_block = 8;
+
+/// What changes from ping to ping, by range. Noise N is new in every ping, and an echo of a still
+/// scene is not. With M the mean of the powers A and B of a place in two pings, the mean of (A -
+/// B)^2 is 2 (2 M N - N^2). Where pings have nothing in common, N is M.
+std::vector<NoiseBlock> noise_blocks(const Recording& recording, const LawFit& law);
+
+/// The noise behind the gain: level_db + tvg_log log10(r) + 2 absorption r, r at least tvg_from_m.
+struct NoiseFit {
+    Measured level_db;  ///< noise less full scale, extrapolated to 1 m without absorption
+    Measured tvg_log;
+    Measured tvg_from_m;           ///< 0 where the pings do not tell it
+    std::vector<NoiseBlock> used;  ///< the blocks that lie on it
+    Measured common_mode_db;       ///< re the noise of a beam; value below -50: none seen
+    double absorption_db_per_m = 0.0;
+
+    double at(double range_m) const;
+};
+
+/// The lowest law of this form on which many blocks lie, for echoes only add to noise. Nothing when
+/// no such law holds at least 6 blocks and an eighth of all.
+std::optional<NoiseFit> fit_noise(const std::vector<NoiseBlock>& blocks,
+                                  double absorption_db_per_m);
+
+/// The noise straight ahead over that of the other beams, in the blocks of a fit.
+Measured common_mode(const Recording& recording, const LawFit& law, const NoiseFit& noise,
+                     double width_rad);
+
+}  // namespace sonarsim

@@ -1,0 +1,169 @@
+#include "calibrate/patches.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sonarsim {
+
+namespace {
+
+// Values that a patch of speckle may have at either end of the scale. Each pulls at the moments.
+constexpr double most_at_an_end = 0.003;
+
+/// The scaled values of a patch.
+struct PatchField {
+    int rows, beams;
+    std::vector<double> x;
+
+    double at(int row, int beam) const {
+        return x[static_cast<std::size_t>(row) * static_cast<std::size_t>(beams) +
+                 static_cast<std::size_t>(beam)];
+    }
+};
+
+/// Half the mean square difference of values so many rows and beams apart.
+double structure(const PatchField& field, int rows, int beams) {
+    if (rows >= field.rows || beams >= field.beams) return std::numeric_limits<double>::quiet_NaN();
+    double sum = 0.0;
+    for (int i = 0; i + rows < field.rows; ++i) {
+        for (int j = 0; j + beams < field.beams; ++j) {
+            const double off = field.at(i + rows, j + beams) - field.at(i, j);
+            const double other = field.at(i + rows, j) - field.at(i, j + beams);
+            sum += off * off + other * other;
+        }
+    }
+    return 0.25 * sum / (1.0 * (field.rows - rows) * (field.beams - beams));
+}
+
+/// The third central moment k of independent values: (a + c - 2 b)^3 has the mean -6 k, whatever
+/// their mean and its slope.
+double third_moment(const PatchField& field) {
+    const int rows = (field.rows - 1) / 2 > 8 ? 8 : field.rows / 3;
+    const int beams = field.beams / 3;
+    double sum = 0.0;
+    double count = 0.0;
+    for (int i = 0; i + 2 * rows < field.rows; ++i) {
+        for (int j = 0; j + 2 * beams < field.beams; ++j) {
+            const double y = field.at(i, j) + field.at(i + 2 * rows, j + 2 * beams) -
+                             2.0 * field.at(i + rows, j + beams);
+            sum += y * y * y;
+            count += 1.0;
+        }
+    }
+    return count > 0.0 ? -sum / (6.0 * count) : 0.0;
+}
+
+/// Variance of the means of the patch's quarters.
+double variance_of_quarters(const PatchField& field) {
+    const int half = std::max(field.beams / 2, 1);
+    std::array<double, 4> sums{}, counts{};
+    for (int i = 0; i < field.rows; ++i) {
+        for (int j = 0; j < field.beams; ++j) {
+            const std::size_t k = (2 * i >= field.rows ? 2U : 0U) + (j >= half ? 1U : 0U);
+            sums[k] += field.at(i, j);
+            counts[k] += 1.0;
+        }
+    }
+    double mean = 0.0;
+    double square = 0.0;
+    double used = 0.0;
+    for (std::size_t k = 0; k < 4; ++k) {
+        if (counts[k] == 0.0) continue;
+        const double of_quarter = sums[k] / counts[k];
+        mean += of_quarter;
+        square += of_quarter * of_quarter;
+        used += 1.0;
+    }
+    return square / used - mean * mean / (used * used);
+}
+
+void add_moments(const PatchField& field, PatchMoments& patch) {
+    for (const double x : field.x)
+        patch.mean += x / static_cast<double>(field.x.size());
+    patch.variance = structure(field, field.rows / 2, field.beams / 2);
+    patch.third = third_moment(field);
+    for (int lag = 1; lag <= patch_lags; ++lag) {
+        patch.along_range[static_cast<std::size_t>(lag - 1)] = structure(field, lag, 0);
+        patch.along_beams[static_cast<std::size_t>(lag - 1)] = structure(field, 0, lag);
+    }
+    patch.unevenness = variance_of_quarters(field) / std::max(patch.variance, 1e-30);
+}
+
+PatchMoments moments_of(const RecordedPing& ping, const PatchSize& size, int row, int beam,
+                        double full_value, const std::function<double(double, int)>& scaled) {
+    PatchMoments out;
+    out.row = row;
+    out.beam = beam;
+    PatchField field{size.rows, size.beams, {}};
+    const double part = 1.0 / (size.rows * size.beams);
+    for (int i = row; i < row + size.rows; ++i) {
+        for (int j = beam; j < beam + size.beams; ++j) {
+            const double v =
+                ping.values[static_cast<std::size_t>(i) * static_cast<std::size_t>(ping.beams) +
+                            static_cast<std::size_t>(j)];
+            out.mean_value += v * part;
+            out.zeros += v <= 0.0 ? part : 0.0;
+            out.full += full_value > 0.0 && v >= full_value ? part : 0.0;
+            field.x.push_back(scaled(v, i));
+        }
+    }
+    add_moments(field, out);
+    return out;
+}
+
+}  // namespace
+
+PatchSize patch_size(int ranges, int beams) {
+    PatchSize size;
+    size.beams = std::min(24, beams);
+    if (size.beams < 8) size.rows = 96;
+    size.rows = std::min(size.rows, ranges);
+    return size;
+}
+
+std::vector<PatchMoments> patch_moments(const std::vector<RecordedPing>& pings, double full_value,
+                                        const std::function<double(double, int)>& scaled) {
+    std::vector<PatchMoments> out;
+    for (std::size_t number = 0; number < pings.size(); ++number) {
+        const RecordedPing& ping = pings[number];
+        const PatchSize size = patch_size(ping.ranges, ping.beams);
+        int place = 0;
+        for (int row = 0; row + size.rows <= ping.ranges; row += size.rows) {
+            for (int beam = 0; beam + size.beams <= ping.beams; beam += size.beams) {
+                out.push_back(moments_of(ping, size, row, beam, full_value, scaled));
+                out.back().ping = static_cast<int>(number);
+                out.back().place = place++;
+            }
+        }
+    }
+    return out;
+}
+
+int patch_places(const std::vector<RecordedPing>& pings) {
+    int most = 0;
+    for (const RecordedPing& ping : pings) {
+        const PatchSize size = patch_size(ping.ranges, ping.beams);
+        most = std::max(most, (ping.ranges / size.rows) * (ping.beams / size.beams));
+    }
+    return most;
+}
+
+std::vector<std::size_t> speckle_patches(const std::vector<PatchMoments>& patches,
+                                         double least_mean) {
+    std::vector<std::size_t> out;
+    for (std::size_t k = 0; k < patches.size(); ++k) {
+        const PatchMoments& p = patches[k];
+        if (p.zeros <= most_at_an_end && p.full <= most_at_an_end && p.variance > 0.0 &&
+            p.mean_value >= least_mean)
+            out.push_back(k);
+    }
+    std::stable_sort(out.begin(), out.end(), [&](std::size_t a, std::size_t b) {
+        return patches[a].unevenness < patches[b].unevenness;
+    });
+    out.resize((out.size() + 1) / 2);
+    std::sort(out.begin(), out.end());
+    return out;
+}
+
+}  // namespace sonarsim

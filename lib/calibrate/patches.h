@@ -1,0 +1,55 @@
+#pragma once
+
+#include <array>
+#include <functional>
+#include <vector>
+
+#include "recording/recording.h"
+
+namespace sonarsim {
+
+/// The rows and beams of a patch.
+struct PatchSize {
+    int rows = 24;
+    int beams = 24;
+};
+
+/// Structure functions reach so many bins and beams.
+inline constexpr int patch_lags = 8;
+
+/// The moments of one patch of one ping. They come from differences of values of the patch, so the
+/// mean of the patch need not be known, and correlated values do not make the variance too small.
+struct PatchMoments {
+    int ping = 0;
+    int place = 0;            ///< patches of other pings at this place have the same number
+    int row = 0;              ///< the first
+    int beam = 0;             ///< the first
+    double mean_value = 0.0;  ///< of the recorded values
+    double zeros = 0.0;       ///< share of the values
+    double full = 0.0;        ///< share of values at the largest value
+    double mean = 0.0;        ///< of the scaled values, as the rest
+    double variance = 0.0;    ///< half the mean square difference of distant values
+    double third = 0.0;       ///< third central moment, of three distant values in a line
+    /// Half the mean square difference of values 1 to patch_lags apart; NaN where the patch is too
+    /// small for it.
+    std::array<double, patch_lags> along_range{}, along_beams{};
+    double unevenness = 0.0;  ///< variance of the means of its quarters by `variance`
+};
+
+/// The size of patches for pings of so many bins and beams. Distant values are half a patch apart
+/// along range and across the beams.
+PatchSize patch_size(int ranges, int beams);
+
+/// The moments of all patches of some pings, of `scaled` values: a function of value and row.
+std::vector<PatchMoments> patch_moments(const std::vector<RecordedPing>& pings, double full_value,
+                                        const std::function<double(double, int)>& scaled);
+
+/// The number of places that patches of such pings have.
+int patch_places(const std::vector<RecordedPing>& pings);
+
+/// The patches without clipped and missing values, the more even half of them, by number. Values of
+/// less than `least_mean` are too coarse for their logarithm.
+std::vector<std::size_t> speckle_patches(const std::vector<PatchMoments>& patches,
+                                         double least_mean);
+
+}  // namespace sonarsim

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "calibrate/bootstrap.h"
+#include "recording/recording.h"
+
+namespace sonarsim {
+
+/// The soundings of a fan within a few degrees of incidence, port and starboard together.
+struct SoundingsAtAngle {
+    double angle_rad = 0.0;  ///< mean incidence on a flat bottom
+    double range_m = 0.0;    ///< mean
+    double level_db = 0.0;   ///< of the mean power
+    double spread_m = 0.0;   ///< standard deviation of the ranges about their neighbours'
+    int count = 0;
+};
+
+inline constexpr double angle_step_deg = 4.0;
+
+/// Soundings by angle. `slope_rad` turns the bottom about the track, positive down to port. The
+/// spread is that of second differences of the depth between neighbouring beams, over sqrt(6), as a
+/// range: neither heave nor roll nor a plane slope changes it. Those beyond six times their median
+/// size are outliers and do not count.
+std::vector<SoundingsAtAngle> soundings_by_angle(const std::vector<RecordedSoundings>& pings,
+                                                 const RecordedLaw& law, double slope_rad);
+
+/// What a level has besides the strength of the bottom: the area, which is that of the beam or of
+/// the pulse, the smaller of the two, and the spreading, of which the gain leaves (40 - tvg_log)
+/// log10 r.
+struct SoundingsGeometry {
+    double pulse_m = 0.0;    ///< length of the pulse in range
+    double width_rad = 0.0;  ///< of a beam across the track
+    double tvg_log = 40.0;
+
+    double gain_db(double angle_rad, double range_m) const;
+};
+
+/// The bottom and the fan, by their soundings.
+struct SoundingsFit {
+    SoundingsGeometry geometry;
+    std::vector<double> angles_rad;
+    std::vector<Measured> strength_db;  ///< of the bottom, with source level and gain in it
+    std::vector<Measured> spread_m;     ///< of the ranges
+    /// The strength in short: Lambert's rule and the echo of facets, as in calibrated/bottom.h.
+    Measured lambert_db;     ///< with source level and gain in it
+    Measured facets_db;      ///< over Lambert's rule, at normal incidence
+    Measured slope_rms_deg;  ///< of the facets
+
+    /// What the fit expects at an angle and a range, by a line between the nearest two angles.
+    double level_db_at(double angle_rad, double range_m) const;
+    double spread_m_at(double angle_rad) const;
+};
+
+/// Fits soundings. InputError when fewer than six angles have a hundred soundings.
+SoundingsFit fit_soundings(const std::vector<RecordedSoundings>& pings, const RecordedLaw& law,
+                           double slope_rad, const SoundingsGeometry& geometry);
+
+}  // namespace sonarsim

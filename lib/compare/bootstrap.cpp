@@ -1,0 +1,276 @@
+#include "compare/bootstrap.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numeric>
+#include <set>
+
+#include "calibrated/decibel.h"
+#include "compare/student.h"
+#include "core/elementary.h"
+#include "core/random.h"
+
+namespace sonarsim {
+
+namespace {
+
+constexpr int replicates = 300;
+constexpr int cell_replicates = 100;
+constexpr double least_mean = 1e-16;
+constexpr int fewest_locations = 8;
+
+enum class Units : std::uint32_t { locations = 1, pings = 2, cells = 3 };
+
+/// A weight of mean 1, exponentially distributed.
+double drawn_weight(std::uint32_t replicate, std::uint32_t a, std::uint32_t b, PhiloxKey key) {
+    const PhiloxBlock block = philox({replicate, a, b, 0x626f6f74U}, key);
+    return -natural_log(unit_float(block.x0));
+}
+
+/// The mid-distribution quantile, interpolated between the values (Parzen 2004), so that it moves
+/// smoothly where a value occurs often. `cells` are in the order of their values.
+template <class Weight>
+double quantile_of(const std::vector<Cell>& cells, double share, const Weight& weight) {
+    double all = 0.0;
+    for (const Cell& cell : cells)
+        all += weight(cell);
+    const double wanted = share * all;
+    double before = 0.0;
+    double last_middle = 0.0;
+    double last_value = std::numeric_limits<double>::quiet_NaN();
+    for (std::size_t i = 0; i < cells.size();) {
+        const float value = cells[i].value;
+        double own = 0.0;
+        for (; i < cells.size() && cells[i].value == value; ++i)
+            own += weight(cells[i]);
+        const double middle = before + 0.5 * own;
+        if (middle >= wanted) {
+            if (std::isnan(last_value) || middle <= last_middle) return value;
+            return last_value +
+                   (value - last_value) * (wanted - last_middle) / (middle - last_middle);
+        }
+        before += own;
+        last_middle = middle;
+        last_value = value;
+    }
+    return last_value;
+}
+
+template <class Weight>
+double reduced(const Measured& figure, const Weight& weight) {
+    if (figure.cells.empty()) return std::numeric_limits<double>::quiet_NaN();
+    if (figure.reduce == Reduce::quantile) return quantile_of(figure.cells, figure.share, weight);
+    double sum = 0.0;
+    double weights = 0.0;
+    for (const Cell& cell : figure.cells) {
+        const double own = weight(cell);
+        sum += own * cell.value;
+        weights += own;
+    }
+    const double mean = sum / weights;
+    return figure.reduce == Reduce::level ? db_of_power(std::max(least_mean, mean)) : mean;
+}
+
+/// The cells of a mean joined by unit, since a draw gives all of these one weight.
+Measured joined(const Measured& figure, Units units) {
+    if (figure.reduce == Reduce::quantile || units == Units::cells) return figure;
+    Measured out = figure;
+    std::ranges::stable_sort(out.cells, {}, [&](const Cell& cell) {
+        return units == Units::locations ? cell.location : cell.ping;
+    });
+    std::size_t count = 0;
+    for (const Cell& cell : out.cells) {
+        const auto unit = [&](const Cell& c) {
+            return units == Units::locations ? c.location : c.ping;
+        };
+        if (count > 0 && unit(out.cells[count - 1]) == unit(cell)) {
+            Cell& last = out.cells[count - 1];
+            const double weight = static_cast<double>(last.weight) + cell.weight;
+            last.value = static_cast<float>((static_cast<double>(last.value) * last.weight +
+                                             static_cast<double>(cell.value) * cell.weight) /
+                                            weight);
+            last.weight = static_cast<float>(weight);
+            continue;
+        }
+        out.cells[count++] = cell;
+    }
+    out.cells.resize(count);
+    return out;
+}
+
+/// The value of a figure in each replicate.
+std::vector<double> replicated(const Measured& figure, Units units, std::uint32_t seed,
+                               bool is_own) {
+    const Measured cells = joined(figure, units);
+    const PhiloxKey key = {seed, static_cast<std::uint32_t>(units) * 2U + (is_own ? 1U : 0U)};
+    const int count = units == Units::cells ? cell_replicates : replicates;
+    int last = 0;
+    for (const Cell& cell : cells.cells)
+        last = std::max(last, units == Units::locations ? cell.location : cell.ping);
+    std::vector<double> out;
+    std::vector<double> weights(static_cast<std::size_t>(last) + 1);
+    for (int k = 0; k < count; ++k) {
+        const auto replicate = static_cast<std::uint32_t>(k);
+        if (units == Units::cells) {
+            out.push_back(reduced(cells, [&](const Cell& c) {
+                return c.weight * drawn_weight(replicate, static_cast<std::uint32_t>(c.location),
+                                               static_cast<std::uint32_t>(c.ping), key);
+            }));
+            continue;
+        }
+        for (std::size_t u = 0; u < weights.size(); ++u)
+            weights[u] = drawn_weight(replicate, static_cast<std::uint32_t>(u), 0, key);
+        out.push_back(reduced(cells, [&](const Cell& c) {
+            const int unit = units == Units::locations ? c.location : c.ping;
+            return c.weight * weights[static_cast<std::size_t>(unit)];
+        }));
+    }
+    return out;
+}
+
+/// The change of a figure when the cells of a unit are left out, by unit; 0 for units without any.
+std::vector<double> influences(const Measured& figure, std::size_t units) {
+    const Measured cells = joined(figure, Units::locations);
+    const double all = reduced(cells, [](const Cell& c) { return static_cast<double>(c.weight); });
+    std::vector<double> out(units);
+    for (std::size_t u = 0; u < units; ++u) {
+        const double without = reduced(cells, [&](const Cell& c) {
+            return static_cast<std::size_t>(c.location) == u ? 0.0 : static_cast<double>(c.weight);
+        });
+        if (std::isfinite(without)) out[u] = without - all;
+    }
+    return out;
+}
+
+/// The degrees of freedom of a variance to which locations contribute unequally: normal
+/// contributions x of n equal variances have the expectation 3 / (n + 2) of sum(x^4) / sum(x^2)^2.
+/// A few bright places then count as few.
+double degrees_of(const Measured& real, const Measured& simulated, bool is_paired, int locations) {
+    std::size_t units = 1;
+    for (const Measured* figure : {&real, &simulated}) {
+        for (const Cell& cell : figure->cells)
+            units = std::max(units, static_cast<std::size_t>(cell.location) + 1);
+    }
+    std::vector<double> all = influences(simulated, units);
+    std::vector<double> of_real = influences(real, units);
+    if (is_paired) {
+        std::transform(all.begin(), all.end(), of_real.begin(), all.begin(), std::minus<>());
+    } else {
+        all.insert(all.end(), of_real.begin(), of_real.end());
+    }
+    double second = 0.0;
+    double fourth = 0.0;
+    for (const double x : all) {
+        second += x * x;
+        fourth += x * x * x * x;
+    }
+    const double most = locations - 1.0;
+    return fourth > 0.0 ? std::clamp(3.0 * second * second / fourth - 2.0, 1.0, most) : most;
+}
+
+double variance(const std::vector<double>& values) {
+    const auto n = static_cast<double>(values.size());
+    const double mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
+    double sum = 0.0;
+    for (const double v : values)
+        sum += (v - mean) * (v - mean);
+    return sum / (n - 1.0);
+}
+
+std::vector<double> differences(const std::vector<double>& a, const std::vector<double>& b) {
+    std::vector<double> out(a.size());
+    std::transform(a.begin(), a.end(), b.begin(), out.begin(), std::minus<>());
+    return out;
+}
+
+int count_of(const Measured& figure, Units units) {
+    std::set<int> found;
+    for (const Cell& cell : figure.cells)
+        found.insert(units == Units::locations ? cell.location : cell.ping);
+    return static_cast<int>(found.size());
+}
+
+/// The draws of the Bayesian bootstrap of n units vary by (n - 1) / (n + 1) of what they should.
+double corrected(double drawn, int units) {
+    return units > 1 ? drawn * (units + 1.0) / (units - 1.0) : 0.0;
+}
+
+struct Variance {
+    double locations = 0.0;
+    double pings = 0.0;  ///< in excess of what cells make
+    double all() const { return locations + pings; }
+};
+
+Variance joined_variance(double locations, double pings, double cells, int location_count,
+                         int ping_count) {
+    Variance out{corrected(locations, location_count), 0.0};
+    if (ping_count > 1) out.pings = std::max(0.0, corrected(pings, ping_count) - cells);
+    return out;
+}
+
+void sort_quantile(Measured& figure) {
+    if (figure.reduce == Reduce::quantile) std::ranges::stable_sort(figure.cells, {}, &Cell::value);
+}
+
+}  // namespace
+
+double value_of(const Measured& figure) {
+    Measured sorted = figure;
+    sort_quantile(sorted);
+    return reduced(sorted, [](const Cell& cell) { return static_cast<double>(cell.weight); });
+}
+
+Estimate estimate(const Measured& real_figure, const Measured& simulated_figure, Pairing pairing,
+                  std::uint32_t seed) {
+    Measured real = real_figure;
+    Measured simulated = simulated_figure;
+    sort_quantile(real);
+    sort_quantile(simulated);
+    Estimate out;
+    const auto plain = [](const Cell& cell) { return static_cast<double>(cell.weight); };
+    out.real = reduced(real, plain);
+    out.simulated = reduced(simulated, plain);
+    if (!std::isfinite(out.real) || !std::isfinite(out.simulated)) return out;
+    const int locations =
+        std::min(count_of(real, Units::locations), count_of(simulated, Units::locations));
+    const int pings = std::min(count_of(real, Units::pings), count_of(simulated, Units::pings));
+    double drawn[3][3] =
+        {};  // for each unit: of the real one, of the simulated one, of the difference
+    for (const Units units : {Units::locations, Units::pings, Units::cells}) {
+        if (units != Units::locations && pings < 2) continue;
+        const bool is_paired = units == Units::locations ? pairing.locations
+                               : units == Units::pings   ? pairing.pings
+                                                         : pairing.locations && pairing.pings;
+        const std::vector<double> a = replicated(real, units, seed, false);
+        const std::vector<double> b = replicated(simulated, units, seed, !is_paired);
+        double* of_unit = drawn[static_cast<int>(units) - 1];
+        of_unit[0] = variance(a);
+        of_unit[1] = variance(b);
+        of_unit[2] = variance(differences(a, b));
+    }
+    const auto of = [&](int k) {
+        return joined_variance(drawn[0][k], drawn[1][k], drawn[2][k], locations, pings);
+    };
+    out.real_error = std::sqrt(of(0).all());
+    out.simulated_error = std::sqrt(of(1).all());
+    const Variance difference = of(2);
+    out.difference_error = std::sqrt(difference.all());
+    if (locations < fewest_locations) return out;
+    const double least = 1e-9 * (std::fabs(out.real) + std::fabs(out.simulated)) + 1e-30;
+    if (out.difference_error < least) {
+        out.degrees = locations - 1.0;
+        out.p = std::fabs(out.simulated - out.real) <= least ? 1.0 : 0.0;
+        return out;
+    }
+    // Satterthwaite's degrees of freedom.
+    const double of_locations = difference.locations * difference.locations /
+                                degrees_of(real, simulated, pairing.locations, locations);
+    const double of_pings = pings > 1 ? difference.pings * difference.pings / (pings - 1.0) : 0.0;
+    out.degrees = difference.all() * difference.all() / (of_locations + of_pings);
+    out.p = student_tails((out.simulated - out.real) / out.difference_error, out.degrees);
+    return out;
+}
+
+}  // namespace sonarsim

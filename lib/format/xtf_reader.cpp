@@ -1,0 +1,181 @@
+#include "format/xtf_reader.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+namespace sonarsim {
+
+namespace {
+
+// Triton Imaging, "eXtended Triton Format (XTF) Rev. 40"; format/xtf.cpp writes it.
+constexpr std::size_t xtf_file_header = 1024;
+constexpr std::size_t xtf_channel_info = 128;
+constexpr std::size_t xtf_ping_header = 256;
+constexpr std::size_t xtf_channel_header = 64;
+constexpr std::size_t most_channels = 64;
+constexpr double longest_range_m = 1e5;
+
+enum class XtfSample { byte, word, integer, real };
+
+struct XtfChannel {
+    int type = 0;  ///< 1: port, 2: starboard
+    XtfSample sample = XtfSample::word;
+};
+
+[[noreturn]] void refuse_xtf(const std::string& what) {
+    throw std::runtime_error(what);
+}
+
+template <class T>
+T get(std::string_view bytes, std::size_t at) {
+    if (at > bytes.size() || bytes.size() - at < sizeof(T)) refuse_xtf("is cut off");
+    T value;
+    std::memcpy(&value, bytes.data() + at, sizeof value);
+    return value;
+}
+
+std::size_t bytes_of(XtfSample sample) {
+    if (sample == XtfSample::byte) return 1;
+    return sample == XtfSample::word ? 2 : 4;
+}
+
+/// The kind of samples by the field SampleFormat, or in older files, where it is 0, by the bytes.
+XtfSample sample_of(std::string_view bytes, std::size_t at) {
+    const int format = get<std::uint8_t>(bytes, at + 74);
+    const int size = get<std::uint16_t>(bytes, at + 6);
+    if (format == 8 || (format == 0 && size == 1)) return XtfSample::byte;
+    if (format == 3 || (format == 0 && size == 2)) return XtfSample::word;
+    if (format == 2 || (format == 0 && size == 4)) return XtfSample::integer;
+    if (format == 5) return XtfSample::real;
+    refuse_xtf("has samples of the format " + std::to_string(format) +
+               "; those of 8, 16 and 32 bits and IEEE floats are read");
+}
+
+std::vector<XtfChannel> channels_of(std::string_view bytes) {
+    if (get<std::uint8_t>(bytes, 0) != 0x7B) refuse_xtf("is no XTF file");
+    const std::size_t count =
+        std::size_t{get<std::uint16_t>(bytes, 166)} + get<std::uint16_t>(bytes, 168);
+    if (count == 0 || count > most_channels) refuse_xtf("has no channels of a sonar, or too many");
+    std::vector<XtfChannel> channels;
+    for (std::size_t k = 0; k < count; ++k) {
+        const std::size_t at = 256 + k * xtf_channel_info;
+        XtfChannel channel{get<std::uint8_t>(bytes, at), XtfSample::word};
+        const bool is_side = channel.type == 1 || channel.type == 2;
+        if (is_side) channel.sample = sample_of(bytes, at);
+        channels.push_back(channel);
+    }
+    return channels;
+}
+
+double time_of(std::string_view record) {
+    using namespace std::chrono;
+    const year_month_day date(year(get<std::uint16_t>(record, 14)),
+                              month(get<std::uint8_t>(record, 16)),
+                              day(get<std::uint8_t>(record, 17)));
+    const double days =
+        date.ok() ? static_cast<double>(sys_days(date).time_since_epoch().count()) : 0.0;
+    return 86400.0 * days + 3600.0 * get<std::uint8_t>(record, 18) +
+           60.0 * get<std::uint8_t>(record, 19) + get<std::uint8_t>(record, 20) +
+           0.01 * get<std::uint8_t>(record, 21);
+}
+
+float sample_at(std::string_view bytes, XtfSample kind, std::size_t k) {
+    switch (kind) {
+        case XtfSample::byte:
+            return get<std::uint8_t>(bytes, k);
+        case XtfSample::word:
+            return get<std::uint16_t>(bytes, 2 * k);
+        case XtfSample::integer:
+            return static_cast<float>(get<std::uint32_t>(bytes, 4 * k));
+        case XtfSample::real:
+            return get<float>(bytes, 4 * k);
+    }
+    return 0.0F;
+}
+
+/// Reads the channel whose header begins at `at`, and moves `at` behind its samples.
+XtfSide side_at(std::string_view record, XtfChannel channel, std::size_t& at) {
+    XtfSide side;
+    side.slant_range_m = get<float>(record, at + 4);
+    const std::size_t samples = get<std::uint32_t>(record, at + 42);
+    const int weight = get<std::int16_t>(record, at + 58);
+    at += xtf_channel_header;
+    const std::size_t bytes = bytes_of(channel.sample);
+    if (at > record.size() || samples > (record.size() - at) / bytes)
+        refuse_xtf("has more samples than their record");
+    const auto factor = static_cast<float>(std::ldexp(1.0, -std::clamp(weight, -64, 64)));
+    for (std::size_t k = 0; k < samples; ++k)
+        side.samples.push_back(factor * sample_at(record.substr(at), channel.sample, k));
+    at += samples * bytes;
+    return side;
+}
+
+/// The ping of a record; nothing if it lacks a side.
+std::optional<XtfSidescanPing> ping_of_record(std::string_view record,
+                                              const std::vector<XtfChannel>& channels,
+                                              double& frequency_hz) {
+    XtfSidescanPing ping;
+    ping.t_s = time_of(record);
+    ping.sound_speed_m_s = get<float>(record, 72);
+    if (!(ping.sound_speed_m_s > 0.0)) ping.sound_speed_m_s = 2.0 * get<float>(record, 32);
+    ping.altitude_m = get<float>(record, 196);
+    const std::size_t count = get<std::uint16_t>(record, 4);
+    std::size_t at = xtf_ping_header;
+    for (std::size_t k = 0; k < count; ++k) {
+        const std::size_t number = get<std::uint16_t>(record, at);
+        if (number >= channels.size()) refuse_xtf("has a ping of a channel that its header lacks");
+        const XtfChannel channel = channels[number];
+        const std::size_t header = at;
+        XtfSide side = side_at(record, channel, at);
+        if (!(side.slant_range_m > 0.0 && side.slant_range_m < longest_range_m) ||
+            side.samples.empty())
+            continue;
+        if (channel.type == 1 && ping.port.samples.empty()) {
+            std::ranges::reverse(side.samples);  // stored with nadir last
+            ping.port = std::move(side);
+            frequency_hz = 1e3 * get<std::uint16_t>(record, header + 26);
+        } else if (channel.type == 2 && ping.starboard.samples.empty()) {
+            ping.starboard = std::move(side);
+        }
+    }
+    if (ping.port.samples.empty() || ping.starboard.samples.empty()) return std::nullopt;
+    return ping;
+}
+
+}  // namespace
+
+XtfPings read_xtf(std::string_view bytes, std::size_t most_pings) {
+    const std::vector<XtfChannel> channels = channels_of(bytes);
+    XtfPings out;
+    for (const XtfChannel& channel : channels) {
+        if (channel.type != 1) continue;
+        constexpr std::array full_values{255.0, 65535.0, 4294967295.0, 0.0};
+        out.full_value = full_values[static_cast<std::size_t>(channel.sample)];
+        break;
+    }
+    // Six channels fit into the first 1,024 bytes, eight into each further 1,024.
+    std::size_t at = xtf_file_header;
+    if (channels.size() > 6) at += (channels.size() - 6 + 7) / 8 * xtf_file_header;
+    while (at < bytes.size() && out.pings.size() < most_pings) {
+        if (get<std::uint16_t>(bytes, at) != 0xFACE)
+            refuse_xtf("has no record where one should begin");
+        const std::size_t length = get<std::uint32_t>(bytes, at + 10);
+        if (length < 14 || length > bytes.size() - at) refuse_xtf("is cut off within a record");
+        const bool is_sonar = get<std::uint8_t>(bytes, at + 2) == 0;
+        if (is_sonar) {
+            auto ping = ping_of_record(bytes.substr(at, length), channels, out.frequency_hz);
+            if (ping) out.pings.push_back(std::move(*ping));
+        }
+        at += length;
+    }
+    return out;
+}
+
+}  // namespace sonarsim

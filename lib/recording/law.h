@@ -1,0 +1,17 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "recording/recording.h"
+
+namespace sonarsim {
+
+/// The power A^2 that a value stands for, 1 for `full_value` (for the value 1 where the law has no
+/// `full_value`). A value of 0 has the power 0, but by `decibel` that of its lowest level.
+double power_of(const RecordedLaw& law, double value);
+
+/// power_of() of all values of a ping.
+std::vector<float> powers_of(const RecordedLaw& law, std::span<const float> values);
+
+}  // namespace sonarsim

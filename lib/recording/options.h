@@ -1,0 +1,13 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+namespace sonarsim {
+
+struct RecordingOptions {
+    std::string sensor;          ///< the sensor of a dataset with several; else empty
+    std::size_t most_pings = 0;  ///< the first so many are read; 0: all
+};
+
+}  // namespace sonarsim

@@ -1,0 +1,86 @@
+#include "recording/recorded_xtf.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "core/text.h"
+#include "format/xtf_reader.h"
+#include "recording/arrays.h"
+
+namespace sonarsim {
+
+namespace {
+
+constexpr std::size_t largest_xtf_file = std::size_t{1} << 31;
+
+XtfPings pings_of_file(const std::filesystem::path& path, std::size_t most_pings) {
+    const std::string bytes = read_file(path, largest_xtf_file);
+    try {
+        return read_xtf(bytes, most_pings);
+    } catch (const std::runtime_error& fault) {
+        throw InputError({path.string()}, fault.what());
+    }
+}
+
+/// The samples and the range of a side, for a message.
+std::string extent_text(const XtfSide& side) {
+    return std::to_string(side.samples.size()) + " samples over " +
+           number_text(side.slant_range_m) + " m";
+}
+
+RecordedPing two_sides_of(const XtfSidescanPing& own) {
+    RecordedPing ping;
+    ping.time_s = own.t_s;
+    ping.ranges = static_cast<int>(own.port.samples.size());
+    ping.beams = 2;
+    for (std::size_t i = 0; i < own.port.samples.size(); ++i) {
+        ping.values.push_back(own.port.samples[i]);
+        ping.values.push_back(own.starboard.samples[i]);
+    }
+    return ping;
+}
+
+}  // namespace
+
+void read_xtf_pings(const RecordingFile& file, std::size_t most_pings, Recording& recording) {
+    XtfSide first;
+    std::size_t values = 0;
+    for (const std::filesystem::path& path : file.xtf) {
+        const XtfPings xtf = pings_of_file(path, most_pings - recording.pings.size());
+        for (std::size_t k = 0; k < xtf.pings.size(); ++k) {
+            const XtfSidescanPing& ping = xtf.pings[k];
+            if (recording.pings.empty()) {
+                first = ping.port;
+                recording.range_step_m =
+                    first.slant_range_m / static_cast<double>(first.samples.size());
+                recording.first_range_m = 0.5 * recording.range_step_m;
+                if (file.sound_speed_m_s == 0.0) recording.sound_speed_m_s = ping.sound_speed_m_s;
+                if (!recording.frequency_hz && xtf.frequency_hz > 0.0)
+                    recording.frequency_hz = xtf.frequency_hz;
+                if (!recording.altitude_m && ping.altitude_m > 0.0)
+                    recording.altitude_m = ping.altitude_m;
+            }
+            for (const XtfSide* side : {&ping.port, &ping.starboard}) {
+                const bool is_alike = side->samples.size() == first.samples.size() &&
+                                      std::fabs(side->slant_range_m - first.slant_range_m) <
+                                          0.01 * first.slant_range_m;
+                if (is_alike) continue;
+                throw InputError({path.string()}, "ping " + std::to_string(k) + " has " +
+                                                      extent_text(*side) + ", the first ping " +
+                                                      extent_text(first) +
+                                                      "; split the file where the range changes");
+            }
+            values += 2 * first.samples.size();
+            if (values > most_recorded_values)
+                throw InputError({path.string()},
+                                 "makes more than 268,435,456 values in all; take fewer pings");
+            recording.pings.push_back(two_sides_of(ping));
+        }
+        if (recording.pings.size() >= most_pings) break;
+    }
+}
+
+}  // namespace sonarsim

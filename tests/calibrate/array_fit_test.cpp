@@ -1,0 +1,77 @@
+#include "calibrate/array_fit.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <complex>
+
+#include "calibrate/made_pings.h"
+#include "calibrate/pulse_fit.h"
+#include "calibrated/range_response.h"
+
+using namespace sonarsim;
+using namespace sonarsim::test;
+
+TEST_SUITE("calibrate") {
+    TEST_CASE("arrays: the correlation of beams is the transform of the squared weights") {
+        for (const double side_lobe_db : {-13.3, -20.0, -35.0}) {
+            const LineArray array = line_array(radians(1.2), side_lobe_db);
+            for (const double u : {0.0, 0.004, 0.011, 0.03}) {
+                // The integral, by the rule of midpoints.
+                std::complex<double> sum = 0.0;
+                double whole = 0.0;
+                constexpr int steps = 4000;
+                for (int k = 0; k < steps; ++k) {
+                    const double x = (k + 0.5) / steps - 0.5;
+                    const double w2 = std::norm(array.weight(x));
+                    sum += w2 * std::polar(1.0, 2.0 * pi * u * array.wavelengths * x);
+                    whole += w2;
+                }
+                const double expected = std::norm(sum / whole);
+                CHECK(beam_correlation(array, u) == doctest::Approx(expected).epsilon(1e-5));
+            }
+        }
+    }
+
+    TEST_CASE("arrays: width and taper are found in the correlations that they predict") {
+        // Patches whose structure functions are exactly those of an array. With a variance of 1 the
+        // structure function is one less the correlation.
+        std::vector<double> sines;
+        for (int j = 0; j < 96; ++j)
+            sines.push_back(0.008 * (j - 47.5));
+        for (const double side_lobe_db : {-16.0, -22.0, -30.0}) {
+            CAPTURE(side_lobe_db);
+            const LineArray array = line_array(radians(1.1), side_lobe_db);
+            const auto seen = predicted_beam_correlations(array, sines, 1);
+            std::vector<PatchMoments> patches(12);
+            std::vector<std::size_t> chosen;
+            for (std::size_t k = 0; k < patches.size(); ++k) {
+                patches[k].place = static_cast<int>(k);
+                patches[k].variance = 1.0;
+                for (std::size_t lag = 0; lag < patch_lags; ++lag)
+                    patches[k].along_beams[lag] = 1.0 - seen[lag];
+                chosen.push_back(k);
+            }
+            const ArrayFit fit = fit_array(patches, chosen, 12, sines, 1, 2.0);
+            CHECK(std::fabs(fit.width_deg.value - 1.1) < 0.02);
+            CHECK(std::fabs(fit.side_lobe_db.value - side_lobe_db) < 1.5);
+        }
+    }
+
+    TEST_CASE("pulses: the noise of bins is correlated as the taps of the model") {
+        // A white sequence behind taps t has the correlation sum t(k) t(k + l) / sum t^2.
+        const std::vector<float> taps = noise_taps(2.0, -30.0);
+        double sum = 0.0;
+        for (std::size_t k = 0; k + 1 < taps.size(); ++k)
+            sum += static_cast<double>(taps[k]) * taps[k + 1];
+        const auto lags = predicted_range_correlations(2.0, -30.0, ReceivedKind::noise, 1);
+        // Li2(x) / Li2(1) at x = sum^2, by its series.
+        double expected = 0.0;
+        for (int j = 1; j < 60; ++j)
+            expected += std::pow(sum * sum, j) / (j * j) / (pi * pi / 6.0);
+        CHECK(lags[0] == doctest::Approx(expected).epsilon(1e-3));
+        // Echoes of many scatterers are correlated farther than noise.
+        const auto echo = predicted_range_correlations(2.0, -30.0, ReceivedKind::echo_of_bins, 1);
+        CHECK(echo[1] > lags[1]);
+    }
+}
