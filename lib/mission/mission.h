@@ -16,6 +16,7 @@
 #include "mission/paper_keys.h"
 #include "mission/place.h"
 #include "mission/scene_config.h"
+#include "mission/sound_profile_config.h"
 #include "mission/trajectory_config.h"
 #include "mission/variation_config.h"
 
@@ -48,7 +49,10 @@ struct WaterConfig {
     WaterContent content = WaterContent::none;
     /// Volume backscattering strength, dB re 1 m^2 per m^3; without it that of `content`.
     std::optional<double> scattering_db_per_m3 = {};
-    std::vector<WaterLayerConfig> layers = {};  ///< their scattering adds to that
+    std::vector<WaterLayerConfig> layers = {};       ///< their scattering adds to that
+    std::optional<SoundProfileConfig> profile = {};  ///< sound bends by it; none: it goes straight
+    /// The profile by which the instruments turn angles and times to soundings; none: constant.
+    std::optional<SoundProfileConfig> assumed_profile = {};
 
     bool operator==(const WaterConfig&) const = default;
 };
@@ -89,6 +93,7 @@ struct SonarConfig {
     SonarKind kind = SonarKind::imaging;
     MountConfig mount;
     int every = 1;                ///< the sonar pings at every n-th pose
+    bool moves_in_ping = false;   ///< the sonar moves on between transmission and reception
     double azimuth_deg = 120.0;   ///< full angle
     double elevation_deg = 20.0;  ///< full angle
     double opening_deg = 30.0;    ///< full angle of a cone, in place of azimuth and elevation

@@ -11,6 +11,7 @@
 #include "mission/output_schema.h"
 #include "mission/scene_schema.h"
 #include "mission/sonar_schema.h"
+#include "mission/sound_profile_schema.h"
 #include "mission/trajectory_schema.h"
 #include "mission/variation_schema.h"
 
@@ -76,6 +77,14 @@ void describe(Visitor& v, WaterConfig& c) {
     v.list("layers", c.layers, 0,
            "layers of the water that scatter more; they need "
            "scene.water_surface");
+    v.optional_section("profile", c.profile,
+                       "speed of sound by depth below scene.water_surface: sound bends, and a "
+                       "range is half of sound_speed_m_s times the time");
+    v.optional_section("assumed_profile", c.assumed_profile,
+                       "the profile that profiling sonars believe in when they make soundings; "
+                       "default: sound_speed_m_s at all depths");
+    v.require(!c.assumed_profile || c.profile, {"assumed_profile", "profile"},
+              "assumed_profile needs the true 'profile'");
 }
 
 template <class Visitor>
@@ -155,6 +164,9 @@ void describe(Visitor& v, Mission& c) {
               "how the vehicle departs from its trajectory, and what it reports");
     v.require(c.water.layers.empty() || c.scene.water_surface, {"water", "scene"},
               "water.layers are depths below the water's surface: give its height by "
+              "scene.water_surface");
+    v.require(!c.water.profile || c.scene.water_surface, {"water", "scene"},
+              "water.profile has depths below the water's surface: give its height by "
               "scene.water_surface");
     v.named("sensors", c.sensors, "one section per sonar; NAME is its folder in the dataset");
     v.section("accuracy", c.accuracy, "error goal of the images");

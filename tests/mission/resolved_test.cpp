@@ -21,6 +21,7 @@ Mission unusual_mission() {
     sonar.name = "null";
     sonar.mount = {{1e-7, -2, 0.1}, {-4, 5, 0.2 + 0.1}};
     sonar.every = 7;
+    sonar.moves_in_ping = true;
     sonar.azimuth_deg = 59.5;
     sonar.elevation_deg = 12.25;
     sonar.range_min_m = 0.3;
@@ -119,6 +120,7 @@ sensors:
       translation_m: [0, 0, 0]
       rpy_deg: [0, 0, 0]
     every: 1
+    moves_in_ping: false
     azimuth_deg: 120
     elevation_deg: 20
     range_min_m: 0.1
