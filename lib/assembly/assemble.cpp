@@ -56,7 +56,7 @@ std::string surface_warning(const Mission& mission, const Assembly& assembly) {
     const std::string name = "scene.water_surface ";
     if (pings == 0) {
         // It ends the water.
-        if (scatters(mission.water)) return "";
+        if (some_water_scatters(mission)) return "";
         return name +
                "has no effect because no sensor has multipath: set sensors.NAME.multipath.method";
     }
