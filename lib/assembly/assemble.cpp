@@ -58,7 +58,7 @@ std::string surface_warning(const Mission& mission, const Assembly& assembly) {
     const std::string name = "scene.water_surface ";
     if (pings == 0) {
         // It ends the water, and depths count from it.
-        if (scatters(mission.water) || mission.water.profile) return "";
+        if (some_water_scatters(mission) || mission.water.profile) return "";
         return name +
                "has no effect because no sensor has multipath: set sensors.NAME.multipath.method";
     }

@@ -25,9 +25,6 @@ namespace sonarsim {
 // The defaults of a mission are here and in the headers above. Names carry the unit and are the
 // YAML keys.
 
-/// The volume scattering of the water, by what is in it.
-enum class WaterContent { none, clear, coastal, plankton, plume };
-
 /// A layer of water that scatters more than the rest.
 struct WaterLayerConfig {
     std::array<double, 2> depth_m{};  ///< top and bottom, below scene.water_surface
@@ -46,10 +43,13 @@ struct WaterConfig {
     double ph = 8.0;
     // A gentle breeze. Above 100 kHz the noise of wind lies below that of heat.
     double wind_m_s = 5.0;
-    WaterContent content = WaterContent::none;
+    WaterContent content = WaterContent::automatic;
     /// Volume backscattering strength, dB re 1 m^2 per m^3; without it that of `content`.
     std::optional<double> scattering_db_per_m3 = {};
-    std::vector<WaterLayerConfig> layers = {};       ///< their scattering adds to that
+    std::vector<WaterLayerConfig> layers = {};  ///< their scattering adds to that
+    /// Mineral particles; without it by `content`.
+    std::optional<double> suspended_mg_l = {};
+    double suspended_um = 50.0;                      ///< their diameter
     std::optional<SoundProfileConfig> profile = {};  ///< sound bends by it; none: it goes straight
     /// The profile by which the instruments turn angles and times to soundings; none: constant.
     std::optional<SoundProfileConfig> assumed_profile = {};

@@ -33,7 +33,8 @@ inline bool is_folder_name(std::string_view name) {
            name.find('/') == std::string_view::npos && !is_taken_by_collection(name);
 }
 
-inline constexpr std::array water_contents{Choice<WaterContent>{"none", WaterContent::none},
+inline constexpr std::array water_contents{Choice<WaterContent>{"auto", WaterContent::automatic},
+                                           Choice<WaterContent>{"none", WaterContent::none},
                                            Choice<WaterContent>{"clear", WaterContent::clear},
                                            Choice<WaterContent>{"coastal", WaterContent::coastal},
                                            Choice<WaterContent>{"plankton", WaterContent::plankton},
@@ -70,10 +71,16 @@ void describe(Visitor& v, WaterConfig& c) {
     v.choice(
         "content", c.content, water_contents,
         "what is in the water and sends sound back, for the calibrated model: `none` nothing, "
-        "`clear` -90 dB, `coastal` -75 dB, `plankton` -65 dB, `plume` -55 dB re 1 m^2 per m^3");
+        "`clear` -90 dB, `coastal` -75 dB, `plankton` -65 dB, `plume` -55 dB re 1 m^2 per m^3, "
+        "each with its suspended_mg_l; `auto` is the usual_water of each instrument");
     v.number_or_auto("scattering_db_per_m3", c.scattering_db_per_m3, volume_strengths_db,
                      "volume backscattering strength of the water, dB re 1 m^2 per m^3, for the "
                      "calibrated model; `auto` takes that of `content`");
+    v.number_or_auto("suspended_mg_l", c.suspended_mg_l, between(0, 1e5),
+                     "mineral particles in the water, for the calibrated model, whose scattering "
+                     "adds to that of the other keys; `auto` is 0.5 for `clear` and 20 for "
+                     "`coastal` and `plankton`, and 0 with a scattering_db_per_m3");
+    v.number("suspended_um", c.suspended_um, between(1, 2000), "diameter of these particles");
     v.list("layers", c.layers, 0,
            "layers of the water that scatter more; they need "
            "scene.water_surface");

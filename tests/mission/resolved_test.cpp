@@ -84,8 +84,10 @@ water:
   depth_m: 10
   ph: 8
   wind_m_s: 5
-  content: none
+  content: auto
   scattering_db_per_m3: auto
+  suspended_mg_l: auto
+  suspended_um: 50
   layers: []
 scene:
   file: "/base/a.glb"
