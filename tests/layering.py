@@ -18,17 +18,18 @@ import tempfile
 ALLOWED = {
     "core": set(),
     "mission": {"core"},
+    "water": {"core"},
     "scene": {"core"},
     "trajectory": {"core"},
-    "visibility": {"core", "scene"},
-    "trace": {"core", "scene", "visibility"},
+    "visibility": {"core", "water", "scene"},
+    "trace": {"core", "water", "scene", "visibility"},
     "paper": {"core", "mission", "scene", "visibility", "trace"},
     "calibrated": {"core", "mission", "scene", "visibility", "trace"},
-    "ping": {"core", "mission", "scene", "visibility", "trace"},
-    "labels": {"core", "scene", "visibility", "trace", "ping"},
+    "ping": {"core", "mission", "water", "scene", "visibility", "trace"},
+    "labels": {"core", "water", "scene", "visibility", "trace", "ping"},
     "product": {"core", "mission", "trace", "paper", "ping", "labels"},
     "sonar": {"core", "mission", "scene", "visibility", "trace", "paper", "calibrated", "ping", "labels", "product"},
-    "assembly": {"core", "mission", "scene", "trajectory", "visibility", "trace", "paper", "calibrated", "ping",
+    "assembly": {"core", "mission", "water", "scene", "trajectory", "visibility", "trace", "paper", "calibrated", "ping",
                  "labels", "product", "sonar"},
     "format": {"core"},
 }
@@ -55,7 +56,7 @@ PARTS = {
 AFTER_THE_TRACE = {"paper", "calibrated", "ping", "labels", "product", "sonar", "assembly", "dataset", "checks", "job"}
 RANGE_OF_POSITION = re.compile(r"\bposition\.norm\(\)|\bposition / range\b|arctan2\w*\([^)]*position")
 # These folders make values of files, which are the same on every processor.
-SAME_BYTES = ("trace/", "paper/", "calibrated/", "ping/", "labels/", "product/", "sonar/", "scene/seabed/",
+SAME_BYTES = ("water/", "trace/", "paper/", "calibrated/", "ping/", "labels/", "product/", "sonar/", "scene/seabed/",
               "recording/", "compare/", "calibrate/")
 OF_THE_C_LIBRARY = re.compile(r"\bstd::(a?(sin|cos|tan)h?|atan2|exp[2m]?1?|log(2|10|1p)?|pow|cbrt|hypot|erfc?)\(")
 # A class in a header; two of one name would be one to the linker.

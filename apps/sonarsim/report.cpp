@@ -66,6 +66,18 @@ int report_hard(const ReportArguments& arguments) {
     return all_hold ? exit_done : exit_failed;
 }
 
+/// The mission without what no engine finds and what does not add up: the water's echoes, and
+/// range bins that are made of several samples.
+Mission of_surfaces(Mission mission) {
+    mission.water.content = WaterContent::none;
+    mission.water.scattering_db_per_m3.reset();
+    mission.water.suspended_mg_l.reset();
+    mission.water.layers.clear();
+    for (SonarConfig& sensor : mission.sensors)
+        sensor.instrument.receiver.samples = 1;
+    return mission;
+}
+
 /// The settings to measure: the requested engines that support the mission's scene.
 std::vector<Setting> settings_of(const ReportArguments& arguments, const Mission& mission,
                                  const Assembly& assembly) {
@@ -89,7 +101,7 @@ int report(const ReportArguments& arguments) {
     if (arguments.mission.file.empty()) throw CLI::RequiredError("mission");
     const double start = seconds_now();
     start_logging(arguments.log);
-    const Mission mission = load(arguments.mission);
+    const Mission mission = of_surfaces(load(arguments.mission));
     if (mission.variants > 0) {
         throw InputError({arguments.mission.file.string()},
                          "the report measures one scene, and this mission has variants; give it "

@@ -8,9 +8,11 @@
 #include "assembly/brightness.h"
 #include "assembly/ground_maps.h"
 #include "assembly/heightmap_part.h"
+#include "assembly/ping_motions.h"
 #include "assembly/placed_files.h"
 #include "assembly/poses.h"
 #include "assembly/scene_parts.h"
+#include "assembly/sound_profiles.h"
 #include "core/error.h"
 #include "core/hash.h"
 #include "core/named_at.h"
@@ -55,8 +57,8 @@ std::string surface_warning(const Mission& mission, const Assembly& assembly) {
     }
     const std::string name = "scene.water_surface ";
     if (pings == 0) {
-        // It ends the water.
-        if (scatters(mission.water)) return "";
+        // It ends the water, and depths count from it.
+        if (some_water_scatters(mission) || mission.water.profile) return "";
         return name +
                "has no effect because no sensor has multipath: set sensors.NAME.multipath.method";
     }
@@ -188,6 +190,8 @@ Assembly assemble(const Mission& mission, SceneFiles& models) {
     assembly.seabed = std::move(parts.seabed);
     assembly.heightmap = parts.heightmap;
     add_water_surface(mission, assembly);
+    add_sound_profiles(mission, assembly.scene, assembly.sonars);
+    add_ping_motions(mission, assembly.trajectory, assembly.sonars);
     warn_of_empty_scatter(mission, assembly.scene);
     if (!mission.output.labels.empty() || !mission.classes.empty()) {
         std::vector<ClassRule> rules;
@@ -202,7 +206,11 @@ Assembly assemble(const Mission& mission, SceneFiles& models) {
         if (auto prepared = sonar.settings.model->prepared(assembly.scene))
             sonar.settings.model = std::move(prepared);
     }
-    find_targets(assembly.sonars, assembly.scene);
+    if (assembly.scene.sound_profile)
+        warn_of_lost_glints(assembly.sonars, assembly.scene);
+    else
+        find_targets(assembly.sonars, assembly.scene);
+    leave_out_glints(assembly.sonars, assembly.scene);
     assembly.inputs = inputs_of(mission);
     Brightness brightness = find_full_scales(mission, assembly.scene, assembly.trajectory,
                                              assembly.motions, assembly.sonars);

@@ -32,8 +32,7 @@ Backscatter backscatter(const SeafloorScattering& sea_bed) {
     const double most = 0.25 * sea_bed.reflection() / tent;
     Backscatter out;
     for (int k = 0; k < AngularTable::size; ++k) {
-        const double root = std::min(1.0, static_cast<double>(k) / AngularTable::steps);
-        const double grazing_rad = arcsin(1.0 - root * root);
+        const double grazing_rad = arcsin(AngularTable::sine(k));
         out.diffuse.push_back(static_cast<float>(sea_bed.diffuse(grazing_rad)));
         out.specular.push_back(static_cast<float>(std::min(most, sea_bed.specular(grazing_rad))));
     }

@@ -45,7 +45,15 @@ struct AngularTable {
     static constexpr int steps = 1024;
     static constexpr int size = steps + 2;  ///< the last two are the same, for interpolation
 
-    static float value(const std::vector<float>& entries, float sine);
+    /// The sine of an entry.
+    static double sine(int entry) {
+        const double root = std::min(1.0, static_cast<double>(entry) / steps);
+        return 1.0 - root * root;
+    }
+    static float value(const float* entries, float sine);
+    static float value(const std::vector<float>& entries, float sine) {
+        return value(entries.data(), sine);
+    }
 };
 
 /// The scattering of the materials of a scene.
@@ -85,7 +93,7 @@ inline float exp_neg(float x, float longest = fades_at) {
     return x < longest ? value : 0.0F;
 }
 
-inline float AngularTable::value(const std::vector<float>& entries, float sine) {
+inline float AngularTable::value(const float* entries, float sine) {
     // In this order of arguments NaN becomes 0.
     const float at = std::sqrt(std::min(1.0F, std::max(0.0F, 1.0F - sine))) * steps;
     const float whole = std::floor(at);

@@ -53,6 +53,7 @@ class ImageFormer {
         if (context_.terms.direct) {
             add_surface(traced.samples.items, traced.targets, grid);
             add_surface(traced.outside_sector, traced.targets, grid);
+            if (scattering_.sediment() != nullptr) add_sediment(traced, grid);
             if (of_powers) add_target_powers(traced.targets, grid);
         }
         if (context_.terms.multipath) add_multipath(specular_paths(traced, context_.scene), grid);
@@ -80,6 +81,12 @@ class ImageFormer {
                 ping_.counts.occupied_bins, coherent->convolve_pulse(model_.amplitude_taps));
         }
 
+        if (model_.pulse_floor.share > 0.0F) {
+            add_pulse_floor(model_.pulse_floor, of_powers ? PowerForm::power : PowerForm::amplitude,
+                            speckle_gain_, context_.draws.of(stream_named("pulse floor")),
+                            coherent ? &*coherent : nullptr, grid);
+        }
+
         // 3, 4. Beams, the receiver's noise and its gain.
         beamform(beams_, grid, of_powers, coherent ? &*coherent : nullptr,
                  context_.terms.random > 1, context_.draws.of(Stream::receiver_noise),
@@ -89,12 +96,42 @@ class ImageFormer {
   private:
     /// Computes the echoes of a block of patches: levels, range bins and columns of the grid.
     void find(const PatchBlock& patches) {
+        const SedimentScattering* const sediment = scattering_.sediment();
         ping_.counts.echoes += patches.count;
         ping_.counts.out_of_range +=
-            apply_sonar_equation(patches, *scattering_, model_.equation, echoes_);
+            apply_sonar_equation(patches, sediment != nullptr ? sediment->surface : *scattering_,
+                                 model_.equation, echoes_);
         ping_.counts.out_of_range += find_columns(beams_, patches, echoes_);
         if (speckle_ != SpeckleMode::none)
             add_clutter(patches, model_.clutter, sonar_, scene_draws_, echoes_);
+    }
+
+    /// Adds the echoes of the sediment below sea beds. Their amplitudes are drawn for each ping.
+    void add_sediment(const TracedPing& traced, EchoGrid& grid) {
+        const SedimentScattering& sediment = *scattering_.sediment();
+        std::vector<Sample> beds;
+        const auto keep = [&](const Sample& sample) {
+            if (sediment.has[sample.material] && !traced.targets.has(sample.instance))
+                beds.push_back(sample);
+        };
+        std::ranges::for_each(traced.samples.items, keep);
+        std::ranges::for_each(traced.outside_sector, keep);
+        if (beds.empty()) return;
+        EchoGrid energy(grid.rows(), grid.columns());
+        EchoGrid lagged(grid.rows(), grid.columns());
+        PatchBlock block;
+        subdivide(std::span<const Sample>(beds), model_.limits, block,
+                  [&](const PatchBlock& patches) {
+                      apply_sonar_equation(patches, sediment.volume, model_.equation, echoes_);
+                      find_columns(beams_, patches, echoes_);
+                      add_powers(beams_, patches, echoes_, energy);
+                      weigh_by_lag(sediment, patches, model_.equation.bin_m, echoes_);
+                      add_powers(beams_, patches, echoes_, lagged);
+                  });
+        spread_below(lagged, energy);
+        if (speckle_ == SpeckleMode::scene)
+            draw_speckle(energy, speckle_gain_, context_.draws.of(stream_named("sediment")));
+        grid.add(energy);
     }
 
     /// Adds the echoes of plates and strips.
@@ -110,7 +147,7 @@ class ImageFormer {
             received_water(*model_.water, water_ends(model_.water->sight.cells, traced),
                            traced.T_world_sensor, surface_z_m, grid.rows());
         add_water(*model_.water, received, sines_of(beams_),
-                  of_powers ? WaterEcho::power : WaterEcho::amplitude, speckle_gain_,
+                  of_powers ? PowerForm::power : PowerForm::amplitude, speckle_gain_,
                   context_.draws.of(stream_named("water")), grid);
     }
 

@@ -6,6 +6,7 @@
 #include "calibrated/beamformer.h"
 #include "calibrated/decibel.h"
 #include "calibrated/levels.h"
+#include "calibrated/volume_strengths.h"
 #include "calibrated/water.h"
 #include "core/elementary.h"
 #include "core/units.h"
@@ -156,7 +157,9 @@ CalibratedModel calibrated_model(const InstrumentConfig& instrument, const Water
                       .raised = static_cast<float>(0.1 * ln_10 * raised_db),
                       .elevation = elevation_pattern(radians(beam.elevation_width_deg),
                                                      beam.elevation_side_lobe_db, beam.elements)};
-    model.water = water_column(water, widened_view(view, model.guard), model.beams, model.equation);
+    model.water = water_column(water_of(water, instrument), instrument.frequency_hz,
+                               widened_view(view, model.guard), model.beams, model.equation);
+    model.pulse_floor = pulse_floor(instrument.pulse, bin_m, water.sound_speed_m_s);
     model.cells = scatterer_cells(instrument.speckle.per_cell, std::max(resolution_m, 0.5 * bin_m),
                                   radians(beam.width_deg), view.range_min_m, model.wavelength_m);
     model.target_cells =

@@ -9,7 +9,9 @@
 
 #include "calibrated/array_beams.h"
 #include "calibrated/instrument_levels.h"
+#include "calibrated/pulse_floor.h"
 #include "calibrated/scatterers.h"
+#include "calibrated/sediment.h"
 #include "calibrated/sonar_equation.h"
 #include "calibrated/specular_path.h"
 #include "calibrated/target_scatterers.h"
@@ -50,8 +52,13 @@ struct CalibratedModel final : EchoModel {
     std::vector<Material>
         prepared_materials;  ///< the scene that the model was prepared for has them
     Scattering scattering;   ///< the scattering of these
+    /// Its parts on and below sea beds; nothing: the whole echo comes from their surface.
+    std::optional<SedimentScattering> sediment;
+    PulseFloor pulse_floor;
 
     Scattering scattering_of(std::span<const Material> materials) const;
+    std::optional<SedimentScattering> sediment_of(std::span<const Material> materials,
+                                                  const Scattering& whole) const;
 
     std::shared_ptr<const EchoModel> prepared(const Scene& scene) const override;
     void form(const TracedPing& traced, const FormContext& context, Ping& ping) const override;
@@ -87,16 +94,23 @@ class ScatteringOfScene {
     ScatteringOfScene(const CalibratedModel& model, const Scene& scene)
         : own_(model.prepared_materials == scene.materials ? Scattering{}
                                                            : model.scattering_of(scene.materials)),
-          used_(own_.materials.empty() ? &model.scattering : &own_) {}
+          own_sediment_(own_.materials.empty() ? std::nullopt
+                                               : model.sediment_of(scene.materials, own_)),
+          used_(own_.materials.empty() ? &model.scattering : &own_),
+          sediment_(own_.materials.empty() ? &model.sediment : &own_sediment_) {}
     ScatteringOfScene(const ScatteringOfScene&) = delete;
     ScatteringOfScene& operator=(const ScatteringOfScene&) = delete;
 
     const Scattering& operator*() const { return *used_; }
     const Scattering* operator->() const { return used_; }
+    /// The sediment below sea beds; null: all echoes come from surfaces.
+    const SedimentScattering* sediment() const { return *sediment_ ? &**sediment_ : nullptr; }
 
   private:
     Scattering own_;
+    std::optional<SedimentScattering> own_sediment_;
     const Scattering* used_;
+    const std::optional<SedimentScattering>* sediment_;
 };
 
 }  // namespace sonarsim

@@ -25,10 +25,18 @@ Scattering CalibratedModel::scattering_of(std::span<const Material> materials) c
                                    {water_density_kg_m3, sound_speed_m_s});
 }
 
+std::optional<SedimentScattering> CalibratedModel::sediment_of(std::span<const Material> materials,
+                                                               const Scattering& whole) const {
+    if (!instrument.below_bottom) return std::nullopt;
+    return sediment_scattering(materials, instrument.frequency_hz,
+                               {water_density_kg_m3, sound_speed_m_s}, equation.bin_m, whole);
+}
+
 std::shared_ptr<const EchoModel> CalibratedModel::prepared(const Scene& scene) const {
     auto out = std::make_shared<CalibratedModel>(*this);
     out->prepared_materials = scene.materials;
     out->scattering = scattering_of(scene.materials);
+    out->sediment = sediment_of(scene.materials, out->scattering);
     return out;
 }
 
@@ -46,7 +54,8 @@ double CalibratedModel::rays_goal(const View& view) const {
 double CalibratedModel::working_bytes(bool multipath) const {
     const auto columns =
         std::visit([](const auto& of_model) { return columns_of(of_model); }, beams);
-    const double grids = multipath ? 2.0 : 1.0;  // multipath has a grid of its own
+    // Multipath has a grid of its own, sediment has two.
+    const double grids = 1.0 + (multipath ? 1.0 : 0.0) + (instrument.below_bottom ? 2.0 : 0.0);
     // Several samples or looks are images of their own.
     const bool several = instrument.receiver.samples > 1 || instrument.receiver.looks > 1;
     const double images = several ? 2.0 * columns * equation.rows * sizeof(float) : 0.0;

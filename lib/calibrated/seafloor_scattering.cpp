@@ -237,6 +237,15 @@ double SeafloorScattering::diffuse(double grazing_rad) const {
            ((1.0 - share(grazing_rad)) * composite(grazing_rad) + volume(grazing_rad));
 }
 
+double SeafloorScattering::below(double grazing_rad) const {
+    return unshadowed_share(grazing_rad) * volume(grazing_rad);
+}
+
+double SeafloorScattering::lag_m(double grazing_rad) const {
+    const Complex vertical = vertical_wavenumber(sincos(grazing_rad).sin);
+    return vertical.real() / (4.0 * wavenumber_ * vertical.imag());
+}
+
 double SeafloorScattering::specular(double grazing_rad) const {
     // The report has no Kirchhoff integral below 40 degrees, and no shadows on it. Here it reaches
     // down to grazing incidence where the roughness is large.

@@ -42,6 +42,10 @@ class SeafloorScattering {
     double diffuse(double grazing_rad) const;
     /// The Kirchhoff integral, near normal incidence.
     double specular(double grazing_rad) const;
+    /// The part of diffuse() that comes from the volume of the sediment.
+    double below(double grazing_rad) const;
+    /// The mean range behind the surface, m, from which that part arrives (SedimentScattering).
+    double lag_m(double grazing_rad) const;
     /// The power reflection coefficient at normal incidence.
     double reflection() const { return reflection_; }
 

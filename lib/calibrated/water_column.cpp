@@ -8,7 +8,6 @@
 #include "calibrated/decibel.h"
 #include "calibrated/lanes.h"
 #include "calibrated/levels.h"
-#include "calibrated/normals.h"
 #include "calibrated/volume_strengths.h"
 #include "core/units.h"
 #include "trace/arrivals.h"
@@ -98,29 +97,6 @@ void end_at_borders(const SightCells& cells, std::vector<float>& ends) {
     }
 }
 
-/// Adds the amplitudes or the powers of the water to 8 bins of a column.
-void add_eight(WaterEcho echo, Floats8 power, float half_gain, int row, int column, PhiloxKey key,
-               float* cells) {
-    std::array<float, std::size_t{2} * lanes> added;
-    if (echo == WaterEcho::power) {
-        store_complex(power, 0.0F, added.data());
-    } else {
-        std::array<std::uint32_t, lanes> a, b;
-        for (int lane = 0; lane < lanes; ++lane) {
-            a[lane] = static_cast<std::uint32_t>(row + lane);
-            b[lane] = static_cast<std::uint32_t>(column);
-        }
-        philox_pairs(a.data(), b.data(), lanes, key);
-        Lanes re, im;
-        complex_normals(a.data(), re, im);
-        const Floats8 amplitude = sqrt(half_gain * power);
-        store_complex(amplitude * Floats8::load(re.data()), amplitude * Floats8::load(im.data()),
-                      added.data());
-    }
-    (Floats8::load(cells) + Floats8::load(added.data())).store(cells);
-    (Floats8::load(cells + lanes) + Floats8::load(added.data() + lanes)).store(cells + lanes);
-}
-
 /// The two channels that a column lies between, and its share of the second one.
 struct BetweenChannels {
     int first, second;
@@ -137,13 +113,14 @@ BetweenChannels channels_of(const SightCells& cells, const SineGrid& grid, int c
 
 }  // namespace
 
-std::optional<WaterColumn> water_column(const WaterConfig& water, const View& view,
+std::optional<WaterColumn> water_column(const WaterConfig& water, double frequency_hz,
+                                        const View& view,
                                         const std::variant<TransducerBeams, ArrayBeams>& beams,
                                         const SonarEquation& equation) {
-    const std::optional<double> strength_db = volume_strength_db(water);
-    if (!strength_db && water.layers.empty()) return std::nullopt;
+    const double strength = volume_strength(water, frequency_hz);
+    if (strength == 0.0 && water.layers.empty()) return std::nullopt;
     WaterColumn out;
-    if (strength_db) out.strength = static_cast<float>(power_of_db(*strength_db));
+    out.strength = static_cast<float>(strength);
     for (const WaterLayerConfig& layer : water.layers) {
         out.layers.push_back(
             {.top_m = static_cast<float>(layer.depth_m[0]),
@@ -234,7 +211,7 @@ std::vector<float> received_water(const WaterColumn& water, std::span<const floa
 }
 
 void add_water(const WaterColumn& water, std::span<const float> received, const SineGrid* by_sine,
-               WaterEcho echo, float gain, PhiloxKey key, EchoGrid& grid) {
+               PowerForm form, float gain, PhiloxKey key, EchoGrid& grid) {
     const std::size_t stride = static_cast<std::size_t>(grid.rows()) + 1;
     const std::size_t rows = water.row_power.size();
     std::vector<float> mean(rows);
@@ -249,13 +226,9 @@ void add_water(const WaterColumn& water, std::span<const float> received, const 
             for (int row = 0; row < grid.rows(); ++row)
                 mean[row] = step * std::fma(share, other[row] - one[row], one[row]);
         }
-        float* const column = grid.column(c);
-        for (std::size_t row = 0; row < rows; row += lanes) {
-            // Sums of differences may fall below 0 by rounding.
-            const Floats8 power = greatest(Floats8::load(mean.data() + row), 0.0F) *
-                                  Floats8::load(water.row_power.data() + row);
-            add_eight(echo, power, 0.5F * gain, static_cast<int>(row), c, key, column + 2 * row);
-        }
+        for (std::size_t row = 0; row < rows; ++row)
+            mean[row] *= water.row_power[row];
+        add_drawn(form, mean, gain, c, key, grid);
     }
 }
 

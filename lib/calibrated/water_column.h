@@ -5,10 +5,9 @@
 #include <variant>
 #include <vector>
 
-#include "calibrated/echo_grid.h"
+#include "calibrated/drawn_powers.h"
 #include "calibrated/sight_cells.h"
 #include "core/pose.h"
-#include "core/random.h"
 #include "mission/mission.h"
 #include "trace/traced_ping.h"
 
@@ -29,8 +28,10 @@ struct WaterColumn {
     std::vector<float> row_power;
 };
 
-/// Nothing if no water scatters. `view` is that in which surface is traced, with its guard beams.
-std::optional<WaterColumn> water_column(const WaterConfig& water, const View& view,
+/// Nothing if no water scatters. `water` is that of water_of(), `view` is that in which surface is
+/// traced, with its guard beams.
+std::optional<WaterColumn> water_column(const WaterConfig& water, double frequency_hz,
+                                        const View& view,
                                         const std::variant<TransducerBeams, ArrayBeams>& beams,
                                         const SonarEquation& equation);
 
@@ -43,15 +44,9 @@ std::vector<float> received_water(const WaterColumn& water, std::span<const floa
                                   const Pose& T_world_sensor,
                                   const std::optional<double>& surface_z_m, int rows);
 
-/// The form in which the water is added to a cell of the grid.
-enum class WaterEcho {
-    power,     ///< it is added to the power that is there
-    amplitude  ///< a complex normal amplitude of that power is added
-};
-
 /// Adds the water's echoes to a grid whose columns are `by_sine` those of a line array, else the
 /// beams. `gain`: the factor of draw_speckle() for amplitudes, which the key draws.
 void add_water(const WaterColumn& water, std::span<const float> received, const SineGrid* by_sine,
-               WaterEcho echo, float gain, PhiloxKey key, EchoGrid& grid);
+               PowerForm form, float gain, PhiloxKey key, EchoGrid& grid);
 
 }  // namespace sonarsim

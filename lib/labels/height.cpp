@@ -10,25 +10,27 @@ namespace {
 
 // Surface that lies below the bottom by at most this share of its range is on it: rounding.
 constexpr double on_bottom = 1e-4;
+// The same if sound bends or the sonar moves: apparent pieces are flat, their true surface is not.
+constexpr double on_bottom_where_bent = 2e-3;
 
 }  // namespace
 
 HeightFinder::HeightFinder(const RangeBins& bins, int rows, const Bottom& bottom,
-                           const Pose& T_world_sensor)
+                           const TruePlaces& places)
     : bottom_(bottom),
-      T_world_sensor_(T_world_sensor),
-      up_((T_world_sensor.rotation.conjugate() * Eigen::Vector3d::UnitZ()).cast<float>()),
+      places_(places),
+      up_((places.T_world_sensor.rotation.conjugate() * Eigen::Vector3d::UnitZ()).cast<float>()),
       sums_(rows, bins.count) {}
 
 bool HeightFinder::begin(const EchoPatch& patch, const RangePath& path) {
-    const Eigen::Vector3d at =
-        T_world_sensor_.rotation * patch.position.cast<double>() + T_world_sensor_.translation;
-    const double tolerance = on_bottom * path.range_m;
+    const Eigen::Vector3d at = places_.of(patch.position.cast<double>());
+    const double tolerance =
+        (places_.is_measured() ? on_bottom : on_bottom_where_bent) * path.range_m;
     std::optional<double> below = bottom_.highest_below(at, tolerance);
     if (!below) {
         // A wall on the border of the bottom: the bottom begins before it.
-        const Eigen::Vector3d before =
-            at + tolerance * (T_world_sensor_.rotation * patch.sample->normal.cast<double>());
+        const Eigen::Vector3d before = at + tolerance * (places_.T_world_sensor.rotation *
+                                                         patch.sample->normal.cast<double>());
         below = bottom_.highest_below(before, tolerance);
     }
     if (!below) return false;

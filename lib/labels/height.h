@@ -2,10 +2,10 @@
 
 #include <span>
 
-#include "core/pose.h"
 #include "labels/range_path.h"
 #include "scene/placing/bottom.h"
 #include "trace/surface_echoes.h"
+#include "trace/true_place.h"
 
 namespace sonarsim {
 
@@ -13,7 +13,7 @@ namespace sonarsim {
 class HeightFinder {
   public:
     /// `rows`: the number of beams that are summed at once. The bottom must outlive the finder.
-    HeightFinder(const RangeBins& bins, int rows, const Bottom& bottom, const Pose& T_world_sensor);
+    HeightFinder(const RangeBins& bins, int rows, const Bottom& bottom, const TruePlaces& places);
 
     /// Begins the next patch. False: there is no bottom below it, so that it has no height.
     bool begin(const EchoPatch& patch, const RangePath& path);
@@ -28,7 +28,7 @@ class HeightFinder {
 
   private:
     const Bottom& bottom_;
-    Pose T_world_sensor_;
+    TruePlaces places_;
     Eigen::Vector3f up_;  ///< sensor frame
     BinSumRows<2> sums_;  ///< the echo, and the echo times the height
     // This patch:

@@ -197,8 +197,10 @@ PingLabels label_ping(const TracedPing& traced, const PingSettings& settings, co
     ShadowFinder::Behind behind;
     std::optional<ObjectDirections> directions;
     if (request.shadow || request.annotations) {
-        directions.emplace(request.annotated, request.surface, traced.T_world_sensor,
-                           view.range_min_m, view.range_max_m);
+        scene.sound_profile || !traced.motion.is_still()
+            ? directions.emplace()
+            : directions.emplace(request.annotated, request.surface, traced.T_world_sensor,
+                                 view.range_min_m, view.range_max_m);
     }
     std::optional<ShadowFinder> shadows;
     if (request.shadow) {
@@ -223,7 +225,9 @@ PingLabels label_ping(const TracedPing& traced, const PingSettings& settings, co
             object_shadows->find(j, labeller.occupied(j, shares), own(labels.object_shadow));
     }
     if (request.elevation || request.height) {
-        label_patches(echoes, view, traced.T_world_sensor, request.bottom,
+        const TruePlaces places{traced.T_world_sensor, scene.sound_profile.get(), traced.motion,
+                                view.shape};
+        label_patches(echoes, view, places, request.bottom,
                       {labels.elevation_rad, labels.elevation_spread_rad, labels.height_m});
     }
     return labels;

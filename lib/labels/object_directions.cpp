@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace sonarsim {
 
@@ -43,6 +44,10 @@ ObjectDirections::ObjectDirections(std::span<const ObjectSphere> spheres,
         }
     }
 }
+
+ObjectDirections::ObjectDirections()
+    : rotation_(Eigen::Matrix3d::Identity()),
+      far_m_(static_cast<std::size_t>(cells) * cells, std::numeric_limits<float>::infinity()) {}
 
 bool ObjectDirections::is_empty_behind(const Eigen::Vector3f& direction, float range_m) const {
     if (from_sensor_.isEmpty()) return false;

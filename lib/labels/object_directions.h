@@ -22,6 +22,9 @@ class ObjectDirections {
     ObjectDirections(std::span<const ObjectSphere> spheres, const Eigen::AlignedBox3d* surface,
                      const Pose& T_world_sensor, double range_min_m, double range_max_m);
 
+    /// Sound bends, and an object may lie in every direction.
+    ObjectDirections();
+
     /// True if an object may lie in the direction of a unit vector, beyond a range.
     bool may_lie_behind(const Eigen::Vector3f& direction, float range_m) const {
         return far_m_[cell_of(direction.z()) * cells + cell_of(direction.y())] > range_m;

@@ -40,7 +40,7 @@ struct PatchFinders {
 
 }  // namespace
 
-void label_patches(const SurfaceEchoes& echoes, const View& view, const Pose& T_world_sensor,
+void label_patches(const SurfaceEchoes& echoes, const View& view, const TruePlaces& places,
                    const Bottom* bottom, const PatchLabels& labels) {
     const RangeBins bins = range_bins(view);
     // Patches that are sorted by beam need one row of sums, which stays in the cache.
@@ -49,7 +49,7 @@ void label_patches(const SurfaceEchoes& echoes, const View& view, const Pose& T_
     PatchFinders finders;
     if (!labels.elevation_rad.empty()) finders.elevation.emplace(bins, rows);
     if (!labels.height_m.empty() && bottom != nullptr)
-        finders.height.emplace(bins, rows, *bottom, T_world_sensor);
+        finders.height.emplace(bins, rows, *bottom, places);
     if (!sorted) {
         for (const EchoPatch& patch : echoes.patches)
             finders.add(echoes, patch, bins, [](const PatchEcho& echo) { return echo.beam; });

@@ -2,9 +2,9 @@
 
 #include <span>
 
-#include "core/pose.h"
 #include "scene/placing/bottom.h"
 #include "trace/surface_echoes.h"
+#include "trace/true_place.h"
 #include "visibility/view.h"
 
 namespace sonarsim {
@@ -18,7 +18,7 @@ struct PatchLabels {
 
 /// Fills these labels. They share the bins that a patch covers, which are worked out once for it.
 /// Without a `bottom` nothing has a height.
-void label_patches(const SurfaceEchoes& echoes, const View& view, const Pose& T_world_sensor,
+void label_patches(const SurfaceEchoes& echoes, const View& view, const TruePlaces& places,
                    const Bottom* bottom, const PatchLabels& labels);
 
 }  // namespace sonarsim

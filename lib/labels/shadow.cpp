@@ -45,6 +45,15 @@ bool fill_gaps(std::span<std::uint16_t> ids) {
     return true;
 }
 
+/// The ray that goes on behind the end of a sight line, from the pose of transmission.
+Ray ray_behind(const SightLine& line, const PingMotion& motion, ViewShape shape) {
+    if (motion.is_still())
+        return {line.direction * (line.range_m * (1.0F + step_behind)), line.direction};
+    const Eigen::Vector3d measured = (line.range_m * line.direction).cast<double>();
+    const Eigen::Vector3f place = unmoved_place(motion, shape, measured).cast<float>();
+    return {place * (1.0F + step_behind), place.normalized()};
+}
+
 }  // namespace
 
 ShadowFinder::ShadowFinder(const TracedPing& traced, const ConeBeams& cones, const View& view,
@@ -79,11 +88,9 @@ ShadowFinder::ShadowFinder(const TracedPing& traced, const ConeBeams& cones, con
                 met[k] = behind[layer][lines[k].first];
         } else {
             rays.clear();
-            for (const SightLine& line : lines) {
-                rays.push_back(
-                    {line.direction * (line.range_m * (1.0F + step_behind)), line.direction});
-            }
-            engine.intersect(traced.T_world_sensor, rays, met);
+            for (const SightLine& line : lines)
+                rays.push_back(ray_behind(line, traced.motion, view.shape));
+            engine.intersect_behind(traced.T_world_sensor, rays, range_max, met);
         }
         if (!annotated) {
             std::vector<Intersection>& own = behind.emplace_back(count);
@@ -114,8 +121,8 @@ ShadowFinder::ShadowFinder(const TracedPing& traced, const ConeBeams& cones, con
     }
     sort_into_beams(view.beams);
     owners_.resize(view.beams);
-    covered_ = cones.exist() || annotated ? hidden_bins(view.beams)
-                                          : engine.covered_bins(view, traced.T_world_sensor);
+    if (!cones.exist() && !annotated) covered_ = engine.covered_bins(view, traced.T_world_sensor);
+    if (covered_.empty()) covered_ = hidden_bins(view.beams);
 }
 
 void ShadowFinder::add_to_cones(const SightLine& line, const Hidden& whole,

@@ -8,6 +8,9 @@ namespace sonarsim {
 
 // The instrument that `model: calibrated` simulates, with its defaults. Names are the YAML keys.
 
+/// The volume scattering of the water, by what is in it. `automatic`: as each instrument says.
+enum class WaterContent { automatic, none, clear, coastal, plankton, plume };
+
 /// The transducer's shape. It has no key: it follows from the kind of sonar.
 enum class Aperture {
     line,            ///< an array across track that forms beams
@@ -59,6 +62,8 @@ struct PulseConfig {
     double resolution_m = 0.0;    ///< half-power width of a point target in range; 0: one bin
     double duration_s = 0.0;      ///< transmitted pulse; 0: that of a pulse without a code
     double side_lobe_db = -30.0;  ///< highest range side lobe after compression
+    /// Energy of the far side lobes by that of the pulse, spread over `duration_s`; -300: none.
+    double floor_db = -300.0;
 
     bool operator==(const PulseConfig&) const = default;
 };
@@ -142,6 +147,8 @@ struct InstrumentConfig {
     PulseConfig pulse;
     SpeckleConfig speckle;
     ReceiverConfig receiver;
+    WaterContent usual_water = WaterContent::none;  ///< for WaterContent::automatic
+    bool below_bottom = false;  ///< the volume of the sediment echoes behind its surface
 
     bool operator==(const InstrumentConfig&) const = default;
 };

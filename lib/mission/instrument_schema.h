@@ -20,6 +20,11 @@ inline constexpr std::array compandings{Choice<Companding>{"gamma", Companding::
                                         Choice<Companding>{"log", Companding::log},
                                         Choice<Companding>{"linear", Companding::linear}};
 
+inline constexpr std::array usual_waters{Choice<WaterContent>{"none", WaterContent::none},
+                                         Choice<WaterContent>{"clear", WaterContent::clear},
+                                         Choice<WaterContent>{"coastal", WaterContent::coastal},
+                                         Choice<WaterContent>{"plankton", WaterContent::plankton},
+                                         Choice<WaterContent>{"plume", WaterContent::plume}};
 inline constexpr Limits any_level_db{-300.0, 300.0};
 inline constexpr std::array sample_rules{Choice<SampleRule>{"max", SampleRule::maximum},
                                          Choice<SampleRule>{"mean", SampleRule::mean},
@@ -96,6 +101,9 @@ void describe(Visitor& v, PulseConfig& c) {
              "resolution is coded, and its noise is that of the long pulse; 0 means no code");
     v.number("side_lobe_db", c.side_lobe_db, side_lobes_db,
              "highest range side lobe of the compressed pulse");
+    v.number("floor_db", c.floor_db, between(-300, 0),
+             "energy of the side lobes of a coded pulse that are spread over its duration_s before "
+             "and behind each echo, relative to the pulse; -300 means none");
 }
 
 template <class Visitor>
@@ -208,6 +216,11 @@ void describe(Visitor& v, InstrumentConfig& c) {
     v.section("pulse", c.pulse, "the pulse after compression");
     v.section("speckle", c.speckle, "interference of the echoes of many scatterers");
     v.section("receiver", c.receiver, "noise, TVG and the values of raw/");
+    v.choice("usual_water", c.usual_water, usual_waters,
+             "what is in the water if water.content is `auto`: that in which such an instrument is "
+             "used");
+    v.flag("below_bottom", c.below_bottom,
+           "the volume of the sediment echoes behind its surface, as a tail, in place of at it");
     require_one_unit(v, c);
 }
 

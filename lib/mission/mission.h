@@ -16,6 +16,7 @@
 #include "mission/paper_keys.h"
 #include "mission/place.h"
 #include "mission/scene_config.h"
+#include "mission/sound_profile_config.h"
 #include "mission/trajectory_config.h"
 #include "mission/variation_config.h"
 
@@ -23,9 +24,6 @@ namespace sonarsim {
 
 // The defaults of a mission are here and in the headers above. Names carry the unit and are the
 // YAML keys.
-
-/// The volume scattering of the water, by what is in it.
-enum class WaterContent { none, clear, coastal, plankton, plume };
 
 /// A layer of water that scatters more than the rest.
 struct WaterLayerConfig {
@@ -45,10 +43,16 @@ struct WaterConfig {
     double ph = 8.0;
     // A gentle breeze. Above 100 kHz the noise of wind lies below that of heat.
     double wind_m_s = 5.0;
-    WaterContent content = WaterContent::none;
+    WaterContent content = WaterContent::automatic;
     /// Volume backscattering strength, dB re 1 m^2 per m^3; without it that of `content`.
     std::optional<double> scattering_db_per_m3 = {};
     std::vector<WaterLayerConfig> layers = {};  ///< their scattering adds to that
+    /// Mineral particles; without it by `content`.
+    std::optional<double> suspended_mg_l = {};
+    double suspended_um = 50.0;                      ///< their diameter
+    std::optional<SoundProfileConfig> profile = {};  ///< sound bends by it; none: it goes straight
+    /// The profile by which the instruments turn angles and times to soundings; none: constant.
+    std::optional<SoundProfileConfig> assumed_profile = {};
 
     bool operator==(const WaterConfig&) const = default;
 };
@@ -89,6 +93,7 @@ struct SonarConfig {
     SonarKind kind = SonarKind::imaging;
     MountConfig mount;
     int every = 1;                ///< the sonar pings at every n-th pose
+    bool moves_in_ping = false;   ///< the sonar moves on between transmission and reception
     double azimuth_deg = 120.0;   ///< full angle
     double elevation_deg = 20.0;  ///< full angle
     double opening_deg = 30.0;    ///< full angle of a cone, in place of azimuth and elevation

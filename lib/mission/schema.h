@@ -11,6 +11,7 @@
 #include "mission/output_schema.h"
 #include "mission/scene_schema.h"
 #include "mission/sonar_schema.h"
+#include "mission/sound_profile_schema.h"
 #include "mission/trajectory_schema.h"
 #include "mission/variation_schema.h"
 
@@ -32,7 +33,8 @@ inline bool is_folder_name(std::string_view name) {
            name.find('/') == std::string_view::npos && !is_taken_by_collection(name);
 }
 
-inline constexpr std::array water_contents{Choice<WaterContent>{"none", WaterContent::none},
+inline constexpr std::array water_contents{Choice<WaterContent>{"auto", WaterContent::automatic},
+                                           Choice<WaterContent>{"none", WaterContent::none},
                                            Choice<WaterContent>{"clear", WaterContent::clear},
                                            Choice<WaterContent>{"coastal", WaterContent::coastal},
                                            Choice<WaterContent>{"plankton", WaterContent::plankton},
@@ -69,13 +71,27 @@ void describe(Visitor& v, WaterConfig& c) {
     v.choice(
         "content", c.content, water_contents,
         "what is in the water and sends sound back, for the calibrated model: `none` nothing, "
-        "`clear` -90 dB, `coastal` -75 dB, `plankton` -65 dB, `plume` -55 dB re 1 m^2 per m^3");
+        "`clear` -90 dB, `coastal` -75 dB, `plankton` -65 dB, `plume` -55 dB re 1 m^2 per m^3, "
+        "each with its suspended_mg_l; `auto` is the usual_water of each instrument");
     v.number_or_auto("scattering_db_per_m3", c.scattering_db_per_m3, volume_strengths_db,
                      "volume backscattering strength of the water, dB re 1 m^2 per m^3, for the "
                      "calibrated model; `auto` takes that of `content`");
+    v.number_or_auto("suspended_mg_l", c.suspended_mg_l, between(0, 1e5),
+                     "mineral particles in the water, for the calibrated model, whose scattering "
+                     "adds to that of the other keys; `auto` is 0.5 for `clear` and 20 for "
+                     "`coastal` and `plankton`, and 0 with a scattering_db_per_m3");
+    v.number("suspended_um", c.suspended_um, between(1, 2000), "diameter of these particles");
     v.list("layers", c.layers, 0,
            "layers of the water that scatter more; they need "
            "scene.water_surface");
+    v.optional_section("profile", c.profile,
+                       "speed of sound by depth below scene.water_surface: sound bends, and a "
+                       "range is half of sound_speed_m_s times the time");
+    v.optional_section("assumed_profile", c.assumed_profile,
+                       "the profile that profiling sonars believe in when they make soundings; "
+                       "default: sound_speed_m_s at all depths");
+    v.require(!c.assumed_profile || c.profile, {"assumed_profile", "profile"},
+              "assumed_profile needs the true 'profile'");
 }
 
 template <class Visitor>
@@ -155,6 +171,9 @@ void describe(Visitor& v, Mission& c) {
               "how the vehicle departs from its trajectory, and what it reports");
     v.require(c.water.layers.empty() || c.scene.water_surface, {"water", "scene"},
               "water.layers are depths below the water's surface: give its height by "
+              "scene.water_surface");
+    v.require(!c.water.profile || c.scene.water_surface, {"water", "scene"},
+              "water.profile has depths below the water's surface: give its height by "
               "scene.water_surface");
     v.named("sensors", c.sensors, "one section per sonar; NAME is its folder in the dataset");
     v.section("accuracy", c.accuracy, "error goal of the images");

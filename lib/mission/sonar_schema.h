@@ -92,6 +92,10 @@ void describe(Visitor& v, SonarConfig& c) {
            "override those of the file");
     v.section("mount", c.mount, "where the sonar sits on the vehicle");
     v.integer("every", c.every, at_least(1), "the sonar pings at every n-th pose");
+    v.flag(
+        "moves_in_ping", c.moves_in_ping,
+        "the sonar goes on moving and turning while sound is under way; otherwise it stands still "
+        "in a ping");
     if (keys.opening)
         v.number("opening_deg", c.opening_deg, between(1e-3, 180), "full angle of the cone");
     if (keys.azimuth)

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "core/pose.h"
 #include "mission/mission.h"
 #include "ping/form_image.h"
+#include "water/sound_profile.h"
 
 namespace sonarsim {
 
@@ -24,6 +26,11 @@ struct Sonar {
     /// For soundings: the bias of a range by range noise, m, indexed by the length in bins of the
     /// run that shows the surface. Empty: no bias.
     std::vector<double> range_bias_m;
+    // For soundings, where sound bends; null: it goes straight.
+    std::shared_ptr<const SoundProfile> true_profile;
+    std::shared_ptr<const SoundProfile> assumed_profile;  ///< the instrument believes in it
+    /// Its motion in the ping from each pose of the trajectory; null: it stands still in a ping.
+    std::shared_ptr<const std::vector<PingMotion>> motions;
 };
 
 /// The angle of the head at the pose with this index on the trajectory; 0 for a fixed sonar.

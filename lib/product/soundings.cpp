@@ -6,6 +6,7 @@
 
 #include "core/elementary.h"
 #include "product/detect_return.h"
+#include "trace/true_place.h"
 
 namespace sonarsim {
 
@@ -50,8 +51,12 @@ std::vector<Sounding> find_soundings(const Sonar& sonar, const Pose& T_world_veh
         if (std::isnan(soundings[j].range_m)) continue;
         const SinCos azimuth = sincos(sonar.beam_azimuths_rad[j]);
         const Eigen::Vector3d ray(azimuth.cos, azimuth.sin, 0.0);
-        soundings[j].position =
-            T_world_sensor.rotation * (soundings[j].range_m * ray) + T_world_sensor.translation;
+        const Eigen::Vector3d measured = soundings[j].range_m * ray;
+        soundings[j].position = true_place(sonar.assumed_profile.get(), T_world_sensor, measured);
+        if (sonar.true_profile) {
+            soundings[j].true_position =
+                true_place(sonar.true_profile.get(), T_world_sensor, measured);
+        }
     }
     return soundings;
 }

@@ -9,7 +9,9 @@ namespace sonarsim {
 namespace {
 
 constexpr double least_quality = 0.5;
-constexpr std::size_t sounding_values = 5;  ///< range, x, y, z, quality
+/// Range, x, y, z and quality; where sound bends, the true x, y and z follow.
+constexpr std::size_t sounding_values = 5;
+constexpr std::size_t bent_sounding_values = 8;
 
 }  // namespace
 
@@ -19,7 +21,9 @@ void read_dataset_soundings(const DatasetSource& source, const std::string& patt
     const std::string file = (source.folder / *sensor.records).string();
     const RecordedArray soundings = read_array_file(file);
     const std::size_t beams = sensor.azimuth_bins;
-    if (soundings.shape != std::vector<std::size_t>{sensor.pings, beams, sounding_values})
+    const std::size_t values = soundings.shape.empty() ? 0 : soundings.shape.back();
+    if (soundings.shape != std::vector<std::size_t>{sensor.pings, beams, values} ||
+        (values != sounding_values && values != bent_sounding_values))
         throw InputError({file},
                          "has another shape than dataset.json says; sonarsim verify says more");
     const std::vector<double> azimuths = middles(source.checked().at("azimuth_edges_rad"));
@@ -30,7 +34,7 @@ void read_dataset_soundings(const DatasetSource& source, const std::string& patt
                 throw InputError(
                     {name}, "has another shape than dataset.json says; sonarsim verify says more");
             for (std::size_t j = 0; j < beams; ++j) {
-                const double* own = soundings.values.data() + (k * beams + j) * sounding_values;
+                const double* own = soundings.values.data() + (k * beams + j) * values;
                 const double bin =
                     (own[0] - recording.first_range_m) / recording.range_step_m + 0.5;
                 const bool is_found = own[4] >= least_quality && bin >= 0.0 &&

@@ -10,7 +10,8 @@
 
 namespace sonarsim {
 
-class GroundMaps;  // scene/maps/ground_maps.h
+class GroundMaps;     // scene/maps/ground_maps.h
+struct SoundProfile;  // water/sound_profile.h
 
 struct Water {
     double density_kg_m3 = 997.0;
@@ -103,6 +104,8 @@ struct Scene {
     double vertex_rounding_m = 0.0;
     std::optional<WaterSurface> water_surface;
     std::shared_ptr<const GroundMaps> maps;  ///< maps laid on instances; null: none
+    /// Sound bends by it; null: sound goes straight at the speed of `Water`.
+    std::shared_ptr<const SoundProfile> sound_profile;
     SceneRejects rejects;
     std::vector<std::string> warnings;  ///< sentences for the user
 };

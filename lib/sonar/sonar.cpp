@@ -60,8 +60,10 @@ std::optional<Sonar> drawn_sonar(const Mission& mission, const Sonar& sonar, std
 
 TracedPing trace(const Sonar& sonar, const Scene& scene, const VisibilityEngine& engine,
                  const Pose& T_world_vehicle, std::uint32_t pose, const Terms& terms) {
+    const PingMotion motion =
+        sonar.motions && pose < sonar.motions->size() ? (*sonar.motions)[pose] : PingMotion{};
     return trace_ping(sonar.settings, scene, engine, sensor_pose(sonar, T_world_vehicle, pose),
-                      terms);
+                      terms, motion);
 }
 
 Ping render_ping(const Sonar& sonar, const Scene& scene, const VisibilityEngine& engine,

@@ -7,7 +7,9 @@
 
 // Arrivals: what the clock and the array of a sonar measure of sound from a point. Everything after
 // the trace takes ranges and directions from here, and nothing else derives them from positions.
-// The water is still and of one sound speed: sound goes straight, and comes back the way it went.
+// Positions are those that a sonar measures (visibility/engine.h): half of the way at one speed, in
+// the direction from which the sound comes. So sound seems to go straight, and to come back the way
+// it went, even where a profile bends it; trace/true_place.h has the place in the world.
 
 namespace sonarsim {
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "trace/arrivals.h"
+#include "trace/true_place.h"
 
 namespace sonarsim {
 
@@ -37,8 +38,10 @@ struct MapPiece {
 /// Cuts the samples of a ping.
 class MapLayer {
   public:
-    MapLayer(const GroundMaps& maps, const View& view, const Pose& T_world_sensor, double size)
+    MapLayer(const GroundMaps& maps, const View& view, const Pose& T_world_sensor, double size,
+             const SoundProfile* profile)
         : maps_(maps),
+          profile_(profile),
           pose_(T_world_sensor),
           R_(T_world_sensor.rotation.toRotationMatrix().topRows<2>()),
           sensor_(T_world_sensor.translation.head<2>()),
@@ -54,12 +57,12 @@ class MapLayer {
             return;
         }
         sample_ = &sample;
-        MapPiece piece{sample.position,
-                       sample.edge_u,
-                       sample.edge_v,
-                       {from_above(sample.position) + sensor_, from_above(sample.edge_u),
-                        from_above(sample.edge_v)},
-                       sample.area_m2};
+        MapPiece piece{
+            sample.position,
+            sample.edge_u,
+            sample.edge_v,
+            {ground_of(sample.position), from_above(sample.edge_u), from_above(sample.edge_v)},
+            sample.area_m2};
         if (maps_.are_by_uv()) find_ground(piece);
         cut(piece, most_halvings, out);
     }
@@ -71,13 +74,20 @@ class MapLayer {
 
     Eigen::Vector2d from_above(const Eigen::Vector3f& v) const { return R_ * v.cast<double>(); }
 
+    Eigen::Vector2d ground_of(const Eigen::Vector3f& p) const {
+        if (profile_) return true_place(profile_, pose_, p.cast<double>()).head<2>();
+        return from_above(p) + sensor_;
+    }
+
     /// Finds a piece's place on the maps by texture coordinates. A piece is flat and the triangles
     /// below it need not be, so each has that of its own centre.
     void find_ground(MapPiece& piece) const {
         const Eigen::Matrix3d R = pose_.rotation.toRotationMatrix();
-        piece.ground = maps_.footprint(sample_->instance,
-                                       R * piece.position.cast<double>() + pose_.translation,
-                                       R * piece.u.cast<double>(), R * piece.v.cast<double>());
+        piece.ground =
+            maps_.footprint(sample_->instance,
+                            profile_ ? true_place(profile_, pose_, piece.position.cast<double>())
+                                     : R * piece.position.cast<double>() + pose_.translation,
+                            R * piece.u.cast<double>(), R * piece.v.cast<double>());
     }
 
     /// The extent of an edge by what a piece may have.
@@ -134,10 +144,11 @@ class MapLayer {
         sample.edge_v = piece.v;
         sample.area_m2 = piece.area_m2;
         sample.material = material;
-        sample.strength = strength;
+        sample.strength = sample_->strength * strength;
     }
 
     const GroundMaps& maps_;
+    const SoundProfile* profile_;
     const Pose& pose_;
     Eigen::Matrix<double, 2, 3> R_;  ///< from the sensor frame to the world's x and y
     Eigen::Vector2d sensor_;
@@ -149,8 +160,9 @@ class MapLayer {
 }  // namespace
 
 void lay_maps(const GroundMaps& maps, const View& view, const Pose& T_world_sensor,
-              Samples& samples, std::vector<Sample>& outside_sector, double size) {
-    MapLayer layer(maps, view, T_world_sensor, size);
+              Samples& samples, std::vector<Sample>& outside_sector, double size,
+              const SoundProfile* profile) {
+    MapLayer layer(maps, view, T_world_sensor, size, profile);
     std::vector<Sample> items;
     items.reserve(2 * samples.items.size());
     std::uint32_t begin = 0;

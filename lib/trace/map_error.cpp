@@ -29,8 +29,8 @@ double error_of_maps(const Scene& scene, const View& view, const Pose& T_world_s
     }
     Samples fine = usual;
     std::vector<Sample> none;
-    lay_maps(*scene.maps, view, T_world_sensor, usual, none);
-    lay_maps(*scene.maps, view, T_world_sensor, fine, none, finer);
+    lay_maps(*scene.maps, view, T_world_sensor, usual, none, 1.0, scene.sound_profile.get());
+    lay_maps(*scene.maps, view, T_world_sensor, fine, none, finer, scene.sound_profile.get());
     return image_change(mean_echoes(scene, view, usual), mean_echoes(scene, view, fine)) / finer;
 }
 

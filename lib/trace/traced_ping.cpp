@@ -15,9 +15,10 @@ namespace sonarsim {
 
 TracedPing trace_ping(const TraceSettings& settings, const Scene& scene,
                       const VisibilityEngine& engine, const Pose& T_world_sensor,
-                      const Terms& terms) {
+                      const Terms& terms, const PingMotion& motion) {
     TracedPing traced;
     traced.T_world_sensor = T_world_sensor;
+    traced.motion = motion;
     Stopwatch watch;
 
     // 1. The visible surface.
@@ -32,11 +33,14 @@ TracedPing trace_ping(const TraceSettings& settings, const Scene& scene,
         const double of_maps = error_of_maps(scene, settings.view, T_world_sensor, traced.samples);
         double& estimate = traced.samples.estimated_l1;
         estimate = std::sqrt(estimate * estimate + of_maps * of_maps);
-        lay_maps(*scene.maps, settings.view, T_world_sensor, traced.samples, traced.outside_sector);
+        lay_maps(*scene.maps, settings.view, T_world_sensor, traced.samples, traced.outside_sector,
+                 1.0, scene.sound_profile.get());
     }
+    move_in_ping(motion, settings.view, traced.samples, traced.outside_sector);
     if (settings.targets) {
         traced.targets = target_surface(*settings.targets, settings.view, settings.guard_beams,
                                         scene, engine, T_world_sensor);
+        move_in_ping(motion, settings.view.shape, traced.targets.facets);
     }
     if (settings.coherent) {
         traced.coherent = find_coherent_surface(*settings.coherent, scene, engine, T_world_sensor,

@@ -9,6 +9,7 @@
 #include "trace/coherent_surface.h"
 #include "trace/counters.h"
 #include "trace/multipath.h"
+#include "trace/ping_motion.h"
 #include "trace/target_shapes.h"
 #include "trace/target_surface.h"
 #include "trace/terms.h"
@@ -32,7 +33,8 @@ struct TraceSettings {
 /// The surface that a sonar insonified from one pose. It holds no noise: any number of images may
 /// be formed from it.
 struct TracedPing {
-    Pose T_world_sensor;
+    Pose T_world_sensor;  ///< at transmission
+    PingMotion motion;
     Samples samples;                     ///< the visible surface
     std::vector<Sample> outside_sector;  ///< the visible surface in the guard beams
     TargetSurface targets;               ///< takes the place of the samples of its instances
@@ -49,7 +51,7 @@ struct TracedPing {
 /// steps 1 and 2 of docs/model.md.
 TracedPing trace_ping(const TraceSettings& settings, const Scene& scene,
                       const VisibilityEngine& engine, const Pose& T_world_sensor,
-                      const Terms& terms = {});
+                      const Terms& terms = {}, const PingMotion& motion = {});
 
 /// Finds the multipath of a traced ping anew, as `settings` have it.
 void trace_multipath(const TraceSettings& settings, const Scene& scene,

@@ -235,7 +235,13 @@ void Caster::cast(const Eigen::Vector3f& origin, std::span<const Eigen::Vector3f
 void Caster::cast(std::span<const Eigen::Vector3f> origins,
                   std::span<const Eigen::Vector3f> directions,
                   std::span<std::uint32_t> facets) const {
-    cast_from({origins.data(), 1}, directions, std::numeric_limits<float>::infinity(), facets);
+    cast(origins, directions, std::numeric_limits<float>::infinity(), facets);
+}
+
+void Caster::cast(std::span<const Eigen::Vector3f> origins,
+                  std::span<const Eigen::Vector3f> directions, float reach_m,
+                  std::span<std::uint32_t> facets) const {
+    cast_from({origins.data(), 1}, directions, reach_m, facets);
 }
 
 }  // namespace sonarsim

@@ -48,6 +48,9 @@ class Caster {
     /// specular reflections of neighbouring rays are.
     void cast(std::span<const Eigen::Vector3f> origins, std::span<const Eigen::Vector3f> directions,
               std::span<std::uint32_t> facets) const;
+    /// The same within `reach_m`.
+    void cast(std::span<const Eigen::Vector3f> origins, std::span<const Eigen::Vector3f> directions,
+              float reach_m, std::span<std::uint32_t> facets) const;
 
     /// False if a ray surely meets nothing: it starts outside of the box around the whole scene and
     /// leads away from it.

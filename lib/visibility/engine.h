@@ -15,17 +15,19 @@
 namespace sonarsim {
 
 /// A patch of visible surface: a flat parallelogram that represents `area_m2` of the scene.
+/// Positions and edges are those that a sonar measures: where sound bends (Scene::sound_profile),
+/// the range by the time and the direction of arrival give an apparent place, not the true one.
 struct Sample {
     Eigen::Vector3f position;  ///< centre, sensor frame, m
     Eigen::Vector3f edge_u;    ///< half an edge of the footprint, sensor frame, m
     Eigen::Vector3f edge_v;    ///< half the other edge
-    Eigen::Vector3f normal;    ///< unit, facing the sonar
+    Eigen::Vector3f normal;    ///< unit, facing the sonar; at the true angle to the sound there
     float height_m;  ///< distance of the sonar from the patch's plane: v . n = height_m / range
     float area_m2;
     std::uint32_t material;  ///< index into Scene::materials
     std::uint32_t instance;  ///< index into Scene::instances
     /// Factor on the power that the material sends back, from a map of the scene
-    /// (trace/lay_maps.h).
+    /// (trace/lay_maps.h) and from bent sound that converges or spreads.
     float strength = 1.0F;
 };
 
@@ -81,6 +83,14 @@ class VisibilityEngine {
     virtual void intersect(const Pose& T_world_sensor, std::span<const Ray> rays,
                            std::span<Intersection> intersections) const = 0;
 
+    /// The same along the ways of sound from the sonar, which may bend: a ray starts at a place
+    /// that a sonar measures, leads on away from the sonar, and ends at another such place, if that
+    /// is no further than `reach_m` from the sonar.
+    virtual void intersect_behind(const Pose& T_world_sensor, std::span<const Ray> rays,
+                                  float /*reach_m*/, std::span<Intersection> intersections) const {
+        intersect(T_world_sensor, rays, intersections);
+    }
+
     /// The engine with Scene::bodies at these poses. It shares everything else with this engine,
     /// and must not outlive it. Without this call bodies are invisible. Call it only for scenes
     /// with bodies; `unsupported` names the engines that cannot trace bodies.
@@ -103,6 +113,7 @@ class VisibilityEngine {
 
     /// 1 for the bins of `view` that some surface falls into, seen or hidden, else 0: [beams, range
     /// bins], beam after beam. Surface less than a thousandth of a bin deep may be left out.
+    /// Empty where sound bends: then it is not known.
     virtual std::vector<std::uint8_t> covered_bins(const View& view,
                                                    const Pose& T_world_sensor) const = 0;
 };

@@ -27,7 +27,7 @@ std::unique_ptr<VisibilityEngine> make_engine(const Scene& scene, const EngineSe
     const Caster caster = settings.caster ? *settings.caster : Caster(scene);
     if (settings.type == EngineKind::slices)
         return make_slices_engine(scene, caster, settings.slices, settings.coverage);
-    if (settings.type == EngineKind::automatic) {
+    if (settings.type == EngineKind::automatic && !scene.sound_profile) {
         return make_auto_engine(scene, caster, settings.slices, settings.probes, settings.coverage);
     }
     return make_rays_engine(scene, caster, settings.coverage);
@@ -35,6 +35,11 @@ std::unique_ptr<VisibilityEngine> make_engine(const Scene& scene, const EngineSe
 
 std::string unsupported(const EngineSettings& settings, const Scene& scene) {
     const bool is_octree = settings.type == EngineKind::octree;
+    if (scene.sound_profile && (is_octree || settings.type == EngineKind::slices)) {
+        return std::string(is_octree ? "engine: octree" : "engine: slices") +
+               " sees along straight lines, and water.profile bends them; use engine: auto or "
+               "engine: rays";
+    }
     if (!scene.bodies.empty() && (is_octree || settings.type == EngineKind::slices)) {
         return std::string(is_octree ? "engine: octree" : "engine: slices") +
                " does not support moving objects; use engine: auto or engine: rays";

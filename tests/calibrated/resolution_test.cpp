@@ -69,8 +69,10 @@ TEST_SUITE("calibrated") {
                 c.preset,
                 "    azimuth_deg: 6\n    azimuth_bins: 121\n    range_bins: 61\n"
                 "    range_min_m: " +
-                    std::to_string(c.range_m - 7.625 * c.resolution_m) + "\n    range_max_m: " +
-                    std::to_string(c.range_m + 7.625 * c.resolution_m) + "\n");
+                    std::to_string(c.range_m - 7.625 * c.resolution_m) +
+                    "\n    range_max_m: " + std::to_string(c.range_m + 7.625 * c.resolution_m) +
+                    "\n    instrument: {usual_water: none, receiver: {samples: 1}, "
+                    "beam: {elements: {gain_error_db: 0, phase_error_deg: 0}}}\n");
             const std::vector<float> image = quiet_image(sonar, point_at(c.range_m), false);
             const std::size_t peak = std::ranges::max_element(image) - image.begin();
             std::vector<double> across, along;

@@ -24,7 +24,7 @@ Sonar scanning(const std::string& preset) {
                         "    range_bins: 140\n"
                         "    sector_deg: 24\n"
                         "    step_deg: 0.5\n"
-                        "    instrument: {speckle: {mode: none}, receiver: {tvg_log: 0}}\n");
+                        "    instrument: {usual_water: none, speckle: {mode: none}, receiver: {tvg_log: 0}}\n");
 }
 
 double energy_db(const std::vector<float>& image) {

@@ -187,7 +187,8 @@ TEST_SUITE("calibrated") {
         // the aperture were moved by 2 (y - x tan a), transmitter and receiver together. Besides,
         // the scatterer is seen under another angle, by (y cos a - x sin a) / r less, and turning
         // by a yaw takes it as far aside; and its echo comes earlier than the pulse is long.
-        const Patch patch("didson_1800khz", 5.0, 0.02, 66);
+        const Patch patch("didson_1800khz", 5.0, 0.02, 66,
+                          "    instrument: {usual_water: none, receiver: {samples: 1}}\n");
         const LineArray array = array_of(patch.sonar);
         const PulseBand pulse(patch.sonar.config.instrument.pulse);
         constexpr int outer = 10;
@@ -264,7 +265,8 @@ TEST_SUITE("calibrated") {
         };
         for (const double shape : {1.0, 4.0}) {
             const Patch patch("didson_1800khz", 5.0, 0.02, 66,
-                              "    instrument: {speckle: {clutter_m: 0.1, clutter_shape: " +
+                              "    instrument: {usual_water: none, receiver: {samples: 1}, "
+                              "speckle: {clutter_m: 0.1, clutter_shape: " +
                                   std::to_string(shape) + "}}\n");
             const LineArray array = array_of(patch.sonar);
             const double along = share_in_one(

@@ -9,7 +9,6 @@
 #include "calibrated/directivity.h"
 #include "calibrated/model.h"
 #include "calibrated/piston.h"
-#include "calibrated/volume_strengths.h"
 #include "core/units.h"
 #include "support/calibrated.h"
 #include "support/scenes.h"
@@ -267,13 +266,10 @@ TEST_SUITE("calibrated") {
         }
     }
 
-    TEST_CASE("water: the levels of what it holds, and none of none") {
-        WaterConfig water;
-        CHECK_FALSE(volume_strength_db(water).has_value());
-        CHECK_FALSE(sounder(SpeckleMode::none).water == std::nullopt);
-        water.content = WaterContent::coastal;
-        CHECK(volume_strength_db(water) == -75.0);
-        water.scattering_db_per_m3 = -70.0;
-        CHECK(volume_strength_db(water) == -70.0);
+    TEST_CASE("water: none by default") {
+        const CalibratedModel model = calibrated_model(instrument_of(Aperture::piston, 7.0), {},
+                                                       view_of(ViewShape::cone, 40.0, 40.0, 1), {});
+        CHECK_FALSE(model.water.has_value());
+        CHECK(sounder(SpeckleMode::none).water.has_value());
     }
 }

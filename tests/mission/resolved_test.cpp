@@ -21,6 +21,7 @@ Mission unusual_mission() {
     sonar.name = "null";
     sonar.mount = {{1e-7, -2, 0.1}, {-4, 5, 0.2 + 0.1}};
     sonar.every = 7;
+    sonar.moves_in_ping = true;
     sonar.azimuth_deg = 59.5;
     sonar.elevation_deg = 12.25;
     sonar.range_min_m = 0.3;
@@ -83,8 +84,10 @@ water:
   depth_m: 10
   ph: 8
   wind_m_s: 5
-  content: none
+  content: auto
   scattering_db_per_m3: auto
+  suspended_mg_l: auto
+  suspended_um: 50
   layers: []
 scene:
   file: "/base/a.glb"
@@ -119,6 +122,7 @@ sensors:
       translation_m: [0, 0, 0]
       rpy_deg: [0, 0, 0]
     every: 1
+    moves_in_ping: false
     azimuth_deg: 120
     elevation_deg: 20
     range_min_m: 0.1

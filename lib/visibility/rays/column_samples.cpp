@@ -107,6 +107,8 @@ Sample piece(const Context& context, const CastRay& ray, const ColumnSides& side
     sample.area_m2 = solid_angle * range * range * range / ray.height_m;
     sample.material = ray.material;
     sample.instance = ray.instance;
+    if (!context.columns.tubes.empty())
+        spread(context.columns.tubes[&ray - context.columns.rays.data()], range, sample);
     return sample;
 }
 

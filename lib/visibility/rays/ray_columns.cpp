@@ -26,8 +26,9 @@ struct Gap {
 class ColumnCaster {
   public:
     ColumnCaster(const Caster& caster, const View& view, const LocalPose& pose,
-                 const Sampling& sampling, RayColumns& out)
+                 const Sampling& sampling, const BentWater& water, RayColumns& out)
         : caster_(caster),
+          water_(water),
           view_(view),
           pose_(pose),
           sampling_(sampling),
@@ -188,6 +189,7 @@ class ColumnCaster {
         for (std::size_t i = 0; i < count; ++i) {
             directions_[i] = pose_.rotation * out_.rays[order[i]].direction;
         }
+        if (water_.profile) return cast_bent(order);
         caster_.cast(pose_.position, directions_, reach_m_ * (1.0F + overreach), facets_);
         const Eigen::Matrix3f R_sensor_local = pose_.rotation.transpose();
         const float nearest_m = nearest_share * reach_m_;
@@ -216,6 +218,36 @@ class ColumnCaster {
         cast_count_ = out_.rays.size();
     }
 
+    /// The same along bent rays: a ray gets the plane that the surface appears to be.
+    void cast_bent(const std::vector<int>& order) {
+        std::vector<BentHit> hits(order.size());
+        cast_bent_rays(caster_, water_, pose_.position, directions_, {},
+                       reach_m_ * (1.0F + overreach), hits);
+        const Eigen::Matrix3f R_sensor_local = pose_.rotation.transpose();
+        out_.tubes.resize(out_.rays.size());
+        for (std::size_t i = 0; i < order.size(); ++i) {
+            const BentHit& hit = hits[i];
+            if (hit.facet == Caster::nothing) continue;
+            CastRay& ray = out_.rays[order[i]];
+            ray.facet = hit.facet;
+            ray.normal = R_sensor_local * hit.normal;
+            ray.cosine = hit.cosine;
+            ray.range_m = hit.range_m;
+            ray.height_m = hit.cosine * hit.range_m;
+            const Facet facet = caster_.facet(hit.facet);
+            ray.material = facet.material;
+            ray.instance = facet.instance;
+            out_.tubes[order[i]] = hit.tube;
+            out_.tubes[order[i]].normal = R_sensor_local * hit.tube.normal;
+            if (!(hit.cosine > 1e-7F && hit.tube.cosine > 1e-7F &&
+                  hit.range_m > nearest_share * reach_m_)) {
+                ray.facet = Caster::nothing;
+                ++out_.dropped;
+            }
+        }
+        cast_count_ = out_.rays.size();
+    }
+
     /// Stores the estimate of a gap that has been split `level` times, and adds the gap to `gaps`
     /// if it must be split.
     void estimate(const Gap& gap, int level, std::vector<Gap>& gaps) {
@@ -230,6 +262,7 @@ class ColumnCaster {
     }
 
     const Caster& caster_;
+    const BentWater& water_;
     const View& view_;
     const LocalPose& pose_;
     const Sampling& sampling_;
@@ -244,9 +277,9 @@ class ColumnCaster {
 }  // namespace
 
 RayColumns cast_ray_columns(const Caster& caster, const View& view, const LocalPose& pose,
-                            const Sampling& sampling) {
+                            const Sampling& sampling, const BentWater& water) {
     RayColumns out;
-    ColumnCaster columns(caster, view, pose, sampling, out);
+    ColumnCaster columns(caster, view, pose, sampling, water, out);
     columns.cast_whole_columns();
     columns.cast_edge_strips();
     columns.split_gaps();

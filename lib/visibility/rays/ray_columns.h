@@ -6,6 +6,7 @@
 #include "visibility/angles.h"
 #include "visibility/caster.h"
 #include "visibility/local_pose.h"
+#include "visibility/rays/bent_rays.h"
 #include "visibility/rays/cast_ray.h"
 #include "visibility/rays/sampling.h"
 #include "visibility/view.h"
@@ -28,6 +29,7 @@ struct RayColumn {
 /// order, each with `Sampling::rays` consecutive rays; edge strips follow, sorted by beam.
 struct RayColumns {
     std::vector<CastRay> rays;
+    std::vector<RayTube> tubes;  ///< one for each ray where sound bends, else empty
     std::vector<RayColumn> columns;
     /// [whole_columns, Sampling::rays]: nonzero if edge strips leave the column only its middle
     /// strip.
@@ -40,6 +42,6 @@ struct RayColumns {
 /// Casts rays along every column of the view. Adds edge strips where neighbouring columns disagree,
 /// and splits the gap between two neighbouring rays while its estimate is too uncertain.
 RayColumns cast_ray_columns(const Caster& caster, const View& view, const LocalPose& pose,
-                            const Sampling& sampling);
+                            const Sampling& sampling, const BentWater& water = {});
 
 }  // namespace sonarsim

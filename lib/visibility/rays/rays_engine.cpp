@@ -9,6 +9,7 @@
 #include "visibility/coverage.h"
 #include "visibility/intersect.h"
 #include "visibility/local_pose.h"
+#include "visibility/rays/bent_rays.h"
 #include "visibility/rays/column_samples.h"
 #include "visibility/rays/ray_columns.h"
 #include "visibility/rays/set_disagreement.h"
@@ -23,6 +24,10 @@ namespace {
 constexpr std::size_t rays_per_probe = 128;
 constexpr std::size_t fewest_probes = 100;
 
+// A bent ray is cast as chords that are off by this share of a bin at most.
+constexpr double sag_by_bin = 0.25;
+constexpr double sag_of_sight_lines_m = 0.01;
+
 class RaysEngine final : public VisibilityEngine {
   public:
     RaysEngine(const Scene& scene, Caster caster, SceneCoverage coverage,
@@ -35,10 +40,16 @@ class RaysEngine final : public VisibilityEngine {
     Samples visible_surface(const View& view, const Pose& T_world_sensor) const override {
         const Sampling sampling = sampling_for(view);
         const LocalPose pose = local_pose(T_world_sensor, scene_->origin);
-        const RayColumns columns = cast_ray_columns(caster_, view, pose, sampling);
+        const RayColumns columns =
+            cast_ray_columns(caster_, view, pose, sampling, water(sag_by_bin * view.bin_m()));
         SetComparison comparison(view, scene_->materials);
         Samples samples = column_samples(view, sampling, columns, comparison);
         const SetDisagreement& image = comparison.result();
+        // Probes go straight.
+        if (scene_->sound_profile) {
+            samples.estimated_l1 = image.error();
+            return samples;
+        }
         const std::size_t probes = std::max(columns.rays.size() / rays_per_probe, fewest_probes);
         samples.estimated_l1 =
             image.error() + share_of_dark_bins(*scene_, caster_, view, pose, image, probes);
@@ -50,8 +61,17 @@ class RaysEngine final : public VisibilityEngine {
         intersect_rays(caster_, scene_->origin, T_world_sensor, rays, intersections);
     }
 
+    void intersect_behind(const Pose& T_world_sensor, std::span<const Ray> rays, float reach_m,
+                          std::span<Intersection> intersections) const override {
+        if (!scene_->sound_profile) return intersect(T_world_sensor, rays, intersections);
+        intersect_bent_rays(caster_, water(sag_of_sight_lines_m),
+                            local_pose(T_world_sensor, scene_->origin), rays, reach_m,
+                            intersections);
+    }
+
     std::vector<std::uint8_t> covered_bins(const View& view,
                                            const Pose& T_world_sensor) const override {
+        if (scene_->sound_profile) return {};
         return coverage_.bins(view, T_world_sensor, T_world_body_);
     }
 
@@ -66,6 +86,10 @@ class RaysEngine final : public VisibilityEngine {
     std::span<const Pose> body_poses() const override { return T_world_body_; }
 
   private:
+    BentWater water(double sag_m) const {
+        return {scene_->sound_profile.get(), scene_->origin.z(), sag_m};
+    }
+
     const Scene* scene_;
     Caster caster_;
     SceneCoverage coverage_;

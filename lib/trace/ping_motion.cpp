@@ -1,0 +1,129 @@
+#include "trace/ping_motion.h"
+
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include "core/elementary.h"
+
+namespace sonarsim {
+
+namespace {
+
+/// The share of the motion in a ping that the frame of a measured direction has made.
+double share_of(ViewShape shape) {
+    return shape == ViewShape::fan ? 1.0 : 0.5;
+}
+
+/// The rotation by a vector's length about it.
+Eigen::Quaterniond rotation_by(const Eigen::Vector3d& turn_rad) {
+    const double angle = turn_rad.norm();
+    if (!(angle > 0.0)) return Eigen::Quaterniond::Identity();
+    const SinCos half = sincos(0.5 * angle);
+    const Eigen::Vector3d axis = half.sin / angle * turn_rad;
+    return {half.cos, axis.x(), axis.y(), axis.z()};
+}
+
+/// The time of sound to a place and back to where the sonar is then: the greater root of
+/// |p - v t| = c t - |p|, which is t = 2 (c |p| - v . p) / (c^2 - v^2).
+double two_way_time(const PingMotion& motion, const Eigen::Vector3d& place) {
+    const double c = motion.sound_speed_m_s;
+    const Eigen::Vector3d& v = motion.velocity_m_s;
+    return 2.0 * (c * place.norm() - v.dot(place)) / (c * c - v.squaredNorm());
+}
+
+/// Over a patch the time of return changes by 2 / c for each metre, in which a sonar moves by
+/// thousandths of that and turns by less than 1e-3: its edges are only turned.
+Sample moved(const PingMotion& motion, ViewShape shape, const Sample& sample) {
+    const Eigen::Vector3d place = sample.position.cast<double>();
+    const double time = two_way_time(motion, place);
+    const double moving = share_of(shape) * time;
+    const Eigen::Matrix3d to_there =
+        rotation_by(moving * motion.turn_rad_s).conjugate().toRotationMatrix();
+    const Eigen::Vector3d from_there = to_there * (place - moving * motion.velocity_m_s);
+    const double range = 0.5 * motion.sound_speed_m_s * time;
+    const Eigen::Matrix3f turn = to_there.cast<float>();
+    Sample out = sample;
+    out.position = (range / from_there.norm() * from_there).cast<float>();
+    out.edge_u = turn * sample.edge_u;
+    out.edge_v = turn * sample.edge_v;
+    out.normal = turn * sample.normal;
+    out.height_m *= static_cast<float>(range / place.norm());
+    return out;
+}
+
+/// The beam of a fan by azimuth alone; -1 outside.
+int beam_by_azimuth(const View& view, const Eigen::Vector3f& p) {
+    const double azimuth = arctan2(static_cast<double>(p.y()), static_cast<double>(p.x()));
+    const double beam = std::floor((azimuth / view.azimuth_rad + 0.5) * view.beams);
+    return beam >= 0.0 && beam < view.beams ? static_cast<int>(beam) : -1;
+}
+
+}  // namespace
+
+Eigen::Vector3d measured_place(const PingMotion& motion, ViewShape shape,
+                               const Eigen::Vector3d& place) {
+    const double time = two_way_time(motion, place);
+    const double moving = share_of(shape) * time;
+    const Eigen::Vector3d from_there = rotation_by(moving * motion.turn_rad_s).conjugate() *
+                                       (place - moving * motion.velocity_m_s);
+    return 0.5 * motion.sound_speed_m_s * time * from_there.normalized();
+}
+
+Eigen::Vector3d unmoved_place(const PingMotion& motion, ViewShape shape,
+                              const Eigen::Vector3d& measured) {
+    // The place lies at s + l d, where the sonar has moved by s meanwhile and d is the direction in
+    // the frame at transmission. Its two-way time grows by 2 / c for each metre of l, all but for
+    // the speed of the sonar, so that this comes a thousand times nearer each time.
+    const double time = 2.0 * measured.norm() / motion.sound_speed_m_s;
+    const double moving = share_of(shape) * time;
+    const Eigen::Vector3d d = rotation_by(moving * motion.turn_rad_s) * measured.normalized();
+    const Eigen::Vector3d s = moving * motion.velocity_m_s;
+    double length = measured.norm();
+    for (int k = 0; k < 4; ++k)
+        length += 0.5 * motion.sound_speed_m_s * (time - two_way_time(motion, s + length * d));
+    return s + length * d;
+}
+
+void move_in_ping(const PingMotion& motion, const View& view, Samples& samples,
+                  std::vector<Sample>& outside_sector) {
+    if (motion.is_still()) return;
+    for (Sample& sample : samples.items)
+        sample = moved(motion, view.shape, sample);
+    for (Sample& sample : outside_sector)
+        sample = moved(motion, view.shape, sample);
+    if (view.shape != ViewShape::fan) return;
+    std::vector<std::vector<Sample>> of_beam(view.beams);
+    std::vector<Sample> outside;
+    for (const std::vector<Sample>* all : {&samples.items, &outside_sector}) {
+        for (const Sample& sample : *all) {
+            const int beam = beam_by_azimuth(view, sample.position);
+            (beam < 0 ? outside : of_beam[beam]).push_back(sample);
+        }
+    }
+    samples.items.clear();
+    for (int j = 0; j < view.beams; ++j) {
+        samples.items.insert(samples.items.end(), of_beam[j].begin(), of_beam[j].end());
+        samples.beam_begin[j + 1] = static_cast<std::uint32_t>(samples.items.size());
+    }
+    outside_sector = std::move(outside);
+}
+
+void move_in_ping(const PingMotion& motion, ViewShape shape, std::vector<TargetFacet>& facets) {
+    if (motion.is_still()) return;
+    for (TargetFacet& facet : facets) {
+        const double time = two_way_time(motion, facet.corners[0].cast<double>());
+        const Eigen::Matrix3f to_there = rotation_by(share_of(shape) * time * motion.turn_rad_s)
+                                             .conjugate()
+                                             .toRotationMatrix()
+                                             .cast<float>();
+        facet.normal = to_there * facet.normal;
+        for (int k = 0; k < 3; ++k) {
+            facet.normals[k] = to_there * facet.normals[k];
+            facet.corners[k] =
+                measured_place(motion, shape, facet.corners[k].cast<double>()).cast<float>();
+        }
+    }
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <span>
+
+#include "visibility/caster.h"
+#include "visibility/engine.h"
+#include "visibility/local_pose.h"
+#include "water/sound_profile.h"
+
+namespace sonarsim {
+
+/// The water that bends rays.
+struct BentWater {
+    const SoundProfile* profile = nullptr;  ///< null: sound goes straight
+    double origin_m = 0.0;                  ///< height of the scene's origin in the world
+    double sag_m = 0.0;  ///< rays are cast as chords of their arcs, which are off by this at most
+};
+
+/// The surface that a ray met, by the water between.
+struct RayTube {
+    Eigen::Vector3f normal;  ///< unit; it has the true angle to the ray, in the frame of its start
+    float cosine = 0.0F;     ///< cosine of the true angle of incidence
+    float area = 1.0F;       ///< true by apparent area
+    float strength = 1.0F;   ///< power by that of sound that spreads as the apparent range has it
+};
+
+/// The surface that a bent ray met, where it appears to a sonar that believes in straight rays.
+struct BentHit {
+    std::uint32_t facet = Caster::nothing;
+    float range_m = 0.0F;
+    Eigen::Vector3f normal;  ///< unit, normal to the apparent plane, facing the sonar, scene-local
+    float cosine = 0.0F;     ///< cosine of the angle of incidence on that plane
+    RayTube tube;            ///< scene-local
+};
+
+/// Casts rays that leave `position`, scene-local. `from_m` [rays] says up to which ranges they meet
+/// nothing; empty: they meet all.
+void cast_bent_rays(const Caster& caster, const BentWater& water, const Eigen::Vector3f& position,
+                    std::span<const Eigen::Vector3f> directions, std::span<const float> from_m,
+                    float reach_m, std::span<BentHit> hits);
+
+/// VisibilityEngine::intersect_behind() where sound bends.
+void intersect_bent_rays(const Caster& caster, const BentWater& water, const LocalPose& pose,
+                         std::span<const Ray> rays, float reach_m,
+                         std::span<Intersection> intersections);
+
+/// Gives a sample on an apparent plane, at the range `range_m`, its true area, angle and strength.
+void spread(const RayTube& tube, float range_m, Sample& sample);
+
+}  // namespace sonarsim

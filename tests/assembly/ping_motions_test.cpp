@@ -1,0 +1,46 @@
+#include "assembly/ping_motions.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "core/error.h"
+#include "core/units.h"
+#include "sonar/kinds.h"
+#include "sonar/sonar.h"
+
+using namespace sonarsim;
+
+TEST_SUITE("assembly") {
+    TEST_CASE("ping motions: the rates of a vehicle on a circle, at the lever arm of the sonar") {
+        // A vehicle goes round a circle of 20 m at 0.1 rad/s, port inwards, so at 2 m/s. The sonar
+        // is 3 m ahead and looks ahead: it moves at 2 m/s forward and 0.3 m/s to port, and turns at
+        // 0.1 rad/s. A central difference over 2 h is sin(0.1 h) / (0.1 h) of that, 4e-6 short.
+        Trajectory trajectory;
+        for (int k = 0; k < 20; ++k) {
+            const double angle = 0.1 * 0.05 * k;
+            trajectory.push_back({0.05 * k,
+                                  {rotation_from_rpy(0.0, 0.0, angle + 0.5 * pi),
+                                   {20.0 * std::cos(angle), 20.0 * std::sin(angle), -5.0}}});
+        }
+        Mission mission;
+        SonarConfig config = default_sonar(SonarKind::imaging);
+        config.mount.translation_m = {3.0, 0.0, 0.0};
+        std::vector<Sonar> sonars{make_sonar(config, {}), make_sonar(config, {})};
+        sonars[1].config.moves_in_ping = true;
+        add_ping_motions(mission, trajectory, sonars);
+        CHECK(!sonars[0].motions);
+        REQUIRE(sonars[1].motions->size() == 20);
+        const PingMotion& motion = (*sonars[1].motions)[10];
+        CHECK((motion.velocity_m_s - Eigen::Vector3d(2.0, 0.3, 0.0)).norm() < 1e-4);
+        CHECK((motion.turn_rad_s - Eigen::Vector3d(0.0, 0.0, 0.1)).norm() < 1e-9);
+        CHECK(motion.sound_speed_m_s == mission.water.sound_speed_m_s);
+        // One pose has no rates.
+        trajectory.resize(1);
+        add_ping_motions(mission, trajectory, sonars);
+        CHECK(sonars[1].motions->front().is_still());
+        sonars[1].config.multipath.method = MultipathMethod::exact;
+        CHECK_THROWS_WITH_AS(add_ping_motions(mission, trajectory, sonars),
+                             doctest::Contains("multipath"), InputError);
+    }
+}

@@ -1,0 +1,99 @@
+#include "assembly/sound_profiles.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "support/temporary_folder.h"
+
+using namespace sonarsim;
+
+namespace {
+
+/// A mission whose water has its surface at z = 3.
+Mission watery(const SoundProfileConfig& profile) {
+    Mission mission;
+    mission.water.sound_speed_m_s = 1490.0;
+    mission.scene.water_surface.emplace().height_m = 3.0;
+    mission.water.profile = profile;
+    return mission;
+}
+
+SoundProfile profile_of(const SoundProfileConfig& config) {
+    return sound_profile(config, watery(config));
+}
+
+SoundProfileConfig named(NamedProfile name) {
+    SoundProfileConfig config;
+    config.named = name;
+    return config;
+}
+
+SoundProfile profile_of_file(const std::filesystem::path& file) {
+    SoundProfileConfig config;
+    config.file = file;
+    return profile_of(config);
+}
+
+}  // namespace
+
+TEST_SUITE("assembly") {
+    TEST_CASE("sound profiles: depths count from the water's surface, times become ranges") {
+        SoundProfileConfig config;
+        config.points = {{0.0, 1520.0}, {10.0, 1500.0}};
+        const SoundProfile profile = profile_of(config);
+        CHECK(profile.speed_at(3.0) == 1520.0);
+        CHECK(profile.speed_at(-2.0) == doctest::Approx(1510.0));
+        CHECK(profile.speed_at(-7.0) == 1500.0);
+        CHECK(profile.speed_at(-50.0) == 1500.0);
+        CHECK(profile.range_speed_m_s == 1490.0);
+    }
+
+    TEST_CASE("sound profiles: the named ones follow Mackenzie's formula") {
+        // Mackenzie by hand: 1448.96 + 4.591 t - 0.05304 t^2 + 2.374e-4 t^3 + 0.0163 d + 1.675e-7
+        // d^2
+        // - 7.139e-13 t d^3 at 35 psu. t = 20, d = 0: 1521.46. t = 8, d = 100: 1484.1 (1448.96
+        // + 36.728 - 3.3946
+        // + 0.1215 + 1.63 + 0.0017 = 1484.047).
+        const SoundProfile summer = profile_of(named(NamedProfile::summer));
+        CHECK(summer.speed_at(3.0) == doctest::Approx(1521.46).epsilon(1e-5));
+        CHECK(summer.speed_at(-97.0) == doctest::Approx(1484.05).epsilon(1e-5));
+        // 10 degrees at all depths: only the pressure raises the speed, by 0.0163 per metre.
+        const SoundProfile isothermal = profile_of(named(NamedProfile::isothermal));
+        CHECK(isothermal.speed_at(-97.0) - isothermal.speed_at(3.0) ==
+              doctest::Approx(1.632).epsilon(5e-3));
+        const SoundProfile mixed = profile_of(named(NamedProfile::mixed_layer));
+        CHECK(mixed.speed_at(-47.0) > mixed.speed_at(3.0));
+        CHECK(mixed.speed_at(-97.0) < mixed.speed_at(-47.0) - 20.0);
+        CHECK(std::ranges::is_sorted(mixed.height_m));
+    }
+
+    TEST_CASE("sound profiles: a file, and what is wrong with one") {
+        const test::TemporaryFolder folder;
+        const auto file = folder.path / "ctd.csv";
+        write_file(file, "# cast 7\ntime,sound_speed_m_s,depth_m\na,1510,1\nb,1490,21\n");
+        const SoundProfile profile = profile_of_file(file);
+        CHECK(profile.speed_at(-8.0) == doctest::Approx(1500.0));
+        const auto refuses = [&](const std::string& text, const std::string& why) {
+            write_file(file, text);
+            CHECK_THROWS_WITH_AS(profile_of_file(file), doctest::Contains(why.c_str()), InputError);
+        };
+        refuses("depth_m,speed\n1,1500\n", "sound_speed_m_s");
+        refuses("depth_m,sound_speed_m_s\n1,1500\n1,1501\n", "greater than in the row before");
+        refuses("depth_m,sound_speed_m_s\n1,150\n", "from 1000 to 2000");
+        refuses("depth_m,sound_speed_m_s\n", "no rows");
+    }
+
+    TEST_CASE("sound profiles: multipath goes straight, so it is refused") {
+        Mission mission = watery(named(NamedProfile::summer));
+        mission.sensors.emplace_back().name = "fls";
+        Scene scene;
+        add_sound_profiles(mission, scene, {});
+        CHECK(scene.sound_profile);
+        mission.sensors[0].multipath.method = MultipathMethod::exact;
+        CHECK_THROWS_WITH_AS(add_sound_profiles(mission, scene, {}), doctest::Contains("multipath"),
+                             InputError);
+    }
+}

@@ -1,0 +1,110 @@
+#include "calibrated/sediment.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include "calibrated/decibel.h"
+#include "calibrated/seafloor_scattering.h"
+#include "core/units.h"
+#include "support/calibrated.h"
+#include "support/scenes.h"
+
+using namespace sonarsim;
+using namespace sonarsim::test;
+
+namespace {
+
+constexpr double sounder_hz = 38e3;
+constexpr double bed_phi = 6.0;
+
+Scene bed_at(float depth_m, double phi) {
+    Scene scene = empty_scene();
+    const std::uint32_t material = add_material(scene, 0.1F);
+    scene.materials[material].grain_phi = phi;
+    add_floor(scene, 20.0F, -depth_m, material, 4);
+    return scene;
+}
+
+/// Looks down from the origin, with bins of 2 cm and a pulse of one.
+Sonar bed_sounder(bool below_bottom, double frequency_hz = sounder_hz) {
+    SonarConfig config = calibrated(default_sonar(SonarKind::echosounder), frequency_hz);
+    config.opening_deg = 14.0;
+    config.range_min_m = 8.0;
+    config.range_max_m = 14.0;
+    config.range_bins = 300;
+    config.instrument = bare(config.instrument);
+    config.instrument.beam.width_deg = 7.0;
+    config.instrument.below_bottom = below_bottom;
+    return make_sonar(config, {0.005});
+}
+
+double bed_wavenumber() {
+    return 2.0 * pi * sounder_hz / WaterConfig{}.sound_speed_m_s;
+}
+
+}  // namespace
+
+TEST_SUITE("calibrated") {
+    // Sound of the attenuation a = 8.686 k loss dB per m in the sediment goes down and up, and a
+    // metre of sediment is 1 / nu of a metre of water: with k_sediment = k / nu the decay by metre
+    // of range is 2 a with the k of the water.
+    TEST_CASE("sediment: at normal incidence the tail decays by the attenuation of the sediment") {
+        for (const double phi : {1.5, 4.0, 6.0, 8.0}) {
+            CAPTURE(phi);
+            const SeaBed bed = sea_bed_of_grain_size(phi);
+            const SeafloorScattering scattering(bed, bed_wavenumber());
+            const double attenuation_db = 20.0 / ln_10 * bed_wavenumber() * bed.loss;
+            const double decay_db = 10.0 / ln_10 / scattering.lag_m(0.5 * pi);
+            CHECK(decay_db == doctest::Approx(2.0 * attenuation_db).epsilon(1e-4));
+        }
+    }
+
+    // Each bin passes on exp(-1 / lag) of what it holds.
+    TEST_CASE("sediment: energy spreads over the bins behind, and stays") {
+        EchoGrid energy(200, 2);
+        EchoGrid lagged(200, 2);
+        energy.column(1)[2 * 20] = 3.0F;
+        lagged.column(1)[2 * 20] = 3.0F * 8.0F;
+        spread_below(lagged, energy);
+        double sum = 0.0;
+        for (int row = 0; row < 200; ++row) {
+            const double value = energy.column(1)[2 * row];
+            sum += value;
+            const double expected =
+                row < 20 ? 0.0 : 3.0 * (1.0 - std::exp(-0.125)) * std::exp(-0.125 * (row - 20));
+            CHECK(std::fabs(value - expected) < 1e-6);
+            CHECK(energy.column(0)[2 * row] == 0.0F);
+        }
+        CHECK(sum == doctest::Approx(3.0).epsilon(1e-6));
+    }
+
+    // The whole beam of 7 degrees sees the bottom within 10 m and 10 / cos(7 degrees) = 10.08 m;
+    // the tail behind it is exponential. The pulse's own side lobes end two bins behind.
+    TEST_CASE("sediment: an echosounder has the same echo, with a tail of that slope") {
+        const Scene scene = bed_at(10.0F, bed_phi);
+        const Sonar with = bed_sounder(true);
+        const std::vector<float> whole =
+            expected_image(bed_sounder(false), scene, EngineKind::rays);
+        const std::vector<float> divided = expected_image(with, scene, EngineKind::rays);
+        const double before = std::accumulate(whole.begin(), whole.end(), 0.0);
+        const double after = std::accumulate(divided.begin(), divided.end(), 0.0);
+        const SeafloorScattering bed(sea_bed_of_grain_size(bed_phi), bed_wavenumber());
+        CHECK(after == doctest::Approx(before).epsilon(0.01));
+        const auto row_at = [&](double range_m) {
+            return static_cast<int>((range_m - 8.0) / 0.02);
+        };
+        CHECK(whole[row_at(10.4)] < 1e-3F * divided[row_at(10.4)]);
+        const double fall_db = db_of_power(divided[row_at(10.4)] / divided[row_at(11.4)]);
+        CHECK(fall_db == doctest::Approx(10.0 / ln_10 / bed.lag_m(0.5 * pi)).epsilon(0.02));
+    }
+
+    // At 1.2 MHz sand swallows all sound within a millimetre.
+    TEST_CASE("sediment: what lies within a part of a bin changes no bit") {
+        const Scene scene = bed_at(10.0F, 1.5);
+        CHECK(expected_image(bed_sounder(true, 1.2e6), scene, EngineKind::rays) ==
+              expected_image(bed_sounder(false, 1.2e6), scene, EngineKind::rays));
+    }
+}

@@ -1,0 +1,140 @@
+#include "trace/ping_motion.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <random>
+
+#include "core/units.h"
+
+using namespace sonarsim;
+
+namespace {
+
+constexpr double sound_m_s = 1500.0;
+
+PingMotion moving(const Eigen::Vector3d& velocity, const Eigen::Vector3d& turn) {
+    return {velocity, turn, sound_m_s};
+}
+
+double azimuth_of(const Eigen::Vector3d& p) {
+    return std::atan2(p.y(), p.x());
+}
+
+Sample patch_at(const Eigen::Vector3f& position) {
+    return {.position = position,
+            .edge_u = {0.0F, 0.1F, 0.0F},
+            .edge_v = {0.0F, 0.0F, 0.1F},
+            .normal = -position.normalized(),
+            .height_m = position.norm(),
+            .area_m2 = 0.04F,
+            .material = 0,
+            .instance = 0};
+}
+
+}  // namespace
+
+TEST_SUITE("trace") {
+    TEST_CASE("ping motion: towards a point and past one") {
+        // Sound leaves at 0 for d, and the sonar comes towards it by v t: c t = 2 d - v t, so the
+        // range c t / 2 is d c / (c + v).
+        const Eigen::Vector3d ahead(60.0, 0.0, 0.0);
+        const Eigen::Vector3d measured =
+            measured_place(moving({5.0, 0.0, 0.0}, {}), ViewShape::fan, ahead);
+        CHECK(measured.norm() == doctest::Approx(60.0 * 1500.0 / 1505.0).epsilon(1e-12));
+        CHECK(std::fabs(measured.y()) < 1e-12);
+        // Past it, sideways: (c t - d)^2 = d^2 + (v t)^2, so t = 2 c d / (c^2 - v^2), and the point
+        // is then v t to the other side.
+        const double time = 2.0 * 1500.0 * 60.0 / (1500.0 * 1500.0 - 25.0);
+        const Eigen::Vector3d past =
+            measured_place(moving({0.0, 5.0, 0.0}, {}), ViewShape::fan, ahead);
+        CHECK(past.norm() == doctest::Approx(750.0 * time).epsilon(1e-12));
+        CHECK(azimuth_of(past) == doctest::Approx(-std::atan(5.0 * time / 60.0)).epsilon(1e-9));
+        // A side-scan sonar has moved half as far between the two patterns.
+        const Eigen::Vector3d half =
+            measured_place(moving({0.0, 5.0, 0.0}, {}), ViewShape::port_starboard, ahead);
+        CHECK(azimuth_of(half) == doctest::Approx(-std::atan(2.5 * time / 60.0)).epsilon(1e-9));
+    }
+
+    TEST_CASE("ping motion: a yawing fan measures azimuths less its turn in the two-way time") {
+        const PingMotion yawing = moving({}, {0.0, 0.0, radians(30.0)});
+        for (const double range : {5.0, 40.0, 150.0}) {
+            for (const double azimuth : {-0.8, 0.0, 0.5}) {
+                const Eigen::Vector3d place(range * std::cos(azimuth), range * std::sin(azimuth),
+                                            0.0);
+                const Eigen::Vector3d measured = measured_place(yawing, ViewShape::fan, place);
+                const double turned = radians(30.0) * 2.0 * range / sound_m_s;
+                CHECK(measured.norm() == doctest::Approx(range).epsilon(1e-12));
+                CHECK(azimuth_of(measured) == doctest::Approx(azimuth - turned).epsilon(1e-9));
+            }
+        }
+    }
+
+    TEST_CASE("ping motion: any motion, by a search for the time of reception; and its inverse") {
+        std::mt19937 random(3);
+        std::uniform_real_distribution<double> some(-1.0, 1.0);
+        const auto vector = [&](double size) -> Eigen::Vector3d {
+            const double x = some(random);
+            const double y = some(random);
+            const double z = some(random);
+            return size * Eigen::Vector3d(x, y, z);
+        };
+        for (int k = 0; k < 50; ++k) {
+            const PingMotion motion = moving(vector(10.0), vector(0.5));
+            const Eigen::Vector3d place = vector(100.0);
+            double low = 0.0;
+            double high = 1.0;
+            for (int i = 0; i < 60; ++i) {
+                const double t = 0.5 * (low + high);
+                const bool early =
+                    sound_m_s * t < place.norm() + (place - t * motion.velocity_m_s).norm();
+                (early ? low : high) = t;
+            }
+            const Eigen::AngleAxisd turned(low * motion.turn_rad_s.norm(),
+                                           motion.turn_rad_s.normalized());
+            const Eigen::Vector3d direction =
+                (turned.inverse() * (place - low * motion.velocity_m_s)).normalized();
+            const Eigen::Vector3d measured = measured_place(motion, ViewShape::fan, place);
+            CHECK((measured - 0.5 * sound_m_s * low * direction).norm() < 1e-9);
+            for (const ViewShape shape : {ViewShape::fan, ViewShape::cone}) {
+                const Eigen::Vector3d seen = measured_place(motion, shape, place);
+                CHECK((unmoved_place(motion, shape, seen) - place).norm() < 1e-8);
+            }
+        }
+    }
+
+    TEST_CASE("ping motion: surface goes to the beam that receives it") {
+        // Ten beams of 6 degrees; a turn of 6 degrees in the two-way time of 75 m, a tenth of a
+        // second.
+        const View view{.azimuth_rad = radians(60.0),
+                        .elevation_rad = radians(20.0),
+                        .range_min_m = 1.0,
+                        .range_max_m = 100.0,
+                        .range_bins = 100,
+                        .beams = 10,
+                        .shape = ViewShape::fan};
+        Samples samples;
+        std::vector<Sample> outside;
+        samples.beam_begin = {0};
+        for (int j = 0; j < 10; ++j) {
+            const double azimuth = radians(-27.0 + 6.0 * j);
+            samples.items.push_back(
+                patch_at(Eigen::Vector3d(75.0 * std::cos(azimuth), 75.0 * std::sin(azimuth), 0.0)
+                             .cast<float>()));
+            samples.beam_begin.push_back(static_cast<std::uint32_t>(j + 1));
+        }
+        const Samples before = samples;
+        move_in_ping({}, view, samples, outside);
+        CHECK(samples.items[3].position == before.items[3].position);
+        move_in_ping(moving({}, {0.0, 0.0, radians(60.0)}), view, samples, outside);
+        REQUIRE(outside.size() == 1);
+        CHECK(samples.beam(9).empty());
+        for (int j = 0; j < 9; ++j) {
+            REQUIRE(samples.beam(j).size() == 1);
+            const Sample& sample = samples.beam(j)[0];
+            CHECK((sample.position - before.items[j].position).norm() < 1e-3F);
+            CHECK(sample.height_m == doctest::Approx(75.0F).epsilon(1e-5));
+            CHECK(sample.normal.dot(sample.position) == doctest::Approx(-75.0F).epsilon(1e-4));
+        }
+    }
+}

@@ -1,0 +1,193 @@
+#include "visibility/rays/bent_rays.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <memory>
+
+#include "core/units.h"
+#include "support/scenes.h"
+#include "visibility/make_engine.h"
+#include "water/water_ray.h"
+
+using namespace sonarsim;
+
+namespace {
+
+// Strong, so that the bending is large: arcs of 5 km.
+constexpr double bent_gradient = 0.3;
+constexpr double bent_bottom_m = -40.0;
+
+/// A flat bottom of large triangles under water of one gradient, 1500 m/s at z = 0.
+Scene floor_under(double gradient) {
+    Scene scene = test::empty_scene();
+    const std::uint32_t material = test::add_material(scene, 0.5F);
+    const auto z = static_cast<float>(bent_bottom_m);
+    for (int i = -8; i < 8; ++i) {
+        for (int j = -8; j < 8; ++j) {
+            const auto x = 50.0F * static_cast<float>(i);
+            const auto y = 50.0F * static_cast<float>(j);
+            test::add_quad(scene, {x, y, z}, {x + 50.0F, y, z}, {x + 50.0F, y + 50.0F, z},
+                           {x, y + 50.0F, z}, material);
+        }
+    }
+    scene.sound_profile = std::make_shared<const SoundProfile>(SoundProfile{
+        {-100.0, 100.0}, {1500.0 - 100.0 * gradient, 1500.0 + 100.0 * gradient}, 1480.0});
+    return scene;
+}
+
+/// A fan of 60 x 30 degrees that looks ahead and 25 degrees down, at z = 0.
+View bent_view() {
+    return {.azimuth_rad = radians(60.0),
+            .elevation_rad = radians(30.0),
+            .range_min_m = 1.0,
+            .range_max_m = 300.0,
+            .range_bins = 1500,
+            .beams = 60,
+            .relative_l1 = 0.02,
+            .shape = ViewShape::fan};
+}
+
+const Pose bent_pose{rotation_from_rpy(0.0, radians(25.0), 0.0), {0.0, 0.0, 0.0}};
+
+}  // namespace
+
+TEST_SUITE("visibility") {
+    TEST_CASE("bent rays: range, angle and area of a flat bottom in a constant gradient") {
+        // A ray at the elevation a reaches the bottom at the angle b, cos b = cos a c_b / c_0,
+        // after the time (artanh(sin a) - artanh(sin b)) / g, at the distance c_0 / (g cos a) (sin
+        // a - sin b). The apparent range is 1480 m/s times the time; the true incidence has the
+        // cosine -sin b.
+        const Scene scene = floor_under(bent_gradient);
+        const auto engine = make_engine(scene, {.type = EngineKind::rays, .octree = {}});
+        const View view = bent_view();
+        const Samples samples = engine->visible_surface(view, bent_pose);
+        const double c_ratio = 1.0 + bent_gradient * bent_bottom_m / 1500.0;
+        double area = 0.0;
+        REQUIRE(samples.items.size() > 1000);
+        for (const Sample& sample : samples.items) {
+            const Eigen::Vector3d p = sample.position.cast<double>();
+            const double range = p.norm();
+            const Eigen::Vector3d direction = bent_pose.rotation * (p / range);
+            const double a = std::asin(direction.z());
+            const double b = -std::acos(std::cos(a) * c_ratio);
+            const double time = (std::atanh(std::sin(a)) - std::atanh(std::sin(b))) / bent_gradient;
+            CHECK(range == doctest::Approx(1480.0 * time).epsilon(2e-4));
+            CHECK(static_cast<double>(sample.height_m) / range ==
+                  doctest::Approx(-std::sin(b)).epsilon(2e-3));
+            CHECK(static_cast<double>(-sample.normal.dot(sample.position)) / range ==
+                  doctest::Approx(-std::sin(b)).epsilon(5e-3));
+            // Sound that spreads over W X / cos(a) for each solid angle has the power of range^2 by
+            // that, both ways. W = dX / da sin(b) by the closed form of X, differentiated
+            // numerically.
+            const auto distance = [&](double at) {
+                const double end = -std::acos(std::cos(at) * c_ratio);
+                return 1500.0 / (bent_gradient * std::cos(at)) * (std::sin(at) - std::sin(end));
+            };
+            const double across =
+                std::fabs((distance(a + 1e-5) - distance(a - 1e-5)) / 2e-5 * std::sin(b));
+            const double share = range * range * std::cos(a) / (across * distance(a));
+            CHECK(static_cast<double>(sample.strength) ==
+                  doctest::Approx(share * share).epsilon(2e-3));
+            area += static_cast<double>(sample.area_m2);
+        }
+        // True area: a numerical integral of the distances over azimuth and elevation of the view.
+        double true_area = 0.0;
+        constexpr int n = 400;
+        for (int i = 0; i < n; ++i) {
+            for (int j = 0; j < n; ++j) {
+                const double azimuth = ((i + 0.5) / n - 0.5) * view.azimuth_rad;
+                const double elevation = ((j + 0.5) / n - 0.5) * view.elevation_rad;
+                const Eigen::Vector3d d =
+                    bent_pose.rotation * Eigen::Vector3d(std::cos(elevation) * std::cos(azimuth),
+                                                         std::cos(elevation) * std::sin(azimuth),
+                                                         std::sin(elevation));
+                const double a = std::asin(d.z());
+                const auto x = [&](double at) {
+                    const double end = -std::acos(std::cos(at) * c_ratio);
+                    return 1500.0 / (bent_gradient * std::cos(at)) * (std::sin(at) - std::sin(end));
+                };
+                // dA = X dX dazimuth, and dOmega = cos(a) da dazimuth.
+                const double slope = std::fabs((x(a + 1e-5) - x(a - 1e-5)) / 2e-5);
+                true_area += x(a) * slope / std::cos(a) * std::cos(elevation) * view.azimuth_rad *
+                             view.elevation_rad / (n * n);
+            }
+        }
+        CHECK(area == doctest::Approx(true_area).epsilon(0.01));
+    }
+
+    TEST_CASE("bent rays: without a gradient they are straight, and ranges are times") {
+        Scene scene = floor_under(0.0);
+        const auto bent = make_engine(scene, {.type = EngineKind::rays, .octree = {}});
+        Scene still = scene;
+        still.sound_profile = nullptr;
+        const auto straight = make_engine(still, {.type = EngineKind::rays, .octree = {}});
+        View view = bent_view();
+        const Samples with = bent->visible_surface(view, bent_pose);
+        view.range_max_m *= 1500.0 / 1480.0;
+        const Samples without = straight->visible_surface(view, bent_pose);
+        // Every true place lies on the bottom, and the areas are about as large.
+        double area = 0.0;
+        for (const Sample& sample : with.items) {
+            const Eigen::Vector3d p = bent_pose.rotation * sample.position.cast<double>();
+            CHECK(1500.0 / 1480.0 * p.z() == doctest::Approx(bent_bottom_m).epsilon(1e-4));
+            CHECK(sample.strength == doctest::Approx(std::pow(1480.0 / 1500.0, 4.0)).epsilon(1e-4));
+            area += static_cast<double>(sample.area_m2);
+        }
+        double straight_area = 0.0;
+        for (const Sample& sample : without.items)
+            straight_area += static_cast<double>(sample.area_m2);
+        // The area of a patch follows from its middle, and both have patches of their own.
+        CHECK(area == doctest::Approx(straight_area).epsilon(0.01));
+    }
+
+    TEST_CASE("bent rays: sound that bends down sees what a sill hides from a line") {
+        // Speed that falls with depth bends sound down: over 100 m an arc of 5 km sags by 0.25 m. A
+        // sill of 0.1 m above the line to a point of the bottom, half way, hides it from a line,
+        // and the arc passes 0.25 m above the line.
+        for (const double gradient : {bent_gradient, -bent_gradient}) {
+            Scene scene = floor_under(gradient);
+            const std::uint32_t material = test::add_material(scene, 0.5F);
+            test::add_quad(scene, {50.0F, -5.0F, -60.0F}, {50.0F, 5.0F, -60.0F},
+                           {50.0F, 5.0F, -19.9F}, {50.0F, -5.0F, -19.9F}, material);
+            const auto engine = make_engine(scene, {.type = EngineKind::rays, .octree = {}});
+            const Samples samples = engine->visible_surface(bent_view(), bent_pose);
+            bool is_seen = false;
+            for (const Sample& sample : samples.items) {
+                const Eigen::Vector3d place =
+                    place_of(*scene.sound_profile, Eigen::Vector3d::Zero(),
+                             bent_pose.rotation * sample.position.cast<double>().normalized(),
+                             static_cast<double>(sample.position.norm()));
+                is_seen |= std::fabs(place.z() - bent_bottom_m) < 0.1 &&
+                           std::fabs(place.x() - 100.0) < 0.5 && std::fabs(place.y()) < 1.0;
+            }
+            CHECK(is_seen == (gradient > 0.0));
+        }
+    }
+
+    TEST_CASE("bent rays: a sight line goes on behind what it met") {
+        const Scene scene = floor_under(bent_gradient);
+        const auto engine = make_engine(scene, {.type = EngineKind::rays, .octree = {}});
+        const Eigen::Vector3f direction = Eigen::Vector3f::UnitX();
+        Ray ray{Eigen::Vector3f::Zero(), direction};
+        Intersection first{};
+        engine->intersect_behind(bent_pose, {&ray, 1}, 200.0F, {&first, 1});
+        REQUIRE(std::isfinite(first.distance_m));
+        ray.origin = 30.0F * direction;
+        Intersection later{};
+        engine->intersect_behind(bent_pose, {&ray, 1}, 200.0F, {&later, 1});
+        CHECK(later.distance_m + 30.0F == doctest::Approx(first.distance_m).epsilon(1e-5));
+        ray.origin = 1.001F * first.distance_m * direction;
+        engine->intersect_behind(bent_pose, {&ray, 1}, 200.0F, {&later, 1});
+        CHECK(!std::isfinite(later.distance_m));
+    }
+
+    TEST_CASE("bent rays: engines that see along lines refuse them") {
+        const Scene scene = floor_under(bent_gradient);
+        for (const EngineKind kind : {EngineKind::slices, EngineKind::octree}) {
+            const std::string refusal = unsupported({.type = kind, .octree = {}}, scene);
+            CHECK(refusal.find("water.profile") != std::string::npos);
+        }
+        CHECK(unsupported({.type = EngineKind::automatic, .octree = {}}, scene).empty());
+    }
+}

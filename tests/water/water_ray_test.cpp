@@ -1,0 +1,175 @@
+#include "water/water_ray.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <random>
+
+#include "core/units.h"
+
+using namespace sonarsim;
+
+namespace {
+
+/// 1500 m/s at z = 0, with a gradient upwards of g down to -1000 m.
+SoundProfile one_gradient(double g) {
+    return {{-1000.0, 0.0}, {1500.0 - 1000.0 * g, 1500.0}, 1500.0};
+}
+
+/// A warm layer over a thermocline over cold water.
+SoundProfile summer_water() {
+    return {{-200.0, -30.0, -8.0, 0.0}, {1483.5, 1480.8, 1521.6, 1521.5}, 1500.0};
+}
+
+struct Going {
+    double x, z, angle, t;
+};
+
+/// The ray's equations dx = cos, dz = sin, d(angle) = -c' cos / c, dt = 1 / c by the length, in
+/// steps of the classical Runge-Kutta method. Independent of arcs.
+Going integrated(const SoundProfile& profile, Going at, double length, int steps) {
+    const auto rate = [&](const Going& g) -> Going {
+        const double c = profile.speed_at(g.z);
+        const double slope = profile.gradient(profile.layer_of(g.z));
+        return {std::cos(g.angle), std::sin(g.angle), -slope * std::cos(g.angle) / c, 1.0 / c};
+    };
+    const auto moved = [](const Going& g, const Going& by, double h) -> Going {
+        return {g.x + h * by.x, g.z + h * by.z, g.angle + h * by.angle, g.t + h * by.t};
+    };
+    const double h = length / steps;
+    for (int k = 0; k < steps; ++k) {
+        const Going a = rate(at);
+        const Going b = rate(moved(at, a, 0.5 * h));
+        const Going c = rate(moved(at, b, 0.5 * h));
+        const Going d = rate(moved(at, c, h));
+        at = moved(at, a, h / 6.0);
+        at = moved(at, b, h / 3.0);
+        at = moved(at, c, h / 3.0);
+        at = moved(at, d, h / 6.0);
+    }
+    return at;
+}
+
+WaterRay after(const SoundProfile& profile, WaterRay ray, double length) {
+    while (length > 1e-9)
+        length -= advance(profile, length, ray);
+    return ray;
+}
+
+}  // namespace
+
+TEST_SUITE("water") {
+    TEST_CASE("rays in a constant gradient are arcs of the radius c / (g cos)") {
+        // Their centre lies where c = 0, at the height z0 - c0 / g, since the radius to the start
+        // is across the ray: centre = (x, z) + (c / g) (tan(elevation), -1).
+        for (const double g : {0.017, -0.1, 1.2}) {
+            for (const double elevation : {-0.9, -0.2, 0.0, 0.3}) {
+                const SoundProfile profile = one_gradient(g);
+                WaterRay ray = water_ray(profile, -500.0, elevation);
+                const double c = profile.speed_at(-500.0);
+                const double radius = std::fabs(c / (g * std::cos(elevation)));
+                const double centre_x = c / g * std::tan(elevation);
+                const double centre_z = -500.0 - c / g;
+                for (int k = 0; k < 10; ++k) {
+                    advance(profile, 40.0, ray);
+                    const double from_centre =
+                        std::hypot(ray.along_m - centre_x, ray.height_m - centre_z);
+                    CHECK(from_centre == doctest::Approx(radius).epsilon(1e-11));
+                    // Snell.
+                    CHECK(std::cos(ray.elevation_rad) / profile.speed_at(ray.height_m) ==
+                          doctest::Approx(std::cos(elevation) / c).epsilon(1e-11));
+                }
+            }
+        }
+    }
+
+    TEST_CASE("the time along an arc is the difference of artanh(sin) / g") {
+        // dt = ds / c = d(elevation) / (-g cos(elevation)).
+        const SoundProfile profile = one_gradient(0.3);
+        const double from = radians(-35.0);
+        const WaterRay ray = after(profile, water_ray(profile, -100.0, from), 700.0);
+        const double time =
+            (std::atanh(std::sin(from)) - std::atanh(std::sin(ray.elevation_rad))) / 0.3;
+        CHECK(ray.time_s == doctest::Approx(time).epsilon(1e-10));
+    }
+
+    TEST_CASE("place, time and direction are those of a numerical integration across layers") {
+        const SoundProfile profile = summer_water();
+        std::mt19937 random(5);
+        std::uniform_real_distribution<double> elevations(-1.4, 1.4);
+        std::uniform_real_distribution<double> depths(1.0, 150.0);
+        for (int k = 0; k < 40; ++k) {
+            const double elevation = elevations(random);
+            const double z = -depths(random);
+            const WaterRay ray = after(profile, water_ray(profile, z, elevation), 300.0);
+            const Going there = integrated(profile, {0.0, z, elevation, 0.0}, 300.0, 60000);
+            // The integration does not see where within a step a layer ends.
+            CHECK(ray.along_m == doctest::Approx(there.x).epsilon(1e-5));
+            CHECK(std::fabs(ray.height_m - there.z) < 2e-3);
+            CHECK(ray.time_s == doctest::Approx(there.t).epsilon(1e-6));
+        }
+    }
+
+    TEST_CASE("reciprocity: the way back is the way there, and its tube widens alike") {
+        // A neighbour's distance across is c_A times a number that is the same both ways.
+        const SoundProfile profile = summer_water();
+        std::mt19937 random(6);
+        std::uniform_real_distribution<double> elevations(-1.3, -0.35);
+        for (int k = 0; k < 40; ++k) {
+            const double elevation = elevations(random);
+            const WaterRay there = after(profile, water_ray(profile, -2.0, elevation), 150.0);
+            // Turned about the vertical, so that it goes to greater x as well.
+            const WaterRay back =
+                after(profile, water_ray(profile, there.height_m, -there.elevation_rad), 150.0);
+            CHECK(std::fabs(back.along_m - there.along_m) < 1e-6);
+            CHECK(std::fabs(back.height_m + 2.0) < 1e-6);
+            CHECK(back.time_s == doctest::Approx(there.time_s).epsilon(1e-11));
+            CHECK(back.tube_m * profile.speed_at(there.height_m) ==
+                  doctest::Approx(there.tube_m * profile.speed_at(-2.0)).epsilon(1e-6));
+        }
+    }
+
+    TEST_CASE("a tube is as wide as neighbouring rays are apart") {
+        const SoundProfile profile = summer_water();
+        constexpr double turn = 1e-6;
+        for (const double elevation : {-1.2, -0.7, -0.4, -0.05, 0.1}) {
+            const WaterRay ray = after(profile, water_ray(profile, -20.0, elevation), 60.0);
+            const WaterRay other =
+                after(profile, water_ray(profile, -20.0, elevation + turn), 60.0);
+            const double apart = (other.height_m - ray.height_m) * std::cos(ray.elevation_rad) -
+                                 (other.along_m - ray.along_m) * std::sin(ray.elevation_rad);
+            CHECK(ray.tube_m == doctest::Approx(apart / turn).epsilon(1e-3));
+        }
+    }
+
+    TEST_CASE("a place by range and direction, and level rays at a node end") {
+        // In one gradient: from the elevation a to b, x = c0 / (g cos a) (sin a - sin b), and the
+        // time is that of the test above.
+        const SoundProfile profile = one_gradient(0.3);
+        const double a = radians(-50.0);
+        const double b = radians(-52.0);
+        const double time = (std::atanh(std::sin(a)) - std::atanh(std::sin(b))) / 0.3;
+        const double x = 1500.0 / (0.3 * std::cos(a)) * (std::sin(a) - std::sin(b));
+        const double z = (1500.0 * std::cos(b) / std::cos(a) - 1500.0) / 0.3;
+        const double azimuth = 0.6;
+        const Eigen::Vector3d direction(std::cos(a) * std::cos(azimuth),
+                                        std::cos(a) * std::sin(azimuth), std::sin(a));
+        const Eigen::Vector3d place =
+            place_of(profile, {100.0, -50.0, 0.0}, direction, 1500.0 * time);
+        CHECK(place.x() == doctest::Approx(100.0 + x * std::cos(azimuth)).epsilon(1e-9));
+        CHECK(place.y() == doctest::Approx(-50.0 + x * std::sin(azimuth)).epsilon(1e-9));
+        CHECK(place.z() == doctest::Approx(z).epsilon(1e-8));
+        // From the height of a node, rays bend by the layer that they lead into.
+        const SoundProfile valley{{-100.0, -50.0, 0.0}, {1520.0, 1480.0, 1520.0}, 1500.0};
+        const WaterRay down = after(valley, water_ray(valley, -50.0, -0.3), 60.0);
+        const WaterRay up = after(valley, water_ray(valley, -50.0, 0.3), 60.0);
+        CHECK(down.height_m + up.height_m == doctest::Approx(-100.0).epsilon(1e-12));
+        CHECK(down.time_s == doctest::Approx(up.time_s).epsilon(1e-12));
+        CHECK(valley.speed_at(down.height_m) > 1490.0);
+        // In a channel a level ray stays at the node of the least speed.
+        const SoundProfile channel{{-100.0, -50.0, 0.0}, {1520.0, 1480.0, 1520.0}, 1500.0};
+        const Eigen::Vector3d far = place_of(channel, {0.0, 0.0, -50.0}, {1.0, 0.0, 0.0}, 15000.0);
+        CHECK(far.x() == doctest::Approx(14800.0).epsilon(1e-4));
+        CHECK(std::fabs(far.z() + 50.0) < 0.5);
+    }
+}
