@@ -132,7 +132,10 @@ void fit_pulse_of(const Recording& recording, const PatchClasses& classes, Image
         fit.pulse_of_echoes ? echo_kind(fit.config.speckle) : ReceivedKind::noise;
     const std::vector<std::size_t>& chosen = fit.pulse_of_echoes ? classes.echoes : classes.noise;
     if (fit.config.receiver.samples > 1) {
-        fit.notes.emplace_back("pulse: kept, since the start makes one bin of several samples");
+        fit.notes.emplace_back(
+            "receiver.samples: the start makes one bin of several samples. The pulse is kept, and "
+            "the law "
+            "is that of one sample, so gamma comes out too small");
         return;
     }
     fit.pulse_bins =
