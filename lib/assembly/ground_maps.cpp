@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "core/named_at.h"
 #include "core/text.h"
+#include "scene/gltf/texture.h"
 #include "scene/gltf/uv_triangles.h"
 #include "scene/maps/ground_maps.h"
 #include "scene/maps/read_maps.h"
@@ -58,6 +59,15 @@ LaidMapRule rule_of(const LaidMapConfig& map, const std::string& section, const 
             .section = section,
             .needed_m = {scene.bounds_min.head<2>(), scene.bounds_max.head<2>()},
             .by_uv = map.placed == MapPlacing::uv};
+}
+
+/// The image of a map: its file, or the texture of a glTF file.
+Image image_of(const LaidMapConfig& map) {
+    const std::string extension = map.file.extension().string();
+    if (extension != ".glb" && extension != ".gltf") return read_image(map.file);
+    if (map.placed == MapPlacing::uv) return read_texture(map.file);
+    throw InputError(Location{map.file.string()},
+                     "is a mesh, whose texture lies on it by placed: uv; name an image");
 }
 
 /// The indices of the map's materials in the scene, which gets those that it lacks.
@@ -121,8 +131,9 @@ void lay_ground_maps(const SceneConfig& config, const MaterialTable& table, cons
         const auto of_scene =
             add_materials(config.sediment_map->materials, table, laid.place.location, scene);
         resolve_materials(scene, table, water);
-        materials = read_map(
-            laid, [&] { return read_material_map(rule_of(laid, section, scene), of_scene); });
+        materials = read_map(laid, [&] {
+            return read_material_map(rule_of(laid, section, scene), image_of(laid), of_scene);
+        });
         if (laid.placed == MapPlacing::above) warn_of_place(materials->frame, section, scene);
     }
     if (config.backscatter_map) {
@@ -130,8 +141,8 @@ void lay_ground_maps(const SceneConfig& config, const MaterialTable& table, cons
         const BackscatterMapConfig& map = *config.backscatter_map;
         on_strengths = instances_of(map.laid, section, config, scene);
         strengths = read_map(map.laid, [&] {
-            return read_strength_map(rule_of(map.laid, section, scene), map.scale_db,
-                                     map.offset_db);
+            return read_strength_map(rule_of(map.laid, section, scene), image_of(map.laid),
+                                     map.scale_db, map.offset_db);
         });
         if (map.laid.placed == MapPlacing::above) warn_of_place(strengths->frame, section, scene);
     }

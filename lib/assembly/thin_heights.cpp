@@ -1,19 +1,16 @@
 #include "assembly/thin_heights.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <vector>
 
 #include "assembly/sample_pings.h"
-#include "core/elementary.h"
-#include "core/units.h"
 #include "scene/heightmap/height_patch.h"
 #include "trace/visible_surface.h"
 #include "visibility/image_change.h"
 #include "visibility/rays/rays_engine.h"
+#include "visibility/view_parts.h"
 #include "visibility/view_volume.h"
 
 namespace sonarsim {
@@ -22,44 +19,15 @@ namespace {
 
 // These are chosen.
 constexpr int most_left_out = 16;
-constexpr double share_of_goal = 0.25;   // that thinning may take
-constexpr std::size_t most_poses = 3;    // for each sonar; the lowest one is added
-constexpr int most_beams = 6;            // that one trial has from a fan
-constexpr std::array places{0.25, 0.8};  // at which a fan is tried
-
-/// A part of a sonar's view at one pose.
-struct Sector {
-    View view;
-    Pose T_world_sensor;
-};
-
-/// Parts of a view that cost little. A fan has some of its beams, any other view is whole.
-std::vector<Sector> sectors_of(const View& view, const Pose& T_world_sensor) {
-    if (view.shape != ViewShape::fan || view.beams <= 2 * most_beams)
-        return {{view, T_world_sensor}};
-    std::vector<Sector> out;
-    const double beam_rad = view.azimuth_rad / view.beams;
-    for (const double place : places) {
-        View part = view;
-        part.beams = most_beams;
-        part.azimuth_rad = most_beams * beam_rad;
-        const double first = std::floor(place * (view.beams - most_beams));
-        const double yaw_rad = -0.5 * view.azimuth_rad + (first + 0.5 * most_beams) * beam_rad;
-        Pose pose = T_world_sensor;
-        const SinCos half = sincos(0.5 * yaw_rad);
-        pose.rotation = pose.rotation * Eigen::Quaterniond(half.cos, 0.0, 0.0, half.sin);
-        out.push_back({part, pose});
-    }
-    return out;
-}
+constexpr double share_of_goal = 0.25;  // that thinning may take
+constexpr std::size_t most_poses = 3;   // for each sonar; the lowest one is added
 
 std::vector<double> image_of(const HeightPatches& patches, const std::vector<std::size_t>& seen,
-                             int every, const Sector& sector) {
-    const Scene scene = patches.scene(seen, every, sector.T_world_sensor.translation);
+                             int every, const Sight& part) {
+    const Scene scene = patches.scene(seen, every, part.T_world_sensor.translation);
     if (scene.triangles.empty()) return {};
     const auto engine = make_rays_engine(scene);
-    return mean_echoes(scene, sector.view,
-                       engine->visible_surface(sector.view, sector.T_world_sensor));
+    return mean_echoes(scene, part.view, engine->visible_surface(part.view, part.T_world_sensor));
 }
 
 /// The poses of a sonar at which images are compared.
@@ -112,8 +80,8 @@ Thinning thin_heights(const PlacedFile& map, std::span<const Sonar> sonars,
         View view = traced_view(sonar.settings.view, sonar.settings.guard_beams);
         view.relative_l1 = std::min(view.relative_l1, relative_l1);
         for (const Pose& pose : poses_of_trial(sonar, vehicle)) {
-            for (const Sector& sector : sectors_of(view, pose)) {
-                const ViewVolume volume(sector.view, sector.T_world_sensor);
+            for (const Sight& part : parts_of(view, pose)) {
+                const ViewVolume volume(part.view, part.T_world_sensor);
                 const std::vector<std::size_t> seen =
                     patches.where([&](const Eigen::Vector3d& centre, double radius_m) {
                         const Eigen::Vector3d away = centre - volume.position();
@@ -121,12 +89,12 @@ Thinning thin_heights(const PlacedFile& map, std::span<const Sonar> sonars,
                                                   static_cast<float>(radius_m)) !=
                                Containment::outside;
                     });
-                const std::vector<double> whole = image_of(patches, seen, 1, sector);
+                const std::vector<double> whole = image_of(patches, seen, 1, part);
                 for (std::size_t k = 0; k < change.size() && !whole.empty(); ++k) {
                     // A coarser grid than one that fails is not tried.
                     if (change[k] > share_of_goal * relative_l1) break;
                     change[k] = std::max(
-                        change[k], image_change(image_of(patches, seen, 2 << k, sector), whole));
+                        change[k], image_change(image_of(patches, seen, 2 << k, part), whole));
                 }
             }
         }

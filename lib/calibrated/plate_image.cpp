@@ -65,6 +65,7 @@ PlateOfPing plate_of(const StripOfPing& strip, double wavelength_m) {
     PlateOfPing out = plate_along(strip.from, strip.to, along.cross(middle).normalized(),
                                   0.5 * width, 0.5 * width);
     out.material = strip.material;
+    out.strength = strip.strength;
     return out;
 }
 

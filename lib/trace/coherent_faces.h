@@ -34,6 +34,7 @@ struct SceneStrip {
     Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< unit, of the facet
     std::uint32_t material = 0;
     std::uint32_t instance = 0;
+    bool mapped = false;  ///< as of a plate
 };
 
 /// Two plates at right angles that meet in a seam.

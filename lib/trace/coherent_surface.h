@@ -36,6 +36,7 @@ struct StripOfPing {
     Eigen::Vector3d from, to;
     double radius_m = 0.0;       ///< negative if the cylinder is hollow
     std::uint32_t material = 0;  ///< index into Scene::materials
+    float strength = 1.0F;       ///< factor on its power, from a map
 };
 
 /// The plane of a face that reflects coherently. What scatters incoherently on it is less.

@@ -31,14 +31,18 @@ void add_faces(const FaceMesh& mesh, std::uint32_t instance, CoherentFaces& out)
     }
 }
 
-/// Adds the plates of an instance with maps, whatever its own materials are. Its strips and corners
+/// Adds the plates and strips of an instance with maps, whatever its own materials are. Its corners
 /// are left out.
-void add_mapped_plates(const FaceMesh& mesh, std::uint32_t instance, CoherentFaces& out) {
+void add_mapped_faces(const FaceMesh& mesh, std::uint32_t instance, CoherentFaces& out) {
     CoherentFaces found;
     add_faces(mesh, instance, found);
     for (ScenePlate& plate : found.plates) {
         plate.mapped = true;
         out.plates.push_back(std::move(plate));
+    }
+    for (SceneStrip& strip : found.strips) {
+        strip.mapped = true;
+        out.strips.push_back(strip);
     }
 }
 
@@ -137,7 +141,7 @@ std::shared_ptr<const CoherentFaces> find_coherent_faces(const Scene& scene) {
         scene.maps && std::ranges::any_of(scene.maps->materials(),
                                           [&](std::uint32_t m) { return coherent[m] != 0; });
     for (std::uint32_t instance = 0; instance < scene.instances.size(); ++instance) {
-        if (is_mapped(instance)) add_mapped_plates(mesh_of(instance, in_texels), instance, *out);
+        if (is_mapped(instance)) add_mapped_faces(mesh_of(instance, in_texels), instance, *out);
     }
     return out;
 }

@@ -11,6 +11,7 @@
 #include "trace/corners.h"
 #include "trace/cut_triangle.h"
 #include "trace/lay_maps.h"
+#include "trace/seen_points.h"
 #include "trace/strips.h"
 
 namespace sonarsim {
@@ -20,8 +21,6 @@ namespace {
 constexpr int parts_of_edge = 8;
 // A ray meets the plate this far from the border, by the length of the part of the edge.
 constexpr double inset_by_part = 0.05;
-// Surface nearer than the plate by more than this share of the range hides it.
-constexpr double hiding_share = 1e-3;
 // A plate that is less wide than this share of its range is cut where it is hidden.
 constexpr double small_plate = 0.1;
 constexpr float parts_of_plate = 8.0F;
@@ -30,33 +29,6 @@ bool is_in_view(const View& view, const Eigen::Vector3d& point) {
     const Eigen::Vector3f p = point.cast<float>();
     return arrival_range(p) <= static_cast<float>(view.range_max_m) && beam_of(view, p) >= 0;
 }
-
-/// Asks which points the sonar sees.
-class SeenPoints {
-  public:
-    /// Returns the number of the question.
-    std::size_t ask(const Eigen::Vector3d& point) {
-        const double range = arrival_range(point.cast<float>());
-        rays_.push_back({Eigen::Vector3f::Zero(), (point / range).cast<float>()});
-        ranges_.push_back(range);
-        return rays_.size() - 1;
-    }
-
-    void answer(const VisibilityEngine& engine, const Pose& T_world_sensor) {
-        hits_.resize(rays_.size());
-        engine.intersect(T_world_sensor, rays_, hits_);
-    }
-
-    bool is_seen(std::size_t question) const {
-        const Intersection& hit = hits_[question];
-        return hit.distance_m >= (1.0 - hiding_share) * ranges_[question] - hit.rounding_m;
-    }
-
-  private:
-    std::vector<Ray> rays_;
-    std::vector<double> ranges_;
-    std::vector<Intersection> hits_;
-};
 
 class CoherentSurfaceFinder {
   public:
@@ -127,7 +99,6 @@ class CoherentSurfaceFinder {
         PlateOfPing at;
         at.normal = face->normal;
         at.height_m = face->height_m;
-        at.material = plate.material;
         Eigen::AlignedBox3d box;
         for (const auto& side : plate.border) {
             const Eigen::Vector3d from = placed(side[0]);
@@ -142,7 +113,12 @@ class CoherentSurfaceFinder {
         }
         const double size = box.diagonal().norm();
         const Seen seen = find_seen(at);
-        if (plate.mapped && !take_texel(plate, at)) return;
+        if (plate.mapped && !at.foot_seen) return;
+        // Its echo comes from the foot of the perpendicular.
+        const auto texel = at_point(plate, at.height_m * at.normal);
+        if (!texel) return;
+        at.material = texel->material;
+        at.strength = texel->strength;
         if (seen == Seen::partly && size < small_plate * box.center().norm())
             add_seen_parts(plate, at, static_cast<float>(size));
         else if (seen != Seen::none)
@@ -158,16 +134,15 @@ class CoherentSurfaceFinder {
         }
     }
 
-    /// Gives a plate the material and strength of the texel at the foot of the perpendicular, where
-    /// its echo comes from. False if that is not in view or not coherent.
-    bool take_texel(const ScenePlate& plate, PlateOfPing& at) const {
-        if (!at.foot_seen) return false;
-        const MappedPoint texel =
-            mapped_point(*scene_.maps, T_world_sensor_, (at.height_m * at.normal).cast<float>(),
-                         plate.instance, plate.material);
-        at.material = texel.material;
-        at.strength = texel.strength;
-        return scene_.materials[texel.material].roughness_m.has_value();
+    /// The material and strength of a face at a point: its own, or those of a texel; nothing if a
+    /// texel is not coherent.
+    template <class Face>
+    std::optional<MappedPoint> at_point(const Face& face, const Eigen::Vector3d& point) const {
+        if (!face.mapped) return MappedPoint{face.material, 1.0F};
+        const MappedPoint texel = mapped_point(*scene_.maps, T_world_sensor_, point.cast<float>(),
+                                               face.instance, face.material);
+        if (!scene_.materials[texel.material].roughness_m) return std::nullopt;
+        return texel;
     }
 
     enum class Seen { none, partly, all };
@@ -234,7 +209,7 @@ class CoherentSurfaceFinder {
     void add_strip(const SceneStrip& strip) {
         const auto face = face_at(strip.first.from, strip.normal, strip.material, strip.instance);
         if (!face) return;
-        out_.faces.push_back(*face);
+        strip.mapped ? add_faces_of_texels(*face) : out_.faces.push_back(*face);
         const double side = face->normal.dot(turned(strip.normal)) > 0.0 ? -1.0 : 1.0;
         const SpecularParts found =
             specular_parts({.first = {placed(strip.first.from), placed(strip.first.to)},
@@ -248,8 +223,11 @@ class CoherentSurfaceFinder {
         points.answer(engine_, T_world_sensor_);
         for (std::size_t k = 0; k < found.parts.size(); ++k) {
             if (!is_in_view(view_, found.on_facet[k]) || !points.is_seen(k)) continue;
-            out_.strips.push_back(found.parts[k]);
-            out_.strips.back().material = strip.material;
+            const auto texel = at_point(strip, found.on_facet[k]);
+            if (!texel) continue;
+            StripOfPing& part = out_.strips.emplace_back(found.parts[k]);
+            part.material = texel->material;
+            part.strength = texel->strength;
         }
     }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "support/draws.h"
+#include "support/maps.h"
 #include "support/scenes.h"
 #include "support/smooth_shapes.h"
 
@@ -117,6 +118,34 @@ TEST_SUITE("calibrated") {
                                   cylinder.length / (2.0 * wavelength)) -
                 40.0 * std::log10(range);
             CHECK(std::fabs(found - closed) < 1.0);
+        }
+    }
+
+    TEST_CASE("cylinders: with maps the texel on their line reflects") {
+        const Looking from = looking(SonarKind::imaging, 2e5);
+        const double range = 20.05;
+        const Cylinder cylinder{.middle = (range + 0.1) * from.axis,
+                                .axis = from.axis.unitOrthogonal(),
+                                .radius = 0.1,
+                                .length = 15.0 * from.wavelength(),
+                                .sides = 48,
+                                .roll = 0.3};
+        const double smooth_db = peak_db(from, cylinder.scene(), EngineKind::slices, range);
+        const auto mapped_db = [&](bool own_smooth, bool texel_smooth, float strength) {
+            Scene scene = cylinder.scene();
+            const std::uint32_t rough = add_material(scene, cylinder_reflection);
+            if (!own_smooth) scene.triangle_material.assign(scene.triangles.size(), rough);
+            const TexelFrame frame = square_frame(1, 100.0);
+            lay(scene,
+                material_texels(frame, {texel_smooth ? 0U : rough},
+                                [](int, int) { return std::uint16_t{0}; }),
+                strengths(frame, [&](int, int) { return strength; }));
+            return peak_db(from, scene, EngineKind::slices, range);
+        };
+        for (const bool own_smooth : {false, true}) {
+            CHECK(std::fabs(mapped_db(own_smooth, true, 1.0F) - smooth_db) < 0.01);
+            CHECK(std::fabs(mapped_db(own_smooth, true, 4.0F) - smooth_db - 6.0206) < 0.01);
+            CHECK(mapped_db(own_smooth, false, 1.0F) < smooth_db - 10.0);
         }
     }
 }

@@ -74,6 +74,24 @@ def unwrapped_floor(uv):
     return floor
 
 
+def data_uri(data, media="application/octet-stream"):
+    return f"data:{media};base64," + base64.b64encode(data).decode()
+
+
+def with_texture(floor, image, **use):
+    """The floor with a material that names an image."""
+    texture = {"pbrMetallicRoughness": {"baseColorTexture": {"index": 0} | use}}
+    return json.loads(json.dumps(floor)) | {"materials": [floor["materials"][0] | texture],
+                                            "textures": [{"source": 0}], "images": [image]}
+
+
+def glb(document):
+    """A .glb whose only chunk is the JSON."""
+    text = json.dumps(document).encode()
+    text += b" " * (-len(text) % 4)
+    return struct.pack("<4sIIII", b"glTF", 2, 20 + len(text), len(text), 0x4E4F534A) + text
+
+
 class GroundMaps(Composed):
     def setUp(self):
         super().setUp()
@@ -153,6 +171,61 @@ class GroundMaps(Composed):
                 self.assertLess(off, 1e-4 * whole)
             else:
                 self.assertGreater(off, 0.1 * whole)
+
+    def test_own_texture(self):
+        """The texture that the material of a glTF names: embedded, in a .glb, or a file beside it. The
+        images are those of the same image as a file."""
+        picture = (self.folder / "quarters.png").read_bytes()
+        floor = unwrapped_floor(lambda x, y: ((x + 10) / 20, (10 - y) / 20))
+        self.write("floor.gltf", json.dumps(floor))
+        self.mission(UV % "", "file")
+        self.assert_renders()
+        (self.folder / "a floor.png").write_bytes(picture)
+        textured = with_texture(floor, {"uri": "a%20floor.png"})
+        embedded = with_texture(floor, {"bufferView": 3})
+        embedded["buffers"].append({"byteLength": len(picture), "uri": data_uri(picture)})
+        embedded["bufferViews"].append({"buffer": 2, "byteLength": len(picture)})
+        inline = with_texture(floor, {"uri": data_uri(picture, "image/png")})
+        for out, file, content in (("beside", "floor.gltf", json.dumps(textured).encode()),
+                                   ("view", "floor.gltf", json.dumps(embedded).encode()),
+                                   ("inline", "floor.gltf", json.dumps(inline).encode()),
+                                   ("glb", "floor.glb", glb(embedded))):
+            with self.subTest(out=out):
+                (self.folder / file).write_bytes(content)
+                self.mission((UV % "").replace("quarters.png", file), out)
+                text = (self.folder / "mission.yaml").read_text()
+                self.write("mission.yaml", text.replace("file: floor.gltf", "file: " + file))
+                self.assert_renders()
+                self.assertEqual(self.rows("material", out), self.rows("material", "file"))
+                self.assertEqual((self.folder / out / "side/clean.npy").read_bytes(),
+                                 (self.folder / "file/side/clean.npy").read_bytes())
+
+    def test_own_texture_refused(self):
+        floor = unwrapped_floor(lambda x, y: (x, y))
+        two = with_texture(floor, {"uri": "quarters.png"})
+        two["materials"].append({"pbrMetallicRoughness": {"baseColorTexture": {"index": 1}}})
+        two["textures"].append({"source": 1})
+        two["images"].append({"uri": "db.png"})
+        moved = with_texture(floor, {"uri": "quarters.png"})
+        use = moved["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]
+        use["extensions"] = {"KHR_texture_transform": {"scale": [2, 2]}}
+        for content, fragment in (
+                (floor, "has no material with a baseColorTexture; name an image as the map's file"),
+                (two, "has materials with 2 images, and a map has one"),
+                (moved, "moves its texture with KHR_texture_transform"),
+                (with_texture(floor, {"uri": "quarters.png"}, texCoord=1), "by another TEXCOORD than TEXCOORD_0"),
+                (with_texture(floor, {"uri": "../db.png"}), "is not beside or below the glTF file"),
+                (with_texture(floor, {"uri": "none.png"}), "none.png: no such file"),
+                (with_texture(floor, {"uri": data_uri(b"\xff\xd8\xff\xe0")}), "is no image; PNG, TIFF and OpenEXR"),
+                (with_texture(floor, {"uri": data_uri(png([[1, 2]], 8)[:50])}), "cannot be read"),
+                (with_texture(floor, {"bufferView": 2**31 - 1}), "reaches beyond bufferViews[2147483647]"),
+                (with_texture(floor, {"uri": "a.png"}, index=7), "textures[7] does not exist")):
+            with self.subTest(fragment=fragment):
+                self.write("floor.gltf", json.dumps(content))
+                self.mission((UV % "").replace("quarters.png", "floor.gltf"))
+                self.assert_refused(self.run_sonarsim("validate", "mission.yaml"), fragment, "mission.yaml:5:")
+        self.mission((QUARTERS % "").replace("quarters.png", "floor.gltf"))
+        self.refused("is a mesh, whose texture lies on it by placed: uv; name an image")
 
     def test_texture_coordinates_refused(self):
         def write(change):

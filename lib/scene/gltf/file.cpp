@@ -143,12 +143,6 @@ void check_extensions(const tinygltf::Model& model, const Location& where) {
         check(name, true);
 }
 
-bool stays_below(const std::string& uri) {
-    const std::filesystem::path path(uri);
-    return uri.find(':') == std::string::npos && uri.find('\0') == std::string::npos &&
-           !path.is_absolute() && std::find(path.begin(), path.end(), "..") == path.end();
-}
-
 /// Sets the file size callback that tinygltf 2.9 requires; 2.8 has none. read_file limits the size.
 template <class Callbacks>
 void ignore_sizes(Callbacks& callbacks) {
@@ -193,6 +187,19 @@ tinygltf::FsCallbacks buffer_callbacks(BufferFiles& files) {
 }
 
 }  // namespace
+
+bool stays_below(const std::string& uri) {
+    const std::filesystem::path path(uri);
+    return uri.find(':') == std::string::npos && uri.find('\0') == std::string::npos &&
+           !path.is_absolute() && std::find(path.begin(), path.end(), "..") == path.end();
+}
+
+std::string read_texture_json(const std::filesystem::path& path) {
+    const std::string bytes = read_file(path, max_bytes);
+    const Location where{path.string()};
+    const bool is_binary = bytes.starts_with("glTF");
+    return reduced_texture_json(is_binary ? json_chunk(bytes, where) : bytes, where.file);
+}
 
 tinygltf::Model read_gltf(const std::filesystem::path& path) {
     const Location where{path.string()};

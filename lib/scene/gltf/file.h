@@ -3,6 +3,7 @@
 #include <tiny_gltf.h>
 
 #include <filesystem>
+#include <string>
 
 namespace sonarsim {
 
@@ -11,5 +12,11 @@ namespace sonarsim {
 /// checked, indices and offsets are not. Reads at most 2 GiB, external buffers included. InputError
 /// for a faulty file.
 tinygltf::Model read_gltf(const std::filesystem::path& path);
+
+/// The part of a file's JSON that describes images, of the same file. InputError likewise.
+std::string read_texture_json(const std::filesystem::path& path);
+
+/// True if a URI of a glTF file names a file beside or below it.
+bool stays_below(const std::string& uri);
 
 }  // namespace sonarsim

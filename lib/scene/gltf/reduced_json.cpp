@@ -211,21 +211,29 @@ std::string reduced(std::string_view text, const Rule& root, const std::string& 
     return reducer.take();
 }
 
-}  // namespace
-
-std::string reduced_gltf_json(std::string_view text, const std::string& file) {
+std::string checked(std::string_view text, const Rule& root, const std::string& file) {
     if (text.size() > std::size_t{1} << 28) {
         throw InputError(Location{file},
                          "holds more than 256 MiB of JSON; put the vertices into a .glb or a .bin "
                          "file");
     }
     try {
-        return reduced(text, gltf_rules::whole_document, file);
+        return reduced(text, root, file);
     } catch (const InputError&) {
         // A file of another version is refused as such, wherever in the file its version stands.
         reduced(text, gltf_rules::only_version, file);
         throw;
     }
+}
+
+}  // namespace
+
+std::string reduced_gltf_json(std::string_view text, const std::string& file) {
+    return checked(text, gltf_rules::whole_document, file);
+}
+
+std::string reduced_texture_json(std::string_view text, const std::string& file) {
+    return checked(text, gltf_rules::textures_of_document, file);
 }
 
 }  // namespace sonarsim

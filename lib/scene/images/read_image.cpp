@@ -1,7 +1,11 @@
 #include "scene/images/read_image.h"
 
+#include <sys/mman.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <limits>
@@ -126,16 +130,26 @@ std::string bytes_of_image(const std::filesystem::path& path, const std::string&
                                 "gdal_translate -projwin");
 }
 
-}  // namespace
+/// A file in memory, for libraries that read files.
+class MemoryFile {
+  public:
+    explicit MemoryFile(std::string_view bytes) : file_(memfd_create("image", MFD_CLOEXEC)) {
+        if (file_ < 0) throw std::system_error(errno, std::generic_category(), "memfd_create");
+        std::ofstream(path(), std::ios::binary)
+            .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    }
+    ~MemoryFile() { close(file_); }
+    MemoryFile(const MemoryFile&) = delete;
+    MemoryFile& operator=(const MemoryFile&) = delete;
 
-bool is_image_file(const std::filesystem::path& path) {
-    std::error_code ignored;
-    return std::filesystem::is_regular_file(path, ignored) && !image_format(path).empty();
-}
+    std::filesystem::path path() const { return "/proc/self/fd/" + std::to_string(file_); }
 
-Image read_image(const std::filesystem::path& path) {
-    const Location where{path.string()};
-    require_readable(path, where);
+  private:
+    int file_;
+};
+
+/// `has_place`: its place is read, too.
+Image image_at(const std::filesystem::path& path, const Location& where, bool has_place) {
     const std::string format = image_format(path);
     if (format.empty()) {
         const std::string_view known = known_format(first_bytes(path));
@@ -144,7 +158,7 @@ Image read_image(const std::filesystem::path& path) {
     }
     Image image;
     if (format == "tiff") require_whole_tiff(path);
-    image.reference = read_georeference(path);
+    if (has_place) image.reference = read_georeference(path);
     const std::string bytes = bytes_of_image(path, format, where);
     SonarsimImageHead head;
     ImageEnd end;
@@ -173,6 +187,24 @@ Image read_image(const std::filesystem::path& path) {
     image.values.resize(count);
     std::memcpy(image.values.data(), bytes.data() + sizeof(head), count * sizeof(float));
     return image;
+}
+
+}  // namespace
+
+bool is_image_file(const std::filesystem::path& path) {
+    std::error_code ignored;
+    return std::filesystem::is_regular_file(path, ignored) && !image_format(path).empty();
+}
+
+Image read_image(const std::filesystem::path& path) {
+    const Location where{path.string()};
+    require_readable(path, where);
+    return image_at(path, where, true);
+}
+
+Image read_image(std::string_view bytes, const Location& where) {
+    const MemoryFile file(bytes);
+    return image_at(file.path(), where, false);
 }
 
 }  // namespace sonarsim

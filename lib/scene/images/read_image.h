@@ -4,8 +4,10 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "core/error.h"
 #include "scene/images/georeference.h"
 
 namespace sonarsim {
@@ -41,5 +43,8 @@ bool is_image_file(const std::filesystem::path& path);
 /// that is damaged, has another format or more values than `most_image_values`, and without
 /// OpenImageIO.
 Image read_image(const std::filesystem::path& path);
+
+/// The same for the bytes of a file, which have no place. `where` names them.
+Image read_image(std::string_view bytes, const Location& where);
 
 }  // namespace sonarsim

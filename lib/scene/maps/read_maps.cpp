@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "core/elementary.h"
 #include "core/error.h"
@@ -100,8 +101,9 @@ std::string key_text(double key, bool colours) {
 }  // namespace
 
 MaterialTexels read_material_map(
-    const LaidMapRule& rule, const std::vector<std::pair<std::string, std::uint32_t>>& materials) {
-    const LaidImage laid(rule, read_image(rule.file));
+    const LaidMapRule& rule, Image of_file,
+    const std::vector<std::pair<std::string, std::uint32_t>>& materials) {
+    const LaidImage laid(rule, std::move(of_file));
     const Image& image = laid.image;
     const bool colours = image.channels == 3 || image.channels == 4;
     if (image.channels == 2 || image.channels > 4)
@@ -149,8 +151,9 @@ MaterialTexels read_material_map(
     return out;
 }
 
-StrengthTexels read_strength_map(const LaidMapRule& rule, double scale_db, double offset_db) {
-    const LaidImage laid(rule, read_image(rule.file));
+StrengthTexels read_strength_map(const LaidMapRule& rule, Image of_file, double scale_db,
+                                 double offset_db) {
+    const LaidImage laid(rule, std::move(of_file));
     const Image& image = laid.image;
     if (image.channels > 2)
         throw InputError(laid.where, "has " + std::to_string(image.channels) +

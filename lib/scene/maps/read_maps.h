@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "scene/images/read_image.h"
 #include "scene/maps/ground_maps.h"
 
 namespace sonarsim {
@@ -30,13 +31,15 @@ struct LaidMapRule {
 
 /// A map of materials, from an image of one channel with a number for each, or of colours.
 /// `materials` has numbers, or colours as "#c8b478", and indices into Scene::materials. InputError
-/// as read_image(), for an image whose place is not known, for keys that are neither and for a
+/// for an image whose place is not known, for keys that are neither and for a
 /// pixel that has no material.
 MaterialTexels read_material_map(
-    const LaidMapRule& rule, const std::vector<std::pair<std::string, std::uint32_t>>& materials);
+    const LaidMapRule& rule, Image image,
+    const std::vector<std::pair<std::string, std::uint32_t>>& materials);
 
 /// A map of decibels, from an image of one channel, or one and alpha: scale_db times the pixel's
 /// value plus offset_db. InputError likewise, and for more than 100 dB.
-StrengthTexels read_strength_map(const LaidMapRule& rule, double scale_db, double offset_db);
+StrengthTexels read_strength_map(const LaidMapRule& rule, Image image, double scale_db,
+                                 double offset_db);
 
 }  // namespace sonarsim
