@@ -97,9 +97,9 @@ TEST_SUITE("calibrate") {
         for (const std::uint32_t draw : {0U, 1U})
             recovered.add(draw, bottom);
         // The draws are fixed: nothing is left to chance.
-        for (const auto& [key, count] : recovered.estimates) {
-            CAPTURE(key);
-            CHECK(recovered.held[key] == count);
+        for (const auto& of_key : recovered.estimates) {
+            CAPTURE(of_key.first);
+            CHECK(recovered.held[of_key.first] == of_key.second);
         }
         CHECK(recovered.estimates.size() >= 6);
         CHECK(recovered.agree_held_out > 0.9 * recovered.figures);
@@ -112,9 +112,10 @@ TEST_SUITE("calibrate") {
         Recovered recovered;
         for (std::uint32_t draw = 0; draw < 200; ++draw)
             recovered.add(draw, bottom);
-        for (const auto& [key, count] : recovered.estimates) {
-            MESSAGE(key, ": ", recovered.held[key], " of ", count);
-            CHECK(recovered.held[key] >= 0.9 * count);
+        for (const auto& of_key : recovered.estimates) {
+            const int held = recovered.held[of_key.first];
+            MESSAGE(of_key.first, ": ", held, " of ", of_key.second);
+            CHECK(held >= 0.9 * of_key.second);
         }
         MESSAGE("figures: ", recovered.figures, ", of the start ", recovered.agree_of_start,
                 ", held out ", recovered.agree_held_out);
