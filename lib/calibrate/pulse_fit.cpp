@@ -16,7 +16,7 @@ constexpr double shortest_bins = 0.6;
 constexpr double longest_bins = 8.0;
 constexpr int table_steps = 149;  // steps of 0.05 bins
 // The error that taps of whole bins leave in a pulse, as a share of it.
-constexpr double least_share = 0.01;
+constexpr double least_half_width = 0.01;
 
 double product(const std::vector<float>& taps, int lag) {
     const auto from = static_cast<std::size_t>(std::abs(lag));
@@ -101,7 +101,7 @@ std::optional<Bounded> fit_pulse(const std::vector<PatchMoments>& patches,
     const auto bins = [&](const std::vector<double>& weights) {
         return best_bins(table, correlations_of(patches, chosen, weights).along_range);
     };
-    return bootstrap(places, bins, least_share * bins(all));
+    return bootstrap(places, bins, least_half_width * bins(all));
 }
 
 }  // namespace sonarsim
