@@ -55,13 +55,13 @@ StartInstrument start_instrument(const SonarConfig& config, const WaterConfig& w
 void add_shape(const SonarConfig& config, std::vector<PresetValue>& out) {
     const char* const file = "file: of the pings";
     if (config.kind == SonarKind::imaging) {
-        out.push_back({"azimuth_deg", short_number(config.azimuth_deg), file});
+        out.push_back({"azimuth_deg", four_digits(config.azimuth_deg), file});
         out.push_back({"azimuth_bins", std::to_string(config.azimuth_bins), file});
         const bool sine = config.instrument.beam.spread == BeamSpacing::equal_sine;
         out.push_back({"instrument.beam.spread", sine ? "sine" : "angle", file});
     }
-    out.push_back({"range_min_m", short_number(config.range_min_m), file});
-    out.push_back({"range_max_m", short_number(config.range_max_m), file});
+    out.push_back({"range_min_m", four_digits(config.range_min_m), file});
+    out.push_back({"range_max_m", four_digits(config.range_max_m), file});
     out.push_back({"range_bins", std::to_string(config.range_bins), file});
 }
 
@@ -73,12 +73,11 @@ void add_estimates(const ImageFit& fit, const StartInstrument& start,
             out.push_back({key, e.word, "fit"});
             continue;
         }
-        out.push_back(
-            {key, short_number(e.number.value),
-             "fit: " + short_number(e.number.low) + " to " + short_number(e.number.high)});
+        out.push_back({key, four_digits(e.number.value),
+                       "fit: " + four_digits(e.number.low) + " to " + four_digits(e.number.high)});
     }
     if (fit.noise && !start.config.receiver.noise_db) {
-        out.push_back({"instrument.receiver.noise_db", short_number(start.levels.noise_db),
+        out.push_back({"instrument.receiver.noise_db", four_digits(start.levels.noise_db),
                        "rule: that of the start; full_scale_db is fitted to it"});
     }
 }
@@ -146,7 +145,7 @@ void calibrate_soundings(const SplitRecording& parts, const SonarConfig& start,
                 return std::fabs(x - a.angle_rad) < std::fabs(y - a.angle_rad);
             });
         const auto k = static_cast<std::size_t>(nearest - fit.angles_rad.begin());
-        const std::string at = ", " + short_number(std::round(degrees(a.angle_rad))) + " degrees";
+        const std::string at = ", " + four_digits(std::round(degrees(a.angle_rad))) + " degrees";
         const double gain_db = geometry.gain_db(a.angle_rad, a.range_m);
         out.figures.push_back(of_angle("strength with the level of the sonar" + at + ", dB",
                                        FitTolerance::decibel, fit.strength_db[k],

@@ -43,7 +43,7 @@ Calibration calibrate(const Recording& recording, const SonarConfig& start,
                       const WaterConfig& water, const CalibrationOptions& options);
 
 /// Four digits of a number.
-std::string short_number(double value);
+std::string four_digits(double value);
 
 /// The figures as a table, the estimates and the notes.
 std::string calibration_text(const Calibration& calibration);

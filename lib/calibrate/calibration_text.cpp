@@ -51,7 +51,7 @@ Agreements agreements(const Calibration& calibration) {
 
 }  // namespace
 
-std::string short_number(double value) {
+std::string four_digits(double value) {
     return fmt::format("{:.4g}", value);
 }
 

@@ -40,24 +40,24 @@ TEST_SUITE("trace") {
         // range c t / 2 is d c / (c + v).
         const Eigen::Vector3d ahead(60.0, 0.0, 0.0);
         const Eigen::Vector3d measured =
-            measured_place(moving({5.0, 0.0, 0.0}, {}), ViewShape::fan, ahead);
+            measured_place(moving({5.0, 0.0, 0.0}, {0.0, 0.0, 0.0}), ViewShape::fan, ahead);
         CHECK(measured.norm() == doctest::Approx(60.0 * 1500.0 / 1505.0).epsilon(1e-12));
         CHECK(std::fabs(measured.y()) < 1e-12);
         // Past it, sideways: (c t - d)^2 = d^2 + (v t)^2, so t = 2 c d / (c^2 - v^2), and the point
         // is then v t to the other side.
         const double time = 2.0 * 1500.0 * 60.0 / (1500.0 * 1500.0 - 25.0);
         const Eigen::Vector3d past =
-            measured_place(moving({0.0, 5.0, 0.0}, {}), ViewShape::fan, ahead);
+            measured_place(moving({0.0, 5.0, 0.0}, {0.0, 0.0, 0.0}), ViewShape::fan, ahead);
         CHECK(past.norm() == doctest::Approx(750.0 * time).epsilon(1e-12));
         CHECK(azimuth_of(past) == doctest::Approx(-std::atan(5.0 * time / 60.0)).epsilon(1e-9));
         // A side-scan sonar has moved half as far between the two patterns.
-        const Eigen::Vector3d half =
-            measured_place(moving({0.0, 5.0, 0.0}, {}), ViewShape::port_starboard, ahead);
+        const Eigen::Vector3d half = measured_place(moving({0.0, 5.0, 0.0}, {0.0, 0.0, 0.0}),
+                                                    ViewShape::port_starboard, ahead);
         CHECK(azimuth_of(half) == doctest::Approx(-std::atan(2.5 * time / 60.0)).epsilon(1e-9));
     }
 
     TEST_CASE("ping motion: a yawing fan measures azimuths less its turn in the two-way time") {
-        const PingMotion yawing = moving({}, {0.0, 0.0, radians(30.0)});
+        const PingMotion yawing = moving({0.0, 0.0, 0.0}, {0.0, 0.0, radians(30.0)});
         for (const double range : {5.0, 40.0, 150.0}) {
             for (const double azimuth : {-0.8, 0.0, 0.5}) {
                 const Eigen::Vector3d place(range * std::cos(azimuth), range * std::sin(azimuth),
@@ -126,7 +126,7 @@ TEST_SUITE("trace") {
         const Samples before = samples;
         move_in_ping({}, view, samples, outside);
         CHECK(samples.items[3].position == before.items[3].position);
-        move_in_ping(moving({}, {0.0, 0.0, radians(60.0)}), view, samples, outside);
+        move_in_ping(moving({0.0, 0.0, 0.0}, {0.0, 0.0, radians(60.0)}), view, samples, outside);
         REQUIRE(outside.size() == 1);
         CHECK(samples.beam(9).empty());
         for (int j = 0; j < 9; ++j) {

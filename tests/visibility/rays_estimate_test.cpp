@@ -59,8 +59,8 @@ TEST_CASE("estimate of the rays: bins by two sets of rays") {
             disagreement({patch_in_bin(0, 0), patch_in_bin(3, 1)}, {both, both});
         CHECK(found.signal == near(0.8));
         CHECK(found.error() == 0.0);
-        CHECK(std::ranges::count(found.lit, 1) == 2);
-        CHECK(found.lit[3] == 1);
+        CHECK(std::ranges::count(found.occupied, 1) == 2);
+        CHECK(found.occupied[3] == 1);
     }
     SUBCASE("values that differ") {
         // One set has 0.2 in the bin and the other 0.6: the mean 0.4 is off by 0.2, and twice the
@@ -89,12 +89,12 @@ TEST_CASE("estimate of the rays: the share of dark bins") {
     const View view{radians(60.0), radians(20.0), 0.5, 20.0, 64, 32, 0.03};
     test::add_quad(scene, {2, -9, -9}, {12, 9, -9}, {12, 9, 9}, {2, -9, 9}, m);
     SetDisagreement image;
-    image.lit.assign(std::size_t{64} * 32, 1);
+    image.occupied.assign(std::size_t{64} * 32, 1);
     const Caster caster(scene);
     const LocalPose pose = local_pose({}, scene.origin);
     CHECK(share_of_dark_bins(scene, caster, view, pose, image, 400) == 0.0);
-    for (std::size_t i = 0; i < image.lit.size(); i += 2)
-        image.lit[i] = 0;
+    for (std::size_t i = 0; i < image.occupied.size(); i += 2)
+        image.occupied[i] = 0;
     const double half = share_of_dark_bins(scene, caster, view, pose, image, 400);
     // Half of some hundred bins are dark, within four standard deviations.
     CHECK(half > 0.3);
@@ -104,7 +104,7 @@ TEST_CASE("estimate of the rays: the share of dark bins") {
     const int plate_bin = static_cast<int>((1.0 - view.range_min_m) / view.bin_m());
     for (int beam = 0; beam < view.beams; ++beam)
         for (int bin = plate_bin; bin < plate_bin + 3; ++bin)
-            image.lit[static_cast<std::size_t>(beam) * 64 + bin] = 1;
+            image.occupied[static_cast<std::size_t>(beam) * 64 + bin] = 1;
     CHECK(share_of_dark_bins(scene, Caster(scene), view, pose, image, 400) == 0.0);
 }
 
