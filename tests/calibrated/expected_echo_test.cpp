@@ -68,12 +68,13 @@ TEST_SUITE("calibrated") {
             double pitch_deg, range_m;
         };
         for (const Case& c :
-             {Case{"gemini_720is", "    azimuth_deg: 10\n    azimuth_bins: 21\n", 20.0, 20.0},
-              Case{"micron", "    sector_deg: 1\n    step_deg: 1\n", 20.0, 40.0},
+             {Case{"gemini_720is", "    azimuth_deg: 10\n    azimuth_bins: 21\n    instrument: {",
+                   20.0, 20.0},
+              Case{"micron", "    sector_deg: 1\n    step_deg: 1\n    instrument: {", 20.0, 40.0},
               // The larger of two samples of noise would be louder than the mean.
-              Case{"sidescan_900khz", "    instrument: {receiver: {samples: 1}}\n", 0.0, 20.0}}) {
+              Case{"sidescan_900khz", "    instrument: {receiver: {samples: 1}, ", 0.0, 20.0}}) {
             CAPTURE(c.preset);
-            const Sonar sonar = preset_sonar(c.preset, c.keys);
+            const Sonar sonar = preset_sonar(c.preset, c.keys + "usual_water: none}\n");
             const CalibratedModel& model = calibrated_model_of(sonar);
             const Scene scene = sand_at(c.range_m);
             EngineSettings settings;

@@ -221,7 +221,9 @@ TEST_SUITE("calibrated") {
         CHECK(levels_of(config).source_level_db == 0.0);
     }
 
-    TEST_CASE("levels: full scale puts sand at a third of the largest value, noise at two thirds at most") {
+    TEST_CASE(
+        "levels: full scale puts sand at a third of the largest value, noise at two thirds at "
+        "most") {
         SonarConfig config = imaging();
         ReceiverConfig& receiver = config.instrument.receiver;
         receiver.noise_db = 150.0;  // louder than sand

@@ -18,13 +18,14 @@ namespace {
 
 /// The sonar of a preset with short pings and steps of half a degree over 24 degrees.
 Sonar scanning(const std::string& preset) {
-    return preset_sonar(preset,
-                        "    range_min_m: 1\n"
-                        "    range_max_m: 8\n"
-                        "    range_bins: 140\n"
-                        "    sector_deg: 24\n"
-                        "    step_deg: 0.5\n"
-                        "    instrument: {usual_water: none, speckle: {mode: none}, receiver: {tvg_log: 0}}\n");
+    return preset_sonar(
+        preset,
+        "    range_min_m: 1\n"
+        "    range_max_m: 8\n"
+        "    range_bins: 140\n"
+        "    sector_deg: 24\n"
+        "    step_deg: 0.5\n"
+        "    instrument: {usual_water: none, speckle: {mode: none}, receiver: {tvg_log: 0}}\n");
 }
 
 double energy_db(const std::vector<float>& image) {

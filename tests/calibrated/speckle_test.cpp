@@ -128,7 +128,9 @@ std::vector<Patch> patches_of_presets() {
     std::vector<Patch> out;
     out.emplace_back("oculus_m1200d_2100khz", 1.2, 0.0025, 85);
     out.emplace_back("gemini_720is", 3.0, 0.008, 43);
-    out.emplace_back("didson_1800khz", 5.0, 0.02, 66);
+    // Its bins hold the larger of two samples, which are not Rayleigh distributed.
+    out.emplace_back("didson_1800khz", 5.0, 0.02, 66,
+                     "    instrument: {usual_water: none, receiver: {samples: 1}}\n");
     return out;
 }
 

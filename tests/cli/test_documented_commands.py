@@ -40,7 +40,6 @@ NOT_RUN = {
     "sonarsim calibrate out/real --preset gemini_720is --out mine.yaml --report mine.json":
         "needs pings of a real sonar; test_calibrate.py makes some",
     "sonarsim calibrate out/real --preset START --out MINE": "the same",
-    'build-release/tests/sonarsim_tests --no-skip -tc="closed loop: 200*"': HOURS,
     "sonarsim report --hard": "takes minutes; tests/hard runs the same catalogue",
     "scripts/slurm/render.sh 64 mission.yaml out/big --time=60 --cpus-per-task=4":
         "needs Slurm; test_clusters.py runs it with a stand-in",

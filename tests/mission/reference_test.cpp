@@ -72,6 +72,7 @@ TEST_CASE("defaults of the reference are what a mission without these keys has")
         if (section.path.starts_with("trajectory") || section.path.ends_with(".0") ||
             section.path == "scene.water_surface" || section.path == "scene.heightmap" ||
             section.path.starts_with("scene.seabed") || section.path.ends_with("_map") ||
+            section.path.ends_with("profile") ||
             section.path.starts_with("sensors.NAME.instrument"))
             continue;
         std::string path = section.path.empty() ? "" : section.path + ".";
