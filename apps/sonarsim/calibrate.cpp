@@ -36,8 +36,7 @@ struct CalibrateArguments {
 /// The file of the preset to start with: a path, or the name of one that comes with the program.
 std::filesystem::path start_file(const std::string& name) {
     const bool is_name = name.find('/') == std::string::npos && !name.ends_with(".yaml");
-    const std::filesystem::path file =
-        preset_file(is_name ? "sensors/" + name + ".yaml" : name, "");
+    std::filesystem::path file = preset_file(is_name ? "sensors/" + name + ".yaml" : name, "");
     if (!file.empty()) return file;
     throw InputError(
         Location{name},
