@@ -51,10 +51,11 @@ std::vector<ProfilePointConfig> named_points(const SoundProfileConfig& config, W
     for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
         const double span = nodes[k + 1].depth_m - nodes[k].depth_m;
         const bool cools = nodes[k + 1].celsius != nodes[k].celsius;
-        const double steps = std::ceil(span / (cools ? thermocline_step_m : deep_step_m));
+        const int steps =
+            static_cast<int>(std::ceil(span / (cools ? thermocline_step_m : deep_step_m)));
         const bool is_last = k + 2 == nodes.size();
-        for (double i = 0.0; i < steps + (is_last ? 1.0 : 0.0); ++i) {
-            const double share = i / steps;
+        for (int i = 0; i < steps + (is_last ? 1 : 0); ++i) {
+            const double share = static_cast<double>(i) / steps;
             water.depth_m = nodes[k].depth_m + share * span;
             water.temperature_c =
                 nodes[k].celsius + share * (nodes[k + 1].celsius - nodes[k].celsius);

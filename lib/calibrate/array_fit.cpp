@@ -64,7 +64,9 @@ struct TaperTable {
 
     TaperTable() {
         constexpr double width = 1e-3;
-        for (double db = no_taper_db; db >= least_taper_db; db -= step_db) {
+        const auto steps = static_cast<int>((no_taper_db - least_taper_db) / step_db + 1e-9);
+        for (int k = 0; k <= steps; ++k) {
+            const double db = no_taper_db - k * step_db;
             const LineArray array = line_array(width, db);
             side_lobe_db.push_back(db);
             pedestal.push_back(array.pedestal);
@@ -121,7 +123,8 @@ struct Fitter {
     Eigen::VectorXd best_of_grid(const Correlations& seen, double log_length) const {
         Eigen::VectorXd best;
         double least = 1e300;
-        for (double off = -1.5; off < 1.55; off += 0.1) {
+        for (int k = -15; k <= 15; ++k) {
+            const double off = 0.1 * k;
             for (const double taper : {-3.0, -1.0, 0.5, 2.0}) {
                 Eigen::VectorXd x(2);
                 x << log_length + off, taper;

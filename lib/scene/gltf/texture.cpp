@@ -18,11 +18,11 @@ namespace {
 using nlohmann::json;
 
 /// An element of an array of the document.
-const json& element(const json& document, const std::string& array, int index,
-                    const Location& where) {
+const json& element(const json& document, const char* array, int index, const Location& where) {
     const auto found = document.find(array);
     if (found == document.end() || static_cast<std::size_t>(index) >= found->size())
-        throw InputError(where, array + "[" + std::to_string(index) + "] does not exist");
+        throw InputError(where,
+                         std::string(array) + "[" + std::to_string(index) + "] does not exist");
     return (*found)[static_cast<std::size_t>(index)];
 }
 
