@@ -171,6 +171,7 @@ std::vector<std::size_t> without_uneven(const std::vector<PatchMoments>& patches
     std::vector<std::size_t> out;
     if (chosen.empty()) return out;
     std::vector<double> sizes;
+    sizes.reserve(chosen.size());
     for (const std::size_t k : chosen)
         sizes.push_back(patches[k].unevenness);
     std::sort(sizes.begin(), sizes.end());

@@ -59,6 +59,7 @@ double squared_error(const Lags& a, const Lags& b) {
 /// The place of the least error, between two rows of the table by a parabola.
 double best_bins(const std::vector<Lags>& table, const Lags& seen) {
     std::vector<double> errors;
+    errors.reserve(table.size());
     for (const Lags& row : table)
         errors.push_back(squared_error(row, seen));
     const auto at =

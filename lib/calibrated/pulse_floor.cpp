@@ -15,7 +15,7 @@ constexpr double no_floor_db = -300.0;
 
 void add_powers_of(const EchoGrid& amplitudes, int column, std::span<float> powers) {
     const float* const cells = amplitudes.column(column);
-    for (int row = 0; row < amplitudes.rows(); ++row) {
+    for (std::ptrdiff_t row = 0; row < amplitudes.rows(); ++row) {
         const float re = cells[2 * row];
         const float im = cells[2 * row + 1];
         powers[row] += std::fma(re, re, im * im);
@@ -57,7 +57,7 @@ void add_pulse_floor(const PulseFloor& floor, PowerForm form, float gain, Philox
             add_powers_of(grid, column, powers);
         } else {
             const float* const cells = grid.column(column);
-            for (int row = 0; row < grid.rows(); ++row)
+            for (std::ptrdiff_t row = 0; row < grid.rows(); ++row)
                 powers[row] = std::max(cells[2 * row], 0.0F);
         }
         if (coherent != nullptr) add_powers_of(*coherent, column, powers);

@@ -62,7 +62,7 @@ void spread_below(const EchoGrid& lagged, EchoGrid& energy) {
         double left = 0.0;      // energy that is still in the sediment
         double left_lag = 0.0;  // the same times its lag, in bins
         // An echo before the first bin's middle is shared with the bin before it.
-        for (int row = -1; row < energy.rows(); ++row) {
+        for (std::ptrdiff_t row = -1; row < energy.rows(); ++row) {
             left += cells[2 * row];
             left_lag += added_lag[2 * row];
             if (!(left > 0.0)) continue;
