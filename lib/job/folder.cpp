@@ -55,10 +55,22 @@ Json own_description(const fs::path& folder) {
     refuse(folder, "holds a dataset.json that is not sonarsim's", or_nothing);
 }
 
+/// The path without links; what does not exist keeps its name.
+fs::path resolved(const fs::path& path) {
+    for (;;) {
+        std::error_code error;
+        fs::path found = fs::weakly_canonical(path, error);
+        if (!error) return found;
+        // Another run removed a folder of the path between the check and the resolution.
+        if (error != std::errc::no_such_file_or_directory)
+            throw fs::filesystem_error("cannot resolve", path, error);
+    }
+}
+
 /// True if the path is the folder or lies below it, links resolved.
 bool is_within(const fs::path& path, const fs::path& folder) {
-    const fs::path inner = fs::weakly_canonical(path);
-    const fs::path outer = fs::weakly_canonical(folder);
+    const fs::path inner = resolved(path);
+    const fs::path outer = resolved(folder);
     return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first ==
            outer.end();
 }

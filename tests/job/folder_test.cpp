@@ -2,6 +2,9 @@
 
 #include <doctest/doctest.h>
 
+#include <atomic>
+#include <thread>
+
 #include "core/error.h"
 #include "core/file.h"
 #include "format/png.h"
@@ -226,5 +229,33 @@ TEST_SUITE("job") {
         mission.scene.file = temporary.path / "new/front/scene.glb";
         CHECK_THROWS_AS(run(mission, 2, false), InputError);
         CHECK_FALSE(fs::exists(temporary.path / "new"));
+    }
+
+    TEST_CASE("folder: inputs are protected while another run removes the journal's folder") {
+        const TemporaryFolder temporary;
+        Mission mission = small_mission(temporary.path / "out");
+        const Assembly assembly = small_assembly(mission, 2);
+        mission.scene.file = temporary.path / "scene.glb";
+        const std::vector<Writers> writers = make_writers(mission, assembly);
+        const Layout layout = make_layout(mission, writers, assembly.trajectory.size());
+        std::atomic<bool> done = false;
+        std::thread other([&] {
+            while (!done) {
+                fs::create_directories(layout.folder / journal_folder_name);
+                fs::remove(layout.folder / journal_folder_name);
+            }
+        });
+        constexpr int tries = 2000;  // one in 600 resolutions would fail
+        int failures = 0;
+        for (int i = 0; i < tries; ++i) {
+            try {
+                protect_inputs(layout, mission);
+            } catch (const fs::filesystem_error&) {
+                ++failures;
+            }
+        }
+        done = true;
+        other.join();
+        CHECK(failures == 0);
     }
 }
