@@ -1,10 +1,9 @@
 #include "calibrate/array_fit.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
-#include "calibrate/correlations.h"
-#include "calibrate/least_squares.h"
 #include "calibrate/log_statistics.h"
 #include "core/elementary.h"
 #include "core/units.h"
@@ -13,134 +12,103 @@ namespace sonarsim {
 
 namespace {
 
+using LagVector = Eigen::Matrix<double, patch_lags, 1>;
+
 constexpr double most_taper_interval_db = 8.0;
 constexpr double least_taper_db = -41.0;
 constexpr double no_taper_db = -13.3;
-// The error that the model's interpolation between the columns of its grid leaves in a width.
-constexpr double least_taper_error_db = 2.0;
-constexpr double least_width_share = 0.02;
+constexpr double taper_step_db = 0.5;
+constexpr int least_units = 24;
+// Lengths of the aperture in wavelengths, by factors of 5 % and then 0.4 % up to a factor of 1.8.
+constexpr double shortest = 0.5;
+constexpr double longest = 5000.0;
+constexpr double coarse_step = 0.05;
+constexpr double fine_step = 0.004;
+constexpr double fine_reach = 0.6;
+// The error that the model's interpolation between the columns of its grid leaves in a correlation:
+// the root mean square over eight drawn arrays.
+constexpr double model_error = 0.002;
+// Chi^2 of one degree of freedom stays below it in 95 of 100 cases.
+constexpr double chi2_95 = 3.84;
+constexpr std::ptrdiff_t most_pairs = 16;
 
-/// The correlation of noise between beams, pairs of one difference of number after the other, as a
-/// table over the difference of sines, so that a fit takes no time.
-struct LogCorrelationOfSquare {
-    std::array<double, 257> table{};
+/// The correlation of log powers over t = u L, of one taper, as a table.
+struct TaperedCorrelation {
+    static constexpr double step = 0.02;
+    static constexpr int steps = 800;
+    double side_lobe_db = 0.0;
+    double half_power = 0.0;  ///< t at which the power is halved
+    std::vector<double> table;
 
-    explicit LogCorrelationOfSquare(int looks) {
-        for (std::size_t k = 0; k < table.size(); ++k)
-            table[k] = log_power_correlation(static_cast<double>(k) / 256.0, looks);
+    TaperedCorrelation(double db, const std::vector<double>& of_square) : side_lobe_db(db) {
+        constexpr double width = 1e-3;
+        LineArray array = line_array(width, db);
+        half_power = array.wavelengths * sincos(0.5 * width).sin;
+        array.wavelengths = 1.0;
+        for (int k = 0; k <= steps; ++k) {
+            const double place =
+                beam_correlation(array, k * step) * static_cast<double>(of_square.size() - 1);
+            const auto at = std::min(static_cast<std::size_t>(place), of_square.size() - 2);
+            const double part = place - static_cast<double>(at);
+            table.push_back((1.0 - part) * of_square[at] + part * of_square[at + 1]);
+        }
     }
-    double at(double k2) const {
-        const double place = std::clamp(k2, 0.0, 1.0) * 256.0;
-        const auto k = std::min(static_cast<std::size_t>(place), std::size_t{255});
+    double at(double t) const {
+        const double place = std::fabs(t) / step;
+        const auto k = static_cast<std::size_t>(place);
+        if (k + 1 >= table.size()) return 0.0;
         const double part = place - static_cast<double>(k);
         return (1.0 - part) * table[k] + part * table[k + 1];
     }
+    double width_deg(double wavelengths) const {
+        return degrees(2.0 * arcsin(std::min(half_power / wavelengths, 1.0)));
+    }
 };
 
-std::array<double, patch_lags> predicted(const LineArray& array, const std::vector<double>& sines,
-                                         const LogCorrelationOfSquare& of_square) {
-    std::array<double, patch_lags> out{};
+std::vector<double> log_correlations_of_squares(int looks) {
+    std::vector<double> out;
+    for (int k = 0; k <= 256; ++k)
+        out.push_back(log_power_correlation(k / 256.0, looks));
+    return out;
+}
+
+/// The differences of sines of beams 1 to patch_lags apart, evenly over the fan.
+std::array<std::vector<double>, patch_lags> differences_of(const std::vector<double>& sines) {
+    std::array<std::vector<double>, patch_lags> out;
     const auto beams = static_cast<std::ptrdiff_t>(sines.size());
-    const std::ptrdiff_t step = std::max<std::ptrdiff_t>(beams / 32, 1);
-    for (int lag = 1; lag <= patch_lags; ++lag) {
-        double count = 0.0;
-        double sum = 0.0;
-        for (std::ptrdiff_t j = 0; j + lag < beams; j += step) {
-            const double u =
-                sines[static_cast<std::size_t>(j + lag)] - sines[static_cast<std::size_t>(j)];
-            sum += of_square.at(beam_correlation(array, u));
-            count += 1.0;
-        }
-        out[static_cast<std::size_t>(lag - 1)] = count > 0.0 ? sum / count : 0.0;
+    const std::ptrdiff_t step = std::max<std::ptrdiff_t>(beams / most_pairs, 1);
+    for (std::ptrdiff_t lag = 1; lag <= patch_lags; ++lag) {
+        for (std::ptrdiff_t j = 0; j + lag < beams; j += step)
+            out[static_cast<std::size_t>(lag - 1)].push_back(
+                sines[static_cast<std::size_t>(j + lag)] - sines[static_cast<std::size_t>(j)]);
     }
     return out;
 }
 
-/// The tapers by their highest side lobe. With them a fit works on pedestals, which need no search.
-struct TaperTable {
-    static constexpr double step_db = 0.2;
-    std::vector<double> side_lobe_db, pedestal;
-    std::vector<double> half_power;  ///< u L at which the power is halved
+LagVector predicted(const TaperedCorrelation& taper, double wavelengths,
+                    const std::array<std::vector<double>, patch_lags>& differences) {
+    LagVector out = LagVector::Zero();
+    for (int lag = 0; lag < patch_lags; ++lag) {
+        const std::vector<double>& of_lag = differences[static_cast<std::size_t>(lag)];
+        for (const double u : of_lag)
+            out[lag] += taper.at(u * wavelengths) / static_cast<double>(of_lag.size());
+    }
+    return out;
+}
 
-    TaperTable() {
-        constexpr double width = 1e-3;
-        const auto steps = static_cast<int>((no_taper_db - least_taper_db) / step_db + 1e-9);
-        for (int k = 0; k <= steps; ++k) {
-            const double db = no_taper_db - k * step_db;
-            const LineArray array = line_array(width, db);
-            side_lobe_db.push_back(db);
-            pedestal.push_back(array.pedestal);
-            half_power.push_back(array.wavelengths * sincos(0.5 * width).sin);
-        }
-    }
-    /// A column of the table at a pedestal; pedestals fall along it.
-    double at(const std::vector<double>& column, double p) const {
-        std::size_t k = 1;
-        while (k + 1 < pedestal.size() && pedestal[k] > p)
-            ++k;
-        const double part = (pedestal[k - 1] - p) / (pedestal[k - 1] - pedestal[k]);
-        const double bounded = std::clamp(part, 0.0, 1.0);
-        return (1.0 - bounded) * column[k - 1] + bounded * column[k];
-    }
-    double width_deg(const LineArray& array) const {
-        const double u = at(half_power, array.pedestal) / array.wavelengths;
-        return degrees(2.0 * arcsin(std::min(u, 1.0)));
-    }
+/// An array with its chi^2.
+struct TriedArray {
+    double side_lobe_db = 0.0, width_deg = 0.0, log_length = 0.0, chi2 = 1e300;
 };
 
-struct Fitter {
-    const std::vector<double>& sines;
-    LogCorrelationOfSquare of_square;
-    TaperTable tapers;
-
-    /// The parameters of a fit: the logarithm of the length, and a number whose logistic function
-    /// lies between the least pedestal and the greatest.
-    LineArray array(const Eigen::VectorXd& x) const {
-        LineArray out;
-        out.wavelengths = exponential(std::clamp(x[0], -2.0, 12.0));
-        const double least = tapers.pedestal.back();
-        const double share = 1.0 / (1.0 + exponential(std::clamp(-x[1], -12.0, 12.0)));
-        out.pedestal = least + (tapers.pedestal.front() - least) * share;
-        return out;
+Bounded bounded(double value, const std::vector<TriedArray>& near, double TriedArray::*number) {
+    Bounded out{value, value, value};
+    for (const TriedArray& array : near) {
+        out.low = std::min(out.low, array.*number);
+        out.high = std::max(out.high, array.*number);
     }
-
-    Eigen::VectorXd residuals(const Eigen::VectorXd& x, const Correlations& seen) const {
-        const std::array<double, patch_lags> mean = predicted(array(x), sines, of_square);
-        Eigen::VectorXd out(patch_lags + 1);
-        for (int k = 0; k < patch_lags; ++k) {
-            const auto at = static_cast<std::size_t>(k);
-            const double found = seen.along_beams[at];
-            out[k] = std::isfinite(found) ? mean[at] - found : 0.0;
-        }
-        // If the taper hardly matters, its parameter stays near 0. Beyond 4 nothing changes any
-        // more.
-        const double beyond = std::max(std::fabs(x[1]) - 4.0, 0.0);
-        out[patch_lags] = 1e-3 * x[1] + (x[1] > 0.0 ? 0.05 : -0.05) * beyond;
-        return out;
-    }
-
-    /// The best of a grid of lengths and tapers: a start that is near the least error.
-    Eigen::VectorXd best_of_grid(const Correlations& seen, double log_length) const {
-        Eigen::VectorXd best;
-        double least = 1e300;
-        for (int k = -15; k <= 15; ++k) {
-            const double off = 0.1 * k;
-            for (const double taper : {-3.0, -1.0, 0.5, 2.0}) {
-                Eigen::VectorXd x(2);
-                x << log_length + off, taper;
-                const double error = residuals(x, seen).squaredNorm();
-                if (error < least) best = x;
-                least = std::min(least, error);
-            }
-        }
-        return best;
-    }
-
-    Eigen::VectorXd fitted(const Correlations& seen, const Eigen::VectorXd& start) const {
-        return least_squares_fit(start, patch_lags + 1,
-                                 [&](const Eigen::VectorXd& x) { return residuals(x, seen); });
-    }
-};
+    return out;
+}
 
 }  // namespace
 
@@ -158,35 +126,58 @@ double beam_correlation(const LineArray& array, double u) {
 std::array<double, patch_lags> predicted_beam_correlations(const LineArray& array,
                                                            const std::vector<double>& sines,
                                                            int looks) {
-    return predicted(array, sines, LogCorrelationOfSquare(looks));
+    std::array<double, patch_lags> out{};
+    const auto differences = differences_of(sines);
+    for (std::size_t lag = 0; lag < patch_lags; ++lag) {
+        for (const double u : differences[lag])
+            out[lag] += log_power_correlation(beam_correlation(array, u), looks) /
+                        static_cast<double>(differences[lag].size());
+    }
+    return out;
 }
 
-ArrayFit fit_array(const std::vector<PatchMoments>& patches, const std::vector<std::size_t>& chosen,
-                   int places, const std::vector<double>& sines, int looks,
-                   double start_width_deg) {
-    const Fitter fitter{sines, LogCorrelationOfSquare(looks), TaperTable()};
-    const LineArray of_start = line_array(radians(start_width_deg), no_taper_db);
-    const Correlations all = correlations_of(
-        patches, chosen, std::vector<double>(static_cast<std::size_t>(places), 1.0));
-    const Eigen::VectorXd start =
-        fitter.fitted(all, fitter.best_of_grid(all, logarithm(of_start.wavelengths)));
-    const auto estimate = [&](const std::vector<double>& weights) {
-        const LineArray array =
-            fitter.array(fitter.fitted(correlations_of(patches, chosen, weights), start));
-        return std::vector<double>{fitter.tapers.width_deg(array),
-                                   fitter.tapers.at(fitter.tapers.side_lobe_db, array.pedestal)};
+std::optional<ArrayFit> fit_array(const BeamCorrelations& seen, const std::vector<double>& sines,
+                                  int looks) {
+    if (seen.units < least_units) return {};
+    const std::vector<double> of_square = log_correlations_of_squares(looks);
+    std::vector<TaperedCorrelation> tapers;
+    for (int k = 0; no_taper_db - k * taper_step_db >= least_taper_db; ++k)
+        tapers.emplace_back(no_taper_db - k * taper_step_db, of_square);
+    const auto differences = differences_of(sines);
+    Eigen::Matrix<double, patch_lags, patch_lags> covariance = seen.covariance;
+    covariance.diagonal().array() += model_error * model_error;
+    // The inverse of a covariance from n units is (n - 1) / (n - p - 2) too large (Hartlap 2007).
+    const double shrunk = (seen.units - patch_lags - 2.0) / (seen.units - 1.0);
+    const Eigen::LDLT<Eigen::Matrix<double, patch_lags, patch_lags>> inverse(covariance);
+    const auto tried = [&](const TaperedCorrelation& taper, double log_length) {
+        const double wavelengths = exponential(log_length);
+        const LagVector off = seen.mean - predicted(taper, wavelengths, differences);
+        return TriedArray{taper.side_lobe_db, taper.width_deg(wavelengths), log_length,
+                          shrunk * off.dot(inverse.solve(off))};
     };
+    const auto each = [&](double from, double to, double step, const auto& visit) {
+        const int steps = static_cast<int>((to - from) / step);
+        for (const TaperedCorrelation& taper : tapers) {
+            for (int k = 0; k <= steps; ++k)
+                visit(tried(taper, from + k * step));
+        }
+    };
+    TriedArray best;
+    const auto keep_best = [&](const TriedArray& array) {
+        if (array.chi2 < best.chi2) best = array;
+    };
+    each(logarithm(shortest), logarithm(longest), coarse_step, keep_best);
+    std::vector<TriedArray> near;
+    const double middle = best.log_length;
+    each(middle - fine_reach, middle + fine_reach, fine_step, [&](const TriedArray& array) {
+        keep_best(array);
+        near.push_back(array);
+    });
+    std::erase_if(near, [&](const TriedArray& array) { return array.chi2 > best.chi2 + chi2_95; });
     ArrayFit out;
-    const std::vector<Bounded> found =
-        bootstrap_all(places, estimate, {0.0, least_taper_error_db}, 60);
-    out.width_deg = found[0];
-    out.side_lobe_db = found[1];
-    out.taper_known = found[1].high - found[1].low < most_taper_interval_db &&
-                      found[1].value > least_taper_db + TaperTable::step_db &&
-                      found[1].value < no_taper_db - TaperTable::step_db;
-    const double least = least_width_share * out.width_deg.value;
-    out.width_deg.low -= least;
-    out.width_deg.high += least;
+    out.width_deg = bounded(best.width_deg, near, &TriedArray::width_deg);
+    out.side_lobe_db = bounded(best.side_lobe_db, near, &TriedArray::side_lobe_db);
+    out.taper_known = out.side_lobe_db.high - out.side_lobe_db.low < most_taper_interval_db;
     return out;
 }
 

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "calibrate/bootstrap.h"
+#include "calibrate/correlations.h"
 #include "calibrate/patches.h"
 #include "calibrated/line_array.h"
 
@@ -29,9 +31,12 @@ struct ArrayFit {
     bool taper_known = false;  ///< else only the two together are
 };
 
-/// Fits width and taper to the correlations of the chosen patches. The taper counts as known when
-/// its interval is narrower than 8 dB.
-ArrayFit fit_array(const std::vector<PatchMoments>& patches, const std::vector<std::size_t>& chosen,
-                   int places, const std::vector<double>& sines, int looks, double start_width_deg);
+/// The array with the least chi^2 = d' C^-1 d, d the measured correlations less its own and C their
+/// covariance. An interval has all widths, or all tapers, that some array within 3.84 of the least
+/// has (the profile of the likelihood; Wilks 1938). So a taper at the end of its range, or one that
+/// the width can stand in for, has a wide interval. Nothing for fewer than 24 units. The taper
+/// counts as known when its interval is narrower than 8 dB.
+std::optional<ArrayFit> fit_array(const BeamCorrelations& seen, const std::vector<double>& sines,
+                                  int looks);
 
 }  // namespace sonarsim

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <vector>
 
@@ -20,5 +21,18 @@ struct Correlations {
 Correlations correlations_of(const std::vector<PatchMoments>& patches,
                              const std::vector<std::size_t>& chosen,
                              const std::vector<double>& weights);
+
+/// The correlations across the beams with their covariance.
+struct BeamCorrelations {
+    Eigen::Matrix<double, patch_lags, 1> mean;
+    Eigen::Matrix<double, patch_lags, patch_lags> covariance;
+    int units = 0;  ///< independent ones
+};
+
+/// The covariance is that of a ratio of sums over independent units: with the structure S and the
+/// variance V of a unit, r = 1 - sum S / sum V moves by ((1 - r) V - S) / sum V with it. Noise is
+/// new in every ping, so each patch is a unit; of echoes, which may stay, each place is.
+BeamCorrelations beam_correlations(const std::vector<PatchMoments>& patches,
+                                   const std::vector<std::size_t>& chosen, bool new_in_each_ping);
 
 }  // namespace sonarsim

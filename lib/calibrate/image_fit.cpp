@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "calibrate/log_statistics.h"
+#include "calibrate/looks_fit.h"
 #include "calibrated/decibel.h"
 #include "core/elementary.h"
 #include "core/units.h"
@@ -17,10 +18,8 @@ constexpr std::size_t least_patches_of_law = 24;
 
 /// The places of patches that are noise, for a second fit of the law: noise is Rayleigh's for sure,
 /// and an even patch of echoes may still hold a texture.
-std::vector<bool> noise_places(const Recording& recording, const LawFit& law,
-                               const std::optional<NoiseFit>& noise) {
+std::vector<bool> noise_places(const PatchClasses& classes) {
     std::vector<bool> out;
-    const PatchClasses classes = classified(recording, law, noise);
     if (classes.noise.size() < least_patches_of_law) return out;
     out.assign(static_cast<std::size_t>(classes.places), false);
     for (const std::size_t k : classes.noise)
@@ -28,36 +27,18 @@ std::vector<bool> noise_places(const Recording& recording, const LawFit& law,
     return out;
 }
 
-/// The number of looks: that of the start if it agrees with the skewness, else the one that does.
-int looks_of(const LawFit& law, int start, std::vector<std::string>& notes) {
-    if (law.skewness.holds(log_power_skewness(start))) return start;
-    int best = start;
-    for (int n = 1; n <= 8; ++n) {
-        const double off = std::fabs(log_power_skewness(n) - law.skewness.value);
-        if (off < std::fabs(log_power_skewness(best) - law.skewness.value)) best = n;
-    }
-    // Uneven patches and values at the ends of the scale move it by a tenth.
-    const double moved = std::fabs(log_power_skewness(best) - law.skewness.value);
-    if (best != start && law.skewness.holds(log_power_skewness(best))) return best;
-    if (moved > 0.1) {
-        notes.push_back(
-            "looks: the skewness of log powers fits no number of looks; that of the start "
-            "is kept");
-    }
-    return start;
-}
-
 void fit_law_and_looks(const Recording& recording, const StartInstrument& start, ImageFit& fit) {
     const double full_value = full_value_of(recording);
-    int looks = std::max(start.config.receiver.looks, 1);
-    fit.law = fit_law(recording.pings, full_value, looks);
+    const int start_looks = std::max(start.config.receiver.looks, 1);
+    fit.law = fit_law(recording.pings, full_value, start_looks);
     const Bounded slope = fit.law.slope;
     fit.noise = fit_noise(noise_blocks(recording, fit.law), start.absorption_db_per_m);
-    const std::vector<bool> places = noise_places(recording, fit.law, fit.noise);
-    if (!places.empty()) fit.law = fit_law(recording.pings, full_value, looks, places);
-    looks = looks_of(fit.law, looks, fit.notes);
-    if (looks != fit.law.looks) {
+    const PatchClasses classes = classified(recording, fit.law, fit.noise);
+    const std::vector<bool> places = noise_places(classes);
+    const int looks = fit_looks(skewness_of_noise(classes, fit.law), start_looks, fit.notes);
+    if (!places.empty() || looks != start_looks)
         fit.law = fit_law(recording.pings, full_value, looks, places);
+    if (looks != start_looks) {
         const auto n = static_cast<double>(looks);
         fit.estimates.push_back({"receiver.looks", {n, n, n}, ""});
         fit.config.receiver.looks = looks;
@@ -156,8 +137,13 @@ void fit_pulse_of(const Recording& recording, const PatchClasses& classes, Image
 void fit_beams(const PatchClasses& classes, const std::vector<double>& sines, ImageFit& fit) {
     BeamConfig& beam = fit.config.beam;
     const std::vector<std::size_t>& chosen = fit.pulse_of_echoes ? classes.echoes : classes.noise;
-    fit.array =
-        fit_array(classes.patches, chosen, classes.places, sines, fit.law.looks, beam.width_deg);
+    fit.array = fit_array(beam_correlations(classes.patches, chosen, !fit.pulse_of_echoes), sines,
+                          fit.law.looks);
+    if (!fit.array) {
+        fit.notes.emplace_back(
+            "beams: too few places of even echoes; width and taper are those of the start");
+        return;
+    }
     beam.width_deg = fit.array->width_deg.value;
     fit.estimates.push_back({"beam.width_deg", fit.array->width_deg, ""});
     beam.side_lobe_db = fit.array->side_lobe_db.value;

@@ -179,17 +179,18 @@ Candidate least_squares(const std::vector<NoiseBlock>& blocks, double absorption
 std::vector<double> starts_of(const std::vector<NoiseBlock>& blocks) {
     std::vector<double> out{0.0};
     if (blocks.empty()) return out;
-    const double last = blocks.back().range_m;
-    for (double r = 1.4 * blocks.front().range_m; r < 0.4 * last; r += 0.02 * last)
-        out.push_back(r);
+    const double first = 1.4 * blocks.front().range_m;
+    const double step = 0.02 * blocks.back().range_m;
+    for (int k = 0; first + k * step < 20.0 * step; ++k)
+        out.push_back(first + k * step);
     return out;
 }
 
 Candidate lowest_law(const std::vector<NoiseBlock>& blocks, double absorption_db_per_m) {
     Candidate best;
     for (const double from_m : starts_of(blocks)) {
-        for (double log_factor = 0.0; log_factor <= 60.0; log_factor += 1.0) {
-            Candidate here = best_level(blocks, absorption_db_per_m, {log_factor, from_m});
+        for (int log_factor = 0; log_factor <= 60; ++log_factor) {
+            Candidate here = best_level(blocks, absorption_db_per_m, {1.0 * log_factor, from_m});
             // A start of its own has to be worth three blocks.
             if (from_m > 0.0) here.score -= 3.0;
             if (here.score > best.score) best = here;

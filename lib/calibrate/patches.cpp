@@ -79,8 +79,12 @@ double variance_of_quarters(const PatchField& field) {
 }
 
 void add_moments(const PatchField& field, PatchMoments& patch) {
-    for (const double x : field.x)
-        patch.mean += x / static_cast<double>(field.x.size());
+    const double part = 1.0 / static_cast<double>(field.x.size());
+    for (const double x : field.x) {
+        patch.mean += part * x;
+        patch.square += part * x * x;
+        patch.cube += part * x * x * x;
+    }
     patch.variance = structure(field, field.rows / 2, field.beams / 2);
     patch.third = third_moment(field);
     for (int lag = 1; lag <= patch_lags; ++lag) {

@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <numeric>
 #include <set>
 
-#include "calibrated/decibel.h"
+#include "compare/reduced.h"
 #include "compare/student.h"
 #include "core/elementary.h"
 #include "core/random.h"
@@ -18,7 +17,6 @@ namespace {
 
 constexpr int replicates = 300;
 constexpr int cell_replicates = 100;
-constexpr double least_mean = 1e-16;
 constexpr int fewest_locations = 8;
 
 enum class Units : std::uint32_t { locations = 1, pings = 2, cells = 3 };
@@ -27,50 +25,6 @@ enum class Units : std::uint32_t { locations = 1, pings = 2, cells = 3 };
 double drawn_weight(std::uint32_t replicate, std::uint32_t a, std::uint32_t b, PhiloxKey key) {
     const PhiloxBlock block = philox({replicate, a, b, 0x626f6f74U}, key);
     return -natural_log(unit_float(block.x0));
-}
-
-/// The mid-distribution quantile, interpolated between the values (Parzen 2004), so that it moves
-/// smoothly where a value occurs often. `cells` are in the order of their values.
-template <class Weight>
-double quantile_of(const std::vector<Cell>& cells, double share, const Weight& weight) {
-    double all = 0.0;
-    for (const Cell& cell : cells)
-        all += weight(cell);
-    const double wanted = share * all;
-    double before = 0.0;
-    double last_middle = 0.0;
-    double last_value = std::numeric_limits<double>::quiet_NaN();
-    for (std::size_t i = 0; i < cells.size();) {
-        const float value = cells[i].value;
-        double own = 0.0;
-        for (; i < cells.size() && cells[i].value == value; ++i)
-            own += weight(cells[i]);
-        const double middle = before + 0.5 * own;
-        if (middle >= wanted) {
-            if (std::isnan(last_value) || middle <= last_middle) return value;
-            return last_value +
-                   (value - last_value) * (wanted - last_middle) / (middle - last_middle);
-        }
-        before += own;
-        last_middle = middle;
-        last_value = value;
-    }
-    return last_value;
-}
-
-template <class Weight>
-double reduced(const Measured& figure, const Weight& weight) {
-    if (figure.cells.empty()) return std::numeric_limits<double>::quiet_NaN();
-    if (figure.reduce == Reduce::quantile) return quantile_of(figure.cells, figure.share, weight);
-    double sum = 0.0;
-    double weights = 0.0;
-    for (const Cell& cell : figure.cells) {
-        const double own = weight(cell);
-        sum += own * cell.value;
-        weights += own;
-    }
-    const double mean = sum / weights;
-    return figure.reduce == Reduce::level ? db_of_power(std::max(least_mean, mean)) : mean;
 }
 
 /// The cells of a mean joined by unit, since a draw gives all of these one weight.
@@ -208,10 +162,6 @@ Variance joined_variance(double locations, double pings, double cells, int locat
     Variance out{corrected(locations, location_count), 0.0};
     if (ping_count > 1) out.pings = std::max(0.0, corrected(pings, ping_count) - cells);
     return out;
-}
-
-void sort_quantile(Measured& figure) {
-    if (figure.reduce == Reduce::quantile) std::ranges::stable_sort(figure.cells, {}, &Cell::value);
 }
 
 }  // namespace

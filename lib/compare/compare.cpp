@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "compare/exchange.h"
 #include "compare/figures/distances.h"
 #include "compare/measure_images.h"
 #include "compare/measure_soundings.h"
@@ -63,6 +64,15 @@ void adjust(std::vector<ComparedFigure>& figures) {
         largest = std::max(largest, std::min(1.0, own));
         figure.adjusted_p = largest;
         figure.differs = largest < significance;
+    }
+}
+
+/// A figure of places that both recordings have differs only if their exchange says so, too: tails
+/// that a few bright places make are not Student's.
+void adjust_by_exchange(std::vector<ComparedFigure>& figures, const std::vector<double>& p) {
+    for (std::size_t i = 0; i < figures.size(); ++i) {
+        figures[i].adjusted_p = std::max(figures[i].adjusted_p, p[i]);
+        figures[i].differs = figures[i].adjusted_p < significance;
     }
 }
 
@@ -216,15 +226,22 @@ Comparison compare_recordings(const Recording& real, const Recording& simulated,
         const auto found = std::ranges::find(both.simulated.figures, figure.name, &Measured::name);
         if (found != both.simulated.figures.end()) pairs.emplace_back(&figure, &*found);
     }
-    out.figures.resize(pairs.size());
+    std::vector<ComparedFigure> figures(pairs.size());
     in_parallel(pairs.size(), [&](std::size_t i) {
-        out.figures[i] = compared(*pairs[i].first, *pairs[i].second, both.pairing, seed);
+        figures[i] = compared(*pairs[i].first, *pairs[i].second, both.pairing, seed);
     });
     // A figure without an error says nothing: it was found at fewer than eight places.
-    std::erase_if(out.figures, [](const ComparedFigure& f) { return f.estimate.degrees == 0.0; });
+    std::vector<ExchangedFigure> exchanged;
+    for (std::size_t i = 0; i < figures.size(); ++i) {
+        if (figures[i].estimate.degrees == 0.0) continue;
+        const double error = figures[i].estimate.difference_error;
+        exchanged.push_back({pairs[i].first, pairs[i].second, error});
+        out.figures.push_back(std::move(figures[i]));
+    }
     if (out.figures.empty())
         throw InputError("the recordings have no figure in common: too few ranges, beams or pings");
     adjust(out.figures);
+    if (both.pairing.locations) adjust_by_exchange(out.figures, exchange_p(exchanged, seed));
     for (std::size_t i = 0; i < both.real.histograms.size(); ++i)
         out.histograms.push_back(compared(both.real.histograms[i], both.simulated.histograms[i],
                                           both.pairing.locations, seed));

@@ -50,6 +50,7 @@ RecordedImages images_of(const Recording& recording) {
         return images;
     }
     images.columns_are_pings = true;
+    images.has_shadows = recording.kind == RecordedKind::sidescan;
     images.columns = std::min(most_strip_pings, static_cast<int>(recording.pings.size()));
     for (int beam = 0; beam < first.beams; ++beam)
         add_strips(recording, beam, images);

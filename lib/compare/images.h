@@ -16,6 +16,7 @@ struct RecordedImages {
     int ranges = 0;
     int columns = 0;
     bool columns_are_pings = false;
+    bool has_shadows = false;  ///< a side-scan's
     float full_power = 0.0F;   ///< powers from here on are clipped; 0: none are
     float least_power = 0.0F;  ///< powers up to here are at the end of the scale
     double first_range_m = 0.0;

@@ -8,6 +8,7 @@
 #include "compare/figures/points.h"
 #include "compare/figures/texture.h"
 #include "compare/measure_patches.h"
+#include "compare/measure_shadows.h"
 #include "core/text.h"
 #include "core/units.h"
 
@@ -247,6 +248,7 @@ Measurement measure_images(const RecordedImages& images, const MeasureOptions& o
     measure_shares(images, options.patch, out);
     measure_histograms(images, options.patch, out);
     measure_points(images, options, out);
+    if (images.has_shadows) measure_shadows(images, options.patch, z, out);
     return out;
 }
 

@@ -5,10 +5,11 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <optional>
 #include <stdexcept>
 #include <string>
+
+#include "format/byte_fields.h"
 
 namespace sonarsim {
 
@@ -33,14 +34,6 @@ struct XtfChannel {
     throw std::runtime_error(what);
 }
 
-template <class T>
-T get(std::string_view bytes, std::size_t at) {
-    if (at > bytes.size() || bytes.size() - at < sizeof(T)) refuse_xtf("is cut off");
-    T value;
-    std::memcpy(&value, bytes.data() + at, sizeof value);
-    return value;
-}
-
 std::size_t bytes_of(XtfSample sample) {
     if (sample == XtfSample::byte) return 1;
     return sample == XtfSample::word ? 2 : 4;
@@ -48,8 +41,8 @@ std::size_t bytes_of(XtfSample sample) {
 
 /// The kind of samples by the field SampleFormat, or in older files, where it is 0, by the bytes.
 XtfSample sample_of(std::string_view bytes, std::size_t at) {
-    const int format = get<std::uint8_t>(bytes, at + 74);
-    const int size = get<std::uint16_t>(bytes, at + 6);
+    const int format = field_at<std::uint8_t>(bytes, at + 74);
+    const int size = field_at<std::uint16_t>(bytes, at + 6);
     if (format == 8 || (format == 0 && size == 1)) return XtfSample::byte;
     if (format == 3 || (format == 0 && size == 2)) return XtfSample::word;
     if (format == 2 || (format == 0 && size == 4)) return XtfSample::integer;
@@ -59,14 +52,14 @@ XtfSample sample_of(std::string_view bytes, std::size_t at) {
 }
 
 std::vector<XtfChannel> channels_of(std::string_view bytes) {
-    if (get<std::uint8_t>(bytes, 0) != 0x7B) refuse_xtf("is no XTF file");
+    if (field_at<std::uint8_t>(bytes, 0) != 0x7B) refuse_xtf("is no XTF file");
     const std::size_t count =
-        std::size_t{get<std::uint16_t>(bytes, 166)} + get<std::uint16_t>(bytes, 168);
+        std::size_t{field_at<std::uint16_t>(bytes, 166)} + field_at<std::uint16_t>(bytes, 168);
     if (count == 0 || count > most_channels) refuse_xtf("has no channels of a sonar, or too many");
     std::vector<XtfChannel> channels;
     for (std::size_t k = 0; k < count; ++k) {
         const std::size_t at = 256 + k * xtf_channel_info;
-        XtfChannel channel{get<std::uint8_t>(bytes, at), XtfSample::word};
+        XtfChannel channel{field_at<std::uint8_t>(bytes, at), XtfSample::word};
         const bool is_side = channel.type == 1 || channel.type == 2;
         if (is_side) channel.sample = sample_of(bytes, at);
         channels.push_back(channel);
@@ -76,26 +69,26 @@ std::vector<XtfChannel> channels_of(std::string_view bytes) {
 
 double time_of(std::string_view record) {
     using namespace std::chrono;
-    const year_month_day date(year(get<std::uint16_t>(record, 14)),
-                              month(get<std::uint8_t>(record, 16)),
-                              day(get<std::uint8_t>(record, 17)));
+    const year_month_day date(year(field_at<std::uint16_t>(record, 14)),
+                              month(field_at<std::uint8_t>(record, 16)),
+                              day(field_at<std::uint8_t>(record, 17)));
     const double days =
         date.ok() ? static_cast<double>(sys_days(date).time_since_epoch().count()) : 0.0;
-    return 86400.0 * days + 3600.0 * get<std::uint8_t>(record, 18) +
-           60.0 * get<std::uint8_t>(record, 19) + get<std::uint8_t>(record, 20) +
-           0.01 * get<std::uint8_t>(record, 21);
+    return 86400.0 * days + 3600.0 * field_at<std::uint8_t>(record, 18) +
+           60.0 * field_at<std::uint8_t>(record, 19) + field_at<std::uint8_t>(record, 20) +
+           0.01 * field_at<std::uint8_t>(record, 21);
 }
 
 float sample_at(std::string_view bytes, XtfSample kind, std::size_t k) {
     switch (kind) {
         case XtfSample::byte:
-            return get<std::uint8_t>(bytes, k);
+            return field_at<std::uint8_t>(bytes, k);
         case XtfSample::word:
-            return get<std::uint16_t>(bytes, 2 * k);
+            return field_at<std::uint16_t>(bytes, 2 * k);
         case XtfSample::integer:
-            return static_cast<float>(get<std::uint32_t>(bytes, 4 * k));
+            return static_cast<float>(field_at<std::uint32_t>(bytes, 4 * k));
         case XtfSample::real:
-            return get<float>(bytes, 4 * k);
+            return field_at<float>(bytes, 4 * k);
     }
     return 0.0F;
 }
@@ -103,9 +96,9 @@ float sample_at(std::string_view bytes, XtfSample kind, std::size_t k) {
 /// Reads the channel whose header begins at `at`, and moves `at` behind its samples.
 XtfSide side_at(std::string_view record, XtfChannel channel, std::size_t& at) {
     XtfSide side;
-    side.slant_range_m = get<float>(record, at + 4);
-    const std::size_t samples = get<std::uint32_t>(record, at + 42);
-    const int weight = get<std::int16_t>(record, at + 58);
+    side.slant_range_m = field_at<float>(record, at + 4);
+    const std::size_t samples = field_at<std::uint32_t>(record, at + 42);
+    const int weight = field_at<std::int16_t>(record, at + 58);
     at += xtf_channel_header;
     const std::size_t bytes = bytes_of(channel.sample);
     if (at > record.size() || samples > (record.size() - at) / bytes)
@@ -123,13 +116,13 @@ std::optional<XtfSidescanPing> ping_of_record(std::string_view record,
                                               double& frequency_hz) {
     XtfSidescanPing ping;
     ping.t_s = time_of(record);
-    ping.sound_speed_m_s = get<float>(record, 72);
-    if (!(ping.sound_speed_m_s > 0.0)) ping.sound_speed_m_s = 2.0 * get<float>(record, 32);
-    ping.altitude_m = get<float>(record, 196);
-    const std::size_t count = get<std::uint16_t>(record, 4);
+    ping.sound_speed_m_s = field_at<float>(record, 72);
+    if (!(ping.sound_speed_m_s > 0.0)) ping.sound_speed_m_s = 2.0 * field_at<float>(record, 32);
+    ping.altitude_m = field_at<float>(record, 196);
+    const std::size_t count = field_at<std::uint16_t>(record, 4);
     std::size_t at = xtf_ping_header;
     for (std::size_t k = 0; k < count; ++k) {
-        const std::size_t number = get<std::uint16_t>(record, at);
+        const std::size_t number = field_at<std::uint16_t>(record, at);
         if (number >= channels.size()) refuse_xtf("has a ping of a channel that its header lacks");
         const XtfChannel channel = channels[number];
         const std::size_t header = at;
@@ -140,7 +133,7 @@ std::optional<XtfSidescanPing> ping_of_record(std::string_view record,
         if (channel.type == 1 && ping.port.samples.empty()) {
             std::ranges::reverse(side.samples);  // stored with nadir last
             ping.port = std::move(side);
-            frequency_hz = 1e3 * get<std::uint16_t>(record, header + 26);
+            frequency_hz = 1e3 * field_at<std::uint16_t>(record, header + 26);
         } else if (channel.type == 2 && ping.starboard.samples.empty()) {
             ping.starboard = std::move(side);
         }
@@ -164,11 +157,11 @@ XtfPings read_xtf(std::string_view bytes, std::size_t most_pings) {
     std::size_t at = xtf_file_header;
     if (channels.size() > 6) at += (channels.size() - 6 + 7) / 8 * xtf_file_header;
     while (at < bytes.size() && out.pings.size() < most_pings) {
-        if (get<std::uint16_t>(bytes, at) != 0xFACE)
+        if (field_at<std::uint16_t>(bytes, at) != 0xFACE)
             refuse_xtf("has no record where one should begin");
-        const std::size_t length = get<std::uint32_t>(bytes, at + 10);
+        const std::size_t length = field_at<std::uint32_t>(bytes, at + 10);
         if (length < 14 || length > bytes.size() - at) refuse_xtf("is cut off within a record");
-        const bool is_sonar = get<std::uint8_t>(bytes, at + 2) == 0;
+        const bool is_sonar = field_at<std::uint8_t>(bytes, at + 2) == 0;
         if (is_sonar) {
             auto ping = ping_of_record(bytes.substr(at, length), channels, out.frequency_hz);
             if (ping) out.pings.push_back(std::move(*ping));

@@ -8,6 +8,7 @@
 #include "core/units.h"
 #include "recording/arrays.h"
 #include "recording/check_recording.h"
+#include "recording/recorded_logs.h"
 #include "recording/recorded_oculus.h"
 #include "recording/recorded_xtf.h"
 
@@ -159,7 +160,7 @@ Recording read_recorded_arrays(const RecordingFile& file, std::size_t most_pings
     if (most_pings == 0) most_pings = most_sides;
     Recording recording;
     recording.kind = file.kind;
-    recording.law = file.law;
+    if (file.law) recording.law = *file.law;
     recording.sound_speed_m_s = file.sound_speed_m_s;
     recording.first_range_m = file.first_range_m;
     recording.range_step_m = file.range_step_m;
@@ -173,6 +174,14 @@ Recording read_recorded_arrays(const RecordingFile& file, std::size_t most_pings
     }
     if (!file.xtf.empty()) {
         read_xtf_pings(file, most_pings, recording);
+        check_recording(recording, file.place.location.file);
+        return recording;
+    }
+    if (!file.logs.empty()) {
+        read_log_pings(file, most_pings, recording);
+        if (recording.kind == RecordedKind::imaging && recording.bearing_rad.empty())
+            recording.bearing_rad =
+                bearings_of(file, static_cast<std::size_t>(recording.pings.front().beams));
         check_recording(recording, file.place.location.file);
         return recording;
     }

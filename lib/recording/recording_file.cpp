@@ -55,18 +55,24 @@ void describe(MissionReader& v, RecordingFile& c) {
     v.paths("oculus", c.oculus, "messages or logs of an Oculus", Presence::optional);
     v.require(c.oculus.empty() || c.kind == RecordedKind::imaging, {"kind", "oculus"},
               "files of an Oculus are read for the kind imaging");
-    const bool is_format = !c.xtf.empty() || !c.oculus.empty();
+    v.paths("logs", c.logs, ".kmall, .raw of an EK60, .aris or logs of a Ping360",
+            Presence::optional);
+    const bool is_log = !c.logs.empty();
+    const bool is_format = !c.xtf.empty() || !c.oculus.empty() || is_log;
     const bool has_own_ranges = is_soundings || is_format;
     const Presence of_images = has_own_ranges ? Presence::optional : required;
     v.paths("files", c.files, "arrays of the pings", of_images);
-    v.require(!is_format || c.files.empty(), {"files", "xtf", "oculus"},
-              "a recording has one of `files`, `xtf` and `oculus`");
+    const int sources = (c.files.empty() ? 0 : 1) + (c.xtf.empty() ? 0 : 1) +
+                        (c.oculus.empty() ? 0 : 1) + (is_log ? 1 : 0);
+    v.require(sources <= 1, {"files", "xtf", "oculus", "logs"},
+              "a recording has one of `files`, `xtf`, `oculus` and `logs`");
     v.optional_section("soundings", c.soundings, "files of soundings");
     v.require(is_soundings == c.soundings.has_value(), {"kind", "soundings"},
               "the kind soundings has the section `soundings`, other kinds have `files`");
     v.require(!is_soundings || c.files.empty(), {"kind", "files"},
               "the kind soundings has the section `soundings` in place of `files`");
-    v.section("law", c.law, "meaning of the values", required);
+    v.optional_section("law", c.law, "meaning of the values");
+    v.require(is_log || c.law.has_value(), {"law"}, "'recording' lacks the key 'law'");
     v.number("sound_speed_m_s", c.sound_speed_m_s, between(300, 10000), "speed of sound",
              is_format ? Presence::optional : required);
     v.number("first_range_m", c.first_range_m, at_least(0), "middle of the first sample",

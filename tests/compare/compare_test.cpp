@@ -7,6 +7,7 @@
 #include <string>
 
 #include "compare/drawn_recording.h"
+#include "compare/exchange.h"
 #include "compare/plot.h"
 #include "compare/report.h"
 #include "compare/student.h"
@@ -101,6 +102,22 @@ TEST_SUITE("compare") {
               comparison_json(compare_recordings(recording, recording)).dump());
         CHECK(comparison_text(one).find("Same: no figure differs") != std::string::npos);
         CHECK(comparison_svg(one).ends_with("</svg>\n"));
+    }
+
+    TEST_CASE("compare: exchange keeps its level where a few places make all of a difference") {
+        // One of 40 places has a value 1,000 times the others'. Its exchange gives the same size,
+        // so such a figure never differs, whatever its standard error.
+        Measured real{"a", Reduce::mean, Tolerance::tenth, 0.5, {}};
+        Measured simulated = real;
+        for (int place = 0; place < 40; ++place) {
+            real.cells.push_back({place, 0, place == 7 ? 1000.0F : 1.0F, 1.0F});
+            simulated.cells.push_back({place, 0, 1.0F, 1.0F});
+        }
+        CHECK(exchange_p({{&real, &simulated, 1e-3}}, 1).front() == 1.0);
+        // A difference of 1 at each place is never reached: 2^-39 of the exchanges have it.
+        for (Cell& cell : real.cells)
+            cell.value = 2.0F;
+        CHECK(exchange_p({{&real, &simulated, 0.1}}, 1).front() == doctest::Approx(1.0 / 500.0));
     }
 
     TEST_CASE("compare: recordings that cannot be compared are refused") {

@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "compare/figures/distances.h"
 #include "compare/figures/patches.h"
 #include "compare/figures/points.h"
+#include "compare/figures/shadows.h"
 #include "compare/figures/texture.h"
 #include "compare/figures/zones.h"
 
@@ -121,6 +123,42 @@ TEST_SUITE("compare") {
         CHECK(points[0].width_beams == doctest::Approx(4.71).epsilon(0.04));
         CHECK(points[0].width_ranges == doctest::Approx(2.826).epsilon(0.04));
         CHECK(point_echoes({power, 60, 64}, 31, 55).empty());
+    }
+
+    TEST_CASE("figures: depth and far edge of shadows in speckle") {
+        // Background of power 1; a shadow 20 dB deep over 30 ranges that rises linearly over 12:
+        // from a quarter to three quarters are 6 ranges. Exponential draws, 16 columns of shadow.
+        constexpr int ranges = 200, columns = 64;
+        std::vector<float> power(ranges * columns);
+        for (std::uint32_t i = 0; i < ranges; ++i) {
+            for (std::uint32_t j = 0; j < columns; ++j) {
+                double mean = 1.0;
+                const double behind = static_cast<double>(i) - 110.0;
+                if (i >= 80 && j >= 20 && j < 36)
+                    mean = std::clamp(0.01 + 0.99 * behind / 12.0, 0.01, 1.0);
+                const PhiloxBlock draw = philox({i, j, 0, 0}, {0x73686164U, 0});
+                power[i * columns + j] =
+                    static_cast<float>(-mean * natural_log(unit_float(draw.x0)));
+            }
+        }
+        const std::vector<Shadow> shadows = shadows_of({power, ranges, columns}, {10, 190});
+        // Its inner columns have it; the outer ones are smoothed with the background.
+        CHECK(shadows.size() >= 12);
+        CHECK(shadows.size() <= 18);
+        std::vector<double> depths, edges;
+        for (const Shadow& shadow : shadows) {
+            if (shadow.column < 22 || shadow.column >= 34) continue;
+            CHECK(std::abs(shadow.from - 81) <= 4);
+            depths.push_back(shadow.depth_db);
+            edges.push_back(shadow.edge_ranges);
+        }
+        // A median over 12 columns. 5 looks reach three quarters a little early or late.
+        std::sort(depths.begin(), depths.end());
+        std::sort(edges.begin(), edges.end());
+        CHECK(std::fabs(depths[depths.size() / 2] + 20.0) < 1.5);
+        CHECK(std::fabs(edges[edges.size() / 2] - 6.0) < 3.0);
+        const std::vector<float> flat(ranges * columns, 1.0F);
+        CHECK(shadows_of({flat, ranges, columns}, {10, 190}).empty());
     }
 
     TEST_CASE("figures: texture and distances") {

@@ -6,13 +6,14 @@
 
 #include "core/error.h"
 #include "format/oculus_reader.h"
+#include "format/sonar_log.h"
 #include "format/xtf_reader.h"
 #include "recording/arrays.h"
 #include "recording/recording_file.h"
 
-// The first byte chooses the reader: 'y' for recording.yaml, 'x' for XTF, anything else for an
-// array
-// (.npy or PNG). What a reader accepts keeps the promises of its struct.
+// The first byte chooses the reader: 'y' for recording.yaml, 'x' for XTF, 'o'
+// for an Oculus, 'l' for the logs of other sonars, anything else for an array (.npy or PNG). What a
+// reader accepts keeps the promises of its struct.
 
 using namespace sonarsim;
 
@@ -45,6 +46,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             for (const OculusPing& ping : read_oculus(text, 1000))
                 require_that(!ping.values.empty() &&
                              ping.bearing_deg.size() * static_cast<std::size_t>(ping.ranges) ==
+                                 ping.values.size());
+        } else if (data[0] == 'l') {
+            const SonarLog log = read_sonar_log(text, 1000);
+            require_that(log.range_step_s > 0.0);
+            for (const LoggedPing& ping : log.pings)
+                require_that(!ping.values.empty() && ping.ranges == log.pings.front().ranges &&
+                             static_cast<std::size_t>(ping.ranges) *
+                                     static_cast<std::size_t>(ping.beams) ==
                                  ping.values.size());
         } else {
             check_array(read_array(text, "in"));

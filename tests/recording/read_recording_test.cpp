@@ -13,6 +13,7 @@
 #include "core/file.h"
 #include "core/random.h"
 #include "core/units.h"
+#include "format/made_logs.h"
 #include "format/npy.h"
 #include "format/png.h"
 #include "format/png_file.h"
@@ -22,7 +23,7 @@
 #include "support/temporary_folder.h"
 
 using namespace sonarsim;
-using sonarsim::test::TemporaryFolder;
+using namespace sonarsim::test;
 
 namespace {
 
@@ -115,6 +116,50 @@ TEST_SUITE("recording") {
         CHECK(message_of(folder.path).find("split the file") != std::string::npos);
         write_file(folder.path / "recording.yaml", yaml + "recording.yaml\n");
         CHECK(message_of(folder.path).find("is no XTF file") != std::string::npos);
+    }
+
+    TEST_CASE("recording: logs of sonars, with what their formats do not say") {
+        const TemporaryFolder folder;
+        const auto yaml = [&](const std::string& text) {
+            write_file(folder.path / "recording.yaml", text);
+        };
+        const auto refused = [&](const std::string& text, const std::string& why) {
+            yaml(text);
+            const std::string message = message_of(folder.path);
+            INFO(message);
+            CHECK(message.find(why) != std::string::npos);
+        };
+        write_file(folder.path / "a.kmall",
+                   kmall_water(5, {{30.0, 0, {0, -128}}, {-30.0, 0, {126, 127}}}));
+        yaml("kind: imaging\nlogs: [a.kmall, a.kmall]\n");
+        const Recording water = load_recording(folder.path);
+        REQUIRE(water.pings.size() == 2);
+        CHECK(water.range_step_m == doctest::Approx(0.25));  // 1500 m/s at 3 kHz, two ways
+        CHECK(water.bearing_rad[0] == doctest::Approx(pi / 6.0));
+        // 127 steps are the largest value; 1 less is half a decibel.
+        CHECK(power_of(water.law, water.pings[0].values[3]) == doctest::Approx(1.0));
+        CHECK(power_of(water.law, water.pings[0].values[1]) ==
+              doctest::Approx(std::pow(10.0, -0.05)));
+        refused("kind: imaging\nlogs: a.kmall\nlaw: {kind: power}\n", "leave `law` out");
+        refused("kind: echosounder\nlogs: a.kmall\n", "pings of the kind imaging");
+        write_file(folder.path / "b.aris", aris_file(2, 4));
+        const std::string lens = "kind: imaging\nlogs: b.aris\n";
+        refused(lens, "add `law`");
+        refused(lens + "law: {kind: amplitude}\n", "add `bearing_first_deg`");
+        yaml(lens + "law: {kind: amplitude}\nbearing_first_deg: 14\nbearing_last_deg: -14\n");
+        const Recording lenses = load_recording(folder.path);
+        CHECK(lenses.pings.size() == 2);
+        CHECK(lenses.first_range_m == doctest::Approx(0.5 * 1450.0 * 1004e-6));
+        write_file(folder.path / "c.log",
+                   ping360_message(100, {1, 2, 3}, false) + ping360_message(101, {1, 2, 3}, false));
+        const std::string head = "kind: scanning\nlogs: c.log\nlaw: {kind: amplitude}\n";
+        refused(head, "add `sound_speed_m_s`");
+        yaml(head + "sound_speed_m_s: 1500\nrate_hz: 4\nhead_first_deg: 90\n");
+        const Recording scan = load_recording(folder.path);
+        CHECK(scan.range_step_m == doctest::Approx(0.015));
+        CHECK(scan.pings[0].bearing_rad == doctest::Approx(0.0));
+        CHECK(scan.pings[1].time_s == 0.25);
+        refused(recording_text("logs: c.log\n"), "one of `files`");
     }
 
     TEST_CASE("recording: soundings leave out what a beam did not find") {

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace sonarsim {
+
+struct LoggedPing {
+    double t_s = 0.0;  ///< since 1970; 0: not known
+    int ranges = 0;
+    int beams = 0;
+    std::vector<float> values;  ///< [range, beam], the nearest range first
+    double bearing_rad = 0.0;   ///< direction of the head of a scanning sonar, positive to port
+};
+
+/// The steps of a scale of decibels, from the value 0 to the largest.
+struct LoggedDecibels {
+    double range_db = 0.0;
+    double full_value = 0.0;
+};
+
+enum class LoggedKind { imaging, scanning, echosounder };
+
+/// The pings of a file that a sonar's program wrote. All have the same ranges.
+struct SonarLog {
+    LoggedKind kind = LoggedKind::imaging;
+    std::optional<LoggedDecibels> decibels;  ///< the law of the values, if the format defines it
+    double first_range_s = 0.0;              ///< two-way travel time of the middle of a sample
+    double range_step_s = 0.0;
+    double sound_speed_m_s = 0.0;     ///< 0: not known
+    double frequency_hz = 0.0;        ///< 0: not known
+    std::vector<double> bearing_rad;  ///< the beams'; empty: not known
+    std::vector<LoggedPing> pings;
+};
+
+/// Reads the first pings of a file, by the format that its bytes show: .kmall, .raw of an EK60,
+/// .aris, or a log with messages of a Ping360. `frequency_hz` chooses one of several channels.
+/// Throws std::runtime_error with the reason when it is none of them or damaged.
+SonarLog read_sonar_log(std::string_view bytes, std::size_t most_pings,
+                        std::optional<double> frequency_hz = {});
+
+/// The water column of a Kongsberg multibeam (#MWC datagrams): amplitudes in steps of 0.5 dB with
+/// the TVG of the sonar, 0 for -64 dB. Beams look across the track; their bearings are those of
+/// the first ping, from the vertical. Samples that a beam lacks are 0. The first of
+/// several fans of a ping is read.
+SonarLog read_kmall(std::string_view bytes, std::size_t most_pings);
+
+/// The power of an EK60 (RAW0 datagrams) in dB re 1 W: 200 dB from the value 0 to 200. No TVG.
+SonarLog read_ek60(std::string_view bytes, std::size_t most_pings,
+                   std::optional<double> frequency_hz);
+
+/// The frames of an ARIS (version 5 of its format), 8 bits.
+SonarLog read_aris(std::string_view bytes, std::size_t most_pings);
+
+/// The messages 2300 and 2301 of a Ping360 among any other bytes, 8 bits.
+SonarLog read_ping360(std::string_view bytes, std::size_t most_pings);
+
+}  // namespace sonarsim

@@ -1,0 +1,144 @@
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <vector>
+
+namespace sonarsim::test {
+
+/// Appends numbers as their bytes, little-endian.
+class MadeBytes {
+  public:
+    template <class T>
+    MadeBytes& add(T value) {
+        char bytes[sizeof value];
+        std::memcpy(bytes, &value, sizeof value);
+        text.append(bytes, sizeof value);
+        return *this;
+    }
+    MadeBytes& u16(int value) { return add(static_cast<std::uint16_t>(value)); }
+    MadeBytes& u32(std::uint32_t value) { return add(value); }
+    MadeBytes& f32(double value) { return add(static_cast<float>(value)); }
+    template <class T>
+    MadeBytes& at(std::size_t place, T value) {
+        std::memcpy(&text[place], &value, sizeof value);
+        return *this;
+    }
+
+    std::string text;
+};
+
+struct MadeBeam {
+    double angle_deg = 0.0;
+    int first = 0;
+    std::vector<int> levels;  ///< steps of 0.5 dB
+};
+
+/// A datagram of a .kmall; `content` follows the header.
+inline std::string kmall_datagram(const char* type, std::uint32_t seconds,
+                                  const std::string& content) {
+    MadeBytes out;
+    out.u32(static_cast<std::uint32_t>(20 + content.size() + 4));
+    out.text += type;
+    out.add<std::uint8_t>(1).add<std::uint8_t>(0).u16(2040).u32(seconds).u32(500000000U);
+    out.text += content;
+    return out.u32(static_cast<std::uint32_t>(out.text.size() + 4)).text;
+}
+
+/// Water column: `fan` is the number of the receiving fan, `phase` the bytes of a phase; blocks
+/// have `more` bytes at their end that nobody knows.
+inline std::string kmall_water(std::uint32_t seconds, const std::vector<MadeBeam>& beams,
+                               int phase = 0, int fan = 0, int more = 0) {
+    const std::string unknown(static_cast<std::size_t>(more), '\x7f');
+    MadeBytes out;
+    out.u16(1).u16(1);  // one partition, the first
+    out.u16(12 + more).u16(7).add<std::uint8_t>(2).add(static_cast<std::uint8_t>(fan));
+    out.u32(0).u16(0);
+    out.text += unknown;
+    out.u16(12 + more).u16(1).u16(16 + more).u16(0).f32(0.0);
+    out.text += unknown;
+    out.f32(0.0).f32(3e5).f32(1.0).u16(0).u16(0);
+    out.text += unknown;
+    out.u16(16 + more).u16(static_cast<int>(beams.size()));
+    out.add(static_cast<std::uint8_t>(16 + more)).add(static_cast<std::uint8_t>(phase));
+    out.u16(0).f32(3000.0).f32(1500.0);
+    out.text += unknown;
+    for (const MadeBeam& beam : beams) {
+        out.f32(beam.angle_deg).u16(beam.first).u16(0).u16(0);
+        out.u16(static_cast<int>(beam.levels.size())).f32(0.0);
+        out.text += unknown;
+        for (const int level : beam.levels)
+            out.add(static_cast<std::int8_t>(level));
+        out.text += std::string(beam.levels.size() * static_cast<std::size_t>(phase), '\x11');
+    }
+    return kmall_datagram("#MWC", seconds, out.text);
+}
+
+/// A datagram of Simrad's .raw: type and time, then content.
+inline std::string simrad_datagram(const char* type, const std::string& content) {
+    MadeBytes out;
+    out.text = type;
+    // 1970-01-01 00:00:10 in 100 ns since 1601.
+    out.add<std::uint64_t>((11644473600ULL + 10ULL) * 10000000ULL);
+    out.text += content;
+    MadeBytes whole;
+    whole.u32(static_cast<std::uint32_t>(out.text.size()));
+    whole.text += out.text;
+    return whole.u32(static_cast<std::uint32_t>(out.text.size())).text;
+}
+
+/// A RAW0 datagram of power, or of angles alone.
+inline std::string ek60_ping(double frequency_hz, const std::vector<int>& steps,
+                             bool has_power = true) {
+    MadeBytes out;
+    out.u16(1).u16(has_power ? 3 : 2).f32(0.0).f32(frequency_hz);
+    out.f32(1000.0).f32(1e-3).f32(2425.0).f32(2e-4).f32(1480.0).f32(0.01);
+    out.text += std::string(76 - 48, '\0');
+    out.add<std::int32_t>(2).add(static_cast<std::int32_t>(steps.size()));
+    for (const int step : steps) {
+        if (has_power) out.add(static_cast<std::int16_t>(step));
+    }
+    out.text += std::string(2 * steps.size(), '\x22');
+    return simrad_datagram("RAW0", out.text);
+}
+
+/// An ARIS file of 48 beams: `frames` of counted samples.
+inline std::string aris_file(std::uint32_t frames, std::uint32_t samples,
+                             std::uint32_t ordered = 1) {
+    constexpr std::uint32_t beams = 48;
+    MadeBytes out;
+    out.text.assign(1024, '\0');
+    out.at(0, std::uint32_t{0x05464444}).at(4, frames).at(16, beams).at(24, samples);
+    for (std::uint32_t k = 0; k < frames; ++k) {
+        const std::size_t frame = out.text.size();
+        out.text.append(1024, '\0');
+        out.at(frame, k).at(frame + 12, std::uint32_t{0x05464444});
+        out.at(frame + 20, std::uint64_t{2000000} * (k + 1));
+        out.at(frame + 452, std::uint32_t{8}).at(frame + 464, 1450.0F).at(frame + 468, samples);
+        out.at(frame + 476, std::uint32_t{1000}).at(frame + 516, ordered);
+        for (std::uint32_t v = 0; v < samples * beams; ++v)
+            out.add(static_cast<std::uint8_t>(v + k));
+    }
+    return out.text;
+}
+
+/// A message of a Ping360 at a head angle in gradians: 2300, or 2301 with the range of the scan.
+inline std::string ping360_message(int angle, const std::vector<int>& samples, bool is_auto) {
+    MadeBytes payload;
+    payload.add<std::uint8_t>(1).add<std::uint8_t>(0).u16(angle).u16(11).u16(800).u16(750);
+    if (is_auto) payload.u16(0).u16(399).add<std::uint8_t>(1).add<std::uint8_t>(0);
+    payload.u16(static_cast<int>(samples.size())).u16(static_cast<int>(samples.size()));
+    for (const int sample : samples)
+        payload.add(static_cast<std::uint8_t>(sample));
+    MadeBytes out;
+    out.text = "BR";
+    out.u16(static_cast<int>(payload.text.size())).u16(is_auto ? 2301 : 2300).u16(0);
+    out.text += payload.text;
+    int sum = 0;
+    for (const char byte : out.text)
+        sum += static_cast<unsigned char>(byte);
+    return out.u16(sum & 0xFFFF).text;
+}
+
+}  // namespace sonarsim::test

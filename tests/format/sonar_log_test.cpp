@@ -1,0 +1,146 @@
+#include "format/sonar_log.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "core/random.h"
+#include "core/units.h"
+#include "format/made_logs.h"
+
+using namespace sonarsim;
+using namespace sonarsim::test;
+
+namespace {
+
+std::string message_of_log(const std::string& bytes, std::optional<double> frequency_hz = {}) {
+    try {
+        read_sonar_log(bytes, 100, frequency_hz);
+    } catch (const std::runtime_error& fault) {
+        return fault.what();
+    }
+    return "accepted";
+}
+
+}  // namespace
+
+TEST_SUITE("format") {
+    TEST_CASE("kmall: drawn water columns, with phases and blocks of any length") {
+        for (std::uint32_t draw = 0; draw < 12; ++draw) {
+            const auto drawn = [&](std::uint32_t k, std::uint32_t count) {
+                return static_cast<int>(philox({draw, k, 0, 0}, {77, 0}).x0 % count);
+            };
+            std::vector<MadeBeam> beams(3);
+            std::size_t ranges = 1;
+            for (std::uint32_t j = 0; j < 3; ++j) {
+                beams[j] = {-40.0 + 30.0 * j, drawn(j, 4), {}};
+                for (int i = 0; i < 1 + drawn(10 + j, 9); ++i)
+                    beams[j].levels.push_back(
+                        drawn(20 + 10 * j + static_cast<std::uint32_t>(i), 256) - 128);
+                ranges = std::max(
+                    ranges, static_cast<std::size_t>(beams[j].first) + beams[j].levels.size());
+            }
+            const int phase = drawn(5, 3);
+            const int more = 4 * drawn(6, 3);
+            const std::string file =
+                kmall_datagram("#IIP", 1, "text") + kmall_water(1, beams, phase, 0, more) +
+                kmall_water(1, beams, phase, 1, more) + kmall_water(2, beams, phase, 0, more);
+            const SonarLog log = read_sonar_log(file, 10);
+            REQUIRE(log.pings.size() == 2);  // the second fan is left out
+            CHECK(log.kind == LoggedKind::imaging);
+            CHECK(log.range_step_s == doctest::Approx(1.0 / 3000.0));
+            CHECK(log.frequency_hz == 3e5);
+            CHECK(log.bearing_rad[0] == doctest::Approx(radians(-40.0)));
+            CHECK(log.pings[1].t_s == doctest::Approx(2.5));
+            const LoggedPing& ping = log.pings[0];
+            REQUIRE(static_cast<std::size_t>(ping.ranges) == ranges);
+            for (std::size_t j = 0; j < 3; ++j) {
+                for (std::size_t i = 0; i < ranges; ++i) {
+                    const auto k = static_cast<std::ptrdiff_t>(i) - beams[j].first;
+                    const bool is_in =
+                        k >= 0 && k < static_cast<std::ptrdiff_t>(beams[j].levels.size());
+                    const int level = is_in ? beams[j].levels[static_cast<std::size_t>(k)] : -128;
+                    CHECK(ping.values[3 * i + j] == static_cast<float>(level + 128));
+                }
+            }
+        }
+        CHECK(message_of_log(kmall_datagram("#IIP", 1, "text")).find("no water column") !=
+              std::string::npos);
+    }
+
+    TEST_CASE("ek60: power of one of two channels") {
+        const std::string file =
+            simrad_datagram("CON0", std::string(40, 'x')) + ek60_ping(38000, {0, -256, -12800}) +
+            ek60_ping(120000, {1, 2, 3, 4}) + simrad_datagram("NME0", "$GPGGA") +
+            ek60_ping(38000, {9, 9, 9}, false) + ek60_ping(38000, {-1, -2, -3});
+        const SonarLog log = read_sonar_log(file, 10, 38000.0);
+        REQUIRE(log.pings.size() == 2);
+        CHECK(log.kind == LoggedKind::echosounder);
+        CHECK(log.pings[0].t_s == doctest::Approx(10.0));
+        // 256 steps are a factor of 2: 3.0103 dB.
+        CHECK(log.pings[0].values[0] == doctest::Approx(200.0));
+        CHECK(log.pings[0].values[1] == doctest::Approx(200.0 - 3.0103).epsilon(1e-6));
+        CHECK(log.pings[0].values[2] == doctest::Approx(200.0 - 150.515).epsilon(1e-5));
+        CHECK(log.first_range_s == doctest::Approx(4e-4));
+        CHECK(log.sound_speed_m_s == 1480.0);
+        CHECK(message_of_log(file).find("38000, 120000 Hz; choose") != std::string::npos);
+        CHECK(message_of_log(file, 50000.0).find("choose") != std::string::npos);
+        CHECK(message_of_log(simrad_datagram("XML0", "<a/>")).find("EK80") != std::string::npos);
+    }
+
+    TEST_CASE("aris: frames in the order of samples and beams") {
+        const SonarLog log = read_sonar_log(aris_file(3, 5), 2);
+        REQUIRE(log.pings.size() == 2);
+        CHECK(log.pings[1].beams == 48);
+        CHECK(log.pings[1].values[2 * 48 + 7] == 2 * 48 + 7 + 1);
+        CHECK(log.pings[1].t_s == doctest::Approx(4.0));
+        CHECK(log.range_step_s == doctest::Approx(8e-6));
+        CHECK(log.first_range_s == doctest::Approx(1004e-6));
+        CHECK(message_of_log(aris_file(1, 5, 0)).find("not in the order") != std::string::npos);
+        std::string old = aris_file(1, 5);
+        old[3] = 4;
+        CHECK(message_of_log(old).find("version 4") != std::string::npos);
+    }
+
+    TEST_CASE("ping360: both messages among other bytes; a wrong sum is no message") {
+        std::string broken = ping360_message(300, {7, 7, 7}, false);
+        broken[20] ^= 1;
+        const std::string log_file = std::string("PingViewer sensor log BR\0\1", 26) +
+                                     ping360_message(100, {1, 2, 255}, false) + broken +
+                                     "10:00:00.123" + ping360_message(101, {4, 5, 6}, true) +
+                                     ping360_message(102, {}, false);
+        const SonarLog log = read_sonar_log(log_file, 10);
+        REQUIRE(log.pings.size() == 2);
+        CHECK(log.kind == LoggedKind::scanning);
+        CHECK(log.pings[0].values == std::vector<float>{1, 2, 255});
+        CHECK(log.pings[0].bearing_rad == doctest::Approx(-0.5 * pi));
+        CHECK(log.pings[1].values == std::vector<float>{4, 5, 6});
+        CHECK(log.range_step_s == doctest::Approx(2e-5));  // 800 steps of 25 ns
+        CHECK(log.frequency_hz == 750e3);
+        CHECK(message_of_log(ping360_message(1, {1, 2}, false) + ping360_message(1, {1}, false))
+                  .find("split the file") != std::string::npos);
+        CHECK(message_of_log("no sonar at all").find("no pings of a Ping360") != std::string::npos);
+    }
+
+    TEST_CASE("logs: a file that is cut or changed anywhere is read or refused, never more") {
+        const std::string files[] = {
+            kmall_water(1, {{-10.0, 1, {1, 2, 3}}, {10.0, 0, {4, 5}}}, 1) +
+                kmall_water(2, {{-10.0, 1, {1, 2, 3}}, {10.0, 0, {4, 5}}}, 1),
+            simrad_datagram("CON0", "config") + ek60_ping(38000, {1, 2}) + ek60_ping(38000, {3, 4}),
+            aris_file(2, 2),
+            ping360_message(1, {1, 2, 3}, false) + ping360_message(2, {3, 4, 5}, true)};
+        std::size_t refused = 0;
+        for (const std::string& file : files) {
+            for (std::size_t length = 0; length < file.size(); length += 1 + length / 200)
+                refused += message_of_log(file.substr(0, length)) != "accepted" ? 1 : 0;
+            for (std::uint32_t k = 0; k < 300; ++k) {
+                std::string changed = file;
+                const PhiloxBlock draw = philox({k, 0, 0, 0}, {9, 0});
+                changed[draw.x0 % file.size()] = static_cast<char>(draw.x1);
+                message_of_log(changed);
+            }
+        }
+        CHECK(refused > 100);
+    }
+}
