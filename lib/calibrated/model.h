@@ -56,7 +56,7 @@ struct CalibratedModel final : EchoModel {
     /// Its parts on and below sea beds; nothing: the whole echo comes from their surface.
     std::optional<SedimentScattering> sediment;
     PulseFloor pulse_floor;
-    WindSurface water_surface;  ///< of the scene that the model was prepared for
+    WindSurface water_surface;  ///< its table, if the model was prepared for it
 
     Scattering scattering_of(std::span<const Material> materials) const;
     std::optional<SedimentScattering> sediment_of(std::span<const Material> materials,

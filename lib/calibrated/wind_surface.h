@@ -18,7 +18,7 @@ double wind_surface_section(double grazing_rad, double wind_m_s, double frequenc
 /// The same as a table.
 struct WindSurface {
     double wind_m_s = -1.0;
-    Scattering scattering;  ///< of one material; empty: no surface
+    Scattering scattering;  ///< has one material; empty: no surface
 };
 WindSurface wind_surface(double wind_m_s, double frequency_hz);
 

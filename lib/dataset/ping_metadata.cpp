@@ -44,7 +44,7 @@ Json describe_particles(const Assembly& assembly, const FinishedPing& finished, 
         Eigen::Vector3d place = Eigen::Vector3d::Zero();
     };
     const SeenParticles& seen = finished.traced.particles;
-    std::map<std::uint32_t, Sum> sums;  // by instance
+    std::map<std::uint32_t, Sum> sums;  // keyed by instance
     for (std::size_t k = 0; k < seen.samples.size(); ++k) {
         Sum& sum = sums[seen.samples[k].instance];
         ++sum.count;

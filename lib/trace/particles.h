@@ -29,7 +29,7 @@ struct Particles {
     std::vector<double> time_s;  ///< since the first ping, by pose of the trajectory
 };
 
-/// Where a particle is, world.
+/// The place of a particle, world.
 Eigen::Vector3d place_at(const Particle& particle, double time_s);
 
 /// The particles that a ping reaches.

@@ -22,7 +22,7 @@ constexpr int most_cuts = 7;
 
 /// A rectangle of azimuth and elevation.
 struct Cell {
-    double azimuth, elevation;  ///< of the middle
+    double azimuth, elevation;  ///< the middle has these
     double half_azimuth, half_elevation;
 };
 

@@ -30,7 +30,7 @@ struct TraceSettings {
     std::shared_ptr<const TargetShapes> targets;
     std::shared_ptr<const CoherentFaces> coherent;  ///< null: none
     std::shared_ptr<const Particles> particles;     ///< point targets in the water; null: none
-    bool sees_water_surface = false;                ///< where that scatters
+    bool sees_water_surface = false;                ///< if that scatters
 };
 
 /// The surface that a sonar insonified from one pose. It holds no noise: any number of images may
