@@ -8,6 +8,7 @@
 #include "assembly/brightness.h"
 #include "assembly/ground_maps.h"
 #include "assembly/heightmap_part.h"
+#include "assembly/particles.h"
 #include "assembly/ping_motions.h"
 #include "assembly/placed_files.h"
 #include "assembly/poses.h"
@@ -58,7 +59,7 @@ std::string surface_warning(const Mission& mission, const Assembly& assembly) {
     const std::string name = "scene.water_surface ";
     if (pings == 0) {
         // It ends the water, and depths count from it.
-        if (some_water_scatters(mission) || mission.water.profile) return "";
+        if (some_water_scatters(mission) || mission.water.profile || config.scatters) return "";
         return name +
                "has no effect because no sensor has multipath: set sensors.NAME.multipath.method";
     }
@@ -83,7 +84,14 @@ void add_water_surface(const Mission& mission, Assembly& assembly) {
     const WaterSurfaceConfig& config = *mission.scene.water_surface;
     const Water water{mission.water.density_kg_m3, mission.water.sound_speed_m_s};
     const double mirrored = power_reflection(air_kg_m3, air_m_s, water) * (1.0 - config.roughness);
-    assembly.scene.water_surface = {config.height_m, static_cast<float>(mirrored)};
+    WaterSurface& surface = assembly.scene.water_surface.emplace();
+    surface.height_m = config.height_m;
+    surface.reflection = static_cast<float>(mirrored);
+    if (config.scatters) {
+        surface.wind_m_s = mission.water.wind_m_s;
+        for (Sonar& sonar : assembly.sonars)
+            sonar.settings.sees_water_surface = true;
+    }
     const std::string warning = surface_warning(mission, assembly);
     if (!warning.empty()) assembly.scene.warnings.push_back(warning);
 }
@@ -190,6 +198,7 @@ Assembly assemble(const Mission& mission, SceneFiles& models) {
     assembly.seabed = std::move(parts.seabed);
     assembly.heightmap = parts.heightmap;
     add_water_surface(mission, assembly);
+    add_particles(mission, assembly.trajectory, assembly.scene, assembly.sonars);
     add_sound_profiles(mission, assembly.scene, assembly.sonars);
     add_ping_motions(mission, assembly.trajectory, assembly.sonars);
     warn_of_empty_scatter(mission, assembly.scene);

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <optional>
 
 #include "calibrated/form_look.h"
@@ -10,6 +9,7 @@
 #include "calibrated/speckle.h"
 #include "calibrated/target_pieces.h"
 #include "calibrated/target_scatterers.h"
+#include "calibrated/water_echoes.h"
 
 namespace sonarsim {
 
@@ -54,13 +54,24 @@ class ImageFormer {
             add_surface(traced.samples.items, traced.targets, grid);
             add_surface(traced.outside_sector, traced.targets, grid);
             if (scattering_.sediment() != nullptr) add_sediment(traced, grid);
-            if (of_powers) add_target_powers(traced.targets, grid);
+            if (!traced.water_surface.empty()) {
+                add_water_surface(model_, beams_, traced.water_surface, context_, speckle_,
+                                  speckle_gain_, ping_.counts, grid);
+            }
+            if (of_powers) {
+                add_target_powers(traced.targets, grid);
+                add_particle_powers(model_, beams_, traced.particles, ping_.counts, grid);
+            }
         }
         if (context_.terms.multipath) add_multipath(specular_paths(traced, context_.scene), grid);
 
         // 2. Speckle. With `speckle: scene` the amplitudes of step 1 already have it.
         if (speckle_ == SpeckleMode::ping) draw_speckle(grid, speckle_gain_, ping_draws_);
-        if (context_.terms.direct && !of_powers) add_target_amplitudes(traced.targets, grid);
+        if (context_.terms.direct && !of_powers) {
+            add_target_amplitudes(traced.targets, grid);
+            add_particle_amplitudes(model_, beams_, traced.particles, context_.draws, ping_.counts,
+                                    grid);
+        }
         std::optional<EchoGrid> coherent;
         if (context_.terms.direct && traced.coherent.has_echoes()) {
             if (of_powers) coherent.emplace(grid.rows(), grid.columns());
@@ -70,7 +81,8 @@ class ImageFormer {
         // 5. The water's volume. Bins that hold nothing else count as empty.
         const bool has_water = context_.terms.direct && model_.water;
         const std::size_t seen_bins = has_water ? grid.occupied() : 0;
-        if (has_water) add_water_column(traced, of_powers, grid);
+        if (has_water)
+            add_water_column(model_, beams_, traced, context_, of_powers, speckle_gain_, grid);
 
         // 3. Pulse.
         const std::size_t echo_bins =
@@ -138,17 +150,6 @@ class ImageFormer {
     void add_coherent(EchoGrid& grid) {
         ping_.counts.out_of_range +=
             add_plate_amplitudes(beams_, plates_, model_.equation, model_.limits, grid);
-    }
-
-    void add_water_column(const TracedPing& traced, bool of_powers, EchoGrid& grid) {
-        std::optional<double> surface_z_m;
-        if (context_.scene.water_surface) surface_z_m = context_.scene.water_surface->height_m;
-        const std::vector<float> received =
-            received_water(*model_.water, water_ends(model_.water->sight.cells, traced),
-                           traced.T_world_sensor, surface_z_m, grid.rows());
-        add_water(*model_.water, received, sines_of(beams_),
-                  of_powers ? PowerForm::power : PowerForm::amplitude, speckle_gain_,
-                  context_.draws.of(stream_named("water")), grid);
     }
 
     /// Adds the incoherent echoes of a surface without its targets.

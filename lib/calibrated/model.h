@@ -17,6 +17,7 @@
 #include "calibrated/target_scatterers.h"
 #include "calibrated/transducer_beams.h"
 #include "calibrated/water_column.h"
+#include "calibrated/wind_surface.h"
 #include "core/pose.h"
 #include "mission/mission.h"
 #include "scene/scene.h"
@@ -55,6 +56,7 @@ struct CalibratedModel final : EchoModel {
     /// Its parts on and below sea beds; nothing: the whole echo comes from their surface.
     std::optional<SedimentScattering> sediment;
     PulseFloor pulse_floor;
+    WindSurface water_surface;  ///< its table, if the model was prepared for it
 
     Scattering scattering_of(std::span<const Material> materials) const;
     std::optional<SedimentScattering> sediment_of(std::span<const Material> materials,

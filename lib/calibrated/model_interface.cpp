@@ -37,6 +37,8 @@ std::shared_ptr<const EchoModel> CalibratedModel::prepared(const Scene& scene) c
     out->prepared_materials = scene.materials;
     out->scattering = scattering_of(scene.materials);
     out->sediment = sediment_of(scene.materials, out->scattering);
+    if (scene.water_surface && scene.water_surface->wind_m_s)
+        out->water_surface = wind_surface(*scene.water_surface->wind_m_s, instrument.frequency_hz);
     return out;
 }
 

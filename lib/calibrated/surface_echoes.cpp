@@ -4,13 +4,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
+#include "calibrated/found_echoes.h"
 #include "calibrated/mirrored_echoes.h"
 #include "calibrated/model.h"
 #include "calibrated/patches.h"
 #include "calibrated/target_pieces.h"
+#include "calibrated/water_echoes.h"
 #include "trace/arrivals.h"
 
 namespace sonarsim {
@@ -27,33 +28,6 @@ PointLimits label_limits(const CalibratedModel& model) {
     limits.depth_m = most_depth_in_bins * model.equation.bin_m;
     if (model.cones.exist()) limits.sine = std::max(limits.sine, model.cones.mean_width());
     return limits;
-}
-
-struct FoundEcho {
-    std::uint32_t beam;
-    float range_m, half_m, power;
-    const Sample* sample;
-};
-
-/// The echoes sorted by beam; those of a beam keep their order.
-BeamEchoes by_beam(const std::vector<FoundEcho>& found, int beams) {
-    BeamEchoes out;
-    out.beam_begin.resize(static_cast<std::size_t>(beams) + 1);
-    for (const FoundEcho& echo : found)
-        ++out.beam_begin[echo.beam + 1];
-    std::partial_sum(out.beam_begin.begin(), out.beam_begin.end(), out.beam_begin.begin());
-    std::vector<std::uint32_t> next = out.beam_begin;
-    out.boxes.resize(found.size());
-    out.sample.resize(found.size());
-    std::ranges::fill(out.boxes.intensity, 1.0F);
-    for (const FoundEcho& echo : found) {
-        const std::uint32_t k = next[echo.beam]++;
-        out.boxes.range_m[k] = echo.range_m;
-        out.boxes.half_m[k] = echo.half_m;
-        out.boxes.weight[k] = echo.power;
-        out.sample[k] = echo.sample;
-    }
-    return out;
 }
 
 /// Half the extent of a piece in range, and across the beams.
@@ -174,6 +148,20 @@ class SurfaceEchoFinder {
         });
     }
 
+    void add_particles(const SeenParticles& particles) {
+        PingCounts ignored;
+        const auto point = [](int) { return 0.0F; };
+        find_particles(model_, beams_, particles.samples, ignored,
+                       [&](const PatchBlock& points, const PointEchoes& echoes) {
+                           last_piece_ = -1;
+                           for_each_beam(points, echoes, nullptr, point,
+                                         [&](int beam, int k, float power) {
+                                             add_particle(particles.samples[points.sample[k]],
+                                                          {beam, k}, echoes.range_m[k], power);
+                                         });
+                       });
+    }
+
     void add_multipath(const TracedPing& traced, const std::vector<SpecularPath>& paths) {
         const SonarEquation& equation = model_.equation;
         const auto use = [&](const MirroredBlock& block) {
@@ -201,6 +189,22 @@ class SurfaceEchoFinder {
     }
 
   private:
+    /// A beam that receives a piece of a block.
+    struct Received {
+        int beam, piece;
+    };
+
+    void add_particle(const Sample& sample, const Received& at, float range_m, float power) {
+        direct_.push_back({static_cast<std::uint32_t>(at.beam), range_m, 0.0F, power, &sample});
+        if (!patches_) return;
+        add_echo(at.beam, at.piece, power, [&] {
+            return EchoPatch{.position = sample.position,
+                             .edge_u = sample.edge_u,
+                             .edge_v = sample.edge_v,
+                             .sample = &sample};
+        });
+    }
+
     /// Adds the echo of piece k of a block in a beam. What a line array receives of a piece in
     /// several beams belongs to one patch.
     template <class PatchOfPiece>
@@ -281,6 +285,7 @@ SurfaceEchoes CalibratedModel::surface_echoes(const TracedPing& traced, const Vi
             finder.add_surface(traced.samples.items, traced.targets);
             finder.add_surface(traced.outside_sector, traced.targets);
             finder.add_targets(traced.targets, slopes_of(scene.materials));
+            finder.add_particles(traced.particles);
             finder.add_multipath(traced, specular_paths(traced, scene));
             return finder.take(view.beams);
         },

@@ -24,7 +24,7 @@ constexpr std::size_t most_named = 5;
 /// A sphere around an object; the frame is the world, or its own if it moves.
 struct Extent {
     Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-    double radius = 0.0;
+    double radius = -1.0;      ///< below 0: it has no surface
     std::ptrdiff_t body = -1;  ///< index into Scene::bodies; -1: it stands still
 };
 
@@ -156,6 +156,7 @@ std::vector<Warning> unseen_objects(const Mission& mission, const Assembly& asse
         const auto has_seen = [&](const SonarSurvey& sonar) {
             return sonar.seen_m2[instance] > 0.0;
         };
+        if (extents[instance].radius < 0.0) continue;
         if (!is_wanted(mission, scene, instance) || std::ranges::any_of(sonars, has_seen)) continue;
         if (++looked_for > most_objects) continue;
         bool in_view = false;

@@ -1,7 +1,9 @@
 #include "dataset/ping_metadata.h"
 
 #include <cmath>
+#include <map>
 
+#include "calibrated/decibel.h"
 #include "core/text.h"
 #include "mission/ping_draws.h"
 
@@ -30,6 +32,38 @@ Json describe_drawn(const DrawnValues& drawn) {
     }
     return json;
 }
+
+namespace {
+
+/// The point targets that a ping reaches, by object: how many of its targets, their mean place, and
+/// the strength of all of them together.
+Json describe_particles(const Assembly& assembly, const FinishedPing& finished, double time_s) {
+    struct Sum {
+        int count = 0;
+        double section_m2 = 0.0;
+        Eigen::Vector3d place = Eigen::Vector3d::Zero();
+    };
+    const SeenParticles& seen = finished.traced.particles;
+    std::map<std::uint32_t, Sum> sums;  // keyed by instance
+    for (std::size_t k = 0; k < seen.samples.size(); ++k) {
+        Sum& sum = sums[seen.samples[k].instance];
+        ++sum.count;
+        sum.section_m2 += seen.samples[k].area_m2;
+        sum.place += place_at(finished.sonar.settings.particles->all[seen.numbers[k]], time_s);
+    }
+    Json json = Json::object();
+    for (const auto& [instance, sum] : sums) {
+        const Eigen::Vector3d place = sum.place / sum.count;
+        json[assembly.scene.instances[instance]] = {
+            {"count", sum.count},
+            {"position_m", {place.x(), place.y(), place.z()}},
+            // To a hundredth of a decibel: the sections are floats.
+            {"target_strength_db", std::round(100.0 * db_of_power(sum.section_m2)) / 100.0}};
+    }
+    return json;
+}
+
+}  // namespace
 
 Json describe_ping(const Mission& mission, const Assembly& assembly, const FinishedPing& finished) {
     const PingId& id = finished.id;
@@ -68,6 +102,10 @@ Json describe_ping(const Mission& mission, const Assembly& assembly, const Finis
     for (std::size_t k = 0; k < bodies.size(); ++k) {
         const std::string& name = assembly.scene.instances[assembly.scene.bodies[k].instance];
         json["T_world_object"][name] = describe_pose(bodies[k]);
+    }
+    if (finished.sonar.settings.particles) {
+        json["particles"] =
+            describe_particles(assembly, finished, pose.t_s - assembly.trajectory.front().t_s);
     }
     if (!finished.measured.is_null()) json["measured"] = finished.measured;
     return json;

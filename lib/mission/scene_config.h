@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mission/ground_map_config.h"
+#include "mission/particles_config.h"
 #include "mission/place.h"
 #include "mission/seabed_config.h"
 #include "mission/trajectory_config.h"
@@ -100,6 +101,7 @@ enum class RepeatedFiles { automatic, copied, shared };
 struct WaterSurfaceConfig {
     double height_m = 0.0;
     double roughness = 0.0;  ///< share of the sound that is scattered away
+    bool scatters = false;   ///< sends sound back, by the speed of the wind
 
     bool operator==(const WaterSurfaceConfig&) const = default;
 };
@@ -116,6 +118,7 @@ struct SceneConfig {
     std::optional<SeabedConfig> seabed = {};
     std::vector<ObjectConfig> objects = {};
     std::vector<ScatterConfig> scatter = {};
+    std::vector<ParticlesConfig> particles = {};
     RepeatedFiles repeats = RepeatedFiles::automatic;
     std::optional<WaterSurfaceConfig> water_surface = {};
     MissionPlace place = {};

@@ -5,6 +5,7 @@
 
 #include "mission/ground_map_schema.h"
 #include "mission/limits.h"
+#include "mission/particles_schema.h"
 #include "mission/scene_config.h"
 #include "mission/seabed_schema.h"
 
@@ -140,6 +141,8 @@ void describe(Visitor& v, WaterSurfaceConfig& c) {
              required);
     v.number("roughness", c.roughness, between(0, 1),
              "share of the sound that the surface scatters away instead of reflecting it");
+    v.flag("scatters", c.scatters,
+           "the surface sends sound back to sonars of the calibrated model, by water.wind_m_s");
 }
 
 template <class Visitor>
@@ -167,6 +170,9 @@ void describe(Visitor& v, SceneConfig& c) {
                        "a bottom that is made from these numbers and the mission's seed");
     v.list("objects", c.objects, 0, "files that are placed in the scene one by one");
     v.list("scatter", c.scatter, 0, "files that are placed on the bottom at random");
+    v.list("particles", c.particles, 0,
+           "groups of point targets in the water, for the calibrated model: fish, bubbles and "
+           "others");
     v.choice("repeats", c.repeats, repeated_files,
              "how a file that is used several times is stored: `copied` repeats its triangles; "
              "`shared` keeps them once, which only named objects that do not move can have and "
@@ -174,7 +180,7 @@ void describe(Visitor& v, SceneConfig& c) {
              "triangles and the engine can be rays");
     v.optional_section(
         "water_surface", c.water_surface,
-        "the surface of the water: it reflects multipath and is invisible otherwise");
+        "the surface of the water: it reflects multipath and, with `scatters`, is seen itself");
     v.require(!c.file.empty() || c.heightmap || c.seabed || !c.objects.empty(), {},
               "'scene' needs the key 'file', a heightmap, a seabed or objects");
     v.require(!c.sediment_map || !c.backscatter_map ||

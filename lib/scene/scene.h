@@ -44,10 +44,12 @@ struct Material {
 /// impedance z = rho c, Eq. 4-5.
 double power_reflection(double density_kg_m3, double sound_speed_m_s, const Water& water);
 
-/// The surface of the water. It reflects sound from below specularly; the sonar does not see it.
+/// The surface of the water. It reflects sound from below specularly.
 struct WaterSurface {
     double height_m = 0.0;    ///< world
     float reflection = 0.0F;  ///< power reflection coefficient
+    /// Speed of the wind by whose waves it sends sound back; empty: the sonar does not see it.
+    std::optional<double> wind_m_s = {};
 };
 
 /// Counts of what was dropped while the scene was read, by reason.

@@ -62,8 +62,15 @@ TracedPing trace(const Sonar& sonar, const Scene& scene, const VisibilityEngine&
                  const Pose& T_world_vehicle, std::uint32_t pose, const Terms& terms) {
     const PingMotion motion =
         sonar.motions && pose < sonar.motions->size() ? (*sonar.motions)[pose] : PingMotion{};
-    return trace_ping(sonar.settings, scene, engine, sensor_pose(sonar, T_world_vehicle, pose),
-                      terms, motion);
+    const Pose T_world_sensor = sensor_pose(sonar, T_world_vehicle, pose);
+    TracedPing traced = trace_ping(sonar.settings, scene, engine, T_world_sensor, terms, motion);
+    if (const auto& particles = sonar.settings.particles) {
+        const double time_s = pose < particles->time_s.size() ? particles->time_s[pose] : 0.0;
+        traced.particles =
+            seen_particles(*particles, time_s, sonar.settings.view, sonar.settings.guard_beams,
+                           engine, T_world_sensor, motion);
+    }
+    return traced;
 }
 
 Ping render_ping(const Sonar& sonar, const Scene& scene, const VisibilityEngine& engine,

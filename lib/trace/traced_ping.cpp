@@ -9,6 +9,8 @@
 #include "trace/lay_maps.h"
 #include "trace/map_error.h"
 #include "trace/missed_multipath.h"
+#include "trace/seen_water_surface.h"
+#include "trace/water_mirror.h"
 #include "visibility/rays/sampling.h"
 
 namespace sonarsim {
@@ -45,6 +47,12 @@ TracedPing trace_ping(const TraceSettings& settings, const Scene& scene,
     if (settings.coherent) {
         traced.coherent = find_coherent_surface(*settings.coherent, scene, engine, T_world_sensor,
                                                 widened_view(settings.view, settings.guard_beams));
+    }
+    if (settings.sees_water_surface && scene.water_surface && scene.water_surface->wind_m_s) {
+        if (const auto water = mirror_of(scene.water_surface, T_world_sensor)) {
+            traced.water_surface = seen_water_surface(*water, settings.view, settings.guard_beams,
+                                                      engine, T_world_sensor, motion);
+        }
     }
     traced.seconds.trace = watch.lap();
 

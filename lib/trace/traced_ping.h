@@ -9,6 +9,7 @@
 #include "trace/coherent_surface.h"
 #include "trace/counters.h"
 #include "trace/multipath.h"
+#include "trace/particles.h"
 #include "trace/ping_motion.h"
 #include "trace/target_shapes.h"
 #include "trace/target_surface.h"
@@ -28,6 +29,8 @@ struct TraceSettings {
     /// Objects that the trace samples itself where an engine's samples cannot; null: none.
     std::shared_ptr<const TargetShapes> targets;
     std::shared_ptr<const CoherentFaces> coherent;  ///< null: none
+    std::shared_ptr<const Particles> particles;     ///< point targets in the water; null: none
+    bool sees_water_surface = false;                ///< if that scatters
 };
 
 /// The surface that a sonar insonified from one pose. It holds no noise: any number of images may
@@ -39,7 +42,9 @@ struct TracedPing {
     std::vector<Sample> outside_sector;  ///< the visible surface in the guard beams
     TargetSurface targets;               ///< takes the place of the samples of its instances
     CoherentSurface coherent;            ///< reflects coherently; samples may lie on it as well
-    std::vector<BouncePath> bounces;     ///< multipath paths from `samples`
+    SeenParticles particles;
+    std::vector<Sample> water_surface;  ///< material and instance are 0
+    std::vector<BouncePath> bounces;    ///< multipath paths from `samples`
     /// The estimated share of bins with multipath that `bounces` do not reach, see
     /// missed_multipath(); NaN without an estimate.
     double missed_multipath = std::numeric_limits<double>::quiet_NaN();

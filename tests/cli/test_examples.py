@@ -20,7 +20,8 @@ GROUPS = (
     ("wreck_imaging", "wreck_calibrated", "wreck_echosounder_calibrated", "seafloor_sidescan",
      "seafloor_sidescan_calibrated", "rough_sea_sidescan"),
     ("minefield_variants", "detection"),
-    ("lifeboat_imaging",), ("own_bathymetry", "sediment_maps"), ("made_seabeds", "scattering_layer", "summer_bathymetry"),
+    ("lifeboat_imaging",), ("own_bathymetry", "sediment_maps"),
+    ("made_seabeds", "scattering_layer", "summer_bathymetry", "fish_and_bubbles", "windy_sidescan"),
     ("tank_imaging", "tank_calibrated", "tank_detection", "tank_echosounder", "tank_labels", "tank_layers",
      "tank_multipath", "tank_multipath_calibrated", "tank_scanning"),
 )

@@ -96,6 +96,7 @@ scene:
   up: y
   objects: []
   scatter: []
+  particles: []
   repeats: auto
 trajectory:
   file: "/base/a.tum"

@@ -1,0 +1,128 @@
+#pragma once
+
+#include <cmath>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "calibrated/model.h"
+#include "calibrated/patches.h"
+#include "calibrated/speckle.h"
+#include "core/elementary.h"
+
+namespace sonarsim {
+
+// The echoes of the water's volume and surface and of point targets in it, section 5 of
+// docs/calibrated.md. `Beams`: ArrayBeams or TransducerBeams.
+
+/// Adds the echoes of the water's volume.
+template <class Beams>
+void add_water_column(const CalibratedModel& model, const Beams& beams, const TracedPing& traced,
+                      const FormContext& context, bool of_powers, float speckle_gain,
+                      EchoGrid& grid) {
+    std::optional<double> surface_z_m;
+    if (context.scene.water_surface) surface_z_m = context.scene.water_surface->height_m;
+    const std::vector<float> received =
+        received_water(*model.water, water_ends(model.water->sight.cells, traced),
+                       traced.T_world_sensor, surface_z_m, grid.rows());
+    add_water(*model.water, received, sines_of(beams),
+              of_powers ? PowerForm::power : PowerForm::amplitude, speckle_gain,
+              context.draws.of(stream_named("water")), grid);
+}
+
+/// Point targets: their area is their cross-section, and they face the sonar.
+inline Scattering unit_scattering() {
+    Scattering out;
+    out.materials.emplace_back().lambert = 1.0F;
+    return out;
+}
+
+/// Cuts points into blocks of one material, the number 0, with their echoes, for `use`.
+template <class Beams, class Use>
+void find_particles(const CalibratedModel& model, const Beams& beams,
+                    std::span<const Sample> particles, PingCounts& counts, Use use) {
+    const Scattering unit = unit_scattering();
+    PatchBlock block;
+    PointEchoes echoes;
+    subdivide(particles, {}, block, [&](PatchBlock& points) {
+        points.material.fill(0);
+        counts.echoes += points.count;
+        counts.out_of_range += apply_sonar_equation(points, unit, model.equation, echoes);
+        counts.out_of_range += find_columns(beams, points, echoes);
+        use(points, echoes);
+    });
+}
+
+/// Adds the amplitudes of point targets to a grid. A target keeps its phase from ping to ping;
+/// that of its way turns by the range.
+template <class Beams>
+void add_particle_amplitudes(const CalibratedModel& model, const Beams& beams,
+                             const SeenParticles& particles, const PingDraws& draws,
+                             PingCounts& counts, EchoGrid& grid) {
+    const PhiloxKey key = draws.of_scene(stream_named("particles"));
+    Amplitudes amplitudes;
+    const double turns_per_m = 2.0 / model.wavelength_m;
+    find_particles(model, beams, particles.samples, counts,
+                   [&](const PatchBlock& points, const PointEchoes& echoes) {
+                       for (int k = 0; k < points.count; ++k) {
+                           const PhiloxBlock words =
+                               philox({particles.numbers[points.sample[k]], 0, 0, 0}, key);
+                           const double way = turns_per_m * static_cast<double>(echoes.range_m[k]);
+                           const auto turns = static_cast<float>(way - std::floor(way));
+                           const SinCosFloat phase = sincos_turns(unit_float(words.x0) + turns);
+                           const float amplitude = std::sqrt(echoes.power[k]);
+                           amplitudes.re[k] = amplitude * phase.cos;
+                           amplitudes.im[k] = amplitude * phase.sin;
+                       }
+                       add_amplitudes(beams, points, echoes, amplitudes, grid);
+                   });
+}
+
+template <class Beams>
+void add_particle_powers(const CalibratedModel& model, const Beams& beams,
+                         const SeenParticles& particles, PingCounts& counts, EchoGrid& grid) {
+    find_particles(model, beams, particles.samples, counts,
+                   [&](const PatchBlock& points, const PointEchoes& echoes) {
+                       add_powers(beams, points, echoes, grid);
+                   });
+}
+
+/// Adds the powers of the water's surface to a grid.
+template <class Beams>
+void add_surface_powers(const CalibratedModel& model, const Beams& beams,
+                        std::span<const Sample> surface, const Scattering& scattering,
+                        PingCounts& counts, EchoGrid& grid) {
+    PatchBlock block;
+    PointEchoes echoes;
+    subdivide(surface, model.limits, block, [&](const PatchBlock& patches) {
+        counts.echoes += patches.count;
+        counts.out_of_range += apply_sonar_equation(patches, scattering, model.equation, echoes);
+        counts.out_of_range += find_columns(beams, patches, echoes);
+        add_powers(beams, patches, echoes, grid);
+    });
+}
+
+/// Adds the echo of the water's surface. Its waves are others in each ping, and so are the
+/// amplitudes where the scatterers of the scene have the same in all of them.
+template <class Beams>
+void add_water_surface(const CalibratedModel& model, const Beams& beams,
+                       std::span<const Sample> surface, const FormContext& context,
+                       SpeckleMode speckle, float speckle_gain, PingCounts& counts,
+                       EchoGrid& grid) {
+    const double wind_m_s = context.scene.water_surface->wind_m_s.value_or(0.0);
+    WindSurface own;
+    if (model.water_surface.wind_m_s != wind_m_s)
+        own = wind_surface(wind_m_s, model.instrument.frequency_hz);
+    const Scattering& scattering =
+        own.scattering.materials.empty() ? model.water_surface.scattering : own.scattering;
+    if (speckle != SpeckleMode::scene) {
+        add_surface_powers(model, beams, surface, scattering, counts, grid);
+        return;
+    }
+    EchoGrid energy(grid.rows(), grid.columns());
+    add_surface_powers(model, beams, surface, scattering, counts, energy);
+    draw_speckle(energy, speckle_gain, context.draws.of(stream_named("water surface")));
+    grid.add(energy);
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,122 @@
+#include "assembly/particles.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "calibrated/decibel.h"
+#include "core/error.h"
+#include "sonar/kinds.h"
+#include "sonar/sonar.h"
+#include "support/statistics.h"
+#include "validation/shapes.h"
+
+using namespace sonarsim;
+using namespace sonarsim::test;
+
+namespace {
+
+const Trajectory three_poses{{10.0, {}}, {11.0, {}}, {12.5, {}}};
+
+ParticlesConfig school(ParticleRegion region, double count) {
+    ParticlesConfig config;
+    config.name = "school";
+    config.class_name = "herring";
+    config.kind = ParticleKind::fish;
+    config.length_m = {0.2, 0.3};
+    config.count = {count, count};
+    config.region = region;
+    config.position_m = {100.0, -50.0, -10.0};
+    config.size_m = {20.0, 10.0, 4.0};
+    config.drift_m_s = {0.5, 0.0, 0.0};
+    return config;
+}
+
+/// The particles that a sonar gets, and the scene with their instances.
+struct Drawn {
+    Scene scene;
+    std::vector<Sonar> sonars;
+    const Particles& particles() const { return *sonars[0].settings.particles; }
+};
+
+Drawn draw(const ParticlesConfig& config, std::uint64_t seed) {
+    Mission mission;
+    mission.seed = seed;
+    mission.scene.particles = {config};
+    Drawn out;
+    out.scene = shapes::empty_scene();
+    out.scene.instances = {"floor"};
+    SonarConfig sonar = default_sonar(SonarKind::imaging);
+    sonar.model = ModelKind::calibrated;
+    out.sonars.push_back(make_sonar(sonar, {}));
+    add_particles(mission, three_poses, out.scene, out.sonars);
+    return out;
+}
+
+}  // namespace
+
+TEST_SUITE("assembly") {
+    // A uniform draw in a box is uniform along each axis. In an ellipsoid the cube of the scaled
+    // radius is uniform, and so is the height over the radius. Significance 1e-3 each.
+    TEST_CASE("particles: evenly distributed in a box and in an ellipsoid") {
+        for (const ParticleRegion region : {ParticleRegion::box, ParticleRegion::ellipsoid}) {
+            const Drawn drawn = draw(school(region, 3000.0), 5);
+            std::vector<double> first, second, lengths;
+            for (const Particle& particle : drawn.particles().all) {
+                const Eigen::Vector3d middle(100.0, -50.0, -10.0);
+                const Eigen::Vector3d scaled =
+                    (particle.start_m - middle).cwiseQuotient(Eigen::Vector3d(10.0, 5.0, 2.0));
+                const bool box = region == ParticleRegion::box;
+                const double radius = scaled.norm();
+                first.push_back(box ? 0.5 * (scaled.x() + 1.0) : std::pow(radius, 3));
+                second.push_back(0.5 * (box ? scaled.y() + 1.0 : scaled.z() / radius + 1.0));
+                // Love: the strength goes with 19.1 log L.
+                const double db = db_of_power(particle.section_m2);
+                const double f_khz = 1e-3 * drawn.sonars[0].config.instrument.frequency_hz;
+                const double length_cm =
+                    std::pow(10.0, (db + 62.0 + 0.9 * std::log10(f_khz)) / 19.1);
+                lengths.push_back((length_cm - 20.0) / 10.0);
+                CHECK(particle.velocity_m_s.x() == 0.5);
+            }
+            const auto uniform = [](double x) { return std::min(1.0, std::max(0.0, x)); };
+            CHECK(ks_p_value(first, uniform) > 1e-3);
+            CHECK(ks_p_value(second, uniform) > 1e-3);
+            CHECK(ks_p_value(lengths, uniform) > 1e-3);
+        }
+    }
+
+    TEST_CASE("particles: keyed by the seed, timed from the first ping") {
+        const auto first = [](std::uint64_t seed) {
+            return draw(school(ParticleRegion::box, 5.0), seed).particles().all[0].start_m;
+        };
+        CHECK(first(5) == first(5));
+        CHECK(first(5) != first(6));
+        CHECK(draw(school(ParticleRegion::box, 5.0), 5).particles().time_s ==
+              std::vector<double>{0.0, 1.0, 2.5});
+    }
+
+    TEST_CASE("particles: single targets and groups are instances") {
+        const Drawn few = draw(school(ParticleRegion::box, 3.0), 5);
+        CHECK(few.scene.instances ==
+              std::vector<std::string>{"floor", "school_1", "school_2", "school_3"});
+        CHECK(few.scene.instance_classes ==
+              std::vector<std::string>{"", "herring", "herring", "herring"});
+        CHECK(few.scene.materials.back().name == "fish");
+        const Drawn many = draw(school(ParticleRegion::box, 500.0), 5);
+        CHECK(many.scene.instances == std::vector<std::string>{"floor", "school"});
+        CHECK(many.particles().all[499].instance == 1);
+        ParticlesConfig taken = school(ParticleRegion::box, 3.0);
+        taken.name = "floor";
+        CHECK_THROWS_WITH_AS(draw(taken, 5), doctest::Contains("'floor'"), InputError);
+    }
+
+    // 20 x 10 x 4 m^3, of which an ellipsoid fills pi / 6: 0.5 in a cubic metre are 400 and 209.
+    TEST_CASE("particles: by density") {
+        ParticlesConfig config = school(ParticleRegion::box, 0.0);
+        config.per_m3 = 0.5;
+        CHECK(draw(config, 5).particles().all.size() == 400);
+        config.region = ParticleRegion::ellipsoid;
+        CHECK(draw(config, 5).particles().all.size() == 209);
+    }
+}

@@ -1,0 +1,202 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <complex>
+#include <vector>
+
+#include "calibrated/decibel.h"
+#include "calibrated/piston.h"
+#include "calibrated/water_echoes.h"
+#include "core/units.h"
+#include "support/calibrated.h"
+#include "support/labelled.h"
+#include "support/scenes.h"
+
+using namespace sonarsim;
+using namespace sonarsim::test;
+
+namespace {
+
+constexpr float section_m2 = 1e-4F;  // TS = -40 dB
+
+Sample point_at(const Eigen::Vector3f& place) {
+    const float range = place.norm();
+    return {.position = place,
+            .edge_u = Eigen::Vector3f::Zero(),
+            .edge_v = Eigen::Vector3f::Zero(),
+            .normal = -place / range,
+            .height_m = range,
+            .area_m2 = section_m2,
+            .material = 0,
+            .instance = 0};
+}
+
+TracedPing ping_of_points(const std::vector<Eigen::Vector3f>& places) {
+    TracedPing traced;
+    for (const Eigen::Vector3f& place : places) {
+        traced.particles.numbers.push_back(
+            static_cast<std::uint32_t>(traced.particles.samples.size()));
+        traced.particles.samples.push_back(point_at(place));
+    }
+    return traced;
+}
+
+InstrumentConfig point_instrument(Aperture aperture, double width_deg) {
+    InstrumentConfig config = bare({});
+    config.frequency_hz = 2e5;
+    config.beam.aperture = aperture;
+    config.beam.width_deg = width_deg;
+    config.pulse.resolution_m = 0.1;
+    return config;
+}
+
+View point_view(ViewShape shape, double azimuth_deg, double elevation_deg, int beams) {
+    return {.azimuth_rad = radians(azimuth_deg),
+            .elevation_rad = radians(elevation_deg),
+            .range_min_m = 2.0,
+            .range_max_m = 22.0,
+            .range_bins = 200,
+            .beams = beams,
+            .relative_l1 = 0.03,
+            .shape = shape};
+}
+
+/// The sum of a beam's bins by that of the pulse's taps: the power of the echo before the pulse.
+double echo_of_beam(const CalibratedModel& model, const std::vector<float>& image, int beams,
+                    int beam) {
+    double sum = 0.0;
+    for (std::size_t k = beam; k < image.size(); k += beams)
+        sum += image[k];
+    double taps = 0.0;
+    for (const float tap : model.power_taps.taps)
+        taps += tap;
+    return sum / taps;
+}
+
+/// TS - 40 log r - 2 alpha r, as a ratio.
+double equation(const CalibratedModel& model, double range_m) {
+    return section_m2 / std::pow(range_m, 4) *
+           power_of_db(-2.0 * model.absorption_db_per_m * range_m);
+}
+
+}  // namespace
+
+TEST_SUITE("calibrated") {
+    // EL = SL + TS + D - 40 log r - 2 alpha r with SL = 0. The two-way pattern D of a disc is the
+    // fourth power of 2 J1(x) / x, x = k a sin(angle). The bounds are those of the water's level.
+    TEST_CASE("particles: the level of a target in an echosounder, at every place") {
+        const View view = point_view(ViewShape::cone, 40.0, 40.0, 1);
+        const CalibratedModel model =
+            calibrated_model(point_instrument(Aperture::piston, 7.0), {}, view, {});
+        for (const double range_m : {4.0, 9.03, 17.5}) {
+            for (const double off_deg : {0.0, 2.0, 3.5, 6.0}) {
+                CAPTURE(range_m);
+                CAPTURE(off_deg);
+                const double off = radians(off_deg);
+                const Eigen::Vector3f place =
+                    (range_m *
+                     Eigen::Vector3d(std::cos(off), 0.6 * std::sin(off), -0.8 * std::sin(off)))
+                        .cast<float>();
+                const std::vector<float> image =
+                    image_of_traced(model, view, ping_of_points({place}), {});
+                const double pattern = piston_pattern(piston_scale(radians(7.0)) * std::sin(off));
+                const double expected = equation(model, range_m) * std::pow(pattern, 4);
+                CHECK(db_of_power(echo_of_beam(model, image, 1, 0) / expected) ==
+                      doctest::Approx(0.0).epsilon(0.1));
+            }
+        }
+    }
+
+    // In a fan the beam that looks at the target has all of it; in elevation the two-way pattern is
+    // a line array's, at half its width down by a factor of two.
+    TEST_CASE("particles: the level of a target in the beam of a fan, and by elevation") {
+        InstrumentConfig config = point_instrument(Aperture::line, 2.0);
+        config.beam.elevation_width_deg = 20.0;
+        const View view = point_view(ViewShape::fan, 60.0, 40.0, 61);
+        BeamSines sines;
+        for (int k = 0; k <= 61; ++k)
+            sines.edges.push_back(std::sin(radians(60.0 * k / 61 - 30.0)));
+        for (int k = 0; k < 61; ++k)
+            sines.middles.push_back(std::sin(radians(60.0 * (k + 0.5) / 61 - 30.0)));
+        const CalibratedModel model = calibrated_model(config, {}, view, sines);
+        const auto level = [&](double elevation_deg) {
+            const double up = radians(elevation_deg);
+            const Eigen::Vector3f place =
+                (9.0 * Eigen::Vector3d(std::cos(up), 0.0, std::sin(up))).cast<float>();
+            const std::vector<float> image =
+                image_of_traced(model, view, ping_of_points({place}), {});
+            return db_of_power(echo_of_beam(model, image, 61, 30) / equation(model, 9.0));
+        };
+        CHECK(level(0.0) == doctest::Approx(0.0).epsilon(0.1));
+        CHECK(level(10.0) - level(0.0) == doctest::Approx(db_of_power(0.5)).epsilon(0.02));
+    }
+
+    // With speckle a single target does not flicker, and two of one strength at one place add by
+    // their phases: the power is between 0 and 4 times that of one, |1 + exp(i phase)|^2.
+    TEST_CASE("particles: amplitudes keep their phases from ping to ping") {
+        const View view = point_view(ViewShape::cone, 40.0, 40.0, 1);
+        InstrumentConfig config = point_instrument(Aperture::piston, 7.0);
+        config.speckle.mode = SpeckleMode::scene;
+        const CalibratedModel model = calibrated_model(config, {}, view, {});
+        const auto peak = [&](const std::vector<Eigen::Vector3f>& places, std::uint32_t ping,
+                              std::uint64_t seed) {
+            const std::vector<float> image =
+                image_of_traced(model, view, ping_of_points(places), {}, {seed, 2, ping});
+            return *std::max_element(image.begin(), image.end());
+        };
+        const Eigen::Vector3f place{9.05F, 0.0F, 0.0F};
+        const float one = peak({place}, 0, 7);
+        CHECK(one == peak({place}, 5, 7));
+        CHECK(one == doctest::Approx(peak({place}, 0, 8)).epsilon(1e-5));
+        CHECK(one == doctest::Approx(equation(model, 9.05)).epsilon(0.02));
+        double sum = 0.0;
+        constexpr int seeds = 200;
+        for (int seed = 0; seed < seeds; ++seed) {
+            const float both = peak({place, place}, 0, static_cast<std::uint64_t>(seed));
+            CHECK(both < 4.001F * one);
+            sum += both / one;
+        }
+        // The mean of 2 + 2 cos(phase) is 2, its deviation sqrt(2): 4 sigma of 200 are 0.4.
+        CHECK(sum / seeds == doctest::Approx(2.0).epsilon(0.2));
+    }
+
+    // The object of the bins is the target, where it is stronger than the floor behind.
+    TEST_CASE("particles: labels at their bin and beam") {
+        SonarConfig config = calibrated(kind_of(SonarKind::imaging).keys.defaults, 2e5);
+        config.azimuth_deg = 60.0;
+        config.elevation_deg = 20.0;
+        config.azimuth_bins = 60;
+        config.range_min_m = 2.0;
+        config.range_max_m = 22.0;
+        config.range_bins = 200;
+        Scene scene = empty_scene();
+        const std::uint32_t rock = add_material(scene, 0.4F);
+        add_quad(scene, {15.0F, -20.0F, -10.0F}, {15.0F, 20.0F, -10.0F}, {15.0F, 20.0F, 10.0F},
+                 {15.0F, -20.0F, 10.0F}, rock);
+        scene.instances.resize(1, "wall");
+        scene.instances.push_back("fish_1");
+        scene.materials.push_back({.name = "fish"});
+        Sonar sonar = make_sonar(config, {});
+        Particles particles;
+        Particle& fish = particles.all.emplace_back();
+        const double azimuth = radians(10.5);
+        fish.start_m = 8.05 * Eigen::Vector3d(std::cos(azimuth), std::sin(azimuth), 0.02);
+        fish.velocity_m_s = Eigen::Vector3d::Zero();
+        fish.section_m2 = section_m2;
+        fish.instance = 1;
+        fish.material = static_cast<std::uint32_t>(scene.materials.size() - 1);
+        sonar.settings.particles = std::make_shared<const Particles>(particles);
+        const Labelled found = label(scene, sonar, {}, EngineKind::rays);
+        const std::size_t at = found.at(bin_at(sonar, 8.05), 40);
+        REQUIRE(found.labels.object[at] > 0);
+        CHECK(found.objects.objects[found.labels.object[at] - 1U].name == "fish_1");
+        CHECK(found.labels.share[at] == 1.0F);
+        CHECK(found.labels.material[at] == fish.material + 1);
+        CHECK(found.labels.elevation_rad[at] == doctest::Approx(0.02).epsilon(0.02));
+        // Nothing else has that label.
+        int count = 0;
+        for (const std::uint16_t object : found.labels.object)
+            count += object == found.labels.object[at] ? 1 : 0;
+        CHECK(count == 1);
+    }
+}

@@ -1,0 +1,114 @@
+#include "trace/seen_water_surface.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/units.h"
+#include "support/scenes.h"
+#include "visibility/rays/rays_engine.h"
+
+using namespace sonarsim;
+using namespace sonarsim::test;
+
+namespace {
+
+constexpr double surface_m = 5.0;
+
+View view_to_surface(ViewShape shape, double azimuth_deg, double elevation_deg) {
+    return {.azimuth_rad = radians(azimuth_deg),
+            .elevation_rad = radians(elevation_deg),
+            .range_min_m = 0.5,
+            .range_max_m = 40.0,
+            .range_bins = 800,
+            .beams = shape == ViewShape::fan ? 64 : 1,
+            .relative_l1 = 0.03,
+            .shape = shape};
+}
+
+/// The area of the surface between two ranges, m^2.
+double area_between(const Scene& scene, const View& view, const Pose& pose, double from_m,
+                    double to_m) {
+    const auto engine = make_rays_engine(scene);
+    const auto surface = mirror_of(WaterSurface{surface_m, 1.0F, 5.0}, pose);
+    REQUIRE(surface);
+    double sum = 0.0;
+    for (const Sample& sample : seen_water_surface(*surface, view, {}, *engine, pose, {})) {
+        const double range = sample.position.norm();
+        CHECK(sample.height_m == doctest::Approx(surface_m - pose.translation.z()));
+        CHECK(-sample.normal.dot(sample.position) ==
+              doctest::Approx(sample.height_m).epsilon(1e-3));
+        // The share of the sample's depth that lies between the two.
+        const Eigen::Vector3f towards = sample.position.normalized();
+        const double half =
+            std::fabs(towards.dot(sample.edge_u)) + std::fabs(towards.dot(sample.edge_v)) + 1e-6;
+        const double within = std::min(range + half, to_m) - std::max(range - half, from_m);
+        sum += sample.area_m2 * std::max(0.0, within) / (2.0 * half);
+    }
+    return sum;
+}
+
+Scene scene_below() {
+    Scene scene = empty_scene();
+    add_floor(scene, 100.0F, -50.0F, add_material(scene, 0.4F), 4);
+    return scene;
+}
+
+}  // namespace
+
+TEST_SUITE("ping") {
+    // Within a cone of the half angle a, straight up, lies a disc of the radius h tan a.
+    TEST_CASE("water's surface: a cone that looks up sees a disc") {
+        const Pose up{rotation_from_rpy(0.0, radians(-90.0), 0.0), Eigen::Vector3d::Zero()};
+        for (const double opening_deg : {7.0, 30.0, 60.0}) {
+            CAPTURE(opening_deg);
+            const double radius = surface_m * std::tan(radians(0.5 * opening_deg));
+            const View view = view_to_surface(ViewShape::cone, opening_deg, opening_deg);
+            CHECK(area_between(scene_below(), view, up, 0.0, 40.0) ==
+                  doctest::Approx(pi * radius * radius).epsilon(0.03));
+        }
+    }
+
+    // Between the ranges r and s, and over the azimuth f about the vertical, lies the area
+    // f / 2 (s^2 - r^2): the squares of horizontal and slant range differ by that of the height.
+    TEST_CASE("water's surface: a fan that looks ahead sees a part of a ring") {
+        const View view = view_to_surface(ViewShape::fan, 60.0, 40.0);
+        for (const double from_m : {16.0, 25.0}) {
+            const double to_m = 1.3 * from_m;
+            CHECK(area_between(scene_below(), view, {}, from_m, to_m) ==
+                  doctest::Approx(0.5 * radians(60.0) * (to_m * to_m - from_m * from_m))
+                      .epsilon(0.03));
+        }
+    }
+
+    // Along the track lies an elevation e to either side, so at the range r and the horizontal
+    // distance y a strip of the width 2 r tan(e) at the most; over dy = r dr / y it sums to
+    // 2 sin(e) r^2 dr / y on each side: the jacobian of range and sine is r^2 / y.
+    TEST_CASE("water's surface: a side-scan sonar sees it above") {
+        View view = view_to_surface(ViewShape::port_starboard, 170.0, 2.0);
+        view.beams = 2;
+        const Pose down = {rotation_from_rpy(0.0, radians(90.0), 0.0), Eigen::Vector3d::Zero()};
+        double expected = 0.0;
+        constexpr int steps = 4000;
+        const double sine = std::sin(radians(1.0));
+        for (int k = 0; k < steps; ++k) {
+            const double r = 8.0 + 22.0 * (k + 0.5) / steps;
+            // At the edge y^2 = r^2 (1 - s^2) - h^2, in the middle s = 0; s is small.
+            expected +=
+                2.0 * 2.0 * sine * r * r / std::sqrt(r * r - surface_m * surface_m) * 22.0 / steps;
+        }
+        CHECK(area_between(scene_below(), view, down, 8.0, 30.0) ==
+              doctest::Approx(expected).epsilon(0.03));
+    }
+
+    TEST_CASE("water's surface: what hides it, and a sonar above it") {
+        Scene scene = scene_below();
+        add_quad(scene, {-50.0F, -50.0F, 3.0F}, {50.0F, -50.0F, 3.0F}, {50.0F, 50.0F, 3.0F},
+                 {-50.0F, 50.0F, 3.0F}, 0);
+        const View view = view_to_surface(ViewShape::fan, 60.0, 40.0);
+        CHECK(area_between(scene, view, {}, 0.0, 40.0) == 0.0);
+        CHECK_FALSE(mirror_of(WaterSurface{surface_m, 1.0F, 5.0},
+                              {Eigen::Quaterniond::Identity(), {0.0, 0.0, 6.0}}));
+    }
+}
