@@ -43,6 +43,22 @@ TEST_CASE("lattices: bars that stand between two slices are seen") {
     CHECK(error(145, 0.03) < 0.03);
 }
 
+TEST_CASE("lattices: views of few bins are looked at twice") {
+    // Scenes that the first look missed: stairs below an echosounder and in a side-scan, of which
+    // both sets of slices saw the same posts too wide or not at all. Errors at a goal of 3 % were
+    // 6.7 % with an estimate of 2.2 %, and 26 % with one of 17 %. They are 1.8 and 1.2 % now.
+    for (const std::uint32_t number : {13053U, 13107U}) {
+        const test::Lattice lattice = test::draw_lattice(number);
+        const Reference reference = test::lattice_reference(lattice, 1'000'000);
+        CAPTURE(number);
+        CHECK(reference.apart < 0.03);
+        const test::LatticeError error =
+            test::lattice_errors(number, lattice, reference, EngineKind::slices, {0.03}).front();
+        CHECK(error.error < 0.03);
+        CHECK(error.estimate <= 0.03);
+    }
+}
+
 TEST_CASE("lattices: goals are met, or the estimate says so" * doctest::skip(test::sanitized)) {
     // Twenty scenes with two goals each. If 3 % of 40 independent pings were missed in silence,
     // more than 4 would be with a probability of 0.5 %. The two goals of a scene are not

@@ -38,6 +38,10 @@ BeamsToCheck beams_to_check(const View& view);
 /// the bins. The sums of the two magnitudes over the bins differ by a standard deviation of 0.853
 /// s: much of D if few bins decide, and little of it otherwise.
 ///
+/// Bars of p = 0.22 / n have an error of 4 D, and with four times the slices of 0.7 D. If few bins
+/// decide, one such bar may have most of the error. So the first look at such a view suffices only
+/// if the estimate is below a quarter of the goal, and the second has four times the slices.
+///
 /// C has the patches of a third of the error goal and does not join them over slices. So D contains
 /// the errors of A's patches as well.
 ///
@@ -81,5 +85,19 @@ double likely_error(const BeamErrors& errors);
 /// Upper limit of the error of an image as a share of its signal. The confidence is 95 % if bins
 /// are independent.
 double estimated_error(const BeamErrors& errors);
+
+/// True if so few bins have an echo that those which one bar or edge fills may have an error above
+/// the goal.
+bool few_bins_decide(const BeamErrors& errors, double goal);
+
+/// The same limit as estimated_error() if few bins decide. Neighbours that all became brighter or
+/// all darker have one cause, so runs of them are independent, not bins. D is the sum over as many
+/// equal runs as (D / r)^2, where r is the root of the sum of the squared changes of all runs. The
+/// variance of so few is itself uncertain, so Student's distribution with as many degrees of
+/// freedom gives the limit.
+double estimated_error_of_few_bins(const BeamErrors& errors);
+
+/// The estimate that suffices in a pass over a view of which few bins decide. The first pass is 1.
+double enough_for_few_bins(double goal, int pass);
 
 }  // namespace sonarsim

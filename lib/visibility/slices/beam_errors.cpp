@@ -56,6 +56,10 @@ double BeamErrors::root_of_squares() const {
     return signal_ > 0.0 ? std::sqrt(squares_) / signal_ : 0.0;
 }
 
+double BeamErrors::root_of_runs() const {
+    return signal_ > 0.0 ? std::sqrt(runs_) / signal_ : 0.0;
+}
+
 /// One of `step` beams is drawn, so step - 1 times its distance is that of the others on average.
 /// The mean square of the difference of two draws is twice their variance.
 void BeamErrors::end_beam() {
@@ -66,6 +70,7 @@ void BeamErrors::end_beam() {
         const double change = last_ < 0.0 ? 0.0 : distance - last_;
         checked_ += distance;
         squares_ += BeamSums::squared_difference(sums_, check_);
+        runs_ += BeamSums::squared_runs(sums_, check_);
         others_ += (step - 1.0) * distance;
         variance_ += 0.5 * step * (step - 1.0) * change * change;
         last_ = distance;
@@ -79,6 +84,7 @@ void BeamErrors::end_beam() {
 void BeamErrors::add_edge_bins(BeamSums& sums) {
     Lanes all{};
     Lanes edge_bins{};
+    Lanes occupied{};
     for (int begin = sums.first(); begin <= sums.last(); begin += lanes) {
         for (int k = 0; k < lanes; ++k) {
             const int i = begin + k;
@@ -86,12 +92,14 @@ void BeamErrors::add_edge_bins(BeamSums& sums) {
             const float intensity = sums.intensity(i);
             const float share = sums.area(i) < thin_share * fuller ? thin_error_rate : 0.0F;
             all[k] += intensity;
+            occupied[k] += intensity > 0.0F ? 1.0F : 0.0F;
             edge_bins[k] +=
                 intensity * (sums.area(i) < thinnest_share * fuller ? thinnest_error_rate : share);
         }
     }
     signal_ += sum_of(all);
     edge_bins_ += sum_of(edge_bins);
+    occupied_ += sum_of(occupied);
     std::vector<int>& touched = sums.touched();
     std::ranges::sort(touched);
     touched.erase(std::unique(touched.begin(), touched.end()), touched.end());

@@ -33,6 +33,13 @@ class BeamErrors {
     /// The root of the sum over their bins of the squared distances.
     double root_of_squares() const;
 
+    /// The same with runs of neighbouring bins that are all too bright or all too dark instead of
+    /// bins.
+    double root_of_runs() const;
+
+    /// The number of bins with an echo in the finished beams.
+    double occupied_bins() const { return occupied_; }
+
     /// The distance of the other beams from checks of theirs, estimated from the drawn ones.
     double of_others() const { return signal_ > 0.0 ? others_ / signal_ : 0.0; }
 
@@ -54,6 +61,8 @@ class BeamErrors {
     double edge_bins_ = 0.0;
     double checked_ = 0.0;
     double squares_ = 0.0;
+    double runs_ = 0.0;
+    double occupied_ = 0.0;
     double others_ = 0.0;
     double variance_ = 0.0;
     double last_ = -1.0;  ///< distance of the last drawn beam; negative: none

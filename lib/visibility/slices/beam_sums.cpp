@@ -79,6 +79,21 @@ double BeamSums::squared_difference(const BeamSums& a, const BeamSums& b) {
     return sum;
 }
 
+double BeamSums::squared_runs(const BeamSums& a, const BeamSums& b) {
+    double sum = 0.0;
+    double run = 0.0;
+    const int last = std::max(a.last_, b.last_);
+    for (int i = std::min(a.first_, b.first_); i <= last; ++i) {
+        const auto d = static_cast<double>(a.intensity(i) - b.intensity(i));
+        if (!(run * d > 0.0)) {
+            sum += run * run;
+            run = 0.0;
+        }
+        run += d;
+    }
+    return sum + run * run;
+}
+
 void BeamSums::clear() {
     touched_.clear();
     if (last_ >= 0) {

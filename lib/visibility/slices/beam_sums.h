@@ -27,6 +27,8 @@ class BeamSums {
     /// The sum over the bins of the absolute difference of the intensities.
     static double difference(const BeamSums& a, const BeamSums& b);
     static double squared_difference(const BeamSums& a, const BeamSums& b);
+    /// The sum of the squared sums over runs of bins in which the difference has one sign.
+    static double squared_runs(const BeamSums& a, const BeamSums& b);
 
     int count() const { return count_; }
     /// Bins outside of [first, last] are dark.

@@ -40,6 +40,13 @@ constexpr double error_per_difference = 0.16;
 constexpr int most_passes = 3;
 constexpr double aimed_share = 0.8;
 
+// The same if few bins decide, and how many times the slices a further pass has. Fixed numbers of
+// 1, 4, 16 and 64 slices per beam leave median errors of 3.2, 1.0, 0.4 and 0.2 % in 48 drawn
+// lattices of one or two beams (13000 to 13149). Slices that are added where neighbours differ do
+// not converge so surely.
+constexpr int most_passes_of_few = 4;
+constexpr int times_the_slices = 4;
+
 /// Error of an image without errors of visibility: patches of surface become boxes in range.
 double error_of_shapes(double relative_l1) {
     return 0.002 + 0.003 * std::clamp(relative_l1 / 0.03, 0.1, 1.0);
@@ -131,18 +138,16 @@ class SlicesEngine final : public VisibilityEngine {
         const double goal = view.relative_l1;
         View finer = view;
         BeamsToCheck which = beams_to_check(view);
+        int least_slices = slices_for(goal);
         for (int pass = 1;; ++pass) {
-            Pass seen = see(finer, which, goal, pose);
-            const double error = seen.samples.estimated_l1;
-            // More slices do not help against edge bins.
-            const bool hopeless = seen.edge_bins > goal;
-            if (error <= goal || hopeless || pass == most_passes || options_.per_beam > 0)
-                return std::move(seen.samples);
-            if (which == BeamsToCheck::drawn) {
-                which = BeamsToCheck::all;
-            } else {
+            Pass seen = see(finer, which, goal, pose, least_slices);
+            if (is_last(seen, goal, pass)) return std::move(seen.samples);
+            if (seen.few_bins) least_slices *= times_the_slices;
+            if (seen.few_bins || which == BeamsToCheck::all) {
+                const double error = seen.samples.estimated_l1;
                 finer.relative_l1 *= std::clamp(aimed_share * goal / error, 0.25, 0.67);
             }
+            which = BeamsToCheck::all;
         }
     }
 
@@ -160,20 +165,35 @@ class SlicesEngine final : public VisibilityEngine {
     struct Pass {
         Samples samples;
         double edge_bins;  ///< their part of the estimated error
+        bool few_bins;     ///< few bins decide
     };
 
-    /// One pass over a ping, as fine as `view` asks; `goal` is that of the mission.
-    Pass see(const View& view, BeamsToCheck which, double goal, const LocalPose& pose) const {
-        const int per_beam =
-            options_.per_beam > 0 ? options_.per_beam : slices_for(view.relative_l1);
+    /// True if the ping needs no further pass, or gets none.
+    bool is_last(const Pass& seen, double goal, int pass) const {
+        const double enough = seen.few_bins ? enough_for_few_bins(goal, pass) : goal;
+        // More slices do not help against edge bins.
+        const bool hopeless = seen.edge_bins > goal;
+        return seen.samples.estimated_l1 <= enough || hopeless || options_.per_beam > 0 ||
+               pass >= (seen.few_bins ? most_passes_of_few : most_passes);
+    }
+
+    /// One pass over a ping, as fine as `view` asks, with at least so many slices per beam; `goal`
+    /// is that of the mission.
+    Pass see(const View& view, BeamsToCheck which, double goal, const LocalPose& pose,
+             int least_slices) const {
+        const int per_beam = options_.per_beam > 0
+                                 ? options_.per_beam
+                                 : std::max(slices_for(view.relative_l1), least_slices);
         Samples samples;
         samples.beam_begin.assign(view.beams + 1, 0);
         BeamErrors errors(view);
         for (const SliceFrame& frame : slice_frames(view, per_beam))
             see_frame(view, which, goal, pose, frame, samples, errors);
         errors.finish();
-        samples.estimated_l1 = estimated_error(errors);
-        return {std::move(samples), errors.edge_bins()};
+        const bool few_bins = few_bins_decide(errors, goal);
+        samples.estimated_l1 =
+            few_bins ? estimated_error_of_few_bins(errors) : estimated_error(errors);
+        return {std::move(samples), errors.edge_bins(), few_bins};
     }
 
     void see_frame(const View& view, BeamsToCheck which, double goal, const LocalPose& pose,

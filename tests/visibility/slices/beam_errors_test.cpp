@@ -5,6 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "visibility/slices/beam_check.h"
+
 using namespace sonarsim;
 
 TEST_SUITE_BEGIN("slices");
@@ -28,6 +30,24 @@ double error_of(const std::vector<Interval>& surfaces) {
         errors.sums().add(range_m, range_m.to - range_m.from, range_m.to, 1.0F);
     errors.finish();
     return errors.edge_bins();
+}
+
+/// One beam: the middle of each bin of `image`, and of each bin of its check.
+BeamErrors errors_of_bins(const std::vector<int>& image, const std::vector<int>& check) {
+    BeamErrors errors(ten_bins());
+    const auto fill = [](int bin, BeamSums& sums) {
+        const auto low = static_cast<float>(bin) + 0.25F;
+        sums.add({low, low + 0.5F}, 1.0F, low + 0.5F, 1.0F);
+    };
+    errors.begin_beam(0);
+    for (const int bin : image)
+        fill(bin, errors.sums());
+    BeamSums sums(ten_bins());
+    for (const int bin : check)
+        fill(bin, sums);
+    errors.add_check(sums, 1.0);
+    errors.finish();
+    return errors;
 }
 
 }  // namespace
@@ -78,4 +98,32 @@ TEST_CASE("slices: a drawn beam has its check's image, and stands for its neighb
     CHECK(drawn.of_checked() == doctest::Approx(2.0 / 3.0));
     CHECK(drawn.of_others() == doctest::Approx(3.0 * 2.0 / 3.0));
     CHECK(drawn.root_of_squares() == doctest::Approx(std::sqrt(2.0) / 3.0));
+}
+
+TEST_CASE("slices: neighbours that err alike are one run") {
+    // Bins 1 and 2 are too bright, 3 too dark, 7 too dark: runs of 2, 1 and 1 of three bins'
+    // signal.
+    const BeamErrors errors = errors_of_bins({1, 2, 5}, {3, 5, 7});
+    CHECK(errors.occupied_bins() == 3.0);
+    CHECK(errors.of_checked() == doctest::Approx(4.0 / 3.0));
+    CHECK(errors.root_of_runs() == doctest::Approx(std::sqrt(6.0) / 3.0));
+    CHECK(errors.root_of_squares() == doctest::Approx(2.0 / 3.0));
+    CHECK(errors_of_bins({4}, {4}).root_of_runs() == 0.0);
+}
+
+TEST_CASE("slices: the limit of few bins is that of Student's distribution over runs") {
+    // n equal runs of one bin: D = n x and r = sqrt(n) x. The limit is D + t 0.853 r, where the 95
+    // % quantiles of Student's distribution for 4 and 5 degrees of freedom are 2.132 and 2.015.
+    const auto times_r = [](const BeamErrors& errors) -> double {
+        const double above = estimated_error_of_few_bins(errors) - likely_error(errors);
+        return above / (0.853 * errors.root_of_runs());
+    };
+    CHECK(times_r(errors_of_bins({1, 5}, {3, 7})) == doctest::Approx(2.132).epsilon(0.02));
+    CHECK(times_r(errors_of_bins({1, 5}, {3, 7, 9})) == doctest::Approx(2.015).epsilon(0.02));
+    // One run decides alone: above 6 standard deviations in theory, 4.6 by the series.
+    CHECK(times_r(errors_of_bins({1, 2}, {2})) > 4.0);
+    CHECK(estimated_error_of_few_bins(errors_of_bins({2}, {2})) == doctest::Approx(0.0023));
+    // Three bins: at a goal of 3 % one of them is more than the goal allows.
+    CHECK(few_bins_decide(errors_of_bins({1}, {3, 5, 7}), 0.03));
+    CHECK(!few_bins_decide(errors_of_bins({1}, {3, 5, 7}), 3.0));
 }
