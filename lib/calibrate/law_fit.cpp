@@ -110,12 +110,13 @@ void check_speckle(const LawPatches& patches, double skewness_of_logs, double sk
 }
 
 LawPatches law_patches(const std::vector<RecordedPing>& pings, double full_value,
-                       const std::vector<bool>& places) {
+                       const std::vector<bool>& places, double offset) {
     const double step = full_value > 15.0 ? 1.0 : full_value / 65535.0;
     LawPatches out;
     out.values = patch_moments(pings, full_value, [](double v, int) { return v; });
-    out.logs =
-        patch_moments(pings, full_value, [&](double v, int) { return log_of_value(v, step); });
+    out.logs = patch_moments(pings, full_value, [&](double v, int) {
+        return log_of_value(v + offset * full_value, step);
+    });
     if (!places.empty()) {
         const auto elsewhere = [&](const PatchMoments& patch) {
             return !places[static_cast<std::size_t>(patch.place)];
@@ -139,9 +140,10 @@ LawPatches law_patches(const std::vector<RecordedPing>& pings, double full_value
 
 double LawFit::log_power(double value, double full_value) const {
     if (companding == Companding::log)
-        return (value / full_value - 1.0) * dynamic_range_db.value / db_of_neper;
+        return (value / full_value + offset - 1.0) * dynamic_range_db.value / db_of_neper;
     const double step = full_value > 15.0 ? 1.0 : full_value / 65535.0;
-    return 2.0 / gamma.value * (log_of_value(value, step) - logarithm(full_value));
+    return 2.0 / gamma.value *
+           (log_of_value(value + offset * full_value, step) - logarithm(full_value));
 }
 
 double full_value_of(const Recording& recording) {
@@ -155,8 +157,8 @@ double full_value_of(const Recording& recording) {
 }
 
 LawFit fit_law(const std::vector<RecordedPing>& pings, double full_value, int looks,
-               const std::vector<bool>& places) {
-    const LawPatches patches = law_patches(pings, full_value, places);
+               const std::vector<bool>& places, double offset) {
+    const LawPatches patches = law_patches(pings, full_value, places, offset);
     const std::vector<double> all(static_cast<std::size_t>(patches.places), 1.0);
     const double skewness_of_logs = skewness_of(patches.logs, patches.even, all);
     const double skewness_of_values = skewness_of(patches.values, patches.even, all);
@@ -164,6 +166,10 @@ LawFit fit_law(const std::vector<RecordedPing>& pings, double full_value, int lo
 
     LawFit out;
     out.looks = looks;
+    out.offset = offset;
+    for (const std::size_t k : patches.even)
+        out.mean_share += patches.values[k].mean_value / full_value;
+    out.mean_share = out.mean_share / static_cast<double>(patches.even.size()) + offset;
     out.patches = static_cast<int>(patches.even.size());
     out.spread_of_levels = spread_of_levels(patches);
     out.slope = bootstrap(patches.places, [&](const std::vector<double>& weights) {
