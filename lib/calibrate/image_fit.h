@@ -32,7 +32,7 @@ struct KeyEstimate {
 /// The part of an instrument that its images or records tell.
 struct ImageFit {
     LawFit law;
-    std::optional<Bounded> offset;  ///< of a power law
+    std::optional<Bounded> offset;  ///< the one of a power law
     std::optional<NoiseFit> noise;
     std::optional<Bounded> pulse_bins;
     bool pulse_of_echoes = false;  ///< there was no noise to take it from
