@@ -269,18 +269,6 @@ void fit_levels(const Recording& recording, const StartInstrument& start, ImageF
 
 }  // namespace
 
-LawFit stated_law(const ReceiverConfig& receiver) {
-    LawFit out;
-    out.companding = receiver.companding == Companding::log ? Companding::log : Companding::gamma;
-    const double gamma = receiver.companding == Companding::linear ? 1.0 : receiver.gamma;
-    out.gamma = {gamma, gamma, gamma};
-    out.offset = receiver.offset;
-    const double range_db = receiver.dynamic_range_db;
-    out.dynamic_range_db = {range_db, range_db, range_db};
-    out.looks = std::max(receiver.looks, 1);
-    return out;
-}
-
 ImageFit fit_image(const Recording& recording, const StartInstrument& start) {
     ImageFit fit;
     fit.config = start.config;
@@ -290,6 +278,14 @@ ImageFit fit_image(const Recording& recording, const StartInstrument& start) {
     set_noise_law(fit);
     fit_pulse_and_array(recording, fit);
     fit_levels(recording, start, fit);
+    if (start.config.receiver.samples == 1) {
+        fit.notes.emplace_back(
+            "receiver.samples is not estimated: the largest of several samples and several looks "
+            "look much alike");
+    }
+    fit.notes.emplace_back(
+        "beam.elevation_width_deg and elevation_side_lobe_db are not estimated: they need surfaces "
+        "of known strength");
     return fit;
 }
 

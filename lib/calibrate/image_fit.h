@@ -43,9 +43,6 @@ struct ImageFit {
     std::vector<std::string> notes;  ///< says what the pings do not tell, and why
 };
 
-/// The law that an instrument is said to have.
-LawFit stated_law(const ReceiverConfig& receiver);
-
 /// Fits law, noise, pulse and array, in this order. InputError for pings that are none of a sonar.
 ImageFit fit_image(const Recording& recording, const StartInstrument& start);
 

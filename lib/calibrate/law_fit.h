@@ -30,6 +30,9 @@ struct LawFit {
     double log_power(double value, double full_value) const;
 };
 
+/// The law that an instrument is said to have.
+LawFit stated_law(const ReceiverConfig& receiver);
+
 /// The largest value that pings can have: the recording's, else the largest one that they have.
 double full_value_of(const Recording& recording);
 

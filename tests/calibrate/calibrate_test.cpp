@@ -149,6 +149,16 @@ TEST_SUITE("calibrate") {
         CHECK_FALSE(bits_of(wide.pings, 65520.0).has_value());
     }
 
+    TEST_CASE("calibrate: echoes straight ahead that stay are no noise of all elements" *
+              doctest::skip(test::sanitized)) {
+        // Speckle of the scene is the same in every ping; below it the noise is what changes.
+        SonarConfig truth = plain_imaging();
+        truth.instrument.speckle.mode = SpeckleMode::scene;
+        const Recording pings = made_recording(truth, 6, 41, made_bottom(3.0, 5.0));
+        for (const KeyEstimate& e : calibrate(pings, wrong_start(), {}, {}).estimates)
+            CHECK(e.key != "receiver.common_mode_db");
+    }
+
     TEST_CASE("calibrate: pings that tell nothing are refused, with the reason") {
         const SonarConfig start = plain_imaging();
         const auto refused = [&](const Recording& recording, const char* why) {
