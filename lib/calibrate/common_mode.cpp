@@ -26,6 +26,8 @@ Bounded common_mode(const Recording& recording, const LawFit& law, const NoiseFi
     const auto excess = [&](const std::vector<double>& weights) {
         double sum = 0.0, count = 0.0;
         for (std::size_t b = 0; b < noise.used.size(); ++b) {
+            // An echo that stays is straight ahead as well.
+            if (!noise.used[b].alone) continue;
             for (const RecordedPing& ping : recording.pings) {
                 for (int i = noise.used[b].row; i < noise.used[b].row + rows_of_noise_block; ++i) {
                     const double value = ping.values[static_cast<std::size_t>(i) *
@@ -42,7 +44,7 @@ Bounded common_mode(const Recording& recording, const LawFit& law, const NoiseFi
     };
     const Bounded over = bootstrap(static_cast<int>(noise.used.size()), excess, 0.2);
     // Half as strong as the noise of a beam is 1.8 dB more; less may be anything else.
-    if (over.low < 0.5) return {-300.0, -300.0, -300.0};
+    if (!(over.low >= 0.5)) return {-300.0, -300.0, -300.0};
     const auto shared = [](double db) { return db_of_power(power_of_db(db) - 1.0); };
     return {shared(over.value), shared(over.low), shared(over.high)};
 }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "calibrate/log_statistics.h"
+#include "calibrate/delivered_values.h"
 #include "calibrate/looks_fit.h"
 #include "calibrated/decibel.h"
 #include "core/elementary.h"
@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::size_t least_noise_patches = 24;
 constexpr std::size_t least_patches_of_law = 24;
+constexpr double most_offset = 0.3;
 
 /// The places of patches that are noise, for a second fit of the law: noise is Rayleigh's for sure,
 /// and an even patch of echoes may still hold a texture.
@@ -27,21 +28,86 @@ std::vector<bool> noise_places(const PatchClasses& classes) {
     return out;
 }
 
+void widen(Bounded& m, double by) {
+    const double half = m.half_width();
+    const double wider = std::sqrt(half * half + by * by) - half;
+    m.low -= wider;
+    m.high += wider;
+}
+
+/// The offset of a power law: that of the start, unless the pings have one that lies 3.3 standard
+/// errors off it. Values of a logarithm have deviations that do not grow, so theirs is far off.
+std::optional<Bounded> chosen_offset(const Recording& recording, double of_start) {
+    std::optional<Bounded> seen = fit_offset(recording.pings, full_value_of(recording));
+    if (!seen) return {};
+    const double error = seen->half_width() / 1.96;
+    const bool is_one = seen->value > 0.0 && seen->value < most_offset &&
+                        std::fabs(seen->value - of_start) > 3.3 * error;
+    if (!is_one) seen->value = of_start;
+    seen->low = std::min(std::max(seen->low, 0.0), seen->value);
+    seen->high = std::max(seen->high, seen->value);
+    return seen;
+}
+
+/// The law for the number of looks of the start, with its offset.
+void fit_first_law(const Recording& recording, const ReceiverConfig& start, ImageFit& fit) {
+    const double full_value = full_value_of(recording);
+    const int looks = std::max(start.looks, 1);
+    const std::optional<Bounded> offset = chosen_offset(recording, start.offset);
+    fit.law =
+        fit_law(recording.pings, full_value, looks, {}, offset ? offset->value : start.offset);
+    if (fit.law.companding == Companding::log) {
+        if (fit.law.offset != start.offset)
+            fit.law = fit_law(recording.pings, full_value, looks, {}, start.offset);
+        fit.notes.emplace_back(
+            "receiver.offset: after a logarithm it is one with the level; that of the start is "
+            "kept");
+        return;
+    }
+    if (!offset) {
+        fit.notes.emplace_back(
+            "receiver.offset: patches of one level do not tell it; that of the start is kept");
+        return;
+    }
+    fit.offset = offset;
+    fit.config.receiver.offset = offset->value;
+    fit.estimates.push_back({"receiver.offset", *offset, ""});
+}
+
+void set_bits(const Recording& recording, ImageFit& fit) {
+    const std::optional<int> bits = recording.law.full_value > 0.0
+                                        ? bits_of(recording.pings, recording.law.full_value)
+                                        : std::nullopt;
+    if (!bits || *bits < 8 || *bits > 16) {
+        fit.notes.emplace_back(
+            "receiver.bits: the recording has no largest value of 8 to 16 bits, or its values are "
+            "not whole steps of it; those of the start are kept");
+        return;
+    }
+    fit.config.receiver.bits = *bits;
+    const double number = *bits;
+    fit.estimates.push_back({"receiver.bits", {number, number, number}, ""});
+}
+
 void fit_law_and_looks(const Recording& recording, const StartInstrument& start, ImageFit& fit) {
     const double full_value = full_value_of(recording);
     const int start_looks = std::max(start.config.receiver.looks, 1);
-    fit.law = fit_law(recording.pings, full_value, start_looks);
+    fit_first_law(recording, start.config.receiver, fit);
     const Bounded slope = fit.law.slope;
     fit.noise = fit_noise(noise_blocks(recording, fit.law), start.absorption_db_per_m);
     const PatchClasses classes = classified(recording, fit.law, fit.noise);
     const std::vector<bool> places = noise_places(classes);
     const int looks = fit_looks(skewness_of_noise(classes, fit.law), start_looks, fit.notes);
     if (!places.empty() || looks != start_looks)
-        fit.law = fit_law(recording.pings, full_value, looks, places);
+        fit.law = fit_law(recording.pings, full_value, looks, places, fit.law.offset);
     if (looks != start_looks) {
         const auto n = static_cast<double>(looks);
         fit.estimates.push_back({"receiver.looks", {n, n, n}, ""});
         fit.config.receiver.looks = looks;
+    }
+    if (fit.offset) {
+        const double share = fit.offset->half_width() / fit.law.mean_share;
+        widen(fit.law.gamma, fit.law.gamma.value * share);
     }
     fit.law.slope = slope;
     fit.noise = fit_noise(noise_blocks(recording, fit.law), start.absorption_db_per_m);
@@ -64,13 +130,6 @@ void set_law(ImageFit& fit) {
     receiver.gamma = fit.law.gamma.value;
     fit.estimates.push_back({"receiver.companding", {}, "gamma"});
     fit.estimates.push_back({"receiver.gamma", fit.law.gamma, ""});
-}
-
-void widen(Bounded& m, double by) {
-    const double half = m.half_width();
-    const double wider = std::sqrt(half * half + by * by) - half;
-    m.low -= wider;
-    m.high += wider;
 }
 
 /// An error of the law scales all levels below full scale, and the gain with them.
@@ -210,25 +269,23 @@ void fit_levels(const Recording& recording, const StartInstrument& start, ImageF
 
 }  // namespace
 
-LawFit stated_law(const ReceiverConfig& receiver) {
-    LawFit out;
-    out.companding = receiver.companding == Companding::log ? Companding::log : Companding::gamma;
-    const double gamma = receiver.companding == Companding::linear ? 1.0 : receiver.gamma;
-    out.gamma = {gamma, gamma, gamma};
-    const double range_db = receiver.dynamic_range_db;
-    out.dynamic_range_db = {range_db, range_db, range_db};
-    out.looks = std::max(receiver.looks, 1);
-    return out;
-}
-
 ImageFit fit_image(const Recording& recording, const StartInstrument& start) {
     ImageFit fit;
     fit.config = start.config;
     fit_law_and_looks(recording, start, fit);
+    set_bits(recording, fit);
     set_law(fit);
     set_noise_law(fit);
     fit_pulse_and_array(recording, fit);
     fit_levels(recording, start, fit);
+    if (start.config.receiver.samples == 1) {
+        fit.notes.emplace_back(
+            "receiver.samples is not estimated: the largest of several samples and several looks "
+            "look much alike");
+    }
+    fit.notes.emplace_back(
+        "beam.elevation_width_deg and elevation_side_lobe_db are not estimated: they need surfaces "
+        "of known strength");
     return fit;
 }
 

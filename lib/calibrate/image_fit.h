@@ -32,6 +32,7 @@ struct KeyEstimate {
 /// The part of an instrument that its images or records tell.
 struct ImageFit {
     LawFit law;
+    std::optional<Bounded> offset;  ///< the one of a power law
     std::optional<NoiseFit> noise;
     std::optional<Bounded> pulse_bins;
     bool pulse_of_echoes = false;  ///< there was no noise to take it from
@@ -41,9 +42,6 @@ struct ImageFit {
     std::vector<KeyEstimate> estimates;
     std::vector<std::string> notes;  ///< says what the pings do not tell, and why
 };
-
-/// The law that an instrument is said to have.
-LawFit stated_law(const ReceiverConfig& receiver);
 
 /// Fits law, noise, pulse and array, in this order. InputError for pings that are none of a sonar.
 ImageFit fit_image(const Recording& recording, const StartInstrument& start);

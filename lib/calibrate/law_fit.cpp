@@ -93,8 +93,10 @@ double lasting_correlation(const LawPatches& patches) {
     return 1.0 - structure / variance;
 }
 
-void check_speckle(const LawPatches& patches, double skewness_of_logs, double skewness_of_values) {
-    const auto speckle = [](double skewness) { return skewness > -2.0 && skewness < -0.3; };
+/// InputError where no skewness between those of one look and of eight, about -1.14 and -0.4, is
+/// within the errors.
+void check_speckle(const LawPatches& patches, const Bounded& of_logs, const Bounded& of_values) {
+    const auto speckle = [](const Bounded& s) { return s.high > -2.0 && s.low < -0.3; };
     const double lasting = lasting_correlation(patches);
     if (lasting > 0.6) {
         throw InputError("values 8 bins apart have the correlation " +
@@ -102,20 +104,21 @@ void check_speckle(const LawPatches& patches, double skewness_of_logs, double sk
                          ", speckle of a sonar much less: is this a photograph, a picture that was "
                          "smoothed, or a pulse of many bins?");
     }
-    if (speckle(skewness_of_logs) || speckle(skewness_of_values)) return;
+    if (speckle(of_logs) || speckle(of_values)) return;
     throw InputError("the logarithms of neighbouring values have a skewness of " +
-                     std::to_string(skewness_of_logs).substr(0, 5) +
+                     std::to_string(of_logs.value).substr(0, 5) +
                      ", speckle of a sonar has -1.14: is this a photograph, or were the values "
                      "changed after the sonar?");
 }
 
 LawPatches law_patches(const std::vector<RecordedPing>& pings, double full_value,
-                       const std::vector<bool>& places) {
+                       const std::vector<bool>& places, double offset) {
     const double step = full_value > 15.0 ? 1.0 : full_value / 65535.0;
     LawPatches out;
     out.values = patch_moments(pings, full_value, [](double v, int) { return v; });
-    out.logs =
-        patch_moments(pings, full_value, [&](double v, int) { return log_of_value(v, step); });
+    out.logs = patch_moments(pings, full_value, [&](double v, int) {
+        return log_of_value(v + offset * full_value, step);
+    });
     if (!places.empty()) {
         const auto elsewhere = [&](const PatchMoments& patch) {
             return !places[static_cast<std::size_t>(patch.place)];
@@ -139,9 +142,22 @@ LawPatches law_patches(const std::vector<RecordedPing>& pings, double full_value
 
 double LawFit::log_power(double value, double full_value) const {
     if (companding == Companding::log)
-        return (value / full_value - 1.0) * dynamic_range_db.value / db_of_neper;
+        return (value / full_value + offset - 1.0) * dynamic_range_db.value / db_of_neper;
     const double step = full_value > 15.0 ? 1.0 : full_value / 65535.0;
-    return 2.0 / gamma.value * (log_of_value(value, step) - logarithm(full_value));
+    return 2.0 / gamma.value *
+           (log_of_value(value + offset * full_value, step) - logarithm(full_value));
+}
+
+LawFit stated_law(const ReceiverConfig& receiver) {
+    LawFit out;
+    out.companding = receiver.companding == Companding::log ? Companding::log : Companding::gamma;
+    const double gamma = receiver.companding == Companding::linear ? 1.0 : receiver.gamma;
+    out.gamma = {gamma, gamma, gamma};
+    out.offset = receiver.offset;
+    const double range_db = receiver.dynamic_range_db;
+    out.dynamic_range_db = {range_db, range_db, range_db};
+    out.looks = std::max(receiver.looks, 1);
+    return out;
 }
 
 double full_value_of(const Recording& recording) {
@@ -155,15 +171,24 @@ double full_value_of(const Recording& recording) {
 }
 
 LawFit fit_law(const std::vector<RecordedPing>& pings, double full_value, int looks,
-               const std::vector<bool>& places) {
-    const LawPatches patches = law_patches(pings, full_value, places);
+               const std::vector<bool>& places, double offset) {
+    const LawPatches patches = law_patches(pings, full_value, places, offset);
     const std::vector<double> all(static_cast<std::size_t>(patches.places), 1.0);
-    const double skewness_of_logs = skewness_of(patches.logs, patches.even, all);
-    const double skewness_of_values = skewness_of(patches.values, patches.even, all);
-    check_speckle(patches, skewness_of_logs, skewness_of_values);
+    const auto skewness = [&](const std::vector<PatchMoments>& of) {
+        return bootstrap(patches.places, [&](const std::vector<double>& weights) {
+            return skewness_of(of, patches.even, weights);
+        });
+    };
+    const Bounded of_logs = skewness(patches.logs);
+    const Bounded of_values = skewness(patches.values);
+    check_speckle(patches, of_logs, of_values);
 
     LawFit out;
     out.looks = looks;
+    out.offset = offset;
+    for (const std::size_t k : patches.even)
+        out.mean_share += patches.values[k].mean_value / full_value;
+    out.mean_share = out.mean_share / static_cast<double>(patches.even.size()) + offset;
     out.patches = static_cast<int>(patches.even.size());
     out.spread_of_levels = spread_of_levels(patches);
     out.slope = bootstrap(patches.places, [&](const std::vector<double>& weights) {
@@ -171,14 +196,12 @@ LawFit fit_law(const std::vector<RecordedPing>& pings, double full_value, int lo
     });
     const double expected = log_power_skewness(looks);
     const bool by_slope = out.spread_of_levels > least_spread_of_levels;
-    const bool power_law = by_slope ? out.slope.value > power_law_slope
-                                    : std::fabs(skewness_of_logs - expected) <
-                                          std::fabs(skewness_of_values - expected);
+    const bool power_law =
+        by_slope ? out.slope.value > power_law_slope
+                 : std::fabs(of_logs.value - expected) < std::fabs(of_values.value - expected);
     out.companding = power_law ? Companding::gamma : Companding::log;
     const std::vector<PatchMoments>& used = power_law ? patches.logs : patches.values;
-    out.skewness = bootstrap(patches.places, [&](const std::vector<double>& weights) {
-        return skewness_of(used, patches.even, weights);
-    });
+    out.skewness = power_law ? of_logs : of_values;
     const double sigma = std::sqrt(log_power_variance(looks));
     const auto deviation = [&](const std::vector<double>& weights) {
         return std::sqrt(sums_of(used, patches.even, weights).variance);

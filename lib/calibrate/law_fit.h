@@ -23,18 +23,24 @@ struct LawFit {
     Bounded skewness;               ///< logarithm of the power; -1.14 for one look
     int looks = 1;                  ///< the number that the law was fitted for
     int patches = 0;
+    double offset = 0.0;      ///< added to the values, as a share of full_value
+    double mean_share = 0.0;  ///< mean of the values with it, as a share of full_value
 
     /// ln P, P the power by full scale, of a value. Values below half a step count as half a step.
     double log_power(double value, double full_value) const;
 };
 
+/// The law that an instrument is said to have.
+LawFit stated_law(const ReceiverConfig& receiver);
+
 /// The largest value that pings can have: the recording's, else the largest one that they have.
 double full_value_of(const Recording& recording);
 
 /// The law of pings with so many `looks`, of the even half of all patches or of the even half of
-/// those at these places in a patch grid. InputError, which says why, when their values are none of
-/// speckle: a photograph, too few patches, values that stay alike over a whole patch.
+/// those at these places in a patch grid, after `offset` was added to all values. InputError, which
+/// says why, when their values are none of speckle: a photograph, too few patches, values that stay
+/// alike over a whole patch.
 LawFit fit_law(const std::vector<RecordedPing>& pings, double full_value, int looks,
-               const std::vector<bool>& places = {});
+               const std::vector<bool>& places = {}, double offset = 0.0);
 
 }  // namespace sonarsim

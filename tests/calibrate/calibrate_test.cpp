@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "calibrate/delivered_values.h"
 #include "calibrate/made_pings.h"
 #include "calibrate/usable.h"
 #include "core/error.h"
@@ -119,6 +120,43 @@ TEST_SUITE("calibrate") {
         }
         MESSAGE("figures: ", recovered.figures, ", of the start ", recovered.agree_of_start,
                 ", held out ", recovered.agree_held_out);
+    }
+
+    TEST_CASE("calibrate: offset and bits of the values that the sonar delivers" *
+              doctest::skip(test::sanitized)) {
+        SonarConfig truth = plain_imaging();
+        ReceiverConfig& receiver = truth.instrument.receiver;
+        receiver.offset = 0.03;
+        receiver.bits = 12;
+        receiver.full_scale_db = -62.0;
+        const Recording pings = made_recording(truth, 6, 5, {});
+        std::map<std::string, Bounded> found;
+        for (const KeyEstimate& e : calibrate(pings, wrong_start(), {}, {}).estimates)
+            found[e.key] = e.number;
+        CHECK(found["receiver.bits"].value == 12.0);
+        CHECK(found["receiver.offset"].holds(0.03));
+        CHECK(found["receiver.offset"].low > 0.01);
+        CHECK(found["receiver.gamma"].holds(receiver.gamma));
+        // 4,095 times 16 is the largest value of 12 bits in 16; halves are no steps.
+        Recording wide = pings;
+        for (RecordedPing& ping : wide.pings) {
+            for (float& value : ping.values)
+                value *= 16.0F;
+        }
+        CHECK(bits_of(wide.pings, 65520.0) == 12);
+        CHECK_FALSE(bits_of(wide.pings, 65535.0).has_value());
+        wide.pings.front().values.front() = 0.5F;
+        CHECK_FALSE(bits_of(wide.pings, 65520.0).has_value());
+    }
+
+    TEST_CASE("calibrate: echoes straight ahead that stay are no noise of all elements" *
+              doctest::skip(test::sanitized)) {
+        // Speckle of the scene is the same in every ping; below it the noise is what changes.
+        SonarConfig truth = plain_imaging();
+        truth.instrument.speckle.mode = SpeckleMode::scene;
+        const Recording pings = made_recording(truth, 6, 41, made_bottom(3.0, 5.0));
+        for (const KeyEstimate& e : calibrate(pings, wrong_start(), {}, {}).estimates)
+            CHECK(e.key != "receiver.common_mode_db");
     }
 
     TEST_CASE("calibrate: pings that tell nothing are refused, with the reason") {
