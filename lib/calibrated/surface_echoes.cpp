@@ -148,13 +148,14 @@ class SurfaceEchoFinder {
         });
     }
 
+    /// Particles are points: their labels fill a resolution cell.
     void add_particles(const SeenParticles& particles) {
         PingCounts ignored;
-        const auto point = [](int) { return 0.0F; };
+        const auto spot = [&](int) { return 0.5F * model_.target_cells.sine_y; };
         find_particles(model_, beams_, particles.samples, ignored,
                        [&](const PatchBlock& points, const PointEchoes& echoes) {
                            last_piece_ = -1;
-                           for_each_beam(points, echoes, nullptr, point,
+                           for_each_beam(points, echoes, nullptr, spot,
                                          [&](int beam, int k, float power) {
                                              add_particle(particles.samples[points.sample[k]],
                                                           {beam, k}, echoes.range_m[k], power);
@@ -195,7 +196,8 @@ class SurfaceEchoFinder {
     };
 
     void add_particle(const Sample& sample, const Received& at, float range_m, float power) {
-        direct_.push_back({static_cast<std::uint32_t>(at.beam), range_m, 0.0F, power, &sample});
+        const float half_m = 0.5F * model_.target_cells.depth_m;
+        direct_.push_back({static_cast<std::uint32_t>(at.beam), range_m, half_m, power, &sample});
         if (!patches_) return;
         add_echo(at.beam, at.piece, power, [&] {
             return EchoPatch{.position = sample.position,

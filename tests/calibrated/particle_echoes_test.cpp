@@ -193,10 +193,11 @@ TEST_SUITE("calibrated") {
         CHECK(found.labels.share[at] == 1.0F);
         CHECK(found.labels.material[at] == fish.material + 1);
         CHECK(found.labels.elevation_rad[at] == doctest::Approx(0.02).epsilon(0.02));
-        // Nothing else has that label.
+        // A resolution cell has that label: a beam and a bin, cut by the borders of two of each.
         int count = 0;
         for (const std::uint16_t object : found.labels.object)
             count += object == found.labels.object[at] ? 1 : 0;
-        CHECK(count == 1);
+        CHECK(count >= 1);
+        CHECK(count <= 9);
     }
 }

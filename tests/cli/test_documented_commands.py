@@ -40,6 +40,9 @@ NOT_RUN = {
     "sonarsim calibrate out/real --preset gemini_720is --out mine.yaml --report mine.json":
         "needs pings of a real sonar; test_calibrate.py makes some",
     "sonarsim calibrate out/real --preset START --out MINE": "the same",
+    "scripts/before_after.py build/sonarsim out/before_after":
+        "writes pictures into docs, in a minute, and needs python3-pil",
+    "scripts/stage_costs.py": HOURS,
     "sonarsim report --hard": "takes minutes; tests/hard runs the same catalogue",
     "scripts/slurm/render.sh 64 mission.yaml out/big --time=60 --cpus-per-task=4":
         "needs Slurm; test_clusters.py runs it with a stand-in",
