@@ -9,6 +9,7 @@
 #include "core/units.h"
 #include "support/sanitized.h"
 #include "support/scenes.h"
+#include "visibility/auto_engine.h"
 #include "visibility/image_change.h"
 #include "visibility/rays/rays_engine.h"
 #include "visibility/slices/slices_engine.h"
@@ -87,6 +88,20 @@ TEST_SUITE("dense rays") {
         REQUIRE(chosen.items.size() == rays.items.size());
         CHECK(chosen.beam_begin == rays.beam_begin);
         CHECK(chosen.estimated_l1 == rays.estimated_l1);
+    }
+
+    TEST_CASE("auto takes them over many triangles" * doctest::skip(test::sanitized)) {
+        Scene scene = test::empty_scene();
+        test::add_floor(scene, 20.0F, 0.0F, test::add_material(scene, 0.3F), 1025);
+        REQUIRE(scene.triangles.size() > many_triangles);
+        const Caster caster(scene);
+        const std::vector<Probe> probes = at_the_border(dense_view(0.03));
+        const View& view = probes.front().view;
+        const Pose& pose = probes.front().T_world_sensor;
+        const auto chosen = make_auto_engine(scene, caster, {}, probes, false);
+        const auto rays = make_rays_engine(scene, caster, false);
+        CHECK(chosen->visible_surface(view, pose).items.size() ==
+              rays->visible_surface(view, pose).items.size());
     }
 
     TEST_CASE("beams that are cast apart follow each other") {
