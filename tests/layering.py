@@ -50,7 +50,8 @@ PARTS = {
             ["variants"], ["status", "variants_check", "collection_check"]],
     "scene": [["*"], ["images/", "meshes/"], ["heightmap/", "maps/", "seabed/"], ["gltf/", "placing/"]],
     "validation": [["*"], ["hard/"]],
-    "visibility": [["*"], ["octree/", "rays/", "slices/"], ["auto_engine"], ["make_engine"]],
+    "visibility": [["*"], ["octree/", "rays/", "slices/"], ["dense_rays"], ["auto_engine"],
+                   ["make_engine"]],
 }
 # These folders work with what was traced, and take its ranges from arrivals.
 AFTER_THE_TRACE = {"paper", "calibrated", "ping", "labels", "product", "sonar", "assembly", "dataset", "checks", "job"}

@@ -145,6 +145,12 @@ void lay_ground_maps(const SceneConfig& config, const MaterialTable& table, cons
                                      map.scale_db, map.offset_db);
         });
         if (map.laid.placed == MapPlacing::above) warn_of_place(strengths->frame, section, scene);
+        if (!strengths->factor.empty() &&
+            std::ranges::all_of(strengths->factor, [](float x) { return x == 1.0F; })) {
+            scene.warnings.push_back(section +
+                                     " changes nothing: each of its pixels is unknown or "
+                                     "0 dB; check no_data, scale_db and offset_db");
+        }
     }
     const LaidMapConfig& laid =
         config.sediment_map ? config.sediment_map->laid : config.backscatter_map->laid;

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "visibility/dense_rays.h"
 #include "visibility/image_change.h"
 #include "visibility/rays/rays_engine.h"
-#include "visibility/view_parts.h"
 
 namespace sonarsim {
 
@@ -18,14 +18,6 @@ namespace {
 // With fewer triangles in the whole scene the slices were faster at every goal, or rays missed the
 // goal.
 constexpr std::size_t few_triangles = 20'000;
-
-// With more of them the engines see only parts of a view before the choice. Chosen: fine slices of
-// all beams over eight million triangles of rough ground took more than 20 GB and 100 s.
-constexpr std::size_t many_triangles = std::size_t{1} << 21;
-
-// Rays whose estimated error is this multiple of the goal are not compared with slices. Chosen: the
-// estimate of rays over rough ground was 3.4 times the goal.
-constexpr double near_goal = 2.0;
 
 // Per sample, rays take 0.8 to 1.4 times as long as slices on the tank, the wreck and the sea
 // floor, so rays with half of the samples are faster.
@@ -48,10 +40,10 @@ struct RaysView {
 
 /// The slices' image from a probe.
 struct SlicesImage {
-    std::vector<Sight> parts;   ///< the view, or parts of it
-    std::vector<double> image;  ///< part after part
-    double error = 0.0;         ///< the worst part's
-    double samples = 0.0;       ///< at the goal of the view
+    Pose T_world_sensor;
+    std::vector<double> image;
+    double error;
+    double samples;  ///< at the goal of the view
 };
 
 View with_goal(View view, double relative_l1) {
@@ -59,47 +51,17 @@ View with_goal(View view, double relative_l1) {
     return view;
 }
 
-void append(std::vector<double>& image, const std::vector<double>& part) {
-    image.insert(image.end(), part.begin(), part.end());
-}
-
-/// The views that the engines see of a probe.
-std::vector<Sight> sights_of(const Scene& scene, const Probe& probe) {
-    if (scene.triangles.size() > many_triangles) return parts_of(probe.view, probe.T_world_sensor);
-    return {{probe.view, probe.T_world_sensor}};
-}
-
-/// True if a view's rays are worth a comparison with slices. Over many triangles, which make fine
-/// slices expensive, their own estimate has to be near the goal.
-bool may_do_by_rays(const Scene& scene, const View& view, std::span<const Probe> probes,
-                    const VisibilityEngine& rays) {
-    if (scene.triangles.size() <= many_triangles) return true;
-    return std::ranges::all_of(probes, [&](const Probe& probe) {
-        return probe.view != view ||
-               std::ranges::all_of(sights_of(scene, probe), [&](const Sight& sight) {
-                   return rays.visible_surface(sight.view, sight.T_world_sensor).estimated_l1 <=
-                          near_goal * view.relative_l1;
-               });
-    });
-}
-
 std::vector<SlicesImage> slices_images(const Scene& scene, const View& view,
                                        std::span<const Probe> probes,
                                        const VisibilityEngine& slices) {
+    const View fine = with_goal(view, share_for_slices * view.relative_l1);
     std::vector<SlicesImage> images;
     for (const Probe& probe : probes) {
         if (probe.view != view) continue;
-        SlicesImage& by_slices = images.emplace_back();
-        by_slices.parts = sights_of(scene, probe);
-        for (const auto& [part, pose] : by_slices.parts) {
-            const View fine = with_goal(part, share_for_slices * view.relative_l1);
-            const auto samples = slices.visible_surface(part, pose).items.size();
-            const Samples seen = slices.visible_surface(fine, pose);
-            append(by_slices.image, mean_echoes(scene, part, seen));
-            by_slices.error = std::max(by_slices.error, seen.estimated_l1);
-            by_slices.samples += static_cast<double>(samples);
-        }
-        by_slices.samples = std::max(by_slices.samples, 1.0);
+        const std::size_t samples = slices.visible_surface(view, probe.T_world_sensor).items.size();
+        const Samples seen = slices.visible_surface(fine, probe.T_world_sensor);
+        images.push_back({probe.T_world_sensor, mean_echoes(scene, view, seen), seen.estimated_l1,
+                          static_cast<double>(std::max<std::size_t>(samples, 1))});
     }
     return images;
 }
@@ -108,15 +70,11 @@ RaysTrial try_goal(const Scene& scene, const View& view, double goal,
                    std::span<const SlicesImage> by_slices, const VisibilityEngine& rays) {
     RaysTrial worst{.goal = goal};
     for (const SlicesImage& known : by_slices) {
-        std::vector<double> image;
-        double samples = 0.0;
-        for (const auto& [part, pose] : known.parts) {
-            const Samples seen = rays.visible_surface(with_goal(part, goal), pose);
-            append(image, mean_echoes(scene, part, seen));
-            samples += static_cast<double>(seen.items.size());
-        }
-        worst.error = std::max(worst.error, image_change(image, known.image) + known.error);
-        worst.samples_share = std::max(worst.samples_share, samples / known.samples);
+        const Samples seen = rays.visible_surface(with_goal(view, goal), known.T_world_sensor);
+        const double change = image_change(mean_echoes(scene, view, seen), known.image);
+        worst.error = std::max(worst.error, change + known.error);
+        worst.samples_share =
+            std::max(worst.samples_share, static_cast<double>(seen.items.size()) / known.samples);
         if (worst.error > view.relative_l1) break;
     }
     return worst;
@@ -180,6 +138,8 @@ std::unique_ptr<VisibilityEngine> make_auto_engine(const Scene& scene, const Cas
                                                    std::span<const Probe> probes, bool coverage) {
     if (!scene.bodies.empty() || !scene.copies.empty())
         return make_rays_engine(scene, caster, coverage);
+    if (scene.triangles.size() > many_triangles)
+        return make_dense_rays_engine(scene, caster, probes, coverage);
     auto slices = make_slices_engine(scene, caster, options, coverage);
     const bool few = scene.triangles.size() < few_triangles;
     if (few && std::ranges::all_of(probes, [](const Probe& p) { return p.rays_goal == 0.0; }))
@@ -190,16 +150,12 @@ std::unique_ptr<VisibilityEngine> make_auto_engine(const Scene& scene, const Cas
     for (const Probe& probe : probes) {
         if (std::ranges::find(tried, probe.view) != tried.end()) continue;
         tried.push_back(probe.view);
-        double goal = 0.0;
-        for (const Probe& other : probes) {
-            if (other.view != probe.view || other.rays_goal == 0.0) continue;
-            goal = goal == 0.0 ? other.rays_goal : std::min(goal, other.rays_goal);
-        }
+        const double goal = required_goal(probe.view, probes);
         if (goal > 0.0) {
             better.push_back({probe.view, goal, std::numeric_limits<double>::quiet_NaN()});
             continue;
         }
-        if (few || !may_do_by_rays(scene, probe.view, probes, *rays)) continue;
+        if (few) continue;
         const RaysTrial trial = try_rays(scene, probe.view, probes, *rays, *slices);
         if (rays_are_better(trial, probe.view))
             better.push_back({probe.view, trial.goal, trial.error});

@@ -3,19 +3,12 @@
 #include <memory>
 #include <span>
 
-#include "core/pose.h"
 #include "scene/scene.h"
 #include "visibility/engine.h"
+#include "visibility/probe.h"
 #include "visibility/slices/slices_engine.h"
 
 namespace sonarsim {
-
-/// A view and a pose for the choice of an engine.
-struct Probe {
-    View view;
-    Pose T_world_sensor;
-    double rays_goal = 0.0;  ///< above 0: use rays with this goal, whatever the slices' error
-};
 
 /// Result of a comparison of rays with slices on the probes of a view.
 struct RaysTrial {
@@ -38,9 +31,10 @@ bool rays_are_better(const RaysTrial& trial, const View& view);
 /// Makes an engine of slices, or of rays for those views among the `probes` for which rays are
 /// better or required. Nothing is timed: the same scene and probes give the same choice everywhere.
 /// Scenes of few triangles get slices without a comparison; scenes with bodies or copies get rays,
-/// the only engine that traces them. The estimated error of a ping by rays is the bound found on
-/// the probes, or the rays' own if they were required. `scene` must outlive the engine. `coverage`
-/// as for make_rays_engine(). Throws std::runtime_error when Embree cannot build its tree.
+/// the only engine that traces them, and scenes of many triangles those of dense_rays.h. The
+/// estimated error of a ping by rays is the bound found on the probes, or the rays' own if they
+/// were required. `scene` must outlive the engine. `coverage` as for make_rays_engine(). Throws
+/// std::runtime_error when Embree cannot build its tree.
 std::unique_ptr<VisibilityEngine> make_auto_engine(const Scene& scene, const SlicesOptions& slices,
                                                    std::span<const Probe> probes,
                                                    bool coverage = false);

@@ -287,6 +287,12 @@ class GroundMaps(Composed):
         self.assertIn("scene.backscatter_map lies outside the scene and changes nothing: the map has x -1000 to "
                       "-980 m, y -10 to 10 m, the scene x -10 to 10 m", result.stdout + result.stderr)
 
+    def test_a_map_of_no_decibels(self):
+        self.mission(DECIBELS % ", scale_db: 0")
+        result = self.run_sonarsim("validate", "mission.yaml")
+        self.assertIn("scene.backscatter_map changes nothing: each of its pixels is unknown or 0 dB; check no_data",
+                      result.stdout + result.stderr)
+
     def test_refused(self):
         for maps, fragments in (
                 ((QUARTERS % "").replace("4: Concrete", "5: Concrete"),

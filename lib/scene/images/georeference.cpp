@@ -102,7 +102,14 @@ Georeference reference_of_tiff(const std::filesystem::path& image) {
         out.grid->row_m *= unit_m;
     }
     const auto text = tags.texts.find(no_data_tag);
-    if (text != tags.texts.end()) out.no_data = parse_number(trim(text->second));
+    if (text != tags.texts.end()) {
+        out.no_data = parse_number(trim(text->second));
+        if (!out.no_data) {
+            throw InputError(where, "has the mark of unknown pixels '" + text->second +
+                                        "' (GDAL_NODATA), which is no number; set it anew, as "
+                                        "with gdal_translate -a_nodata -9999");
+        }
+    }
     return out;
 }
 

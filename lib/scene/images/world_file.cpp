@@ -12,17 +12,25 @@ namespace sonarsim {
 
 namespace {
 
-/// The names that a world file may have: ".tif" gives ".tfw", ".tifw" and ".wld".
+std::string in_capitals(std::string text) {
+    for (char& letter : text)
+        letter = letter >= 'a' && letter <= 'z' ? static_cast<char>(letter - 'a' + 'A') : letter;
+    return text;
+}
+
+/// The names that a world file may have: ".tif" gives ".tfw", ".tifw" and ".wld", and
+/// the same in capitals.
 std::filesystem::path find_world_file(const std::filesystem::path& image) {
     const std::string extension = image.extension().string();
     std::string brief = "." + extension.substr(extension.size() < 2 ? 0 : 1, 1);
     if (!extension.empty()) brief += extension.back();
     std::error_code ignored;
-    for (const std::string& end : {brief + "w", extension + "w", std::string(".wld"), brief + "W",
-                                   extension + "W", std::string(".WLD")}) {
-        std::filesystem::path file = image;
-        file.replace_extension(end);
-        if (std::filesystem::is_regular_file(file, ignored)) return file;
+    for (const std::string& end : {brief + "w", extension + "w", std::string(".wld")}) {
+        for (const std::string& name : {end, in_capitals(end)}) {
+            std::filesystem::path file = image;
+            file.replace_extension(name);
+            if (std::filesystem::is_regular_file(file, ignored)) return file;
+        }
     }
     return {};
 }

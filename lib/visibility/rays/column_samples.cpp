@@ -200,17 +200,16 @@ void collect(const Context& context, const RayColumn& column, const std::uint8_t
 
 }  // namespace
 
-Samples column_samples(const View& view, const Sampling& sampling, const RayColumns& columns,
-                       SetComparison& comparison) {
+void add_column_samples(const View& view, const Sampling& sampling, const RayColumns& columns,
+                        BeamRange beams, SetComparison& comparison, Samples& samples) {
     const Context context{view.shape, sampling, columns};
-    Samples samples;
-    samples.dropped = columns.dropped;
-    samples.items.reserve(columns.rays.size());
+    samples.dropped += columns.dropped;
+    if (samples.items.empty()) samples.items.reserve(columns.rays.size());
     std::vector<RaySet> sets;  // one for each sample of a beam
-    samples.beam_begin.assign(view.beams + 1, 0);
+    samples.beam_begin.resize(view.beams + 1);
     std::size_t column = 0;
     std::size_t strip = columns.whole_columns;
-    for (int j = 0; j < view.beams; ++j) {
+    for (int j = beams.begin; j < beams.end; ++j) {
         for (; column < columns.whole_columns && columns.columns[column].beam == j; ++column) {
             collect(context, columns.columns[column],
                     columns.narrowed.data() + column * sampling.rays, samples.items, sets);
@@ -222,7 +221,6 @@ Samples column_samples(const View& view, const Sampling& sampling, const RayColu
         comparison.add_beam(j, samples.beam(j), sets);
         sets.clear();
     }
-    return samples;
 }
 
 }  // namespace sonarsim

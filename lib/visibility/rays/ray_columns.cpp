@@ -22,18 +22,26 @@ struct Gap {
     int above;
 };
 
-/// Casts the columns of one view. Holds the shared state of the steps of one call.
+std::vector<ViewColumn> columns_of(const View& view, int per_beam, BeamRange beams) {
+    std::vector<ViewColumn> columns = view_columns(view, per_beam);
+    std::erase_if(columns, [beams](const ViewColumn& column) {
+        return column.beam < beams.begin || column.beam >= beams.end;
+    });
+    return columns;
+}
+
+/// Casts the columns of some beams. Holds the shared state of the steps of one call.
 class ColumnCaster {
   public:
     ColumnCaster(const Caster& caster, const View& view, const LocalPose& pose,
-                 const Sampling& sampling, const BentWater& water, RayColumns& out)
+                 const Sampling& sampling, BeamRange beams, const BentWater& water, RayColumns& out)
         : caster_(caster),
           water_(water),
           view_(view),
           pose_(pose),
           sampling_(sampling),
           reach_m_(static_cast<float>(view.range_max_m)),
-          view_columns_(view_columns(view, sampling.columns)),
+          view_columns_(columns_of(view, sampling.columns, beams)),
           out_(out) {
         out_.whole_columns = view_columns_.size();
     }
@@ -277,9 +285,9 @@ class ColumnCaster {
 }  // namespace
 
 RayColumns cast_ray_columns(const Caster& caster, const View& view, const LocalPose& pose,
-                            const Sampling& sampling, const BentWater& water) {
+                            const Sampling& sampling, BeamRange beams, const BentWater& water) {
     RayColumns out;
-    ColumnCaster columns(caster, view, pose, sampling, water, out);
+    ColumnCaster columns(caster, view, pose, sampling, beams, water, out);
     columns.cast_whole_columns();
     columns.cast_edge_strips();
     columns.split_gaps();

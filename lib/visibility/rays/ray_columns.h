@@ -39,9 +39,15 @@ struct RayColumns {
     std::uint64_t dropped = 0;  ///< as in Samples
 };
 
-/// Casts rays along every column of the view. Adds edge strips where neighbouring columns disagree,
-/// and splits the gap between two neighbouring rays while its estimate is too uncertain.
+/// Beams [begin, end) of a view.
+struct BeamRange {
+    int begin;
+    int end;
+};
+
+/// Casts rays along every column of these beams. Adds edge strips where neighbouring columns
+/// disagree, and splits the gap between two neighbouring rays while its estimate is too uncertain.
 RayColumns cast_ray_columns(const Caster& caster, const View& view, const LocalPose& pose,
-                            const Sampling& sampling, const BentWater& water = {});
+                            const Sampling& sampling, BeamRange beams, const BentWater& water = {});
 
 }  // namespace sonarsim

@@ -12,8 +12,10 @@ namespace sonarsim {
 /// will be called, so what it needs is made now. Throws std::runtime_error when Embree cannot build
 /// its tree (out of memory).
 std::unique_ptr<VisibilityEngine> make_rays_engine(const Scene& scene, bool coverage = false);
-/// The same with a caster over the scene, whose trees engines may share.
+/// The same with a caster over the scene, whose trees engines may share. A `density` of n takes a
+/// goal that is n times as fine and n times as many columns: rays that a goal asks for see lines of
+/// a beam, and over ground that is rough within the width of a beam these differ from the beam.
 std::unique_ptr<VisibilityEngine> make_rays_engine(const Scene& scene, const Caster& caster,
-                                                   bool coverage);
+                                                   bool coverage, int density = 1);
 
 }  // namespace sonarsim

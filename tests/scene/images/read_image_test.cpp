@@ -190,6 +190,13 @@ TEST_CASE("feet become metres, degrees are reported, a map that is turned is ref
     CHECK(tells(error_of_image(turned), "turned.tfw: its rows and columns do not run along east"));
     write_file(folder.path / "turned.tfw", "1 0 0 -1 0");
     CHECK(tells(error_of_image(turned), "turned.tfw: is no world file, which has six numbers"));
+    const auto marked = translated(path, "-a_nodata -9999", "marked.tif");
+    std::string bytes = read_file(marked, 1'000'000);
+    bytes.replace(bytes.find("-9999"), 5, "-99,9");
+    write_file(marked, bytes);
+    CHECK(tells(error_of_image(marked), "pixels '-99,9' (GDAL_NODATA), which is no number"));
+    std::filesystem::rename(folder.path / "turned.tfw", folder.path / "turned.TFW");
+    CHECK(tells(error_of_image(turned), "turned.TFW: is no world file, which has six numbers"));
 }
 
 TEST_CASE("images that cannot be read are refused with the reason") {

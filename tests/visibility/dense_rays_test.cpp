@@ -1,0 +1,124 @@
+#include "visibility/dense_rays.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "core/units.h"
+#include "support/sanitized.h"
+#include "support/scenes.h"
+#include "visibility/auto_engine.h"
+#include "visibility/image_change.h"
+#include "visibility/rays/rays_engine.h"
+#include "visibility/slices/slices_engine.h"
+
+using namespace sonarsim;
+
+namespace {
+
+/// A floor of 8 x 8 m in cells of 5 cm, whose heights are drawn from 0 to `height_m` one by one.
+Scene drawn_floor(float height_m) {
+    Scene scene = test::empty_scene();
+    test::add_floor(scene, 4.0F, 0.0F, test::add_material(scene, 0.3F), 160);
+    std::mt19937 draws(7);
+    for (Eigen::Vector3f& p : scene.vertices)
+        p.z() = height_m * 0x1p-32F * static_cast<float>(draws());
+    return scene;
+}
+
+View dense_view(double relative_l1) {
+    return {.azimuth_rad = radians(30.0),
+            .elevation_rad = radians(20.0),
+            .range_min_m = 1.0,
+            .range_max_m = 8.0,
+            .range_bins = 64,
+            .beams = 24,
+            .relative_l1 = relative_l1};
+}
+
+std::vector<Probe> at_the_border(const View& view) {
+    Pose pose;
+    pose.translation = {-4.0, 0.0, 2.0};
+    pose.rotation = Eigen::AngleAxisd(radians(25.0), Eigen::Vector3d::UnitY());
+    return {{view, pose}};
+}
+
+}  // namespace
+
+TEST_SUITE("dense rays") {
+    // Beams are up to 15 cm wide, three cells whose heights are independent, so one line of rays
+    // through a beam is no mean of it. Slices see the whole beam.
+    TEST_CASE("rays over rough ground are as dense as their goal needs" *
+              doctest::skip(test::sanitized)) {
+        const Scene scene = drawn_floor(0.03F);
+        const Caster caster(scene);
+        const View view = dense_view(0.12);
+        const std::vector<Probe> probes = at_the_border(view);
+        const Pose& pose = probes.front().T_world_sensor;
+        View fine = view;
+        fine.relative_l1 = 0.01;
+        const auto slices = make_slices_engine(scene, caster, {}, false);
+        const std::vector<double> truth =
+            mean_echoes(scene, view, slices->visible_surface(fine, pose));
+        const auto error = [&](const Samples& seen) {
+            return image_change(mean_echoes(scene, view, seen), truth);
+        };
+        const Samples lines = make_rays_engine(scene, caster, false)->visible_surface(view, pose);
+        const Samples dense =
+            make_dense_rays_engine(scene, caster, probes, false)->visible_surface(view, pose);
+        MESSAGE("error of rays " << error(lines) << ", told " << lines.estimated_l1 << "; dense "
+                                 << density_for(scene, caster, view, probes) << " " << error(dense)
+                                 << ", told " << dense.estimated_l1);
+        CHECK(error(lines) > view.relative_l1);
+        CHECK(error(dense) < view.relative_l1);
+    }
+
+    TEST_CASE("rays over smooth ground are as their goal asks, byte for byte") {
+        const Scene scene = drawn_floor(0.0F);
+        const Caster caster(scene);
+        const View view = dense_view(0.12);
+        const std::vector<Probe> probes = at_the_border(view);
+        CHECK(density_for(scene, caster, view, probes) == 1);
+        const Pose& pose = probes.front().T_world_sensor;
+        const Samples rays = make_rays_engine(scene, caster, false)->visible_surface(view, pose);
+        const Samples chosen =
+            make_dense_rays_engine(scene, caster, probes, false)->visible_surface(view, pose);
+        REQUIRE(chosen.items.size() == rays.items.size());
+        CHECK(chosen.beam_begin == rays.beam_begin);
+        CHECK(chosen.estimated_l1 == rays.estimated_l1);
+    }
+
+    TEST_CASE("auto takes them over many triangles" * doctest::skip(test::sanitized)) {
+        Scene scene = test::empty_scene();
+        test::add_floor(scene, 20.0F, 0.0F, test::add_material(scene, 0.3F), 1025);
+        REQUIRE(scene.triangles.size() > many_triangles);
+        const Caster caster(scene);
+        const std::vector<Probe> probes = at_the_border(dense_view(0.03));
+        const View& view = probes.front().view;
+        const Pose& pose = probes.front().T_world_sensor;
+        const auto chosen = make_auto_engine(scene, caster, {}, probes, false);
+        const auto rays = make_rays_engine(scene, caster, false);
+        CHECK(chosen->visible_surface(view, pose).items.size() ==
+              rays->visible_surface(view, pose).items.size());
+    }
+
+    TEST_CASE("beams that are cast apart follow each other") {
+        const Scene scene = drawn_floor(0.03F);
+        const Caster caster(scene);
+        View view = dense_view(0.001);
+        view.beams = 256;
+        const Pose pose = at_the_border(view).front().T_world_sensor;
+        const Samples seen = make_rays_engine(scene, caster, false, 2)->visible_surface(view, pose);
+        REQUIRE(seen.beam_begin.size() == 257);
+        CHECK(seen.beam_begin.back() == seen.items.size());
+        int astray = 0;
+        for (int j = 0; j < view.beams; ++j)
+            for (const Sample& sample : seen.beam(j))
+                astray += std::abs(beam_of(view, sample.position) - j) > 1 ? 1 : 0;
+        CHECK(astray == 0);
+        for (int j = 0; j < view.beams; ++j)
+            REQUIRE_FALSE(seen.beam(j).empty());
+    }
+}
