@@ -9,6 +9,7 @@
 #include "support/lattice_errors.h"
 #include "support/sanitized.h"
 #include "validation/image_error.h"
+#include "visibility/make_engine.h"
 
 using namespace sonarsim;
 
@@ -57,6 +58,15 @@ TEST_CASE("lattices: views of few bins are looked at twice") {
         CHECK(error.error < 0.03);
         CHECK(error.estimate <= 0.03);
     }
+}
+
+TEST_CASE("lattices: a patch as narrow as rounding has a finite place") {
+    // A net below an echosounder. The mean of two triangles without area was no number.
+    const test::Lattice lattice = test::draw_lattice(14253);
+    const auto engine = make_engine(lattice.scene, {.type = EngineKind::slices, .octree = {}});
+    const View view = make_sonar(lattice.sonar, {0.1}).settings.view;
+    for (const Sample& sample : engine->visible_surface(view, Pose{}).items)
+        CHECK(sample.position.allFinite());
 }
 
 TEST_CASE("lattices: goals are met, or the estimate says so" * doctest::skip(test::sanitized)) {

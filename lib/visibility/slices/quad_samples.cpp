@@ -225,7 +225,9 @@ void QuadSampler::add_sample(const Quad& quad, const QuadPoints& corners) {
         // The centroid of a trapezoid lies towards its wide end.
         const float one = (b - a).cross(c - a).norm();
         const float other = (c - a).cross(d - a).norm();
-        middle = (one * (a + b + c) + other * (a + c + d)) / (3.0F * (one + other));
+        // Both vanish if the patch is as narrow as rounding.
+        if (one + other > 0.0F)
+            middle = (one * (a + b + c) + other * (a + c + d)) / (3.0F * (one + other));
     }
     sample.position = R_sensor_frame_ * middle;
     sample.edge_u = R_sensor_frame_ * (0.25F * (b + c - a - d));
