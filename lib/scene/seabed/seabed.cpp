@@ -108,11 +108,34 @@ double height_at(const Seabed& bed, double x_m, double y_m) {
     return z(0, 0) + v * (z(1, 0) - z(0, 0)) + u * (z(1, 1) - z(1, 0));
 }
 
+/// The same for hollows that reach so far from their middles. Each cell that one covers takes time.
+void require_time(const SeabedRule& rule, const BedGrid& grid, double density_per_m2,
+                  double reach_m, const char* what) {
+    constexpr double most_hollows = 500000.0;
+    constexpr double most_pressed = 1e10;  // cells: a minute. Both are chosen.
+    const BedArea area = area_of_grid(grid);
+    const BedArea bed = area_of_bed(rule);
+    const double across = 2.0 * reach_m / grid.cell_m + 1.0;
+    const double cells = std::min(across, 1.0 * grid.columns) * std::min(across, 1.0 * grid.rows);
+    require_room(rule,
+                 {std::max(area[0] - reach_m, bed[0]), std::max(area[1] - reach_m, bed[1]),
+                  std::min(area[2] + reach_m, bed[2]), std::min(area[3] + reach_m, bed[3])},
+                 density_per_m2, std::min(most_hollows, std::floor(most_pressed / cells)), what);
+}
+
 void press_hollows(const SeabedRule& rule, Seabed& bed, std::vector<double>& heights) {
     const BedArea area = area_of_grid(bed.grid);
     const BedArea whole = area_of_bed(rule);
-    if (rule.pockmarks) bed.pockmarks = pockmarks_in(area, whole, *rule.pockmarks, rule.seed);
-    if (rule.scars) bed.scars = scars_in(area, whole, *rule.scars, rule.seed);
+    if (rule.pockmarks) {
+        require_time(rule, bed.grid, rule.pockmarks->density_per_m2,
+                     0.5 * rule.pockmarks->diameter_m[1], "pockmarks");
+        bed.pockmarks = pockmarks_in(area, whole, *rule.pockmarks, rule.seed);
+    }
+    if (rule.scars) {
+        require_time(rule, bed.grid, rule.scars->density_per_m2,
+                     0.5 * (rule.scars->length_m[1] + rule.scars->width_m[1]), "scars");
+        bed.scars = scars_in(area, whole, *rule.scars, rule.seed);
+    }
     for (const Pockmark& pockmark : bed.pockmarks)
         press(bed.grid, pockmark, heights);
     for (const Scar& scar : bed.scars)

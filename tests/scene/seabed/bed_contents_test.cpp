@@ -257,4 +257,13 @@ TEST_CASE("more rocks or plants than have room are refused") {
     rule.plants = BedPlants{1000.0, {0.1, 0.2}};
     CHECK_THROWS_WITH_AS(make_seabed(rule), doctest::Contains("plants, and at most 500000"),
                          InputError);
+    // Hollows also count by their middles outside the part that the mission needs, and by the cells
+    // that each covers: without a limit these took hours.
+    rule.plants.reset();
+    rule.pockmarks.emplace();
+    rule.pockmarks->density_per_m2 = 100.0;
+    rule.pockmarks->diameter_m = {100.0, 10000.0};
+    rule.pockmarks->depth_m = {0.0, 1.0};
+    CHECK_THROWS_WITH_AS(make_seabed(rule), doctest::Contains("pockmarks, and at most"),
+                         InputError);
 }
