@@ -67,7 +67,8 @@ SonarLog read_aris(std::string_view bytes, std::size_t most_pings) {
             log.range_step_s = step_s;
             log.first_range_s = first_s;
             log.sound_speed_m_s = field_at<float>(frame, sound_speed_at);
-            if (!(step_s > 0.0 && log.sound_speed_m_s > 0.0))
+            if (!(step_s > 0.0 && log.sound_speed_m_s > 0.0 &&
+                  log.sound_speed_m_s < fastest_sound_m_s))
                 throw std::runtime_error("has a frame without a step of range");
         }
         if (step_s != log.range_step_s || first_s != log.first_range_s)

@@ -43,7 +43,8 @@ EkPing ek_ping(std::string_view datagram) {
     const auto offset = field_at<std::int32_t>(datagram, 76);
     const auto count = field_at<std::int32_t>(datagram, 80);
     if (offset < 0 || count < 0 || !(ping.sample_s > 0.0 && ping.sample_s < 1.0) ||
-        !(ping.sound_speed_m_s > 0.0) || !std::isfinite(ping.frequency_hz))
+        !(ping.sound_speed_m_s > 0.0 && ping.sound_speed_m_s < fastest_sound_m_s) ||
+        !std::isfinite(ping.frequency_hz))
         throw std::runtime_error("has a ping with impossible numbers");
     if ((field_at<std::int16_t>(datagram, 14) & 1) == 0) return ping;  // angles only
     ping.offset = static_cast<std::size_t>(offset);

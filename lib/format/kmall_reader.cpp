@@ -81,7 +81,8 @@ KmallPing ping_of_datagram(std::string_view datagram) {
     const std::size_t rx = sectors + sector_count * field_at<std::uint16_t>(datagram, tx + 4);
     ping.sample_hz = field_at<float>(datagram, rx + 8);
     ping.sound_speed_m_s = field_at<float>(datagram, rx + 12);
-    if (!(ping.sample_hz > 0.0 && ping.sound_speed_m_s > 0.0))
+    if (!(ping.sample_hz > 0.0 && ping.sample_hz < 1e9 && ping.sound_speed_m_s > 0.0 &&
+          ping.sound_speed_m_s < fastest_sound_m_s))
         throw std::runtime_error("has a ping without a rate of samples or a speed of sound");
     read_beams(datagram, rx + field_at<std::uint16_t>(datagram, rx), rx, ping);
     return ping;
@@ -102,8 +103,9 @@ LoggedPing logged(const KmallPing& own, std::size_t ranges) {
     for (std::size_t j = 0; j < own.beams.size(); ++j) {
         const KmallBeam& beam = own.beams[j];
         for (std::size_t i = 0; i < beam.samples.size(); ++i) {
-            const int level = static_cast<signed char>(beam.samples[i]);
-            ping.values[(beam.first + i) * own.beams.size() + j] = static_cast<float>(level + 128);
+            // A byte with a sign plus 128.
+            const auto level = static_cast<unsigned char>(beam.samples[i]) ^ 0x80U;
+            ping.values[(beam.first + i) * own.beams.size() + j] = static_cast<float>(level);
         }
     }
     return ping;

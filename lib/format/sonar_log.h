@@ -7,6 +7,9 @@
 
 namespace sonarsim {
 
+/// Headers with a faster sound are refused as damaged.
+inline constexpr double fastest_sound_m_s = 1e4;
+
 struct LoggedPing {
     double t_s = 0.0;  ///< since 1970; 0: not known
     int ranges = 0;

@@ -63,7 +63,7 @@ void take_facts_of_log(const SonarLog& log, const RecordingFile& file, Recording
         throw InputError(file.place.location,
                          "this format does not have the bearings of its beams: add "
                          "`bearing_first_deg` and `bearing_last_deg`, or `bearings_deg`");
-    if (!recording.frequency_hz && log.frequency_hz > 0.0)
+    if (!recording.frequency_hz && log.frequency_hz > 0.0 && log.frequency_hz < 1e9)
         recording.frequency_hz = log.frequency_hz;
 }
 
