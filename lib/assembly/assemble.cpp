@@ -83,10 +83,10 @@ void add_water_surface(const Mission& mission, Assembly& assembly) {
     constexpr double air_m_s = 343.0;
     const WaterSurfaceConfig& config = *mission.scene.water_surface;
     const Water water{mission.water.density_kg_m3, mission.water.sound_speed_m_s};
-    const double mirrored = power_reflection(air_kg_m3, air_m_s, water) * (1.0 - config.roughness);
+    const double reflected = power_reflection(air_kg_m3, air_m_s, water) * (1.0 - config.roughness);
     WaterSurface& surface = assembly.scene.water_surface.emplace();
     surface.height_m = config.height_m;
-    surface.reflection = static_cast<float>(mirrored);
+    surface.reflection = static_cast<float>(reflected);
     if (config.scatters) {
         surface.wind_m_s = mission.water.wind_m_s;
         for (Sonar& sonar : assembly.sonars)

@@ -37,7 +37,7 @@ struct ReportRow {
     Summary samples_per_ping;
     ColdStart cold;
     PingSeconds stages;    ///< medians over the poses
-    double ms_bare = 0.0;  ///< likewise: Embree alone, one ray to every sample
+    double ms_bare = 0.0;  ///< the same for Embree alone, one ray to every sample
     /// Embree alone, with view_rays_count rays over the view, and a ping as a multiple of it. Both
     /// are CPU times, measured in turns at each pose; medians over the poses.
     double ms_rays = 0.0;

@@ -42,7 +42,7 @@ std::uint64_t find_columns(const ArrayBeams& beams, const PatchBlock& pieces, Po
 /// Adds powers to the real parts of the grid, shared between the four places around each echo.
 void add_powers(const ArrayBeams& beams, const PatchBlock& pieces, const PointEchoes& echoes,
                 EchoGrid& grid);
-/// Adds complex amplitudes likewise.
+/// The same for complex amplitudes.
 void add_amplitudes(const ArrayBeams& beams, const PatchBlock& pieces, const PointEchoes& echoes,
                     const Amplitudes& amplitudes, EchoGrid& grid);
 
@@ -54,7 +54,7 @@ inline void add_bistatic_powers(const ArrayBeams& beams, const PathEndpoint& /*o
 }
 
 /// Fills the image [bins, beams] with the powers of the beams. The grid holds powers or amplitudes;
-/// beside powers there may be amplitudes in `coherent`, else null. The noise of the elements
+/// `coherent` may hold amplitudes in addition to the powers, else null. The noise of the elements
 /// belongs to the bin, the element and the key.
 void beamform(const ArrayBeams& beams, const EchoGrid& grid, bool powers, const EchoGrid* coherent,
               bool noisy, PhiloxKey key, std::span<const float> row_gain, std::span<float> image);

@@ -14,7 +14,7 @@ namespace sonarsim {
 
 namespace {
 
-// Columns beside the outer beams: for echoes that lie between a beam and the edge of the view, and
+// Columns outside the outer beams: for echoes that lie between a beam and the edge of the view, and
 // for what an outer beam is interpolated from.
 constexpr int margin = 5;
 // Free columns behind the last one, so that an outer beam does not show at the other side.

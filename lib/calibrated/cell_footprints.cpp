@@ -189,10 +189,10 @@ void find_rows(const Surfaces& surfaces, CellFootprints& out) {
         const bool by_u = std::fabs(outer_u) >= std::fabs(outer_v);
         const float slope = by_u ? inner_u / outer_u : inner_v / outer_v;
         const float other = by_u ? inner_v - slope * outer_v : inner_u - slope * outer_u;
-        const float beside = std::fabs(other) + rounding;
-        out.left[k] = 0.5F * (inner - slope * outer - beside) + std::min(0.0F, slope);
+        const float margin = std::fabs(other) + rounding;
+        out.left[k] = 0.5F * (inner - slope * outer - margin) + std::min(0.0F, slope);
         out.slope[k] = slope;
-        out.width[k] = std::fabs(slope) + beside;
+        out.width[k] = std::fabs(slope) + margin;
     }
 }
 

@@ -55,11 +55,11 @@ std::size_t EchoGrid::occupied() const {
 
 std::size_t EchoGrid::convolve_pulse(const RangeTaps& taps) {
     const std::size_t length = 2 * static_cast<std::size_t>(rows_);
-    const std::size_t beside = 2 * static_cast<std::size_t>(taps.reach);
+    const std::size_t margin = 2 * static_cast<std::size_t>(taps.reach);
     // Whole lines are written, as far as a column has room.
     const std::size_t lines = (length + floats_per_line - 1) / floats_per_line;
-    std::vector<float> padded(lines * floats_per_line + 2 * beside);
-    float* const middle = padded.data() + beside;
+    std::vector<float> padded(lines * floats_per_line + 2 * margin);
+    float* const middle = padded.data() + margin;
     std::size_t occupied = 0;
     for (int c = 0; c < columns_; ++c) {
         float* const values = column(c);

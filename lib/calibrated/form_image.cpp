@@ -3,10 +3,10 @@
 #include <optional>
 
 #include "calibrated/form_look.h"
-#include "calibrated/mirrored_echoes.h"
 #include "calibrated/plate_image.h"
 #include "calibrated/scatterer_search.h"
 #include "calibrated/speckle.h"
+#include "calibrated/specular_echoes.h"
 #include "calibrated/target_pieces.h"
 #include "calibrated/target_scatterers.h"
 #include "calibrated/water_echoes.h"
@@ -259,14 +259,14 @@ class ImageFormer {
         if (paths.empty()) return;
         ping_.counts.echoes += 2 * paths.size();
         const auto add_to = [&](EchoGrid& powers) {
-            ping_.counts.out_of_range += add_mirrored_powers(
+            ping_.counts.out_of_range += add_specular_powers(
                 beams_, paths, scattering_->materials, model_.equation, model_.limits, powers);
         };
         if (speckle_ != SpeckleMode::scene) return add_to(grid);
-        EchoGrid mirrored(grid.rows(), grid.columns());
-        add_to(mirrored);
-        draw_speckle(mirrored, speckle_gain_, ping_draws_);
-        grid.add(mirrored);
+        EchoGrid specular(grid.rows(), grid.columns());
+        add_to(specular);
+        draw_speckle(specular, speckle_gain_, ping_draws_);
+        grid.add(specular);
     }
 
     const CalibratedModel& model_;

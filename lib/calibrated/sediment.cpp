@@ -71,7 +71,7 @@ void spread_below(const EchoGrid& lagged, EchoGrid& energy) {
             cells[2 * row] = static_cast<float>((1.0 - stays) * left);
             left *= stays;
             left_lag *= stays;
-            // A float holds no less beside the echo itself.
+            // A float cannot hold less when it is added to the echo itself.
             if (left < 1e-30) left = left_lag = 0.0;
         }
     }

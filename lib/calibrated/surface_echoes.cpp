@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "calibrated/found_echoes.h"
-#include "calibrated/mirrored_echoes.h"
 #include "calibrated/model.h"
 #include "calibrated/patches.h"
+#include "calibrated/specular_echoes.h"
 #include "calibrated/target_pieces.h"
 #include "calibrated/water_echoes.h"
 #include "trace/arrivals.h"
@@ -165,7 +165,7 @@ class SurfaceEchoFinder {
 
     void add_multipath(const TracedPing& traced, const std::vector<SpecularPath>& paths) {
         const SonarEquation& equation = model_.equation;
-        const auto use = [&](const MirroredBlock& block) {
+        const auto use = [&](const SpecularBlock& block) {
             const auto add = [&](int beam, int k, float power) {
                 const float range_m =
                     equation.range_min_m + (block.echoes.row[k] + 0.5F) * equation.bin_m;
@@ -175,7 +175,7 @@ class SurfaceEchoFinder {
             const auto point = [](int) { return 0.0F; };
             for_each_beam(block.places, block.echoes, &block.out, point, add);
         };
-        find_mirrored(paths, scattering_->materials, equation, model_.limits, use);
+        find_specular_echoes(paths, scattering_->materials, equation, model_.limits, use);
     }
 
     SurfaceEchoes take(int beams) {

@@ -17,7 +17,7 @@
 //
 // With u = tan t it is R a^2 / (4 s^2) times the integral of u sqrt(1 + u^2) exp(-u^2 / (2 s^2))
 // du, that is R a^2 / 4 (1 + s^2 + ...): the target strength 20 log(a / 2) + 10 log R for any small
-// slope. The highlight has the size a s. Any surface with two radii of curvature likewise gives
+// slope. The highlight has the size a s. Any surface with two radii of curvature also gives
 // R a b / 4: area counts by how fast the normal turns in it.
 //
 // A mesh of flat triangles whose normals n = sum w_i n_i are interpolated has that area if each

@@ -154,16 +154,16 @@ void find_gains(const TransducerBeams& beams, int beam, const PatchBlock& pieces
 
 void add_bistatic_powers(const TransducerBeams& beams, const PathEndpoint& out,
                          const PathEndpoint& back, EchoGrid& grid) {
-    Amplitudes sent, heard;
+    Amplitudes sent, received;
     const auto power_of = [](const Amplitudes& of, int k) {
         return std::fma(of.re[k], of.re[k], of.im[k] * of.im[k]);
     };
     for (int beam = 0; beam < beams.beams(); ++beam) {
         find_weights(beams, beam, out.places, out.echoes, sent);
-        find_weights(beams, beam, back.places, back.echoes, heard);
+        find_weights(beams, beam, back.places, back.echoes, received);
         for (int k = 0; k < back.places.count; ++k) {
             // Weights are two-way, the square of one way.
-            const float weight = std::sqrt(power_of(sent, k) * power_of(heard, k));
+            const float weight = std::sqrt(power_of(sent, k) * power_of(received, k));
             add_between_bins(grid.column(beam), back.echoes.row[k], back.echoes.power[k] * weight,
                              0.0F);
         }

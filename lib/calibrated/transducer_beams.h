@@ -62,7 +62,7 @@ inline std::uint64_t find_columns(const TransducerBeams& /*beams*/, const PatchB
 /// Adds the powers of echoes to the real parts of the grid, shared between two bins.
 void add_powers(const TransducerBeams& beams, const PatchBlock& pieces, const PointEchoes& echoes,
                 EchoGrid& grid);
-/// Adds complex amplitudes likewise.
+/// The same for complex amplitudes.
 void add_amplitudes(const TransducerBeams& beams, const PatchBlock& pieces,
                     const PointEchoes& echoes, const Amplitudes& amplitudes, EchoGrid& grid);
 

@@ -78,7 +78,7 @@ std::array<float, 2> stretch_between(float depth_m, float fall, float top_m, flo
 }
 
 /// The view cuts cells at its border, and pieces of surface have their middles farther in. So the
-/// water of a cut cell that no piece ends goes as far as that of the cells beside it that the view
+/// water of a cut cell that no piece ends goes as far as that of its neighbours that the view
 /// has more of.
 void end_at_borders(const SightCells& cells, std::vector<float>& ends) {
     const std::vector<float> found = ends;
@@ -86,9 +86,9 @@ void end_at_borders(const SightCells& cells, std::vector<float>& ends) {
         const float seen = cells.seen_sr[cell];
         if (found[cell] != no_end || seen == 0.0F) continue;
         const int turn = cell % cells.turns;
-        const auto take = [&](bool exists, int beside) {
-            if (!exists || cells.seen_sr[beside] <= seen) return;
-            ends[cell] = std::min(ends[cell], found[beside]);
+        const auto take = [&](bool exists, int neighbour) {
+            if (!exists || cells.seen_sr[neighbour] <= seen) return;
+            ends[cell] = std::min(ends[cell], found[neighbour]);
         };
         take(turn > 0, cell - 1);
         take(turn + 1 < cells.turns, cell + 1);

@@ -10,7 +10,7 @@ namespace sonarsim {
 
 namespace {
 
-constexpr std::size_t most_classes = 255;  // beside the background
+constexpr std::size_t most_classes = 255;  // without the background
 
 /// As MMSegmentation reads it: img_dir/PART/NAME.png, ann_dir/PART/NAME.png with the number of the
 /// class of each pixel and a palette, splits/PART.txt with a name a line, and meta.json with the

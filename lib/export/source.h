@@ -38,7 +38,7 @@ struct SourcePicture {
 /// A dataset that is exported.
 struct SourceDataset {
     std::filesystem::path folder;
-    std::string name;  ///< the name of its folder beside others; empty if it is alone
+    std::string name;  ///< the name of its folder among others; empty if it is alone
     nlohmann::ordered_json
         description;  ///< mission, hashes and version, for the files of an export
     std::vector<std::string> classes;

@@ -36,7 +36,7 @@ void require_no_link(const std::filesystem::path& path, const std::string& what)
 void protect_inputs(const Layout& layout, const Mission& mission);
 
 /// Removes the files that the folder's dataset.json lists, and nothing else; no link is followed.
-/// Durably, so that what comes after it is never found beside an old journal. InputError when the
+/// Durably, so that what comes after it is never found with an old journal. InputError when the
 /// folder holds files and no dataset of sonarsim, or when that lists a file that the mission reads.
 void remove_dataset(const Layout& layout, const Mission& mission);
 
@@ -48,7 +48,7 @@ void remove_listed_files(const std::filesystem::path& folder,
                          const nlohmann::ordered_json& description,
                          const std::vector<std::filesystem::path>& inputs);
 
-/// The text of the files beside the pings.
+/// The text of the files that are not of one ping.
 struct CommonFiles {
     nlohmann::ordered_json description;  ///< dataset.json
     std::string mission;                 ///< mission.resolved.yaml
@@ -62,7 +62,7 @@ struct CommonFiles {
 /// with `complete` set to false. std::system_error when the disk does not take them.
 void begin_dataset(const Layout& layout, const CommonFiles& files);
 
-/// True if the files beside dataset.json and the journal are there.
+/// True if the common files other than dataset.json and the journal are there.
 bool has_common_files(const Layout& layout);
 
 /// Removes the temporary files of the pings in `todo` (sorted) that an interrupted run left, and

@@ -16,7 +16,7 @@ std::vector<std::string> label_files_of(const nlohmann::ordered_json& json,
                                         std::span<const std::filesystem::path> variants);
 
 /// Writes these files and lists them in SHA256SUMS, after the lines `sums` of the other files
-/// beside the variants. Files that agree with SHA256SUMS already stay. Shards that end at
+/// in the folder of the variants. Files that agree with SHA256SUMS already stay. Shards that end at
 /// once write the same bytes.
 void write_label_files(const std::filesystem::path& folder, const nlohmann::ordered_json& json,
                        std::span<const std::filesystem::path> variants, const std::string& sums);

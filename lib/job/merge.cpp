@@ -34,7 +34,8 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t largest_common_file = std::size_t{1} << 32;
 
-/// The files of a part beside its pings. `complete` is set to false, as at the beginning of a run.
+/// The files of a part other than its pings. `complete` is set to false, as at the beginning of a
+/// run.
 CommonFiles read_common(const fs::path& folder) {
     Json description = require_dataset(folder).json;
     description["complete"] = false;

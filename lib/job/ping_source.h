@@ -55,7 +55,7 @@ class PingSource {
     Assembly assembly_;
     std::unique_ptr<VisibilityEngine> engine_;
     std::vector<LabelPlan> plans_;  ///< in the order of the sensors
-    std::vector<Writers> writers_;  ///< likewise, for raw values and labels
+    std::vector<Writers> writers_;  ///< the same for raw values and labels
 };
 
 }  // namespace sonarsim

@@ -48,7 +48,7 @@ void remove_variant(const fs::path& folder, const Mission& mission) {
     if (fs::is_empty(folder)) fs::remove(folder);
 }
 
-/// Removes the files beside the variants. variants.json stays: the folder is recognised by it.
+/// Removes the files that all variants share. variants.json stays: the folder is recognised by it.
 void remove_common_files(const fs::path& folder) {
     fs::remove(folder / checksums_name);
     remove_gallery(folder);  // it shows files that are gone

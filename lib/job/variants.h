@@ -71,7 +71,7 @@ MergeSummary merge_variants(const std::vector<std::filesystem::path>& parts,
                             const std::filesystem::path& out, int threads,
                             const ProgressCallback& progress, const std::atomic<bool>& stop);
 
-/// Checks each variant as verify_dataset does, that none is missing, and the files beside them.
+/// Checks each variant as verify_dataset does, that none is missing, and the files that they share.
 DatasetCheck verify_variants(const std::filesystem::path& folder, int threads,
                              const ProgressCallback& progress, const std::atomic<bool>& stop);
 

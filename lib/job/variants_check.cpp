@@ -28,7 +28,8 @@ Json require_variants(const fs::path& folder) {
                      "has no variants.json; give output folders of one mission with variants");
 }
 
-/// The files beside the variants but SHA256SUMS. The joined labels are there once all variants are.
+/// The files that all variants share, without SHA256SUMS. The joined labels are there once all
+/// variants are.
 std::set<std::string> common_names(const fs::path& folder, const Json& json) {
     std::set<std::string> names{variants_name};
     for (const auto& [name, lines] : split_lists(json))
@@ -45,7 +46,7 @@ bool is_label_file(const std::string& name) {
     return name.starts_with(std::string(labels_folder_name) + "/");
 }
 
-/// Compares the files beside the variants with the sums of them.
+/// Compares the files that all variants share with their sums.
 void check_common_files(const fs::path& folder, const std::set<std::string>& expected,
                         DatasetCheck& check) {
     const fs::path sums_file = folder / checksums_name;
@@ -75,7 +76,7 @@ void check_common_files(const fs::path& folder, const std::set<std::string>& exp
     }
 }
 
-/// Lists the files beside the variants that do not belong to them.
+/// Lists the files in the folder of the variants that do not belong to them.
 void list_unknown_files(const fs::path& folder, const Json& json, std::set<std::string> expected,
                         DatasetCheck& check) {
     expected.insert({checksums_name, split_folder_name, labels_folder_name});

@@ -39,10 +39,10 @@ struct PingLabels {
     std::vector<std::uint16_t> second;  ///< the object that gives most of the rest
     std::vector<float> second_share;
     std::vector<std::uint16_t> class_id;      ///< the class that gives most of the echo
-    std::vector<std::uint16_t> material;      ///< likewise
+    std::vector<std::uint16_t> material;      ///< the material that gives most of it
     std::vector<float> multipath;             ///< share of the echo that came by a second surface
     std::vector<float> elevation_rad;         ///< mean of the visible surface; NaN without any
-    std::vector<float> elevation_spread_rad;  ///< its standard deviation within the bin, likewise
+    std::vector<float> elevation_spread_rad;  ///< its standard deviation within the bin
     std::vector<float> height_m;              ///< above the bottom; NaN where there is none
     std::vector<std::uint16_t> shadow;        ///< the object that hides the surface of a dark bin
     /// For annotations: as `shadow`, of the objects that are no background alone.

@@ -12,7 +12,7 @@ inline constexpr double long_place = 300.0;
 inline constexpr double usual_range_m = 50.0;
 
 /// "650 m long: millimetres? units: mm" for what is read in metres, is longer than `ranges` times
-/// `range_m`, and in millimetres would be shorter than the range; likewise for what is read in
+/// `range_m`, and in millimetres would be shorter than the range; the same for what is read in
 /// millimetres and should be in metres. "" for anything else.
 std::string unit_question(double length_m, double unit_m, double range_m, double ranges);
 

@@ -7,7 +7,7 @@ namespace sonarsim {
 
 inline constexpr std::uint32_t no_material = 0xFFFFFFFFU;
 
-/// A multipath path: from the sonar to a sample, mirrored there to a second surface, and from that
+/// A multipath path: from the sonar to a sample, reflected there to a second surface, and from that
 /// back to the sonar. Where the water's surface mirrors the sound on its way (`by_water_surface`),
 /// the second surface is its image in the water's surface.
 struct BouncePath {

@@ -13,11 +13,12 @@ namespace {
 
 /// The ray that leaves a sample. On a curved surface the sample may lie a little below the facets
 /// that it stands for; the ray starts above them.
-Ray mirrored_ray(const Sample& sample, float bin_m) {
+Ray specular_ray(const Sample& sample, float bin_m) {
     const Arrival arrival = arrival_of(sample.position);
     const float size = sample.edge_u.norm() + sample.edge_v.norm();
     const float lift = 1e-4F * arrival.range_m + std::min(0.05F * size, 0.5F * bin_m);
-    return {sample.position + lift * sample.normal, mirrored(arrival.departure, sample.normal)};
+    return {sample.position + lift * sample.normal,
+            specular_direction(arrival.departure, sample.normal)};
 }
 
 /// True if a ray may have hit the surface that it started from: its start lies in the plane that it
@@ -44,22 +45,22 @@ void trace_surface_reflection(const BounceTracer& context, std::span<const Ray> 
                               std::span<const Intersection> hits,
                               std::vector<BounceHit>& second_hits, MultipathCounts& counts) {
     const WaterMirror& mirror = *context.mirror;
-    std::vector<Ray> mirrored_rays;
+    std::vector<Ray> specular_rays;
     std::vector<std::size_t> second_of;
     for (std::size_t k = 0; k < rays.size(); ++k) {
         second_hits.emplace_back();
         const float distance = mirror.distance(rays[k]);
         if (!(distance < hits[k].distance_m)) continue;
         second_of.push_back(second_hits.size() - 1);
-        mirrored_rays.push_back({rays[k].origin + distance * rays[k].direction,
+        specular_rays.push_back({rays[k].origin + distance * rays[k].direction,
                                  mirror.reflect_direction(rays[k].direction)});
     }
-    std::vector<Intersection> behind(mirrored_rays.size());
-    context.engine.intersect(context.T_world_sensor, mirrored_rays, behind);
-    counts.rays += mirrored_rays.size();
+    std::vector<Intersection> behind(specular_rays.size());
+    context.engine.intersect(context.T_world_sensor, specular_rays, behind);
+    counts.rays += specular_rays.size();
     for (std::size_t k = 0; k < behind.size(); ++k) {
         if (!std::isfinite(behind[k].distance_m)) continue;
-        const Ray& ray = mirrored_rays[k];
+        const Ray& ray = specular_rays[k];
         const Eigen::Vector3f point = ray.origin + behind[k].distance_m * ray.direction;
         BounceHit& second = second_hits[second_of[k]];
         second = {.point = mirror.reflect_point(point),
@@ -79,7 +80,7 @@ void trace_bounces(const BounceTracer& context, std::span<const std::uint32_t> s
     std::vector<Ray> rays;
     rays.reserve(sources.size());
     for (const std::uint32_t i : sources)
-        rays.push_back(mirrored_ray(context.samples.items[i], context.bin_m));
+        rays.push_back(specular_ray(context.samples.items[i], context.bin_m));
     std::vector<Intersection> hits(rays.size());
     context.engine.intersect(context.T_world_sensor, rays, hits);
     counts.rays += rays.size();
@@ -89,7 +90,7 @@ void trace_bounces(const BounceTracer& context, std::span<const std::uint32_t> s
         context.engine.intersect(context.T_world_sensor, {&rays[k], 1}, {&hits[k], 1});
         ++counts.rays;
     }
-    if (context.is_mirrored()) {
+    if (context.uses_surface_image()) {
         trace_surface_reflection(context, rays, hits, second_hits, counts);
         return;
     }

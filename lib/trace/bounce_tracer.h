@@ -47,22 +47,23 @@ struct BounceTracer {
     bool scattered = false;     ///< as in Multipath
     SurfaceRole surface_role = SurfaceRole::target;
 
-    bool is_mirrored() const { return mirror && surface_role == SurfaceRole::reflector; }
+    bool uses_surface_image() const { return mirror && surface_role == SurfaceRole::reflector; }
     /// The sonar, or its image, as the end of the last leg of the sound.
     Eigen::Vector3f sonar() const {
-        return is_mirrored() ? mirror->image : Eigen::Vector3f(Eigen::Vector3f::Zero());
+        return uses_surface_image() ? mirror->image : Eigen::Vector3f(Eigen::Vector3f::Zero());
     }
     /// The point of the world that a second point stands for.
     Eigen::Vector3f seen(const Eigen::Vector3f& p) const {
-        return is_mirrored() ? mirror->reflect_point(p) : p;
+        return uses_surface_image() ? mirror->reflect_point(p) : p;
     }
     Eigen::Vector3f seen_change(const Eigen::Vector3f& of_p) const {
-        return is_mirrored() ? mirror->reflect_direction(of_p) : of_p;
+        return uses_surface_image() ? mirror->reflect_direction(of_p) : of_p;
     }
 };
 
 /// The direction in which a mirror sends on what comes along `direction`: r of Eq. 1.
-inline Eigen::Vector3f mirrored(const Eigen::Vector3f& direction, const Eigen::Vector3f& normal) {
+inline Eigen::Vector3f specular_direction(const Eigen::Vector3f& direction,
+                                          const Eigen::Vector3f& normal) {
     return direction - 2.0F * normal.dot(direction) * normal;
 }
 

@@ -11,7 +11,7 @@ namespace sonarsim {
 /// A part of a plate's border.
 struct PlateEdge {
     Eigen::Vector3d from, to;
-    bool seen = true;  ///< it is in view, and the plate beside its middle is not hidden
+    bool seen = true;  ///< it is in view, and the plate next to its middle is not hidden
 };
 
 /// A face from which sound is reflected on its way.

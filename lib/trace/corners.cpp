@@ -123,7 +123,7 @@ bool holds(const CornerFace& face, const Eigen::Vector3d& u, const Eigen::Vector
     return inside;
 }
 
-/// The points of the faces that a ray through a place of the aperture meets, mirrored at each.
+/// The points of the faces that a ray through a place of the aperture meets, reflected at each.
 /// `place` is relative to a point on all faces, `away` the direction from the sonar. Returns false
 /// if it misses a face.
 template <std::size_t N>

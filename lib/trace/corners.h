@@ -11,10 +11,10 @@
 
 // Corner reflectors. Sound that meets two faces at right angles goes back as if it had met a plate
 // through their seam that faces the sonar across the seam; after three faces, a plate through their
-// common point that faces the sonar. The plate is that part of the plane from which a ray, mirrored
-// at the faces, meets each of them: the overlap of the opening and its point reflection (e.g.
-// Knott, Shaeffer and Tuley, "Radar Cross Section", 2004, chapter 6). Its area A gives 20 log(A /
-// lambda); three right triangles of side a on the axis have A = a^2 / sqrt(3).
+// common point that faces the sonar. The plate is that part of the plane from which a ray,
+// reflected at the faces, meets each of them: the overlap of the opening and its point reflection
+// (e.g. Knott, Shaeffer and Tuley, "Radar Cross Section", 2004, chapter 6). Its area A gives 20
+// log(A / lambda); three right triangles of side a on the axis have A = a^2 / sqrt(3).
 
 namespace sonarsim {
 

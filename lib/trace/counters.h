@@ -65,7 +65,7 @@ inline constexpr std::array multipath_counters{
     Statistic{"edge_on", &MultipathCounts::edge_on, "ran along the second plane"},
     Statistic{"behind", &MultipathCounts::behind, "left the second plane"},
     Statistic{"outside", &MultipathCounts::outside, "met it out of view or of range"},
-    Statistic{"turned_away", &MultipathCounts::turned_away, "were mirrored away from the sonar"},
+    Statistic{"turned_away", &MultipathCounts::turned_away, "were reflected away from the sonar"},
     Statistic{"hidden", &MultipathCounts::hidden, "met what the sonar does not see"},
 };
 

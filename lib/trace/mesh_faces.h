@@ -37,7 +37,7 @@ struct MeshFace {
 
 /// The planar faces of a mesh. Two faces that meet are parts of one curved surface if it turns by
 /// less than 30 degrees there and neither of them reaches 5 times as far from the side as the
-/// other: a large face beside a narrow bevel is flat.
+/// other: a large face next to a narrow bevel is flat.
 std::vector<MeshFace> faces_of(const FaceMesh& mesh);
 
 }  // namespace sonarsim

@@ -66,7 +66,7 @@ Outcome reflect(const BounceTracer& context, const Sample& sample, const Plane& 
     const float range = arrival_range(t * first_leg, last_leg);
     const Eigen::Vector3f seen = context.seen(p);
     const float beam = context.field.beam(seen, last_leg);
-    const Eigen::Vector3f q = mirrored(through, second.normal);
+    const Eigen::Vector3f q = specular_direction(through, second.normal);
     const float cosine = -q.dot(back) / (first_leg * last_leg);
     if (!(beam >= 0.0F && range < static_cast<float>(context.view.range_max_m)))
         return &MultipathCounts::outside;
@@ -111,7 +111,7 @@ bool follow(const BounceTracer& context, std::uint32_t sample, std::uint32_t ray
     b.material = second.material;
     b.strength = second.strength;
     b.water_reflection = second.water_reflection;
-    b.by_water_surface = context.is_mirrored();
+    b.by_water_surface = context.uses_surface_image();
     if (outcome == &MultipathCounts::bounces) {
         b.intensity *= context.materials[source.material].reflection * source.strength;
         followed.bounces.push_back(b);
@@ -239,11 +239,11 @@ std::vector<BouncePath> find_bounces(const Multipath& multipath, const TraceCont
     std::vector<BouncePath> bounces = follow_all(context, clusters, counts);
     if (mirror) {
         // A sample is counted once, on its path without the mirror.
-        MultipathCounts mirrored_counts;
+        MultipathCounts surface_counts;
         context.surface_role = SurfaceRole::reflector;
-        const std::vector<BouncePath> more = follow_all(context, clusters, mirrored_counts);
+        const std::vector<BouncePath> more = follow_all(context, clusters, surface_counts);
         bounces.insert(bounces.end(), more.begin(), more.end());
-        counts.rays += mirrored_counts.rays;
+        counts.rays += surface_counts.rays;
     }
     counts.bounces = std::ranges::count(bounces, false, &BouncePath::scattered);
     return bounces;

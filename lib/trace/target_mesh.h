@@ -39,8 +39,8 @@ struct TargetMesh {
 
 /// Normals are interpolated over edges at which two triangles meet at less than 30 degrees, so a
 /// coarse mesh of a sphere is a sphere, and a cube keeps its faces. An edge is a crease nonetheless
-/// if one of the triangles reaches much further off it than the other: a large face beside a narrow
-/// bevel is flat. Triangles that occur twice are kept once.
+/// if one of the triangles reaches much further off it than the other: a large face next to a
+/// narrow bevel is flat. Triangles that occur twice are kept once.
 TargetShape target_shape(const TargetMesh& mesh);
 
 }  // namespace sonarsim

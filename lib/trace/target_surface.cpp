@@ -144,29 +144,29 @@ class TargetSampler {
 
     /// The position of a ball that does not hold the sonar, relative to the view.
     Containment containment(const Eigen::Vector3f& centre, float range, float radius) const {
-        const auto compare = [](float angle, double full, float beside) {
+        const auto compare = [](float angle, double full, float margin) {
             const auto half = static_cast<float>(0.5 * full);
-            if (angle > half + beside) return Containment::outside;
-            return angle + beside < half ? Containment::inside : Containment::partly;
+            if (angle > half + margin) return Containment::outside;
+            return angle + margin < half ? Containment::inside : Containment::partly;
         };
         const auto angle = [](float height, float ahead) {
             return std::fabs(arctan2_float(height, ahead));
         };
         // The angle between the middle of a ball and its edge.
-        const auto beside = [&](float distance) {
+        const auto margin = [&](float distance) {
             return angle(radius, std::sqrt(distance * distance - radius * radius));
         };
         const float ground = std::sqrt(centre.x() * centre.x() + centre.y() * centre.y());
         if (view_.shape == ViewShape::cone) {
             const float off = std::sqrt(centre.y() * centre.y() + centre.z() * centre.z());
-            return compare(angle(off, centre.x()), view_.azimuth_rad, beside(range));
+            return compare(angle(off, centre.x()), view_.azimuth_rad, margin(range));
         }
         const Containment by_elevation =
-            compare(angle(centre.z(), ground), widened_.elevation_rad, beside(range));
+            compare(angle(centre.z(), ground), widened_.elevation_rad, margin(range));
         const Containment by_azimuth =
             ground <= radius
                 ? Containment::partly
-                : compare(angle(centre.y(), centre.x()), widened_.azimuth_rad, beside(ground));
+                : compare(angle(centre.y(), centre.x()), widened_.azimuth_rad, margin(ground));
         if (by_elevation == Containment::outside || by_azimuth == Containment::outside)
             return Containment::outside;
         const bool inside =

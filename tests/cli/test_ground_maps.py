@@ -214,7 +214,7 @@ class GroundMaps(Composed):
                 (two, "has materials with 2 images, and a map has one"),
                 (moved, "moves its texture with KHR_texture_transform"),
                 (with_texture(floor, {"uri": "quarters.png"}, texCoord=1), "by another TEXCOORD than TEXCOORD_0"),
-                (with_texture(floor, {"uri": "../db.png"}), "is not beside or below the glTF file"),
+                (with_texture(floor, {"uri": "../db.png"}), "is not in the folder of the glTF file or below"),
                 (with_texture(floor, {"uri": "none.png"}), "none.png: no such file"),
                 (with_texture(floor, {"uri": data_uri(b"\xff\xd8\xff\xe0")}), "is no image; PNG, TIFF and OpenEXR"),
                 (with_texture(floor, {"uri": data_uri(png([[1, 2]], 8)[:50])}), "cannot be read"),

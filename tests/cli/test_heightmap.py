@@ -228,7 +228,7 @@ class Heightmap(Composed):
 
     def test_refused(self):
         for options, fragments in (
-                ("", ("bed.png", "no world file lies beside it", "scene.heightmap.pixel_m", "mission.yaml:3:")),
+                ("", ("bed.png", "no world file lies next to it", "scene.heightmap.pixel_m", "mission.yaml:3:")),
                 (", pixel_m: 0", ("pixel_m", "above 0")),
                 (", pixel_m: 1, size_m: [1, 1]", ("pixel_m and size_m say the same",)),
                 (", pixel_m: 1, height_scale: 0", ("height_scale of 0 makes all flat",)),

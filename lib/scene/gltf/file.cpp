@@ -155,7 +155,8 @@ void ignore_sizes(Callbacks& callbacks) {
     }
 }
 
-/// The buffers that tinygltf may read: beside or below the glTF file, `bytes_left` at most.
+/// The buffers that tinygltf may read: in the folder of the glTF file or below, `bytes_left` at
+/// most.
 struct BufferFiles {
     const std::filesystem::path& gltf;
     std::size_t bytes_left = max_bytes;
@@ -171,9 +172,10 @@ tinygltf::FsCallbacks buffer_callbacks(BufferFiles& files) {
     callbacks.ExpandFilePath = [](const std::string& name, void*) { return name; };
     callbacks.FileExists = [](const std::string& name, void* user) {
         if (stays_below(name)) return !name.empty();
-        throw InputError(Location{static_cast<const BufferFiles*>(user)->gltf.string()},
-                         "the buffer '" + printable(name.substr(0, 200)) +
-                             "' is not beside or below the glTF file, where buffers must lie");
+        throw InputError(
+            Location{static_cast<const BufferFiles*>(user)->gltf.string()},
+            "the buffer '" + printable(name.substr(0, 200)) +
+                "' is not in the folder of the glTF file or below, where buffers must lie");
     };
     callbacks.ReadWholeFile = [](std::vector<unsigned char>* out, std::string*,
                                  const std::string& name, void* user) {

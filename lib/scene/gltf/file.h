@@ -13,10 +13,10 @@ namespace sonarsim {
 /// for a faulty file.
 tinygltf::Model read_gltf(const std::filesystem::path& path);
 
-/// The part of a file's JSON that describes images, of the same file. InputError likewise.
+/// The part of a file's JSON that describes images, of the same file. Throws as read_gltf().
 std::string read_texture_json(const std::filesystem::path& path);
 
-/// True if a URI of a glTF file names a file beside or below it.
+/// True if a URI of a glTF file names a file in its folder or below.
 bool stays_below(const std::string& uri);
 
 }  // namespace sonarsim

@@ -91,7 +91,7 @@ class Reducer {
         return text;
     }
 
-    /// tinygltf would silently drop the translation, rotation and scale beside a matrix.
+    /// tinygltf would silently drop the translation, rotation and scale of a node with a matrix.
     void check_transform(std::string_view key, Level& level) const {
         level.has_matrix |= key == "matrix";
         level.has_parts |= key == "translation" || key == "rotation" || key == "scale";

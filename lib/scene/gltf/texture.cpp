@@ -111,9 +111,10 @@ Image read_texture(const std::filesystem::path& gltf) {
     if (uri.starts_with("data:")) return read_data_uri(uri, where);
     const std::string name = decoded(uri);
     if (name.empty() || !stays_below(name)) {
-        throw InputError(where, "the image '" + printable(name.substr(0, 200)) +
-                                    "' is not beside or below the glTF file, where images must "
-                                    "lie");
+        throw InputError(where,
+                         "the image '" + printable(name.substr(0, 200)) +
+                             "' is not in the folder of the glTF file or below, where images must "
+                             "lie");
     }
     return read_image(gltf.parent_path() / name);
 }

@@ -15,7 +15,7 @@ struct Georeference {
 };
 
 /// Reads the tags of GeoTIFF 1.1 (OGC 19-008r4) and GDAL's tag of unknown pixels, else a world
-/// file beside the image: map.tfw, map.tifw or map.wld for map.tif. The tie point belongs to the
+/// file next to the image: map.tfw, map.tifw or map.wld for map.tif. The tie point belongs to the
 /// outer corner of its pixel, or to its centre where the file says so (GTRasterTypeGeoKey), and the
 /// coordinates of a world file always to the centre. Feet become metres. InputError for a grid
 /// that is turned, and for tags that cannot be read.

@@ -30,7 +30,7 @@ PixelGrid grid_in_metres(const Image& image, double pixel_m, const std::array<do
     if (!image.reference.grid) {
         throw InputError(where,
                          "does not say how large its pixels are: it has no GeoTIFF tags, "
-                         "and no world file lies beside it; write " +
+                         "and no world file lies next to it; write " +
                              section + ".pixel_m or size_m");
     }
     if (image.reference.in_degrees) {

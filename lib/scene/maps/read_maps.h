@@ -21,7 +21,7 @@ inline constexpr std::size_t most_map_texels = std::size_t{1} << 24;
 struct LaidMapRule {
     std::filesystem::path file = {};
     double pixel_m = 0.0;                ///< 0: the file says it, or size_m does
-    std::array<double, 2> size_m{};      ///< 0: likewise
+    std::array<double, 2> size_m{};      ///< 0: as pixel_m
     std::array<double, 2> origin_m{};    ///< point of the map that is the world's (0, 0)
     std::optional<double> no_data = {};  ///< value of pixels that change nothing; none: the file's
     std::string section = {};            ///< section of the mission, for messages
@@ -38,7 +38,7 @@ MaterialTexels read_material_map(
     const std::vector<std::pair<std::string, std::uint32_t>>& materials);
 
 /// A map of decibels, from an image of one channel, or one and alpha: scale_db times the pixel's
-/// value plus offset_db. InputError likewise, and for more than 100 dB.
+/// value plus offset_db. Throws as the above, and for more than 100 dB.
 StrengthTexels read_strength_map(const LaidMapRule& rule, Image image, double scale_db,
                                  double offset_db);
 

@@ -17,7 +17,7 @@ std::string uri_error(const std::string& uri) {
 
 std::string outside(const std::string& name) {
     return "x.glb: the buffer '" + name +
-           "' is not beside or below the glTF file, where buffers must lie";
+           "' is not in the folder of the glTF file or below, where buffers must lie";
 }
 
 }  // namespace

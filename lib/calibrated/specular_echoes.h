@@ -13,7 +13,7 @@ namespace sonarsim {
 
 /// A block of echoes that come back from other places than they were sent to, with powers and range
 /// bins as PointEchoes has them.
-struct MirroredBlock {
+struct SpecularBlock {
     PathEndpoint out;    ///< the ranges of its echoes are those of the places
     PatchBlock& places;  ///< the echoes come back from these
     PointEchoes& echoes;
@@ -32,25 +32,25 @@ struct MirroredBlock {
 /// times the one towards where it hears.
 ///
 /// Returns how many of these echoes lie outside the range.
-std::uint64_t find_mirrored(std::span<const SpecularPath> paths,
-                            std::span<const Backscatter> materials, const SonarEquation& equation,
-                            const PointLimits& limits,
-                            const std::function<void(const MirroredBlock&)>& use);
+std::uint64_t find_specular_echoes(std::span<const SpecularPath> paths,
+                                   std::span<const Backscatter> materials,
+                                   const SonarEquation& equation, const PointLimits& limits,
+                                   const std::function<void(const SpecularBlock&)>& use);
 
 /// Adds the powers of these echoes to the real parts of the grid. Returns how many of them lie
 /// outside the range or the beams.
 template <class Beams>
-std::uint64_t add_mirrored_powers(const Beams& beams, std::span<const SpecularPath> pieces,
+std::uint64_t add_specular_powers(const Beams& beams, std::span<const SpecularPath> pieces,
                                   std::span<const Backscatter> materials,
                                   const SonarEquation& equation, const PointLimits& limits,
                                   EchoGrid& grid);
 
-extern template std::uint64_t add_mirrored_powers(const TransducerBeams&,
+extern template std::uint64_t add_specular_powers(const TransducerBeams&,
                                                   std::span<const SpecularPath>,
                                                   std::span<const Backscatter>,
                                                   const SonarEquation&, const PointLimits&,
                                                   EchoGrid&);
-extern template std::uint64_t add_mirrored_powers(const ArrayBeams&, std::span<const SpecularPath>,
+extern template std::uint64_t add_specular_powers(const ArrayBeams&, std::span<const SpecularPath>,
                                                   std::span<const Backscatter>,
                                                   const SonarEquation&, const PointLimits&,
                                                   EchoGrid&);

@@ -1,3 +1,5 @@
+#include "calibrated/specular_echoes.h"
+
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -5,7 +7,6 @@
 #include <numeric>
 
 #include "calibrated/decibel.h"
-#include "calibrated/mirrored_echoes.h"
 #include "calibrated/model.h"
 #include "calibrated/piston.h"
 #include "core/units.h"
@@ -58,7 +59,7 @@ double loss_per_m(const Sonar& sonar) {
 
 /// The energy of the direct echoes, and of those over the mirrors.
 struct Energies {
-    double direct, mirrored;
+    double direct, specular;
 };
 
 Energies energies_of(const Sonar& sonar, const Scene& scene, const Pose& T_world_vehicle) {
@@ -73,7 +74,7 @@ Energies energies_of(const Sonar& sonar, const Scene& scene, const Pose& T_world
 }  // namespace
 
 TEST_SUITE("calibrated") {
-    TEST_CASE("mirrored: a mirror that shows a piece where it is doubles its echo") {
+    TEST_CASE("specular echoes: a mirror that shows a piece where it is doubles its echo") {
         // Once out by the mirror and back without, once the other way round. Sound runs along the
         // mirror, whose normal is across it, and meets the second surface where it meets the
         // mirror: the image source lies in the piece. The mirror takes its reflection, 0.4 of rock.
@@ -117,7 +118,7 @@ TEST_SUITE("calibrated") {
         }
     }
 
-    TEST_CASE("mirrored: a plate over a floor that is a mirror has the level of its image") {
+    TEST_CASE("specular echoes: a plate over a floor that is a mirror has the level of its image") {
         // The sonar is 1 m above a smooth floor that sends back nothing. A plate stands 4 m ahead;
         // its image is as far below the floor, as the plate is above: z becomes -2 - z. With the
         // plate at r and its image at s, both seen from the sonar, sound comes back by either way
@@ -144,7 +145,7 @@ TEST_SUITE("calibrated") {
                          rough);
             }
             double direct = 0.0;
-            double mirrored = 0.0;
+            double specular = 0.0;
             constexpr int steps = 100;
             for (int i = 0; i < steps; ++i) {
                 for (int j = 0; j < steps; ++j) {
@@ -158,19 +159,19 @@ TEST_SUITE("calibrated") {
                     const double sine_r = (ceiling ? z : x) / r;
                     const double sine_s = (ceiling ? -below : x) / s;
                     direct += sine_r * sine_r / (r * r * r * r) * std::exp(-loss * r);
-                    mirrored += 2.0 * reflection * sine_r * sine_s / (r * r * s * s) *
+                    specular += 2.0 * reflection * sine_r * sine_s / (r * r * s * s) *
                                 std::exp(-0.5 * loss * (r + s));
                 }
             }
             const Energies found = energies_of(sonar, scene, {});
-            const double level = db_of_power(found.mirrored / found.direct);
+            const double level = db_of_power(found.specular / found.direct);
             MESSAGE("dB below the direct echo: ", level, ", by hand ",
-                    db_of_power(mirrored / direct));
-            CHECK(std::fabs(level - db_of_power(mirrored / direct)) < 0.1);
+                    db_of_power(specular / direct));
+            CHECK(std::fabs(level - db_of_power(specular / direct)) < 0.1);
         }
     }
 
-    TEST_CASE("mirrored: the level of the second bottom echo") {
+    TEST_CASE("specular echoes: the level of the second bottom echo") {
         // A sonar d below the water's surface and h above a flat bottom. In the world unfolded at
         // the bottom and at the surface, sound that leaves at the angle a off nadir goes a straight
         // way of the height H = 3 h + 2 d, meets the bottom the second time x = H tan a aside, and
@@ -209,13 +210,13 @@ TEST_SUITE("calibrated") {
         }
         const Energies found =
             energies_of(sonar, scene, {Eigen::Quaterniond::Identity(), {0.0, 0.0, h}});
-        const double level = db_of_power(found.mirrored / found.direct);
+        const double level = db_of_power(found.specular / found.direct);
         MESSAGE("dB below the first bottom echo: ", level, ", by hand ",
                 db_of_power(second / direct));
         CHECK(std::fabs(level - db_of_power(second / direct)) < 0.1);
     }
 
-    TEST_CASE("mirrored: multipath darkens no bin, and has its mean whatever the speckle" *
+    TEST_CASE("specular echoes: multipath darkens no bin, and has its mean whatever the speckle" *
               doctest::skip(test::sanitized)) {
         const Scene scene = tank();
         const auto engine = make_rays_engine(scene);

@@ -1,4 +1,4 @@
-#include "calibrated/mirrored_echoes.h"
+#include "calibrated/specular_echoes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -26,7 +26,7 @@ struct PiecesOfPaths {
     PatchBlock::Array<std::uint32_t> path{};
 };
 
-using UseBlock = std::function<void(const MirroredBlock&)>;
+using UseBlock = std::function<void(const SpecularBlock&)>;
 
 void put_place(Ends& ends, int k, const SpecularPath::Place& place, float s, float t) {
     const Eigen::Vector3f p = place.at + s * place.u + t * place.v;
@@ -96,9 +96,10 @@ int pieces_of_both(const SpecularPath& piece, const Eigen::Vector3f SpecularPath
 
 }  // namespace
 
-std::uint64_t find_mirrored(std::span<const SpecularPath> paths,
-                            std::span<const Backscatter> materials, const SonarEquation& equation,
-                            const PointLimits& limits, const UseBlock& use) {
+std::uint64_t find_specular_echoes(std::span<const SpecularPath> paths,
+                                   std::span<const Backscatter> materials,
+                                   const SonarEquation& equation, const PointLimits& limits,
+                                   const UseBlock& use) {
     PiecesOfPaths block;
     std::uint64_t outside = 0;
     for (std::uint32_t number = 0; number < paths.size(); ++number) {
@@ -125,23 +126,23 @@ std::uint64_t find_mirrored(std::span<const SpecularPath> paths,
 }
 
 template <class Beams>
-std::uint64_t add_mirrored_powers(const Beams& beams, std::span<const SpecularPath> pieces,
+std::uint64_t add_specular_powers(const Beams& beams, std::span<const SpecularPath> pieces,
                                   std::span<const Backscatter> materials,
                                   const SonarEquation& equation, const PointLimits& limits,
                                   EchoGrid& grid) {
     std::uint64_t outside_beams = 0;
     const std::uint64_t outside_range =
-        find_mirrored(pieces, materials, equation, limits, [&](const MirroredBlock& block) {
+        find_specular_echoes(pieces, materials, equation, limits, [&](const SpecularBlock& block) {
             outside_beams += find_columns(beams, block.places, block.echoes);
             add_bistatic_powers(beams, block.out, {block.places, block.echoes}, grid);
         });
     return outside_range + outside_beams;
 }
 
-template std::uint64_t add_mirrored_powers(const TransducerBeams&, std::span<const SpecularPath>,
+template std::uint64_t add_specular_powers(const TransducerBeams&, std::span<const SpecularPath>,
                                            std::span<const Backscatter>, const SonarEquation&,
                                            const PointLimits&, EchoGrid&);
-template std::uint64_t add_mirrored_powers(const ArrayBeams&, std::span<const SpecularPath>,
+template std::uint64_t add_specular_powers(const ArrayBeams&, std::span<const SpecularPath>,
                                            std::span<const Backscatter>, const SonarEquation&,
                                            const PointLimits&, EchoGrid&);
 
