@@ -60,7 +60,7 @@ void fit_first_law(const Recording& recording, const ReceiverConfig& start, Imag
         if (fit.law.offset != start.offset)
             fit.law = fit_law(recording.pings, full_value, looks, {}, start.offset);
         fit.notes.emplace_back(
-            "receiver.offset: after a logarithm it is one with the level; that of the start is "
+            "receiver.offset: after a logarithm it is one with full_scale_db; that of the start is "
             "kept");
         return;
     }
