@@ -13,7 +13,7 @@ namespace sonarsim {
 namespace {
 
 /// `exp_neg` of bottom.h, 8 at a time: what a compiler makes of a loop over it takes twice as long.
-Floats8 exp_neg(Floats8 x, float longest = fades_at) {
+Floats8 exp_neg_of_8(Floats8 x, float longest = fades_at) {
     const Floats8 turns = least(x, longest) * 1.44269504F;
     const Floats8 whole = floor(turns);
     const Floats8 rest = (turns - whole) * 0.69314718F;
@@ -79,7 +79,7 @@ class BackscatterTable {
         const Floats8 s2 = sine * sine;
         const Floats8 inverse = Floats8(1.0F) / greatest(s2, 1e-6F);
         const Floats8 steepness = inverse_slope2_.at(numbers) * (inverse - 1.0F);
-        const Floats8 facets = facet * (inverse * inverse) * exp_neg(steepness);
+        const Floats8 facets = facet * (inverse * inverse) * exp_neg_of_8(steepness);
         return fma(lambert, s2, facets);
     }
 
@@ -152,7 +152,8 @@ std::uint64_t apply_sonar_equation(const PatchBlock& pieces, const Scattering& s
         const Floats8 spreading = inverse * inverse;
         const Floats8 sine = least(read(pieces.height_m) * inverse, 1.0F);
         const Floats8 received = read(pieces.area_m2) * (spreading * spreading);
-        const Floats8 loss = exp_neg(fms(equation.loss_per_m, range, equation.raised), least_loss);
+        const Floats8 loss =
+            exp_neg_of_8(fms(equation.loss_per_m, range, equation.raised), least_loss);
         const Floats8 power = strengths.at(pieces.material.data() + k, sine) * loss * received;
         range.store(echoes.range_m.data() + k);
         // In this order of arguments NaN stays NaN.
