@@ -49,7 +49,7 @@ SonarConfig sidescan() {
     return config;
 }
 
-double sum_of(std::span<const float> image) {
+double energy_of(std::span<const float> image) {
     return std::accumulate(image.begin(), image.end(), 0.0);
 }
 
@@ -66,7 +66,7 @@ Energies energies_of(const Sonar& sonar, const Scene& scene, const Pose& T_world
     const auto engine = make_rays_engine(scene);
     const TracedPing traced = trace(sonar, scene, *engine, T_world_vehicle, 0);
     const auto sum = [&](const Terms& terms) {
-        return sum_of(form_image(traced, sonar.settings, scene, {}, terms).intensity);
+        return energy_of(form_image(traced, sonar.settings, scene, {}, terms).intensity);
     };
     return {sum(direct_echoes_alone), sum(multipath_alone)};
 }
@@ -109,7 +109,7 @@ TEST_SUITE("calibrated") {
             };
             const auto one = image_of(direct_echoes_alone);
             const auto two = image_of(multipath_alone);
-            REQUIRE(sum_of(one) > 0.0);
+            REQUIRE(energy_of(one) > 0.0);
             const float most = *std::ranges::max_element(one);
             float worst = 0.0F;
             for (std::size_t i = 0; i < one.size(); ++i)
@@ -259,10 +259,11 @@ TEST_SUITE("calibrated") {
                 }
             }
             MESSAGE("most lost: ", most_lost,
-                    ", multipath by direct: ", sum_of(alone) / sum_of(without));
+                    ", multipath by direct: ", energy_of(alone) / energy_of(without));
             CHECK(most_lost < 5e-3);
-            CHECK(std::fabs(sum_of(with) / (sum_of(without) + sum_of(alone)) - 1.0) < 1e-3);
-            CHECK(sum_of(alone) > 0.02 * sum_of(without));
+            CHECK(std::fabs(energy_of(with) / (energy_of(without) + energy_of(alone)) - 1.0) <
+                  1e-3);
+            CHECK(energy_of(alone) > 0.02 * energy_of(without));
 
             for (const SpeckleMode mode : {SpeckleMode::scene, SpeckleMode::ping}) {
                 config.instrument.speckle.mode = mode;
@@ -272,9 +273,9 @@ TEST_SUITE("calibrated") {
                 double mean = 0.0;
                 constexpr int pings = 12;
                 for (std::uint32_t ping = 0; ping < pings; ++ping)
-                    mean += sum_of(image_of(speckled, terms, ping)) / pings;
-                MESSAGE("speckle by its mean: ", mean / sum_of(alone));
-                CHECK(std::fabs(mean / sum_of(alone) - 1.0) < 0.1);
+                    mean += energy_of(image_of(speckled, terms, ping)) / pings;
+                MESSAGE("speckle by its mean: ", mean / energy_of(alone));
+                CHECK(std::fabs(mean / energy_of(alone) - 1.0) < 0.1);
                 CHECK(image_of(speckled, terms, 3) == image_of(speckled, terms, 3));
             }
         }
