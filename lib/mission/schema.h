@@ -192,8 +192,9 @@ void describe(Visitor& v, Mission& c) {
     v.section("accuracy", c.accuracy, "error goal of the images");
     v.choice("engine", c.engine, engine_kinds,
              "method that finds the visible surface. `auto` takes the slices; it takes the rays "
-             "for a sonar with multipath, where they meet the error goal with less work, and where "
-             "objects move. The octree sees up to 160 degrees of elevation or opening");
+             "for a sonar with multipath, where they meet the error goal with less work, where "
+             "objects move, and over more than two million triangles. The octree sees up to 160 "
+             "degrees of elevation or opening");
     v.section("octree", c.octree, "settings of the octree");
     v.section("slices", c.slices, "settings of the slices");
     v.list("classes", c.classes, 0,

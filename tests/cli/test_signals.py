@@ -89,7 +89,7 @@ class Signals(Sandbox):
     @unittest.skipIf(SANITIZED, "such a scene takes too much memory under a sanitizer")
     def test_while_the_engine_is_built(self):
         self.write("box.gltf", copies_gltf(600, 70))
-        with self.start("render", "mission.yaml", "-j1") as process:
+        with self.start("render", "mission.yaml", "-j1", "--set", "engine=slices") as process:
             self.assertIn("5880000 triangles", process.stderr.readline())
             self.assert_ends_at_once(process, signal.SIGTERM)
 
