@@ -10,6 +10,7 @@
 #include "scene/gltf/load.h"
 #include "support/draws.h"
 #include "support/mapped_floor.h"
+#include "support/sanitized.h"
 #include "support/temporary_folder.h"
 #include "visibility/image_change.h"
 
@@ -68,8 +69,8 @@ struct ThinnedMap {
 }  // namespace
 
 TEST_SUITE("thin heights") {
-    TEST_CASE(
-        "images over thinned maps differ from those over all heights by less than the share") {
+    TEST_CASE("images over thinned maps differ from those over all heights by less than the share" *
+              doctest::skip(test::sanitized)) {
         // The estimate is the worst of two parts of a view, so that the whole view lies below it or
         // little above.
         int thinned = 0;

@@ -9,6 +9,7 @@
 #include "scene/placing/rest.h"
 #include "scene/placing/scatter.h"
 #include "scene/waves.h"
+#include "support/sanitized.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;
@@ -117,7 +118,8 @@ std::vector<Surface> put(const std::vector<Surface>& shapes,
 }  // namespace
 
 TEST_SUITE("scene") {
-    TEST_CASE("placing: a thousand objects rest on the bottom within a millimetre, and none meet") {
+    TEST_CASE("placing: a thousand objects rest on the bottom within a millimetre, and none meet" *
+              doctest::skip(test::sanitized)) {
         const Bottom bottom(Waves::surface());
         const std::vector<Surface> shapes{box(0.3, 0.2, 0.1), box(0.5, 0.05, 0.05),
                                           box(0.15, 0.15, 0.4)};

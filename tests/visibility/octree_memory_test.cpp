@@ -23,7 +23,8 @@ Pose pose(int k) {
 }  // namespace
 
 TEST_CASE(
-    "octree memory: less than a ping needs gives the same image and the figure that would do") {
+    "octree memory: less than a ping needs gives the same image and the figure that would do" *
+    doctest::skip(test::sanitized)) {
     const Scene scene = test::rough_floor();
     const auto roomy = make_octree_engine(scene, {.memory_mb = 4096});
     const auto tight = make_octree_engine(scene, {.memory_mb = 2});
