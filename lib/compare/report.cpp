@@ -40,12 +40,11 @@ std::string verdict_text(const Comparison& c) {
         "95 % interval.\n",
         c.agreeing, c.figures.size(), 100.0 * c.agreement());
     if (c.is_same()) {
-        return text +
-               "Same: no figure differs significantly (Holm, 5 % for all figures together).\n";
+        return text + "Same: no figure differs significantly (5 % for all figures together).\n";
     }
     return text + fmt::format(
-                      "Not the same: {} figures differ significantly (Holm, 5 % for all "
-                      "figures together).\n",
+                      "Not the same: {} figures differ significantly (5 % for all figures "
+                      "together).\n",
                       c.differing);
 }
 
