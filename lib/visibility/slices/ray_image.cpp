@@ -51,10 +51,10 @@ RayImage::RayImage(const Scene& scene, const Caster& caster, const View& view,
             cast_over_surface(looking, {per_beam, count, start++}, [&](const SurfacePoint& point) {
                 const double bin = std::floor((point.range_m - view.range_min_m) / view.bin_m());
                 if (!(bin >= 0.0 && bin < view.range_bins)) return;
-                const MappedPoint surface = surface_at(point, scene, pose);
-                const double x = point.cosine *
-                                 static_cast<double>(scene.materials[surface.material].reflection) *
-                                 static_cast<double>(surface.strength);
+                // Samples get the materials of maps later (trace/lay_maps.h).
+                const double x =
+                    point.cosine *
+                    static_cast<double>(scene.materials[point.facet.material].reflection);
                 const double w = point.area_m2 * count;
                 bins[static_cast<std::size_t>(point.beam) * view.range_bins +
                      static_cast<std::size_t>(bin)]
