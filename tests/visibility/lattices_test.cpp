@@ -80,25 +80,17 @@ TEST_CASE("lattices: rays decide about the bins at the ends of surface") {
     }
 }
 
-TEST_CASE("lattices: an image by rays shows what two looks of slices agree about") {
-    // A net in a side-scan. One bin is half as bright as both looks say: the error is 2.1 % and was
-    // estimated at 0.3 %.
-    const test::Lattice lattice = test::draw_lattice(14051);
-    const Reference reference = test::lattice_reference(lattice, 1'000'000);
-    const test::LatticeError error =
-        test::lattice_errors(14051, lattice, reference, EngineKind::slices, {0.01}).front();
-    CHECK(error.error > 0.015);
-    CHECK(error.estimate == doctest::Approx(error.error).epsilon(0.25));
-}
-
-TEST_CASE("lattices: pipes whose faces are seen edge-on meet their goal") {
-    // These faces were taken for cracks by rounding: the error was 3.1 %.
-    const test::Lattice lattice = test::draw_lattice(15078);
-    const Reference reference = test::lattice_reference(lattice, 1'000'000);
-    const test::LatticeError error =
-        test::lattice_errors(15078, lattice, reference, EngineKind::slices, {0.01}).front();
-    CHECK(error.error - error.reference < 0.01);
-    CHECK(error.estimate <= 0.01);
+TEST_CASE("lattices: faces that are seen edge-on are not lost") {
+    // Pipes and a net. Their faces were taken for cracks by rounding: errors were 3.1 and 2.1 %.
+    for (const std::uint32_t number : {15078U, 14051U}) {
+        const test::Lattice lattice = test::draw_lattice(number);
+        const Reference reference = test::lattice_reference(lattice, 1'000'000);
+        const test::LatticeError error =
+            test::lattice_errors(number, lattice, reference, EngineKind::slices, {0.01}).front();
+        CAPTURE(number);
+        CHECK(error.error - error.reference < 0.01);
+        CHECK(error.estimate <= 0.01);
+    }
 }
 
 TEST_CASE("lattices: a patch as narrow as rounding has a finite place") {
