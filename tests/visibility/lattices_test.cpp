@@ -68,26 +68,29 @@ TEST_CASE("lattices: rays decide about the bins at the ends of surface") {
         std::uint32_t number;
         double goal;
     };
-    for (const auto& [number, goal] : {Case{14237, 0.03}, Case{14189, 0.01}, Case{14033, 0.01}}) {
-        const test::Lattice lattice = test::draw_lattice(number);
+    for (const Case& c : {Case{14237, 0.03}, Case{14189, 0.01}, Case{14033, 0.01}}) {
+        const test::Lattice lattice = test::draw_lattice(c.number);
         const Reference reference = test::lattice_reference(lattice, 1'000'000);
         const test::LatticeError error =
-            test::lattice_errors(number, lattice, reference, EngineKind::slices, {goal}).front();
-        CAPTURE(number);
-        CHECK(error.error - error.reference < 0.6 * goal);
-        CHECK(error.estimate <= goal);
+            test::lattice_errors(c.number, lattice, reference, EngineKind::slices, {c.goal})
+                .front();
+        CAPTURE(c.number);
+        CHECK(error.error - error.reference < 0.6 * c.goal);
+        CHECK(error.estimate <= c.goal);
     }
 }
 
-TEST_CASE("lattices: an image by rays shows what two looks of slices agree about") {
-    // A net in a side-scan. One bin is half as bright as both looks say: the error is 2.1 % and was
-    // estimated at 0.3 %.
-    const test::Lattice lattice = test::draw_lattice(14051);
-    const Reference reference = test::lattice_reference(lattice, 1'000'000);
-    const test::LatticeError error =
-        test::lattice_errors(14051, lattice, reference, EngineKind::slices, {0.01}).front();
-    CHECK(error.error > 0.015);
-    CHECK(error.estimate == doctest::Approx(error.error).epsilon(0.25));
+TEST_CASE("lattices: faces that are seen edge-on are not lost") {
+    // Pipes and a net. Their faces were taken for cracks by rounding: errors were 3.1 and 2.1 %.
+    for (const std::uint32_t number : {15078U, 14051U}) {
+        const test::Lattice lattice = test::draw_lattice(number);
+        const Reference reference = test::lattice_reference(lattice, 1'000'000);
+        const test::LatticeError error =
+            test::lattice_errors(number, lattice, reference, EngineKind::slices, {0.01}).front();
+        CAPTURE(number);
+        CHECK(error.error - error.reference < 0.01);
+        CHECK(error.estimate <= 0.01);
+    }
 }
 
 TEST_CASE("lattices: a patch as narrow as rounding has a finite place") {

@@ -15,6 +15,11 @@ constexpr Interval everywhere{-never, never};
 // step. Spans narrower than this are such cracks.
 constexpr float narrowest_span = 2e-6F;
 
+// A narrow span is no crack if a whole face is as narrow and spans this share of its range: the
+// face is seen at less than 2 % of its width. It may have more area than all else in its bins.
+// Chosen.
+constexpr float least_depth = 1e-4F;
+
 /// A sweep over w. One segment is on top; those below it are open.
 class Sweep {
   public:
@@ -162,8 +167,15 @@ class Sweep {
                 {std::max(u.from, v.from), std::min(u.to, v.to)}};
     }
 
+    /// True if the whole of the top's segment ends at w, and it is narrow since it is edge-on.
+    bool is_edge_on_face(float w) const {
+        if (!(begin_ < w && top().w_low == begin_ && top().w_high == w)) return false;
+        const float q = top().q_at(w);
+        return std::fabs(q - top().q_at(begin_)) > least_depth * q;
+    }
+
     void emit(float w, const Border& border) {
-        if (!(w - begin_ > narrowest_span * (1.0F + std::fabs(w)))) return;
+        if (!(w - begin_ > narrowest_span * (1.0F + std::fabs(w))) && !is_edge_on_face(w)) return;
         const std::uint32_t facet_index = scene_.trapezoids[top().trapezoid].facet_index;
         out_.push_back({begin_, w, top().q_at(begin_), top().q_at(w), begin_border_, border,
                         facet_extents_.of(facet_index), facet_index});

@@ -77,4 +77,18 @@ TEST_CASE("slices: a pole at the very border of the view ends its last beam once
     }
 }
 
+TEST_CASE("slices: a face that is seen nearly edge-on keeps its area") {
+    // Faces of 2 cm by 2 m, 10 m away, at 0.006 and 0.02 degrees. They take 2e-7 and 8e-7 of the
+    // picture, less than cracks by rounding, and 2 cm of range.
+    for (const float depth_m : {0.001F, 0.004F}) {
+        Scene scene = test::empty_scene();
+        test::add_quad(scene, {10.0F, -1.0F, -depth_m}, {10.02F, -1.0F, -depth_m},
+                       {10.02F, 1.0F, -depth_m}, {10.0F, 1.0F, -depth_m},
+                       test::add_material(scene, 1.0F));
+        CAPTURE(depth_m);
+        CHECK(test::area_of(test::seen(scene, test::fan_view(), Pose{})) ==
+              doctest::Approx(0.04).epsilon(0.02));
+    }
+}
+
 TEST_SUITE_END();
