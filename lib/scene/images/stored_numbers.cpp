@@ -87,7 +87,8 @@ StoredNumbers stored_in_png(const std::filesystem::path& path) {
     std::ifstream(path, std::ios::binary).read(start.data(), start.size());
     const bool is_grey = start[25] == 0;
     StoredNumbers out;
-    if (is_grey && start[24] < 8) out.bits = start[24];
+    const auto bits = static_cast<unsigned char>(start[24]);
+    if (is_grey && bits < 8) out.bits = bits;
     return out;
 }
 
