@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # ./scripts/compilers.sh: compares the bytes that the release build (g++) renders with those of the
-# build for the thread sanitizer (clang++ -O2). debian13.sh does so with a newer g++.
+# build for the address sanitizer (clang++). debian13.sh does so with a newer g++.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 SONARSIM_BUILD=no ./scripts/setup.sh clang
@@ -9,9 +9,8 @@ SONARSIM_BUILD=no ./scripts/setup.sh clang
 export SONARSIM_JOINED=${SONARSIM_JOINED:-ON}
 cmake --preset release >&2
 cmake --build build-release --target sonarsim >&2
-cmake --preset tsan >&2
-cmake --build build-tsan --target sonarsim >&2
-export TSAN_OPTIONS="ignore_noninstrumented_modules=1 suppressions=$PWD/tests/thread_sanitizer_suppressions.txt"
+cmake --preset asan >&2
+cmake --build build-asan --target sonarsim >&2
 exec ./scripts/same_bytes.py \
     --mission tests/four_sonars.yaml,engine=rays --mission tests/four_sonars.yaml,engine=octree \
     --mission tests/four_sonars.yaml,engine=slices \
@@ -19,4 +18,4 @@ exec ./scripts/same_bytes.py \
     --mission configs/tank_multipath.yaml,trajectory.rate_hz=0.5 \
     --mission configs/tank_scanning.yaml \
     --mission configs/tank_calibrated.yaml,trajectory.rate_hz=0.2 \
-    build-release/sonarsim build-tsan/sonarsim
+    build-release/sonarsim build-asan/sonarsim

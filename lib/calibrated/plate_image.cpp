@@ -33,7 +33,7 @@ PlateSurface surface_of(const PlateOfPing& plate, const PlateScene& scene) {
         return {.reflection = plate.strength * material.reflection,
                 .roughness_m = material.roughness_m.value_or(0.0)};
     }
-    PlateSurface out;
+    PlateSurface out{.reflection = plate.strength};
     for (const Mirror& mirror : plate.mirrors) {
         const Material& material = scene.materials[mirror.material];
         const double phase =

@@ -78,7 +78,8 @@ std::vector<Sample> samples_of(const TargetSurface& targets) {
                        .height_m = std::max(-middle.dot(facet.normal), 0.0F),
                        .area_m2 = 0.5F * (b - a).cross(c - a).norm(),
                        .material = facet.material,
-                       .instance = facet.instance});
+                       .instance = facet.instance,
+                       .strength = facet.strength});
     }
     return out;
 }

@@ -114,7 +114,7 @@ void cut_targets(std::span<const TargetFacet> facets, const PointLimits& limits,
         const Eigen::Vector3f v = facet.corners[2] - facet.corners[0];
         const Eigen::Vector3f n_u = facet.normals[1] - facet.normals[0];
         const Eigen::Vector3f n_v = facet.normals[2] - facet.normals[0];
-        const float area = 0.5F * u.cross(v).norm();
+        const float area = 0.5F * facet.strength * u.cross(v).norm();
         const PieceSize size(facet, limits, slopes[facet.material]);
         cut_triangle(size, [&](const TrianglePart& part) {
             const auto [s, t] = part.centroid;

@@ -28,7 +28,7 @@ struct CornerFace {
     std::uint32_t material = 0;
 };
 
-/// The plate in whose place a corner reflects, and the points of its faces that it depends on.
+/// The plate in whose place a corner reflects, and the points that it depends on, one of each face.
 struct Aperture {
     PlateOfPing plate;
     std::vector<Eigen::Vector3d> points;

@@ -15,36 +15,47 @@ namespace sonarsim {
 
 namespace {
 
-/// The plates and strips of a mesh.
-void add_faces(const FaceMesh& mesh, std::uint32_t instance, CoherentFaces& out) {
+/// The plates and strips of a mesh. `mapped`: maps lie on it.
+void add_faces(const FaceMesh& mesh, std::uint32_t instance, bool mapped, CoherentFaces& out) {
     for (MeshFace& face : faces_of(mesh)) {
         if (face.smooth.empty()) {
             out.plates.push_back({.triangles = std::move(face.triangles),
                                   .border = std::move(face.border),
                                   .normal = face.normal,
                                   .material = face.material,
-                                  .instance = instance});
+                                  .instance = instance,
+                                  .mapped = mapped});
         } else if (auto strip = strip_of(face)) {
             strip->instance = instance;
+            strip->mapped = mapped;
             out.strips.push_back(*strip);
         }
     }
 }
 
-/// Adds the plates and strips of an instance with maps, whatever its own materials are. Its corners
-/// are left out.
-void add_mapped_faces(const FaceMesh& mesh, std::uint32_t instance, CoherentFaces& out) {
-    CoherentFaces found;
-    add_faces(mesh, instance, found);
-    for (ScenePlate& plate : found.plates) {
-        plate.mapped = true;
-        out.plates.push_back(std::move(plate));
+/// The materials of a scene that reflect coherently, and where its maps may lay them.
+class CoherentMaterials {
+  public:
+    explicit CoherentMaterials(const Scene& scene) : maps_(scene.maps.get()) {
+        for (const Material& material : scene.materials)
+            coherent_.push_back(material.roughness_m ? 1 : 0);
+        in_texels_ = maps_ && std::ranges::any_of(maps_->materials(), [&](std::uint32_t m) {
+                         return coherent_[m] != 0;
+                     });
     }
-    for (SceneStrip& strip : found.strips) {
-        strip.mapped = true;
-        out.strips.push_back(strip);
+
+    bool any() const { return std::ranges::find(coherent_, 1) != coherent_.end(); }
+    bool is_mapped(std::uint32_t instance) const { return maps_ && maps_->lie_on(instance); }
+    /// True if a surface of this material of its own may reflect coherently.
+    bool may_reflect(std::uint32_t material, bool mapped) const {
+        return coherent_[material] != 0 || (mapped && in_texels_);
     }
-}
+
+  private:
+    const GroundMaps* maps_;
+    std::vector<char> coherent_;
+    bool in_texels_ = false;
+};
 
 /// A mesh at the place of a copy.
 class Placement {
@@ -84,19 +95,33 @@ class Placement {
     Eigen::Affine3d T_local_mesh_;
 };
 
-void add_copied_faces(const Scene& scene, const std::vector<char>& coherent, CoherentFaces& out) {
-    std::map<std::uint32_t, CoherentFaces> of_mesh;
+void add_own_faces(const Scene& scene, const CoherentMaterials& materials, CoherentFaces& out) {
+    const Groups groups = sort_into_groups(scene.triangle_instance, scene.instances.size());
+    for (std::uint32_t instance = 0; instance < scene.instances.size(); ++instance) {
+        const bool mapped = materials.is_mapped(instance);
+        FaceMesh triangles;
+        for (std::uint32_t k = groups.begin[instance]; k < groups.begin[instance + 1]; ++k) {
+            const std::uint32_t t = groups.items[k];
+            if (materials.may_reflect(scene.triangle_material[t], mapped))
+                triangles.add(scene.vertices, scene.triangles[t], scene.triangle_material[t]);
+        }
+        add_faces(triangles, instance, mapped, out);
+    }
+}
+
+void add_copied_faces(const Scene& scene, const CoherentMaterials& materials, CoherentFaces& out) {
+    std::map<std::pair<std::uint32_t, bool>, CoherentFaces> of_mesh;  // without and with maps
     for (const MeshCopy& copy : scene.copies) {
-        if (scene.maps && scene.maps->lie_on(copy.instance)) continue;
-        const auto [place, is_new] = of_mesh.try_emplace(copy.mesh);
+        const bool mapped = materials.is_mapped(copy.instance);
+        const auto [place, is_new] = of_mesh.try_emplace({copy.mesh, mapped});
         if (is_new) {
             const SharedMesh& mesh = scene.shared_meshes[copy.mesh];
             FaceMesh triangles;
             for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-                if (coherent[mesh.triangle_material[t]] != 0)
+                if (materials.may_reflect(mesh.triangle_material[t], mapped))
                     triangles.add(mesh.vertices, mesh.triangles[t], mesh.triangle_material[t]);
             }
-            add_faces(triangles, 0, place->second);
+            add_faces(triangles, 0, mapped, place->second);
         }
         const Placement placement(copy.T_world_mesh, scene.origin);
         const auto add_to = [&](const auto& from, auto& to) {
@@ -114,35 +139,12 @@ void add_copied_faces(const Scene& scene, const std::vector<char>& coherent, Coh
 }  // namespace
 
 std::shared_ptr<const CoherentFaces> find_coherent_faces(const Scene& scene) {
-    std::vector<char> coherent;
-    for (const Material& material : scene.materials)
-        coherent.push_back(material.roughness_m ? 1 : 0);
-    if (std::ranges::find(coherent, 1) == coherent.end()) return nullptr;
+    const CoherentMaterials materials(scene);
+    if (!materials.any()) return nullptr;
     auto out = std::make_shared<CoherentFaces>();
-    const Groups groups = sort_into_groups(scene.triangle_instance, scene.instances.size());
-    const auto mesh_of = [&](std::uint32_t instance, bool all) {
-        FaceMesh triangles;
-        for (std::uint32_t k = groups.begin[instance]; k < groups.begin[instance + 1]; ++k) {
-            const std::uint32_t t = groups.items[k];
-            if (all || coherent[scene.triangle_material[t]] != 0)
-                triangles.add(scene.vertices, scene.triangles[t], scene.triangle_material[t]);
-        }
-        return triangles;
-    };
-    const auto is_mapped = [&](std::uint32_t instance) {
-        return scene.maps && scene.maps->lie_on(instance);
-    };
-    for (std::uint32_t instance = 0; instance < scene.instances.size(); ++instance) {
-        if (!is_mapped(instance)) add_faces(mesh_of(instance, false), instance, *out);
-    }
-    add_copied_faces(scene, coherent, *out);
+    add_own_faces(scene, materials, *out);
+    add_copied_faces(scene, materials, *out);
     find_corners(*out);
-    const bool in_texels =
-        scene.maps && std::ranges::any_of(scene.maps->materials(),
-                                          [&](std::uint32_t m) { return coherent[m] != 0; });
-    for (std::uint32_t instance = 0; instance < scene.instances.size(); ++instance) {
-        if (is_mapped(instance)) add_mapped_faces(mesh_of(instance, in_texels), instance, *out);
-    }
     return out;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "trace/arrivals.h"
@@ -56,7 +57,8 @@ class CoherentSurfaceFinder {
             const Eigen::Vector3d to = placed(of.to);
             if (0.5 * (from + to).norm() - 0.5 * (to - from).norm() > view_.range_max_m) continue;
             add_apertures(dihedral_apertures({corner_face(of.plates[0]), corner_face(of.plates[1])},
-                                             from, to));
+                                             from, to),
+                          of.plates);
         }
         for (const SceneTrihedral& of : faces_.trihedrals) {
             const Eigen::Vector3d apex = placed(of.apex);
@@ -64,7 +66,7 @@ class CoherentSurfaceFinder {
             auto aperture = trihedral_aperture(
                 {corner_face(of.plates[0]), corner_face(of.plates[1]), corner_face(of.plates[2])},
                 apex);
-            if (aperture) add_apertures({std::move(*aperture)});
+            if (aperture) add_apertures({std::move(*aperture)}, of.plates);
         }
         return std::move(out_);
     }
@@ -240,8 +242,20 @@ class CoherentSurfaceFinder {
         return out;
     }
 
-    /// Adds those whose faces are seen.
-    void add_apertures(std::vector<Aperture> apertures) {
+    /// Gives the faces of a corner that have maps the materials and strengths of the texels at its
+    /// points. Returns whether all reflect coherently.
+    bool lay_on_corner(std::span<const std::uint32_t> plates, Aperture& aperture) const {
+        for (std::size_t k = 0; k < aperture.points.size(); ++k) {
+            const auto texel = at_point(faces_.plates[plates[k]], aperture.points[k]);
+            if (!texel) return false;
+            aperture.plate.mirrors[k].material = texel->material;
+            aperture.plate.strength *= texel->strength;
+        }
+        return true;
+    }
+
+    /// Adds those whose faces are seen. `plates`: the faces, indices into CoherentFaces::plates.
+    void add_apertures(std::vector<Aperture> apertures, std::span<const std::uint32_t> plates) {
         for (Aperture& aperture : apertures) {
             const bool in_view = std::ranges::all_of(
                 aperture.points, [&](const auto& point) { return is_in_view(view_, point); });
@@ -253,7 +267,8 @@ class CoherentSurfaceFinder {
             bool seen = true;
             for (std::size_t k = 0; k < aperture.points.size(); ++k)
                 seen = seen && points.is_seen(k);
-            if (seen) out_.plates.push_back(std::move(aperture.plate));
+            if (seen && lay_on_corner(plates, aperture))
+                out_.plates.push_back(std::move(aperture.plate));
         }
     }
 

@@ -39,7 +39,6 @@ void add_instances(const Scene& scene, TargetShapes& out) {
             groups.items.data() + groups.begin[instance],
             groups.items.data() + groups.begin[instance + 1]);
         if (triangles.size() > most_target_triangles) continue;
-        if (scene.maps && scene.maps->lie_on(instance)) continue;
         TargetMesh mesh{.vertices = scene.vertices, .triangles = {}, .materials = {}};
         for (const std::uint32_t t : triangles) {
             mesh.triangles.push_back(scene.triangles[t]);
@@ -62,7 +61,6 @@ void add_bodies(const Scene& scene, TargetShapes& out) {
 void add_copies(const Scene& scene, TargetShapes& out) {
     std::map<std::uint32_t, std::optional<std::uint32_t>> shape_of_mesh;
     for (const MeshCopy& copy : scene.copies) {
-        if (scene.maps && scene.maps->lie_on(copy.instance)) continue;
         const auto [place, is_new] = shape_of_mesh.try_emplace(copy.mesh);
         const auto scale = static_cast<float>(copy.T_world_mesh.linear().col(0).norm());
         if (is_new) {
@@ -78,12 +76,24 @@ void add_copies(const Scene& scene, TargetShapes& out) {
     }
 }
 
+/// The lesser of a slope and that of a material that has facets.
+float lesser_slope(float slope, const Material& material) {
+    const auto of_material = static_cast<float>(facet_slope(material));
+    return of_material > 0.0F ? std::min(slope, of_material) : slope;
+}
+
 float least_slope(std::span<const Material> materials, const TargetShape& shape) {
     float least = 1.0F;
-    for (const TargetTriangle& triangle : shape.triangles) {
-        const auto slope = static_cast<float>(facet_slope(materials[triangle.material]));
-        if (slope > 0.0F) least = std::min(least, slope);
-    }
+    for (const TargetTriangle& triangle : shape.triangles)
+        least = lesser_slope(least, materials[triangle.material]);
+    return least;
+}
+
+float least_slope_of_texels(const Scene& scene) {
+    float least = 1.0F;
+    if (!scene.maps) return least;
+    for (const std::uint32_t material : scene.maps->materials())
+        least = lesser_slope(least, scene.materials[material]);
     return least;
 }
 
@@ -98,8 +108,12 @@ std::shared_ptr<const TargetShapes> find_target_shapes(const Scene& scene) {
     std::vector<float> slopes;
     for (const TargetShape& shape : out->shapes)
         slopes.push_back(least_slope(scene.materials, shape));
-    for (PlacedTarget& placed : out->placed)
+    const float of_texels = least_slope_of_texels(scene);
+    for (PlacedTarget& placed : out->placed) {
         placed.least_slope = slopes[placed.shape];
+        if (scene.maps && scene.maps->lie_on(placed.instance))
+            placed.least_slope = std::min(placed.least_slope, of_texels);
+    }
     return out;
 }
 

@@ -19,7 +19,8 @@ struct PlacedTarget {
     std::optional<std::uint32_t> body;
     /// Rotation, uniform scale and translation, scene-local, if it is at rest.
     Eigen::Affine3f T_local_shape;
-    float least_slope = 1.0F;  ///< RMS slope of the shiniest of its materials that has facets
+    /// RMS slope of the shiniest of its materials, and of the texels on it, that has facets.
+    float least_slope = 1.0F;
 };
 
 struct TargetShapes {
@@ -27,8 +28,8 @@ struct TargetShapes {
     std::vector<PlacedTarget> placed;
 };
 
-/// Finds the instances of at most 20,000 triangles within a ball of at most 5 m radius on
-/// which no map lies. Null if there are none.
+/// Finds the instances of at most 20,000 triangles within a ball of at most 5 m radius. Null if
+/// there are none.
 std::shared_ptr<const TargetShapes> find_target_shapes(const Scene& scene);
 
 }  // namespace sonarsim

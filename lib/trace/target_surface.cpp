@@ -8,6 +8,7 @@
 #include "core/elementary.h"
 #include "trace/arrivals.h"
 #include "trace/cut_triangle.h"
+#include "trace/lay_target_maps.h"
 #include "visibility/view_volume.h"
 
 namespace sonarsim {
@@ -291,6 +292,7 @@ TargetSurface target_surface(const TargetShapes& shapes, const View& view,
     }
     std::ranges::sort(out.instances);
     if (!out.instances.empty()) out.facets = sampler.take_seen(engine, T_world_sensor);
+    if (scene.maps) lay_maps_on_targets(*scene.maps, view, T_world_sensor, out.facets);
     return out;
 }
 

@@ -5,7 +5,7 @@
 
 #include "trace/target_surface.h"
 #include "trace/visible_surface.h"
-#include "validation/reference_cast.h"
+#include "visibility/reference_cast.h"
 #include "visibility/intersect.h"
 #include "visibility/local_pose.h"
 

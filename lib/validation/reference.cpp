@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "validation/image_error.h"
-#include "validation/reference_cast.h"
+#include "visibility/reference_cast.h"
 
 namespace sonarsim {
 

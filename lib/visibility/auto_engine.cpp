@@ -145,6 +145,7 @@ std::unique_ptr<VisibilityEngine> make_auto_engine(const Scene& scene, const Cas
     if (few && std::ranges::all_of(probes, [](const Probe& p) { return p.rays_goal == 0.0; }))
         return slices;
     auto rays = make_rays_engine(scene, caster, false);
+    const auto trial_slices = without_rays(*slices);
     std::vector<View> tried;
     std::vector<RaysView> better;
     for (const Probe& probe : probes) {
@@ -156,7 +157,7 @@ std::unique_ptr<VisibilityEngine> make_auto_engine(const Scene& scene, const Cas
             continue;
         }
         if (few) continue;
-        const RaysTrial trial = try_rays(scene, probe.view, probes, *rays, *slices);
+        const RaysTrial trial = try_rays(scene, probe.view, probes, *rays, *trial_slices);
         if (rays_are_better(trial, probe.view))
             better.push_back({probe.view, trial.goal, trial.error});
     }

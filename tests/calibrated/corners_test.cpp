@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <random>
 #include <vector>
 
+#include "support/maps.h"
 #include "support/scenes.h"
 #include "support/smooth_shapes.h"
 
@@ -144,6 +146,62 @@ TEST_SUITE("calibrated") {
             CAPTURE(wavelength);
             const double found = peak_db(from, scene, engines_before_shapes[draws.whole(4)], range);
             CHECK(std::fabs(found - far_db(area, power, wavelength, range)) < 1.0);
+        }
+    }
+
+    // Sound that is reflected by each face has the product of their texels' factors. The faces' own
+    // side lobes have one factor each and are a tenth of a dB at most.
+    TEST_CASE("corners: on faces with maps the texels next to the seam reflect") {
+        CornerDraws draws(27);
+        for (int trial = 0; trial < 6; ++trial) {
+            const Looking from = looking(SonarKind::imaging, draws.number(1e5, 4e5));
+            const double range = 12.05 + 0.1 * draws.whole(150);
+            const double a = 0.7 * std::sqrt(0.1 * from.wavelength() * range);
+            const std::size_t faces = 2 + trial % 2;
+            const double roll = draws.number(0.0, 7.0);
+            const double factor = draws.number(0.5, 4.0);
+            Eigen::Vector3d towards = Eigen::Vector3d::Zero();
+            for (std::size_t k = 0; k < faces; ++k)
+                towards[static_cast<int>(k)] = 1.0;
+            const Mount mount(from.axis, range, towards.normalized(), roll);
+            // Face k is an instance of its own. `rough`: the texels of the last face.
+            const auto corner_db = [&](std::size_t mapped, bool own_smooth, bool rough) {
+                Scene scene = smooth_scene();
+                const std::uint32_t other = add_material(scene, reflection);
+                const Eigen::Vector3d o = Eigen::Vector3d::Zero();
+                const Eigen::Vector3d down = faces == 2 ? Eigen::Vector3d(0.0, 0.0, -0.5 * a) : o;
+                for (std::size_t k = 0; k < faces; ++k) {
+                    Eigen::Vector3d u = a * Eigen::Vector3d::Unit(static_cast<int>(k));
+                    Eigen::Vector3d v = a * Eigen::Vector3d::Unit(static_cast<int>(k + 1) % 3);
+                    if (faces == 2) v = Eigen::Vector3d(0.0, 0.0, a);
+                    mount.add(scene, {down, down + u, down + u + v, down + v});
+                    scene.instances.push_back("face");
+                    std::fill_n(scene.triangle_instance.end() - 2, 2,
+                                static_cast<std::uint32_t>(k + 1));
+                    if (!own_smooth && k < mapped)
+                        std::fill_n(scene.triangle_material.end() - 2, 2, other);
+                }
+                std::vector<char> on(faces + 1, 0);
+                for (std::size_t k = 0; k < mapped; ++k)
+                    on[k + 1] = 1;
+                const TexelFrame frame = square_frame(1, 200.0);
+                scene.maps = std::make_shared<const GroundMaps>(
+                    material_texels(frame, {rough ? other : 0U},
+                                    [](int, int) { return std::uint16_t{0}; }),
+                    on, strengths(frame, [&](int, int) { return static_cast<float>(factor); }), on);
+                return peak_db(from, scene, EngineKind::slices, range);
+            };
+            CAPTURE(trial);
+            CAPTURE(factor);
+            const double plain = corner_db(0, true, false);
+            for (std::size_t mapped = 1; mapped <= faces; ++mapped) {
+                CAPTURE(mapped);
+                const double expected =
+                    plain + 10.0 * static_cast<double>(mapped) * std::log10(factor);
+                CHECK(std::fabs(corner_db(mapped, true, false) - expected) < 0.2);
+                CHECK(std::fabs(corner_db(mapped, false, false) - expected) < 0.2);
+                CHECK(corner_db(mapped, true, true) < plain - 10.0);
+            }
         }
     }
 }

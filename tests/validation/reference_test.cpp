@@ -8,7 +8,7 @@
 #include "support/sanitized.h"
 #include "support/scenes.h"
 #include "validation/image_error.h"
-#include "validation/reference_cast.h"
+#include "visibility/reference_cast.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

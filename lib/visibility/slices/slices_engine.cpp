@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <optional>
 #include <utility>
 
 #include "visibility/caster.h"
@@ -13,8 +14,11 @@
 #include "visibility/slices/beam_check.h"
 #include "visibility/slices/beam_errors.h"
 #include "visibility/slices/clusters.h"
+#include "visibility/slices/edge_rays.h"
 #include "visibility/slices/frame_scan.h"
 #include "visibility/slices/quad_samples.h"
+#include "visibility/slices/ray_image.h"
+#include "visibility/slices/sampled_image.h"
 #include "visibility/slices/scan.h"
 #include "visibility/slices/strip_quads.h"
 
@@ -46,6 +50,9 @@ constexpr double aimed_share = 0.8;
 // not converge so surely.
 constexpr int most_passes_of_few = 4;
 constexpr int times_the_slices = 4;
+
+// Noise of an independent image by rays, as a share of the goal. Chosen.
+constexpr double noise_of_rays = 0.25;
 
 /// Error of an image without errors of visibility: patches of surface become boxes in range.
 double error_of_shapes(double relative_l1) {
@@ -131,7 +138,11 @@ class SlicesEngine final : public VisibilityEngine {
           options_(options),
           caster_(caster),
           coverage_(scene, coverage),
-          mesh_(make_clusters(scene)) {}
+          mesh_(std::make_shared<const ClusterMesh>(make_clusters(scene))) {}
+
+    SlicesEngine(const SlicesEngine& other, bool image_by_rays) : SlicesEngine(other) {
+        options_.image_by_rays = image_by_rays;
+    }
 
     Samples visible_surface(const View& view, const Pose& T_world_sensor) const override {
         const LocalPose pose = local_pose(T_world_sensor, scene_->origin);
@@ -139,9 +150,15 @@ class SlicesEngine final : public VisibilityEngine {
         View finer = view;
         BeamsToCheck which = beams_to_check(view);
         int least_slices = slices_for(goal);
+        std::optional<RayImage> rays;
         for (int pass = 1;; ++pass) {
             Pass seen = see(finer, which, goal, pose, least_slices);
-            if (is_last(seen, goal, pass)) return std::move(seen.samples);
+            bool last = is_last(seen, goal, pass);
+            if (last && seen.few_bins && options_.per_beam == 0 && needs_rays(seen, goal, pass)) {
+                ask_rays(view, pose, pass, seen, rays);
+                last = is_last(seen, goal, pass);
+            }
+            if (last) return std::move(seen.samples);
             if (seen.few_bins) least_slices *= times_the_slices;
             if (seen.few_bins || which == BeamsToCheck::all) {
                 const double error = seen.samples.estimated_l1;
@@ -177,6 +194,31 @@ class SlicesEngine final : public VisibilityEngine {
                pass >= (seen.few_bins ? most_passes_of_few : most_passes);
     }
 
+    /// False at coarse goals for pings that passed the first look without edge bins: those of most
+    /// missions.
+    static bool needs_rays(const Pass& seen, double goal, int pass) {
+        return !is_coarse(goal) || pass > 1 || seen.edge_bins > 0.0;
+    }
+
+    /// Lets rays decide about edge bins, so that the estimate needs no allowance for them. With a
+    /// fine goal, also compares the image with one by rays, which is made once.
+    void ask_rays(const View& view, const LocalPose& pose, int pass, Pass& seen,
+                  std::optional<RayImage>& rays) const {
+        const SampledImage before = image_of(*scene_, view, seen.samples);
+        const std::vector<EdgeBin> edges =
+            settle_edge_bins(caster_, view, pose, before, seen.samples);
+        const SampledImage settled = image_of(*scene_, view, seen.samples);
+        // Ends that cannot be moved may be better in the next pass, not in all.
+        const double dark = share_in_dark_bins(settled, edges);
+        const double allowed = std::exchange(seen.edge_bins, pass > 2 ? dark : 0.0);
+        double& estimate = seen.samples.estimated_l1;
+        estimate += dark - allowed;
+        if (!options_.image_by_rays || is_coarse(view.relative_l1) || estimate > view.relative_l1)
+            return;
+        if (!rays) rays.emplace(*scene_, caster_, view, pose, noise_of_rays * view.relative_l1);
+        estimate = std::max(estimate, rays->error_of(settled, edges));
+    }
+
     /// One pass over a ping, as fine as `view` asks, with at least so many slices per beam; `goal`
     /// is that of the mission.
     Pass see(const View& view, BeamsToCheck which, double goal, const LocalPose& pose,
@@ -199,7 +241,7 @@ class SlicesEngine final : public VisibilityEngine {
     void see_frame(const View& view, BeamsToCheck which, double goal, const LocalPose& pose,
                    const SliceFrame& frame, Samples& samples, BeamErrors& errors) const {
         const PatchLimits limits = patch_limits(view);
-        FrameScan scan(mesh_, *scene_, frame, pose, limits.range_max_m);
+        FrameScan scan(*mesh_, *scene_, frame, pose, limits.range_max_m);
         AdaptiveSlices adaptive(view, scene_->materials, scan);
         QuadSampler sampler(scan, scene_->materials, limits, errors.sums(), samples.items);
         StripQuads quads(scan, limits, sampler);
@@ -226,7 +268,7 @@ class SlicesEngine final : public VisibilityEngine {
     SlicesOptions options_;
     Caster caster_;
     SceneCoverage coverage_;
-    ClusterMesh mesh_;
+    std::shared_ptr<const ClusterMesh> mesh_;
 };
 
 }  // namespace
@@ -239,6 +281,10 @@ std::unique_ptr<VisibilityEngine> make_slices_engine(const Scene& scene,
 std::unique_ptr<VisibilityEngine> make_slices_engine(const Scene& scene, const Caster& caster,
                                                      const SlicesOptions& options, bool coverage) {
     return std::make_unique<SlicesEngine>(scene, caster, options, coverage);
+}
+
+std::unique_ptr<VisibilityEngine> without_rays(const VisibilityEngine& slices) {
+    return std::make_unique<SlicesEngine>(dynamic_cast<const SlicesEngine&>(slices), false);
 }
 
 }  // namespace sonarsim

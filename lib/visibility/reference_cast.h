@@ -7,7 +7,7 @@
 
 #include "scene/maps/ground_maps.h"
 #include "scene/scene.h"
-#include "validation/surface_points.h"
+#include "visibility/surface_points.h"
 #include "visibility/caster.h"
 #include "visibility/local_pose.h"
 #include "visibility/view.h"

@@ -1,4 +1,4 @@
-#include "validation/reference_cast.h"
+#include "visibility/reference_cast.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -1,0 +1,116 @@
+#include "trace/lay_target_maps.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include "trace/arrivals.h"
+#include "trace/cut_triangle.h"
+
+namespace sonarsim {
+
+namespace {
+
+// The views of sonars of one or two beams are as wide as several beams.
+constexpr int parts_across = 32;
+
+class TargetMapLayer {
+  public:
+    TargetMapLayer(const GroundMaps& maps, const View& view, const Pose& T_world_sensor)
+        : maps_(maps),
+          R_(T_world_sensor.rotation.toRotationMatrix()),
+          sensor_(T_world_sensor.translation),
+          per_depth_(static_cast<float>(2.0 / view.bin_m())) {
+        const double width = view.shape == ViewShape::fan ? view.azimuth_rad / view.beams
+                                                          : view.elevation_rad / parts_across;
+        per_width_ = static_cast<float>(2.0 / width);
+    }
+
+    /// Appends the parts of a facet.
+    void lay(const TargetFacet& facet, std::vector<TargetFacet>& out) {
+        if (!maps_.lie_on(facet.instance)) {
+            out.push_back(facet);
+            return;
+        }
+        const Eigen::Vector3f u = facet.corners[1] - facet.corners[0];
+        const Eigen::Vector3f v = facet.corners[2] - facet.corners[0];
+        const Eigen::Vector3f middle = facet.corners[0] + (u + v) / 3.0F;
+        // The corners lie up to two thirds of an edge from the middle.
+        const auto alike =
+            maps_.alike_over(facet.instance, facet.material,
+                             footprint(facet, middle, 2.0F / 3.0F * u, 2.0F / 3.0F * v));
+        if (alike) return add(facet, alike->material, alike->strength, out);
+        const Arrival at = arrival_of(middle);
+        const auto size = [&](float du, float dv) {
+            const Eigen::Vector3f edge = du * u + dv * v;
+            return std::max(per_depth_ * std::fabs(edge.dot(at.direction)),
+                            per_width_ * edge.norm() / at.range_m);
+        };
+        cut_triangle(size, [&](const TrianglePart& part) { add_part(facet, part, out); });
+    }
+
+  private:
+    GroundFootprint footprint(const TargetFacet& facet, const Eigen::Vector3f& centre,
+                              const Eigen::Vector3f& u, const Eigen::Vector3f& v) const {
+        return maps_.footprint(facet.instance, R_ * centre.cast<double>() + sensor_,
+                               R_ * u.cast<double>(), R_ * v.cast<double>());
+    }
+
+    void add_part(const TargetFacet& facet, const TrianglePart& part,
+                  std::vector<TargetFacet>& out) {
+        const auto at = [&](const TrianglePlace& place, const auto& of) -> Eigen::Vector3f {
+            return of[0] + place.u * (of[1] - of[0]) + place.v * (of[2] - of[0]);
+        };
+        std::array<Eigen::Vector3f, 4> corners, normals;
+        for (std::size_t k = 0; k < 4; ++k) {
+            corners[k] = at(part.corners[k], facet.corners);
+            normals[k] = at(part.corners[k], facet.normals);
+        }
+        const auto& [a, b, c, d] = corners;
+        maps_.shares_over(facet.instance, facet.material,
+                          footprint(facet, at(part.centroid, facet.corners),
+                                    0.25F * (b + c - a - d), 0.25F * (c + d - a - b)),
+                          shares_);
+        for (const MaterialShare& share : shares_) {
+            const auto add_triangle = [&](std::size_t second, std::size_t third) {
+                TargetFacet piece = facet;
+                piece.corners = {corners[0], corners[second], corners[third]};
+                piece.normals = {normals[0], normals[second], normals[third]};
+                add(piece, share.material, static_cast<float>(share.power), out);
+            };
+            add_triangle(1, 2);
+            const bool is_triangle =
+                part.corners[0].u == part.corners[3].u && part.corners[0].v == part.corners[3].v;
+            if (!is_triangle) add_triangle(2, 3);
+        }
+    }
+
+    static void add(const TargetFacet& facet, std::uint32_t material, float strength,
+                    std::vector<TargetFacet>& out) {
+        TargetFacet& laid = out.emplace_back(facet);
+        laid.material = material;
+        laid.strength = strength;
+    }
+
+    const GroundMaps& maps_;
+    Eigen::Matrix3d R_;
+    Eigen::Vector3d sensor_;
+    float per_depth_, per_width_;
+    std::vector<MaterialShare> shares_;
+};
+
+}  // namespace
+
+void lay_maps_on_targets(const GroundMaps& maps, const View& view, const Pose& T_world_sensor,
+                         std::vector<TargetFacet>& facets) {
+    TargetMapLayer layer(maps, view, T_world_sensor);
+    std::vector<TargetFacet> out;
+    out.reserve(facets.size());
+    for (const TargetFacet& facet : facets)
+        layer.lay(facet, out);
+    facets = std::move(out);
+}
+
+}  // namespace sonarsim

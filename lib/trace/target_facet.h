@@ -1,0 +1,52 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "trace/arrivals.h"
+
+namespace sonarsim {
+
+/// A triangle of a target's surface that the sonar sees, in the sensor frame. The curved surface
+/// that it stands for has the normal n / |n| at the fractions w of its corners, n = sum w_i
+/// normals[i].
+struct TargetFacet {
+    std::array<Eigen::Vector3f, 3> corners;  ///< m
+    std::array<Eigen::Vector3f, 3> normals;  ///< facing the sonar like `normal`, at most unit
+    Eigen::Vector3f normal;                  ///< unit, of the triangle, facing the sonar
+    float curvature_m;                       ///< as in TargetTriangle, negative if hollow
+    std::uint32_t material;                  ///< index into Scene::materials
+    std::uint32_t instance;                  ///< index into Scene::instances
+    std::uint32_t region;                    ///< as in TargetTriangle
+    float strength = 1.0F;                   ///< factor on its power, from a map
+};
+
+/// The differences between the normals of a facet and the directions to the sonar, as vectors.
+/// There is a highlight where their length is below some slopes of the material.
+struct FacetTurn {
+    Eigen::Vector3f along_u, along_v;  ///< change from the first corner to the second and the third
+    float least;                       ///< length: no part of the facet is nearer than this
+
+    explicit FacetTurn(const TargetFacet& facet) {
+        const auto& p = facet.corners;
+        const float per_range = 3.0F / arrival_range(p[0] + p[1] + p[2]);
+        std::array<Eigen::Vector3f, 3> off;
+        for (int k = 0; k < 3; ++k) {
+            // Nearly of unit length: normals are at least 0.9 long.
+            const float to_unit = 1.5F - 0.5F * facet.normals[k].squaredNorm();
+            off[k] = to_unit * facet.normals[k] + per_range * p[k];
+        }
+        const Eigen::Vector3f middle = (off[0] + off[1] + off[2]) / 3.0F;
+        float spread2 = 0.0F;
+        for (const Eigen::Vector3f& corner : off)
+            spread2 = std::max(spread2, (corner - middle).squaredNorm());
+        along_u = off[1] - off[0];
+        along_v = off[2] - off[0];
+        least = middle.norm() - std::sqrt(spread2);
+    }
+};
+
+}  // namespace sonarsim
