@@ -29,14 +29,6 @@ std::unique_ptr<ImageInput> open_image(const char* format, const char* file, Ima
     return input;
 }
 
-/// OpenImageIO spreads samples of fewer bits over those of a type.
-void require_whole_type(const ImageSpec& spec, unsigned bits) {
-    const auto in_file = static_cast<unsigned>(spec.get_int_attribute("oiio:BitsPerSample", 0));
-    if (in_file == 0 || in_file == bits) return;
-    throw std::runtime_error("samples of " + std::to_string(in_file) +
-                             " bits are not read; make 16 of them with gdal_translate -ot UInt16");
-}
-
 /// All channels are read as numbers of one type. OpenImageIO would make whole numbers shares of the
 /// largest.
 void require_one_type(const ImageSpec& spec) {
@@ -112,7 +104,6 @@ extern "C" [[gnu::visibility("default")]] int sonarsim_read_image_1(
             static_cast<std::uint32_t>(spec.nchannels), bits, is_whole(spec) ? 0U : 1U};
         if (start(user, &head) != 0) return;
         require_one_type(spec);
-        if (spec.nchannels == 1) require_whole_type(spec, bits);
         read_pixels(*input, spec, rows, user);
     });
 }

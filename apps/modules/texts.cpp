@@ -70,7 +70,8 @@ void write_one(const SonarsimText& text, const std::string& font, ImageBuf& pict
                             static_cast<float>(text.colour[1]) / 255.0F,
                             static_cast<float>(text.colour[2]) / 255.0F};
     for (const Piece& piece : pieces) {
-        const int raised = piece.is_degree ? text.size_px * 35 / 100 : 0;
+        // Its "o" is 0.33 of the size high and ends where the digits do.
+        const int raised = piece.is_degree ? text.size_px * 40 / 100 : 0;
         if (!piece.letters.empty() &&
             !Algo::render_text(picture, x, baseline - raised, piece.letters,
                                size_of(piece, text.size_px), font, colour, Algo::TextAlignX::Left,

@@ -191,6 +191,7 @@ Assembly assemble(const Mission& mission, SceneFiles& models) {
     lay_ground_maps(mission.scene, materials,
                     {mission.water.density_kg_m3, mission.water.sound_speed_m_s}, parts.files,
                     models, assembly.scene);
+    models.images().end();
     for (std::string& question : parts.questions)
         assembly.scene.warnings.push_back(std::move(question));
     assembly.motions = std::move(parts.motions);

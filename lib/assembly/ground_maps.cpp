@@ -61,11 +61,16 @@ LaidMapRule rule_of(const LaidMapConfig& map, const std::string& section, const 
             .by_uv = map.placed == MapPlacing::uv};
 }
 
-/// The image of a map: its file, or the texture of a glTF file.
-Image image_of(const LaidMapConfig& map) {
+/// The image of a map: its file, or the texture of a glTF file, whose materials may have `parts`.
+Image image_of(const LaidMapConfig& map, ImageReader& images, TextureParts& parts) {
     const std::string extension = map.file.extension().string();
-    if (extension != ".glb" && extension != ".gltf") return read_image(map.file);
-    if (map.placed == MapPlacing::uv) return read_texture(map.file);
+    if (extension != ".glb" && extension != ".gltf") return images.read(map.file);
+    if (map.placed == MapPlacing::uv) {
+        Texture texture = read_texture(map.file, images);
+        if (!texture.part_of_material.empty())
+            parts = {map.file, std::move(texture.part_of_material)};
+        return std::move(texture.image);
+    }
     throw InputError(Location{map.file.string()},
                      "is a mesh, whose texture lies on it by placed: uv; name an image");
 }
@@ -116,6 +121,17 @@ auto read_map(const LaidMapConfig& map, const Read& read) {
     }
 }
 
+/// 1 for the instances on which one of two maps lies.
+std::vector<char> either(std::size_t instances, const std::vector<char>& first,
+                         const std::vector<char>& second) {
+    std::vector<char> on(instances, 0);
+    for (std::size_t i = 0; i < instances; ++i) {
+        on[i] = static_cast<char>((i < first.size() && first[i] != 0) ||
+                                  (i < second.size() && second[i] != 0));
+    }
+    return on;
+}
+
 }  // namespace
 
 void lay_ground_maps(const SceneConfig& config, const MaterialTable& table, const Water& water,
@@ -124,6 +140,7 @@ void lay_ground_maps(const SceneConfig& config, const MaterialTable& table, cons
     std::optional<MaterialTexels> materials;
     std::optional<StrengthTexels> strengths;
     std::vector<char> on_materials, on_strengths;
+    TextureParts parts;
     if (config.sediment_map) {
         const std::string section = "scene.sediment_map";
         const LaidMapConfig& laid = config.sediment_map->laid;
@@ -132,7 +149,8 @@ void lay_ground_maps(const SceneConfig& config, const MaterialTable& table, cons
             add_materials(config.sediment_map->materials, table, laid.place.location, scene);
         resolve_materials(scene, table, water);
         materials = read_map(laid, [&] {
-            return read_material_map(rule_of(laid, section, scene), image_of(laid), of_scene);
+            return read_material_map(rule_of(laid, section, scene),
+                                     image_of(laid, models.images(), parts), of_scene);
         });
         if (laid.placed == MapPlacing::above) warn_of_place(materials->frame, section, scene);
     }
@@ -141,8 +159,9 @@ void lay_ground_maps(const SceneConfig& config, const MaterialTable& table, cons
         const BackscatterMapConfig& map = *config.backscatter_map;
         on_strengths = instances_of(map.laid, section, config, scene);
         strengths = read_map(map.laid, [&] {
-            return read_strength_map(rule_of(map.laid, section, scene), image_of(map.laid),
-                                     map.scale_db, map.offset_db);
+            return read_strength_map(rule_of(map.laid, section, scene),
+                                     image_of(map.laid, models.images(), parts), map.scale_db,
+                                     map.offset_db);
         });
         if (map.laid.placed == MapPlacing::above) warn_of_place(strengths->frame, section, scene);
         if (!strengths->factor.empty() &&
@@ -156,13 +175,15 @@ void lay_ground_maps(const SceneConfig& config, const MaterialTable& table, cons
         config.sediment_map ? config.sediment_map->laid : config.backscatter_map->laid;
     std::shared_ptr<const UvMesh> uv;
     if (laid.placed == MapPlacing::uv) {
-        std::vector<char> on(scene.instances.size(), 0);
-        for (std::size_t i = 0; i < on.size(); ++i) {
-            on[i] = static_cast<char>((i < on_materials.size() && on_materials[i] != 0) ||
-                                      (i < on_strengths.size() && on_strengths[i] != 0));
+        if (!parts.of_material.empty() && materials && strengths) {
+            throw InputError(laid.place.location,
+                             "the materials of the glTF name several images, over which no second "
+                             "map lies; make one image of them in the mesh's editor");
         }
-        uv = read_map(
-            laid, [&] { return std::make_shared<const UvMesh>(uv_triangles(files, models, on)); });
+        const std::vector<char> on = either(scene.instances.size(), on_materials, on_strengths);
+        uv = read_map(laid, [&] {
+            return std::make_shared<const UvMesh>(uv_triangles(files, models, on, parts));
+        });
     }
     scene.maps = std::make_shared<const GroundMaps>(std::move(materials), std::move(on_materials),
                                                     std::move(strengths), std::move(on_strengths),

@@ -236,7 +236,8 @@ SceneParts place_scene(const Mission& mission, const Trajectory& vehicle,
     Shapes shapes(models);
     std::optional<PlacedFile> ground = heightmap_of(scene, seen, shapes);
     if (ground && may_be_thinned(mission, *ground, models)) {
-        parts.heightmap = thin_heights(*ground, sonars, vehicle, mission.accuracy.relative_l1);
+        parts.heightmap =
+            thin_heights(*ground, sonars, vehicle, mission.accuracy.relative_l1, models.images());
         ground->heightmap->every = parts.heightmap.every;
     }
     if (scene.seabed) {

@@ -70,8 +70,8 @@ bool has_no_truth_of_heights(const Mission& mission) {
 }
 
 Thinning thin_heights(const PlacedFile& map, std::span<const Sonar> sonars,
-                      const Trajectory& vehicle, double relative_l1) {
-    const HeightPatches patches(map, most_left_out);
+                      const Trajectory& vehicle, double relative_l1, ImageReader& images) {
+    const HeightPatches patches(map, most_left_out, images);
     Thinning out;
     if (patches.has_unknown()) return out;
     // The greatest change for 2, 4, 8 and 16.

@@ -30,6 +30,6 @@ bool has_no_truth_of_heights(const Mission& mission);
 /// once over all heights and once over those that are kept. The greatest change of these images is
 /// Thinning::error. A map with unknown heights keeps all. InputError as read_heights().
 Thinning thin_heights(const PlacedFile& map, std::span<const Sonar> sonars,
-                      const Trajectory& vehicle, double relative_l1);
+                      const Trajectory& vehicle, double relative_l1, ImageReader& images);
 
 }  // namespace sonarsim

@@ -3,6 +3,8 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/resource.h>
+#include <sys/socket.h>
+#include <sys/time.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -16,6 +18,7 @@
 #include <fstream>
 #include <optional>
 #include <system_error>
+#include <utility>
 
 #include "core/error.h"
 #include "core/text.h"
@@ -51,7 +54,28 @@ void write_all(int to, const void* bytes, std::size_t size) {
     }
 }
 
-[[noreturn]] void run_child(const std::function<void(const ChildOutput&)>& work, int to,
+/// The processor time of this process, in whole seconds.
+unsigned long cpu_used_s() {
+    rusage used{};
+    getrusage(RUSAGE_SELF, &used);
+    return static_cast<unsigned long>(used.ru_utime.tv_sec + used.ru_stime.tv_sec);
+}
+
+void read_all(int from, void* bytes, std::size_t size) {
+    char* next = static_cast<char*>(bytes);
+    while (size > 0) {
+        const ssize_t count = read(from, next, size);
+        if (count < 0 && errno == EINTR) continue;
+        if (count <= 0) _exit(0);  // the parent has no more requests
+        next += count;
+        size -= static_cast<std::size_t>(count);
+    }
+}
+
+/// Requests and the pieces of an answer have their size before them. A size of 0 ends an answer.
+using Size = std::uint64_t;
+
+[[noreturn]] void run_child(const ChildProcess::Work& work, int channel,
                             const ChildLimits& limits) {
     for (const int number : {SIGINT, SIGTERM, SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGXCPU, SIGPIPE})
         std::signal(number, SIG_DFL);
@@ -62,14 +86,25 @@ void write_all(int to, const void* bytes, std::size_t size) {
         dup2(nowhere, STDERR_FILENO);
     }
     limit(RLIMIT_CORE, 0);
-    limit(RLIMIT_CPU, limits.cpu_s);
     limit(RLIMIT_AS, address_space() + limits.memory_bytes);
     try {
-        work([to](const void* bytes, std::size_t size) { write_all(to, bytes, size); });
+        for (;;) {
+            Size size = 0;
+            read_all(channel, &size, sizeof(size));
+            std::string request(size, '\0');
+            read_all(channel, request.data(), size);
+            limit(RLIMIT_CPU, cpu_used_s() + limits.cpu_s);
+            work(request, [channel](const void* bytes, Size count) {
+                if (count == 0) return;
+                write_all(channel, &count, sizeof(count));
+                write_all(channel, bytes, count);
+            });
+            size = 0;
+            write_all(channel, &size, sizeof(size));
+        }
     } catch (...) {
         _exit(exit_threw);
     }
-    _exit(0);
 }
 
 using Clock = std::chrono::steady_clock;
@@ -87,26 +122,74 @@ bool wait_for_bytes(int from, Clock::time_point deadline) {
     }
 }
 
-/// All bytes up to the end; nothing if the deadline passes before.
-std::optional<std::string> read_all(int from, std::optional<Clock::time_point> deadline) {
-    std::string bytes;
+enum class Received { all, end, late };
+
+/// Adds `size` bytes of the channel to `bytes`.
+Received receive(int from, std::uint64_t size, std::optional<Clock::time_point> deadline,
+                 std::string& bytes) {
     std::array<char, 1 << 16> buffer;
-    for (;;) {
-        if (deadline && !wait_for_bytes(from, *deadline)) return std::nullopt;
-        const ssize_t count = read(from, buffer.data(), buffer.size());
+    while (size > 0) {
+        if (deadline && !wait_for_bytes(from, *deadline)) return Received::late;
+        const ssize_t count = read(from, buffer.data(), std::min<Size>(size, buffer.size()));
         if (count < 0 && errno == EINTR) continue;
-        if (count <= 0) return bytes;
+        if (count <= 0) return Received::end;
         bytes.append(buffer.data(), static_cast<std::size_t>(count));
+        size -= static_cast<Size>(count);
     }
+    return Received::all;
+}
+
+/// Adds an answer to `bytes`.
+Received receive_answer(int from, double wall_s, std::string& bytes) {
+    std::optional<Clock::time_point> deadline;
+    if (wall_s > 0.0) {
+        deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                      std::chrono::duration<double>(wall_s));
+    }
+    for (;;) {
+        std::string head;
+        const Received found = receive(from, sizeof(Size), deadline, head);
+        if (found != Received::all) return found;
+        Size size = 0;
+        std::memcpy(&size, head.data(), sizeof(size));
+        if (size == 0) return Received::all;
+        const Received piece = receive(from, size, deadline, bytes);
+        if (piece != Received::all) return piece;
+    }
+}
+
+/// True if the child took it.
+bool send_all(int to, const std::string& bytes) {
+    std::size_t sent = 0;
+    while (sent < bytes.size()) {
+        const ssize_t count = send(to, &bytes[sent], bytes.size() - sent, MSG_NOSIGNAL);
+        if (count < 0 && errno == EINTR) continue;
+        if (count <= 0) return false;
+        sent += static_cast<std::size_t>(count);
+    }
+    return true;
+}
+
+int status_of(pid_t child) {
+    int status = 0;
+    while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+    }
+    return status;
 }
 
 }  // namespace
 
-std::string bytes_of_child(const std::function<void(const ChildOutput&)>& work,
-                           const ChildLimits& limits) {
+ChildProcess::ChildProcess(Work work, const ChildLimits& limits)
+    : work_(std::move(work)), limits_(limits) {}
+
+ChildProcess::~ChildProcess() {
+    end();
+}
+
+void ChildProcess::start() {
     std::array<int, 2> ends{};
-    if (pipe2(ends.data(), O_CLOEXEC) != 0)
-        throw std::system_error(errno, std::generic_category(), "cannot make a pipe");
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
+        throw std::system_error(errno, std::generic_category(), "cannot make a channel");
     const pid_t child = fork();
     if (child < 0) {
         const int reason = errno;
@@ -116,27 +199,52 @@ std::string bytes_of_child(const std::function<void(const ChildOutput&)>& work,
     }
     if (child == 0) {
         close(ends[0]);
-        run_child(work, ends[1], limits);
+        run_child(work_, ends[1], limits_);
     }
     close(ends[1]);
-    std::optional<Clock::time_point> deadline;
-    if (limits.wall_s > 0.0) {
-        deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(
-                                      std::chrono::duration<double>(limits.wall_s));
-    }
-    std::optional<std::string> bytes = read_all(ends[0], deadline);
-    close(ends[0]);
-    if (!bytes) kill(child, SIGKILL);
-    int status = 0;
-    while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-    }
-    if (!bytes) throw InputError("took more than " + number_text(limits.wall_s) + " s");
-    if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return *std::move(bytes);
+    child_ = child;
+    channel_ = ends[0];
+}
+
+std::string ChildProcess::answer(const std::string& request) {
+    if (child_ < 0) start();
+    const Size size = request.size();
+    const std::string head(reinterpret_cast<const char*>(&size), sizeof(size));
+    std::string bytes;
+    Received received = Received::end;
+    if (send_all(channel_, head + request))
+        received = receive_answer(channel_, limits_.wall_s, bytes);
+    if (received != Received::all) refuse(received == Received::end);
+    return bytes;
+}
+
+void ChildProcess::refuse(bool in_time) {
+    if (!in_time) kill(child_, SIGKILL);
+    const int status = status_of(child_);
+    close(channel_);
+    child_ = -1;
+    if (!in_time) throw InputError("took more than " + number_text(limits_.wall_s) + " s");
     if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)
-        throw InputError("took more than " + std::to_string(limits.cpu_s) + " s");
+        throw InputError("took more than " + std::to_string(limits_.cpu_s) + " s");
     if (WIFSIGNALED(status))
         throw InputError(std::string("ended with \"") + sigdescr_np(WTERMSIG(status)) + "\"");
     throw InputError("needed more memory than it may have");
+}
+
+void ChildProcess::end() {
+    if (child_ < 0) return;
+    // Not by closing its channel: another child may have a copy of that.
+    kill(child_, SIGKILL);
+    status_of(child_);
+    close(channel_);
+    child_ = -1;
+}
+
+std::string bytes_of_child(const std::function<void(const ChildOutput&)>& work,
+                           const ChildLimits& limits) {
+    ChildProcess child([&](const std::string&, const ChildOutput& output) { work(output); },
+                       limits);
+    return child.answer("");
 }
 
 }  // namespace sonarsim

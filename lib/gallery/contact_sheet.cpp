@@ -179,7 +179,7 @@ void draw_in_child(const ChildOutput& write, const SonarsimSheet& sheet) {
 }
 
 void draw_sheet_file(std::span<const SheetPicture> pictures, const fs::path& file,
-                     const std::string& format) {
+                     const std::string& format, const ChildLimits& limits) {
     std::vector<std::string> files;
     std::vector<SonarsimThumbnail> thumbnails;
     files.reserve(pictures.size());
@@ -196,8 +196,6 @@ void draw_sheet_file(std::span<const SheetPicture> pictures, const fs::path& fil
     const SonarsimSheet sheet{
         thumbnails.data(), count,          columns,     count > many_on_sheet ? 200U : 320U,
         text_font(file),   format.c_str(), part.c_str()};
-    // The libraries, a picture of 2^28 bytes and what it is scaled with; the sheet.
-    constexpr ChildLimits limits{std::size_t{4} << 30, 600, 300.0};
     std::string reason;
     try {
         reason =
@@ -229,7 +227,7 @@ SheetSummary write_contact_sheet(const fs::path& folder, const fs::path& file,
                                                 std::to_string(most_on_sheet) +
                                                 "; give a lower --most, or a --sensor");
     }
-    draw_sheet_file(pictures, file, format);
+    draw_sheet_file(pictures, file, format, options.limits);
     return {pictures.size()};
 }
 

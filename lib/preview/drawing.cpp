@@ -134,13 +134,16 @@ void draw_axes(Drawing& tile, const PlaneFrame& frame) {
     fill(tile, frame.left - 1, bottom, frame.plot_width + 1, 1, ink);
     const Eigen::Vector2d high =
         frame.low + frame.pixel_m * Eigen::Vector2d(frame.plot_width, frame.plot_height);
+    int last = 0;  // end of the number before
     for (const double x : axis_marks(frame.low.x(), high.x(), 6.0)) {
         const int at = static_cast<int>(frame.pixel({x, frame.low.y()}).x());
         fill(tile, at, bottom, 1, 4, ink);
         const std::string number = number_text(x) + " m";
         const int half = estimated_width(number) / 2;
-        if (at - half > 0 && at + half < tile.width)
-            tile.texts.push_back({at, bottom + 12, number, Align::middle});
+        constexpr int blank_px = 6;
+        if (at - half <= last || at + half >= tile.width) continue;
+        tile.texts.push_back({at, bottom + 12, number, Align::middle});
+        last = at + half + blank_px;
     }
     for (const double y : axis_marks(frame.low.y(), high.y(), 5.0)) {
         const int at = static_cast<int>(frame.pixel({frame.low.x(), y}).y());

@@ -217,9 +217,9 @@ Picture draw_preview(const Mission& mission, const Assembly& assembly, std::uint
     }
     tiles.push_back({"plan: x to the right, y up, colours: height", ink,
                      draw_plan(moment, widths[tiles.size()], tile_height)});
-    tiles.push_back({"cut along the heading: ahead to the right, z up", ink,
+    tiles.push_back({"cut along: ahead right", ink,
                      draw_section(moment, false, widths[tiles.size()], tile_height)});
-    tiles.push_back({"cut across the heading: starboard to the right, z up", ink,
+    tiles.push_back({"cut across: starboard right", ink,
                      draw_section(moment, true, widths[tiles.size()], tile_height)});
     Drawing all = arrange(head_text(mission, trajectory, pose), tiles, rows, widths);
     draw_texts(all);

@@ -51,7 +51,8 @@ struct ThinnedMap {
 
     Thinning thinned(const Sonar& sonar) const {
         const Trajectory vehicle{{0.0, above_floor()}};
-        return thin_heights(placed, {&sonar, 1}, vehicle, 0.03);
+        ImageReader images;
+        return thin_heights(placed, {&sonar, 1}, vehicle, 0.03, images);
     }
 
     std::vector<double> image(const Sonar& sonar, int every) const {

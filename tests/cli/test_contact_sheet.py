@@ -2,6 +2,7 @@
 import struct
 import sys
 import unittest
+import zlib
 
 from sandbox import Sandbox, path_csv
 
@@ -69,6 +70,12 @@ class ContactSheet(Sandbox):
         self.assertRegex(cut.stderr, f"sheet.png: not written: .*{fan.name}.*end of file")
         fan.write_bytes(b"")
         self.assert_refused(self.sheet("sheet.png"), "sheet.png: not written", fan.name)
+        head = struct.pack(">IIBBBBB", 20000, 20000, 8, 0, 0, 0, 0)  # a bomb: 400 MB of zeros in 0.4 MB
+        rows = zlib.compress(bytes(20001 * 20000), 1)
+        fan.write_bytes(b"\x89PNG\r\n\x1a\n" + b"".join(
+            struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+            for kind, data in ((b"IHDR", head), (b"IDAT", rows), (b"IEND", b""))))
+        self.assert_refused(self.sheet("sheet.png"), "sheet.png: not written", fan.name, "more than 2^28 values")
         (self.out / "dataset.json").write_text("{")
         self.assert_refused(self.sheet("sheet.png"), "dataset.json")
         self.assertEqual([p.name for p in self.folder.glob("sheet*")], [])

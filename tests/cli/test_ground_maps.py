@@ -85,6 +85,26 @@ def with_texture(floor, image, **use):
                                             "textures": [{"source": 0}], "images": [image]}
 
 
+def halves(west, east, stretch=1):
+    """The floor in two nodes, each with a material that names an image. The western one has texture
+    coordinates up to `stretch` along x."""
+    meshes, data = [], []
+    for k in range(2):
+        points, indices, _ = floor_mesh(half=10.0, cells=5)
+        meshes.append(([((x - 10) / 2 + 10 * k, y, z) for x, y, z in points], indices, k))
+        data.append(b"".join(struct.pack("<2f", (1 if k else stretch) * (x + 10) / 20, (z + 10) / 20)
+                             for x, _, z in points))
+    floor = json.loads(gltf([{"name": "west", "mesh": 0}, {"name": "east", "mesh": 1}], meshes,
+                            ("Concrete", "Concrete")))
+    for k in range(2):
+        floor["buffers"].append({"byteLength": len(data[k]), "uri": data_uri(data[k])})
+        floor["bufferViews"].append({"buffer": 1 + k, "byteLength": len(data[k])})
+        floor["accessors"].append({"bufferView": 4 + k, "componentType": 5126, "count": 36, "type": "VEC2"})
+        floor["meshes"][k]["primitives"][0]["attributes"]["TEXCOORD_0"] = 4 + k
+        floor["materials"][k]["pbrMetallicRoughness"] = {"baseColorTexture": {"index": k}}
+    return floor | {"textures": [{"source": 0}, {"source": 1}], "images": [west, east]}
+
+
 def glb(document):
     """A .glb whose only chunk is the JSON."""
     text = json.dumps(document).encode()
@@ -200,18 +220,43 @@ class GroundMaps(Composed):
                 self.assertEqual((self.folder / out / "side/clean.npy").read_bytes(),
                                  (self.folder / "file/side/clean.npy").read_bytes())
 
+    def test_several_own_textures(self):
+        """Two halves of the floor whose materials name images of their own, of other sizes, and the same
+        as one image from above. Texture coordinates beyond the western image do not reach the eastern one."""
+        west, east = [[1, 2], [3, 4]], [[4, 3, 2], [1, 2, 3], [1, 1, 4]]
+        (self.folder / "west.png").write_bytes(png(west, 8))
+        (self.folder / "east.png").write_bytes(png(east, 8))
+        own = (UV % "").replace("quarters.png", "floor.gltf").replace("[floor]", "[west, east]")
+        above = (QUARTERS % ", no_data: 0").replace("[floor]", "[west, east]")
+        for stretch in (1, 4):
+            with self.subTest(stretch=stretch):
+                whole = [[west[row // 3][stretch * k // 6] if stretch * k < 12 else 0 for k in range(12)] +
+                         [east[row // 2][k // 4] for k in range(12)] for row in range(6)]
+                (self.folder / "quarters.png").write_bytes(png(whole, 8))
+                self.write("floor.gltf", json.dumps(halves({"uri": "west.png"}, {"uri": "east.png"}, stretch)))
+                rows = []
+                for out, maps in (("own", own), ("one", above)):
+                    self.mission(maps, f"{out}{stretch}")
+                    self.assert_renders()
+                    rows.append(records_of(self.folder / f"{out}{stretch}" / "side/clean.npy"))
+                off = sum(abs(a - b) for mine, other in zip(*rows, strict=True)
+                          for a, b in zip(mine, other, strict=True))
+                # The one image has smaller pixels, so that bins on a border are summed in smaller parts.
+                self.assertLess(off, 1e-3 * sum(sum(row) for row in rows[1]))
+
     def test_own_texture_refused(self):
         floor = unwrapped_floor(lambda x, y: (x, y))
-        two = with_texture(floor, {"uri": "quarters.png"})
-        two["materials"].append({"pbrMetallicRoughness": {"baseColorTexture": {"index": 1}}})
-        two["textures"].append({"source": 1})
-        two["images"].append({"uri": "db.png"})
+        two = halves({"uri": "quarters.png"}, {"uri": "quarters.png"})
+        (self.folder / "colours.png").write_bytes(colour_png([[(1, 2, 3, 255)]]))
+        mixed = halves({"uri": "quarters.png"}, {"uri": "colours.png"})
         moved = with_texture(floor, {"uri": "quarters.png"})
         use = moved["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]
         use["extensions"] = {"KHR_texture_transform": {"scale": [2, 2]}}
         for content, fragment in (
                 (floor, "has no material with a baseColorTexture; name an image as the map's file"),
-                (two, "has materials with 2 images, and a map has one"),
+                (mixed, "has images of different kinds"),
+                (halves({"uri": "quarters.png"}, {"uri": "none.png"}), "none.png: no such file"),
+                (two | {"images": [{"uri": "quarters.png"}]}, "images[1] does not exist"),
                 (moved, "moves its texture with KHR_texture_transform"),
                 (with_texture(floor, {"uri": "quarters.png"}, texCoord=1), "by another TEXCOORD than TEXCOORD_0"),
                 (with_texture(floor, {"uri": "../db.png"}), "is not in the folder of the glTF file or below"),
@@ -222,13 +267,21 @@ class GroundMaps(Composed):
                 (with_texture(floor, {"uri": "a.png"}, index=7), "textures[7] does not exist")):
             with self.subTest(fragment=fragment):
                 self.write("floor.gltf", json.dumps(content))
-                self.mission((UV % "").replace("quarters.png", "floor.gltf"))
+                self.mission((UV % "").replace("quarters.png", "floor.gltf").replace("[floor]", '["*"]'))
                 result = self.run_sonarsim("validate", "mission.yaml")
                 # The PNG library's own message may contain the word "error:" as well.
                 result.stderr = result.stderr.replace("Read error:", "").replace("read error:", "")
                 self.assert_refused(result, fragment, "mission.yaml:5:")
         self.mission((QUARTERS % "").replace("quarters.png", "floor.gltf"))
         self.refused("is a mesh, whose texture lies on it by placed: uv; name an image")
+        self.write("floor.gltf", json.dumps(two))
+        own = (UV % "").replace("quarters.png", "floor.gltf").replace("[floor]", '["*"]')
+        self.mission(own + '  backscatter_map: {file: db.png, placed: uv, instances: ["*"]}\n')
+        self.refused("the materials of the glTF name several images, over which no second map lies", "mission.yaml:5:")
+        self.write("other.gltf", json.dumps(floor))
+        self.mission(own + "  objects: [{name: lid, file: other.gltf, "
+                     "position_m: [0, 0, 1]}]\n")
+        self.refused("floor.gltf, whose images lie on its own materials; name its nodes as instances")
 
     def test_texture_coordinates_refused(self):
         def write(change):

@@ -63,4 +63,41 @@ TEST_SUITE("core") {
                   output(much.data(), 1);
               }) == "needed more memory than it may have");
     }
+
+    TEST_CASE("one child answers all requests until it dies, and another one answers the next") {
+        int answered = 0;  // in the child
+        ChildProcess child(
+            [&](const std::string& request, const ChildOutput& output) {
+                if (request == "die") std::raise(SIGSEGV);
+                for (++answered; output && request == "loop";) {
+                }
+                const std::string text =
+                    request + " " + std::to_string(answered) + " " + std::to_string(getpid());
+                output(text.data(), text.size());
+            },
+            {std::size_t{1} << 28, 1});
+        const auto answer = [&](const std::string& request) {
+            try {
+                return child.answer(request);
+            } catch (const InputError& error) {
+                return std::string(error.what());
+            }
+        };
+        const std::string first = answer("a");
+        const std::string process = first.substr(4);
+        CHECK(first == "a 1 " + process);
+        CHECK(answer("b") == "b 2 " + process);
+        const std::string much(300'000, 'x');  // more than a channel holds
+        CHECK(answer(much) == much + " 3 " + process);
+        CHECK(answer("die") == "ended with \"Segmentation fault\"");
+        CHECK(answered == 0);
+        const std::string second = answer("c");
+        CHECK(second.substr(0, 4) == "c 1 ");
+        CHECK(second.substr(4) != process);
+        CHECK(answer("loop") == "took more than 1 s");
+        CHECK(answer("d").substr(0, 4) == "d 1 ");
+        child.end();
+        child.end();
+        CHECK(answer("e").substr(0, 4) == "e 1 ");
+    }
 }

@@ -31,7 +31,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         const Scene scene = load_scene_geometry(file);
         check_promises(scene);
         require(!describe_scene(scene).empty());
-        require(!read_texture(file).values.empty());
+        ImageReader images;
+        require(!read_texture(file, images).image.values.empty());
     } catch (const InputError&) {
         return 0;
     }

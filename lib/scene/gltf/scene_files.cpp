@@ -14,9 +14,9 @@ namespace sonarsim {
 
 namespace {
 
-tinygltf::Model read_model(const PlacedFile& placed) {
+tinygltf::Model read_model(const PlacedFile& placed, ImageReader& images) {
     if (placed.seabed) return bed_model(*placed.seabed);
-    if (placed.heightmap) return height_model(placed.file, *placed.heightmap);
+    if (placed.heightmap) return height_model(placed.file, *placed.heightmap, images);
     return is_mesh_file(placed.file) ? read_mesh(placed.file) : read_gltf(placed.file);
 }
 
@@ -44,7 +44,8 @@ const tinygltf::Model& SceneFiles::model(const PlacedFile& placed) {
     });
     if (known != models_->entries.end()) return known->model;
     try {
-        Models::Entry entry{placed.file, placed.heightmap, placed.seabed, read_model(placed)};
+        Models::Entry entry{placed.file, placed.heightmap, placed.seabed,
+                            read_model(placed, images_)};
         // Variants of a mission need other grounds, which are large: only one is kept.
         if (entry.is_ground()) {
             std::erase_if(models_->entries,

@@ -1,15 +1,18 @@
 #include "scene/gltf/texture.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/error.h"
 #include "core/text.h"
 #include "scene/gltf/file.h"
+#include "scene/images/side_by_side.h"
 
 namespace sonarsim {
 
@@ -26,29 +29,27 @@ const json& element(const json& document, const char* array, int index, const Lo
     return (*found)[static_cast<std::size_t>(index)];
 }
 
-/// The images that materials name as baseColorTexture.
-std::set<int> images_of_materials(const json& document, const Location& where) {
-    std::set<int> images;
-    for (const json& material : document.value("materials", json::array())) {
-        const json colours = material.value("pbrMetallicRoughness", json::object());
-        const auto use = colours.find("baseColorTexture");
-        if (use == colours.end()) continue;
-        if (use->contains("extensions") && !use->at("extensions").empty())
-            throw InputError(where,
-                             "moves its texture with KHR_texture_transform, which is not read; "
-                             "apply it to the texture coordinates in the mesh's editor");
-        if (use->value("texCoord", 0) != 0)
-            throw InputError(where,
-                             "lays its texture by another TEXCOORD than TEXCOORD_0, the one that "
-                             "is read; make it the first in the mesh's editor");
-        const json& texture = element(document, "textures", use->value("index", 0), where);
-        if (!texture.contains("source"))
-            throw InputError(where,
-                             "has a texture without a PNG; export its textures as PNG, or name "
-                             "the image itself");
-        images.insert(texture.at("source").get<int>());
-    }
-    return images;
+/// The image that a material names as baseColorTexture; -1: none.
+int image_of_material(const json& document, const json& material, const Location& where) {
+    const json colours = material.value("pbrMetallicRoughness", json::object());
+    const auto use = colours.find("baseColorTexture");
+    if (use == colours.end()) return -1;
+    if (use->contains("extensions") && !use->at("extensions").empty())
+        throw InputError(where,
+                         "moves its texture with KHR_texture_transform, which is not read; "
+                         "apply it to the texture coordinates in the mesh's editor");
+    if (use->value("texCoord", 0) != 0)
+        throw InputError(where,
+                         "lays its texture by another TEXCOORD than TEXCOORD_0, the one that "
+                         "is read; make it the first in the mesh's editor");
+    const json& texture = element(document, "textures", use->value("index", 0), where);
+    if (!texture.contains("source"))
+        throw InputError(where,
+                         "has a texture without a PNG; export its textures as PNG, or name "
+                         "the image itself");
+    const int image = texture.at("source").get<int>();
+    element(document, "images", image, where);
+    return image;
 }
 
 /// The bytes of a part of the file's buffers.
@@ -67,14 +68,6 @@ std::string_view bytes_of_view(const tinygltf::Model& model, int index, const Lo
     throw InputError(where, "its image reaches beyond bufferViews[" + std::to_string(index) + "]");
 }
 
-Image read_data_uri(const std::string& uri, const Location& where) {
-    std::vector<unsigned char> bytes;
-    std::string type;
-    if (!tinygltf::DecodeDataURI(&bytes, type, uri, 0, false))
-        throw InputError(where, "has a data URI of an image that cannot be decoded");
-    return read_image({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, where);
-}
-
 /// A URI has other letters as %20.
 std::string decoded(const std::string& uri) {
     std::string out;
@@ -89,34 +82,85 @@ std::string decoded(const std::string& uri) {
     return out;
 }
 
+/// Reads images of a glTF file.
+class TextureReader {
+  public:
+    TextureReader(const std::filesystem::path& gltf, const json& document, ImageReader& images)
+        : gltf_(gltf), where_{gltf.string()}, document_(document), images_(images) {}
+
+    Image read(int index) {
+        const json& image = element(document_, "images", index, where_);
+        if (image.contains("bufferView")) {
+            if (!model_) model_ = read_gltf(gltf_);
+            const int view = image.at("bufferView").get<int>();
+            return images_.read(bytes_of_view(*model_, view, where_), where_);
+        }
+        const std::string uri = image.value("uri", "");
+        if (uri.starts_with("data:")) return read_data_uri(uri);
+        const std::string name = decoded(uri);
+        if (name.empty() || !stays_below(name)) {
+            throw InputError(where_,
+                             "the image '" + printable(name.substr(0, 200)) +
+                                 "' is not in the folder of the glTF file or below, where images "
+                                 "must lie");
+        }
+        return images_.read(gltf_.parent_path() / name);
+    }
+
+  private:
+    Image read_data_uri(const std::string& uri) {
+        std::vector<unsigned char> bytes;
+        std::string type;
+        if (!tinygltf::DecodeDataURI(&bytes, type, uri, 0, false))
+            throw InputError(where_, "has a data URI of an image that cannot be decoded");
+        return images_.read({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, where_);
+    }
+
+    const std::filesystem::path& gltf_;
+    Location where_;
+    const json& document_;
+    ImageReader& images_;
+    std::optional<tinygltf::Model> model_;
+};
+
+/// Several images side by side; `of_material` has an index into `used`, or -1.
+Texture laid_side_by_side(TextureReader& reader, const std::vector<int>& used,
+                          const std::vector<int>& of_material, const Location& where) {
+    std::vector<Image> images;
+    std::size_t values = 0;
+    for (const int image : used) {
+        values += images.emplace_back(reader.read(image)).values.size();
+        if (values > most_image_values)
+            throw InputError(where, "has images of more than 2^26 values; make them smaller");
+    }
+    SideBySide all = side_by_side(images, where);
+    Texture out{std::move(all.image), {}};
+    for (const int image : of_material) {
+        const auto place = std::ranges::find(used, image) - used.begin();
+        std::optional<Eigen::AlignedBox2d>& part = out.part_of_material.emplace_back();
+        if (image >= 0) part = all.places[static_cast<std::size_t>(place)];
+    }
+    return out;
+}
+
 }  // namespace
 
-Image read_texture(const std::filesystem::path& gltf) {
+Texture read_texture(const std::filesystem::path& gltf, ImageReader& images) {
     const Location where{gltf.string()};
     const json document = json::parse(read_texture_json(gltf));
-    const std::set<int> images = images_of_materials(document, where);
-    if (images.size() != 1) {
+    std::vector<int> of_material;
+    for (const json& material : document.value("materials", json::array()))
+        of_material.push_back(image_of_material(document, material, where));
+    std::set<int> used(of_material.begin(), of_material.end());
+    used.erase(-1);
+    if (used.empty()) {
         throw InputError(where,
-                         (images.empty() ? "has no material with a baseColorTexture"
-                                         : "has materials with " + std::to_string(images.size()) +
-                                               " images, and a map has one") +
-                             "; name an image as the map's file");
+                         "has no material with a baseColorTexture; name an image as the map's "
+                         "file");
     }
-    const json& image = element(document, "images", *images.begin(), where);
-    if (image.contains("bufferView")) {
-        const tinygltf::Model model = read_gltf(gltf);
-        return read_image(bytes_of_view(model, image.at("bufferView").get<int>(), where), where);
-    }
-    const std::string uri = image.value("uri", "");
-    if (uri.starts_with("data:")) return read_data_uri(uri, where);
-    const std::string name = decoded(uri);
-    if (name.empty() || !stays_below(name)) {
-        throw InputError(where,
-                         "the image '" + printable(name.substr(0, 200)) +
-                             "' is not in the folder of the glTF file or below, where images must "
-                             "lie");
-    }
-    return read_image(gltf.parent_path() / name);
+    TextureReader reader(gltf, document, images);
+    if (used.size() == 1) return {reader.read(*used.begin()), {}};
+    return laid_side_by_side(reader, {used.begin(), used.end()}, of_material, where);
 }
 
 }  // namespace sonarsim

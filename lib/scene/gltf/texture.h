@@ -1,14 +1,26 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <filesystem>
+#include <optional>
+#include <vector>
 
 #include "scene/images/read_image.h"
 
 namespace sonarsim {
 
-/// The image that the materials of a .gltf or .glb file name as baseColorTexture: embedded, or a
-/// file in its folder or below. InputError as read_gltf() and read_image(), for a file whose
-/// materials name none or several, and for one that is not laid by TEXCOORD_0 as it is.
-Image read_texture(const std::filesystem::path& gltf);
+/// The images of a mesh as one.
+struct Texture {
+    Image image;
+    /// The part of the image that each material of the file has, in shares of its width and height;
+    /// nothing for a material without an image. Empty: all have all of it.
+    std::vector<std::optional<Eigen::AlignedBox2d>> part_of_material;
+};
+
+/// The images that the materials of a .gltf or .glb file name as baseColorTexture: embedded, or
+/// files in its folder or below. Several stand side by side. InputError as read_gltf(),
+/// ImageReader::read() and side_by_side(), for a file whose materials name none, and for one that
+/// is not laid by TEXCOORD_0 as it is.
+Texture read_texture(const std::filesystem::path& gltf, ImageReader& images);
 
 }  // namespace sonarsim

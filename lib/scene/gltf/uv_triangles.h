@@ -1,5 +1,8 @@
 #pragma once
 
+#include <Eigen/Geometry>
+#include <filesystem>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -9,10 +12,18 @@
 
 namespace sonarsim {
 
+/// The parts of one image that the materials of a glTF file have, see Texture.
+struct TextureParts {
+    std::filesystem::path file = {};
+    std::vector<std::optional<Eigen::AlignedBox2d>> of_material = {};  ///< empty: all have all
+};
+
 /// The triangles of the instances whose element of `on` is not 0, with their TEXCOORD_0; instances
-/// are those of load_scene() for the same files. InputError for a primitive of them that has no
-/// TEXCOORD_0, or another number of coordinates than of positions.
+/// are those of load_scene() for the same files. Their coordinates are those of the whole image;
+/// triangles whose material has no part of it are left out. InputError for a primitive that has no
+/// TEXCOORD_0 or another number of coordinates than of positions, and for one of another file than
+/// that of the parts.
 std::vector<UvTriangle> uv_triangles(std::span<const PlacedFile> files, SceneFiles& models,
-                                     std::span<const char> on);
+                                     std::span<const char> on, const TextureParts& parts);
 
 }  // namespace sonarsim

@@ -64,9 +64,10 @@ PixelWindow window_of(const Image& image, const PixelGrid& grid, const Heightmap
 
 }  // namespace
 
-HeightField read_heights(const std::filesystem::path& path, const HeightmapRule& rule) {
+HeightField read_heights(const std::filesystem::path& path, const HeightmapRule& rule,
+                         ImageReader& images) {
     const Location where{path.string()};
-    const Image image = read_image(path);
+    const Image image = images.read(path);
     require_heights(image, where);
     HeightField out;
     out.grid = grid_in_metres(image, rule.pixel_m, rule.size_m, "scene.heightmap", where);

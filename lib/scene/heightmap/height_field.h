@@ -25,9 +25,10 @@ struct HeightField {
     }
 };
 
-/// Reads an image of heights. InputError as read_image(), for an image of several channels, one
-/// whose place is not known or in degrees, and for values that are no heights.
-HeightField read_heights(const std::filesystem::path& path, const HeightmapRule& rule);
+/// Reads an image of heights. InputError as ImageReader::read(), for an image of several channels,
+/// one whose place is not known or in degrees, and for values that are no heights.
+HeightField read_heights(const std::filesystem::path& path, const HeightmapRule& rule,
+                         ImageReader& images);
 
 /// Every n-th of the numbers from `first` to before `last`, and the last one.
 std::vector<int> every_of(int first, int last, int every);

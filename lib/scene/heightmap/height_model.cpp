@@ -91,8 +91,9 @@ void add_height_node(tinygltf::Model& model, const PixelGrid& grid, int position
 
 }  // namespace
 
-tinygltf::Model height_model(const std::filesystem::path& path, const HeightmapRule& rule) {
-    const HeightField field = read_heights(path, rule);
+tinygltf::Model height_model(const std::filesystem::path& path, const HeightmapRule& rule,
+                             ImageReader& images) {
+    const HeightField field = read_heights(path, rule, images);
     const PixelGrid& grid = field.grid;
     const HeightVertices vertices = vertices_of(field, rule.every);
     const std::vector<std::uint32_t> corners =

@@ -15,6 +15,7 @@ namespace sonarsim {
 /// row, value), and the node's matrix makes the coordinates of the map of them, so that maps far
 /// from their origin lose nothing. Every n-th row and column is kept, n = rule.every, and the last
 /// ones. InputError as read_heights(), and for a map without a triangle.
-tinygltf::Model height_model(const std::filesystem::path& path, const HeightmapRule& rule);
+tinygltf::Model height_model(const std::filesystem::path& path, const HeightmapRule& rule,
+                             ImageReader& images);
 
 }  // namespace sonarsim

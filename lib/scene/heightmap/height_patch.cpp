@@ -11,8 +11,8 @@ std::size_t heights_in(const tinygltf::Model& model) {
     return model.accessors.front().count;  // the positions
 }
 
-HeightPatches::HeightPatches(const PlacedFile& map, int side)
-    : field_(read_heights(map.file, *map.heightmap)),
+HeightPatches::HeightPatches(const PlacedFile& map, int side, ImageReader& images)
+    : field_(read_heights(map.file, *map.heightmap, images)),
       T_world_file_(map.T_world_file),
       side_(side),
       has_unknown_(std::ranges::find(field_.known, false) != field_.known.end()) {

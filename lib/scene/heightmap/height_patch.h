@@ -22,7 +22,7 @@ std::size_t heights_in(const tinygltf::Model& model);
 /// the rest of the map. InputError as read_heights().
 class HeightPatches {
   public:
-    HeightPatches(const PlacedFile& map, int side);
+    HeightPatches(const PlacedFile& map, int side, ImageReader& images);
 
     bool has_unknown() const { return has_unknown_; }
 

@@ -18,6 +18,7 @@
 #include "core/module.h"
 #include "core/text.h"
 #include "scene/images/module.h"
+#include "scene/images/stored_numbers.h"
 #include "scene/images/tiff_tags.h"
 #include "scene/images/whole_tiff.h"
 
@@ -107,18 +108,18 @@ void read_in_child(const ChildOutput& write, const std::string& format, const st
     write(&end, sizeof(end));
 }
 
-std::string bytes_of_image(const std::filesystem::path& path, const std::string& format,
-                           const Location& where) {
-    // The libraries, and twice the largest image as doubles.
-    constexpr ChildLimits limits{(std::size_t{1} << 30) + 16 * most_image_values, 120, 300.0};
-    try {
-        return bytes_of_child(
-            [&](const ChildOutput& write) { read_in_child(write, format, path.string()); }, limits);
-    } catch (const InputError& error) {
-        throw InputError(where, std::string("is damaged or too large: OpenImageIO ") +
-                                    error.what() + " as it read the file; export it again");
-    }
+/// The format stands in the request, then a zero and the file.
+std::string request_of(const std::string& format, const std::filesystem::path& file) {
+    return format + '\0' + file.string();
 }
+
+void answer_request(const std::string& request, const ChildOutput& write) {
+    const std::size_t end = request.find('\0');
+    read_in_child(write, request.substr(0, end), request.substr(end + 1));
+}
+
+/// The libraries, and twice the largest image as doubles.
+constexpr ChildLimits image_limits{(std::size_t{1} << 30) + 16 * most_image_values, 120, 300.0};
 
 [[noreturn]] void refuse_size(const SonarsimImageHead& head, const Location& where) {
     throw InputError(where, "has " + std::to_string(head.width) + " x " +
@@ -133,33 +134,51 @@ std::string bytes_of_image(const std::filesystem::path& path, const std::string&
 /// A file in memory, for libraries that read files.
 class MemoryFile {
   public:
-    explicit MemoryFile(std::string_view bytes) : file_(memfd_create("image", MFD_CLOEXEC)) {
-        if (file_ < 0) throw std::system_error(errno, std::generic_category(), "memfd_create");
+    explicit MemoryFile(std::string_view bytes) : MemoryFile() {
         std::ofstream(path(), std::ios::binary)
             .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    }
+    /// A copy of another file with the word of `stored`.
+    MemoryFile(const std::filesystem::path& other, const StoredNumbers& stored) : MemoryFile() {
+        std::ofstream copy(path(), std::ios::binary);
+        copy << std::ifstream(other, std::ios::binary).rdbuf();
+        copy.seekp(static_cast<std::streamoff>(stored.meaning_at));
+        copy.write(stored.meaning.data(), std::ssize(stored.meaning));
     }
     ~MemoryFile() { close(file_); }
     MemoryFile(const MemoryFile&) = delete;
     MemoryFile& operator=(const MemoryFile&) = delete;
 
-    std::filesystem::path path() const { return "/proc/self/fd/" + std::to_string(file_); }
+    /// For this process and its child.
+    std::filesystem::path path() const {
+        return "/proc/" + std::to_string(getpid()) + "/fd/" + std::to_string(file_);
+    }
 
   private:
+    MemoryFile() : file_(memfd_create("image", MFD_CLOEXEC)) {
+        if (file_ < 0) throw std::system_error(errno, std::generic_category(), "memfd_create");
+    }
+
     int file_;
 };
 
-/// `has_place`: its place is read, too.
-Image image_at(const std::filesystem::path& path, const Location& where, bool has_place) {
-    const std::string format = image_format(path);
-    if (format.empty()) {
-        const std::string_view known = known_format(first_bytes(path));
-        throw InputError(where, (known.empty() ? "is no image" : "is " + std::string(known)) +
-                                    "; PNG, TIFF and OpenEXR are read");
+/// The bytes that the child hands over of a file.
+std::string bytes_of_image(ChildProcess& child, const std::filesystem::path& path,
+                           const std::string& format, const StoredNumbers& stored,
+                           const Location& where) {
+    try {
+        if (stored.meaning_at == 0) return child.answer(request_of(format, path));
+        const MemoryFile copy(path, stored);
+        return child.answer(request_of(format, copy.path()));
+    } catch (const InputError& error) {
+        throw InputError(where, std::string("is damaged or too large: OpenImageIO ") +
+                                    error.what() + " as it read the file; export it again");
     }
+}
+
+/// The image that the child handed over.
+Image image_of_bytes(const std::string& bytes, const Location& where) {
     Image image;
-    if (format == "tiff") require_whole_tiff(path);
-    if (has_place) image.reference = read_georeference(path);
-    const std::string bytes = bytes_of_image(path, format, where);
     SonarsimImageHead head;
     ImageEnd end;
     const std::size_t frame = sizeof(head) + sizeof(end);
@@ -196,15 +215,39 @@ bool is_image_file(const std::filesystem::path& path) {
     return std::filesystem::is_regular_file(path, ignored) && !image_format(path).empty();
 }
 
-Image read_image(const std::filesystem::path& path) {
-    const Location where{path.string()};
-    require_readable(path, where);
-    return image_at(path, where, true);
+ImageReader::ImageReader() : child_(&answer_request, image_limits) {}
+
+Image ImageReader::read_at(const std::filesystem::path& path, const Location& where,
+                           bool has_place) {
+    const std::string format = image_format(path);
+    if (format.empty()) {
+        const std::string_view known = known_format(first_bytes(path));
+        throw InputError(where, (known.empty() ? "is no image" : "is " + std::string(known)) +
+                                    "; PNG, TIFF and OpenEXR are read");
+    }
+    if (format == "tiff") require_whole_tiff(path);
+    Georeference reference;
+    if (has_place) reference = read_georeference(path);
+    const StoredNumbers stored = read_stored_numbers(path, format, where);
+    Image image = image_of_bytes(bytes_of_image(child_, path, format, stored, where), where);
+    image.reference = reference;
+    restore_numbers(stored, where, image);
+    return image;
 }
 
-Image read_image(std::string_view bytes, const Location& where) {
+Image ImageReader::read(const std::filesystem::path& path) {
+    const Location where{path.string()};
+    require_readable(path, where);
+    return read_at(path, where, true);
+}
+
+Image ImageReader::read(std::string_view bytes, const Location& where) {
     const MemoryFile file(bytes);
-    return image_at(file.path(), where, false);
+    return read_at(file.path(), where, false);
+}
+
+Image read_image(const std::filesystem::path& path) {
+    return ImageReader().read(path);
 }
 
 }  // namespace sonarsim

@@ -116,6 +116,8 @@ TiffTags read_tiff_tags(const std::filesystem::path& path, const std::set<std::u
         const std::size_t total = size * values;
         const std::string_view field = bytes.substr(4 + word, word);
         const std::string far = total > word ? file.at(file.number(field), total) : "";
+        tags.places[tag] =
+            total > word ? file.number(field) : list + counter + i * entry_bytes + 4 + word;
         store_tag(file, tag, type, total > word ? std::string_view(far) : field.substr(0, total),
                   tags);
     }

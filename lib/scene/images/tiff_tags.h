@@ -14,6 +14,8 @@ struct TiffTags {
     bool is_big_endian = false;
     std::map<std::uint16_t, std::vector<double>> numbers;
     std::map<std::uint16_t, std::string> texts;
+    /// The place in the file of the first value of a tag.
+    std::map<std::uint16_t, std::uint64_t> places;
 };
 
 /// True if a file begins like a TIFF or a BigTIFF.

@@ -106,7 +106,8 @@ MaterialTexels read_material_map(
     const LaidImage laid(rule, std::move(of_file));
     const Image& image = laid.image;
     const bool colours = image.channels == 3 || image.channels == 4;
-    if (image.channels == 2 || image.channels > 4)
+    const bool has_alpha = image.channels % 2 == 0;
+    if (image.channels > 4)
         throw InputError(laid.where, "has " + std::to_string(image.channels) +
                                          " channels; a map of materials has one with numbers, or "
                                          "three with colours");
@@ -132,7 +133,9 @@ MaterialTexels read_material_map(
     }
     out.choice.reserve(laid.window.width() * laid.window.height());
     laid.for_each([&](const float* pixel, int row, int column) {
-        if (laid.unknown.has(pixel[0]) || (image.channels == 4 && pixel[3] == 0.0F)) {
+        const bool is_unknown = std::all_of(pixel, pixel + (colours ? 3 : 1),
+                                            [&](float v) { return laid.unknown.has(v); });
+        if (is_unknown || (has_alpha && pixel[image.channels - 1] == 0.0F)) {
             out.choice.push_back(MaterialTexels::own);
             return;
         }

@@ -47,6 +47,7 @@ UvMesh::UvMesh(const std::vector<UvTriangle>& triangles) {
         facet.uv_per_m = uv_sides * facet.across;
         facet.length_m = std::sqrt(std::max(squares(0, 0), squares(1, 1)));
         facet.instance = triangle.instance;
+        facet.image = triangle.image;
         area_m2 += 0.5 * normal.norm();
         Eigen::AlignedBox3d& box = boxes.emplace_back(a);
         box.extend(b);
@@ -117,17 +118,21 @@ std::optional<UvPoint> UvMesh::at(std::uint32_t instance, const Eigen::Vector3d&
     }
     if (!nearest) return std::nullopt;
     const Eigen::Vector3d d = point - nearest->corner;
-    return UvPoint{nearest->uv + nearest->uv_per_m * d, nearest->uv_per_m};
+    const Eigen::Vector2d uv = nearest->uv + nearest->uv_per_m * d;
+    if (!nearest->image.contains(uv)) return std::nullopt;
+    return UvPoint{uv, nearest->uv_per_m};
 }
 
 std::string UvMesh::identity() const {
     std::vector<double> numbers;
-    numbers.reserve(12 * facets_.size());
+    numbers.reserve(16 * facets_.size());
     for (const Facet& facet : facets_) {
         numbers.push_back(static_cast<double>(facet.instance));
         numbers.insert(numbers.end(), facet.corner.data(), facet.corner.data() + 3);
         numbers.insert(numbers.end(), facet.uv.data(), facet.uv.data() + 2);
         numbers.insert(numbers.end(), facet.uv_per_m.data(), facet.uv_per_m.data() + 6);
+        for (const Eigen::Vector2d& corner : {facet.image.min(), facet.image.max()})
+            numbers.insert(numbers.end(), corner.data(), corner.data() + 2);
     }
     return fnv1a_128(
         {reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(double)});

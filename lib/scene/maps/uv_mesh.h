@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,6 +15,13 @@ struct UvTriangle {
     std::array<Eigen::Vector3d, 3> corners;
     std::array<Eigen::Vector2d, 3> uv;  ///< (0, 0) is the image's north-west corner, v runs down
     std::uint32_t instance = 0;         ///< index into Scene::instances
+    /// The part of the image that lies on it. Coordinates beyond it have no image.
+    Eigen::AlignedBox2d image = everywhere();
+
+    static Eigen::AlignedBox2d everywhere() {
+        constexpr double far = std::numeric_limits<double>::infinity();
+        return {Eigen::Vector2d(-far, -far), Eigen::Vector2d(far, far)};
+    }
 };
 
 /// The texture coordinates near a point of a surface: uv + per_m (p - point).
@@ -28,7 +36,7 @@ class UvMesh {
     explicit UvMesh(const std::vector<UvTriangle>& triangles);
 
     /// The coordinates at the point of an instance's triangles that is nearest to `point`, world;
-    /// nothing if there is none in the cells of the grid around it.
+    /// nothing if there is none in the cells of the grid around it, or no image.
     std::optional<UvPoint> at(std::uint32_t instance, const Eigen::Vector3d& point) const;
 
     /// Bytes that differ between meshes that differ.
@@ -45,6 +53,7 @@ class UvMesh {
         Eigen::Matrix<double, 2, 3> uv_per_m;
         double length_m;  ///< longest of two sides
         std::uint32_t instance;
+        Eigen::AlignedBox2d image;
     };
 
     Eigen::Array3i cell_of(const Eigen::Vector3d& point) const;

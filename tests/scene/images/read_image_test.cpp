@@ -10,9 +10,12 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "format/geotiff.h"
+#include "scene/images/exr_file.h"
 #include "support/temporary_folder.h"
 
 using namespace sonarsim;
+using sonarsim::test::exr_bytes;
+using sonarsim::test::exr_of;
 using sonarsim::test::TemporaryFolder;
 
 namespace {
@@ -57,49 +60,8 @@ bool tells(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;
 }
 
-template <class T>
-std::string bytes_of(const T& value) {
-    return {reinterpret_cast<const char*>(&value), sizeof(value)};
-}
-
-/// An OpenEXR file of one channel of floats, row by row and not compressed. After its 8 bytes of
-/// magic number and version come attributes (name, type, size, value), a 0, the offset of every
-/// row, and the rows (number, size, values).
-std::string exr(const std::vector<float>& values, int width, int height) {
-    const auto attribute = [](const std::string& name, const std::string& type,
-                              const std::string& value) {
-        return name + '\0' + type + '\0' + bytes_of(static_cast<std::int32_t>(value.size())) +
-               value;
-    };
-    const auto box = [&] {
-        std::string out;
-        for (const int x : {0, 0, width - 1, height - 1})
-            out += bytes_of(x);
-        return out;
-    };
-    std::string channels = std::string("Y\0", 2) + bytes_of(2) + std::string(4, '\0');
-    channels += bytes_of(1) + bytes_of(1) + '\0';
-    std::string out("\x76\x2f\x31\x01\x02\0\0\0", 8);
-    out += attribute("channels", "chlist", channels);
-    out += attribute("compression", "compression", std::string(1, '\0'));
-    out += attribute("dataWindow", "box2i", box());
-    out += attribute("displayWindow", "box2i", box());
-    out += attribute("lineOrder", "lineOrder", std::string(1, '\0'));
-    out += attribute("pixelAspectRatio", "float", bytes_of(1.0F));
-    out += attribute("screenWindowCenter", "v2f", bytes_of(0.0F) + bytes_of(0.0F));
-    out += attribute("screenWindowWidth", "float", bytes_of(1.0F)) + '\0';
-    const std::size_t row_bytes = 8 + 4 * static_cast<std::size_t>(width);
-    const std::size_t first = out.size() + 8 * static_cast<std::size_t>(height);
-    for (int row = 0; row < height; ++row)
-        out +=
-            bytes_of(static_cast<std::uint64_t>(first + static_cast<std::size_t>(row) * row_bytes));
-    for (int row = 0; row < height; ++row) {
-        out += bytes_of(row) + bytes_of(4 * width);
-        for (int column = 0; column < width; ++column)
-            out += bytes_of(values[static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
-                                   static_cast<std::size_t>(column)]);
-    }
-    return out;
+std::string bytes_of_floats(const std::vector<float>& values) {
+    return {reinterpret_cast<const char*>(values.data()), sizeof(float) * values.size()};
 }
 
 }  // namespace
@@ -257,7 +219,7 @@ TEST_CASE("no byte of a damaged image makes the program end") {
 TEST_CASE("an OpenEXR file holds its floats, and damaged ones are refused") {
     const TemporaryFolder folder;
     const auto path = folder.path / "map.exr";
-    const std::string whole = exr(numbers(), columns, rows);
+    const std::string whole = exr_of(bytes_of_floats(numbers()), 4, columns, rows);
     write_file(path, whole);
     CHECK(is_image_file(path));
     const Image image = read_image(path);
@@ -276,7 +238,7 @@ TEST_CASE("an OpenEXR file holds its floats, and damaged ones are refused") {
     // dataWindow says 2^31 pixels, and offsets point beyond the file.
     std::string bomb = whole;
     const std::size_t window = bomb.find("dataWindow") + 10 + 1 + 6 + 4;
-    bomb.replace(window + 8, 8, bytes_of(65535) + bytes_of(32767));
+    bomb.replace(window + 8, 8, exr_bytes(65535) + exr_bytes(32767));
     write_file(path, bomb);
     CHECK(tells(error_of_image(path), path.string() + ": "));
 }
