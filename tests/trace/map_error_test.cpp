@@ -39,7 +39,8 @@ TEST_SUITE("map error") {
             CAPTURE(side);
             CAPTURE(error);
             CAPTURE(estimate);
-            CHECK(error > 0.01);
+            // Strips of a side-scan lie within their bins, and have exact means there.
+            CHECK(error > (side ? 5e-5 : 5e-3));
             CHECK(estimate > 0.9 * error);
             CHECK(estimate < 4.0 * error);
         }
