@@ -75,8 +75,9 @@ TEST_SUITE("map error") {
             CAPTURE(n);
             CAPTURE(error);
             CAPTURE(estimate);
-            CHECK(estimate > error);
-            CHECK(estimate < 5.0 * error);
+            constexpr double nothing = 1e-4;  // a hundredth of the finest goal that is asked for
+            CHECK(estimate > error - nothing);
+            CHECK(estimate < 5.0 * error + nothing);
         }
     }
 }
