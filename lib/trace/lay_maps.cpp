@@ -45,6 +45,8 @@ class MapLayer {
           pose_(T_world_sensor),
           R_(T_world_sensor.rotation.toRotationMatrix().topRows<2>()),
           sensor_(T_world_sensor.translation.head<2>()),
+          range_min_m_(static_cast<float>(view.range_min_m)),
+          bin_m_(static_cast<float>(view.bin_m())),
           depth_m_(static_cast<float>(size * depth_in_bins * view.bin_m())),
           sine_y_(static_cast<float>(size * view.azimuth_rad /
                                      (view.shape == ViewShape::fan ? view.beams : parts_of_cone))),
@@ -71,6 +73,7 @@ class MapLayer {
     static constexpr double depth_in_bins = 0.5;
     static constexpr int parts_of_cone = 8;  ///< across what no beams divide
     static constexpr int most_halvings = 16;
+    static constexpr float whole_piece = 0.95F;  ///< less than a fortieth of it is not cut off
 
     Eigen::Vector2d from_above(const Eigen::Vector3f& v) const { return R_ * v.cast<double>(); }
 
@@ -118,7 +121,22 @@ class MapLayer {
         // Strips that lie side by side along the edge with the lesser depth blur ranges the least.
         if (std::fabs(piece.u.dot(at.direction)) > std::fabs(piece.v.dot(at.direction)))
             piece.swap_edges();
-        add_strips(piece, out);
+        add_by_bins(piece, at, out);
+    }
+
+    /// Cuts a piece that lies in two range bins where they meet: its parts have means of their own.
+    void add_by_bins(MapPiece piece, const Arrival& at, std::vector<Sample>& out) {
+        const float depth = piece.v.dot(at.direction);
+        const float farthest = at.range_m + std::fabs(depth);
+        const float border = range_min_m_ + bin_m_ * std::floor((farthest - range_min_m_) / bin_m_);
+        const float place = (border - at.range_m) / depth;
+        if (!(std::fabs(place) < whole_piece)) return add_strips(piece, out);
+        piece.swap_edges();
+        for (MapPiece part : {piece.between(-1.0, place), piece.between(place, 1.0)}) {
+            part.swap_edges();
+            if (maps_.are_by_uv()) find_ground(part);
+            add_strips(part, out);
+        }
     }
 
     void add_strips(const MapPiece& piece, std::vector<Sample>& out) {
@@ -152,6 +170,7 @@ class MapLayer {
     const Pose& pose_;
     Eigen::Matrix<double, 2, 3> R_;  ///< from the sensor frame to the world's x and y
     Eigen::Vector2d sensor_;
+    float range_min_m_, bin_m_;
     float depth_m_, sine_y_, sine_z_;  ///< the greatest extents of a piece
     const Sample* sample_ = nullptr;
     std::vector<MaterialShare> shares_;

@@ -15,7 +15,7 @@ double error_of_maps(const Scene& scene, const View& view, const Pose& T_world_s
     // One in so many of them is looked at. The borders of a map may lie in few of them, so that a
     // side-scan of two beams needs all.
     const int every = std::clamp(view.beams / 8, 1, 16);
-    constexpr double finer = 0.5;
+    constexpr double coarser = 2.0;
     Samples usual;
     usual.beam_begin.push_back(0);
     const double per_m = blocks / (view.range_max_m - view.range_min_m);
@@ -27,11 +27,11 @@ double error_of_maps(const Scene& scene, const View& view, const Pose& T_world_s
         }
         usual.beam_begin.push_back(static_cast<std::uint32_t>(usual.items.size()));
     }
-    Samples fine = usual;
+    Samples coarse = usual;
     std::vector<Sample> none;
     lay_maps(*scene.maps, view, T_world_sensor, usual, none, 1.0, scene.sound_profile.get());
-    lay_maps(*scene.maps, view, T_world_sensor, fine, none, finer, scene.sound_profile.get());
-    return image_change(mean_echoes(scene, view, usual), mean_echoes(scene, view, fine)) / finer;
+    lay_maps(*scene.maps, view, T_world_sensor, coarse, none, coarser, scene.sound_profile.get());
+    return image_change(mean_echoes(scene, view, coarse), mean_echoes(scene, view, usual));
 }
 
 }  // namespace sonarsim

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <limits>
 #include <utility>
 #include <vector>
 
 #include "visibility/dense_rays.h"
+#include "visibility/engine_by_view.h"
 #include "visibility/image_change.h"
 #include "visibility/rays/rays_engine.h"
 
@@ -30,13 +29,6 @@ constexpr std::array goal_factors{2.0, 1.8, 1.6, 1.4, 1.2, 1.0};
 // The images that rays are compared with are made for this share of the goal, so that their own
 // error takes little of the rays' allowance.
 constexpr double share_for_slices = 1.0 / 3.0;
-
-/// A view traced by rays at a goal of their own, and the error of its image.
-struct RaysView {
-    View view;
-    double goal;
-    double error;
-};
 
 /// The slices' image from a probe.
 struct SlicesImage {
@@ -80,37 +72,6 @@ RaysTrial try_goal(const Scene& scene, const View& view, double goal,
     return worst;
 }
 
-class AutoEngine final : public VisibilityEngine {
-  public:
-    AutoEngine(std::unique_ptr<VisibilityEngine> slices, std::unique_ptr<VisibilityEngine> rays,
-               std::vector<RaysView> rays_views)
-        : slices_(std::move(slices)), rays_(std::move(rays)), rays_views_(std::move(rays_views)) {}
-
-    Samples visible_surface(const View& view, const Pose& T_world_sensor) const override {
-        const auto by_rays = std::ranges::find(rays_views_, view, &RaysView::view);
-        if (by_rays == rays_views_.end()) return slices_->visible_surface(view, T_world_sensor);
-        Samples samples = rays_->visible_surface(with_goal(view, by_rays->goal), T_world_sensor);
-        // Rays that the mission asks for have no trial.
-        if (!std::isnan(by_rays->error)) samples.estimated_l1 = by_rays->error;
-        return samples;
-    }
-
-    void intersect(const Pose& T_world_sensor, std::span<const Ray> rays,
-                   std::span<Intersection> intersections) const override {
-        slices_->intersect(T_world_sensor, rays, intersections);
-    }
-
-    std::vector<std::uint8_t> covered_bins(const View& view,
-                                           const Pose& T_world_sensor) const override {
-        return slices_->covered_bins(view, T_world_sensor);
-    }
-
-  private:
-    std::unique_ptr<VisibilityEngine> slices_;
-    std::unique_ptr<VisibilityEngine> rays_;
-    std::vector<RaysView> rays_views_;
-};
-
 }  // namespace
 
 RaysTrial try_rays(const Scene& scene, const View& view, std::span<const Probe> probes,
@@ -144,25 +105,25 @@ std::unique_ptr<VisibilityEngine> make_auto_engine(const Scene& scene, const Cas
     const bool few = scene.triangles.size() < few_triangles;
     if (few && std::ranges::all_of(probes, [](const Probe& p) { return p.rays_goal == 0.0; }))
         return slices;
-    auto rays = make_rays_engine(scene, caster, false);
+    const std::shared_ptr<const VisibilityEngine> rays = make_rays_engine(scene, caster, false);
     const auto trial_slices = without_rays(*slices);
     std::vector<View> tried;
-    std::vector<RaysView> better;
+    std::vector<EngineOfView> better;
     for (const Probe& probe : probes) {
         if (std::ranges::find(tried, probe.view) != tried.end()) continue;
         tried.push_back(probe.view);
         const double goal = required_goal(probe.view, probes);
         if (goal > 0.0) {
-            better.push_back({probe.view, goal, std::numeric_limits<double>::quiet_NaN()});
+            better.push_back({probe.view, goal, rays});
             continue;
         }
         if (few) continue;
         const RaysTrial trial = try_rays(scene, probe.view, probes, *rays, *trial_slices);
         if (rays_are_better(trial, probe.view))
-            better.push_back({probe.view, trial.goal, trial.error});
+            better.push_back({probe.view, trial.goal, rays, trial.error});
     }
     if (better.empty()) return slices;
-    return std::make_unique<AutoEngine>(std::move(slices), std::move(rays), std::move(better));
+    return make_engine_by_view(std::move(slices), std::move(better));
 }
 
 }  // namespace sonarsim

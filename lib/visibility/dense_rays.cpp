@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <utility>
 #include <vector>
 
+#include "visibility/engine_by_view.h"
+#include "visibility/image_change.h"
 #include "visibility/rays/rays_engine.h"
 #include "visibility/view_parts.h"
 
@@ -16,81 +19,65 @@ namespace {
 // 5 s on one thread.
 constexpr std::array densities{1, 2, 4, 6};
 
-// Rays are asked for this share of the goal: over a floor of independent heights in cells of a
-// third of a beam their estimate was half of their error.
-constexpr double share_of_goal = 0.5;
-
-using Engine = std::shared_ptr<const VisibilityEngine>;
-
-/// A view, the goal that its rays have, and the engine of its density.
-struct DenseView {
-    View view;
-    double goal;
-    Engine engine;
+/// The image of a part of a view by the densest rays.
+struct DensestImage {
+    Sight part;
+    std::vector<double> image;
+    double error;
 };
 
-class DenseRays final : public VisibilityEngine {
-  public:
-    DenseRays(Engine of_others, std::vector<DenseView> views)
-        : of_others_(std::move(of_others)), views_(std::move(views)) {}
-
-    Samples visible_surface(const View& view, const Pose& T_world_sensor) const override {
-        const auto known = std::ranges::find(views_, view, &DenseView::view);
-        if (known == views_.end()) return of_others_->visible_surface(view, T_world_sensor);
-        View asked = view;
-        asked.relative_l1 = known->goal;
-        return known->engine->visible_surface(asked, T_world_sensor);
+std::vector<DensestImage> densest_images(const Scene& scene, const Caster& caster, const View& view,
+                                         std::span<const Probe> probes) {
+    const auto densest = make_rays_engine(scene, caster, false, densities.back());
+    std::vector<DensestImage> out;
+    for (const Probe& probe : probes) {
+        if (probe.view != view) continue;
+        for (const Sight& part : parts_of(view, probe.T_world_sensor)) {
+            const Samples seen = densest->visible_surface(part.view, part.T_world_sensor);
+            out.push_back({part, mean_echoes(scene, part.view, seen), seen.estimated_l1});
+        }
     }
-
-    void intersect(const Pose& T_world_sensor, std::span<const Ray> rays,
-                   std::span<Intersection> intersections) const override {
-        of_others_->intersect(T_world_sensor, rays, intersections);
-    }
-
-    std::vector<std::uint8_t> covered_bins(const View& view,
-                                           const Pose& T_world_sensor) const override {
-        return of_others_->covered_bins(view, T_world_sensor);
-    }
-
-  private:
-    Engine of_others_;
-    std::vector<DenseView> views_;
-};
+    return out;
+}
 
 }  // namespace
 
-int density_for(const Scene& scene, const Caster& caster, const View& view,
-                std::span<const Probe> probes) {
+RaysDensity density_for(const Scene& scene, const Caster& caster, const View& view,
+                        std::span<const Probe> probes) {
+    const std::vector<DensestImage> images = densest_images(scene, caster, view, probes);
     for (const int density : densities) {
+        if (density == densities.back()) break;
         const auto rays = make_rays_engine(scene, caster, false, density);
-        const bool met = std::ranges::all_of(probes, [&](const Probe& probe) {
-            return probe.view != view ||
-                   std::ranges::all_of(
-                       parts_of(view, probe.T_world_sensor), [&](const Sight& part) {
-                           return rays->visible_surface(part.view, part.T_world_sensor)
-                                      .estimated_l1 <= share_of_goal * view.relative_l1;
-                       });
-        });
-        if (met) return density;
+        double worst = 0.0;
+        for (const auto& [part, image, error] : images) {
+            const Samples seen = rays->visible_surface(part.view, part.T_world_sensor);
+            worst =
+                std::max(worst, image_change(mean_echoes(scene, part.view, seen), image) + error);
+            if (worst > view.relative_l1) break;
+        }
+        if (worst <= view.relative_l1) return {density, worst};
     }
-    return densities.back();
+    return {densities.back(), std::numeric_limits<double>::quiet_NaN()};
 }
 
 std::unique_ptr<VisibilityEngine> make_dense_rays_engine(const Scene& scene, const Caster& caster,
                                                          std::span<const Probe> probes,
                                                          bool coverage) {
-    std::vector<DenseView> views;
+    std::vector<EngineOfView> views;
     int most = densities.front();
     for (const Probe& probe : probes) {
-        if (std::ranges::find(views, probe.view, &DenseView::view) != views.end()) continue;
+        if (std::ranges::find(views, probe.view, &EngineOfView::view) != views.end()) continue;
         const double goal = required_goal(probe.view, probes);
-        const int density = goal > 0.0 ? 1 : density_for(scene, caster, probe.view, probes);
+        if (goal > 0.0) {
+            views.push_back({probe.view, goal, make_rays_engine(scene, caster, false)});
+            continue;
+        }
+        const auto [density, error] = density_for(scene, caster, probe.view, probes);
         most = std::max(most, density);
-        views.push_back({probe.view, goal > 0.0 ? goal : probe.view.relative_l1,
-                         make_rays_engine(scene, caster, false, density)});
+        views.push_back({probe.view, probe.view.relative_l1,
+                         make_rays_engine(scene, caster, false, density), error});
     }
-    return std::make_unique<DenseRays>(make_rays_engine(scene, caster, coverage, most),
-                                       std::move(views));
+    return make_engine_by_view(make_rays_engine(scene, caster, coverage, most), std::move(views));
 }
 
 }  // namespace sonarsim

@@ -15,11 +15,21 @@ namespace sonarsim {
 /// 600 bytes for each triangle in view: measured over rough ground, 5 GB and 60 s for 8.4 million.
 constexpr std::size_t many_triangles = std::size_t{1} << 21;
 
-/// The least density of rays (rays_engine.h) at which their own estimate is half of the goal on
-/// the probes of a view, or the greatest that is tried if all miss it: a ping's estimate says so
-/// then. Only parts of a fan are traced.
-int density_for(const Scene& scene, const Caster& caster, const View& view,
-                std::span<const Probe> probes);
+/// A density of rays (rays_engine.h) for a view.
+struct RaysDensity {
+    int density;
+    /// Bound of the relative L1 of its images; NaN for the greatest density, whose images are known
+    /// by their own estimates alone.
+    double error;
+};
+
+/// The least density whose images meet the goal of a view on its probes, or the greatest if none
+/// does. The error of an image is no more than its change to that of the greatest density and the
+/// latter's estimate. The estimate of sparse rays alone does not suffice: over rough ground they
+/// miss surface at grazing incidence, which is dark and narrow, so their images are too bright and
+/// both sets of rays agree on it. Only parts of a fan are traced.
+RaysDensity density_for(const Scene& scene, const Caster& caster, const View& view,
+                        std::span<const Probe> probes);
 
 /// Rays for every view, with density_for() it. A view without probes gets the greatest of the
 /// others. `coverage` as for make_rays_engine().

@@ -39,7 +39,8 @@ TEST_SUITE("map error") {
             CAPTURE(side);
             CAPTURE(error);
             CAPTURE(estimate);
-            CHECK(error > 0.01);
+            // Strips of a side-scan lie within their bins, and have exact means there.
+            CHECK(error > (side ? 5e-5 : 5e-3));
             CHECK(estimate > 0.9 * error);
             CHECK(estimate < 4.0 * error);
         }
@@ -74,8 +75,9 @@ TEST_SUITE("map error") {
             CAPTURE(n);
             CAPTURE(error);
             CAPTURE(estimate);
-            CHECK(estimate > error);
-            CHECK(estimate < 5.0 * error);
+            constexpr double nothing = 1e-4;  // a hundredth of the finest goal that is asked for
+            CHECK(estimate > error - nothing);
+            CHECK(estimate < 5.0 * error + nothing);
         }
     }
 }

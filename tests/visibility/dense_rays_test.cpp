@@ -18,13 +18,30 @@ using namespace sonarsim;
 
 namespace {
 
-/// A floor of 8 x 8 m in cells of 5 cm, whose heights are drawn from 0 to `height_m` one by one.
-Scene drawn_floor(float height_m) {
+/// Ground of 8 x 8 m in cells of 5 cm, whose heights are drawn from 0 to `height_m` one by one.
+Scene drawn_ground(float height_m, unsigned seed = 7) {
+    constexpr int n = 161;
+    constexpr float cell_m = 0.05F;
     Scene scene = test::empty_scene();
-    test::add_floor(scene, 4.0F, 0.0F, test::add_material(scene, 0.3F), 160);
-    std::mt19937 draws(7);
-    for (Eigen::Vector3f& p : scene.vertices)
-        p.z() = height_m * 0x1p-32F * static_cast<float>(draws());
+    const std::uint32_t material = test::add_material(scene, 0.3F);
+    scene.instances.emplace_back("ground");
+    std::mt19937 draws(seed);
+    for (int row = 0; row < n; ++row) {
+        for (int column = 0; column < n; ++column) {
+            const float z = height_m * 0x1p-32F * static_cast<float>(draws());
+            scene.vertices.emplace_back(cell_m * static_cast<float>(column) - 4.0F,
+                                        cell_m * static_cast<float>(row) - 4.0F, z);
+        }
+    }
+    for (std::uint32_t row = 0; row + 1 < n; ++row) {
+        for (std::uint32_t column = 0; column + 1 < n; ++column) {
+            const std::uint32_t at = row * n + column;
+            scene.triangles.push_back({at, at + 1, at + n + 1});
+            scene.triangles.push_back({at, at + n + 1, at + n});
+        }
+    }
+    scene.triangle_material.assign(scene.triangles.size(), material);
+    scene.triangle_instance.assign(scene.triangles.size(), 0);
     return scene;
 }
 
@@ -48,46 +65,60 @@ std::vector<Probe> at_the_border(const View& view) {
 }  // namespace
 
 TEST_SUITE("dense rays") {
-    // Beams are up to 15 cm wide, three cells whose heights are independent, so one line of rays
-    // through a beam is no mean of it. Slices see the whole beam.
+    // The reported error bounds the true one, by the triangle inequality, as far as the
+    // estimate of the densest rays and the traced parts, half of the beams, stand for all. Over
+    // such ground that estimate is 0.7 to 2 times its error (docs/performance.md), so 0.7 is left
+    // of the bound at least. Lines of rays miss all goals.
     TEST_CASE("rays over rough ground are as dense as their goal needs" *
               doctest::skip(test::sanitized)) {
-        const Scene scene = drawn_floor(0.03F);
-        const Caster caster(scene);
-        const View view = dense_view(0.12);
-        const std::vector<Probe> probes = at_the_border(view);
-        const Pose& pose = probes.front().T_world_sensor;
-        View fine = view;
-        fine.relative_l1 = 0.01;
-        const auto slices = make_slices_engine(scene, caster, {}, false);
-        const std::vector<double> truth =
-            mean_echoes(scene, view, slices->visible_surface(fine, pose));
-        const auto error = [&](const Samples& seen) {
-            return image_change(mean_echoes(scene, view, seen), truth);
-        };
-        const Samples lines = make_rays_engine(scene, caster, false)->visible_surface(view, pose);
-        const Samples dense =
-            make_dense_rays_engine(scene, caster, probes, false)->visible_surface(view, pose);
-        MESSAGE("error of rays " << error(lines) << ", told " << lines.estimated_l1 << "; dense "
-                                 << density_for(scene, caster, view, probes) << " " << error(dense)
-                                 << ", told " << dense.estimated_l1);
-        CHECK(error(lines) > view.relative_l1);
-        CHECK(error(dense) < view.relative_l1);
+        std::mt19937 draws(19);
+        for (const double goal : {0.12, 0.06}) {
+            const float height_m = 0.03F + 0.02F * 0x1p-32F * static_cast<float>(draws());
+            const Scene scene = drawn_ground(height_m, static_cast<unsigned>(draws()));
+            const Caster caster(scene);
+            const View view = dense_view(goal);
+            const std::vector<Probe> probes = at_the_border(view);
+            const Pose& pose = probes.front().T_world_sensor;
+            View fine = view;
+            fine.relative_l1 = 0.01;
+            const auto slices = make_slices_engine(scene, caster, {}, false);
+            const std::vector<double> truth =
+                mean_echoes(scene, view, slices->visible_surface(fine, pose));
+            const auto error = [&](const Samples& seen) {
+                return image_change(mean_echoes(scene, view, seen), truth);
+            };
+            const Samples lines =
+                make_rays_engine(scene, caster, false)->visible_surface(view, pose);
+            const Samples dense =
+                make_dense_rays_engine(scene, caster, probes, false)->visible_surface(view, pose);
+            const RaysDensity chosen = density_for(scene, caster, view, probes);
+            CAPTURE(goal);
+            CAPTURE(height_m);
+            CAPTURE(chosen.density);
+            CAPTURE(error(lines));
+            CAPTURE(error(dense));
+            CHECK(error(lines) > goal);
+            CHECK(chosen.error <= goal);
+            CHECK(dense.estimated_l1 == chosen.error);
+            CHECK(error(dense) < dense.estimated_l1 / 0.7);
+            CHECK(error(dense) < goal);
+        }
     }
 
     TEST_CASE("rays over smooth ground are as their goal asks, byte for byte") {
-        const Scene scene = drawn_floor(0.0F);
+        const Scene scene = drawn_ground(0.0F);
         const Caster caster(scene);
         const View view = dense_view(0.12);
         const std::vector<Probe> probes = at_the_border(view);
-        CHECK(density_for(scene, caster, view, probes) == 1);
+        CHECK(density_for(scene, caster, view, probes).density == 1);
         const Pose& pose = probes.front().T_world_sensor;
         const Samples rays = make_rays_engine(scene, caster, false)->visible_surface(view, pose);
         const Samples chosen =
             make_dense_rays_engine(scene, caster, probes, false)->visible_surface(view, pose);
         REQUIRE(chosen.items.size() == rays.items.size());
         CHECK(chosen.beam_begin == rays.beam_begin);
-        CHECK(chosen.estimated_l1 == rays.estimated_l1);
+        // It is that of the border of the ground, where the places of rays follow their density.
+        CHECK(chosen.estimated_l1 < view.relative_l1);
     }
 
     TEST_CASE("auto takes them over many triangles" * doctest::skip(test::sanitized)) {
@@ -105,7 +136,7 @@ TEST_SUITE("dense rays") {
     }
 
     TEST_CASE("beams that are cast apart follow each other") {
-        const Scene scene = drawn_floor(0.03F);
+        const Scene scene = drawn_ground(0.03F);
         const Caster caster(scene);
         View view = dense_view(0.001);
         view.beams = 256;

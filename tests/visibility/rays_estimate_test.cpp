@@ -11,6 +11,7 @@
 #include "validation/image_error.h"
 #include "visibility/make_engine.h"
 #include "visibility/rays/rays_engine.h"
+#include "visibility/rays/sampling.h"
 #include "visibility/rays/set_disagreement.h"
 #include "visibility/rays/surface_probes.h"
 
@@ -70,6 +71,17 @@ TEST_CASE("estimate of the rays: bins by two sets of rays") {
             disagreement({patch_in_bin(2, 0), patch_in_bin(2, 1)}, {first, second});
         CHECK(found.signal == near(0.4));
         CHECK(found.error() == near((0.2 + std::sqrt(2.0) * 0.4) / 0.4));
+    }
+    SUBCASE("each set stands for the whole width of a column") {
+        // Half of a bin was met by both sets and has 0.2. In the other half the middle strip has
+        // 0.6 and the edge strips have 0.2. By the first set the bin has the mean 0.4, by the
+        // second 0.2; by their areas 0.36.
+        std::vector<Sample> items{patch_in_bin(2, 0), patch_in_bin(2, 1), patch_in_bin(2, 0)};
+        items[1].area_m2 = 1.0F - 2.0F * edge_strip_share;
+        items[2].area_m2 = 2.0F * edge_strip_share;
+        const SetDisagreement found = disagreement(items, {both, middle_strip, edge_strips});
+        CHECK(found.signal == near(0.36));
+        CHECK(found.difference == near(0.2));
     }
     SUBCASE("bins that one set alone lights") {
         const SetDisagreement found = disagreement(

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "core/hash.h"
@@ -67,17 +66,17 @@ struct Probes {
     double half_m = 0.0;          ///< half the width of a box
 };
 
-Probes probes_of(const GroundFootprint& footprint, double texel_m) {
+Probes probes_of(const GroundFootprint& footprint) {
     const bool along_u = footprint.u.squaredNorm() > footprint.v.squaredNorm();
     const Eigen::Vector2d& edge = along_u ? footprint.u : footprint.v;
     const double length_m = 2.0 * edge.norm();
     const double area_m2 =
         4.0 * std::fabs(footprint.u.x() * footprint.v.y() - footprint.u.y() * footprint.v.x());
     const double width_m = length_m > 0.0 ? area_m2 / length_m : 0.0;
-    const double spacing_m = std::max(width_m, 0.25 * texel_m);
+    // Squares, or fewer with gaps if the footprint is very long; a point has one.
+    const double squares = length_m > 0.0 ? length_m / width_m : 1.0;
     Probes out;
-    out.count = static_cast<int>(
-        std::ceil(std::clamp(length_m / spacing_m - 1e-6, 1.0, 1.0 * most_probes)));
+    out.count = static_cast<int>(std::ceil(std::clamp(squares - 1e-6, 1.0, 1.0 * most_probes)));
     out.step = 2.0 / out.count * edge;
     out.first = footprint.centre - edge + 0.5 * out.step;
     out.half_m = 0.5 * width_m;
@@ -91,10 +90,6 @@ void add_share(std::uint32_t material, double area, double power, std::vector<Ma
     share.material = material;
     share.area += area;
     share.power += power;
-}
-
-double texel_size(const TexelFrame& frame) {
-    return 1.0 / frame.per_m.cwiseAbs().maxCoeff();
 }
 
 std::string frame_text(const TexelFrame& frame) {
@@ -119,11 +114,9 @@ GroundMaps::GroundMaps(std::optional<MaterialTexels> materials, std::vector<char
       on_materials_(std::move(on_materials)),
       strengths_(std::move(strengths)),
       on_strengths_(std::move(on_strengths)),
-      least_texel_m_(std::numeric_limits<double>::infinity()),
       uv_(std::move(uv)) {
     if (materials_) {
         const MaterialTexels& map = *materials_;
-        least_texel_m_ = texel_size(map.frame);
         for (std::size_t m = 0; m < map.materials.size(); ++m) {
             counts_.emplace_back(map.frame.width, map.frame.height, [&](int row, int column) {
                 const std::size_t k =
@@ -135,7 +128,6 @@ GroundMaps::GroundMaps(std::optional<MaterialTexels> materials, std::vector<char
     }
     if (strengths_) {
         const StrengthTexels& map = *strengths_;
-        least_texel_m_ = std::min(least_texel_m_, texel_size(map.frame));
         gains_ = TexelSums<double>(map.frame.width, map.frame.height, [&](int row, int column) {
             const std::size_t k =
                 static_cast<std::size_t>(row) * static_cast<std::size_t>(map.frame.width) +
@@ -196,7 +188,7 @@ void GroundMaps::shares_over(std::uint32_t instance, std::uint32_t own,
                              const GroundFootprint& footprint,
                              std::vector<MaterialShare>& out) const {
     out.clear();
-    const Probes probes = probes_of(footprint, least_texel_m_);
+    const Probes probes = probes_of(footprint);
     const Eigen::Vector2d half_m = Eigen::Vector2d::Constant(probes.half_m);
     const double per_probe = 1.0 / probes.count;
     for (int k = 0; k < probes.count; ++k) {

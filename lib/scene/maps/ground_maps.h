@@ -122,7 +122,6 @@ class GroundMaps {
     std::optional<StrengthTexels> strengths_;
     TexelSums<double> gains_;  ///< sums of the factors less 1
     std::vector<char> on_strengths_;
-    double least_texel_m_ = 0.0;
     std::shared_ptr<const UvMesh> uv_;
 };
 

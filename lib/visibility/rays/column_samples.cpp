@@ -179,7 +179,7 @@ void collect(const Context& context, const RayColumn& column, const std::uint8_t
             const int at = static_cast<int>((ray.along - first) / column.step + 0.5F);
             const bool strip = !column.whole || narrowed[std::clamp(at, 0, n - 1)];
             const ColumnSides& sides = column.whole && strip ? middle : full;
-            const RaySet narrow = column.whole ? RaySet::first : RaySet::second;
+            const RaySet narrow = column.whole ? RaySet::middle_strip : RaySet::edge_strips;
             const RaySet set = strip ? narrow : RaySet::both;
             segment.may_end_beside =
                 strip || !segment.from.continuous || !segment.to.continuous ||

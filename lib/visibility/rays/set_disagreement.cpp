@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/overlapped_bins.h"
+#include "visibility/rays/sampling.h"
 
 namespace sonarsim {
 
@@ -79,9 +80,12 @@ void SetComparison::add(const Sample& sample, RaySet set) {
 }
 
 void SetComparison::compare_bin(const Bin& bin, SetDisagreement& out) {
-    const auto& [both, first, second] = bin;
-    const auto signal = static_cast<double>((both + first + second).mean());
+    const auto& [both, of_first, of_second, middle, edges] = bin;
+    const auto signal = static_cast<double>((both + of_first + of_second + middle + edges).mean());
     out.signal += signal;
+    // Each set sees the whole width of a column, by strips that have a share of it.
+    const Sum first = of_first + middle.times(1.0F / (1.0F - 2.0F * edge_strip_share));
+    const Sum second = of_second + edges.times(0.5F / edge_strip_share);
     if (first.weight == 0.0F && second.weight == 0.0F) return;
     const Sum by_first = both + first;
     const Sum by_second = both + second;
@@ -99,7 +103,7 @@ void SetComparison::compare_bin(const Bin& bin, SetDisagreement& out) {
 void SetComparison::compare_bins(std::uint8_t* occupied) {
     for (int i = begin_; i < end_; ++i) {
         Bin& bin = bins_[i];
-        if (bin[0].weight == 0.0F && bin[1].weight == 0.0F && bin[2].weight == 0.0F) continue;
+        if (std::ranges::all_of(bin, [](const Sum& sum) { return sum.weight == 0.0F; })) continue;
         occupied[i] = 1;
         compare_bin(bin, result_);
         bin = {};

@@ -47,6 +47,7 @@ class SetComparison {
         float echo = 0.0F;
 
         float mean() const { return weight > 0.0F ? echo / weight : 0.0F; }
+        Sum times(float factor) const { return {weight * factor, echo * factor}; }
         Sum operator+(const Sum& more) const { return {weight + more.weight, echo + more.echo}; }
     };
     using Bin = std::array<Sum, ray_sets>;  ///< indexed by RaySet
