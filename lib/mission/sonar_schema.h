@@ -152,11 +152,11 @@ void describe(Visitor& v, SonarConfig& c) {
     v.section("multipath", c.multipath, "multipath via a second surface");
     v.require((!keys.opening && c.kind != SonarKind::sidescan) || c.multipath.columns_per_beam == 1,
               {"multipath"}, "multipath.columns_per_beam is for the beams of a fan: it must be 1");
-    v.require(c.multipath.retraced == 0 || c.model == ModelKind::calibrated, {"multipath", "model"},
-              "multipath.retraced is for model: calibrated");
     v.choice(
         "model", c.model, echo_models,
         "echo model: the paper's, or the calibrated one, which gives what the instrument measures");
+    v.require(c.multipath.retraced == 0 || c.model == ModelKind::calibrated, {"multipath", "model"},
+              "multipath.retraced is for model: calibrated");
     if (c.model == ModelKind::calibrated) {
         v.section("instrument", c.instrument, "the instrument of the calibrated model");
         require_insonified(v, c);
