@@ -177,9 +177,10 @@ TEST_CASE("variants: the keys of targets in the water and of its surface vary") 
         bool varies = false;
         for (const char* const seed : {"seed=1", "seed=2", "seed=3", "seed=4", "seed=5"}) {
             write_file(file, mission + "  - {key: scene." + rule + "}\n");
-            const Mission base = load_mission(file, {seed}, sonar_keys());
+            const std::vector<std::string> overrides{seed};
+            const Mission base = load_mission(file, overrides, sonar_keys());
             const std::vector<Mission> all =
-                draw_variants(base, {file, folder.path, {seed}}, sonar_keys());
+                draw_variants(base, {file, folder.path, overrides}, sonar_keys());
             REQUIRE(all.size() == 3);
             for (const Mission& one : all)
                 varies = varies || one.scene != all[0].scene || one.scene != base.scene;
