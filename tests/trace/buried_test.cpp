@@ -106,7 +106,7 @@ TEST_SUITE("trace") {
         CHECK(seen().samples.empty());  // rock
         particles.sediments.assign(scene.materials.size(), in_sand);
         REQUIRE(seen().numbers == std::vector<std::uint32_t>{0});  // the other is in the water
-        const Sample& sample = seen().samples[0];
+        const Sample sample = seen().samples[0];
         const WayIntoBottom way = way_into_bottom(in_sand, 6.0, 0.5, 1.0);
         CHECK(sample.height_m == doctest::Approx(way.range_m(in_sand)).epsilon(1e-5));
         CHECK(sample.position.x() ==
