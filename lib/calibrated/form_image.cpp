@@ -96,7 +96,6 @@ class ImageFormer {
                             speckle_gain_, context_.draws.of(stream_named("pulse floor")),
                             coherent ? &*coherent : nullptr, grid);
         }
-
         // 3, 4. Beams, the receiver's noise and its gain.
         beamform(beams_, grid, of_powers, coherent ? &*coherent : nullptr,
                  context_.terms.random > 1, context_.draws.of(Stream::receiver_noise),

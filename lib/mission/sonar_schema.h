@@ -108,13 +108,7 @@ void require_insonified(Visitor& v, const SonarConfig& c) {
 }
 
 template <class Visitor>
-void describe(Visitor& v, SonarConfig& c) {
-    const SonarKeys& keys = v.sonar_kind("kind", c, "the kind of sonar");
-    v.path("preset", c.preset,
-           "YAML file with keys of this section, such as those of configs/sensors; keys given here "
-           "override those of the file");
-    v.section("mount", c.mount, "where the sonar sits on the vehicle");
-    v.integer("every", c.every, at_least(1), "the sonar pings at every n-th pose");
+void describe_motion(Visitor& v, SonarConfig& c) {
     v.flag("moves_in_ping", c.moves_in_ping,
            "the sonar goes on moving and turning while sound is under way, and so do objects and "
            "targets in the water; otherwise all stand still in a ping");
@@ -126,6 +120,17 @@ void describe(Visitor& v, SonarConfig& c) {
         v.require(c.shutter.groups <= c.azimuth_bins, {"shutter", "azimuth_bins"},
                   "shutter.groups must be at most azimuth_bins");
     }
+}
+
+template <class Visitor>
+void describe(Visitor& v, SonarConfig& c) {
+    const SonarKeys& keys = v.sonar_kind("kind", c, "the kind of sonar");
+    v.path("preset", c.preset,
+           "YAML file with keys of this section, such as those of configs/sensors; keys given here "
+           "override those of the file");
+    v.section("mount", c.mount, "where the sonar sits on the vehicle");
+    v.integer("every", c.every, at_least(1), "the sonar pings at every n-th pose");
+    describe_motion(v, c);
     if (keys.opening)
         v.number("opening_deg", c.opening_deg, between(1e-3, 180), "full angle of the cone");
     if (keys.azimuth)
