@@ -1,5 +1,7 @@
 #!/usr/bin/env python3
-"""scripts/stage_costs.py [--sonarsim PROGRAM] [--rounds N]: the time of each stage of the calibrated model alone.
+"""scripts/stage_costs.py [--sonarsim PROGRAM] [--rounds N] [--mission NAME]
+
+The time of each stage of the calibrated model alone.
 
 Renders configs/tank_calibrated.yaml and rows of configs/seafloor_sidescan_calibrated.yaml on
 one thread, without files of pings, without and with one stage. The processes alternate, and the least processor time
@@ -30,6 +32,9 @@ TANK = ("tank_calibrated", "fls", {
     "two samples": ["fls.instrument.receiver.samples=2"],
     "ringing": ["fls.instrument.receiver.ring_down_db=140"],
     "motion within a ping": ["fls.moves_in_ping=true"],
+    "4 groups of beams": ["fls.moves_in_ping=true", "fls.shutter.groups=4"],
+    "multipath": ["fls.multipath.method=cluster"],
+    "multipath, retraced 4 times": ["fls.multipath.method=cluster", "fls.multipath.retraced=4"],
 })
 SIDE = ("seafloor_sidescan_calibrated", "sss", {
     "water column": ["water.content=coastal"],
@@ -39,6 +44,7 @@ SIDE = ("seafloor_sidescan_calibrated", "sss", {
     "two samples": ["sss.instrument.receiver.samples=2"],
     "tail below the bottom": ["sss.instrument.below_bottom=true"],
     "motion within a ping": ["sss.moves_in_ping=true"],
+    "second bottom echo": ["scene.water_surface={height_m: 12}", "sss.multipath.method=cluster"],
 })
 
 
@@ -62,8 +68,11 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--sonarsim", default=str(ROOT / "build" / "sonarsim"))
     parser.add_argument("--rounds", type=int, default=5)
+    parser.add_argument("--mission", default="", help="one of the two alone")
     options = parser.parse_args()
     for mission, sensor, stages in (TANK, SIDE):
+        if options.mission not in ("", mission):
+            continue
         off = settings_of(sensor, [f"{sensor}.instrument.receiver.samples=1",
                                    f"{sensor}.instrument.receiver.ring_down_db=0", *QUIET])
         if sensor == "fls":

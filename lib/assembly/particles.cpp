@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "calibrated/decibel.h"
+#include "calibrated/sediment_paths.h"
 #include "calibrated/target_strength.h"
+#include "calibrated/water.h"
 #include "core/elementary.h"
 #include "core/error.h"
 #include "core/random.h"
@@ -91,6 +93,7 @@ std::vector<DrawnParticle> draw_group(const ParticlesConfig& config, const Group
         Particle& particle = out[k].particle;
         particle.start_m = middle + half.cwiseProduct(place_in(config.region, draws, k));
         particle.velocity_m_s = velocity;
+        particle.buried = config.buried;
         if (config.rise_m_s > 0.0) {
             particle.bottom_m = middle.z() - half.z();
             particle.top_m = middle.z() + half.z();
@@ -177,6 +180,15 @@ void add_particles(const Mission& mission, const Trajectory& trajectory, Scene& 
     for (Sonar& sonar : sonars) {
         Particles particles;
         particles.time_s = time_s;
+        if (std::ranges::any_of(mission.scene.particles, &ParticlesConfig::buried)) {
+            const WaterConfig& water = mission.water;
+            const double frequency_hz = sonar.config.instrument.frequency_hz;
+            const WaterState state{water.temperature_c, water.salinity_psu, water.depth_m,
+                                   water.ph};
+            particles.sediments =
+                sediment_paths(scene.materials, {water.density_kg_m3, water.sound_speed_m_s},
+                               frequency_hz, absorption_db_per_m(frequency_hz, state));
+        }
         for (const ParticleGroup& group : groups) {
             for (const DrawnParticle& drawn : group.targets) {
                 Particle& particle = particles.all.emplace_back(drawn.particle);

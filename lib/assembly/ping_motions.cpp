@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "assembly/poses.h"
+#include "calibrated/pulse_band.h"
 #include "core/elementary.h"
 #include "core/error.h"
 
@@ -40,10 +42,44 @@ PingMotion motion_at(const Trajectory& trajectory, std::size_t pose, const Sonar
             sound_speed_m_s};
 }
 
+/// The motions of the objects at a pose, as those of a sonar.
+std::vector<ObjectMotion> object_motions_at(const Scene& scene, std::span<const Trajectory> bodies,
+                                            const Trajectory& trajectory, std::size_t pose) {
+    const double before = trajectory[pose > 0 ? pose - 1 : 0].t_s;
+    const double after = trajectory[std::min(pose + 1, trajectory.size() - 1)].t_s;
+    if (!(after > before)) return {};
+    const std::vector<Pose> from = poses_at(bodies, before);
+    const std::vector<Pose> to = poses_at(bodies, after);
+    const std::vector<Pose> now = poses_at(bodies, trajectory[pose].t_s);
+    std::vector<ObjectMotion> out;
+    for (std::size_t k = 0; k < now.size(); ++k) {
+        const double per_s = 1.0 / (after - before);
+        const Eigen::Vector3d turn = rotation_vector(to[k].rotation * from[k].rotation.conjugate());
+        const ObjectMotion motion{.instance = scene.bodies[k].instance,
+                                  .centre_m = now[k].translation,
+                                  .velocity_m_s = per_s * (to[k].translation - from[k].translation),
+                                  .turn_rad_s = per_s * turn};
+        if (!motion.velocity_m_s.isZero(0.0) || !turn.isZero(0.0)) out.push_back(motion);
+    }
+    return out;
+}
+
+/// Range shift by speed of a pulse that sweeps over B in T: sound whose frequency f is raised by
+/// 2 v f / c fits the pulse earlier by that over B / T if it sweeps up.
+double doppler_of(const SonarConfig& config, double sound_speed_m_s) {
+    const PulseConfig& pulse = config.instrument.pulse;
+    if (config.model != ModelKind::calibrated || pulse.sweep == Sweep::none) return 0.0;
+    const double bin_m = (config.range_max_m - config.range_min_m) / config.range_bins;
+    const double band_hz = pulse_band(pulse, bin_m, sound_speed_m_s).sweep_hz;
+    const double shift_s = config.instrument.frequency_hz * pulse.duration_s / band_hz;
+    return pulse.sweep == Sweep::up ? shift_s : -shift_s;
+}
+
 }  // namespace
 
-void add_ping_motions(const Mission& mission, const Trajectory& trajectory,
-                      std::span<Sonar> sonars) {
+void add_ping_motions(const Mission& mission, const Trajectory& trajectory, const Scene& scene,
+                      std::span<const Trajectory> bodies, std::span<Sonar> sonars) {
+    const double sound_speed_m_s = mission.water.sound_speed_m_s;
     for (Sonar& sonar : sonars) {
         if (!sonar.config.moves_in_ping) continue;
         if (sonar.config.multipath.method != MultipathMethod::none) {
@@ -53,8 +89,16 @@ void add_ping_motions(const Mission& mission, const Trajectory& trajectory,
         }
         std::vector<PingMotion> motions;
         for (std::size_t pose = 0; pose < trajectory.size(); ++pose)
-            motions.push_back(motion_at(trajectory, pose, sonar, mission.water.sound_speed_m_s));
+            motions.push_back(motion_at(trajectory, pose, sonar, sound_speed_m_s));
+        for (PingMotion& motion : motions)
+            motion.doppler_s = doppler_of(sonar.config, sound_speed_m_s);
         sonar.motions = std::make_shared<const std::vector<PingMotion>>(std::move(motions));
+        if (bodies.empty()) continue;
+        std::vector<std::vector<ObjectMotion>> of_objects;
+        for (std::size_t pose = 0; pose < trajectory.size(); ++pose)
+            of_objects.push_back(object_motions_at(scene, bodies, trajectory, pose));
+        sonar.object_motions =
+            std::make_shared<const std::vector<std::vector<ObjectMotion>>>(std::move(of_objects));
     }
 }
 

@@ -15,9 +15,8 @@ namespace sonarsim {
 
 namespace {
 
-// The factor on the size of patches in range if speckle is drawn for each ping. With it, the
-// expected image of the tank has an error of 1.8 %.
-constexpr float deeper_patches = 2.0F;
+// If speckle is drawn for each ping; the expected image of the tank is then off by 1.8 %.
+constexpr float deeper_patches = 2.0F;  // factor on the size of patches in range
 
 /// The steps that form an image, and their common data. `Beams`: ArrayBeams or TransducerBeams.
 template <class Beams>
@@ -63,7 +62,7 @@ class ImageFormer {
                 add_particle_powers(model_, beams_, traced.particles, ping_.counts, grid);
             }
         }
-        if (context_.terms.multipath) add_multipath(specular_paths(traced, context_.scene), grid);
+        if (context_.terms.multipath) add_multipath(traced, grid);
 
         // 2. Speckle. With `speckle: scene` the amplitudes of step 1 already have it.
         if (speckle_ == SpeckleMode::ping) draw_speckle(grid, speckle_gain_, ping_draws_);
@@ -92,13 +91,11 @@ class ImageFormer {
             ping_.counts.occupied_bins = std::max<std::uint64_t>(
                 ping_.counts.occupied_bins, coherent->convolve_pulse(model_.amplitude_taps));
         }
-
         if (model_.pulse_floor.share > 0.0F) {
             add_pulse_floor(model_.pulse_floor, of_powers ? PowerForm::power : PowerForm::amplitude,
                             speckle_gain_, context_.draws.of(stream_named("pulse floor")),
                             coherent ? &*coherent : nullptr, grid);
         }
-
         // 3, 4. Beams, the receiver's noise and its gain.
         beamform(beams_, grid, of_powers, coherent ? &*coherent : nullptr,
                  context_.terms.random > 1, context_.draws.of(Stream::receiver_noise),
@@ -252,15 +249,18 @@ class ImageFormer {
             });
     }
 
-    /// Adds the echoes of the specular paths. With `speckle: scene` their amplitudes are drawn for
-    /// each ping: their phase depends on the shape of the reflector to a fraction of a wavelength,
-    /// and no mesh is as exact as that.
-    void add_multipath(const std::vector<SpecularPath>& paths, EchoGrid& grid) {
-        if (paths.empty()) return;
+    /// With `speckle: scene` the amplitudes of multipath are drawn for each ping: their phase
+    /// depends on the shape of the reflector to a fraction of a wavelength, and no mesh is as exact
+    /// as that.
+    void add_multipath(const TracedPing& traced, EchoGrid& grid) {
+        const std::vector<SpecularPath> paths = specular_paths(traced, context_.scene);
+        if (paths.empty() && traced.retraced.samples.empty()) return;
         ping_.counts.echoes += 2 * paths.size();
         const auto add_to = [&](EchoGrid& powers) {
             ping_.counts.out_of_range += add_specular_powers(
                 beams_, paths, scattering_->materials, model_.equation, model_.limits, powers);
+            const std::vector<Sample>& retraced = traced.retraced.samples;
+            add_surface_powers(model_, beams_, retraced, *scattering_, ping_.counts, powers);
         };
         if (speckle_ != SpeckleMode::scene) return add_to(grid);
         EchoGrid specular(grid.rows(), grid.columns());

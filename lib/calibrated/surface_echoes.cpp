@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "calibrated/cut_sample.h"
 #include "calibrated/found_echoes.h"
 #include "calibrated/model.h"
 #include "calibrated/patches.h"
@@ -28,40 +29,6 @@ PointLimits label_limits(const CalibratedModel& model) {
     limits.depth_m = most_depth_in_bins * model.equation.bin_m;
     if (model.cones.exist()) limits.sine = std::max(limits.sine, model.cones.mean_width());
     return limits;
-}
-
-/// Half the extent of a piece in range, and across the beams.
-struct HalfExtents {
-    float range_m, sine;
-};
-
-/// The extents of a piece of a parallelogram with these half edges that is cut into rows and
-/// columns, at a place that is seen along `at`.
-HalfExtents half_extents(const Eigen::Vector3f& edge_u, const Eigen::Vector3f& edge_v,
-                         const Arrival& at, float rows = 1.0F, float columns = 1.0F) {
-    const Eigen::Vector3f& direction = at.direction;
-    const auto across = [&](const Eigen::Vector3f& edge) {
-        return std::fabs(edge.y() - direction.y() * direction.dot(edge)) / at.range_m;
-    };
-    return {std::fabs(direction.dot(edge_u)) / rows + std::fabs(direction.dot(edge_v)) / columns,
-            across(edge_u) / rows + across(edge_v) / columns};
-}
-
-/// A sample as subdivide() cuts it.
-struct CutSample {
-    const Sample* sample = nullptr;
-    float rows = 1.0F, columns = 1.0F;
-    HalfExtents half{};  ///< extents of a piece
-};
-
-CutSample cut_of(const Sample& sample, const PointLimits& limits) {
-    const Arrival at = arrival_of(sample.position);
-    CutSample out{.sample = &sample};
-    out.rows = static_cast<float>(patches_along(sample.edge_u, at.direction, at.range_m, limits));
-    out.columns =
-        static_cast<float>(patches_along(sample.edge_v, at.direction, at.range_m, limits));
-    out.half = half_extents(sample.edge_u, sample.edge_v, at, out.rows, out.columns);
-    return out;
 }
 
 /// A sample for each facet of the targets: labels read its material, instance and normal.
@@ -179,6 +146,22 @@ class SurfaceEchoFinder {
         find_specular_echoes(paths, scattering_->materials, equation, model_.limits, use);
     }
 
+    /// The labels of retraced echoes are those of their first reflectors.
+    void add_retraced(const TracedPing& traced) {
+        const std::span<const Sample> seen = traced.retraced.samples;
+        subdivide(seen, limits_, pieces_, [&](const PatchBlock& pieces) {
+            apply_sonar_equation(pieces, *scattering_, model_.equation, echoes_);
+            const auto cut_at = [&](int k) { return cut_of(seen[pieces.sample[k]], limits_); };
+            const auto half_sine = [&](int k) { return cut_at(k).half.sine; };
+            for_each_beam(pieces, echoes_, nullptr, half_sine, [&](int beam, int k, float power) {
+                const std::uint32_t source = traced.retraced.sources[pieces.sample[k]];
+                multipath_.push_back({static_cast<std::uint32_t>(beam), echoes_.range_m[k],
+                                      cut_at(k).half.range_m, power,
+                                      &traced.samples.items[source]});
+            });
+        });
+    }
+
     SurfaceEchoes take(int beams) {
         SurfaceEchoes out;
         out.direct = by_beam(direct_, beams);
@@ -290,6 +273,7 @@ SurfaceEchoes CalibratedModel::surface_echoes(const TracedPing& traced, const Vi
             finder.add_targets(traced.targets, slopes_of(scene.materials));
             finder.add_particles(traced.particles);
             finder.add_multipath(traced, specular_paths(traced, scene));
+            finder.add_retraced(traced);
             return finder.take(view.beams);
         },
         beams);

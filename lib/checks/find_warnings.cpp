@@ -60,6 +60,7 @@ std::vector<Warning> find_warnings(const Mission& mission, const Assembly& assem
     }
     ask_for_units(mission, assembly.scene, out);
     append(out, unseen_objects(mission, assembly, sonars, rays));
+    append(out, unseen_particles(mission, assembly, rays));
     return out;
 }
 

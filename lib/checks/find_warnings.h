@@ -56,6 +56,10 @@ std::vector<Warning> unseen_objects(const Mission& mission, const Assembly& asse
                                     std::span<const SonarSurvey> sonars,
                                     const VisibilityEngine& rays);
 
+/// W36: groups of scene.particles of which no sonar sees a target.
+std::vector<Warning> unseen_particles(const Mission& mission, const Assembly& assembly,
+                                      const VisibilityEngine& rays);
+
 /// Adds to W04, W12 and W17 the question whether something is read in a wrong unit, for whatever is
 /// about three orders larger or smaller than the ranges of the sonars allow.
 void ask_for_units(const Mission& mission, const Scene& scene, std::vector<Warning>& warnings);

@@ -45,6 +45,7 @@ enum class WarningCode {
     rare_class = 33,
     disk_full = 34,
     multipath_missed = 35,
+    unseen_particles = 36,
 };
 
 /// A row of the table of all warnings. `what` and `cure` are format strings of the same figures.

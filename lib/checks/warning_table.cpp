@@ -210,6 +210,13 @@ constexpr std::array table{
         "accuracy.relative_l1 holds for direct echoes: a facet that is narrower than a column of "
         "rays hardly counts for them, but its echo over a second surface may have bins of its "
         "own"},
+    WarningText{
+        WarningCode::unseen_particles,
+        "no ping that was looked at sees a target of these groups of scene.particles: {0:s}",
+        "move them into the view of a sonar, raise their count, or leave them out",
+        "a group of which no target is in view, and before the surface, in any of up to "
+        "200 pings of each sonar",
+        "they cost time in each ping and have no label"},
 };
 
 constexpr bool is_in_order() {

@@ -41,6 +41,7 @@ Json describe_particles(const Assembly& assembly, const FinishedPing& finished, 
     struct Sum {
         int count = 0;
         double section_m2 = 0.0;
+        bool buried = false;
         Eigen::Vector3d place = Eigen::Vector3d::Zero();
     };
     const SeenParticles& seen = finished.traced.particles;
@@ -48,8 +49,10 @@ Json describe_particles(const Assembly& assembly, const FinishedPing& finished, 
     for (std::size_t k = 0; k < seen.samples.size(); ++k) {
         Sum& sum = sums[seen.samples[k].instance];
         ++sum.count;
-        sum.section_m2 += seen.samples[k].area_m2;
-        sum.place += place_at(finished.sonar.settings.particles->all[seen.numbers[k]], time_s);
+        const Particle& particle = finished.sonar.settings.particles->all[seen.numbers[k]];
+        sum.section_m2 += particle.section_m2;
+        sum.buried = particle.buried;
+        sum.place += place_at(particle, time_s);
     }
     Json json = Json::object();
     for (const auto& [instance, sum] : sums) {
@@ -59,6 +62,7 @@ Json describe_particles(const Assembly& assembly, const FinishedPing& finished, 
             {"position_m", {place.x(), place.y(), place.z()}},
             // To a hundredth of a decibel: the sections are floats.
             {"target_strength_db", std::round(100.0 * db_of_power(sum.section_m2)) / 100.0}};
+        if (sum.buried) json[assembly.scene.instances[instance]]["buried"] = true;
     }
     return json;
 }

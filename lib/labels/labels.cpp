@@ -184,11 +184,9 @@ ShadowFinder find_object_shadows(const TracedPing& traced, const ConeBeams& cone
     return finder;
 }
 
-}  // namespace
-
-PingLabels label_ping(const TracedPing& traced, const PingSettings& settings, const Scene& scene,
-                      const SceneObjects& objects, const VisibilityEngine& engine,
-                      const LabelRequest& request) {
+PingLabels label_group(const TracedPing& traced, const PingSettings& settings, const Scene& scene,
+                       const SceneObjects& objects, const VisibilityEngine& engine,
+                       const LabelRequest& request) {
     const View& view = settings.view;
     PingLabels labels = blank_labels(view, request);
     const SurfaceEchoes echoes =
@@ -229,6 +227,41 @@ PingLabels label_ping(const TracedPing& traced, const PingSettings& settings, co
                                 view.shape};
         label_patches(echoes, view, places, request.bottom,
                       {labels.elevation_rad, labels.elevation_spread_rad, labels.height_m});
+    }
+    return labels;
+}
+
+/// Takes the labels of a beam.
+void copy_beam(const PingLabels& from, int beam, PingLabels& to) {
+    const auto copy = [&](auto member) {
+        const std::size_t first = static_cast<std::size_t>(beam) * from.range_bins;
+        if ((from.*member).empty()) return;
+        std::copy_n((from.*member).begin() + static_cast<std::ptrdiff_t>(first), from.range_bins,
+                    (to.*member).begin() + static_cast<std::ptrdiff_t>(first));
+    };
+    for (const auto member :
+         {&PingLabels::object, &PingLabels::second, &PingLabels::class_id, &PingLabels::material,
+          &PingLabels::shadow, &PingLabels::object_shadow})
+        copy(member);
+    for (const auto member :
+         {&PingLabels::share, &PingLabels::second_share, &PingLabels::multipath,
+          &PingLabels::elevation_rad, &PingLabels::elevation_spread_rad, &PingLabels::height_m})
+        copy(member);
+}
+
+}  // namespace
+
+PingLabels label_ping(const TracedPing& traced, const PingSettings& settings, const Scene& scene,
+                      const SceneObjects& objects, const VisibilityEngine& engine,
+                      const LabelRequest& request) {
+    PingLabels labels = label_group(traced, settings, scene, objects, engine, request);
+    for (std::size_t k = 0; k < traced.later_groups.size(); ++k) {
+        const PingLabels later =
+            label_group(traced.later_groups[k], settings, scene, objects, engine, request);
+        for (int beam = 0; beam < labels.beams; ++beam) {
+            if (traced.group_of_beam[beam] == static_cast<int>(k) + 1)
+                copy_beam(later, beam, labels);
+        }
     }
     return labels;
 }

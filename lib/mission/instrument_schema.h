@@ -89,6 +89,10 @@ void describe(Visitor& v, BeamConfig& c) {
               "elevation_width_deg is 0, for a constant pattern, or at least 0.01");
 }
 
+inline constexpr std::array sweeps{Choice<Sweep>{"none", Sweep::none},
+                                   Choice<Sweep>{"up", Sweep::up},
+                                   Choice<Sweep>{"down", Sweep::down}};
+
 template <class Visitor>
 void describe(Visitor& v, PulseConfig& c) {
     v.number("resolution_m", c.resolution_m, between(0, 1000),
@@ -104,6 +108,11 @@ void describe(Visitor& v, PulseConfig& c) {
     v.number("floor_db", c.floor_db, between(-300, 0),
              "energy of the side lobes of a coded pulse that are spread over its duration_s before "
              "and behind each echo, relative to the pulse; -300 means none");
+    v.choice("sweep", c.sweep, sweeps,
+             "with moves_in_ping: the frequency of the coded pulse runs `up` or `down`, so that "
+             "what approaches is measured too near or too far; `none`: its ranges are right");
+    v.require(c.sweep == Sweep::none || c.duration_s > 0.0, {"sweep", "duration_s"},
+              "a pulse that sweeps needs a duration_s above 0");
 }
 
 template <class Visitor>

@@ -74,9 +74,24 @@ struct MultipathConfig {
     /// Largest angle between normals within a cluster. The paper's 15 miss more than 5 % of the
     /// bins on a rough sea floor; 5 miss 2 % and take a tenth more rays.
     double delta_deg = 5.0;
-    int columns_per_beam = 1;  ///< parts that the trace divides a beam into; fans only
+    int columns_per_beam = 1;        ///< parts that the trace divides a beam into; fans only
+    int retraced = 0;                ///< most reflections on a way that sound takes out and back
+    double retraced_loss_db = 40.0;  ///< ways whose reflections take more are left out
 
     bool operator==(const MultipathConfig&) const = default;
+};
+
+/// The order in which the beams of a fan transmit: each group is the beams from one border to
+/// the next, or every n-th beam.
+enum class ShutterOrder { in_turn, interleaved };
+
+/// A sonar whose beams transmit in groups, one after the other.
+struct ShutterConfig {
+    int groups = 1;  ///< 1: all beams transmit at once
+    ShutterOrder order = ShutterOrder::in_turn;
+    double period_s = 0.0;  ///< from one group to the next; 0: until its sound is back
+
+    bool operator==(const ShutterConfig&) const = default;
 };
 
 /// The kinds of sonar; the table in sonar/kinds.h defines them.
@@ -93,7 +108,8 @@ struct SonarConfig {
     SonarKind kind = SonarKind::imaging;
     MountConfig mount;
     int every = 1;                ///< the sonar pings at every n-th pose
-    bool moves_in_ping = false;   ///< the sonar moves on between transmission and reception
+    bool moves_in_ping = false;   ///< sonar and objects move on while sound is under way
+    ShutterConfig shutter;        ///< imaging sonars
     double azimuth_deg = 120.0;   ///< full angle
     double elevation_deg = 20.0;  ///< full angle
     double opening_deg = 30.0;    ///< full angle of a cone, in place of azimuth and elevation

@@ -18,6 +18,22 @@ inline constexpr std::array multipath_methods{
     Choice<MultipathMethod>{"cluster", MultipathMethod::cluster},
     Choice<MultipathMethod>{"exact", MultipathMethod::exact}};
 
+inline constexpr std::array shutter_orders{
+    Choice<ShutterOrder>{"in_turn", ShutterOrder::in_turn},
+    Choice<ShutterOrder>{"interleaved", ShutterOrder::interleaved}};
+
+template <class Visitor>
+void describe(Visitor& v, ShutterConfig& c) {
+    v.integer("groups", c.groups, between(1, 64),
+              "number of groups in which the beams transmit, one after the other; a ping takes "
+              "nearly so many times the time to render");
+    v.choice("order", c.order, shutter_orders,
+             "`in_turn`: a group is a part of the sector, from starboard to port; `interleaved`: "
+             "every n-th beam");
+    v.number("period_s", c.period_s, between(0, 10),
+             "time from one group to the next; 0: until the sound of range_max_m is back");
+}
+
 template <class Visitor>
 void describe(Visitor& v, MountConfig& c) {
     v.numbers("translation_m", c.translation_m, any_position_m,
@@ -38,6 +54,13 @@ void describe(Visitor& v, MultipathConfig& c) {
     v.integer("columns_per_beam", c.columns_per_beam, between(1, 16),
               "trace each beam of a fan as so many narrower ones: more of the echoes of small "
               "facets are found, and a ping takes so many times as long");
+    v.integer("retraced", c.retraced, between(0, 16),
+              "calibrated model: sound also returns the way that it went, over up to so many "
+              "reflections, as the echoes behind the wall of a tank do; 0: none");
+    v.number("retraced_loss_db", c.retraced_loss_db, between(0, 300),
+             "ways are followed until their reflections, out and back, take more than this");
+    v.require(c.retraced == 0 || c.method != MultipathMethod::none, {"retraced", "method"},
+              "multipath.retraced needs multipath.method: cluster or exact");
 }
 
 /// Checks that a table of beams fits the other keys of a sonar.
@@ -85,6 +108,21 @@ void require_insonified(Visitor& v, const SonarConfig& c) {
 }
 
 template <class Visitor>
+void describe_motion(Visitor& v, SonarConfig& c) {
+    v.flag("moves_in_ping", c.moves_in_ping,
+           "the sonar goes on moving and turning while sound is under way, and so do objects and "
+           "targets in the water; otherwise all stand still in a ping");
+    if (c.kind == SonarKind::imaging) {
+        v.section("shutter", c.shutter, "beams that transmit one after the other");
+        v.require(c.shutter.groups == 1 || c.moves_in_ping, {"shutter", "moves_in_ping"},
+                  "shutter.groups needs moves_in_ping: true: a sonar that stands still in a ping "
+                  "has all beams from one pose");
+        v.require(c.shutter.groups <= c.azimuth_bins, {"shutter", "azimuth_bins"},
+                  "shutter.groups must be at most azimuth_bins");
+    }
+}
+
+template <class Visitor>
 void describe(Visitor& v, SonarConfig& c) {
     const SonarKeys& keys = v.sonar_kind("kind", c, "the kind of sonar");
     v.path("preset", c.preset,
@@ -92,10 +130,7 @@ void describe(Visitor& v, SonarConfig& c) {
            "override those of the file");
     v.section("mount", c.mount, "where the sonar sits on the vehicle");
     v.integer("every", c.every, at_least(1), "the sonar pings at every n-th pose");
-    v.flag(
-        "moves_in_ping", c.moves_in_ping,
-        "the sonar goes on moving and turning while sound is under way; otherwise it stands still "
-        "in a ping");
+    describe_motion(v, c);
     if (keys.opening)
         v.number("opening_deg", c.opening_deg, between(1e-3, 180), "full angle of the cone");
     if (keys.azimuth)
@@ -125,6 +160,8 @@ void describe(Visitor& v, SonarConfig& c) {
     v.choice(
         "model", c.model, echo_models,
         "echo model: the paper's, or the calibrated one, which gives what the instrument measures");
+    v.require(c.multipath.retraced == 0 || c.model == ModelKind::calibrated, {"multipath", "model"},
+              "multipath.retraced is for model: calibrated");
     if (c.model == ModelKind::calibrated) {
         v.section("instrument", c.instrument, "the instrument of the calibrated model");
         require_insonified(v, c);

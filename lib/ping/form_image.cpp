@@ -2,7 +2,9 @@
 
 namespace sonarsim {
 
-Ping form_image(const TracedPing& traced, const PingSettings& settings, const Scene& scene,
+namespace {
+
+Ping form_group(const TracedPing& traced, const PingSettings& settings, const Scene& scene,
                 const PingKey& key, const Terms& terms) {
     Ping ping;
     ping.range_bins = settings.view.range_bins;
@@ -21,6 +23,22 @@ Ping form_image(const TracedPing& traced, const PingSettings& settings, const Sc
                           .draws = {key.seed, settings.stream, key.ping},
                           .terms = terms},
                          ping);
+    return ping;
+}
+
+}  // namespace
+
+Ping form_image(const TracedPing& traced, const PingSettings& settings, const Scene& scene,
+                const PingKey& key, const Terms& terms) {
+    Ping ping = form_group(traced, settings, scene, key, terms);
+    for (std::size_t k = 0; k < traced.later_groups.size(); ++k) {
+        const Ping later = form_group(traced.later_groups[k], settings, scene, key, terms);
+        for (std::size_t at = 0; at < ping.intensity.size(); ++at) {
+            const std::size_t beam = at % static_cast<std::size_t>(ping.beams);
+            if (traced.group_of_beam[beam] == static_cast<int>(k) + 1)
+                ping.intensity[at] = later.intensity[at];
+        }
+    }
     return ping;
 }
 

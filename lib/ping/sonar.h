@@ -31,6 +31,8 @@ struct Sonar {
     std::shared_ptr<const SoundProfile> assumed_profile;  ///< the instrument believes in it
     /// Its motion in the ping from each pose of the trajectory; null: it stands still in a ping.
     std::shared_ptr<const std::vector<PingMotion>> motions;
+    /// The objects that move then, by pose; null: they stand still in a ping.
+    std::shared_ptr<const std::vector<std::vector<ObjectMotion>>> object_motions;
 };
 
 /// The angle of the head at the pose with this index on the trajectory; 0 for a fixed sonar.

@@ -58,9 +58,12 @@ Sonar common_sonar(const SonarConfig& config, const AccuracyConfig& accuracy,
                      .shape = kind.shape};
     const MultipathConfig& multipath = config.multipath;
     const bool exact = multipath.method == MultipathMethod::exact;
-    settings.multipath = {.on = multipath.method != MultipathMethod::none,
-                          .cluster = {.epsilon_bins = exact ? 0 : multipath.epsilon_bins,
-                                      .delta_cosine = cosine_of(multipath.delta_deg)}};
+    settings.multipath = {
+        .on = multipath.method != MultipathMethod::none,
+        .cluster = {.epsilon_bins = exact ? 0 : multipath.epsilon_bins,
+                    .delta_cosine = cosine_of(multipath.delta_deg)},
+        .retraced = multipath.retraced,
+        .retraced_least = static_cast<float>(power(10.0, -0.1 * multipath.retraced_loss_db))};
     return sonar;
 }
 

@@ -31,8 +31,12 @@ void find_targets(std::span<Sonar> sonars, const Scene& scene);
 /// none of them is of this sonar.
 std::optional<Sonar> drawn_sonar(const Mission& mission, const Sonar& sonar, std::uint32_t pose);
 
-/// Traces a ping from a pose of the vehicle; `pose` is the index of that pose on the trajectory, on
-/// which the angle of a turning head depends.
+/// The group in which each beam of a fan transmits.
+std::vector<int> groups_of_beams(const ShutterConfig& shutter, int beams);
+
+/// Traces a ping from a pose of the vehicle, and its later groups of beams from where it is then;
+/// `pose` is the index of that pose on the trajectory, on which the angle of a turning head
+/// depends.
 TracedPing trace(const Sonar& sonar, const Scene& scene, const VisibilityEngine& engine,
                  const Pose& T_world_vehicle, std::uint32_t pose, const Terms& terms = {});
 

@@ -1,7 +1,10 @@
 #include "trace/particles.h"
 
 #include <cmath>
+#include <optional>
 
+#include "trace/buried.h"
+#include "trace/object_motion.h"
 #include "visibility/view_volume.h"
 
 namespace sonarsim {
@@ -15,6 +18,24 @@ Eigen::Vector3d place_at(const Particle& particle, double time_s) {
     }
     return place;
 }
+
+namespace {
+
+/// Moves a point to where the sonar measures it.
+void move_point(const PingMotion& motion, ViewShape shape, const Eigen::Vector3d& velocity,
+                Sample& sample) {
+    Eigen::Vector3d place = sample.position.cast<double>();
+    if (!velocity.isZero(0.0))
+        place = met_place(motion, place, velocity);
+    else if (motion.is_still())
+        return;
+    if (!motion.is_still()) place = measured_place(motion, shape, place);
+    sample.position = place.cast<float>();
+    sample.height_m = sample.position.norm();
+    sample.normal = -sample.position / sample.height_m;
+}
+
+}  // namespace
 
 SeenParticles seen_particles(const Particles& particles, double time_s, const View& view,
                              const GuardBeams& guard_beams, const VisibilityEngine& engine,
@@ -47,13 +68,16 @@ SeenParticles seen_particles(const Particles& particles, double time_s, const Vi
     std::size_t kept = 0;
     for (std::size_t k = 0; k < rays.size(); ++k) {
         Sample& sample = found.samples[k];
-        if (hits[k].distance_m < sample.height_m) continue;
-        if (!motion.is_still()) {
-            sample.position =
-                measured_place(motion, view.shape, sample.position.cast<double>()).cast<float>();
-            sample.height_m = sample.position.norm();
-            sample.normal = -sample.position / sample.height_m;
+        const Particle& particle = particles.all[found.numbers[k]];
+        if (particle.buried) {
+            const std::optional<Sample> below = seen_buried(particles.sediments, sample, hits[k]);
+            if (!below) continue;
+            sample = *below;
+        } else if (hits[k].distance_m < sample.height_m) {
+            continue;
         }
+        if (motion.sound_speed_m_s > 0.0)
+            move_point(motion, view.shape, to_sensor * particle.velocity_m_s, sample);
         found.samples[kept] = sample;
         found.numbers[kept] = found.numbers[k];
         ++kept;

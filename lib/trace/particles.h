@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/pose.h"
+#include "trace/buried.h"
 #include "trace/ping_motion.h"
 #include "trace/visible_surface.h"
 #include "visibility/engine.h"
@@ -21,12 +22,14 @@ struct Particle {
     float section_m2 = 0.0F;     ///< backscattering cross-section: 10 log of it is the strength
     std::uint32_t material = 0;  ///< index into Scene::materials
     std::uint32_t instance = 0;  ///< index into Scene::instances
+    bool buried = false;         ///< in the sediment
 };
 
 /// The point targets of a scene as one sonar, at its frequency, sees them.
 struct Particles {
     std::vector<Particle> all;
-    std::vector<double> time_s;  ///< since the first ping, by pose of the trajectory
+    std::vector<double> time_s;                ///< since the first ping, by pose of the trajectory
+    std::vector<SedimentPath> sediments = {};  ///< one for each of Scene::materials
 };
 
 /// The place of a particle, world.
@@ -39,7 +42,8 @@ struct SeenParticles {
     std::vector<std::uint32_t> numbers;  ///< index of each into Particles::all
 };
 
-/// The particles in view that no surface hides. One ray tests each.
+/// The particles in view that no surface hides. One ray tests each. Buried ones are seen through
+/// the sea bed above them (trace/buried.h). In a ping with motion they go on by their velocity.
 SeenParticles seen_particles(const Particles& particles, double time_s, const View& view,
                              const GuardBeams& guard_beams, const VisibilityEngine& engine,
                              const Pose& T_world_sensor, const PingMotion& motion);

@@ -15,21 +15,18 @@ double share_of(ViewShape shape) {
     return shape == ViewShape::fan ? 1.0 : 0.5;
 }
 
-/// The rotation by a vector's length about it.
-Eigen::Quaterniond rotation_by(const Eigen::Vector3d& turn_rad) {
-    const double angle = turn_rad.norm();
-    if (!(angle > 0.0)) return Eigen::Quaterniond::Identity();
-    const SinCos half = sincos(0.5 * angle);
-    const Eigen::Vector3d axis = half.sin / angle * turn_rad;
-    return {half.cos, axis.x(), axis.y(), axis.z()};
-}
-
 /// The time of sound to a place and back to where the sonar is then: the greater root of
 /// |p - v t| = c t - |p|, which is t = 2 (c |p| - v . p) / (c^2 - v^2).
 double two_way_time(const PingMotion& motion, const Eigen::Vector3d& place) {
     const double c = motion.sound_speed_m_s;
     const Eigen::Vector3d& v = motion.velocity_m_s;
     return 2.0 * (c * place.norm() - v.dot(place)) / (c * c - v.squaredNorm());
+}
+
+/// The shift in range of a pulse that sweeps.
+double range_shift(const PingMotion& motion, const Eigen::Vector3d& place) {
+    if (motion.doppler_s == 0.0) return 0.0;
+    return -motion.doppler_s * motion.velocity_m_s.dot(place.normalized());
 }
 
 /// Over a patch the time of return changes by 2 / c for each metre, in which a sonar moves by
@@ -41,7 +38,7 @@ Sample moved(const PingMotion& motion, ViewShape shape, const Sample& sample) {
     const Eigen::Matrix3d to_there =
         rotation_by(moving * motion.turn_rad_s).conjugate().toRotationMatrix();
     const Eigen::Vector3d from_there = to_there * (place - moving * motion.velocity_m_s);
-    const double range = 0.5 * motion.sound_speed_m_s * time;
+    const double range = 0.5 * motion.sound_speed_m_s * time + range_shift(motion, place);
     const Eigen::Matrix3f turn = to_there.cast<float>();
     Sample out = sample;
     out.position = (range / from_there.norm() * from_there).cast<float>();
@@ -61,13 +58,34 @@ int beam_by_azimuth(const View& view, const Eigen::Vector3f& p) {
 
 }  // namespace
 
+Eigen::Quaterniond rotation_by(const Eigen::Vector3d& turn_rad) {
+    const double angle = turn_rad.norm();
+    if (!(angle > 0.0)) return Eigen::Quaterniond::Identity();
+    const SinCos half = sincos(0.5 * angle);
+    const Eigen::Vector3d axis = half.sin / angle * turn_rad;
+    return {half.cos, axis.x(), axis.y(), axis.z()};
+}
+
+PingMotion motion_after(const PingMotion& motion, double later_s) {
+    PingMotion out = motion;
+    out.velocity_m_s = rotation_by(later_s * motion.turn_rad_s).conjugate() * motion.velocity_m_s;
+    return out;
+}
+
+Pose pose_after(const PingMotion& motion, const Pose& T_world_sensor, double later_s) {
+    if (motion.is_still()) return T_world_sensor;
+    return T_world_sensor *
+           Pose{rotation_by(later_s * motion.turn_rad_s), later_s * motion.velocity_m_s};
+}
+
 Eigen::Vector3d measured_place(const PingMotion& motion, ViewShape shape,
                                const Eigen::Vector3d& place) {
     const double time = two_way_time(motion, place);
     const double moving = share_of(shape) * time;
     const Eigen::Vector3d from_there = rotation_by(moving * motion.turn_rad_s).conjugate() *
                                        (place - moving * motion.velocity_m_s);
-    return 0.5 * motion.sound_speed_m_s * time * from_there.normalized();
+    const double range = 0.5 * motion.sound_speed_m_s * time + range_shift(motion, place);
+    return range * from_there.normalized();
 }
 
 Eigen::Vector3d unmoved_place(const PingMotion& motion, ViewShape shape,
@@ -80,18 +98,15 @@ Eigen::Vector3d unmoved_place(const PingMotion& motion, ViewShape shape,
     const Eigen::Vector3d d = rotation_by(moving * motion.turn_rad_s) * measured.normalized();
     const Eigen::Vector3d s = moving * motion.velocity_m_s;
     double length = measured.norm();
-    for (int k = 0; k < 4; ++k)
-        length += 0.5 * motion.sound_speed_m_s * (time - two_way_time(motion, s + length * d));
+    for (int k = 0; k < 4; ++k) {
+        const Eigen::Vector3d place = s + length * d;
+        length += 0.5 * motion.sound_speed_m_s * (time - two_way_time(motion, place)) -
+                  range_shift(motion, place);
+    }
     return s + length * d;
 }
 
-void move_in_ping(const PingMotion& motion, const View& view, Samples& samples,
-                  std::vector<Sample>& outside_sector) {
-    if (motion.is_still()) return;
-    for (Sample& sample : samples.items)
-        sample = moved(motion, view.shape, sample);
-    for (Sample& sample : outside_sector)
-        sample = moved(motion, view.shape, sample);
+void sort_into_beams(const View& view, Samples& samples, std::vector<Sample>& outside_sector) {
     if (view.shape != ViewShape::fan) return;
     std::vector<std::vector<Sample>> of_beam(view.beams);
     std::vector<Sample> outside;
@@ -107,6 +122,16 @@ void move_in_ping(const PingMotion& motion, const View& view, Samples& samples,
         samples.beam_begin[j + 1] = static_cast<std::uint32_t>(samples.items.size());
     }
     outside_sector = std::move(outside);
+}
+
+void move_in_ping(const PingMotion& motion, const View& view, Samples& samples,
+                  std::vector<Sample>& outside_sector) {
+    if (motion.is_still()) return;
+    for (Sample& sample : samples.items)
+        sample = moved(motion, view.shape, sample);
+    for (Sample& sample : outside_sector)
+        sample = moved(motion, view.shape, sample);
+    sort_into_beams(view, samples, outside_sector);
 }
 
 void move_in_ping(const PingMotion& motion, ViewShape shape, std::vector<TargetFacet>& facets) {

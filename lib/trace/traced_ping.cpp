@@ -17,7 +17,7 @@ namespace sonarsim {
 
 TracedPing trace_ping(const TraceSettings& settings, const Scene& scene,
                       const VisibilityEngine& engine, const Pose& T_world_sensor,
-                      const Terms& terms, const PingMotion& motion) {
+                      const Terms& terms, const PingMotion& motion, const MovingObjects& objects) {
     TracedPing traced;
     traced.T_world_sensor = T_world_sensor;
     traced.motion = motion;
@@ -38,10 +38,17 @@ TracedPing trace_ping(const TraceSettings& settings, const Scene& scene,
         lay_maps(*scene.maps, settings.view, T_world_sensor, traced.samples, traced.outside_sector,
                  1.0, scene.sound_profile.get());
     }
+    if (!objects.all.empty()) {
+        move_objects(objects, motion, T_world_sensor, traced.samples.items);
+        move_objects(objects, motion, T_world_sensor, traced.outside_sector);
+        if (motion.is_still())
+            sort_into_beams(settings.view, traced.samples, traced.outside_sector);
+    }
     move_in_ping(motion, settings.view, traced.samples, traced.outside_sector);
     if (settings.targets) {
         traced.targets = target_surface(*settings.targets, settings.view, settings.guard_beams,
                                         scene, engine, T_world_sensor);
+        move_objects(objects, motion, T_world_sensor, traced.targets.facets);
         move_in_ping(motion, settings.view.shape, traced.targets.facets);
     }
     if (settings.coherent) {
@@ -66,14 +73,17 @@ void trace_multipath(const TraceSettings& settings, const Scene& scene,
     Stopwatch watch;
     traced.counts.multipath = {};
     traced.bounces.clear();
+    traced.retraced = {};
     traced.missed_multipath = std::numeric_limits<double>::quiet_NaN();
     if (settings.multipath.on) {
-        traced.bounces = find_bounces(settings.multipath,
-                                      {.view = settings.view,
-                                       .scene = scene,
-                                       .engine = engine,
-                                       .T_world_sensor = traced.T_world_sensor},
-                                      traced.samples, traced.counts.multipath);
+        const TraceContext context{.view = settings.view,
+                                   .scene = scene,
+                                   .engine = engine,
+                                   .T_world_sensor = traced.T_world_sensor};
+        traced.bounces =
+            find_bounces(settings.multipath, context, traced.samples, traced.counts.multipath);
+        traced.retraced =
+            retraced_surface(settings.multipath, context, traced.samples, traced.counts.multipath);
         // Surface that scatters sound back may fill bins that the bounces miss.
         if (!settings.multipath.scattered) {
             const View view = traced_view(settings.view, settings.guard_beams);

@@ -9,8 +9,10 @@
 #include "trace/coherent_surface.h"
 #include "trace/counters.h"
 #include "trace/multipath.h"
+#include "trace/object_motion.h"
 #include "trace/particles.h"
 #include "trace/ping_motion.h"
+#include "trace/retraced.h"
 #include "trace/target_shapes.h"
 #include "trace/target_surface.h"
 #include "trace/terms.h"
@@ -45,6 +47,11 @@ struct TracedPing {
     SeenParticles particles;
     std::vector<Sample> water_surface;  ///< material and instance are 0
     std::vector<BouncePath> bounces;    ///< multipath paths from `samples`
+    RetracedSurface retraced;
+    /// The group in which each beam transmits, and the traces of all groups but the first, which
+    /// is this one. Empty: all beams transmit at once.
+    std::vector<int> group_of_beam;
+    std::vector<TracedPing> later_groups;
     /// The estimated share of bins with multipath that `bounces` do not reach, see
     /// missed_multipath(); NaN without an estimate.
     double missed_multipath = std::numeric_limits<double>::quiet_NaN();
@@ -56,7 +63,8 @@ struct TracedPing {
 /// steps 1 and 2 of docs/model.md.
 TracedPing trace_ping(const TraceSettings& settings, const Scene& scene,
                       const VisibilityEngine& engine, const Pose& T_world_sensor,
-                      const Terms& terms = {}, const PingMotion& motion = {});
+                      const Terms& terms = {}, const PingMotion& motion = {},
+                      const MovingObjects& objects = {});
 
 /// Finds the multipath of a traced ping anew, as `settings` have it.
 void trace_multipath(const TraceSettings& settings, const Scene& scene,

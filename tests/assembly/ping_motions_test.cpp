@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "calibrated/pulse_band.h"
 #include "core/error.h"
 #include "core/units.h"
 #include "sonar/kinds.h"
@@ -28,7 +29,7 @@ TEST_SUITE("assembly") {
         config.mount.translation_m = {3.0, 0.0, 0.0};
         std::vector<Sonar> sonars{make_sonar(config, {}), make_sonar(config, {})};
         sonars[1].config.moves_in_ping = true;
-        add_ping_motions(mission, trajectory, sonars);
+        add_ping_motions(mission, trajectory, {}, {}, sonars);
         CHECK(!sonars[0].motions);
         REQUIRE(sonars[1].motions->size() == 20);
         const PingMotion& motion = (*sonars[1].motions)[10];
@@ -37,10 +38,52 @@ TEST_SUITE("assembly") {
         CHECK(motion.sound_speed_m_s == mission.water.sound_speed_m_s);
         // One pose has no rates.
         trajectory.resize(1);
-        add_ping_motions(mission, trajectory, sonars);
+        add_ping_motions(mission, trajectory, {}, {}, sonars);
         CHECK(sonars[1].motions->front().is_still());
         sonars[1].config.multipath.method = MultipathMethod::exact;
-        CHECK_THROWS_WITH_AS(add_ping_motions(mission, trajectory, sonars),
+        CHECK_THROWS_WITH_AS(add_ping_motions(mission, trajectory, {}, {}, sonars),
                              doctest::Contains("multipath"), InputError);
+    }
+
+    // Two objects: one goes at (1, 2, 0) m/s and turns by 0.2 rad/s about z, the other stands.
+    TEST_CASE("ping motions: objects that move, and the shift of a pulse that sweeps") {
+        Trajectory vehicle;
+        Trajectory goes;
+        Trajectory stands;
+        for (int k = 0; k < 10; ++k) {
+            const double t = 0.1 * k;
+            vehicle.push_back({t, {}});
+            goes.push_back({t, {rotation_from_rpy(0.0, 0.0, 0.2 * t), {t, 2.0 * t, -3.0}}});
+            stands.push_back({t, {Eigen::Quaterniond::Identity(), {5.0, 0.0, 0.0}}});
+        }
+        Scene scene;
+        scene.bodies.resize(2);
+        scene.bodies[0].instance = 7;
+        scene.bodies[1].instance = 3;
+        SonarConfig config = default_sonar(SonarKind::imaging);
+        config.model = ModelKind::calibrated;
+        config.moves_in_ping = true;
+        config.instrument.frequency_hz = 9e5;
+        config.instrument.pulse.duration_s = 1e-3;
+        config.instrument.pulse.resolution_m = 0.015;
+        config.instrument.pulse.sweep = Sweep::down;
+        std::vector<Sonar> sonars{make_sonar(config, {})};
+        Mission mission;
+        const std::vector<Trajectory> bodies{stands, goes};
+        std::swap(scene.bodies[0].instance, scene.bodies[1].instance);
+        add_ping_motions(mission, vehicle, scene, bodies, sonars);
+        const std::vector<ObjectMotion>& moving = (*sonars[0].object_motions)[4];
+        REQUIRE(moving.size() == 1);
+        CHECK(moving[0].instance == 7);
+        CHECK((moving[0].centre_m - Eigen::Vector3d(0.4, 0.8, -3.0)).norm() < 1e-9);
+        CHECK((moving[0].velocity_m_s - Eigen::Vector3d(1.0, 2.0, 0.0)).norm() < 1e-9);
+        CHECK((moving[0].turn_rad_s - Eigen::Vector3d(0.0, 0.0, 0.2)).norm() < 1e-9);
+        // f T / B with B = k c / (2 res), k about 1.2 for side lobes of -30 dB.
+        const double band_hz =
+            pulse_band(config.instrument.pulse, 0.0, mission.water.sound_speed_m_s).sweep_hz;
+        CHECK((*sonars[0].motions)[4].doppler_s ==
+              doctest::Approx(-9e5 * 1e-3 / band_hz).epsilon(1e-12));
+        CHECK(band_hz * 2.0 * 0.015 / mission.water.sound_speed_m_s ==
+              doctest::Approx(1.2).epsilon(0.1));
     }
 }

@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <vector>
@@ -73,6 +74,25 @@ double echo_of_beam(const CalibratedModel& model, const std::vector<float>& imag
     return sum / taps;
 }
 
+/// An echo is divided between the two nearest bins by its closeness, and then filtered with taps.
+/// The taps of powers of a pulse as short as a bin are below 0 next to the middle (-0.018 of 1.07),
+/// and an image of powers has 0 there: its sum is larger than that of the taps, by 0.053 dB at the
+/// border of two bins, by 0.15 dB in the middle of one, and by nothing for a pulse of several bins.
+double clipped_db(const CalibratedModel& model, const View& view, double range_m) {
+    const double row = (range_m - view.range_min_m) / view.bin_m() - 0.5;
+    const double share = row - std::floor(row);
+    const std::vector<float>& taps = model.power_taps.taps;
+    double all = 0.0;
+    double kept = 0.0;
+    for (std::size_t k = 0; k <= taps.size(); ++k) {
+        const double first = k < taps.size() ? (1.0 - share) * taps[k] : 0.0;
+        const double second = k > 0 ? share * taps[k - 1] : 0.0;
+        all += first + second;
+        kept += std::max(first + second, 0.0);
+    }
+    return db_of_power(kept / all);
+}
+
 /// TS - 40 log r - 2 alpha r, as a ratio.
 double equation(const CalibratedModel& model, double range_m) {
     return section_m2 / std::pow(range_m, 4) *
@@ -83,7 +103,7 @@ double equation(const CalibratedModel& model, double range_m) {
 
 TEST_SUITE("calibrated") {
     // EL = SL + TS + D - 40 log r - 2 alpha r with SL = 0. The two-way pattern D of a disc is the
-    // fourth power of 2 J1(x) / x, x = k a sin(angle). The bounds are those of the water's level.
+    // fourth power of 2 J1(x) / x, x = k a sin(angle).
     TEST_CASE("particles: the level of a target in an echosounder, at every place") {
         const View view = point_view(ViewShape::cone, 40.0, 40.0, 1);
         const CalibratedModel model =
@@ -101,8 +121,8 @@ TEST_SUITE("calibrated") {
                     image_of_traced(model, view, ping_of_points({place}), {});
                 const double pattern = piston_pattern(piston_scale(radians(7.0)) * std::sin(off));
                 const double expected = equation(model, range_m) * std::pow(pattern, 4);
-                CHECK(db_of_power(echo_of_beam(model, image, 1, 0) / expected) ==
-                      doctest::Approx(0.0).epsilon(0.1));
+                const double above = db_of_power(echo_of_beam(model, image, 1, 0) / expected);
+                CHECK(std::fabs(above - clipped_db(model, view, range_m)) < 0.005);
             }
         }
     }

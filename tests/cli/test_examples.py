@@ -21,7 +21,8 @@ GROUPS = (
      "seafloor_sidescan_calibrated", "rough_sea_sidescan"),
     ("minefield_variants", "detection"),
     ("lifeboat_imaging",), ("own_bathymetry", "sediment_maps"),
-    ("made_seabeds", "scattering_layer", "summer_bathymetry", "fish_and_bubbles", "windy_sidescan"),
+    ("made_seabeds", "scattering_layer", "summer_bathymetry", "fish_and_bubbles", "windy_sidescan",
+     "buried_mines", "yawing_camera"),
     ("tank_imaging", "tank_calibrated", "tank_detection", "tank_echosounder", "tank_labels", "tank_layers",
      "tank_multipath", "tank_multipath_calibrated", "tank_scanning"),
 )

@@ -43,6 +43,15 @@ class Particles(Composed):
             y = 0.5 + 0.1 * k
             self.assertAlmostEqual(fish[0]["range_m"], (16 + y * y + 1.96) ** 0.5, delta=0.1)
 
+    def test_targets_that_no_ping_sees_warn(self):
+        self.calibrated()
+        result = self.run_sonarsim("validate", str(self.folder / "mission.yaml"))
+        self.assertNotIn("W36", result.stdout + result.stderr)
+        self.edit("mission.yaml", "position_m: [4, 0.5, 0.6]", "position_m: [-4, 0.5, 0.6]")
+        result = self.run_sonarsim("validate", str(self.folder / "mission.yaml"))
+        self.assertIn("W36 scene.particles: no ping that was looked at sees a target of these groups of "
+                      "scene.particles: 'fish'", result.stdout + result.stderr)
+
     def test_the_papers_model_refuses_them(self):
         result = self.render()
         self.assertEqual(result.returncode, 2)

@@ -22,6 +22,7 @@ Mission unusual_mission() {
     sonar.mount = {{1e-7, -2, 0.1}, {-4, 5, 0.2 + 0.1}};
     sonar.every = 7;
     sonar.moves_in_ping = true;
+    sonar.shutter = {4, ShutterOrder::interleaved, 0.07};
     sonar.azimuth_deg = 59.5;
     sonar.elevation_deg = 12.25;
     sonar.range_min_m = 0.3;
@@ -124,6 +125,10 @@ sensors:
       rpy_deg: [0, 0, 0]
     every: 1
     moves_in_ping: false
+    shutter:
+      groups: 1
+      order: in_turn
+      period_s: 0
     azimuth_deg: 120
     elevation_deg: 20
     range_min_m: 0.1
@@ -135,6 +140,8 @@ sensors:
       epsilon_bins: 5
       delta_deg: 5
       columns_per_beam: 1
+      retraced: 0
+      retraced_loss_db: 40
     model: paper
     noise:
       range_lambda_m: 0

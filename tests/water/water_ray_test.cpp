@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <random>
+#include <utility>
 
 #include "core/units.h"
 
@@ -126,6 +127,52 @@ TEST_SUITE("water") {
             CHECK(back.time_s == doctest::Approx(there.time_s).epsilon(1e-11));
             CHECK(back.tube_m * profile.speed_at(there.height_m) ==
                   doctest::Approx(there.tube_m * profile.speed_at(-2.0)).epsilon(1e-6));
+        }
+    }
+
+    // S. M. Reilly's WaveQ3D (UnderSeaModelingLibrary, waveq3d/test/refraction_test.cc) lists the
+    // distances after which rays that leave a depth of 1,000 m by these angles come back to it and
+    // to their angle, in Munk's profile (J. Acoust. Soc. Am. 55 (1974), 220) with the numbers of
+    // the manual of KRAKEN: 1500 (1 + 0.00737 (y - 1 + exp(-y))) m/s, y = 2 (depth - 1300) / 1300.
+    // It is for a sphere of the radius R on which the speed is that times r / R. With z = R log(R /
+    // r) and x = R angle rays go as over flat ground, with the speed times R / r; distances at the
+    // source's depth are by (R - 1000) / R shorter. Nodes stand every 5 m: between them the profile
+    // is off by c'' 25 / 8 m/s, 6e-4 at most.
+    TEST_CASE("rays in Munk's profile have the cycles that WaveQ3D lists") {
+        constexpr double radius_m = 6378101.03;
+        const auto flattened = [](double depth) {
+            return radius_m * std::log(1.0 - depth / radius_m);
+        };
+        const double start_m = flattened(1000.0);
+        SoundProfile munk;
+        for (int depth = 5000; depth >= 0; depth -= 5) {
+            const double y = 2.0 * (depth - 1300.0) / 1300.0;
+            munk.height_m.push_back(flattened(depth));
+            munk.speed_m_s.push_back(1500.0 * (1.0 + 0.00737 * (y - 1.0 + std::exp(-y))));
+        }
+        const auto cycle_of = [&](double degrees) {
+            WaterRay ray = water_ray(munk, start_m, radians(degrees));
+            const bool rises = degrees > 0.0;
+            WaterRay before = ray;
+            const auto is_back = [&] {
+                const bool crosses = rises ? before.height_m < start_m && ray.height_m >= start_m
+                                           : before.height_m > start_m && ray.height_m <= start_m;
+                return crosses && before.along_m > 1.0;
+            };
+            while (!is_back()) {
+                before = ray;
+                advance(munk, 1.0, ray);
+            }
+            const double share = (start_m - before.height_m) / (ray.height_m - before.height_m);
+            const double along = before.along_m + share * (ray.along_m - before.along_m);
+            return along * (radius_m - 1000.0) / radius_m;
+        };
+        const std::pair<double, double> listed[] = {{1.0, 48161.238557},  {2.0, 48412.185973},
+                                                    {5.0, 50189.572079},  {8.0, 53559.948084},
+                                                    {11.0, 58539.834823}, {14.0, 64977.771509}};
+        for (const auto& [degrees, cycle] : listed) {
+            CHECK(cycle_of(degrees) == doctest::Approx(cycle).epsilon(1e-5));
+            CHECK(cycle_of(-degrees) == doctest::Approx(cycle).epsilon(1e-5));
         }
     }
 

@@ -1,0 +1,87 @@
+#include "trace/buried.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/elementary.h"
+#include "core/units.h"
+
+namespace sonarsim {
+
+namespace {
+
+/// The angle to the normal whose refracted way ends `across_m` along the plane. The distance grows
+/// with the angle up to the critical one, where it is infinite, or 90 degrees.
+double refraction_angle(double speed_ratio, double height_m, double depth_m, double across_m) {
+    double low = 0.0;
+    double high = 1.0;  // as a share of the greatest sine
+    const double most = std::min(1.0, 1.0 / speed_ratio);
+    for (int k = 0; k < 60; ++k) {
+        const double middle = 0.5 * (low + high);
+        const double sine = middle * most;
+        const double below = speed_ratio * sine;
+        const double reached = height_m * sine / std::sqrt((1.0 - sine) * (1.0 + sine)) +
+                               depth_m * below / std::sqrt((1.0 - below) * (1.0 + below));
+        (reached < across_m ? low : high) = middle;
+    }
+    return arctan2(low * most, std::sqrt((1.0 - low * most) * (1.0 + low * most)));
+}
+
+}  // namespace
+
+WayIntoBottom way_into_bottom(const SedimentPath& sediment, double height_m, double depth_m,
+                              double across_m) {
+    const double n = sediment.speed_ratio;
+    const double angle = refraction_angle(n, height_m, depth_m, across_m);
+    const SinCos water = sincos(angle);
+    const double sine = n * water.sin;
+    const double cosine = std::sqrt(std::max((1.0 - sine) * (1.0 + sine), 1e-12));
+    WayIntoBottom way{};
+    way.angle_rad = angle;
+    way.in_water_m = height_m / water.cos;
+    way.in_sediment_m = depth_m / cosine;
+    // A ring of the angles t and dt has 2 pi sin(t) dt; at the place it has 2 pi x dx cos(t'), with
+    // x = h tan(t) + d tan(t') and cos(t') dt' = n cos(t) dt. x / sin(t) is known at t = 0.
+    const double x_by_sine = height_m / water.cos + depth_m * n / cosine;
+    const double dx =
+        height_m / (water.cos * water.cos) + depth_m * n * water.cos / (cosine * cosine * cosine);
+    way.spread_m2 = x_by_sine * dx * cosine;
+    const double impedance = sediment.density_ratio * n * water.cos / cosine;  // the water's is 1
+    const double reflected = (impedance - 1.0) / (impedance + 1.0);
+    way.transmitted = 1.0 - reflected * reflected;
+    return way;
+}
+
+double echo_through_bottom(const SedimentPath& sediment, const WayIntoBottom& way) {
+    const double range2 = way.range_m(sediment) * way.range_m(sediment);
+    const double one_way = way.transmitted * sediment.speed_ratio * range2 / way.spread_m2;
+    return one_way * one_way * exponential(-sediment.loss_per_m * way.in_sediment_m);
+}
+
+std::optional<Sample> seen_buried(std::span<const SedimentPath> sediments, const Sample& point,
+                                  const Intersection& hit) {
+    if (!(hit.distance_m < point.height_m) || hit.material >= sediments.size()) return std::nullopt;
+    const SedimentPath& sediment = sediments[hit.material];
+    if (sediment.speed_ratio == 0.0) return std::nullopt;
+    const Eigen::Vector3d normal = hit.normal.cast<double>();
+    const Eigen::Vector3d place = point.position.cast<double>();
+    const double range = place.norm();
+    const double cosine = -normal.dot(place) / range;
+    const double height = hit.distance_m * cosine;
+    const double depth = (range - hit.distance_m) * cosine;
+    const Eigen::Vector3d along = place + range * cosine * normal;
+    const double across = along.norm();
+    const WayIntoBottom way = way_into_bottom(sediment, height, depth, across);
+    const SinCos angle = sincos(way.angle_rad);
+    Eigen::Vector3d direction = -angle.cos * normal;
+    if (across > 0.0) direction += angle.sin / across * along;
+    Sample seen = point;
+    const double apparent = way.range_m(sediment);
+    seen.position = (apparent * direction).cast<float>();
+    seen.normal = -direction.cast<float>();
+    seen.height_m = static_cast<float>(apparent);
+    seen.area_m2 = static_cast<float>(point.area_m2 * echo_through_bottom(sediment, way));
+    return seen;
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,106 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <memory>
+
+#include "core/units.h"
+#include "labels/labels.h"
+#include "sonar/kinds.h"
+#include "sonar/sonar.h"
+#include "support/labelled.h"
+#include "support/scenes.h"
+#include "visibility/rays/rays_engine.h"
+
+using namespace sonarsim;
+using namespace sonarsim::test;
+
+namespace {
+
+constexpr double turn_deg_s = 40.0;
+
+/// A fan of 60 beams of a degree, in six groups 0.05 s apart, that yaws.
+Sonar yawing_camera(ShutterOrder order, double turn) {
+    SonarConfig config = default_sonar(SonarKind::imaging);
+    config.azimuth_deg = 60.0;
+    config.azimuth_bins = 60;
+    config.range_max_m = 15.0;
+    config.range_bins = 300;
+    config.moves_in_ping = true;
+    config.shutter = {6, order, 0.05};
+    Sonar sonar = make_sonar(config, {});
+    sonar.motions = std::make_shared<const std::vector<PingMotion>>(
+        1, PingMotion{{0.0, 0.0, 0.0}, {0.0, 0.0, radians(turn)}, 1500.0});
+    return sonar;
+}
+
+/// Plates of 0.3 degrees at 10 m, every 5 degrees from -45 to 45.
+Scene plates() {
+    Scene scene = empty_scene();
+    const std::uint32_t rock = add_material(scene, 0.4F);
+    for (int k = -9; k <= 9; ++k) {
+        const auto at = [&](double side, float z) {
+            const double azimuth = radians(5.0 * k + 0.15 * side);
+            return Eigen::Vector3f(static_cast<float>(10.0 * std::cos(azimuth)),
+                                   static_cast<float>(10.0 * std::sin(azimuth)), z);
+        };
+        add_quad(scene, at(-1.0, -1.0F), at(1.0, -1.0F), at(1.0, 1.0F), at(-1.0, 1.0F), rock);
+    }
+    return scene;
+}
+
+bool is_bright(const Ping& ping, int beam) {
+    for (int i = 0; i < ping.range_bins; ++i) {
+        if (ping.at(i, beam) > 0.0F) return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+TEST_SUITE("sonar") {
+    // The beam at the azimuth b, of the group g, points at b + w (g P + 2 r / c) of the world, so
+    // that it shows a plate where this lies within 0.15 degrees of one. That is shear: azimuth
+    // moves with time.
+    TEST_CASE("shutter: a fan that yaws shears the picture by its rate times the time") {
+        const Scene scene = plates();
+        const auto engine = make_rays_engine(scene);
+        for (const ShutterOrder order : {ShutterOrder::in_turn, ShutterOrder::interleaved}) {
+            const Sonar sonar = yawing_camera(order, turn_deg_s);
+            const Ping ping =
+                render_ping(sonar, scene, *engine, {}, {.seed = 1}, without_random_terms);
+            int bright = 0;
+            for (int j = 0; j < 60; ++j) {
+                const int group = order == ShutterOrder::in_turn ? j / 10 : j % 6;
+                const double middle = j - 29.5 + turn_deg_s * (0.05 * group + 2.0 * 10.0 / 1500.0);
+                const double off = std::fabs(middle - 5.0 * std::round(middle / 5.0));
+                // Plates are 0.3 degrees wide, beams one degree.
+                if (off < 0.6) CHECK(is_bright(ping, j));
+                if (off > 0.7) CHECK(!is_bright(ping, j));
+                bright += is_bright(ping, j) ? 1 : 0;
+            }
+            CHECK(bright > 8);
+        }
+    }
+
+    TEST_CASE("shutter: labels belong to the group of their beam") {
+        const Scene scene = plates();
+        const Sonar sonar = yawing_camera(ShutterOrder::interleaved, turn_deg_s);
+        const Labelled found = label(scene, sonar, {}, EngineKind::rays);
+        for (int j = 0; j < 60; ++j) {
+            bool labelled = false;
+            for (int i = 0; i < 300; ++i)
+                labelled = labelled || found.labels.object[found.at(i, j)] != 0;
+            CHECK(labelled == is_bright(found.clean, j));
+        }
+    }
+
+    TEST_CASE("shutter: at speed 0 the same bytes as all beams at once") {
+        const Scene scene = plates();
+        const auto engine = make_rays_engine(scene);
+        Sonar sonar = yawing_camera(ShutterOrder::in_turn, 0.0);
+        const Ping ping = render_ping(sonar, scene, *engine, {}, {.seed = 1});
+        sonar.config.shutter = {};
+        sonar.motions = nullptr;
+        CHECK(render_ping(sonar, scene, *engine, {}, {.seed = 1}).intensity == ping.intensity);
+    }
+}

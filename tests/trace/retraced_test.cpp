@@ -1,0 +1,127 @@
+#include "trace/retraced.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <map>
+
+#include "core/units.h"
+#include "support/scenes.h"
+#include "visibility/rays/rays_engine.h"
+
+using namespace sonarsim;
+using namespace sonarsim::test;
+
+namespace {
+
+constexpr float front_m = 4.0F;  ///< walls ahead of the sonar and behind it
+constexpr float back_m = 3.0F;
+
+/// Two walls that face each other, ahead with the reflection 0.5 and behind with 0.3.
+Scene two_walls() {
+    Scene scene = empty_scene();
+    const std::uint32_t ahead = add_material(scene, 0.5F);
+    const std::uint32_t behind = add_material(scene, 0.3F);
+    add_quad(scene, {front_m, -60.0F, -60.0F}, {front_m, 60.0F, -60.0F}, {front_m, 60.0F, 60.0F},
+             {front_m, -60.0F, 60.0F}, ahead);
+    add_quad(scene, {-back_m, -60.0F, -60.0F}, {-back_m, 60.0F, -60.0F}, {-back_m, 60.0F, 60.0F},
+             {-back_m, -60.0F, 60.0F}, behind);
+    return scene;
+}
+
+const View retraced_view{.azimuth_rad = radians(60.0),
+                         .elevation_rad = radians(20.0),
+                         .range_min_m = 0.5,
+                         .range_max_m = 40.0,
+                         .range_bins = 400,
+                         .beams = 32,
+                         .relative_l1 = 0.03,
+                         .shape = ViewShape::fan};
+
+struct Retraced {
+    Samples samples;
+    RetracedSurface found;
+};
+
+Retraced retrace(const Scene& scene, const Pose& pose, int most, float least) {
+    const auto engine = make_rays_engine(scene);
+    Retraced out;
+    out.samples = engine->visible_surface(retraced_view, pose);
+    Multipath multipath;
+    multipath.retraced = most;
+    multipath.retraced_least = least;
+    MultipathCounts counts;
+    out.found = retraced_surface(
+        multipath,
+        {.view = retraced_view, .scene = scene, .engine = *engine, .T_world_sensor = pose},
+        out.samples, counts);
+    return out;
+}
+
+}  // namespace
+
+TEST_SUITE("trace") {
+    // Folded out at each reflection the walls stand at 4, 4 + 7, 4 + 14 ... m, in turn the wall
+    // ahead and the one behind. Power is reflected out and back: by 0.5^2, then 0.3^2 as well, and
+    // so on. The solid angle of a piece is that of the sample that its sound met first.
+    TEST_CASE("retraced: the images of two walls that face each other") {
+        const Scene scene = two_walls();
+        const auto [samples, found] = retrace(scene, {}, 4, 0.0F);
+        std::map<int, int> counts;
+        for (std::size_t k = 0; k < found.samples.size(); ++k) {
+            const Sample& seen = found.samples[k];
+            const Sample& source = samples.items[found.sources[k]];
+            const int order =
+                static_cast<int>(std::lround((seen.position.x() - front_m) / (front_m + back_m)));
+            ++counts[order];
+            CHECK(seen.position.x() ==
+                  doctest::Approx(front_m + order * (front_m + back_m)).epsilon(1e-3));
+            CHECK(seen.position.normalized().dot(source.position.normalized()) > 1.0F - 1e-5F);
+            CHECK((seen.normal - Eigen::Vector3f(-1.0F, 0.0F, 0.0F)).norm() < 1e-4F);
+            float reflected = 1.0F;
+            for (int k2 = 0; k2 < order; ++k2)
+                reflected *= k2 % 2 == 0 ? 0.25F : 0.09F;
+            CHECK(seen.strength == doctest::Approx(reflected).epsilon(1e-5));
+            CHECK(scene.materials[seen.material].reflection == (order % 2 == 0 ? 0.5F : 0.3F));
+            const float t = seen.position.x() / front_m;
+            CHECK(seen.area_m2 == doctest::Approx(t * t * source.area_m2).epsilon(1e-3));
+            CHECK(seen.edge_u.cross(seen.edge_v).norm() ==
+                  doctest::Approx(t * t * source.edge_u.cross(source.edge_v).norm()).epsilon(1e-2));
+            CHECK(seen.height_m == doctest::Approx(seen.position.x()).epsilon(1e-3));
+        }
+        // Walls at 11, 18, 25 and 32 m are within 40 m, and none at 4 m: that is the direct echo.
+        CHECK(counts.size() == 4);
+        for (const int order : {1, 2, 3, 4})
+            CHECK(counts[order] > 100);
+    }
+
+    // After one reflection 0.25 of the power is left, after two 0.0225, after three 0.0056.
+    TEST_CASE("retraced: ways end at the limit of the loss and at that of their number") {
+        const Scene scene = two_walls();
+        const auto furthest = [&](int most, float least) {
+            float x = 0.0F;
+            for (const Sample& seen : retrace(scene, {}, most, least).found.samples)
+                x = std::max(x, seen.position.x());
+            return x;
+        };
+        CHECK(furthest(8, 0.02F) == doctest::Approx(18.0).epsilon(1e-3));
+        CHECK(furthest(8, 0.3F) == 0.0F);
+        CHECK(furthest(1, 0.0F) == doctest::Approx(11.0).epsilon(1e-3));
+        CHECK(furthest(0, 0.0F) == 0.0F);
+    }
+
+    // Down from h = 5 m, d = 2 m below the surface of the water, which reflects 0.9 and scatters
+    // nothing: the bottom appears anew at h + 2 (h + d).
+    TEST_CASE("retraced: the water's surface reflects and has no echo of its own") {
+        Scene scene = empty_scene();
+        add_floor(scene, 100.0F, 0.0F, add_material(scene, 0.5F), 4);
+        scene.water_surface = {7.0, 0.9F};
+        const Pose down{rotation_from_rpy(0.0, 0.5 * pi, 0.0), {0.0, 0.0, 5.0}};
+        const auto [samples, found] = retrace(scene, down, 2, 0.0F);
+        REQUIRE(!found.samples.empty());
+        for (const Sample& seen : found.samples) {
+            CHECK(seen.position.x() == doctest::Approx(19.0).epsilon(1e-3));
+            CHECK(seen.strength == doctest::Approx(0.25 * 0.81).epsilon(1e-5));
+        }
+    }
+}
