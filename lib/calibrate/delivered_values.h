@@ -17,7 +17,8 @@ std::optional<int> bits_of(const std::vector<RecordedPing>& pings, double full_v
 /// M A^g - o. The standard deviation of A^g is proportional to its mean, so that of v is b (mean +
 /// o): a line through the deviations of patches by their means, whose errors are proportional to
 /// the mean. The deviations are those of one range, which no gain by range adds to. Nothing for
-/// fewer than 24 patches or patches of one level.
-std::optional<Bounded> fit_offset(const std::vector<RecordedPing>& pings, double full_value);
+/// fewer than 24 patches or patches of one level. `places` of a patch grid: all if empty.
+std::optional<Bounded> fit_offset(const std::vector<RecordedPing>& pings, double full_value,
+                                  const std::vector<bool>& places = {});
 
 }  // namespace sonarsim

@@ -2,7 +2,7 @@
 
 #include <set>
 
-#include "calibrate/log_statistics.h"
+#include "calibrated/decibel.h"
 #include "core/elementary.h"
 
 namespace sonarsim {
@@ -11,15 +11,14 @@ namespace {
 
 constexpr double least_echo_db = 6.0;
 constexpr double db_of_neper_of_power = 4.342944819032518;
+// Noise whose least powers, a share p, become 0 lacks p (0.8 - 2 ln p) of the variance pi^2 / 6 of
+// its logarithm: half a per cent at this share. A patch must not be chosen by its own zeros, for
+// that would cut the tail off as well.
+constexpr double most_cut_off = 5e-4;
 
-/// True for a patch that has the beam straight ahead, where noise that all elements share is. Only
-/// images of many patches can do without it.
-bool straight_ahead(const PatchMoments& patch, const SpecklePatch& size,
-                    const std::vector<double>& sines) {
-    if (sines.size() < 4 * static_cast<std::size_t>(size.beams)) return false;
-    const double first = sines[static_cast<std::size_t>(patch.beam)];
-    const double last = sines[static_cast<std::size_t>(patch.beam + size.beams - 1)];
-    return first * last <= 0.0;
+/// True for a patch that has beams with noise that all elements share.
+bool straight_ahead(const PatchMoments& patch, const SpecklePatch& size, const AheadBeams& ahead) {
+    return patch.beam < ahead.end && ahead.first < patch.beam + size.beams;
 }
 
 /// True if all rows of a patch are in these blocks.
@@ -31,6 +30,10 @@ bool all_rows_in(const PatchMoments& patch, int rows, const std::set<int>& block
 }
 
 }  // namespace
+
+bool is_cut_off(const LawFit& law, double full_value, double mean_power) {
+    return law.least_power(full_value) > most_cut_off * mean_power;
+}
 
 double range_of_row(const Recording& recording, int row) {
     return recording.first_range_m + row * recording.range_step_m;
@@ -47,7 +50,6 @@ std::vector<double> beam_sines(const Recording& recording) {
 PatchClasses classified(const Recording& recording, const LawFit& law,
                         const std::optional<NoiseFit>& noise) {
     const double full_value = full_value_of(recording);
-    const std::vector<double> sines = beam_sines(recording);
     PatchClasses out;
     out.places = patch_places(recording.pings);
     out.patches = patch_moments(recording.pings, full_value, [&](double v, int row) {
@@ -59,20 +61,21 @@ PatchClasses classified(const Recording& recording, const LawFit& law,
     std::set<int> blocks;
     if (noise) {
         for (const NoiseBlock& block : noise->used) {
-            if (block.alone) blocks.insert(block.row);
+            const double level = power_of_db(noise->at(block.range_m));
+            if (block.alone && !is_cut_off(law, full_value, level)) blocks.insert(block.row);
         }
     }
     for (std::size_t k = 0; k < out.patches.size(); ++k) {
         const PatchMoments& patch = out.patches[k];
-        if (noise && all_rows_in(patch, size.rows, blocks) && !straight_ahead(patch, size, sines) &&
-            patch.zeros < 0.003)
+        if (noise && all_rows_in(patch, size.rows, blocks) &&
+            !straight_ahead(patch, size, noise->ahead))
             out.noise.push_back(k);
     }
     // Particles in the water are bright points in some of them.
     out.noise = without_uneven(out.patches, out.noise);
     for (const std::size_t k : speckle_patches(out.patches, full_value > 15.0 ? 6.0 : 0.0)) {
         const PatchMoments& patch = out.patches[k];
-        const double above_db = db_of_neper_of_power * (patch.mean - log_power_mean(law.looks));
+        const double above_db = db_of_neper_of_power * (patch.mean - law.statistics.mean);
         if (!noise || above_db > least_echo_db) out.echoes.push_back(k);
     }
     return out;

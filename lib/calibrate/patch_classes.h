@@ -17,10 +17,15 @@ struct PatchClasses {
     int places = 0;
 };
 
-/// Patches whose rows are all blocks of `noise` without echoes are noise, without those straight
-/// ahead. Even patches 6 dB above it are echoes; without noise, all even patches are.
+/// Patches whose rows are all blocks of `noise` without echoes, and with hardly a value of 0, are
+/// noise, without those straight ahead. Even patches 6 dB above it are echoes; without noise, all
+/// even patches are.
 PatchClasses classified(const Recording& recording, const LawFit& law,
                         const std::optional<NoiseFit>& noise);
+
+/// True where the values of a mean power become 0 so often that the variance of their logarithm is
+/// half a per cent too small.
+bool is_cut_off(const LawFit& law, double full_value, double mean_power);
 
 /// Slant range of the middle of a row.
 double range_of_row(const Recording& recording, int row);

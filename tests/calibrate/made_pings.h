@@ -124,6 +124,12 @@ inline SonarConfig drawn_instrument(std::uint32_t draw) {
     receiver.full_scale_db = *receiver.noise_db +
                              10.0 * receiver.tvg_log / 10.0 * std::log10(8.68) + 6.0 +
                              draws.between(15.0, 25.0);
+    const double samples = draws.between(0.0, 4.0);
+    receiver.samples = samples < 2.0 ? 1 : (samples < 3.0 ? 2 : 3);
+    const double offset = draws.between(-0.04, 0.04);
+    if (receiver.companding == Companding::gamma) receiver.offset = std::max(offset, 0.0);
+    const double common_mode_db = draws.between(-30.0, 15.0);
+    if (common_mode_db > -5.0) receiver.common_mode_db = *receiver.noise_db + common_mode_db;
     return config;
 }
 
