@@ -38,7 +38,7 @@ std::vector<bool> whole_places(const PatchClasses& classes, const LawFit& law, d
     double patches = 0.0;
     for (std::size_t place = 0; place < count; ++place) {
         const double level = exponential(sums[place] / counts[place] - law.statistics.mean);
-        out[place] = !is_cut_off(law, full_value, level);
+        out[place] = !law.cuts_off(level, full_value);
         patches += out[place] ? counts[place] : 0.0;
     }
     return patches < 2.0 * least_patches_of_law ? std::vector<bool>{} : out;

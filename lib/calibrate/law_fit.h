@@ -31,8 +31,9 @@ struct LawFit {
     /// ln P, P the power by full scale, of a value. Values below half a step count as half a step.
     double log_power(double value, double full_value) const;
 
-    /// The power below which a value is 0.
-    double least_power(double full_value) const;
+    /// True where the values of noise or speckle of a mean power become 0 so often that the
+    /// variance of their logarithm is half a per cent too small.
+    bool cuts_off(double mean_power, double full_value) const;
 };
 
 /// The law that an instrument is said to have.

@@ -227,7 +227,9 @@ std::vector<NoiseBlock> noise_blocks(const Recording& recording, const LawFit& l
         const double middle = row + 0.5 * (rows_of_noise_block - 1);
         const double range_m = recording.first_range_m + middle * recording.range_step_m;
         const BlockSums sums = block_sums(recording, law, full_value, ahead, row);
-        if (sums.count > 0.0 && range_m > 0.0) out.push_back(block_of(sums, law, row, range_m));
+        if (sums.count == 0.0 || range_m <= 0.0) continue;
+        out.push_back(block_of(sums, law, row, range_m));
+        out.back().whole = !law.cuts_off(power_of_db(out.back().level_db), full_value);
     }
     return out;
 }

@@ -16,6 +16,7 @@ struct NoiseBlock {
     double level_db = 0.0;  ///< re full scale
     bool even = false;      ///< beams and pings have one level, and no value is 0
     bool alone = false;     ///< nothing of it stays from ping to ping, so there is no echo in it
+    bool whole = false;     ///< hardly a value is 0
 };
 
 inline constexpr int rows_of_noise_block = 8;

@@ -2,7 +2,6 @@
 
 #include <set>
 
-#include "calibrated/decibel.h"
 #include "core/elementary.h"
 
 namespace sonarsim {
@@ -11,10 +10,6 @@ namespace {
 
 constexpr double least_echo_db = 6.0;
 constexpr double db_of_neper_of_power = 4.342944819032518;
-// Noise whose least powers, a share p, become 0 lacks p (0.8 - 2 ln p) of the variance pi^2 / 6 of
-// its logarithm: half a per cent at this share. A patch must not be chosen by its own zeros, for
-// that would cut the tail off as well.
-constexpr double most_cut_off = 5e-4;
 
 /// True for a patch that has beams with noise that all elements share.
 bool straight_ahead(const PatchMoments& patch, const SpecklePatch& size, const AheadBeams& ahead) {
@@ -30,10 +25,6 @@ bool all_rows_in(const PatchMoments& patch, int rows, const std::set<int>& block
 }
 
 }  // namespace
-
-bool is_cut_off(const LawFit& law, double full_value, double mean_power) {
-    return law.least_power(full_value) > most_cut_off * mean_power;
-}
 
 double range_of_row(const Recording& recording, int row) {
     return recording.first_range_m + row * recording.range_step_m;
@@ -61,8 +52,7 @@ PatchClasses classified(const Recording& recording, const LawFit& law,
     std::set<int> blocks;
     if (noise) {
         for (const NoiseBlock& block : noise->used) {
-            const double level = power_of_db(noise->at(block.range_m));
-            if (block.alone && !is_cut_off(law, full_value, level)) blocks.insert(block.row);
+            if (block.alone && block.whole) blocks.insert(block.row);
         }
     }
     for (std::size_t k = 0; k < out.patches.size(); ++k) {

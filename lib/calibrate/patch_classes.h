@@ -23,10 +23,6 @@ struct PatchClasses {
 PatchClasses classified(const Recording& recording, const LawFit& law,
                         const std::optional<NoiseFit>& noise);
 
-/// True where the values of a mean power become 0 so often that the variance of their logarithm is
-/// half a per cent too small.
-bool is_cut_off(const LawFit& law, double full_value, double mean_power);
-
 /// Slant range of the middle of a row.
 double range_of_row(const Recording& recording, int row);
 
