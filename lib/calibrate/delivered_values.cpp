@@ -56,7 +56,7 @@ std::optional<int> bits_of(const std::vector<RecordedPing>& pings, double full_v
 }
 
 std::optional<Bounded> fit_offset(const std::vector<RecordedPing>& pings, double full_value,
-                                  const std::vector<bool>& places) {
+                                  const std::vector<bool>& places, OffsetUnits units) {
     const bool has_steps = full_value > 15.0;
     const std::vector<PatchMoments> patches =
         at_places(patch_moments(pings, full_value, [](double v, int) { return v; }), places);
@@ -76,13 +76,15 @@ std::optional<Bounded> fit_offset(const std::vector<RecordedPing>& pings, double
     const double mean = sum / static_cast<double>(even.size());
     const double spread = square / static_cast<double>(even.size()) / (mean * mean) - 1.0;
     if (spread < least_spread_of_means * least_spread_of_means) return {};
-    // Patches of one range share its trend, so ranges are the units.
     const int rows = patch_size(pings.front().ranges, pings.front().beams).rows;
-    return bootstrap(pings.front().ranges / rows, [&](const std::vector<double>& weights) {
+    const int count =
+        units == OffsetUnits::ranges ? pings.front().ranges / rows : patch_places(pings);
+    return bootstrap(count, [&](const std::vector<double>& weights) {
         LineSums line;
         for (const std::size_t k : even) {
             const PatchMoments& p = patches[k];
-            line.add(weights[static_cast<std::size_t>(p.row / rows)], p.mean_value, deviation(p));
+            const int unit = units == OffsetUnits::ranges ? p.row / rows : p.place;
+            line.add(weights[static_cast<std::size_t>(unit)], p.mean_value, deviation(p));
         }
         return line.offset() / full_value;
     });

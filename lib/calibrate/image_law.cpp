@@ -45,12 +45,15 @@ std::vector<bool> whole_places(const PatchClasses& classes, const LawFit& law, d
 }
 
 /// The offset of a power law: that of the start, unless the pings have one that lies 3.3 standard
-/// errors off it. Values of a logarithm have deviations that do not grow, so theirs is far off.
+/// errors of places off it. Values of a logarithm have deviations that do not grow, so theirs is
+/// far off.
 std::optional<Bounded> chosen_offset(const Recording& recording, double of_start,
                                      const std::vector<bool>& places) {
-    std::optional<Bounded> seen = fit_offset(recording.pings, full_value_of(recording), places);
+    const double full_value = full_value_of(recording);
+    std::optional<Bounded> seen = fit_offset(recording.pings, full_value, places);
     if (!seen) return {};
-    const double error = seen->half_width() / 1.96;
+    const double error =
+        fit_offset(recording.pings, full_value, places, OffsetUnits::places)->half_width() / 1.96;
     const bool is_one = seen->value > 0.0 && seen->value < most_offset &&
                         std::fabs(seen->value - of_start) > 3.3 * error;
     if (!is_one) seen->value = of_start;
@@ -158,7 +161,17 @@ void set_offset(ImageFit& fit) {
     } else {
         fit.config.receiver.offset = fit.offset->value;
         fit.estimates.push_back({"receiver.offset", *fit.offset, ""});
-        widen(fit.law.gamma, fit.law.gamma.value * fit.offset->half_width() / fit.law.mean_share);
+        // A greater offset makes all values greater, and gamma smaller.
+        const double per_offset = fit.law.gamma.value / fit.law.mean_share;
+        const Bounded statistical = fit.law.gamma;
+        const auto both = [](double one, double other) {
+            return std::sqrt(one * one + other * other);
+        };
+        Bounded& gamma = fit.law.gamma;
+        gamma.low = gamma.value - both(statistical.value - statistical.low,
+                                       per_offset * (fit.offset->high - fit.offset->value));
+        gamma.high = gamma.value + both(statistical.high - statistical.value,
+                                        per_offset * (fit.offset->value - fit.offset->low));
     }
 }
 

@@ -12,6 +12,8 @@ namespace {
 constexpr std::size_t least_echo_patches = 24;
 constexpr double errors_off_zero = 3.3;
 constexpr int edges = 24;
+// A texture that leaves more than this of a correlation explains nothing.
+constexpr double most_left = 0.05;
 constexpr double half_patch = 12.0;  // bins
 
 using Lags = std::array<double, patch_lags>;
@@ -108,6 +110,7 @@ std::optional<TextureFit> fit_texture(const EchoPatches& echoes, const PulseMode
     // The variance is that of values half a patch apart, which longer squares would share.
     const double least_m = echoes.range_step_m;
     const double most_m = half_patch * echoes.range_step_m;
+    const double count = has_beams ? 2.0 * patch_lags : 1.0 * patch_lags;
     const auto estimate = [&](const std::vector<double>& weights) {
         const Correlations seen = correlations_of(classes.patches, classes.echoes, weights);
         TriedTexture best;
@@ -126,13 +129,15 @@ std::optional<TextureFit> fit_texture(const EchoPatches& echoes, const PulseMode
                 best.bins = pulses.bins[k];
             }
         }
-        return std::vector<double>{best.share, best.edge_m, best.bins};
+        return std::vector<double>{best.share, best.edge_m, best.bins,
+                                   std::sqrt(best.error / count)};
     };
     constexpr double bin = 0.05;  // the table's step
     const std::vector<Bounded> found =
-        bootstrap_all(classes.places, estimate, {0.0, (most_m - least_m) / (edges - 1), bin});
+        bootstrap_all(classes.places, estimate, {0.0, (most_m - least_m) / (edges - 1), bin, 0.0});
     const Bounded& share = found[0];
-    if (share.value < errors_off_zero * share.half_width() / 1.96) return {};
+    if (share.value < errors_off_zero * share.half_width() / 1.96 || found[3].value > most_left)
+        return {};
     return TextureFit{share, found[1], found[2]};
 }
 

@@ -43,7 +43,8 @@ struct TextureFit {
 };
 
 /// Share and edge of a texture, and the pulse, by the correlations of echoes along range and beams.
-/// Nothing where the share lies less than 3.3 standard errors off 0.
+/// Nothing where the share lies less than 3.3 standard errors off 0, or where the correlations are
+/// not those of a texture.
 std::optional<TextureFit> fit_texture(const EchoPatches& echoes, const PulseModel& model);
 
 }  // namespace sonarsim
