@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "calibrate/log_statistics.h"
 #include "core/elementary.h"
 #include "core/units.h"
 
@@ -65,10 +64,10 @@ struct TaperedCorrelation {
     }
 };
 
-std::vector<double> log_correlations_of_squares(int looks) {
+std::vector<double> log_correlations_of_squares(const LogStatistics& statistics) {
     std::vector<double> out;
     for (int k = 0; k <= 256; ++k)
-        out.push_back(log_power_correlation(k / 256.0, looks));
+        out.push_back(statistics.correlation(k / 256.0));
     return out;
 }
 
@@ -125,21 +124,21 @@ double beam_correlation(const LineArray& array, double u) {
 
 std::array<double, patch_lags> predicted_beam_correlations(const LineArray& array,
                                                            const std::vector<double>& sines,
-                                                           int looks) {
+                                                           const LogStatistics& statistics) {
     std::array<double, patch_lags> out{};
     const auto differences = differences_of(sines);
     for (std::size_t lag = 0; lag < patch_lags; ++lag) {
         for (const double u : differences[lag])
-            out[lag] += log_power_correlation(beam_correlation(array, u), looks) /
+            out[lag] += statistics.correlation(beam_correlation(array, u)) /
                         static_cast<double>(differences[lag].size());
     }
     return out;
 }
 
 std::optional<ArrayFit> fit_array(const BeamCorrelations& seen, const std::vector<double>& sines,
-                                  int looks) {
+                                  const LogStatistics& statistics) {
     if (seen.units < least_units) return {};
-    const std::vector<double> of_square = log_correlations_of_squares(looks);
+    const std::vector<double> of_square = log_correlations_of_squares(statistics);
     std::vector<TaperedCorrelation> tapers;
     for (int k = 0; no_taper_db - k * taper_step_db >= least_taper_db; ++k)
         tapers.emplace_back(no_taper_db - k * taper_step_db, of_square);

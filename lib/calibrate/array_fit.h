@@ -6,6 +6,7 @@
 
 #include "calibrate/bootstrap.h"
 #include "calibrate/correlations.h"
+#include "calibrate/log_statistics.h"
 #include "calibrate/patches.h"
 #include "calibrated/line_array.h"
 
@@ -22,7 +23,7 @@ double beam_correlation(const LineArray& array, double u);
 /// beams. `sines` are those of the beams.
 std::array<double, patch_lags> predicted_beam_correlations(const LineArray& array,
                                                            const std::vector<double>& sines,
-                                                           int looks);
+                                                           const LogStatistics& statistics);
 
 /// The receiving array by the correlation of noise across the beams.
 struct ArrayFit {
@@ -37,6 +38,6 @@ struct ArrayFit {
 /// the width can stand in for, has a wide interval. Nothing for fewer than 24 units. The taper
 /// counts as known when its interval is narrower than 8 dB.
 std::optional<ArrayFit> fit_array(const BeamCorrelations& seen, const std::vector<double>& sines,
-                                  int looks);
+                                  const LogStatistics& statistics);
 
 }  // namespace sonarsim

@@ -7,6 +7,13 @@
 
 namespace sonarsim {
 
+void widen(Bounded& m, double by) {
+    const double half = m.half_width();
+    const double wider = std::sqrt(half * half + by * by) - half;
+    m.low -= wider;
+    m.high += wider;
+}
+
 std::vector<double> drawn_weights(int count, std::uint32_t draw) {
     std::vector<double> weights(static_cast<std::size_t>(count), 0.0);
     const PhiloxKey key = stream_key(1, draw, 0, stream_named("calibrate bootstrap"));

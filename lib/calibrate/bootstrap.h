@@ -16,6 +16,9 @@ struct Bounded {
     bool holds(double x) const { return low <= x && x <= high; }
 };
 
+/// Makes an interval wider by an independent error.
+void widen(Bounded& m, double by);
+
 /// The number of times that each of `count` units is drawn when `count` are drawn with replacement.
 std::vector<double> drawn_weights(int count, std::uint32_t draw);
 

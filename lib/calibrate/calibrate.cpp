@@ -84,14 +84,13 @@ void add_estimates(const ImageFit& fit, const StartInstrument& start,
 
 void judge_images(const SplitRecording& parts, const StartInstrument& start, const ImageFit& fit,
                   Calibration& out) {
-    const std::vector<NoiseBlock> rows = fit.noise ? fit.noise->used : std::vector<NoiseBlock>{};
     const double absorption = start.absorption_db_per_m;
     const double start_level = start.levels.noise_db - start.levels.full_scale_db;
     const auto of_fit = [&](const Recording& part) {
-        return figures_of(part, fit.config, fit.noise_re_full_scale_db, absorption, rows);
+        return figures_of(part, fit.config, fit.noise_re_full_scale_db, absorption, fit.noise);
     };
     const std::vector<Figure> before =
-        figures_of(parts.judged, start.config, start_level, absorption, rows);
+        figures_of(parts.judged, start.config, start_level, absorption, fit.noise);
     const std::vector<Figure> in_sample = of_fit(parts.fitted);
     const std::vector<Figure> held_out = of_fit(parts.judged);
     const auto named = [](const std::vector<Figure>& figures, const std::string& name) {
@@ -120,11 +119,10 @@ void calibrate_images(const SplitRecording& parts, const SonarConfig& start,
 /// A figure of soundings at one angle. The start predicts neither the bottom nor its spread, so its
 /// column repeats what was measured, without a prediction.
 JudgedFigure of_angle(const std::string& name, FitTolerance tolerance, const Bounded& fitted,
-                      double predicted, double held_out) {
-    const double missing = std::nan("");
-    return {{name, tolerance, missing, {held_out, held_out, held_out}},
+                      double predicted, const Bounded& held_out) {
+    return {{name, tolerance, std::nan(""), held_out},
             {name, tolerance, fitted.value, fitted},
-            {name, tolerance, predicted, {held_out, held_out, held_out}}};
+            {name, tolerance, predicted, held_out}};
 }
 
 void calibrate_soundings(const SplitRecording& parts, const SonarConfig& start,
@@ -138,22 +136,21 @@ void calibrate_soundings(const SplitRecording& parts, const SonarConfig& start,
     out.soundings =
         fit_soundings(parts.fitted.soundings, parts.fitted.law, options.slope_rad, geometry);
     const SoundingsFit& fit = *out.soundings;
-    for (const SoundingsAtAngle& a :
-         soundings_by_angle(parts.judged.soundings, parts.judged.law, options.slope_rad)) {
-        const auto nearest =
-            std::min_element(fit.angles_rad.begin(), fit.angles_rad.end(), [&](double x, double y) {
-                return std::fabs(x - a.angle_rad) < std::fabs(y - a.angle_rad);
-            });
+    const SoundingsFit judged =
+        fit_soundings(parts.judged.soundings, parts.judged.law, options.slope_rad, geometry);
+    for (std::size_t j = 0; j < judged.angles_rad.size(); ++j) {
+        const double angle = judged.angles_rad[j];
+        const auto nearest = std::min_element(
+            fit.angles_rad.begin(), fit.angles_rad.end(),
+            [&](double x, double y) { return std::fabs(x - angle) < std::fabs(y - angle); });
         const auto k = static_cast<std::size_t>(nearest - fit.angles_rad.begin());
-        const std::string at = ", " + four_digits(std::round(degrees(a.angle_rad))) + " degrees";
-        const double gain_db = geometry.gain_db(a.angle_rad, a.range_m);
+        const std::string at = ", " + four_digits(std::round(degrees(angle))) + " degrees";
         out.figures.push_back(of_angle("strength with the level of the sonar" + at + ", dB",
                                        FitTolerance::decibel, fit.strength_db[k],
-                                       fit.level_db_at(a.angle_rad, a.range_m) - gain_db,
-                                       a.level_db - gain_db));
+                                       fit.strength_db_at(angle), judged.strength_db[j]));
         out.figures.push_back(of_angle("spread of ranges" + at + ", m",
                                        FitTolerance::three_twentieths, fit.spread_m[k],
-                                       fit.spread_m_at(a.angle_rad), a.spread_m));
+                                       fit.spread_m_at(angle), judged.spread_m[j]));
     }
     out.notes = {
         "transmit level, gain and strength of the bottom cannot be separated here: the levels have "
@@ -164,6 +161,21 @@ void calibrate_soundings(const SplitRecording& parts, const SonarConfig& start,
         "bottom, "
         "which has no key. No key of the preset changes",
     };
+}
+
+/// Says so when the judged pings have other figures than the fitted ones: no instrument with
+/// constant numbers has both.
+void note_change(Calibration& out) {
+    const auto changed =
+        std::count_if(out.figures.begin(), out.figures.end(), [](const JudgedFigure& figure) {
+            const Bounded& one = figure.in_sample.measured;
+            const Bounded& other = figure.held_out.measured;
+            return one.low > other.high || one.high < other.low;
+        });
+    if (5 * changed <= std::ssize(out.figures)) return;
+    out.notes.push_back(std::to_string(changed) + " of " + std::to_string(out.figures.size()) +
+                        " figures of the judged pings lie outside the intervals of the fitted "
+                        "ones: the scene or the sonar changed between them");
 }
 
 }  // namespace
@@ -183,6 +195,7 @@ Calibration calibrate(const Recording& recording, const SonarConfig& start,
     } else {
         calibrate_images(parts, start, with_speed, out);
     }
+    note_change(out);
     return out;
 }
 

@@ -55,10 +55,11 @@ std::optional<int> bits_of(const std::vector<RecordedPing>& pings, double full_v
     return {};
 }
 
-std::optional<Bounded> fit_offset(const std::vector<RecordedPing>& pings, double full_value) {
+std::optional<Bounded> fit_offset(const std::vector<RecordedPing>& pings, double full_value,
+                                  const std::vector<bool>& places, OffsetUnits units) {
     const bool has_steps = full_value > 15.0;
     const std::vector<PatchMoments> patches =
-        patch_moments(pings, full_value, [](double v, int) { return v; });
+        at_places(patch_moments(pings, full_value, [](double v, int) { return v; }), places);
     const std::vector<std::size_t> even =
         speckle_patches(patches, has_steps ? least_mean_of_offset : 0.0);
     if (even.size() < least_patches_of_offset) return {};
@@ -75,11 +76,15 @@ std::optional<Bounded> fit_offset(const std::vector<RecordedPing>& pings, double
     const double mean = sum / static_cast<double>(even.size());
     const double spread = square / static_cast<double>(even.size()) / (mean * mean) - 1.0;
     if (spread < least_spread_of_means * least_spread_of_means) return {};
-    return bootstrap(patch_places(pings), [&](const std::vector<double>& weights) {
+    const int rows = patch_size(pings.front().ranges, pings.front().beams).rows;
+    const int count =
+        units == OffsetUnits::ranges ? pings.front().ranges / rows : patch_places(pings);
+    return bootstrap(count, [&](const std::vector<double>& weights) {
         LineSums line;
         for (const std::size_t k : even) {
             const PatchMoments& p = patches[k];
-            line.add(weights[static_cast<std::size_t>(p.place)], p.mean_value, deviation(p));
+            const int unit = units == OffsetUnits::ranges ? p.row / rows : p.place;
+            line.add(weights[static_cast<std::size_t>(unit)], p.mean_value, deviation(p));
         }
         return line.offset() / full_value;
     });

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "calibrate/delivered_values.h"
-#include "calibrate/looks_fit.h"
+#include "calibrate/common_mode.h"
+#include "calibrate/image_law.h"
 #include "calibrated/decibel.h"
 #include "core/elementary.h"
 #include "core/units.h"
@@ -12,125 +12,6 @@
 namespace sonarsim {
 
 namespace {
-
-constexpr std::size_t least_noise_patches = 24;
-constexpr std::size_t least_patches_of_law = 24;
-constexpr double most_offset = 0.3;
-
-/// The places of patches that are noise, for a second fit of the law: noise is Rayleigh's for sure,
-/// and an even patch of echoes may still hold a texture.
-std::vector<bool> noise_places(const PatchClasses& classes) {
-    std::vector<bool> out;
-    if (classes.noise.size() < least_patches_of_law) return out;
-    out.assign(static_cast<std::size_t>(classes.places), false);
-    for (const std::size_t k : classes.noise)
-        out[static_cast<std::size_t>(classes.patches[k].place)] = true;
-    return out;
-}
-
-void widen(Bounded& m, double by) {
-    const double half = m.half_width();
-    const double wider = std::sqrt(half * half + by * by) - half;
-    m.low -= wider;
-    m.high += wider;
-}
-
-/// The offset of a power law: that of the start, unless the pings have one that lies 3.3 standard
-/// errors off it. Values of a logarithm have deviations that do not grow, so theirs is far off.
-std::optional<Bounded> chosen_offset(const Recording& recording, double of_start) {
-    std::optional<Bounded> seen = fit_offset(recording.pings, full_value_of(recording));
-    if (!seen) return {};
-    const double error = seen->half_width() / 1.96;
-    const bool is_one = seen->value > 0.0 && seen->value < most_offset &&
-                        std::fabs(seen->value - of_start) > 3.3 * error;
-    if (!is_one) seen->value = of_start;
-    seen->low = std::min(std::max(seen->low, 0.0), seen->value);
-    seen->high = std::max(seen->high, seen->value);
-    return seen;
-}
-
-/// The law for the number of looks of the start, with its offset.
-void fit_first_law(const Recording& recording, const ReceiverConfig& start, ImageFit& fit) {
-    const double full_value = full_value_of(recording);
-    const int looks = std::max(start.looks, 1);
-    const std::optional<Bounded> offset = chosen_offset(recording, start.offset);
-    fit.law =
-        fit_law(recording.pings, full_value, looks, {}, offset ? offset->value : start.offset);
-    if (fit.law.companding == Companding::log) {
-        if (fit.law.offset != start.offset)
-            fit.law = fit_law(recording.pings, full_value, looks, {}, start.offset);
-        fit.notes.emplace_back(
-            "receiver.offset: after a logarithm it is one with full_scale_db; that of the start is "
-            "kept");
-        return;
-    }
-    if (!offset) {
-        fit.notes.emplace_back(
-            "receiver.offset: patches of one level do not tell it; that of the start is kept");
-        return;
-    }
-    fit.offset = offset;
-    fit.config.receiver.offset = offset->value;
-    fit.estimates.push_back({"receiver.offset", *offset, ""});
-}
-
-void set_bits(const Recording& recording, ImageFit& fit) {
-    const std::optional<int> bits = recording.law.full_value > 0.0
-                                        ? bits_of(recording.pings, recording.law.full_value)
-                                        : std::nullopt;
-    if (!bits || *bits < 8 || *bits > 16) {
-        fit.notes.emplace_back(
-            "receiver.bits: the recording has no largest value of 8 to 16 bits, or its values are "
-            "not whole steps of it; those of the start are kept");
-        return;
-    }
-    fit.config.receiver.bits = *bits;
-    const double number = *bits;
-    fit.estimates.push_back({"receiver.bits", {number, number, number}, ""});
-}
-
-void fit_law_and_looks(const Recording& recording, const StartInstrument& start, ImageFit& fit) {
-    const double full_value = full_value_of(recording);
-    const int start_looks = std::max(start.config.receiver.looks, 1);
-    fit_first_law(recording, start.config.receiver, fit);
-    const Bounded slope = fit.law.slope;
-    fit.noise = fit_noise(noise_blocks(recording, fit.law), start.absorption_db_per_m);
-    const PatchClasses classes = classified(recording, fit.law, fit.noise);
-    const std::vector<bool> places = noise_places(classes);
-    const int looks = fit_looks(skewness_of_noise(classes, fit.law), start_looks, fit.notes);
-    if (!places.empty() || looks != start_looks)
-        fit.law = fit_law(recording.pings, full_value, looks, places, fit.law.offset);
-    if (looks != start_looks) {
-        const auto n = static_cast<double>(looks);
-        fit.estimates.push_back({"receiver.looks", {n, n, n}, ""});
-        fit.config.receiver.looks = looks;
-    }
-    if (fit.offset) {
-        const double share = fit.offset->half_width() / fit.law.mean_share;
-        widen(fit.law.gamma, fit.law.gamma.value * share);
-    }
-    fit.law.slope = slope;
-    fit.noise = fit_noise(noise_blocks(recording, fit.law), start.absorption_db_per_m);
-    fit.notes.emplace_back(
-        "looks and companding are separated by the skewness of log powers alone: several looks "
-        "with "
-        "a larger gamma look much alike");
-}
-
-void set_law(ImageFit& fit) {
-    ReceiverConfig& receiver = fit.config.receiver;
-    if (fit.law.companding == Companding::log) {
-        receiver.companding = Companding::log;
-        receiver.dynamic_range_db = fit.law.dynamic_range_db.value;
-        fit.estimates.push_back({"receiver.companding", {}, "log"});
-        fit.estimates.push_back({"receiver.dynamic_range_db", fit.law.dynamic_range_db, ""});
-        return;
-    }
-    receiver.companding = Companding::gamma;
-    receiver.gamma = fit.law.gamma.value;
-    fit.estimates.push_back({"receiver.companding", {}, "gamma"});
-    fit.estimates.push_back({"receiver.gamma", fit.law.gamma, ""});
-}
 
 /// An error of the law scales all levels below full scale, and the gain with them.
 void widen_by_law(const LawFit& law, NoiseFit& noise) {
@@ -166,38 +47,42 @@ void set_noise_law(ImageFit& fit) {
         fit.estimates.push_back({"receiver.tvg_from_m", fit.noise->tvg_from_m, ""});
 }
 
-void fit_pulse_of(const Recording& recording, const PatchClasses& classes, ImageFit& fit) {
-    PulseConfig& pulse = fit.config.pulse;
-    const ReceivedKind kind =
-        fit.pulse_of_echoes ? echo_kind(fit.config.speckle) : ReceivedKind::noise;
-    const std::vector<std::size_t>& chosen = fit.pulse_of_echoes ? classes.echoes : classes.noise;
-    if (fit.config.receiver.samples > 1) {
-        fit.notes.emplace_back(
-            "receiver.samples: the start makes one bin of several samples. The pulse is kept, and "
-            "the law "
-            "is that of one sample, so gamma comes out too small");
-        return;
-    }
+void fit_pulse_of(const PatchClasses& classes, ImageFit& fit) {
+    const auto of_kind = [&](ReceivedKind kind) {
+        return fit_pulse(classes.patches, chosen_patches(classes, fit), classes.places,
+                         pulse_model(fit.config, kind));
+    };
     fit.pulse_bins =
-        fit_pulse(classes.patches, chosen, classes.places, pulse.side_lobe_db, kind, fit.law.looks);
+        of_kind(fit.pulse_of_echoes ? echo_kind(fit.config.speckle) : ReceivedKind::noise);
+    if (fit.pulse_bins && !fit.noise) {
+        // The even patches may be noise as well as echoes.
+        const std::optional<Bounded> of_noise = of_kind(ReceivedKind::noise);
+        fit.pulse_bins->low = std::min(fit.pulse_bins->low, of_noise->low);
+        fit.pulse_bins->high = std::max(fit.pulse_bins->high, of_noise->high);
+        fit.notes.emplace_back(
+            "pulse.resolution_m: noise and echoes cannot be separated here, so the interval holds "
+            "the pulses of both");
+    }
     if (!fit.pulse_bins) {
         fit.notes.emplace_back(
             "pulse: neighbouring bins are not correlated, so it is shorter than a "
             "bin, and its length cannot be measured; that of the start is kept");
-        return;
     }
-    const double step = recording.range_step_m;
+}
+
+void set_pulse(double step_m, ImageFit& fit) {
+    if (!fit.pulse_bins) return;
     const Bounded& bins = *fit.pulse_bins;
-    pulse.resolution_m = step * bins.value;
+    fit.config.pulse.resolution_m = step_m * bins.value;
     fit.estimates.push_back(
-        {"pulse.resolution_m", {step * bins.value, step * bins.low, step * bins.high}, ""});
+        {"pulse.resolution_m", {step_m * bins.value, step_m * bins.low, step_m * bins.high}, ""});
 }
 
 void fit_beams(const PatchClasses& classes, const std::vector<double>& sines, ImageFit& fit) {
     BeamConfig& beam = fit.config.beam;
-    const std::vector<std::size_t>& chosen = fit.pulse_of_echoes ? classes.echoes : classes.noise;
+    const std::vector<std::size_t>& chosen = chosen_patches(classes, fit);
     fit.array = fit_array(beam_correlations(classes.patches, chosen, !fit.pulse_of_echoes), sines,
-                          fit.law.looks);
+                          fit.law.statistics);
     if (!fit.array) {
         fit.notes.emplace_back(
             "beams: too few places of even echoes; width and taper are those of the start");
@@ -217,18 +102,59 @@ void fit_beams(const PatchClasses& classes, const std::vector<double>& sines, Im
         "they are those of the start");
 }
 
+void set_texture(const Recording& recording, ImageFit& fit) {
+    const TextureFit& texture = *fit.texture;
+    SpeckleConfig& speckle = fit.config.speckle;
+    const auto shape = [&](double share) {
+        const double part = std::clamp(share, 0.001, 0.95);
+        return inverse_trigamma(part / (1.0 - part) * fit.law.statistics.variance);
+    };
+    speckle.clutter_shape = shape(texture.share.value);
+    speckle.clutter_m = texture.edge_m.value;
+    fit.estimates.push_back(
+        {"speckle.clutter_shape",
+         {speckle.clutter_shape, shape(texture.share.high), shape(texture.share.low)},
+         ""});
+    fit.estimates.push_back({"speckle.clutter_m", texture.edge_m, ""});
+    fit.notes.emplace_back(
+        "speckle.clutter_shape and clutter_m are those of this bottom, not of the sonar");
+    if (!recording.altitude_m) {
+        fit.notes.emplace_back(
+            "speckle.clutter_m: without altitude_m in the recording lengths on the ground are "
+            "taken as slant ranges");
+    }
+}
+
+/// The texture of echoes, and their pulse without it.
+void fit_texture_of(const Recording& recording, const PatchClasses& classes,
+                    const std::vector<double>& sines, ImageFit& fit) {
+    // With a pulse and a law of noise the texture is the scene's alone.
+    if (!fit.pulse_bins || !fit.noise || !fit.pulse_of_echoes) return;
+    const BeamConfig& beam = fit.config.beam;
+    std::array<double, patch_lags> of_beams{};
+    if (sines.size() > patch_lags)
+        of_beams = predicted_beam_correlations(
+            line_array(radians(beam.width_deg), beam.side_lobe_db), sines, fit.law.statistics);
+    const PulseModel model = pulse_model(fit.config, echo_kind(fit.config.speckle));
+    fit.texture = fit_texture(echo_patches(classes, recording, of_beams), model);
+    if (!fit.texture) return;
+    fit.pulse_bins = fit.texture->pulse_bins;
+    set_texture(recording, fit);
+}
+
 /// The patches that tell pulse and array, and what they tell.
 void fit_pulse_and_array(const Recording& recording, ImageFit& fit) {
     const PatchClasses classes = classified(recording, fit.law, fit.noise);
     fit.pulse_of_echoes = classes.noise.size() < least_noise_patches;
-    const std::vector<std::size_t>& chosen = fit.pulse_of_echoes ? classes.echoes : classes.noise;
-    if (chosen.size() < least_noise_patches) {
+    if (chosen_patches(classes, fit).size() < least_noise_patches) {
         fit.notes.emplace_back("pulse and beams: too few patches of noise or of even echoes");
         return;
     }
-    fit_pulse_of(recording, classes, fit);
+    fit_pulse_of(classes, fit);
     const std::vector<double> sines = beam_sines(recording);
     if (sines.size() > patch_lags) fit_beams(classes, sines, fit);
+    fit_texture_of(recording, classes, sines, fit);
+    set_pulse(recording.range_step_m, fit);
 }
 
 /// Levels by the noise, and the noise that all elements share. Only differences of levels show, so
@@ -253,7 +179,9 @@ void fit_levels(const Recording& recording, const StartInstrument& start, ImageF
         "transmit level and strength of the bottom cannot be separated here: echoes "
         "have their sum");
     Bounded& shared = fit.noise->common_mode_db;
-    shared = common_mode(recording, fit.law, *fit.noise, radians(fit.config.beam.width_deg));
+    const double width = fit.config.beam.width_deg;
+    shared = common_mode(recording, fit.law, *fit.noise, fit.config.beam,
+                         fit.array ? fit.array->width_deg : Bounded{width, width, width});
     if (shared.value > -50.0) {
         receiver.common_mode_db = noise_db + shared.value;
         fit.estimates.push_back(
@@ -272,17 +200,11 @@ void fit_levels(const Recording& recording, const StartInstrument& start, ImageF
 ImageFit fit_image(const Recording& recording, const StartInstrument& start) {
     ImageFit fit;
     fit.config = start.config;
-    fit_law_and_looks(recording, start, fit);
-    set_bits(recording, fit);
-    set_law(fit);
-    set_noise_law(fit);
+    fit_law_of_image(recording, start, fit);
     fit_pulse_and_array(recording, fit);
+    set_law_of_image(recording, start, fit);
+    set_noise_law(fit);
     fit_levels(recording, start, fit);
-    if (start.config.receiver.samples == 1) {
-        fit.notes.emplace_back(
-            "receiver.samples is not estimated: the largest of several samples and several looks "
-            "look much alike");
-    }
     fit.notes.emplace_back(
         "beam.elevation_width_deg and elevation_side_lobe_db are not estimated: they need surfaces "
         "of known strength");

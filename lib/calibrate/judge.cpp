@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "calibrate/correlations.h"
-#include "calibrate/log_statistics.h"
+#include "calibrate/texture_fit.h"
 #include "core/elementary.h"
 #include "core/units.h"
 
@@ -26,14 +26,17 @@ struct Judged {
 };
 
 NoiseFit stated_noise(const InstrumentConfig& instrument, double noise_re_full_scale_db,
-                      double absorption_db_per_m, const std::vector<NoiseBlock>& rows) {
+                      double absorption_db_per_m, const std::optional<NoiseFit>& of_fit) {
     const ReceiverConfig& receiver = instrument.receiver;
     NoiseFit out;
     out.level_db.value = noise_re_full_scale_db;
     out.tvg_log.value = receiver.tvg_log;
     out.tvg_from_m.value = receiver.tvg_from_m;
     out.absorption_db_per_m = receiver.tvg_absorption ? absorption_db_per_m : 0.0;
-    out.used = rows;
+    if (of_fit) {
+        out.used = of_fit->used;
+        out.ahead = of_fit->ahead;
+    }
     return out;
 }
 
@@ -55,8 +58,19 @@ double mean_of(const std::vector<PatchMoments>& patches, const std::vector<std::
     return sum / weight;
 }
 
+/// The variation of an amplitude with a texture: the squared means of two independent factors
+/// multiply.
+double variation_with(const SpeckleConfig& speckle, const LogStatistics& statistics) {
+    if (speckle.clutter_shape <= 0.0) return statistics.variation;
+    const double of_texture = gamma_amplitude_variation(speckle.clutter_shape);
+    return std::sqrt((1.0 + statistics.variation * statistics.variation) *
+                         (1.0 + of_texture * of_texture) -
+                     1.0);
+}
+
 void add_distribution(Judged& judged, const std::string& where,
-                      const std::vector<std::size_t>& chosen) {
+                      const std::vector<std::size_t>& chosen, const LogStatistics& statistics,
+                      const SpeckleConfig& speckle) {
     const double full_value = full_value_of(judged.recording);
     const LawFit& law = judged.law;
     const std::vector<PatchMoments> amplitudes =
@@ -67,7 +81,7 @@ void add_distribution(Judged& judged, const std::string& where,
         });
     const std::vector<PatchMoments>& logs = judged.classes.patches;
     add(judged, where + ": variation of the amplitude", FitTolerance::tenth,
-        amplitude_variation(law.looks), [&](const std::vector<double>& w) {
+        variation_with(speckle, statistics), [&](const std::vector<double>& w) {
             double sum = 0.0, weight = 0.0;
             for (const std::size_t k : chosen) {
                 const PatchMoments& p = amplitudes[k];
@@ -79,34 +93,40 @@ void add_distribution(Judged& judged, const std::string& where,
         });
     const double to_shape = 2.0 * pi / std::sqrt(6.0);
     add(judged, where + ": Weibull shape of the amplitude", FitTolerance::tenth,
-        to_shape / std::sqrt(log_power_variance(law.looks)), [&](const std::vector<double>& w) {
+        to_shape / std::sqrt(statistics.variance / (1.0 - texture_of(speckle, statistics).share)),
+        [&](const std::vector<double>& w) {
             return to_shape / std::sqrt(mean_of(logs, chosen, w, &PatchMoments::variance));
         });
 }
 
 void add_correlations(Judged& judged, const std::string& where,
-                      const std::vector<std::size_t>& chosen, ReceivedKind kind) {
-    const PulseConfig& pulse = judged.instrument.pulse;
-    const double bins =
-        pulse.resolution_m > 0.0 ? pulse.resolution_m / judged.recording.range_step_m : 1.0;
+                      const std::vector<std::size_t>& chosen, const PulseModel& model,
+                      const LogStatistics& statistics, const SpeckleConfig& speckle) {
+    const Texture texture = texture_of(speckle, statistics);
+    const EchoPatches distances = echo_patches(judged.classes, judged.recording, {});
+    const auto with_texture = [&](double of_speckle, double lag, double step_m) {
+        return texture.correlation(of_speckle, lag * step_m);
+    };
     const auto measured = [&](const std::vector<double>& w) {
         return correlations_of(judged.classes.patches, chosen, w);
     };
     const std::array<double, patch_lags> along_range =
-        predicted_range_correlations(bins, pulse.side_lobe_db, kind, judged.law.looks);
+        model.correlations(pulse_bins_of(judged.instrument.pulse, judged.recording.range_step_m));
     for (const std::size_t lag : {1U, 2U, 4U}) {
         add(judged, where + ": correlation " + std::to_string(lag) + " bins apart",
-            FitTolerance::correlation, along_range[lag - 1],
+            FitTolerance::correlation,
+            with_texture(along_range[lag - 1], lag, distances.range_step_m),
             [&](const std::vector<double>& w) { return measured(w).along_range[lag - 1]; });
     }
     const std::vector<double> sines = beam_sines(judged.recording);
     if (sines.size() <= patch_lags) return;
     const BeamConfig& beam = judged.instrument.beam;
     const std::array<double, patch_lags> along_beams = predicted_beam_correlations(
-        line_array(radians(beam.width_deg), beam.side_lobe_db), sines, judged.law.looks);
+        line_array(radians(beam.width_deg), beam.side_lobe_db), sines, statistics);
     for (const std::size_t lag : {1U, 2U, 4U}) {
         add(judged, where + ": correlation " + std::to_string(lag) + " beams apart",
-            FitTolerance::correlation, along_beams[lag - 1],
+            FitTolerance::correlation,
+            with_texture(along_beams[lag - 1], lag, distances.beam_step_m),
             [&](const std::vector<double>& w) { return measured(w).along_beams[lag - 1]; });
     }
 }
@@ -155,23 +175,28 @@ bool Figure::agrees() const {
 
 std::vector<Figure> figures_of(const Recording& recording, const InstrumentConfig& instrument,
                                double noise_re_full_scale_db, double absorption_db_per_m,
-                               const std::vector<NoiseBlock>& rows) {
+                               const std::optional<NoiseFit>& of_fit) {
+    const double bins = pulse_bins_of(instrument.pulse, recording.range_step_m);
+    const PulseModel of_noise = pulse_model(instrument, ReceivedKind::noise);
     Judged judged{recording,
                   instrument,
-                  stated_law(instrument.receiver),
-                  stated_noise(instrument, noise_re_full_scale_db, absorption_db_per_m, rows),
+                  stated_law(instrument.receiver, of_noise.statistics(bins)),
+                  stated_noise(instrument, noise_re_full_scale_db, absorption_db_per_m, of_fit),
                   {},
                   {}};
     judged.classes = classified(recording, judged.law, judged.noise);
-    if (judged.classes.noise.size() >= least_patches_of_figure) {
-        add_distribution(judged, "noise", judged.classes.noise);
-        add_correlations(judged, "noise", judged.classes.noise, ReceivedKind::noise);
-        add_noise_levels(judged, noise_blocks(recording, judged.law));
-    }
-    if (judged.classes.echoes.size() >= least_patches_of_figure) {
-        add_distribution(judged, "echoes", judged.classes.echoes);
-        add_correlations(judged, "echoes", judged.classes.echoes, echo_kind(instrument.speckle));
-    }
+    const auto add_class = [&](const std::string& name, const std::vector<std::size_t>& chosen,
+                               const PulseModel& model, const SpeckleConfig& speckle) {
+        if (chosen.size() < least_patches_of_figure) return;
+        const LogStatistics statistics = model.statistics(bins);
+        add_distribution(judged, name, chosen, statistics, speckle);
+        add_correlations(judged, name, chosen, model, statistics, speckle);
+    };
+    add_class("noise", judged.classes.noise, of_noise, {});
+    if (judged.classes.noise.size() >= least_patches_of_figure)
+        add_noise_levels(judged, noise_blocks(recording, judged.law, judged.noise.ahead));
+    add_class("echoes", judged.classes.echoes,
+              pulse_model(instrument, echo_kind(instrument.speckle)), instrument.speckle);
     return judged.figures;
 }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "calibrate/log_statistics.h"
 #include "core/elementary.h"
 #include "core/error.h"
 
@@ -19,6 +18,11 @@ constexpr double power_law_slope = 0.5;
 constexpr double least_spread_of_levels = 0.1;
 // The error that a finite patch, its trend and the steps of the values leave in a law.
 constexpr double least_error = 0.01;
+
+// Noise whose least powers, a share p, become 0 lacks p (0.8 - 2 ln p) of the variance pi^2 / 6 of
+// its logarithm: half a per cent at this share. A patch must not be chosen by its own zeros, for
+// that would cut the tail off as well.
+constexpr double most_cut_off = 5e-4;
 
 double log_of_value(double value, double step) {
     return logarithm(std::max(value, 0.5 * step));
@@ -94,9 +98,11 @@ double lasting_correlation(const LawPatches& patches) {
 }
 
 /// InputError where no skewness between those of one look and of eight, about -1.14 and -0.4, is
-/// within the errors.
-void check_speckle(const LawPatches& patches, const Bounded& of_logs, const Bounded& of_values) {
-    const auto speckle = [](const Bounded& s) { return s.high > -2.0 && s.low < -0.3; };
+/// within the errors, nor one near that of the start.
+void check_speckle(const LawPatches& patches, const Bounded& of_logs, const Bounded& of_values,
+                   double of_start) {
+    const double most = std::max(-0.3, of_start + 0.3);
+    const auto speckle = [&](const Bounded& s) { return s.high > -2.0 && s.low < most; };
     const double lasting = lasting_correlation(patches);
     if (lasting > 0.6) {
         throw InputError("values 8 bins apart have the correlation " +
@@ -115,17 +121,11 @@ LawPatches law_patches(const std::vector<RecordedPing>& pings, double full_value
                        const std::vector<bool>& places, double offset) {
     const double step = full_value > 15.0 ? 1.0 : full_value / 65535.0;
     LawPatches out;
-    out.values = patch_moments(pings, full_value, [](double v, int) { return v; });
-    out.logs = patch_moments(pings, full_value, [&](double v, int) {
-        return log_of_value(v + offset * full_value, step);
-    });
-    if (!places.empty()) {
-        const auto elsewhere = [&](const PatchMoments& patch) {
-            return !places[static_cast<std::size_t>(patch.place)];
-        };
-        std::erase_if(out.values, elsewhere);
-        std::erase_if(out.logs, elsewhere);
-    }
+    const auto moments = [&](const std::function<double(double, int)>& scaled) {
+        return at_places(patch_moments(pings, full_value, scaled), places);
+    };
+    out.values = moments([](double v, int) { return v; });
+    out.logs = moments([&](double v, int) { return log_of_value(v + offset * full_value, step); });
     // Evenness is that of the logarithms, in which no law makes loud patches uneven.
     out.even = speckle_patches(out.logs, full_value > 15.0 ? 6.0 : 0.0);
     out.places = patch_places(pings);
@@ -148,7 +148,12 @@ double LawFit::log_power(double value, double full_value) const {
            (log_of_value(value + offset * full_value, step) - logarithm(full_value));
 }
 
-LawFit stated_law(const ReceiverConfig& receiver) {
+bool LawFit::cuts_off(double mean_power, double full_value) const {
+    const double step = full_value > 15.0 ? 1.0 : full_value / 65535.0;
+    return exponential(log_power(0.5 * step, full_value)) > most_cut_off * mean_power;
+}
+
+LawFit stated_law(const ReceiverConfig& receiver, const LogStatistics& statistics) {
     LawFit out;
     out.companding = receiver.companding == Companding::log ? Companding::log : Companding::gamma;
     const double gamma = receiver.companding == Companding::linear ? 1.0 : receiver.gamma;
@@ -156,7 +161,7 @@ LawFit stated_law(const ReceiverConfig& receiver) {
     out.offset = receiver.offset;
     const double range_db = receiver.dynamic_range_db;
     out.dynamic_range_db = {range_db, range_db, range_db};
-    out.looks = std::max(receiver.looks, 1);
+    out.statistics = statistics;
     return out;
 }
 
@@ -170,8 +175,9 @@ double full_value_of(const Recording& recording) {
     return most;
 }
 
-LawFit fit_law(const std::vector<RecordedPing>& pings, double full_value, int looks,
-               const std::vector<bool>& places, double offset) {
+LawFit fit_law(const std::vector<RecordedPing>& pings, double full_value,
+               const LogStatistics& statistics, const std::vector<bool>& places, double offset,
+               std::optional<Companding> known) {
     const LawPatches patches = law_patches(pings, full_value, places, offset);
     const std::vector<double> all(static_cast<std::size_t>(patches.places), 1.0);
     const auto skewness = [&](const std::vector<PatchMoments>& of) {
@@ -181,28 +187,29 @@ LawFit fit_law(const std::vector<RecordedPing>& pings, double full_value, int lo
     };
     const Bounded of_logs = skewness(patches.logs);
     const Bounded of_values = skewness(patches.values);
-    check_speckle(patches, of_logs, of_values);
+    check_speckle(patches, of_logs, of_values, statistics.skewness);
 
     LawFit out;
-    out.looks = looks;
+    out.statistics = statistics;
     out.offset = offset;
     for (const std::size_t k : patches.even)
-        out.mean_share += patches.values[k].mean_value / full_value;
-    out.mean_share = out.mean_share / static_cast<double>(patches.even.size()) + offset;
+        out.mean_share += 1.0 / (patches.values[k].mean_value / full_value + offset);
+    out.mean_share = static_cast<double>(patches.even.size()) / out.mean_share;
     out.patches = static_cast<int>(patches.even.size());
     out.spread_of_levels = spread_of_levels(patches);
     out.slope = bootstrap(patches.places, [&](const std::vector<double>& weights) {
         return slope_of(patches, weights);
     });
-    const double expected = log_power_skewness(looks);
+    const double expected = statistics.skewness;
     const bool by_slope = out.spread_of_levels > least_spread_of_levels;
     const bool power_law =
-        by_slope ? out.slope.value > power_law_slope
-                 : std::fabs(of_logs.value - expected) < std::fabs(of_values.value - expected);
+        known      ? *known != Companding::log
+        : by_slope ? out.slope.value > power_law_slope
+                   : std::fabs(of_logs.value - expected) < std::fabs(of_values.value - expected);
     out.companding = power_law ? Companding::gamma : Companding::log;
     const std::vector<PatchMoments>& used = power_law ? patches.logs : patches.values;
     out.skewness = power_law ? of_logs : of_values;
-    const double sigma = std::sqrt(log_power_variance(looks));
+    const double sigma = std::sqrt(statistics.variance);
     const auto deviation = [&](const std::vector<double>& weights) {
         return std::sqrt(sums_of(used, patches.even, weights).variance);
     };

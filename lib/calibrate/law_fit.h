@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "calibrate/bootstrap.h"
+#include "calibrate/log_statistics.h"
 #include "calibrate/patches.h"
 #include "mission/instrument.h"
 #include "recording/recording.h"
@@ -11,7 +13,7 @@ namespace sonarsim {
 
 /// The companding law as the values of homogeneous speckle tell it. There the amplitude A has
 /// Rayleigh's distribution at every level. With v = M A^g the logarithm of v has the same variance
-/// at every level, (g / 2)^2 log_power_variance(looks), and v a standard deviation proportional to
+/// at every level, (g / 2)^2 times that of ln P, and v a standard deviation proportional to
 /// its mean. With v = M (1 + 20 log10(A) / range) v itself has the same variance at every level.
 struct LawFit {
     Companding companding = Companding::gamma;
@@ -21,26 +23,31 @@ struct LawFit {
     Bounded slope;
     double spread_of_levels = 0.0;  ///< standard deviation of the log means of patches
     Bounded skewness;               ///< logarithm of the power; -1.14 for one look
-    int looks = 1;                  ///< the number that the law was fitted for
+    LogStatistics statistics;       ///< the law was fitted for them
     int patches = 0;
     double offset = 0.0;      ///< added to the values, as a share of full_value
-    double mean_share = 0.0;  ///< mean of the values with it, as a share of full_value
+    double mean_share = 0.0;  ///< harmonic mean of the patches' means with it, as a share
 
     /// ln P, P the power by full scale, of a value. Values below half a step count as half a step.
     double log_power(double value, double full_value) const;
+
+    /// True where the values of noise or speckle of a mean power become 0 so often that the
+    /// variance of their logarithm is half a per cent too small.
+    bool cuts_off(double mean_power, double full_value) const;
 };
 
 /// The law that an instrument is said to have.
-LawFit stated_law(const ReceiverConfig& receiver);
+LawFit stated_law(const ReceiverConfig& receiver, const LogStatistics& statistics);
 
 /// The largest value that pings can have: the recording's, else the largest one that they have.
 double full_value_of(const Recording& recording);
 
-/// The law of pings with so many `looks`, of the even half of all patches or of the even half of
+/// The law of pings of such `statistics`, of the even half of all patches or of the even half of
 /// those at these places in a patch grid, after `offset` was added to all values. InputError, which
 /// says why, when their values are none of speckle: a photograph, too few patches, values that stay
-/// alike over a whole patch.
-LawFit fit_law(const std::vector<RecordedPing>& pings, double full_value, int looks,
-               const std::vector<bool>& places = {}, double offset = 0.0);
+/// alike over a whole patch. A `known` kind of law is not fitted.
+LawFit fit_law(const std::vector<RecordedPing>& pings, double full_value,
+               const LogStatistics& statistics, const std::vector<bool>& places = {},
+               double offset = 0.0, std::optional<Companding> known = {});
 
 }  // namespace sonarsim

@@ -1,5 +1,6 @@
 #include "calibrate/log_statistics.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/elementary.h"
@@ -36,10 +37,14 @@ double log_power_mean(int looks) {
     return sum_of_inverse_powers(looks, 1) - euler - logarithm(looks);
 }
 
-double amplitude_variation(int looks) {
+double gamma_amplitude_variation(double shape) {
     // The mean of sqrt(P) of a gamma distribution with mean 1.
-    const double mean = exponential(log_gamma(looks + 0.5) - log_gamma(looks)) / std::sqrt(looks);
+    const double mean = exponential(log_gamma(shape + 0.5) - log_gamma(shape)) / std::sqrt(shape);
     return std::sqrt(1.0 / (mean * mean) - 1.0);
+}
+
+double amplitude_variation(int looks) {
+    return gamma_amplitude_variation(looks);
 }
 
 double log_power_correlation(double k2, int looks) {
@@ -52,6 +57,24 @@ double log_power_correlation(double k2, int looks) {
         if (factor < 1e-9) break;
     }
     return sum / log_power_variance(looks);
+}
+
+double LogStatistics::correlation(double k2) const {
+    const double of_looks = log_power_correlation(k2, looks);
+    if (excess.empty()) return of_looks;
+    const double at = std::clamp(k2, 0.0, 1.0) * static_cast<double>(excess.size() - 1);
+    const auto k = std::min(static_cast<std::size_t>(at), excess.size() - 2);
+    const double part = at - static_cast<double>(k);
+    return of_looks + (1.0 - part) * excess[k] + part * excess[k + 1];
+}
+
+LogStatistics log_statistics(int looks) {
+    return {.looks = looks,
+            .mean = log_power_mean(looks),
+            .variance = log_power_variance(looks),
+            .skewness = log_power_skewness(looks),
+            .variation = amplitude_variation(looks),
+            .excess = {}};
 }
 
 }  // namespace sonarsim

@@ -12,9 +12,8 @@ namespace {
 
 constexpr std::size_t least_patches_of_looks = 24;
 constexpr int most_looks = 8;
-// Values of a few steps, or at the end of the scale, cut the tail of the logarithm off.
+// Values of a few steps cut the tail of the logarithm off.
 constexpr double least_mean_value = 20.0;
-constexpr double most_zeros_of_looks = 0.0005;
 // Patches are finite and their law has an error.
 constexpr double least_skewness_error = 0.03;
 constexpr double errors_of_95 = 1.96;
@@ -31,7 +30,7 @@ Bounded skewness_of_noise(const PatchClasses& classes, const LawFit& law) {
     std::vector<std::size_t> fine;
     for (const std::size_t k : classes.noise) {
         const PatchMoments& p = classes.patches[k];
-        if (p.mean_value >= least_mean_value && p.zeros <= most_zeros_of_looks) fine.push_back(k);
+        if (p.mean_value >= least_mean_value) fine.push_back(k);
     }
     if (fine.size() < least_patches_of_looks) return law.skewness;
     struct Sums {

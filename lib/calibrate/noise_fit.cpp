@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "calibrate/log_statistics.h"
 #include "calibrated/decibel.h"
 #include "core/elementary.h"
 
@@ -37,7 +36,8 @@ void add_pair(double log_a, double log_b, BlockSums& sums) {
     sums.power_difference += (a - b) * (a - b);
 }
 
-BlockSums block_sums(const Recording& recording, const LawFit& law, double full_value, int row) {
+BlockSums block_sums(const Recording& recording, const LawFit& law, double full_value,
+                     const AheadBeams& ahead, int row) {
     BlockSums sums;
     for (std::size_t k = 0; k < recording.pings.size(); ++k) {
         const RecordedPing& ping = recording.pings[k];
@@ -46,6 +46,7 @@ BlockSums block_sums(const Recording& recording, const LawFit& law, double full_
         if (row + rows_of_noise_block > ping.ranges) continue;
         for (int i = row; i < row + rows_of_noise_block; ++i) {
             for (int j = 0; j < ping.beams; ++j) {
+                if (ahead.holds(j)) continue;
                 const std::size_t at =
                     static_cast<std::size_t>(i) * static_cast<std::size_t>(ping.beams) +
                     static_cast<std::size_t>(j);
@@ -89,9 +90,9 @@ double spread_of_groups(const BlockSums& sums) {
 
 NoiseBlock block_of(const BlockSums& sums, const LawFit& law, int row, double range_m) {
     NoiseBlock out{.row = row, .range_m = range_m};
-    const double expected = log_power_variance(law.looks);
+    const double expected = law.statistics.variance;
     const double mean = sums.log_sum / sums.count;
-    out.level_db = db_of_neper_power * (mean - log_power_mean(law.looks));
+    out.level_db = db_of_neper_power * (mean - law.statistics.mean);
     out.even = sums.zeros < 0.003 * sums.count;
     if (sums.pairs > 0.0) {
         // Log powers that have nothing in common differ by twice their variance.
@@ -99,6 +100,10 @@ NoiseBlock block_of(const BlockSums& sums, const LawFit& law, int row, double ra
         const double power = sums.powers / sums.pairs;
         const double half = 0.5 * sums.power_difference / sums.pairs;
         if (kept > 0.25 && half < 0.75 * power * power) {
+            if (law.statistics.looks > 1 || !law.statistics.excess.empty()) {
+                out.even = false;
+                return out;
+            }
             const double fresh = power - std::sqrt(power * power - half);
             out.level_db = db_of_neper_power * logarithm(fresh);
             return out;
@@ -213,15 +218,18 @@ std::vector<NoiseBlock> blocks_near(const std::vector<NoiseBlock>& blocks,
 
 }  // namespace
 
-std::vector<NoiseBlock> noise_blocks(const Recording& recording, const LawFit& law) {
+std::vector<NoiseBlock> noise_blocks(const Recording& recording, const LawFit& law,
+                                     const AheadBeams& ahead) {
     std::vector<NoiseBlock> out;
     const double full_value = full_value_of(recording);
     for (int row = 0; row + rows_of_noise_block <= recording.pings.front().ranges;
          row += rows_of_noise_block) {
         const double middle = row + 0.5 * (rows_of_noise_block - 1);
         const double range_m = recording.first_range_m + middle * recording.range_step_m;
-        const BlockSums sums = block_sums(recording, law, full_value, row);
-        if (sums.count > 0.0 && range_m > 0.0) out.push_back(block_of(sums, law, row, range_m));
+        const BlockSums sums = block_sums(recording, law, full_value, ahead, row);
+        if (sums.count == 0.0 || range_m <= 0.0) continue;
+        out.push_back(block_of(sums, law, row, range_m));
+        out.back().whole = !law.cuts_off(power_of_db(out.back().level_db), full_value);
     }
     return out;
 }
@@ -261,6 +269,7 @@ std::optional<NoiseFit> fit_noise(const std::vector<NoiseBlock>& blocks,
                     .tvg_from_m = found[2],
                     .used = used,
                     .common_mode_db = {-300.0, -300.0, -300.0},
+                    .ahead = {},
                     .absorption_db_per_m = absorption_db_per_m};
 }
 

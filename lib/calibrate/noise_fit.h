@@ -16,14 +16,25 @@ struct NoiseBlock {
     double level_db = 0.0;  ///< re full scale
     bool even = false;      ///< beams and pings have one level, and no value is 0
     bool alone = false;     ///< nothing of it stays from ping to ping, so there is no echo in it
+    bool whole = false;     ///< hardly a value is 0
 };
 
 inline constexpr int rows_of_noise_block = 8;
 
+/// The beams about straight ahead that have the noise which all elements share, from `first` to
+/// before `end`.
+struct AheadBeams {
+    int first = 0, end = 0;
+
+    bool holds(int beam) const { return first <= beam && beam < end; }
+};
+
 /// The part that changes from ping to ping, by range. Noise N is new in every ping, and an echo of
 /// a still scene is not. With M the mean of the powers A and B of a place in two pings, the mean of
-/// (A - B)^2 is 2 (2 M N - N^2). Where pings have nothing in common, N is M.
-std::vector<NoiseBlock> noise_blocks(const Recording& recording, const LawFit& law);
+/// (A - B)^2 is 2 (2 M N - N^2), for one look at one sample. Where pings have nothing in common, N
+/// is M. The beams `ahead` do not count.
+std::vector<NoiseBlock> noise_blocks(const Recording& recording, const LawFit& law,
+                                     const AheadBeams& ahead = {});
 
 /// The noise behind the gain: level_db + tvg_log log10(r) + 2 absorption r, r at least tvg_from_m.
 struct NoiseFit {
@@ -32,6 +43,7 @@ struct NoiseFit {
     Bounded tvg_from_m;            ///< 0 where the pings do not tell it
     std::vector<NoiseBlock> used;  ///< the blocks that lie on it
     Bounded common_mode_db;        ///< re the noise of a beam; value below -50: none seen
+    AheadBeams ahead;              ///< the beams that do not count
     double absorption_db_per_m = 0.0;
 
     double at(double range_m) const;
@@ -41,9 +53,5 @@ struct NoiseFit {
 /// no such law holds at least 6 blocks and an eighth of all.
 std::optional<NoiseFit> fit_noise(const std::vector<NoiseBlock>& blocks,
                                   double absorption_db_per_m);
-
-/// The noise straight ahead over that of the other beams, in the blocks of a fit.
-Bounded common_mode(const Recording& recording, const LawFit& law, const NoiseFit& noise,
-                    double width_rad);
 
 }  // namespace sonarsim

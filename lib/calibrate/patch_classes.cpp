@@ -2,7 +2,6 @@
 
 #include <set>
 
-#include "calibrate/log_statistics.h"
 #include "core/elementary.h"
 
 namespace sonarsim {
@@ -12,14 +11,9 @@ namespace {
 constexpr double least_echo_db = 6.0;
 constexpr double db_of_neper_of_power = 4.342944819032518;
 
-/// True for a patch that has the beam straight ahead, where noise that all elements share is. Only
-/// images of many patches can do without it.
-bool straight_ahead(const PatchMoments& patch, const SpecklePatch& size,
-                    const std::vector<double>& sines) {
-    if (sines.size() < 4 * static_cast<std::size_t>(size.beams)) return false;
-    const double first = sines[static_cast<std::size_t>(patch.beam)];
-    const double last = sines[static_cast<std::size_t>(patch.beam + size.beams - 1)];
-    return first * last <= 0.0;
+/// True for a patch that has beams with noise that all elements share.
+bool straight_ahead(const PatchMoments& patch, const SpecklePatch& size, const AheadBeams& ahead) {
+    return patch.beam < ahead.end && ahead.first < patch.beam + size.beams;
 }
 
 /// True if all rows of a patch are in these blocks.
@@ -47,7 +41,6 @@ std::vector<double> beam_sines(const Recording& recording) {
 PatchClasses classified(const Recording& recording, const LawFit& law,
                         const std::optional<NoiseFit>& noise) {
     const double full_value = full_value_of(recording);
-    const std::vector<double> sines = beam_sines(recording);
     PatchClasses out;
     out.places = patch_places(recording.pings);
     out.patches = patch_moments(recording.pings, full_value, [&](double v, int row) {
@@ -59,20 +52,20 @@ PatchClasses classified(const Recording& recording, const LawFit& law,
     std::set<int> blocks;
     if (noise) {
         for (const NoiseBlock& block : noise->used) {
-            if (block.alone) blocks.insert(block.row);
+            if (block.alone && block.whole) blocks.insert(block.row);
         }
     }
     for (std::size_t k = 0; k < out.patches.size(); ++k) {
         const PatchMoments& patch = out.patches[k];
-        if (noise && all_rows_in(patch, size.rows, blocks) && !straight_ahead(patch, size, sines) &&
-            patch.zeros < 0.003)
+        if (noise && all_rows_in(patch, size.rows, blocks) &&
+            !straight_ahead(patch, size, noise->ahead))
             out.noise.push_back(k);
     }
     // Particles in the water are bright points in some of them.
     out.noise = without_uneven(out.patches, out.noise);
     for (const std::size_t k : speckle_patches(out.patches, full_value > 15.0 ? 6.0 : 0.0)) {
         const PatchMoments& patch = out.patches[k];
-        const double above_db = db_of_neper_of_power * (patch.mean - log_power_mean(law.looks));
+        const double above_db = db_of_neper_of_power * (patch.mean - law.statistics.mean);
         if (!noise || above_db > least_echo_db) out.echoes.push_back(k);
     }
     return out;

@@ -144,6 +144,15 @@ std::vector<PatchMoments> patch_moments(const std::vector<RecordedPing>& pings, 
     return out;
 }
 
+std::vector<PatchMoments> at_places(std::vector<PatchMoments> patches,
+                                    const std::vector<bool>& places) {
+    if (places.empty()) return patches;
+    std::erase_if(patches, [&](const PatchMoments& patch) {
+        return !places[static_cast<std::size_t>(patch.place)];
+    });
+    return patches;
+}
+
 int patch_places(const std::vector<RecordedPing>& pings) {
     int most = 0;
     for (const RecordedPing& ping : pings) {

@@ -46,6 +46,10 @@ SpecklePatch patch_size(int ranges, int beams);
 std::vector<PatchMoments> patch_moments(const std::vector<RecordedPing>& pings, double full_value,
                                         const std::function<double(double, int)>& scaled);
 
+/// The patches at these places; all of them if `places` is empty.
+std::vector<PatchMoments> at_places(std::vector<PatchMoments> patches,
+                                    const std::vector<bool>& places);
+
 /// The number of places that patches of such pings have.
 int patch_places(const std::vector<RecordedPing>& pings);
 

@@ -6,6 +6,7 @@
 
 #include "calibrate/bootstrap.h"
 #include "calibrate/patches.h"
+#include "calibrate/sampled_statistics.h"
 #include "mission/instrument.h"
 
 namespace sonarsim {
@@ -17,17 +18,40 @@ enum class ReceivedKind { noise, echo, echo_of_bins };
 
 ReceivedKind echo_kind(const SpeckleConfig& speckle);
 
-/// The correlations of log powers 1 to patch_lags bins apart, for a pulse of so many bins. They are
-/// those of the taps with which the model filters noise, or with which it spreads echoes.
-std::array<double, patch_lags> predicted_range_correlations(double resolution_bins,
-                                                            double side_lobe_db, ReceivedKind kind,
-                                                            int looks);
+/// The pulse of an instrument, for a law of its values and bins of a recording.
+struct PulseModel {
+    ReceiverConfig receiver;
+    double side_lobe_db = -30.0;
+    ReceivedKind kind = ReceivedKind::noise;
+
+    /// The taps with which the model filters noise, or with which it spreads echoes, in steps of a
+    /// sample of the receiver. `resolution_bins` is the half-power width of the pulse.
+    std::vector<double> taps(double resolution_bins) const;
+    /// The statistics of log powers.
+    LogStatistics statistics(double resolution_bins) const;
+    /// The correlations of log powers 1 to patch_lags bins apart.
+    std::array<double, patch_lags> correlations(double resolution_bins) const;
+};
+
+PulseModel pulse_model(const InstrumentConfig& instrument, ReceivedKind kind);
+
+/// The correlations that pulses of some widths predict.
+struct PulseTable {
+    std::vector<double> bins;
+    std::vector<std::array<double, patch_lags>> rows;
+};
+
+/// All widths that a fit tries.
+PulseTable pulse_table(const PulseModel& model);
+
+/// The width of an instrument's pulse in bins; 1 where it is that of a bin.
+double pulse_bins_of(const PulseConfig& pulse, double range_step_m);
 
 /// The half-power width of the pulse, in bins, by the correlation along range of the chosen
 /// patches. Nothing when neighbouring bins are not correlated: the pulse is shorter than about 0.8
 /// bins then.
 std::optional<Bounded> fit_pulse(const std::vector<PatchMoments>& patches,
                                  const std::vector<std::size_t>& chosen, int places,
-                                 double side_lobe_db, ReceivedKind kind, int looks);
+                                 const PulseModel& model);
 
 }  // namespace sonarsim

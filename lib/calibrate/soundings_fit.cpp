@@ -164,8 +164,8 @@ double SoundingsGeometry::gain_db(double angle_rad, double range_m) const {
     return db_of_power(across * range_m) - (4.0 - 0.1 * tvg_log) * db_of_power(range_m);
 }
 
-double SoundingsFit::level_db_at(double angle_rad, double range_m) const {
-    return in_table(angles_rad, strength_db, angle_rad) + geometry.gain_db(angle_rad, range_m);
+double SoundingsFit::strength_db_at(double angle_rad) const {
+    return in_table(angles_rad, strength_db, angle_rad);
 }
 
 double SoundingsFit::spread_m_at(double angle_rad) const {

@@ -48,9 +48,9 @@ struct SoundingsFit {
     Bounded facets_db;      ///< over Lambert's rule, at normal incidence
     Bounded slope_rms_deg;  ///< slope of the facets
 
-    /// The number that the fit expects at an angle and a range, by a line between the nearest two
+    /// The number that the fit expects at an angle, by a line between the nearest two
     /// angles.
-    double level_db_at(double angle_rad, double range_m) const;
+    double strength_db_at(double angle_rad) const;
     double spread_m_at(double angle_rad) const;
 };
 

@@ -40,16 +40,16 @@ TEST_SUITE("calibrate") {
         for (const double side_lobe_db : {-16.0, -22.0, -30.0}) {
             CAPTURE(side_lobe_db);
             const LineArray array = line_array(radians(1.1), side_lobe_db);
-            const auto seen = predicted_beam_correlations(array, sines, 1);
+            const auto seen = predicted_beam_correlations(array, sines, log_statistics(1));
             BeamCorrelations exact;
             exact.mean = Eigen::Map<const Eigen::Matrix<double, patch_lags, 1>>(seen.data());
             exact.covariance.setZero();
             exact.units = 1000;
-            const std::optional<ArrayFit> found = fit_array(exact, sines, 1);
+            const std::optional<ArrayFit> found = fit_array(exact, sines, log_statistics(1));
             REQUIRE(found.has_value());
             const ArrayFit& fit = *found;
             exact.units = 23;
-            CHECK_FALSE(fit_array(exact, sines, 1).has_value());
+            CHECK_FALSE(fit_array(exact, sines, log_statistics(1)).has_value());
             CHECK(std::fabs(fit.width_deg.value - 1.1) < 0.02);
             CHECK(std::fabs(fit.side_lobe_db.value - side_lobe_db) < 1.5);
         }
@@ -67,8 +67,8 @@ TEST_SUITE("calibrate") {
         for (int k = 0; k < cases; ++k) {
             const double width_deg = draws.between(0.7, 1.6);
             const double side_lobe_db = draws.between(-34.0, -14.0);
-            const auto exact =
-                predicted_beam_correlations(line_array(radians(width_deg), side_lobe_db), sines, 1);
+            const auto exact = predicted_beam_correlations(
+                line_array(radians(width_deg), side_lobe_db), sines, log_statistics(1));
             std::vector<PatchMoments> patches(300);
             std::vector<std::size_t> chosen;
             for (std::size_t p = 0; p < patches.size(); ++p) {
@@ -79,7 +79,8 @@ TEST_SUITE("calibrate") {
                         1.0 - exact[lag] + common + draws.between(-0.1, 0.1);
                 chosen.push_back(p);
             }
-            const auto fit = fit_array(beam_correlations(patches, chosen, true), sines, 1);
+            const auto fit =
+                fit_array(beam_correlations(patches, chosen, true), sines, log_statistics(1));
             REQUIRE(fit.has_value());
             held += fit->width_deg.holds(width_deg) ? 1 : 0;
             held += fit->side_lobe_db.holds(side_lobe_db) ? 1 : 0;
@@ -94,14 +95,15 @@ TEST_SUITE("calibrate") {
         double sum = 0.0;
         for (std::size_t k = 0; k + 1 < taps.size(); ++k)
             sum += static_cast<double>(taps[k]) * taps[k + 1];
-        const auto lags = predicted_range_correlations(2.0, -30.0, ReceivedKind::noise, 1);
+        const auto lags = PulseModel{.receiver = {}, .kind = ReceivedKind::noise}.correlations(2.0);
         // Li2(x) / Li2(1) at x = sum^2, by its series.
         double expected = 0.0;
         for (int j = 1; j < 60; ++j)
             expected += std::pow(sum * sum, j) / (j * j) / (pi * pi / 6.0);
         CHECK(lags[0] == doctest::Approx(expected).epsilon(1e-3));
         // Echoes of many scatterers are correlated farther than noise.
-        const auto echo = predicted_range_correlations(2.0, -30.0, ReceivedKind::echo_of_bins, 1);
+        const auto echo =
+            PulseModel{.receiver = {}, .kind = ReceivedKind::echo_of_bins}.correlations(2.0);
         CHECK(echo[1] > lags[1]);
     }
 }

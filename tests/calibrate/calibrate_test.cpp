@@ -34,6 +34,8 @@ std::map<std::string, double> numbers_of(const InstrumentConfig& instrument) {
             {"receiver.tvg_log", instrument.receiver.tvg_log},
             {"receiver.full_scale_db", *instrument.receiver.full_scale_db},
             {"pulse.resolution_m", instrument.pulse.resolution_m},
+            {"receiver.offset", instrument.receiver.offset},
+            {"receiver.common_mode_db", instrument.receiver.common_mode_db},
             {"beam.width_deg", instrument.beam.width_deg},
             {"beam.side_lobe_db", instrument.beam.side_lobe_db}};
 }
@@ -46,7 +48,9 @@ struct Recovered {
     void add(std::uint32_t draw, const Samples& bottom) {
         const SonarConfig truth = drawn_instrument(draw);
         const Recording pings = made_recording(truth, 20, draw + 1, bottom);
-        const Calibration found = calibrate(pings, wrong_start(), {}, {});
+        SonarConfig start = wrong_start();
+        start.instrument.receiver.samples = truth.instrument.receiver.samples;
+        const Calibration found = calibrate(pings, start, {}, {});
         const std::map<std::string, double> numbers = numbers_of(truth.instrument);
         for (const KeyEstimate& e : found.estimates) {
             const auto at = numbers.find(e.key);

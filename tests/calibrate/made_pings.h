@@ -51,19 +51,21 @@ inline SonarConfig plain_imaging() {
     return config;
 }
 
-/// A flat bottom seen at grazing incidence, as patches in the frame of the sensor.
+/// A flat bottom seen at grazing incidence, as patches in the frame of the sensor. They are shorter
+/// than a bin, for longer ones would be a texture.
 inline Samples made_bottom(double from_m, double to_m) {
     Samples out;
     constexpr double step = 0.04;
+    constexpr double length = 0.01;
     constexpr double below = 1.0;
-    for (double x = from_m; x < to_m; x += step) {
+    for (double x = from_m; x < to_m; x += length) {
         for (double y = -3.0; y < 3.0; y += step) {
             out.items.push_back({.position = Eigen::Vector3d(x, y, -below).cast<float>(),
-                                 .edge_u = Eigen::Vector3f(0.5F * static_cast<float>(step), 0, 0),
+                                 .edge_u = Eigen::Vector3f(0.5F * static_cast<float>(length), 0, 0),
                                  .edge_v = Eigen::Vector3f(0, 0.5F * static_cast<float>(step), 0),
                                  .normal = Eigen::Vector3f(0, 0, 1),
                                  .height_m = static_cast<float>(below),
-                                 .area_m2 = static_cast<float>(step * step),
+                                 .area_m2 = static_cast<float>(length * step),
                                  .material = 0,
                                  .instance = 0});
         }
@@ -124,6 +126,12 @@ inline SonarConfig drawn_instrument(std::uint32_t draw) {
     receiver.full_scale_db = *receiver.noise_db +
                              10.0 * receiver.tvg_log / 10.0 * std::log10(8.68) + 6.0 +
                              draws.between(15.0, 25.0);
+    const double samples = draws.between(0.0, 4.0);
+    receiver.samples = samples < 2.0 ? 1 : (samples < 3.0 ? 2 : 3);
+    const double offset = draws.between(-0.04, 0.04);
+    if (receiver.companding == Companding::gamma) receiver.offset = std::max(offset, 0.0);
+    const double common_mode_db = draws.between(-30.0, 15.0);
+    if (common_mode_db > -5.0) receiver.common_mode_db = *receiver.noise_db + common_mode_db;
     return config;
 }
 

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "calibrate/law_fit.h"
+#include "calibrate/noise_fit.h"
+#include "mission/instrument.h"
+#include "recording/recording.h"
+
+namespace sonarsim {
+
+/// The beams whose noise stands out of that of the fan, from straight ahead on to both sides: the
+/// noise that all elements share arrives as a wave from there, and shows in the main lobe and the
+/// side lobes. None when it does not stand out straight ahead.
+AheadBeams ahead_beams(const Recording& recording, const LawFit& law, const NoiseFit& noise);
+
+/// The noise that all elements share by that of a beam. In the beam at sine u it is |D(u)|^2 of it,
+/// D the pattern of the array. `width` is that of the beams with its interval. Value below -50:
+/// none seen.
+Bounded common_mode(const Recording& recording, const LawFit& law, const NoiseFit& noise,
+                    const BeamConfig& beam, const Bounded& width_deg);
+
+}  // namespace sonarsim

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calibrate/array_fit.h"
+#include "calibrate/law_fit.h"
+#include "calibrate/noise_fit.h"
+#include "calibrate/patch_classes.h"
+#include "calibrate/pulse_fit.h"
+#include "calibrate/texture_fit.h"
+#include "calibrated/instrument_levels.h"
+#include "mission/instrument.h"
+#include "recording/recording.h"
+
+namespace sonarsim {
+
+/// The instrument that a calibration starts from, for pings of the recording's shape.
+struct StartInstrument {
+    InstrumentConfig config;
+    InstrumentLevels levels;
+    double absorption_db_per_m = 0.0;
+};
+
+/// One key of `instrument` that the pings give.
+struct KeyEstimate {
+    std::string key;  ///< as "receiver.gamma"
+    Bounded number;
+    std::string word;  ///< in place of the number: "log"
+};
+
+/// The part of an instrument that its images or records tell.
+struct ImageFit {
+    LawFit law;
+    std::optional<Bounded> offset;  ///< the one of a power law
+    std::optional<NoiseFit> noise;
+    std::optional<Bounded> pulse_bins;
+    bool pulse_of_echoes = false;  ///< there was no noise to take it from
+    std::optional<ArrayFit> array;
+    std::optional<TextureFit> texture;  ///< the bottom's
+    bool law_of_echoes = false;         ///< there was no noise to take the law from
+    InstrumentConfig config;            ///< the start with what was fitted
+    double noise_re_full_scale_db = 0.0;
+    std::vector<KeyEstimate> estimates;
+    std::vector<std::string> notes;  ///< says what the pings do not tell, and why
+};
+
+}  // namespace sonarsim

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "calibrate/fitted_image.h"
+
+namespace sonarsim {
+
+/// Patches that a fit of noise needs.
+inline constexpr std::size_t least_noise_patches = 24;
+
+/// The patches that tell pulse and array: noise, or echoes where there is too little of it.
+const std::vector<std::size_t>& chosen_patches(const PatchClasses& classes, const ImageFit& fit);
+
+/// Fits offset, law and looks, and finds the noise.
+void fit_law_of_image(const Recording& recording, const StartInstrument& start, ImageFit& fit);
+
+/// Takes the texture out of the law, and sets offset, bits and law.
+void set_law_of_image(const Recording& recording, const StartInstrument& start, ImageFit& fit);
+
+}  // namespace sonarsim
