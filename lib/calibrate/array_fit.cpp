@@ -19,8 +19,8 @@ constexpr double no_taper_db = -13.3;
 constexpr double taper_step_db = 0.5;
 constexpr int least_units = 24;
 // Lengths of the aperture in wavelengths, by factors of 5 % and then 0.4 % up to a factor of 1.8.
-constexpr double shortest = 0.5;
-constexpr double longest = 5000.0;
+constexpr double least_wavelengths = 0.5;
+constexpr double most_wavelengths = 5000.0;
 constexpr double coarse_step = 0.05;
 constexpr double fine_step = 0.004;
 constexpr double fine_reach = 0.6;
@@ -165,7 +165,7 @@ std::optional<ArrayFit> fit_array(const BeamCorrelations& seen, const std::vecto
     const auto keep_best = [&](const TriedArray& array) {
         if (array.chi2 < best.chi2) best = array;
     };
-    each(logarithm(shortest), logarithm(longest), coarse_step, keep_best);
+    each(logarithm(least_wavelengths), logarithm(most_wavelengths), coarse_step, keep_best);
     std::vector<TriedArray> near;
     const double middle = best.log_length;
     each(middle - fine_reach, middle + fine_reach, fine_step, [&](const TriedArray& array) {
