@@ -102,7 +102,7 @@ void add_distribution(Judged& judged, const std::string& where,
 void add_correlations(Judged& judged, const std::string& where,
                       const std::vector<std::size_t>& chosen, const PulseModel& model,
                       const LogStatistics& statistics, const SpeckleConfig& speckle) {
-    const Texture texture = texture_of(speckle, statistics);
+    const BottomTexture texture = texture_of(speckle, statistics);
     const EchoPatches distances = echo_patches(judged.classes, judged.recording, {});
     const auto with_texture = [&](double of_speckle, double lag, double step_m) {
         return texture.correlation(of_speckle, lag * step_m);

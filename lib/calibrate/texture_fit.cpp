@@ -49,7 +49,7 @@ struct TextureSums {
 
 }  // namespace
 
-double Texture::correlation(double of_speckle, double distance_m) const {
+double BottomTexture::correlation(double of_speckle, double distance_m) const {
     return (1.0 - share) * of_speckle + share * std::max(1.0 - distance_m / edge_m, 0.0);
 }
 
@@ -72,7 +72,7 @@ double inverse_trigamma(double variance) {
     return exponential(low);
 }
 
-Texture texture_of(const SpeckleConfig& speckle, const LogStatistics& statistics) {
+BottomTexture texture_of(const SpeckleConfig& speckle, const LogStatistics& statistics) {
     if (speckle.clutter_shape <= 0.0) return {};
     const double own = trigamma(speckle.clutter_shape);
     return {own / (own + statistics.variance), speckle.clutter_m};

@@ -11,7 +11,7 @@ namespace sonarsim {
 /// A texture of the bottom as `speckle.clutter_shape` and `clutter_m` simulate it: strengths of
 /// gamma's distribution in squares of the scene. ln P is the sum of the logarithms of speckle and
 /// strength, so the texture has a share of its variance, trigamma(shape) by that and the speckle's.
-struct Texture {
+struct BottomTexture {
     double share = 0.0;
     double edge_m = 0.1;
 
@@ -20,7 +20,7 @@ struct Texture {
     double correlation(double of_speckle, double distance_m) const;
 };
 
-Texture texture_of(const SpeckleConfig& speckle, const LogStatistics& statistics);
+BottomTexture texture_of(const SpeckleConfig& speckle, const LogStatistics& statistics);
 
 /// trigamma(x), the variance of the logarithm of gamma's distribution, and its inverse.
 double trigamma(double x);

@@ -12,7 +12,7 @@ using namespace sonarsim::test;
 namespace {
 
 /// Patches with the correlations of a texture and a pulse, each off by a drawn number.
-PatchClasses textured_patches(const Texture& texture, const EchoPatches& distances,
+PatchClasses textured_patches(const BottomTexture& texture, const EchoPatches& distances,
                               const std::array<double, patch_lags>& of_pulse) {
     Draws draws(11);
     PatchClasses out;
@@ -54,7 +54,7 @@ TEST_SUITE("calibrate") {
             echoes.of_beams[lag] = std::exp(-0.8 * static_cast<double>((lag + 1) * (lag + 1)));
         for (const double share : {0.1, 0.3}) {
             CAPTURE(share);
-            const Texture truth{share, 0.02};
+            const BottomTexture truth{share, 0.02};
             const PatchClasses patches = textured_patches(truth, echoes, model.correlations(1.3));
             echoes.classes = &patches;
             const std::optional<TextureFit> fit = fit_texture(echoes, model);
@@ -72,7 +72,7 @@ TEST_SUITE("calibrate") {
         const LogStatistics one = log_statistics(1);
         const SpeckleConfig speckle{.clutter_shape = inverse_trigamma(0.25 * one.variance),
                                     .clutter_m = 0.05};
-        const Texture texture = texture_of(speckle, one);
+        const BottomTexture texture = texture_of(speckle, one);
         CHECK(texture.share == doctest::Approx(0.2).epsilon(1e-6));
         CHECK(texture.correlation(0.5, 0.025) == doctest::Approx(0.8 * 0.5 + 0.2 * 0.5));
         CHECK(texture.correlation(0.5, 0.06) == doctest::Approx(0.8 * 0.5));

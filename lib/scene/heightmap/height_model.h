@@ -8,6 +8,8 @@
 
 namespace sonarsim {
 
+class ImageReader;
+
 /// Reads an image of heights as tinygltf's structs, as if it were a glTF, with z up, of one node
 /// "heightmap"; of a map larger than the rule's window only that part. A vertex stands at the
 /// centre of each pixel; four neighbours make two triangles that share the edge from the first row
