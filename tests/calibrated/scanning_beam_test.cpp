@@ -72,7 +72,9 @@ TEST_SUITE("calibrated") {
     TEST_CASE("scanning: the scan of a strip is as wide as the beam") {
         // A strip stands 5 m away, 20 cm wide; its level is the mean over its width.
         constexpr double half_m = 0.1;
-        const Sonar sonar = scanning("micron");
+        Sonar sonar = scanning("micron");
+        // At the default goal pieces are as wide as the strip: its level in a side lobe is then off by 1 dB.
+        sonar.settings.view.relative_l1 = 0.01;
         const LineArray head = array_of(sonar);
         Scene scene = empty_scene();
         constexpr auto half = static_cast<float>(half_m);

@@ -146,7 +146,7 @@ TEST_CASE("variants: the keys of targets in the water and of its surface vary") 
     const std::string mission =
         "scene:\n  file: a.glb\n  materials: a.csv\n  water_surface: {height_m: 0}\n"
         "  particles:\n    - {name: p, kind: points, target_strength_db: -40, count: 7, "
-        "position_m: [1, 2, 3], size_m: [4, 5, 6]}\n"
+        "position_m: [1, 2, 3], size_m: [4, 5, 6], drift_m_s: [0, 0, 0]}\n"
         "    - {name: q, kind: fish, length_m: 0.3, count: 7, position_m: [1, 2, 3]}\n"
         "    - {name: r, kind: bubbles, radius_m: 0.001, per_m3: 2, position_m: [1, 2, 3], "
         "size_m: [4, 5, 6]}\n"

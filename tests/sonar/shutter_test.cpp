@@ -33,13 +33,16 @@ Sonar yawing_camera(ShutterOrder order, double turn) {
     return sonar;
 }
 
-/// Plates of 0.3 degrees at 10 m, every 5 degrees from -45 to 45.
+/// Half the width of a plate. Rays are 0.5 degrees apart, so that at least one meets a plate.
+constexpr double half_plate_deg = 0.4;
+
+/// Plates at 10 m, every 5 degrees from -45 to 45.
 Scene plates() {
     Scene scene = empty_scene();
     const std::uint32_t rock = add_material(scene, 0.4F);
     for (int k = -9; k <= 9; ++k) {
         const auto at = [&](double side, float z) {
-            const double azimuth = radians(5.0 * k + 0.15 * side);
+            const double azimuth = radians(5.0 * k + half_plate_deg * side);
             return Eigen::Vector3f(static_cast<float>(10.0 * std::cos(azimuth)),
                                    static_cast<float>(10.0 * std::sin(azimuth)), z);
         };
@@ -59,8 +62,10 @@ bool is_bright(const Ping& ping, int beam) {
 
 TEST_SUITE("sonar") {
     // The beam at the azimuth b, of the group g, points at b + w (g P + 2 r / c) of the world, so
-    // that it shows a plate where this lies within 0.15 degrees of one. That is shear: azimuth
-    // moves with time.
+    // that it shows a plate where the two overlap. That is shear: azimuth moves with time. Here
+    // w P = 2 degrees and w 2 r / c = 0.533 degrees, so that a beam lies 0.033 degrees beside the
+    // middle of a plate, with all of the plate in it, or 0.967 degrees at least, with none of it.
+    // One beam in five shows a plate.
     TEST_CASE("shutter: a fan that yaws shears the picture by its rate times the time") {
         const Scene scene = plates();
         const auto engine = make_rays_engine(scene);
@@ -73,12 +78,12 @@ TEST_SUITE("sonar") {
                 const int group = order == ShutterOrder::in_turn ? j / 10 : j % 6;
                 const double middle = j - 29.5 + turn_deg_s * (0.05 * group + 2.0 * 10.0 / 1500.0);
                 const double off = std::fabs(middle - 5.0 * std::round(middle / 5.0));
-                // Plates are 0.3 degrees wide, beams one degree.
-                if (off < 0.6) CHECK(is_bright(ping, j));
-                if (off > 0.7) CHECK(!is_bright(ping, j));
+                CAPTURE(j);
+                // Beams are one degree wide.
+                CHECK(is_bright(ping, j) == (off < 0.5 + half_plate_deg));
                 bright += is_bright(ping, j) ? 1 : 0;
             }
-            CHECK(bright > 8);
+            CHECK(bright == 12);
         }
     }
 
@@ -86,12 +91,15 @@ TEST_SUITE("sonar") {
         const Scene scene = plates();
         const Sonar sonar = yawing_camera(ShutterOrder::interleaved, turn_deg_s);
         const Labelled found = label(scene, sonar, {}, EngineKind::rays);
+        int bright = 0;
         for (int j = 0; j < 60; ++j) {
             bool labelled = false;
             for (int i = 0; i < 300; ++i)
                 labelled = labelled || found.labels.object[found.at(i, j)] != 0;
             CHECK(labelled == is_bright(found.clean, j));
+            bright += is_bright(found.clean, j) ? 1 : 0;
         }
+        CHECK(bright == 12);
     }
 
     TEST_CASE("shutter: at speed 0 the same bytes as all beams at once") {
