@@ -91,19 +91,22 @@ Eigen::Vector3d measured_place(const PingMotion& motion, ViewShape shape,
 Eigen::Vector3d unmoved_place(const PingMotion& motion, ViewShape shape,
                               const Eigen::Vector3d& measured) {
     // The place lies at s + l d, where the sonar has moved by s meanwhile and d is the direction in
-    // the frame at transmission. Its two-way time grows by 2 / c for each metre of l, all but for
-    // the speed of the sonar, so that this comes a thousand times nearer each time.
-    const double time = 2.0 * measured.norm() / motion.sound_speed_m_s;
-    const double moving = share_of(shape) * time;
-    const Eigen::Vector3d d = rotation_by(moving * motion.turn_rad_s) * measured.normalized();
-    const Eigen::Vector3d s = moving * motion.velocity_m_s;
+    // the frame at transmission. Its two-way time, in which s and d count, is that of the measured
+    // range without the shift of a pulse that sweeps. It grows by 2 / c for each metre of l, all
+    // but for the speed of the sonar, so that this comes a thousand times nearer each time.
+    // The shift depends on the direction of the place alone and comes near as fast.
+    Eigen::Vector3d place = measured;
     double length = measured.norm();
     for (int k = 0; k < 4; ++k) {
-        const Eigen::Vector3d place = s + length * d;
-        length += 0.5 * motion.sound_speed_m_s * (time - two_way_time(motion, place)) -
-                  range_shift(motion, place);
+        const double range = measured.norm() - range_shift(motion, place);
+        const double time = 2.0 * range / motion.sound_speed_m_s;
+        const double moving = share_of(shape) * time;
+        const Eigen::Vector3d d = rotation_by(moving * motion.turn_rad_s) * measured.normalized();
+        const Eigen::Vector3d s = moving * motion.velocity_m_s;
+        length += 0.5 * motion.sound_speed_m_s * (time - two_way_time(motion, s + length * d));
+        place = s + length * d;
     }
-    return s + length * d;
+    return place;
 }
 
 void sort_into_beams(const View& view, Samples& samples, std::vector<Sample>& outside_sector) {
