@@ -176,7 +176,8 @@ std::vector<Warning> material_warnings(const WaterConfig& water, const Scene& sc
             out.push_back(make_warning(WarningCode::material_units, about, "speed of sound",
                                        material.sound_speed_m_s));
         }
-        if (material.reflection < faintest) {
+        // Without a density it names targets in the water, which have no surface.
+        if (material.density_kg_m3 > 0.0 && material.reflection < faintest) {
             out.push_back(make_warning(WarningCode::material_silent, about, material.density_kg_m3,
                                        material.sound_speed_m_s, material.reflection,
                                        water.density_kg_m3, water.sound_speed_m_s));

@@ -59,9 +59,14 @@ TEST_SUITE("calibrate") {
             echoes.classes = &patches;
             const std::optional<TextureFit> fit = fit_texture(echoes, model);
             REQUIRE(fit.has_value());
-            CHECK(fit->share.holds(share));
-            CHECK(fit->edge_m.holds(0.02));
-            CHECK(fit->pulse_bins.holds(1.3));
+            // One draw of six numbers: twice the interval of 95 of 100 cases is missed once in
+            // 10^4.
+            const auto is_near = [](const Bounded& number, double truth) {
+                return std::fabs(number.value - truth) < 2.0 * number.half_width();
+            };
+            CHECK(is_near(fit->share, share));
+            CHECK(is_near(fit->edge_m, 0.02));
+            CHECK(is_near(fit->pulse_bins, 1.3));
         }
         const PatchClasses even = textured_patches({}, echoes, model.correlations(1.3));
         echoes.classes = &even;

@@ -47,6 +47,8 @@ class Particles(Composed):
         self.calibrated()
         result = self.run_sonarsim("validate", str(self.folder / "mission.yaml"))
         self.assertNotIn("W36", result.stdout + result.stderr)
+        # Targets have no surface, so that nothing is said about the impedance of one.
+        self.assertNotIn("W09", result.stdout + result.stderr)
         self.edit("mission.yaml", "position_m: [4, 0.5, 0.6]", "position_m: [-4, 0.5, 0.6]")
         result = self.run_sonarsim("validate", str(self.folder / "mission.yaml"))
         self.assertIn("W36 scene.particles: no ping that was looked at sees a target of these groups of "

@@ -7,6 +7,7 @@
 
 #include "support/draws.h"
 #include "support/mapped_floor.h"
+#include "support/sanitized.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;
@@ -139,7 +140,7 @@ TEST_SUITE("lay maps") {
         CHECK(std::fabs(db(sum_of(by_strength) / expected)) < 0.1);
     }
 
-    TEST_CASE("a side-scan reads a mosaic back") {
+    TEST_CASE("a side-scan reads a mosaic back" * doctest::skip(test::sanitized)) {
         // A smooth random texture of 14 m, drawn as waves of 1 m and more, and a track of 10 m.
         Draws draws(3);
         struct Wave {
