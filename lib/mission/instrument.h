@@ -118,6 +118,9 @@ struct ReceiverConfig {
     double ring_down_m = 0.1;        ///< range over which it falls by 10 dB
     double gain_drift_db = 0.0;      ///< standard deviation of the gain of pings
     double gain_drift_pings = 20.0;  ///< pings over which the gain changes
+    double beam_gain_db = 0.0;       ///< standard deviation of the gains of the beams
+    double sector_gain_db = 0.0;     ///< standard deviation of the gains of sectors of beams
+    int sectors = 1;                 ///< equal shares of the beams
     double dropped_share = 0.0;      ///< share of the pings
     double spikes_per_ping = 0.0;
     double spike_db = 40.0;  ///< above the noise
