@@ -40,7 +40,8 @@ std::optional<BuriedSight> sight_of(std::span<const SedimentPath> sediments,
                                     const Eigen::Vector3d& place, double along_m,
                                     const Intersection& hit) {
     const double range = place.norm();
-    if (!(along_m < range) || hit.material >= sediments.size()) return std::nullopt;
+    if (!(along_m > 0.0 && along_m < range) || hit.material >= sediments.size())
+        return std::nullopt;
     const SedimentPath& sediment = sediments[hit.material];
     if (sediment.speed_ratio == 0.0) return std::nullopt;
     const Eigen::Vector3d normal = hit.normal.cast<double>();

@@ -7,6 +7,7 @@
 
 #include "core/elementary.h"
 #include "trace/arrivals.h"
+#include "trace/ball_in_view.h"
 #include "trace/cut_triangle.h"
 #include "trace/lay_target_maps.h"
 #include "visibility/view_volume.h"
@@ -72,7 +73,8 @@ class TargetSampler {
         if (range - radius > static_cast<float>(view_.range_max_m) ||
             range < least_distance_by_radius * radius)
             return std::nullopt;
-        const Containment contained = containment(centre, range, radius);
+        const Containment contained =
+            ball_in_view(view_, widened_, guarded_, {centre, range, radius});
         if (contained == Containment::outside) return std::nullopt;
         const float cell = std::max(static_cast<float>(resolved_width(view_)) * range,
                                     static_cast<float>(view_.bin_m()));
@@ -151,38 +153,6 @@ class TargetSampler {
         if (!std::isfinite(hit.distance_m)) return true;
         const float slack = (hit.rounding_m + aim.slack_m) / std::max(aim.cosine, 1e-3F);
         return hit.distance_m + slack >= aim.range_m;
-    }
-
-    /// The position of a ball that does not hold the sonar, relative to the view.
-    Containment containment(const Eigen::Vector3f& centre, float range, float radius) const {
-        const auto compare = [](float angle, double full, float margin) {
-            const auto half = static_cast<float>(0.5 * full);
-            if (angle > half + margin) return Containment::outside;
-            return angle + margin < half ? Containment::inside : Containment::partly;
-        };
-        const auto angle = [](float height, float ahead) {
-            return std::fabs(arctan2_float(height, ahead));
-        };
-        // The angle between the middle of a ball and its edge.
-        const auto margin = [&](float distance) {
-            return angle(radius, std::sqrt(distance * distance - radius * radius));
-        };
-        const float ground = std::sqrt(centre.x() * centre.x() + centre.y() * centre.y());
-        if (view_.shape == ViewShape::cone) {
-            const float off = std::sqrt(centre.y() * centre.y() + centre.z() * centre.z());
-            return compare(angle(off, centre.x()), view_.azimuth_rad, margin(range));
-        }
-        const Containment by_elevation =
-            compare(angle(centre.z(), ground), widened_.elevation_rad, margin(range));
-        const Containment by_azimuth =
-            ground <= radius
-                ? Containment::partly
-                : compare(angle(centre.y(), centre.x()), widened_.azimuth_rad, margin(ground));
-        if (by_elevation == Containment::outside || by_azimuth == Containment::outside)
-            return Containment::outside;
-        const bool inside =
-            by_elevation == Containment::inside && by_azimuth == Containment::inside && !guarded_;
-        return inside ? Containment::inside : Containment::partly;
     }
 
     bool is_buried(std::uint32_t instance) const { return buried_ && buried_->has(instance); }

@@ -244,9 +244,7 @@ TEST_SUITE("calibrated") {
         const double four_errors = 4.0 * std::sqrt(2.0 / draws);
         CHECK(std::fabs(within / (2.0 * 0.25) - 1.0) < four_errors);
         CHECK(std::fabs(across / (2.0 * 4.25) - 1.0) < four_errors);
-
-        const std::vector<float> noise{1.0F, 1.0F};
-        const ImageRows rows{.rows = 2, .beams = 8, .noise = noise};
+        const ImageRows rows{.rows = 2, .beams = 8, .noise = {}};
         for (const std::uint32_t ping : {3U, 9U}) {
             std::vector<float> image(16, 1.0F);
             CHECK(has_faults(receiver));
