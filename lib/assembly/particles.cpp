@@ -7,10 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "assembly/buried_objects.h"
 #include "calibrated/decibel.h"
-#include "calibrated/sediment_paths.h"
 #include "calibrated/target_strength.h"
-#include "calibrated/water.h"
 #include "core/elementary.h"
 #include "core/error.h"
 #include "core/random.h"
@@ -180,15 +179,8 @@ void add_particles(const Mission& mission, const Trajectory& trajectory, Scene& 
     for (Sonar& sonar : sonars) {
         Particles particles;
         particles.time_s = time_s;
-        if (std::ranges::any_of(mission.scene.particles, &ParticlesConfig::buried)) {
-            const WaterConfig& water = mission.water;
-            const double frequency_hz = sonar.config.instrument.frequency_hz;
-            const WaterState state{water.temperature_c, water.salinity_psu, water.depth_m,
-                                   water.ph};
-            particles.sediments =
-                sediment_paths(scene.materials, {water.density_kg_m3, water.sound_speed_m_s},
-                               frequency_hz, absorption_db_per_m(frequency_hz, state));
-        }
+        if (std::ranges::any_of(mission.scene.particles, &ParticlesConfig::buried))
+            particles.sediments = sediments_of(mission, scene, sonar);
         for (const ParticleGroup& group : groups) {
             for (const DrawnParticle& drawn : group.targets) {
                 Particle& particle = particles.all.emplace_back(drawn.particle);

@@ -64,15 +64,33 @@ std::vector<ObjectMotion> object_motions_at(const Scene& scene, std::span<const 
     return out;
 }
 
+double swept_hz(const SonarConfig& config, double sound_speed_m_s) {
+    const double bin_m = (config.range_max_m - config.range_min_m) / config.range_bins;
+    return pulse_band(config.instrument.pulse, bin_m, sound_speed_m_s).sweep_hz;
+}
+
 /// Range shift by speed of a pulse that sweeps over B in T: sound whose frequency f is raised by
 /// 2 v f / c fits the pulse earlier by that over B / T if it sweeps up.
 double doppler_of(const SonarConfig& config, double sound_speed_m_s) {
     const PulseConfig& pulse = config.instrument.pulse;
-    if (config.model != ModelKind::calibrated || pulse.sweep == Sweep::none) return 0.0;
-    const double bin_m = (config.range_max_m - config.range_min_m) / config.range_bins;
-    const double band_hz = pulse_band(pulse, bin_m, sound_speed_m_s).sweep_hz;
-    const double shift_s = config.instrument.frequency_hz * pulse.duration_s / band_hz;
+    const double shift_s =
+        config.instrument.frequency_hz * pulse.duration_s / swept_hz(config, sound_speed_m_s);
     return pulse.sweep == Sweep::up ? shift_s : -shift_s;
+}
+
+DopplerLoss doppler_loss_of(const SonarConfig& config, double sound_speed_m_s) {
+    const PulseConfig& pulse = config.instrument.pulse;
+    const double hz_s_per_m = 2.0 * config.instrument.frequency_hz / sound_speed_m_s;
+    if (pulse.sweep == Sweep::tone) return {.turns_s_per_m = hz_s_per_m * pulse.duration_s};
+    return {.band_s_per_m = hz_s_per_m / swept_hz(config, sound_speed_m_s)};
+}
+
+/// Adds what the speed of a target does to the pulse of this sonar.
+void add_doppler(const SonarConfig& config, double sound_speed_m_s, PingMotion& motion) {
+    const Sweep sweep = config.instrument.pulse.sweep;
+    if (config.model != ModelKind::calibrated || sweep == Sweep::none) return;
+    if (sweep != Sweep::tone) motion.doppler_s = doppler_of(config, sound_speed_m_s);
+    motion.loss = doppler_loss_of(config, sound_speed_m_s);
 }
 
 }  // namespace
@@ -91,7 +109,7 @@ void add_ping_motions(const Mission& mission, const Trajectory& trajectory, cons
         for (std::size_t pose = 0; pose < trajectory.size(); ++pose)
             motions.push_back(motion_at(trajectory, pose, sonar, sound_speed_m_s));
         for (PingMotion& motion : motions)
-            motion.doppler_s = doppler_of(sonar.config, sound_speed_m_s);
+            add_doppler(sonar.config, sound_speed_m_s, motion);
         sonar.motions = std::make_shared<const std::vector<PingMotion>>(std::move(motions));
         if (bodies.empty()) continue;
         std::vector<std::vector<ObjectMotion>> of_objects;

@@ -41,7 +41,8 @@ Trajectory form_of(const LawnmowerTrajectoryConfig& config) {
 }
 
 WaveMotion wave_motion(const MotionConfig& config) {
-    WaveMotion motion{.position_m = config.position_m, .period_s = config.period_s};
+    WaveMotion motion{
+        .position_m = config.position_m, .period_s = config.period_s, .lag_s = config.lag_s};
     for (std::size_t axis = 0; axis < 3; ++axis)
         motion.turn_rad[axis] = radians(config.turn_deg[axis]);
     return motion;

@@ -265,13 +265,14 @@ SceneParts place_scene(const Mission& mission, const Trajectory& vehicle,
         }
         if (bottom.is(object)) continue;
         const Surface placed = moved(shape, file.T_world_file);
-        if (lies_below(bottom.get(), placed)) {
+        if (!object.buried && lies_below(bottom.get(), placed)) {
             throw InputError(object.place.location,
                              title_of(object) + " lies wholly below the bottom; " +
                                  (object.place_on == ObjectPlace::free
                                       ? "raise it by position_m, or let it rest there with place: "
                                         "on_bottom"
-                                      : "lower bury_m"));
+                                      : "lower bury_m") +
+                                 "; sound reaches it there with buried: true");
         }
         if (!scene.scatter.empty()) taken.push_back(hull_of(placed.vertices));
     }

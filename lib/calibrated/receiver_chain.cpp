@@ -79,11 +79,22 @@ void add_spikes(const ReceiverConfig& receiver, const ImageRows& rows, PhiloxKey
     }
 }
 
+void apply_beam_gains(const ReceiverConfig& receiver, const ImageRows& rows, const PingDraws& draws,
+                      std::span<float> image) {
+    for (int beam = 0; beam < rows.beams; ++beam) {
+        const auto gain =
+            static_cast<float>(power_of_db(beam_gain_db(receiver, beam, rows.beams, draws)));
+        for (auto k = static_cast<std::size_t>(beam); k < image.size(); k += rows.beams)
+            image[k] = std::min(gain * image[k], most_value);
+    }
+}
+
 }  // namespace
 
 bool has_faults(const ReceiverConfig& receiver) {
     return receiver.ring_down_db > 0.0 || receiver.interference.level_db > 0.0 ||
            receiver.spikes_per_ping > 0.0 || receiver.gain_drift_db > 0.0 ||
+           receiver.beam_gain_db > 0.0 || receiver.sector_gain_db > 0.0 ||
            receiver.dropped_share > 0.0;
 }
 
@@ -115,6 +126,16 @@ double drifting_gain_db(const ReceiverConfig& receiver, const PingDraws& draws) 
     return receiver.gain_drift_db * (weights.cos * before + weights.sin * after);
 }
 
+double beam_gain_db(const ReceiverConfig& receiver, int beam, int beams, const PingDraws& draws) {
+    const PhiloxKey key = stream_key(draws.seed, draws.sensor, 0, stream_named("beam gains"));
+    const auto normal = [&](std::uint32_t number, std::uint32_t what) {
+        return normal_pair(philox({number, what, 0, 0}, key).x0).first;
+    };
+    const auto sector = static_cast<std::uint32_t>(std::int64_t{beam} * receiver.sectors / beams);
+    return receiver.beam_gain_db * normal(static_cast<std::uint32_t>(beam), 0) +
+           receiver.sector_gain_db * normal(sector, 1);
+}
+
 void add_faults(const ReceiverConfig& receiver, const ImageRows& rows, const PingDraws& draws,
                 std::span<float> image) {
     const PhiloxKey key = draws.of(stream_named("receiver faults"));
@@ -134,6 +155,8 @@ void add_faults(const ReceiverConfig& receiver, const ImageRows& rows, const Pin
         for (float& value : image)
             value = std::min(gain * value, most_value);
     }
+    if (receiver.beam_gain_db > 0.0 || receiver.sector_gain_db > 0.0)
+        apply_beam_gains(receiver, rows, draws, image);
 }
 
 }  // namespace sonarsim

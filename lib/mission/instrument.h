@@ -58,8 +58,9 @@ struct BeamConfig {
     bool operator==(const BeamConfig&) const = default;
 };
 
-/// The direction in which the frequency of a coded pulse runs.
-enum class Sweep { none, up, down };
+/// The direction in which the frequency of a coded pulse runs. `none`: motion does not change its
+/// echo.
+enum class Sweep { none, up, down, tone };
 
 struct PulseConfig {
     double resolution_m = 0.0;    ///< half-power width of a point target in range; 0: one bin
@@ -67,7 +68,7 @@ struct PulseConfig {
     double side_lobe_db = -30.0;  ///< highest range side lobe after compression
     /// Energy of the far side lobes by that of the pulse, spread over `duration_s`; -300: none.
     double floor_db = -300.0;
-    Sweep sweep = Sweep::none;  ///< motion shifts the range of a pulse that sweeps
+    Sweep sweep = Sweep::none;  ///< motion shifts and weakens its echoes
 
     bool operator==(const PulseConfig&) const = default;
 };
@@ -117,6 +118,9 @@ struct ReceiverConfig {
     double ring_down_m = 0.1;        ///< range over which it falls by 10 dB
     double gain_drift_db = 0.0;      ///< standard deviation of the gain of pings
     double gain_drift_pings = 20.0;  ///< pings over which the gain changes
+    double beam_gain_db = 0.0;       ///< standard deviation of the gains of the beams
+    double sector_gain_db = 0.0;     ///< standard deviation of the gains of sectors of beams
+    int sectors = 1;                 ///< equal shares of the beams
     double dropped_share = 0.0;      ///< share of the pings
     double spikes_per_ping = 0.0;
     double spike_db = 40.0;  ///< above the noise

@@ -89,9 +89,9 @@ void describe(Visitor& v, BeamConfig& c) {
               "elevation_width_deg is 0, for a constant pattern, or at least 0.01");
 }
 
-inline constexpr std::array sweeps{Choice<Sweep>{"none", Sweep::none},
-                                   Choice<Sweep>{"up", Sweep::up},
-                                   Choice<Sweep>{"down", Sweep::down}};
+inline constexpr std::array sweeps{
+    Choice<Sweep>{"none", Sweep::none}, Choice<Sweep>{"up", Sweep::up},
+    Choice<Sweep>{"down", Sweep::down}, Choice<Sweep>{"tone", Sweep::tone}};
 
 template <class Visitor>
 void describe(Visitor& v, PulseConfig& c) {
@@ -110,9 +110,11 @@ void describe(Visitor& v, PulseConfig& c) {
              "and behind each echo, relative to the pulse; -300 means none");
     v.choice("sweep", c.sweep, sweeps,
              "with moves_in_ping: the frequency of the coded pulse runs `up` or `down`, so that "
-             "what approaches is measured too near or too far; `none`: its ranges are right");
+             "what approaches is measured too near or too far, and is weaker by the share of the "
+             "band that it is shifted; `tone`: the filter is as narrow as one over duration_s, and "
+             "passes less of what approaches or recedes; `none`: neither");
     v.require(c.sweep == Sweep::none || c.duration_s > 0.0, {"sweep", "duration_s"},
-              "a pulse that sweeps needs a duration_s above 0");
+              "a pulse that sweeps, or is a tone, needs a duration_s above 0");
 }
 
 template <class Visitor>
@@ -164,6 +166,12 @@ void describe_chain(Visitor& v, ReceiverConfig& c) {
              "standard deviation of a gain that drifts from ping to ping");
     v.number("gain_drift_pings", c.gain_drift_pings, between(1, 1e6),
              "pings over which this gain changes");
+    v.number("beam_gain_db", c.beam_gain_db, between(0, 30),
+             "standard deviation of the gains of single beams, which stay from ping to ping");
+    v.number("sector_gain_db", c.sector_gain_db, between(0, 30),
+             "standard deviation of the gains of sectors, which stay, too");
+    v.integer("sectors", c.sectors, between(1, 64),
+              "number of sectors, which share the beams equally");
     v.number("dropped_share", c.dropped_share, between(0, 1), "share of the pings that are lost");
     v.number("spikes_per_ping", c.spikes_per_ping, between(0, 1e4),
              "mean number of bins of a ping with an electric spike");

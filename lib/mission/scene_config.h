@@ -43,6 +43,7 @@ struct ObjectConfig {
     ObjectPlace place_on = ObjectPlace::free;
     double bury_m = 0.0;  ///< burial depth of an object on the bottom
     bool align = false;   ///< upright on the bottom's slope
+    bool buried = false;  ///< sound reaches what lies below the bottom through it
     std::optional<TrajectoryConfig> trajectory;
     MissionPlace place;
 

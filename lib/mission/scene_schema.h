@@ -69,6 +69,9 @@ void describe(Visitor& v, ObjectConfig& c) {
              "depth to which an object on the bottom is buried; a negative one raises it above the "
              "bottom");
     v.flag("align", c.align, "an object on the bottom stands upright on the slope below it");
+    v.flag("buried", c.buried,
+           "the object may lie wholly below the bottom, whose sea bed refracts and absorbs the "
+           "sound on both ways; its labels say so");
     v.optional_section("trajectory", c.trajectory,
                        "trajectory of a moving object, written like the vehicle's. Waypoints and a "
                        "lawnmower begin with the first ping; a file has its own times");
@@ -78,6 +81,8 @@ void describe(Visitor& v, ObjectConfig& c) {
               "an object that moves cannot rest on the bottom: its trajectory says where it is");
     v.require(!c.trajectory || !c.name.empty(), {"trajectory"},
               "an object that moves needs a name, for its poses in the metadata");
+    v.require(!c.buried || (!c.name.empty() && !c.trajectory), {"buried", "name", "trajectory"},
+              "a buried object needs a name, for its labels, and does not move");
 }
 
 template <class Visitor>

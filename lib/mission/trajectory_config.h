@@ -49,6 +49,7 @@ struct MotionConfig {
     std::array<double, 3> position_m{};  ///< surge, sway, heave
     std::array<double, 3> turn_deg{};    ///< roll, pitch, yaw
     double period_s = 8.0;               ///< at the spectrum's peak
+    double lag_s = 0.0;                  ///< time constant by which a towed vehicle follows
 
     bool operator==(const MotionConfig&) const = default;
 };

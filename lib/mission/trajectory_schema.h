@@ -67,6 +67,9 @@ void describe(Visitor& v, MotionConfig& c) {
     v.numbers("turn_deg", c.turn_deg, deviation_deg, "standard deviations of roll, pitch and yaw");
     v.number("period_s", c.period_s, between(0.1, 1000),
              "period of the strongest waves; the spectrum is that of Pierson and Moskowitz");
+    v.number("lag_s", c.lag_s, between(0, 1000),
+             "time constant by which a towed vehicle follows the movements, which are those of "
+             "what tows it; 0 means at once");
 }
 
 template <class Visitor>

@@ -27,6 +27,39 @@ double refraction_angle(double speed_ratio, double height_m, double depth_m, dou
     return arctan2(low * most, std::sqrt((1.0 - low * most) * (1.0 + low * most)));
 }
 
+/// A buried place as the sonar sees it.
+struct BuriedSight {
+    Eigen::Vector3d leaves;   ///< direction in which sound leaves for it
+    Eigen::Vector3d arrives;  ///< direction in which that sound arrives there
+    double range_m;           ///< half of the two-way time, as a way in water
+    double echo;              ///< echo_through_bottom()
+};
+
+/// `along_m`: the distance at which the straight line to the place meets the bottom.
+std::optional<BuriedSight> sight_of(std::span<const SedimentPath> sediments,
+                                    const Eigen::Vector3d& place, double along_m,
+                                    const Intersection& hit) {
+    const double range = place.norm();
+    if (!(along_m > 0.0 && along_m < range) || hit.material >= sediments.size())
+        return std::nullopt;
+    const SedimentPath& sediment = sediments[hit.material];
+    if (sediment.speed_ratio == 0.0) return std::nullopt;
+    const Eigen::Vector3d normal = hit.normal.cast<double>();
+    const double cosine = -normal.dot(place) / range;
+    const Eigen::Vector3d along = place + range * cosine * normal;
+    const double across = along.norm();
+    const WayIntoBottom way =
+        way_into_bottom(sediment, along_m * cosine, (range - along_m) * cosine, across);
+    const auto direction = [&](double sine) -> Eigen::Vector3d {
+        const Eigen::Vector3d down =
+            -std::sqrt(std::max((1.0 - sine) * (1.0 + sine), 0.0)) * normal;
+        return across > 0.0 ? down + sine / across * along : down;
+    };
+    const double sine = sincos(way.angle_rad).sin;
+    return BuriedSight{direction(sine), direction(std::min(sediment.speed_ratio * sine, 1.0)),
+                       way.range_m(sediment), echo_through_bottom(sediment, way)};
+}
+
 }  // namespace
 
 WayIntoBottom way_into_bottom(const SedimentPath& sediment, double height_m, double depth_m,
@@ -60,27 +93,39 @@ double echo_through_bottom(const SedimentPath& sediment, const WayIntoBottom& wa
 
 std::optional<Sample> seen_buried(std::span<const SedimentPath> sediments, const Sample& point,
                                   const Intersection& hit) {
-    if (!(hit.distance_m < point.height_m) || hit.material >= sediments.size()) return std::nullopt;
-    const SedimentPath& sediment = sediments[hit.material];
-    if (sediment.speed_ratio == 0.0) return std::nullopt;
-    const Eigen::Vector3d normal = hit.normal.cast<double>();
-    const Eigen::Vector3d place = point.position.cast<double>();
-    const double range = place.norm();
-    const double cosine = -normal.dot(place) / range;
-    const double height = hit.distance_m * cosine;
-    const double depth = (range - hit.distance_m) * cosine;
-    const Eigen::Vector3d along = place + range * cosine * normal;
-    const double across = along.norm();
-    const WayIntoBottom way = way_into_bottom(sediment, height, depth, across);
-    const SinCos angle = sincos(way.angle_rad);
-    Eigen::Vector3d direction = -angle.cos * normal;
-    if (across > 0.0) direction += angle.sin / across * along;
+    const auto sight = sight_of(sediments, point.position.cast<double>(), hit.distance_m, hit);
+    if (!sight) return std::nullopt;
     Sample seen = point;
-    const double apparent = way.range_m(sediment);
-    seen.position = (apparent * direction).cast<float>();
-    seen.normal = -direction.cast<float>();
-    seen.height_m = static_cast<float>(apparent);
-    seen.area_m2 = static_cast<float>(point.area_m2 * echo_through_bottom(sediment, way));
+    seen.position = (sight->range_m * sight->leaves).cast<float>();
+    seen.normal = -sight->leaves.cast<float>();
+    seen.height_m = static_cast<float>(sight->range_m);
+    seen.area_m2 = static_cast<float>(point.area_m2 * sight->echo);
+    return seen;
+}
+
+std::optional<TargetFacet> seen_buried(std::span<const SedimentPath> sediments,
+                                       const TargetFacet& part, const Ray& ray,
+                                       const Intersection& hit) {
+    const Eigen::Vector3f middle = (part.corners[0] + part.corners[1] + part.corners[2]) / 3.0F;
+    const Eigen::Vector3d place = middle.cast<double>();
+    // The straight line to the part itself meets the bottom here.
+    const Eigen::Vector3d normal = hit.normal.cast<double>();
+    const double along =
+        ray.direction.cast<double>().dot(normal) / place.normalized().dot(normal) * hit.distance_m;
+    const auto sight = sight_of(sediments, place, along, hit);
+    if (!sight) return std::nullopt;
+    const Eigen::Matrix3f turn = Eigen::Quaterniond::FromTwoVectors(sight->arrives, sight->leaves)
+                                     .toRotationMatrix()
+                                     .cast<float>();
+    const Eigen::Vector3f seen_middle = (sight->range_m * sight->leaves).cast<float>();
+    TargetFacet seen = part;
+    seen.normal = turn * part.normal;
+    if (!(seen.normal.dot(seen_middle) < 0.0F)) return std::nullopt;
+    for (int k = 0; k < 3; ++k) {
+        seen.corners[k] = seen_middle + turn * (part.corners[k] - middle);
+        seen.normals[k] = turn * part.normals[k];
+    }
+    seen.strength *= static_cast<float>(sight->echo);
     return seen;
 }
 

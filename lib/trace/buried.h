@@ -1,9 +1,13 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
+#include "trace/target_facet.h"
 #include "visibility/engine.h"
 
 namespace sonarsim {
@@ -50,5 +54,22 @@ double echo_through_bottom(const SedimentPath& sediment, const WayIntoBottom& wa
 /// bed above it.
 std::optional<Sample> seen_buried(std::span<const SedimentPath> sediments, const Sample& point,
                                   const Intersection& hit);
+
+/// The part of a buried object as the sonar sees it: at such a place, and turned so that its normal
+/// has the angle to the sight line that it has to the sound in the sediment. Nothing, too, if it
+/// faces away from that. `hit`: what a ray from the sonar near the part meets first.
+std::optional<TargetFacet> seen_buried(std::span<const SedimentPath> sediments,
+                                       const TargetFacet& part, const Ray& ray,
+                                       const Intersection& hit);
+
+/// The objects of a scene that sound reaches through the bottom.
+struct BuriedObjects {
+    std::vector<std::uint32_t> instances;  ///< ascending
+    std::vector<SedimentPath> sediments;   ///< one for each of Scene::materials
+
+    bool has(std::uint32_t instance) const {
+        return std::ranges::binary_search(instances, instance);
+    }
+};
 
 }  // namespace sonarsim

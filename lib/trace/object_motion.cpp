@@ -51,6 +51,20 @@ class ObjectMover {
         return {shifted(sonar_, met, velocity), turn.toRotationMatrix()};
     }
 
+    /// The speed at which a place recedes from the sonar; null: it stands still.
+    double recedes_m_s(const ObjectMotion* motion, const Eigen::Vector3d& place) const {
+        Eigen::Vector3d velocity = -sonar_.velocity_m_s;
+        if (motion != nullptr) {
+            const Eigen::Vector3d world =
+                T_world_sensor_.rotation * place + T_world_sensor_.translation;
+            const Eigen::Vector3d arm =
+                world - motion->centre_m - moving_.later_s * motion->velocity_m_s;
+            velocity += T_world_sensor_.rotation.conjugate() *
+                        (motion->velocity_m_s + motion->turn_rad_s.cross(arm));
+        }
+        return velocity.dot(place.normalized());
+    }
+
   private:
     MovingObjects moving_;
     const PingMotion& sonar_;
@@ -103,6 +117,28 @@ void move_objects(const MovingObjects& moving, const PingMotion& sonar, const Po
             facet.normals[k] = turn_f * facet.normals[k];
             if (k == 0) facet.normal = turn_f * facet.normal;
         }
+    }
+}
+
+void fade_by_doppler(const MovingObjects& moving, const PingMotion& sonar,
+                     const Pose& T_world_sensor, std::span<Sample> samples) {
+    if (sonar.loss.is_none()) return;
+    const ObjectMover mover(moving, sonar, T_world_sensor);
+    for (Sample& sample : samples) {
+        const double recedes =
+            mover.recedes_m_s(mover.motion_of(sample.instance), sample.position.cast<double>());
+        sample.strength *= static_cast<float>(passed_by_filter(sonar.loss, recedes));
+    }
+}
+
+void fade_by_doppler(const MovingObjects& moving, const PingMotion& sonar,
+                     const Pose& T_world_sensor, std::span<TargetFacet> facets) {
+    if (sonar.loss.is_none()) return;
+    const ObjectMover mover(moving, sonar, T_world_sensor);
+    for (TargetFacet& facet : facets) {
+        const double recedes =
+            mover.recedes_m_s(mover.motion_of(facet.instance), facet.corners[0].cast<double>());
+        facet.strength *= static_cast<float>(passed_by_filter(sonar.loss, recedes));
     }
 }
 

@@ -41,4 +41,10 @@ void move_objects(const MovingObjects& moving, const PingMotion& sonar, const Po
 void move_objects(const MovingObjects& moving, const PingMotion& sonar, const Pose& T_world_sensor,
                   std::span<TargetFacet> facets);
 
+/// Weakens the echoes of what approaches or recedes, by the motion of sonar and object.
+void fade_by_doppler(const MovingObjects& moving, const PingMotion& sonar,
+                     const Pose& T_world_sensor, std::span<Sample> samples);
+void fade_by_doppler(const MovingObjects& moving, const PingMotion& sonar,
+                     const Pose& T_world_sensor, std::span<TargetFacet> facets);
+
 }  // namespace sonarsim

@@ -25,6 +25,8 @@ namespace {
 void move_point(const PingMotion& motion, ViewShape shape, const Eigen::Vector3d& velocity,
                 Sample& sample) {
     Eigen::Vector3d place = sample.position.cast<double>();
+    const double recedes = (velocity - motion.velocity_m_s).dot(place.normalized());
+    sample.area_m2 *= static_cast<float>(passed_by_filter(motion.loss, recedes));
     if (!velocity.isZero(0.0))
         place = met_place(motion, place, velocity);
     else if (motion.is_still())

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/pose.h"
+#include "trace/doppler_loss.h"
 #include "trace/target_surface.h"
 #include "visibility/engine.h"
 
@@ -17,6 +18,8 @@ struct PingMotion {
     double sound_speed_m_s = 0.0;  ///< 0: the sonar stands still
     /// A pulse that sweeps measures a place too far by this times the speed at which it recedes.
     double doppler_s = 0.0;
+    /// The loss of the pulse's filter for a shifted echo.
+    DopplerLoss loss = {};
 
     bool is_still() const {
         return !(sound_speed_m_s > 0.0) || (velocity_m_s.isZero(0.0) && turn_rad_s.isZero(0.0));

@@ -7,6 +7,7 @@
 
 #include "core/elementary.h"
 #include "trace/arrivals.h"
+#include "trace/ball_in_view.h"
 #include "trace/cut_triangle.h"
 #include "trace/lay_target_maps.h"
 #include "visibility/view_volume.h"
@@ -54,8 +55,9 @@ struct Target {
 
 class TargetSampler {
   public:
-    TargetSampler(const View& view, const GuardBeams& guard_beams)
+    TargetSampler(const View& view, const GuardBeams& guard_beams, const BuriedObjects* buried)
         : view_(view),
+          buried_(buried),
           guarded_(guard_beams.count > 0),
           widened_(widened_view(view, guard_beams)),
           field_(widened_) {}
@@ -71,7 +73,8 @@ class TargetSampler {
         if (range - radius > static_cast<float>(view_.range_max_m) ||
             range < least_distance_by_radius * radius)
             return std::nullopt;
-        const Containment contained = containment(centre, range, radius);
+        const Containment contained =
+            ball_in_view(view_, widened_, guarded_, {centre, range, radius});
         if (contained == Containment::outside) return std::nullopt;
         const float cell = std::max(static_cast<float>(resolved_width(view_)) * range,
                                     static_cast<float>(view_.bin_m()));
@@ -79,7 +82,8 @@ class TargetSampler {
             shape.curvature_m > 0.0F ? scale * shape.curvature_m * placed.least_slope : radius;
         // On a coarse mesh an engine sees facets where the surface is curved.
         const bool is_smooth = shape.turn <= placed.least_slope;
-        if (highlight > most_cells * cell && is_smooth) return std::nullopt;
+        if (highlight > most_cells * cell && is_smooth && !is_buried(placed.instance))
+            return std::nullopt;
         const float part = part_by_diameter * 2.0F * radius;
         return Target{
             &placed, &shape, T_sensor_shape, scale, cell, part, contained == Containment::inside};
@@ -91,13 +95,15 @@ class TargetSampler {
         for (const Eigen::Vector3f& p : shape.vertices)
             vertices_.push_back(target.T_sensor_shape * p);
         const Eigen::Matrix3f R = target.T_sensor_shape.linear() / target.scale;
+        // Sound that is refracted may meet what faces away from the straight line.
+        const bool is_outside = shape.closed && is_buried(target.placed->instance);
         last_point_.reset();
         parts_.reserve(parts_.size() + 2 * shape.triangles.size());
         for (const TargetTriangle& triangle : shape.triangles) {
             Eigen::Vector3f normal = R * triangle.normal;
             const float height = -normal.dot(vertices_[triangle.corners[0]]);
-            if (shape.closed && !(height > 0.0F)) continue;
-            const float side = height < 0.0F ? -1.0F : 1.0F;
+            if (shape.closed && !is_outside && !(height > 0.0F)) continue;
+            const float side = height < 0.0F && !is_outside ? -1.0F : 1.0F;
             TargetFacet facet{.corners = {},
                               .normals = {},
                               .normal = side * normal,
@@ -119,7 +125,13 @@ class TargetSampler {
         engine.intersect(T_world_sensor, rays_, hits);
         std::size_t kept = 0;
         for (std::size_t k = 0; k < parts_.size(); ++k) {
-            if (!is_reached(aims_[ray_of_[k]], hits[ray_of_[k]])) continue;
+            const std::uint32_t ray = ray_of_[k];
+            if (!is_reached(aims_[ray], hits[ray])) {
+                if (!is_buried(parts_[k].instance)) continue;
+                const auto seen = seen_buried(buried_->sediments, parts_[k], rays_[ray], hits[ray]);
+                if (!seen) continue;
+                parts_[k] = *seen;
+            }
             if (kept != k) parts_[kept] = parts_[k];
             ++kept;
         }
@@ -143,37 +155,7 @@ class TargetSampler {
         return hit.distance_m + slack >= aim.range_m;
     }
 
-    /// The position of a ball that does not hold the sonar, relative to the view.
-    Containment containment(const Eigen::Vector3f& centre, float range, float radius) const {
-        const auto compare = [](float angle, double full, float margin) {
-            const auto half = static_cast<float>(0.5 * full);
-            if (angle > half + margin) return Containment::outside;
-            return angle + margin < half ? Containment::inside : Containment::partly;
-        };
-        const auto angle = [](float height, float ahead) {
-            return std::fabs(arctan2_float(height, ahead));
-        };
-        // The angle between the middle of a ball and its edge.
-        const auto margin = [&](float distance) {
-            return angle(radius, std::sqrt(distance * distance - radius * radius));
-        };
-        const float ground = std::sqrt(centre.x() * centre.x() + centre.y() * centre.y());
-        if (view_.shape == ViewShape::cone) {
-            const float off = std::sqrt(centre.y() * centre.y() + centre.z() * centre.z());
-            return compare(angle(off, centre.x()), view_.azimuth_rad, margin(range));
-        }
-        const Containment by_elevation =
-            compare(angle(centre.z(), ground), widened_.elevation_rad, margin(range));
-        const Containment by_azimuth =
-            ground <= radius
-                ? Containment::partly
-                : compare(angle(centre.y(), centre.x()), widened_.azimuth_rad, margin(ground));
-        if (by_elevation == Containment::outside || by_azimuth == Containment::outside)
-            return Containment::outside;
-        const bool inside =
-            by_elevation == Containment::inside && by_azimuth == Containment::inside && !guarded_;
-        return inside ? Containment::inside : Containment::partly;
-    }
+    bool is_buried(std::uint32_t instance) const { return buried_ && buried_->has(instance); }
 
     bool is_in_view(const Eigen::Vector3f& p) const {
         if (field_.beam(p, arrival_range(p)) < 0.0F) return false;
@@ -250,6 +232,7 @@ class TargetSampler {
     static constexpr float weld_slack = 2e-5F;
 
     const View& view_;
+    const BuriedObjects* buried_;  ///< null: none
     bool guarded_;
     View widened_;
     BeamLocator field_;
@@ -277,9 +260,10 @@ Eigen::Affine3f in_sensor_frame(const PlacedTarget& placed, const Scene& scene,
 
 TargetSurface target_surface(const TargetShapes& shapes, const View& view,
                              const GuardBeams& guard_beams, const Scene& scene,
-                             const VisibilityEngine& engine, const Pose& T_world_sensor) {
+                             const VisibilityEngine& engine, const Pose& T_world_sensor,
+                             const BuriedObjects* buried) {
     TargetSurface out;
-    TargetSampler sampler(view, guard_beams);
+    TargetSampler sampler(view, guard_beams, buried);
     const std::span<const Pose> bodies = engine.body_poses();
     for (const PlacedTarget& placed : shapes.placed) {
         if (placed.body && bodies.empty()) continue;  // without a pose it is invisible

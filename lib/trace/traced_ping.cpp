@@ -44,11 +44,14 @@ TracedPing trace_ping(const TraceSettings& settings, const Scene& scene,
         if (motion.is_still())
             sort_into_beams(settings.view, traced.samples, traced.outside_sector);
     }
+    fade_by_doppler(objects, motion, T_world_sensor, traced.samples.items);
+    fade_by_doppler(objects, motion, T_world_sensor, traced.outside_sector);
     move_in_ping(motion, settings.view, traced.samples, traced.outside_sector);
     if (settings.targets) {
         traced.targets = target_surface(*settings.targets, settings.view, settings.guard_beams,
-                                        scene, engine, T_world_sensor);
+                                        scene, engine, T_world_sensor, settings.buried.get());
         move_objects(objects, motion, T_world_sensor, traced.targets.facets);
+        fade_by_doppler(objects, motion, T_world_sensor, traced.targets.facets);
         move_in_ping(motion, settings.view.shape, traced.targets.facets);
     }
     if (settings.coherent) {

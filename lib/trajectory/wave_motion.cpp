@@ -17,9 +17,11 @@ constexpr std::uint32_t cosines = 64;
 struct Cosine {
     double rad_per_s;
     double phase;
+    double amplitude;
 };
 
-std::vector<Cosine> draw_cosines(std::uint32_t movement, double period_s, PhiloxKey draws) {
+std::vector<Cosine> draw_cosines(std::uint32_t movement, const WaveMotion& motion,
+                                 PhiloxKey draws) {
     std::vector<Cosine> out;
     out.reserve(cosines);
     for (std::uint32_t k = 0; k < cosines; ++k) {
@@ -28,7 +30,10 @@ std::vector<Cosine> draw_cosines(std::uint32_t movement, double period_s, Philox
         const double share =
             std::clamp((k + unit_double(words.x0, words.x1)) / cosines, 1e-9, 1.0 - 1e-9);
         const double of_peak = std::sqrt(std::sqrt(1.25 / -logarithm(share)));
-        out.push_back({2.0 * pi * of_peak / period_s, 2.0 * pi * unit_double(words.x2, words.x3)});
+        const double rad_per_s = 2.0 * pi * of_peak / motion.period_s;
+        const double late = rad_per_s * motion.lag_s;
+        out.push_back({rad_per_s, 2.0 * pi * unit_double(words.x2, words.x3) - arctan2(late, 1.0),
+                       1.0 / std::sqrt(1.0 + late * late)});
     }
     return out;
 }
@@ -36,7 +41,7 @@ std::vector<Cosine> draw_cosines(std::uint32_t movement, double period_s, Philox
 double sum_at(const std::vector<Cosine>& spectrum, double t_s) {
     double sum = 0.0;
     for (const Cosine& one : spectrum)
-        sum += sincos(one.rad_per_s * t_s + one.phase).cos;
+        sum += one.amplitude * sincos(one.rad_per_s * t_s + one.phase).cos;
     return sum * std::sqrt(2.0 / cosines);
 }
 
@@ -51,7 +56,7 @@ void add_wave_motion(const WaveMotion& motion, PhiloxKey draws, Trajectory& pose
     if (poses.empty() || !motion.is_on()) return;
     std::array<std::vector<Cosine>, 6> spectra;
     for (std::uint32_t movement = 0; movement < spectra.size(); ++movement)
-        spectra[movement] = draw_cosines(movement, motion.period_s, draws);
+        spectra[movement] = draw_cosines(movement, motion, draws);
     const double start_s = poses.front().t_s;
     for (TimedPose& pose : poses) {
         const auto moved = [&](std::size_t movement, double deviation) {

@@ -12,6 +12,9 @@ struct WaveMotion {
     std::array<double, 3> position_m{};  ///< surge (ahead), sway (to port), heave (up)
     std::array<double, 3> turn_rad{};    ///< roll, pitch, yaw
     double period_s = 8.0;               ///< at the spectrum's peak
+    /// Time constant T by which a towed vehicle follows y of what tows it, T dx/dt = y - x: a
+    /// cosine of w comes smaller by sqrt(1 + (w T)^2), and later by atan(w T) of its phase.
+    double lag_s = 0.0;
 
     bool is_on() const;
 };

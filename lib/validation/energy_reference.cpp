@@ -5,9 +5,9 @@
 
 #include "trace/target_surface.h"
 #include "trace/visible_surface.h"
-#include "visibility/reference_cast.h"
 #include "visibility/intersect.h"
 #include "visibility/local_pose.h"
+#include "visibility/reference_cast.h"
 
 namespace sonarsim {
 
@@ -115,8 +115,9 @@ Reference cast_energy_reference(const Caster& caster, const Scene& scene,
     const std::vector<SurfaceShare> shares = surface_shares(scene, view, pose);
     TargetSurface targets;
     if (settings.targets) {
-        targets = target_surface(*settings.targets, settings.view, settings.guard_beams, scene,
-                                 TargetRays(caster, scene.origin), T_world_sensor);
+        targets =
+            target_surface(*settings.targets, settings.view, settings.guard_beams, scene,
+                           TargetRays(caster, scene.origin), T_world_sensor, settings.buried.get());
     }
     const ReferenceView looking{caster, scene, view, pose, shares};
     return settled(settings.view, goal, [&](int per_beam, int count) {

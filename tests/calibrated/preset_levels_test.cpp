@@ -75,7 +75,7 @@ TEST_SUITE("calibrated") {
             const std::vector<double> rows = mean_rows(sonar, bed_of(phi), altitude_m, 0, 2);
             const double bottom = mean_between(sonar, rows, 1.33 * altitude_m, 2.67 * altitude_m);
             const double water = mean_between(sonar, rows, 1.2, 0.9 * altitude_m);
-            MESSAGE(preset, ", phi ", phi, ": ", db_of_power(bottom / water), " dB");
+            MESSAGE(std::string(preset), ", phi ", phi, ": ", db_of_power(bottom / water), " dB");
             return db_of_power(bottom / water);
         };
         // Sand, silty sand, silt.

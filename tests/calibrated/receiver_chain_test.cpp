@@ -223,6 +223,39 @@ TEST_SUITE("calibrated") {
         CHECK(std::abs(spikes - 200) < 57);  // Poisson, 4 sigma
     }
 
+    // Gains of beams are normal in dB with their own spread s and that of their sector S, which
+    // half of the beams share: neighbours differ by 2 s^2, beams of two sectors by 2 (s^2 + S^2).
+    TEST_CASE("receiver: gains of beams and of their sectors stay") {
+        ReceiverConfig receiver;
+        receiver.beam_gain_db = 0.5;
+        receiver.sector_gain_db = 2.0;
+        receiver.sectors = 2;
+        constexpr int draws = 2000;
+        double within = 0.0;
+        double across = 0.0;
+        for (std::uint64_t seed = 0; seed < draws; ++seed) {
+            const auto gain = [&](int beam) {
+                return beam_gain_db(receiver, beam, 8, {seed, 2, 7});
+            };
+            within += std::pow(gain(1) - gain(2), 2) / draws;
+            across += std::pow(gain(3) - gain(4), 2) / draws;
+        }
+        // Four standard errors of a mean of squares, sqrt(2 / draws) of it, once in 16,000 runs.
+        const double four_errors = 4.0 * std::sqrt(2.0 / draws);
+        CHECK(std::fabs(within / (2.0 * 0.25) - 1.0) < four_errors);
+        CHECK(std::fabs(across / (2.0 * 4.25) - 1.0) < four_errors);
+        const ImageRows rows{.rows = 2, .beams = 8, .noise = {}};
+        for (const std::uint32_t ping : {3U, 9U}) {
+            std::vector<float> image(16, 1.0F);
+            CHECK(has_faults(receiver));
+            add_faults(receiver, rows, {1, 2, ping}, image);
+            for (int k = 0; k < 16; ++k) {
+                CHECK(10.0 * std::log10(image[k]) ==
+                      doctest::Approx(beam_gain_db(receiver, k % 8, 8, {1, 2, 0})).epsilon(1e-4));
+            }
+        }
+    }
+
     TEST_CASE("receiver: pings are lost with their share, and an offset makes zeros") {
         ReceiverConfig chain;
         chain.dropped_share = 0.3;

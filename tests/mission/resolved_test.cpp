@@ -109,6 +109,7 @@ vehicle:
     position_m: [0, 0, 0]
     turn_deg: [0, 0, 0]
     period_s: 8
+    lag_s: 0
   navigation:
     position_m: 0
     depth_m: 0

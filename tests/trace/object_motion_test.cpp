@@ -8,6 +8,7 @@
 #include "core/units.h"
 #include "sonar/kinds.h"
 #include "sonar/sonar.h"
+#include "support/patches.h"
 #include "support/scenes.h"
 #include "visibility/rays/rays_engine.h"
 
@@ -25,14 +26,7 @@ PingMotion at_rest() {
 }
 
 Sample plate_at(const Eigen::Vector3f& position) {
-    return {.position = position,
-            .edge_u = {0.0F, 0.1F, 0.0F},
-            .edge_v = {0.0F, 0.0F, 0.1F},
-            .normal = {-1.0F, 0.0F, 0.0F},
-            .height_m = position.x(),
-            .area_m2 = 0.04F,
-            .material = 0,
-            .instance = 4};
+    return patch_with(position, {-1.0F, 0.0F, 0.0F}, 4);
 }
 
 }  // namespace

@@ -6,8 +6,10 @@
 #include <random>
 
 #include "core/units.h"
+#include "support/patches.h"
 
 using namespace sonarsim;
+using namespace sonarsim::test;
 
 namespace {
 
@@ -19,17 +21,6 @@ PingMotion moving(const Eigen::Vector3d& velocity, const Eigen::Vector3d& turn) 
 
 double azimuth_of(const Eigen::Vector3d& p) {
     return std::atan2(p.y(), p.x());
-}
-
-Sample patch_at(const Eigen::Vector3f& position) {
-    return {.position = position,
-            .edge_u = {0.0F, 0.1F, 0.0F},
-            .edge_v = {0.0F, 0.0F, 0.1F},
-            .normal = -position.normalized(),
-            .height_m = position.norm(),
-            .area_m2 = 0.04F,
-            .material = 0,
-            .instance = 0};
 }
 
 }  // namespace
@@ -118,9 +109,9 @@ TEST_SUITE("trace") {
         samples.beam_begin = {0};
         for (int j = 0; j < 10; ++j) {
             const double azimuth = radians(-27.0 + 6.0 * j);
-            samples.items.push_back(
-                patch_at(Eigen::Vector3d(75.0 * std::cos(azimuth), 75.0 * std::sin(azimuth), 0.0)
-                             .cast<float>()));
+            const Eigen::Vector3f ahead =
+                Eigen::Vector3d(std::cos(azimuth), std::sin(azimuth), 0.0).cast<float>();
+            samples.items.push_back(patch_with(75.0F * ahead, -ahead));
             samples.beam_begin.push_back(static_cast<std::uint32_t>(j + 1));
         }
         const Samples before = samples;

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "mission/mission.h"
+#include "ping/sonar.h"
+#include "scene/scene.h"
+#include "trace/buried.h"
+
+namespace sonarsim {
+
+/// The ways of sound into the sea beds of a scene, at the frequency of a sonar.
+std::vector<SedimentPath> sediments_of(const Mission& mission, const Scene& scene,
+                                       const Sonar& sonar);
+
+/// Gives the sonars the objects of the mission that are buried. find_targets() comes before.
+/// InputError for one that is too large.
+void bury_objects(const Mission& mission, const Scene& scene, std::span<Sonar> sonars);
+
+}  // namespace sonarsim
