@@ -150,6 +150,14 @@ TEST_SUITE("recording") {
         const Recording lenses = load_recording(folder.path);
         CHECK(lenses.pings.size() == 2);
         CHECK(lenses.first_range_m == doctest::Approx(0.5 * 1450.0 * 1004e-6));
+        write_file(folder.path / "d.ddf", didson_file(3, 2, 4));
+        const std::string old = "kind: imaging\nlogs: d.ddf\n";
+        refused(old, "add `sound_speed_m_s`");
+        refused(old + "sound_speed_m_s: 1500\n", "add `bearing_first_deg`");
+        yaml(old + "sound_speed_m_s: 1500\nbearing_first_deg: 14\nbearing_last_deg: -14\n");
+        const Recording didson = load_recording(folder.path);
+        CHECK(didson.range_step_m == doctest::Approx(0.015));
+        CHECK(power_of(didson.law, 127.5) == doctest::Approx(std::pow(10.0, -4.5)));
         write_file(folder.path / "c.log",
                    ping360_message(100, {1, 2, 3}, false) + ping360_message(101, {1, 2, 3}, false));
         const std::string head = "kind: scanning\nlogs: c.log\nlaw: {kind: amplitude}\n";
