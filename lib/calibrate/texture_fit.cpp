@@ -81,8 +81,7 @@ BottomTexture texture_of(const SpeckleConfig& speckle, const LogStatistics& stat
 EchoPatches echo_patches(const PatchClasses& classes, const Recording& recording,
                          const Lags& of_beams) {
     EchoPatches out{&classes, recording.range_step_m, 0.0, of_beams};
-    const RecordedPing& first = recording.pings.front();
-    const double middle = 0.5 * patch_size(first.ranges, first.beams).rows;
+    const double middle = 0.5 * speckle_grid(recording.pings.front()).size.ranges;
     double range = 0.0, stretch = 0.0;
     for (const std::size_t k : classes.echoes) {
         const double at =
