@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -102,6 +103,24 @@ inline std::string all_water(int counter, const std::vector<MadeBeam>& beams, in
             out.add(static_cast<std::int8_t>(level));
     }
     return all_datagram('k', counter, serial, out.text);
+}
+
+/// A record of XTF with a multibeam's soundings: travel time, angle and intensity of each.
+inline std::string xtf_multibeam(const std::vector<std::array<double, 3>>& beams,
+                                 double sound_speed_m_s) {
+    MadeBytes out;
+    out.text.assign(256, '\0');
+    out.at(0, std::uint16_t{0xFACE}).at(2, std::uint8_t{28});
+    out.at(4, static_cast<std::uint16_t>(beams.size()));
+    out.at(10, static_cast<std::uint32_t>(256 + 64 * beams.size()));
+    // 1970-01-02, 00:00:03 and a quarter of a second.
+    out.at(14, std::uint16_t{1970}).at(16, std::uint8_t{1}).at(17, std::uint8_t{2});
+    out.at(20, std::uint8_t{3}).at(21, std::uint8_t{25});
+    out.at(72, static_cast<float>(sound_speed_m_s));
+    for (const std::array<double, 3>& beam : beams)
+        out.u32(1).add(beam[2]).u32(0).add(beam[0]).add(0.0).add(beam[1]).add(0.0).add(0.0).add(
+            0.0);
+    return out.text;
 }
 
 /// A datagram of Simrad's .raw: type and time, then content.
