@@ -57,8 +57,10 @@ double trigamma(double x) {
     // trigamma(x) = 1 / x^2 + trigamma(x + 1), and its asymptotic series (Abramowitz and Stegun
     // 6.4.12).
     double sum = 0.0;
-    for (; x < 8.0; x += 1.0)
+    while (x < 8.0) {
         sum += 1.0 / (x * x);
+        x += 1.0;
+    }
     const double y = 1.0 / (x * x);
     return sum + 1.0 / x + 0.5 * y + y / x * (1.0 / 6.0 - y * (1.0 / 30.0 - y / 42.0));
 }
